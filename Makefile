@@ -1,0 +1,30 @@
+# Needs python3, make and a package registry that pip can reach; everything else goes into .venv.
+
+PYTHON ?= python3
+BIN := .venv/bin
+STAMP := .venv/.installed
+GALLERY := mcexact/model/gallery
+
+.PHONY: demo test lint types tests
+
+demo: $(STAMP)
+	$(BIN)/mcexact demo
+	$(BIN)/mcexact analyze $(GALLERY)/liu2020-3ch-no-communication.json
+	$(BIN)/mcexact analyze $(GALLERY)/quadruple-tank-pminus.json
+
+test: lint types tests
+
+lint: $(STAMP)
+	$(BIN)/ruff format --quiet --check .
+	$(BIN)/ruff check --quiet .
+
+types: $(STAMP)
+	$(BIN)/mypy --strict mcexact
+
+tests: $(STAMP)
+	HYPOTHESIS_PROFILE=ci $(BIN)/python -m pytest --quiet --numprocesses 2 --dist loadscope
+
+$(STAMP): pyproject.toml
+	$(PYTHON) -m venv .venv
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
+	touch $(STAMP)
