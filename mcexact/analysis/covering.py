@@ -1,0 +1,322 @@
+"""Covering integer programs: the optimum, and a branch tree that proves it exactly.
+
+The program is
+
+    minimize  Σ c_i x_i   subject to   Σ_{i ∈ S_k} x_i ≥ d_k for every cut k,   0 ≤ x_i ≤ u_i,   x integer,
+
+with positive rational costs.  HiGHS searches in floating point; nothing it says is believed: values are
+re-checked as integers, and the lower bound is a tree of rational multipliers verified here and again
+by the checker.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from mcexact.errors import InternalError, LimitReached
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+    Floats = npt.NDArray[np.float64]
+
+DEFAULT_NODE_LIMIT = 10_000
+"""Branch nodes after which the search for a tree gives up."""
+
+_MULTIPLIER_DENOMINATORS = (1, 2, 3, 4, 6, 12, 60, 1000, 10**6)
+
+
+@dataclass(frozen=True)
+class CoveringCut:
+    """The inequality Σ_{i ∈ support} x_i ≥ demand."""
+
+    support: frozenset[int]
+    demand: int
+
+
+@dataclass(frozen=True)
+class CoveringProgram:
+    """A covering integer program in ``len(costs)`` variables.
+
+    Attributes
+    ----------
+    costs
+        Positive rational costs.
+    upper
+        Upper bound of each variable, or None.
+    cuts
+        The covering inequalities.
+    """
+
+    costs: tuple[Fraction, ...]
+    upper: tuple[int | None, ...]
+    cuts: tuple[CoveringCut, ...]
+
+    @cached_property
+    def grid(self) -> int:
+        """The common denominator of the costs: every objective value is a multiple of 1/grid."""
+        return math.lcm(1, *(cost.denominator for cost in self.costs))
+
+    def cost(self, values: Sequence[int]) -> Fraction:
+        """The objective Σ c_i x_i."""
+        return sum((c * x for c, x in zip(self.costs, values, strict=True)), Fraction(0))
+
+    def violated_cut(self, upper: Sequence[int | None]) -> int | None:
+        """The first cut that no x ≤ upper satisfies, or None."""
+        for number, cut in enumerate(self.cuts):
+            bounds = [upper[i] for i in cut.support]
+            finite = [bound for bound in bounds if bound is not None]
+            if len(finite) == len(bounds) and sum(finite) < cut.demand:
+                return number
+        return None
+
+    def with_cut(self, cut: CoveringCut) -> CoveringProgram:
+        """The program with one more cut."""
+        return CoveringProgram(self.costs, self.upper, (*self.cuts, cut))
+
+
+Leaf = dict[str, Any]
+"""``{"violated": k}`` or ``{"multipliers": [[k, y], …]}``."""
+
+
+@dataclass(frozen=True)
+class BranchTree:
+    """A proof that no integer point of a covering program costs less than a value.
+
+    ``root`` is nested plain data as in the certificate format, with the variable's position under
+    ``"variable"``; ``nodes`` counts inner nodes and leaves.
+    """
+
+    root: dict[str, Any]
+    nodes: int
+
+
+def minimize(program: CoveringProgram, *, canonical: bool = True) -> tuple[int, ...] | None:
+    """An optimal integer point of a covering program, or None when there is none.
+
+    Parameters
+    ----------
+    program
+        The covering program.
+    canonical
+        Break ties: among all optimal points take the one whose last variables are largest, that is,
+        minimize x_1, then x_2, and so on.
+
+    Notes
+    -----
+    Searched in floating point by HiGHS.  The point returned is checked against every cut; that
+    nothing is cheaper is proved only by :func:`branch_tree`.
+    """
+    if program.violated_cut(program.upper) is not None:
+        return None
+    costs = [float(cost) for cost in program.costs]
+    values = _integer_optimum(program, costs, ())
+    if not canonical or not any(values):
+        return values
+    best = program.cost(values)
+    fixed: list[int] = []
+    for variable in range(len(costs)):
+        if values[variable] > 0:
+            objective = [1.0 if i == variable else 0.0 for i in range(len(costs))]
+            values = _integer_optimum(program, objective, fixed, at_most=float(best))
+            if program.cost(values) != best:
+                raise InternalError("a tie of a covering program was broken at another cost")
+        fixed.append(values[variable])
+    return values
+
+
+def _integer_optimum(
+    program: CoveringProgram,
+    objective: Sequence[float],
+    fixed: Sequence[int],
+    at_most: float | None = None,
+) -> tuple[int, ...]:
+    """Minimize ``objective`` over the program, the first variables fixed, the cost bounded."""
+    import numpy as np
+    from scipy.optimize import Bounds, LinearConstraint, milp
+
+    size = len(program.costs)
+    rows = [_row(cut, size) for cut in program.cuts]
+    low = [float(cut.demand) for cut in program.cuts]
+    high = [np.inf] * len(rows)
+    if at_most is not None:
+        rows.append(np.array([float(cost) for cost in program.costs]))
+        low.append(-np.inf)
+        high.append(at_most + 1e-6)
+    constraints = [LinearConstraint(np.array(rows), low, high)] if rows else []
+    upper = np.array([np.inf if u is None else float(u) for u in program.upper])
+    lower = np.zeros(size)
+    for i, value in enumerate(fixed):
+        lower[i] = upper[i] = value
+    found = milp(
+        np.array(objective),
+        integrality=np.ones(size),
+        bounds=Bounds(lower, upper),
+        constraints=constraints,
+    )
+    if found.x is None:
+        raise InternalError(f"the integer program could not be solved: {found.message}")
+    values = tuple(round(float(x)) for x in found.x)
+    if not all(sum(values[i] for i in cut.support) >= cut.demand for cut in program.cuts):
+        raise InternalError("the integer program's answer does not satisfy its own cuts")
+    return values
+
+
+def _row(cut: CoveringCut, size: int) -> Floats:
+    import numpy as np
+
+    row = np.zeros(size)
+    row[list(cut.support)] = 1.0
+    return row
+
+
+def branch_tree(
+    program: CoveringProgram,
+    value: Fraction | None,
+    *,
+    node_limit: int = DEFAULT_NODE_LIMIT,
+    progress: Callable[[int], None] | None = None,
+) -> BranchTree:
+    """A tree that proves that no point of the program costs less than ``value``.
+
+    Parameters
+    ----------
+    program
+        The covering program.
+    value
+        The optimal cost, or None to prove that the program has no point at all.
+    node_limit
+        Number of nodes after which to give up.
+    progress
+        Called with the number of nodes so far.
+
+    Raises
+    ------
+    LimitReached
+        After ``node_limit`` nodes.
+
+    Notes
+    -----
+    A leaf holds multipliers y ≥ 0.  With r = c − Σ_k y_k 1_{S_k} every point of the leaf costs at least
+    Σ y_k d_k + Σ_i min(r_i l_i, r_i u_i); rounded up to the grid of the costs this is ≥ ``value``.
+    A point cheaper than ``value`` has x_i ≤ value / c_i, so every leaf is bounded from above.
+    """
+    count = 0
+
+    def grow(lower: tuple[int, ...], upper: tuple[int | None, ...]) -> dict[str, Any]:
+        nonlocal count
+        count += 1
+        if count > node_limit:
+            raise LimitReached(
+                f"the branch tree reached its limit of {node_limit} nodes; raise it with --node-limit"
+            )
+        if progress is not None:
+            progress(count)
+        violated = program.violated_cut(upper)
+        if violated is not None:
+            return {"violated": violated}
+        if value is None:
+            raise InternalError("a covering program without a violated cut has a point")
+        relaxed, duals = _relaxation(program, lower, upper)
+        multipliers = _proving_multipliers(program, lower, upper, duals, value)
+        if multipliers is not None:
+            return {"multipliers": [[k, y] for k, y in multipliers]}
+        split = _most_fractional(relaxed)
+        if split is None:
+            raise InternalError("the relaxation is integral but cheaper than the optimum")
+        at_most = math.floor(relaxed[split])
+        below = (*upper[:split], at_most, *upper[split + 1 :])
+        above = (*lower[:split], at_most + 1, *lower[split + 1 :])
+        return {
+            "variable": split,
+            "at_most": at_most,
+            "below": grow(lower, below),
+            "above": grow(above, upper),
+        }
+
+    start = tuple(_tighter(u, value, c) for u, c in zip(program.upper, program.costs, strict=True))
+    return BranchTree(grow((0,) * len(program.costs), start), count)
+
+
+def _tighter(upper: int | None, value: Fraction | None, cost: Fraction) -> int | None:
+    if value is None:
+        return upper
+    implied = math.floor(value / cost)
+    return implied if upper is None else min(upper, implied)
+
+
+def _relaxation(
+    program: CoveringProgram, lower: Sequence[int], upper: Sequence[int | None]
+) -> tuple[Floats, Floats]:
+    """Primal point and cut multipliers of the linear relaxation over a box."""
+    import numpy as np
+    from scipy.optimize import linprog
+
+    size = len(program.costs)
+    if not program.cuts:
+        return np.array(lower, dtype=float), np.zeros(0)
+    found = linprog(
+        [float(cost) for cost in program.costs],
+        A_ub=-np.array([_row(cut, size) for cut in program.cuts]),
+        b_ub=[-float(cut.demand) for cut in program.cuts],
+        bounds=list(zip(lower, upper, strict=True)),
+        method="highs-ds",
+    )
+    if found.x is None:
+        raise InternalError(f"the linear relaxation could not be solved: {found.message}")
+    return np.asarray(found.x), -np.asarray(found.ineqlin.marginals)
+
+
+def _proving_multipliers(
+    program: CoveringProgram,
+    lower: Sequence[int],
+    upper: Sequence[int | None],
+    duals: Floats,
+    value: Fraction,
+) -> list[tuple[int, Fraction]] | None:
+    """Multipliers of small denominator near ``duals`` whose exact bound reaches ``value``, or None."""
+    for denominator in _MULTIPLIER_DENOMINATORS:
+        multipliers = [
+            (k, y)
+            for k, dual in enumerate(duals)
+            if (y := Fraction(float(dual)).limit_denominator(denominator)) > 0
+        ]
+        bound = leaf_bound(program, lower, upper, multipliers)
+        if bound is not None and Fraction(math.ceil(bound * program.grid), program.grid) >= value:
+            return multipliers
+    return None
+
+
+def leaf_bound(
+    program: CoveringProgram,
+    lower: Sequence[int],
+    upper: Sequence[int | None],
+    multipliers: Sequence[tuple[int, Fraction]],
+) -> Fraction | None:
+    """The bound Σ y_k d_k + Σ_i min over [l_i, u_i] of r_i x_i, or None when it is unbounded."""
+    reduced = list(program.costs)
+    bound = Fraction(0)
+    for k, y in multipliers:
+        bound += y * program.cuts[k].demand
+        for i in program.cuts[k].support:
+            reduced[i] -= y
+    for r, low, high in zip(reduced, lower, upper, strict=True):
+        if r >= 0:
+            bound += r * low
+        elif high is None:
+            return None
+        else:
+            bound += r * high
+    return bound
+
+
+def _most_fractional(values: Floats) -> int | None:
+    gaps = [abs(float(x) - round(float(x))) for x in values]
+    widest = max(range(len(gaps)), key=gaps.__getitem__, default=None)
+    return None if widest is None or gaps[widest] < 1e-6 else widest

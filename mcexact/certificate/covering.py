@@ -1,0 +1,114 @@
+"""Evidence that a covering program has no cheaper point: cuts, absence, and a branch tree."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from .evidence import MatrixLike, PolynomialLike, ShrunkSubspace, ZeroTransfer
+
+Tree = Mapping[str, Any]
+"""A node of a branch tree, as nested plain data and Fractions in the shape of ``FORMAT.md``."""
+
+
+@dataclass(frozen=True)
+class Absence:
+    """No fixed mode is left outside the region; for free assignability, the graph is connected.
+
+    Attributes
+    ----------
+    gains : tuple of MatrixLike
+        F̄_i of the system that the claim speaks of.
+    modulus : int
+        ℓ ≥ 2.
+    allowed : tuple of (PolynomialLike, int)
+        Factors p inside the region, with their exponents in the characteristic polynomial.
+    arcs : tuple of (str, str, int), or None
+        (j, i, k) with C̄_i Ā^k B̄_j ≠ 0 modulo ℓ.
+    """
+
+    gains: tuple[MatrixLike, ...]
+    modulus: int
+    allowed: tuple[tuple[PolynomialLike, int], ...] = ()
+    arcs: tuple[tuple[str, str, int], ...] | None = None
+
+    def document(self) -> dict[str, Any]:
+        """The object of ``FORMAT.md``, its values still exact objects."""
+        return {
+            "gains": self.gains,
+            "modulus": self.modulus,
+            "allowed": self.allowed,
+            "arcs": self.arcs,
+        }
+
+
+@dataclass(frozen=True)
+class DeficiencyCut:
+    """Σ n_i over N_s∖s is at least the deficiency of P_s at every root of p.
+
+    Attributes
+    ----------
+    subset : tuple of str
+        The names of s.
+    polynomial : PolynomialLike
+        p, monic, not inside the region.
+    deficiency : int
+        d ≥ 1.
+    subspace : ShrunkSubspace
+        Of deficiency d for p, with T the complement of s.
+    """
+
+    subset: tuple[str, ...]
+    polynomial: PolynomialLike
+    deficiency: int
+    subspace: ShrunkSubspace
+
+    def document(self) -> dict[str, Any]:
+        """The object of ``FORMAT.md``, its values still exact objects."""
+        return {
+            "subset": self.subset,
+            "polynomial": self.polynomial,
+            "deficiency": self.deficiency,
+            "subspace": self.subspace,
+        }
+
+
+@dataclass(frozen=True)
+class ConnectivityCut:
+    """Nothing passes from the complement of s to s, so that Σ n_i over N_s∖s is at least 1.
+
+    Attributes
+    ----------
+    subset : tuple of str
+        The names of s, nonempty and proper.
+    zero : ZeroTransfer
+        From the complement of s to s.
+    """
+
+    subset: tuple[str, ...]
+    zero: ZeroTransfer
+
+    def document(self) -> dict[str, Any]:
+        """The object of ``FORMAT.md``, its values still exact objects."""
+        return {"subset": self.subset, "zero": self.zero}
+
+
+@dataclass(frozen=True)
+class ArcCut:
+    """One of the arcs that carry something of U across the boundary of T must be added.
+
+    Attributes
+    ----------
+    polynomial : PolynomialLike
+        p, monic, not inside the region.
+    subspace : ShrunkSubspace
+        For p, in the system over the given neighbor graph.
+    """
+
+    polynomial: PolynomialLike
+    subspace: ShrunkSubspace
+
+    def document(self) -> dict[str, Any]:
+        """The object of ``FORMAT.md``, its values still exact objects."""
+        return {"polynomial": self.polynomial, "subspace": self.subspace}
