@@ -1,0 +1,100 @@
+"""The errors that a caller may want to tell apart, each with the exit status of the command line."""
+
+from __future__ import annotations
+
+from typing import Any
+
+
+class McexactError(Exception):
+    """Whatever this package raises on purpose.
+
+    Parameters
+    ----------
+    message : str
+        One sentence: what was expected, what was found, how to mend it.
+    where : str, optional
+        The place, such as ``channels[2].B`` or a file name; it is put before the message.
+
+    Attributes
+    ----------
+    exit_status : int
+        What the command line ends with.
+
+    Examples
+    --------
+    >>> print(InputError("expected 4 rows, found 3", where="channels[2].B"))
+    channels[2].B: expected 4 rows, found 3
+    """
+
+    exit_status = 70
+
+    def __init__(self, message: str, *, where: str | None = None) -> None:
+        super().__init__(message)
+        self.message = message
+        self.where = where
+
+    def __str__(self) -> str:
+        return self.message if self.where is None else f"{self.where}: {self.message}"
+
+    def within(self, place: str) -> McexactError:
+        """The same error, with a place put before the one that it names."""
+        self.where = place if self.where is None else f"{place}: {self.where}"
+        return self
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (_rebuilt, (type(self), self.message, self.where, self.__dict__))
+
+
+def _rebuilt(
+    kind: type[McexactError], message: str, where: str | None, state: dict[str, Any]
+) -> McexactError:
+    """Make an error again in another process."""
+    error = kind(message, where=where)
+    error.__dict__.update(state)
+    return error
+
+
+class InputError(McexactError, ValueError):
+    """The input is missing, unreadable or malformed."""
+
+    exit_status = 3
+
+
+class FloatRefused(InputError):
+    """A float where an exact number is needed."""
+
+
+class UsageError(McexactError, ValueError):
+    """The arguments do not make sense together, whatever the input holds."""
+
+    exit_status = 2
+
+
+class Impossible(McexactError):
+    """What was asked for does not exist.
+
+    Parameters
+    ----------
+    message : str
+    certificate : object, optional
+        The certificate that says why.
+    where : str, optional
+    """
+
+    exit_status = 1
+
+    def __init__(self, message: str, certificate: Any = None, *, where: str | None = None) -> None:
+        super().__init__(message, where=where)
+        self.certificate = certificate
+
+
+class LimitReached(McexactError):
+    """A limit on time, memory or work was reached: nothing has been decided."""
+
+    exit_status = 4
+
+
+class InternalError(McexactError):
+    """A statement that must hold does not: a bug in this package."""
+
+    exit_status = 70
