@@ -1,0 +1,1 @@
+"""A slow second opinion: every subset of channels, with sympy's exact matrices, on small systems."""
