@@ -1,4 +1,4 @@
-"""The errors that a caller may want to tell apart, each with the exit status of the command line."""
+"""The errors that a caller may want to tell apart, each with its exit status."""
 
 from __future__ import annotations
 

@@ -1,0 +1,75 @@
+"""Standard output that survives a closed pipe, and files that are never half written."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from mcexact.errors import InputError
+
+
+def emit(text: str) -> None:
+    """Write text to standard output, and stop quietly if nobody reads it any more.
+
+    Characters that the terminal's encoding does not have are written as escapes.
+    """
+    stream = sys.stdout
+    try:
+        try:
+            stream.write(text)
+        except UnicodeEncodeError:
+            encoding = stream.encoding or "ascii"
+            stream.write(text.encode(encoding, "backslashreplace").decode(encoding))
+        stream.flush()
+    except BrokenPipeError:
+        # The interpreter flushes once more on its way out; let that go nowhere.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+
+
+def emit_json(document: Any) -> None:
+    """Write one JSON document to standard output."""
+    emit(json.dumps(document, indent=2, ensure_ascii=True) + "\n")
+
+
+def write_file(path: Path, text: str) -> None:
+    """Write a text file under a temporary name, then give it its own.
+
+    Raises
+    ------
+    InputError
+        If the place cannot be written.
+    """
+    try:
+        handle, temporary = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+        try:
+            with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as stream:
+                stream.write(text)
+            # mkstemp makes files private; this one is as readable as any other new file.
+            mask = os.umask(0)
+            os.umask(mask)
+            os.chmod(temporary, 0o666 & ~mask)
+            os.replace(temporary, path)
+        except BaseException:
+            Path(temporary).unlink(missing_ok=True)
+            raise
+    except OSError as error:
+        raise InputError(f"cannot be written: {error.strerror}", where=str(path)) from None
+
+
+def directory(path: Path) -> Path:
+    """The directory at this path, made if it is missing.
+
+    Raises
+    ------
+    InputError
+        If it cannot be made, or if something else stands there.
+    """
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(f"cannot be made a directory: {error.strerror}", where=str(path)) from None
+    return path
