@@ -8,10 +8,32 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from mcexact.analysis.completeness import completeness as completeness
+    from mcexact.analysis.controllability import joint_controllability as joint_controllability
+    from mcexact.analysis.controllability import joint_observability as joint_observability
+    from mcexact.analysis.fixed_spectrum import fixed_spectrum as fixed_spectrum
+    from mcexact.analysis.pencil import pencil_rank as pencil_rank
+    from mcexact.analysis.transfer_graph import transfer_graph as transfer_graph
+    from mcexact.derived.augmented_outputs import augmented_outputs as augmented_outputs
+    from mcexact.derived.dual import dual as dual
+    from mcexact.model.neighbor_graph import NeighborGraph as NeighborGraph
     from mcexact.model.system import MultiChannelSystem as MultiChannelSystem
+    from mcexact.model.system_file import load_system as load_system
+    from mcexact.model.system_file import save_system as save_system
 
 _HOME = {
-    "MultiChannelSystem": "mcexact.model.system",
+    "MultiChannelSystem": "model.system",
+    "NeighborGraph": "model.neighbor_graph",
+    "augmented_outputs": "derived.augmented_outputs",
+    "completeness": "analysis.completeness",
+    "dual": "derived.dual",
+    "fixed_spectrum": "analysis.fixed_spectrum",
+    "joint_controllability": "analysis.controllability",
+    "joint_observability": "analysis.controllability",
+    "load_system": "model.system_file",
+    "pencil_rank": "analysis.pencil",
+    "save_system": "model.system_file",
+    "transfer_graph": "analysis.transfer_graph",
 }
 
 __version__ = "0.1.0"
@@ -21,7 +43,7 @@ __all__ = sorted(_HOME)
 def __getattr__(name: str) -> Any:
     if name not in _HOME:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    value = getattr(importlib.import_module(_HOME[name]), name)
+    value = getattr(importlib.import_module(f"{__name__}.{_HOME[name]}"), name)
     globals()[name] = value
     return value
 

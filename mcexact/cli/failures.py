@@ -6,6 +6,7 @@ import click
 
 from mcexact.errors import McexactError
 
+DEFINITE_NO = 1
 WRONG_USAGE = 2
 BAD_INPUT = 3
 INTERNAL_ERROR = 70

@@ -32,6 +32,28 @@ class Rational(click.ParamType):
             self.fail(error.message, param, ctx)
 
 
+class FileLimit(click.ParamType):
+    """One limit on what a file may ask for, such as ``digits=10000``."""
+
+    name = "limit"
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[str, int]:
+        """The name of the limit and its value."""
+        import dataclasses
+
+        from mcexact.model.json_text import FileLimits
+
+        names = [field.name for field in dataclasses.fields(FileLimits)]
+        name, _, number = str(value).partition("=")
+        if name not in names:
+            self.fail(f"expected one of {', '.join(names)}, found '{name}'", param, ctx)
+        if not (number.isascii() and number.isdigit() and len(number) < 16 and int(number) > 0):
+            self.fail(f"expected a whole number above 0 for {name}, found '{number}'", param, ctx)
+        return name, int(number)
+
+
 class Seconds(click.ParamType):
     """A time limit: a finite number of seconds above 0."""
 
@@ -62,6 +84,16 @@ certificates = click.option(
     type=FOLDER,
     metavar="DIR",
     help="Write a certificate for every answer into this directory.",
+)
+
+
+file_limits = click.option(
+    "--limit",
+    "limits",
+    type=FileLimit(),
+    multiple=True,
+    metavar="NAME=VALUE",
+    help="Move a limit that a message named: size, depth, digits, exponent or cells.",
 )
 
 

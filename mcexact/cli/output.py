@@ -1,11 +1,10 @@
-"""Standard output that survives a closed pipe, and files that are never half written."""
+"""Standard output that survives a closed pipe, and the folders that results go to."""
 
 from __future__ import annotations
 
 import json
 import os
 import sys
-import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -35,31 +34,6 @@ def emit_json(document: Any) -> None:
     emit(json.dumps(document, indent=2, ensure_ascii=True) + "\n")
 
 
-def write_file(path: Path, text: str) -> None:
-    """Write a text file under a temporary name, then give it its own.
-
-    Raises
-    ------
-    InputError
-        If the place cannot be written.
-    """
-    try:
-        handle, temporary = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
-        try:
-            with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as stream:
-                stream.write(text)
-            # mkstemp makes files private; this one is as readable as any other new file.
-            mask = os.umask(0)
-            os.umask(mask)
-            os.chmod(temporary, 0o666 & ~mask)
-            os.replace(temporary, path)
-        except BaseException:
-            Path(temporary).unlink(missing_ok=True)
-            raise
-    except OSError as error:
-        raise InputError(f"cannot be written: {error.strerror}", where=str(path)) from None
-
-
 def directory(path: Path) -> Path:
     """The directory at this path, made if it is missing.
 
@@ -73,3 +47,8 @@ def directory(path: Path) -> Path:
     except OSError as error:
         raise InputError(f"cannot be made a directory: {error.strerror}", where=str(path)) from None
     return path
+
+
+def on_terminal() -> bool:
+    """Whether a person reads standard output as it comes."""
+    return sys.stdout.isatty()

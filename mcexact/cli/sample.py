@@ -10,7 +10,9 @@ from mcexact.cli.options import FOLDER, as_json
 
 
 @click.command(name="sample", short_help="Draw systems with known structure.")
-@click.option("--seed", type=int, default=0, show_default=True, help="The same seed, the same system.")
+@click.option(
+    "--seed", type=int, default=0, show_default=True, help="The same seed, the same system."
+)
 @click.option("--states", type=click.IntRange(min=0), default=4, show_default=True)
 @click.option("--channels", type=click.IntRange(min=1), default=2, show_default=True)
 @click.option(
@@ -44,8 +46,9 @@ def command(
 
     A system file is JSON, so --json changes nothing here.
     """
-    from mcexact.cli.output import directory, emit, write_file
+    from mcexact.cli.output import directory, emit
     from mcexact.derived.drawn import sample_system
+    from mcexact.model.atomic import write_text
     from mcexact.model.system_file import system_text
 
     if count > 1 and output is None:
@@ -57,4 +60,4 @@ def command(
         if output is None:
             emit(text)
         else:
-            write_file(directory(output) / f"sample-{number}.json", text)
+            write_text(directory(output) / f"sample-{number}.json", text)

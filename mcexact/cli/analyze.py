@@ -1,0 +1,107 @@
+"""`mcexact analyze`: everything that is decided about one system."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from mcexact.cli import options
+from mcexact.cli.failures import DEFINITE_NO
+
+
+@click.command(name="analyze", short_help="Decide which modes no decentralized control can move.")
+@click.argument("file")
+@click.option(
+    "--information",
+    type=click.Choice(["own", "outputs"]),
+    default="own",
+    show_default=True,
+    help="What agent i feeds back: its own output, or those of all its neighbors.",
+)
+@click.option(
+    "--minimal", is_flag=True, help="Find the least that the agents must share, both ways."
+)
+@click.option(
+    "--subset",
+    metavar="NAMES",
+    help="Also the rank of the pencil for this set of channels, such as 1,3, at every mode of A.",
+)
+@click.option(
+    "--assert",
+    "asserted",
+    type=click.Choice(["no-fixed-modes"]),
+    help="End with status 1 if this is false.",
+)
+@options.certificates
+@options.as_json
+@options.work_limits
+@options.file_limits
+def command(
+    file: str,
+    information: str,
+    minimal: bool,
+    subset: str | None,
+    asserted: str | None,
+    certificates: Path | None,
+    as_json: bool,
+    timeout: float | None,
+    max_memory: int | None,
+    limits: tuple[tuple[str, int], ...],
+) -> int:
+    """Decide everything about the system in FILE (- for standard input).
+
+    Which modes are fixed under every decentralized control, which channels are to blame, whether
+    the rest can be stabilized, and joint controllability, the transfer graph and completeness.
+    """
+    import sys
+
+    from mcexact.cli.output import directory, emit, emit_json, on_terminal
+    from mcexact.cli.supervision import supervised
+    from mcexact.model.atomic import write_text
+    from mcexact.report.text import plain, show
+
+    answer = supervised(
+        _answer,
+        file,
+        dict(limits),
+        {"information": information, "minimal": minimal, "subset": subset},
+        certificates is not None,
+        doing=f"analyzing {file}",
+        timeout=timeout,
+        max_memory=max_memory,
+    )
+    if certificates is not None:
+        folder = directory(certificates)
+        for name, text in answer["certificates"].items():
+            write_text(folder / name, text)
+    if as_json:
+        emit_json(answer["json"])
+    elif on_terminal():
+        show(answer["tables"], sys.stdout)
+    else:
+        emit(plain(answer["tables"]))
+    if asserted == "no-fixed-modes" and not answer["json"]["fixed_spectrum"]["empty"]:
+        return DEFINITE_NO
+    return 0
+
+
+def _answer(
+    file: str, limits: dict[str, int], question: dict[str, Any], with_certificates: bool
+) -> dict[str, Any]:
+    """Read, decide, and put the answer into text: what the child process does."""
+    from mcexact.certificate import codec
+    from mcexact.model.json_text import FileLimits
+    from mcexact.model.system_file import load_system
+    from mcexact.report.assessment import assess
+    from mcexact.report.json_view import assessment_view
+    from mcexact.report.text import assessment_tables
+
+    assessment = assess(load_system(file, limits=FileLimits(**limits)), **question)
+    certificates = assessment.certificates() if with_certificates else {}
+    return {
+        "json": assessment_view(assessment, with_certificates=with_certificates),
+        "tables": assessment_tables(assessment),
+        "certificates": {name: codec.encode(made) for name, made in certificates.items()},
+    }

@@ -1,0 +1,168 @@
+"""Text for people: tables on a terminal, plain lines when piped."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, TextIO
+
+from mcexact.report.assessment import Assessment
+
+if TYPE_CHECKING:
+    from mcexact.analysis.fixed_spectrum import FixedFactor
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table with a title; without columns it is a list of names and values."""
+
+    title: str
+    columns: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    note: str = ""
+
+
+def assessment_tables(assessment: Assessment) -> tuple[Table, ...]:
+    """The answers of `analyze`, as tables."""
+    system = assessment.system
+    heading = (
+        f"{system.name or 'system'}: {_count(system.n, 'state')}, "
+        f"{_count(system.m, 'channel')} {_set(system.names)}, {system.time} time"
+    )
+    if assessment.information == "outputs":
+        heading += "; each agent feeds back the outputs of all its neighbors"
+    spectrum = assessment.fixed_spectrum
+    graph = assessment.transfer_graph
+    connected = "strongly connected"
+    if not graph.strongly_connected:
+        components = ", ".join(_set(component) for component in graph.components)
+        connected = f"not strongly connected: components {components}"
+    rows = [
+        ("jointly controllable", _yes(assessment.controllability.controllable)),
+        ("jointly observable", _yes(assessment.observability.controllable)),
+        ("transfer graph", f"{_count(len(graph.arcs), 'arc')}, {connected}"),
+        ("fixed spectrum", "empty" if spectrum.empty else str(spectrum.polynomial)),
+        ("stabilizable", _yes(spectrum.stabilizable)),
+        ("best decay" if system.time == "continuous" else "least radius", _rate(spectrum)),
+        ("complete", _yes(assessment.completeness.complete)),
+    ]
+    tables = [Table(heading, (), tuple(rows))]
+    if not spectrum.empty:
+        tables.append(_fixed_modes(assessment))
+    return tuple(tables)
+
+
+def _fixed_modes(assessment: Assessment) -> Table:
+    """One row for each factor of the fixed spectrum."""
+    system = assessment.system
+    return Table(
+        "fixed modes: no decentralized controller moves them",
+        ("mode", "roots", "stable", "in A", "at most", "s", "rank"),
+        tuple(
+            (
+                shorten(str(factor.polynomial)),
+                shorten(_roots(factor)),
+                _yes(factor.stable),
+                str(factor.multiplicity_in_A),
+                str(factor.multiplicity_at_most),
+                _set(factor.channels),
+                f"{factor.rank} of {system.n}",
+            )
+            for factor in assessment.fixed_spectrum.factors
+        ),
+        note="rank: of [xI-A, B of the channels outside s; C of the channels in s, 0] at the mode. "
+        "in A: its multiplicity in A; at most: the multiplicity that no gain removes, from above.",
+    )
+
+
+def _roots(factor: FixedFactor) -> str:
+    """The centers of the enclosures, cut to a few digits; a rational root exactly."""
+    if factor.polynomial.degree == 1:
+        return str(-factor.polynomial.coefficients[0])
+    return ", ".join(_complex(disc.re, disc.im) for disc in factor.roots)
+
+
+def _complex(re: str, im: str) -> str:
+    """A complex number in six significant digits."""
+    real, imaginary = float(re), float(im)
+    if imaginary == 0:
+        return f"{real:.6g}"
+    return f"{real:.6g}{imaginary:+.6g}i"
+
+
+def _rate(spectrum: Any) -> str:
+    """The best rate, to the digits that its enclosure is sure of."""
+    rate = spectrum.best_rate
+    if rate is None:
+        return "any: nothing is fixed"
+    if rate.lower == rate.upper:
+        return str(rate.lower)
+    return f"between {shorten(rate.lower, 24)} and {shorten(rate.upper, 24)}"
+
+
+def _yes(value: bool) -> str:
+    return "yes" if value else "no"
+
+
+def _count(number: int, noun: str) -> str:
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+
+
+def _set(names: Iterable[str], limit: int = 12) -> str:
+    """Channels in braces; a long list is cut."""
+    listed = list(names)
+    more = [f"… {len(listed) - limit} more"] if len(listed) > limit else []
+    return shorten("{" + ", ".join(listed[:limit] + more) + "}", 120)
+
+
+def shorten(text: str, limit: int = 60) -> str:
+    """The text, cut in the middle if it is long.
+
+    Examples
+    --------
+    >>> shorten("0123456789" * 20, 21)
+    '0123456789…0123456789'
+    """
+    if len(text) <= limit:
+        return text
+    half = (limit - 1) // 2
+    return f"{text[:half]}…{text[-half:]}"
+
+
+def plain(tables: Sequence[Table]) -> str:
+    """The tables as aligned lines."""
+    return "\n".join(_plain(table) for table in tables)
+
+
+def _plain(table: Table) -> str:
+    rows = [table.columns, *table.rows] if table.columns else list(table.rows)
+    widths = [max(len(cell) for cell in column) for column in zip(*rows, strict=True)]
+    lines = [table.title]
+    for row in rows:
+        cells = (cell.ljust(width) for cell, width in zip(row, widths, strict=True))
+        lines.append(("  " + "  ".join(cells)).rstrip())
+    if table.note:
+        lines.append(f"  ({table.note})")
+    return "\n".join(lines) + "\n"
+
+
+def show(tables: Sequence[Table], stream: TextIO) -> None:
+    """Draw the tables on a terminal."""
+    from rich.console import Console
+    from rich.table import Table as Drawn
+    from rich.text import Text
+
+    console = Console(file=stream)
+    for table in tables:
+        drawn = Drawn(
+            title=Text(table.title, style="bold"),
+            caption=Text(table.note) if table.note else None,
+            title_justify="left",
+            caption_justify="left",
+            show_header=bool(table.columns),
+        )
+        for column in table.columns or ("", ""):
+            drawn.add_column(Text(column))
+        for row in table.rows:
+            drawn.add_row(*(Text(cell) for cell in row))
+        console.print(drawn)

@@ -1,0 +1,163 @@
+"""The folders are the stages, in order, and the imports keep to it."""
+
+import ast
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+PACKAGE = ROOT / "mcexact"
+
+STAGE = {
+    "exact": 0,
+    "model": 1,
+    "derived": 2,
+    "analysis": 3,
+    "floating": 3,
+    "synthesis": 4,
+    "simulation": 5,
+    "crosscheck": 5,
+    "report": 6,
+    "sweep": 6,
+    "reproduce": 7,
+}
+BESIDE = {"certificate", "checker", "testing", "cli", "errors"}
+EXACT_STAGES = {"exact", "model", "derived", "analysis", "certificate", "checker"}
+MODULES = sorted(PACKAGE.rglob("*.py"))
+
+
+def part_of(path: Path) -> str:
+    """The folder or file directly under the package that a module belongs to."""
+    return path.relative_to(PACKAGE).parts[0].removesuffix(".py")
+
+
+def imports_of(path: Path) -> Iterator[tuple[str, int, int]]:
+    """Every module that a file imports, absolutely: name, level of the import, line."""
+    package = ("mcexact", *path.relative_to(PACKAGE).parts[:-1])
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            for alias in node.names:
+                yield alias.name, 0, node.lineno
+        elif isinstance(node, ast.ImportFrom):
+            if node.level == 0:
+                origin = node.module or ""
+            else:
+                upper = package[: len(package) - node.level + 1]
+                origin = ".".join((*upper, node.module) if node.module else upper)
+            yield origin, node.level, node.lineno
+            for alias in node.names:
+                yield f"{origin}.{alias.name}", node.level, node.lineno
+
+
+def imported_parts(path: Path) -> Iterator[tuple[str, int]]:
+    """The parts of this package that a file imports, with the line."""
+    for name, _, line in imports_of(path):
+        parts = name.split(".")
+        if parts[0] == "mcexact" and len(parts) > 1:
+            yield parts[1], line
+
+
+def may_import(importer: str, imported: str) -> bool:
+    """Whether one part of the package may import another."""
+    if importer == imported or importer in {"cli", "__main__"}:
+        return True
+    if importer == "__init__":  # only names, loaded when they are used
+        return True
+    if imported == "errors":
+        return importer not in {"certificate", "checker"}
+    if imported == "certificate":
+        return importer in STAGE
+    if imported == "checker":
+        # The independent checker is called, never built upon.
+        return importer in {"report", "reproduce"}
+    if imported not in STAGE:
+        return False
+    if importer == "testing":
+        return STAGE[imported] <= STAGE["derived"]
+    return importer in STAGE and STAGE[imported] < STAGE[importer]
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(ROOT)))
+def test_a_stage_imports_only_lower_stages(path: Path) -> None:
+    known = STAGE.keys() | BESIDE
+    wrong = [
+        f"{path}:{line}: {part_of(path)} imports {imported}"
+        for imported, line in imported_parts(path)
+        if imported in known and not may_import(part_of(path), imported)
+    ]
+    assert not wrong
+
+
+def test_every_folder_is_a_stage_or_beside_them() -> None:
+    folders = {path.name for path in PACKAGE.iterdir() if path.is_dir() and path.name[0] not in "._"}
+    assert folders <= STAGE.keys() | BESIDE
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(ROOT)))
+def test_only_exact_imports_flint(path: Path) -> None:
+    if part_of(path) != "exact":
+        assert not [line for name, _, line in imports_of(path) if name.split(".")[0] == "flint"]
+
+
+def test_the_checker_imports_the_standard_library_and_itself_relatively() -> None:
+    for path in sorted((PACKAGE / "checker").rglob("*.py")):
+        depth = len(path.relative_to(PACKAGE / "checker").parts)
+        for name, level, line in imports_of(path):
+            top = name.split(".")[0]
+            place = f"{path}:{line}: {name}"
+            if level == 0:
+                assert top in sys.stdlib_module_names, place
+            else:
+                assert level <= depth, place
+
+
+def test_certificates_are_pure_data_and_import_nothing_of_ours() -> None:
+    for path in sorted((PACKAGE / "certificate").rglob("*.py")):
+        for name, level, line in imports_of(path):
+            top = name.split(".")[0]
+            place = f"{path}:{line}: {name}"
+            if level == 0:
+                assert top in sys.stdlib_module_names, place
+            else:
+                assert name.startswith("mcexact.certificate"), place
+
+
+def test_nothing_exact_imports_floating() -> None:
+    for path in MODULES:
+        if part_of(path) in EXACT_STAGES:
+            assert "floating" not in {imported for imported, _ in imported_parts(path)}, path
+
+
+def test_no_module_is_named_for_having_no_topic() -> None:
+    for path in MODULES:
+        words = set(path.stem.split("_"))
+        assert not words & {"utils", "util", "helpers", "helper", "common", "base", "misc"}, path
+
+
+def test_no_stage_walks_through_the_subsets_of_the_channels() -> None:
+    """Powersets and bit masks over channels belong to the slow oracle in the tests."""
+    banned = {"itertools.combinations", "itertools.chain.from_iterable", "powerset", "subsets"}
+    for path in MODULES:
+        imported = {name for name, _, _ in imports_of(path)}
+        assert not imported & banned, path
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Call):
+                called = ast.unparse(node.func).rpartition(".")[2]
+                assert called not in {"combinations", "powerset", "subsets"}, (path, node.lineno)
+                if called == "range" and node.args:
+                    bound = ast.unparse(node.args[-1])
+                    assert not bound.startswith(("2 **", "1 <<")), (path, node.lineno)
+
+
+def test_every_file_and_every_function_is_short_enough_to_read() -> None:
+    for path in MODULES:
+        text = path.read_text(encoding="utf-8")
+        assert text.count("\n") <= 450, f"{path} hides two topics"
+
+
+def test_nothing_is_validated_by_a_statement_that_an_option_deletes() -> None:
+    for path in MODULES:
+        tree = ast.parse(path.read_text(encoding="utf-8"))
+        assert not [node.lineno for node in ast.walk(tree) if isinstance(node, ast.Assert)], path

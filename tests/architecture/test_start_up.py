@@ -1,0 +1,48 @@
+"""Starting is quick: what is heavy is imported where it is used."""
+
+import subprocess
+import sys
+
+import pytest
+
+import mcexact
+
+HEAVY = ("sympy", "scipy", "matplotlib", "networkx", "control", "rich", "numpy", "flint", "jinja2")
+LOADED = f"import sys; print([name for name in {HEAVY!r} if name in sys.modules])"
+
+
+def loaded_after(statement: str) -> str:
+    done = subprocess.run(
+        [sys.executable, "-c", f"{statement}; {LOADED}"],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    return done.stdout.splitlines()[-1]
+
+
+def test_importing_the_package_loads_nothing_heavy() -> None:
+    assert loaded_after("import mcexact; dir(mcexact)") == "[]"
+
+
+def test_the_help_of_the_command_line_loads_nothing_heavy() -> None:
+    call = (
+        "from mcexact.cli import command_line; command_line.main(['--help'], standalone_mode=False)"
+    )
+    assert loaded_after(call) == "[]"
+
+
+@pytest.mark.parametrize("name", sorted(mcexact.__all__))
+def test_every_exported_name_is_there(name: str) -> None:
+    assert getattr(mcexact, name) is not None
+
+
+def test_a_name_that_is_not_exported_is_an_attribute_error() -> None:
+    with pytest.raises(AttributeError, match="no attribute 'nothing'"):
+        mcexact.nothing  # noqa: B018
+
+
+def test_a_system_is_made_without_the_symbolic_and_the_plotting_libraries() -> None:
+    made = "import mcexact; mcexact.MultiChannelSystem([[1]], [[[1]]], [[[1]]])"
+    loaded = loaded_after(made)
+    assert not {"'sympy'", "'scipy'", "'matplotlib'"} & set(loaded.strip("[]").split(", "))
