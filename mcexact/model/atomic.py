@@ -1,0 +1,55 @@
+"""Writing a file whole or not at all."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from pathlib import Path
+
+from mcexact.errors import InputError
+
+
+def write_text(path: str | os.PathLike[str], text: str) -> None:
+    """Write a text to a file under a temporary name that is then renamed.
+
+    Parameters
+    ----------
+    path : path
+        Where a link stands, the file that it points to is replaced, in its own folder.  What is no
+        regular file, such as ``/dev/stdout``, is written to as it is.
+    text : str
+
+    Raises
+    ------
+    InputError
+        If the folder is missing or cannot be written.
+    """
+    target = Path(os.path.realpath(path))
+    try:
+        if target.exists() and not target.is_file():
+            with open(path, "w", encoding="utf-8", newline="\n") as stream:
+                stream.write(text)
+            return
+        _replace(target, text)
+    except OSError as error:
+        raise InputError(f"cannot write: {error.strerror or error}", where=str(path)) from error
+
+
+def _replace(target: Path, text: str) -> None:
+    """Write beside the target, then rename."""
+    handle, temporary = tempfile.mkstemp(prefix=f".{target.name[:100]}.", dir=target.parent)
+    try:
+        with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as stream:
+            stream.write(text)
+        if target.exists():
+            mode = target.stat().st_mode & 0o777
+        else:
+            # mkstemp makes files private; this one is as readable as any other new file.
+            mask = os.umask(0)
+            os.umask(mask)
+            mode = 0o666 & ~mask
+        os.chmod(temporary, mode)
+        os.replace(temporary, target)
+    except BaseException:
+        Path(temporary).unlink(missing_ok=True)
+        raise

@@ -1,0 +1,248 @@
+"""JSON read strictly: sizes, encoding, depth, repeated keys, and numbers kept as typed."""
+
+from __future__ import annotations
+
+import json
+import os
+import stat
+import sys
+from collections.abc import Collection, Iterator
+from typing import Any
+
+from mcexact.errors import InputError
+from mcexact.exact.rational import DEFAULT_LIMITS, Limits
+from mcexact.model.names import nearest, quoted
+
+_BYTE_ORDER_MARK = b"\xef\xbb\xbf"
+# Integers of up to this many characters are converted at once; the rest wait for the grammar.
+_SHORT = 18
+
+
+class NumberText(str):
+    """A JSON number as it was typed."""
+
+    __slots__ = ()
+
+
+class JsonObject(dict[str, Any]):
+    """A JSON object that remembers the first key it was given twice."""
+
+    repeated: str | None = None
+
+
+def read_bytes(path: str | os.PathLike[str], limits: Limits = DEFAULT_LIMITS) -> bytes:
+    """Read a file, or the standard input for ``-``, never more than the limit and one byte.
+
+    Raises
+    ------
+    InputError
+        If it is missing, unreadable, a folder, or too large.
+    """
+    try:
+        if os.fspath(path) == "-":
+            data = sys.stdin.buffer.read(limits.bytes + 1)
+        else:
+            with open(path, "rb") as stream:
+                status = os.fstat(stream.fileno())
+                if stat.S_ISREG(status.st_mode) and status.st_size > limits.bytes:
+                    raise _too_large(limits)
+                data = stream.read(limits.bytes + 1)
+    except FileNotFoundError as error:
+        raise InputError("there is no such file") from error
+    except OSError as error:
+        raise InputError(f"cannot be read: {error.strerror or error}") from error
+    except ValueError as error:
+        if isinstance(error, InputError):
+            raise
+        raise InputError(f"is no file name: {error}") from error
+    if len(data) > limits.bytes:
+        raise _too_large(limits)
+    return data
+
+
+def _too_large(limits: Limits) -> InputError:
+    return InputError(f"expected at most {limits.bytes} bytes (Limits.bytes), found more")
+
+
+def parse(data: bytes | str, limits: Limits = DEFAULT_LIMITS) -> Any:
+    """Parse one JSON document.
+
+    Parameters
+    ----------
+    data : bytes or str
+        UTF-8 without a byte order mark.
+    limits : Limits
+
+    Returns
+    -------
+    object
+        Made of `JsonObject`, list, str, int, `NumberText` (any number that is not a short integer,
+        and NaN and Infinity, which no number grammar accepts), bool and None.
+
+    Raises
+    ------
+    InputError
+        With the line and column, the byte, or the repeated key.
+    """
+    text = _decoded(data, limits) if isinstance(data, bytes) else data
+    if not text.strip(" \t\r\n"):
+        raise InputError("expected a JSON object, found an empty file")
+    try:
+        document = json.loads(
+            text,
+            parse_int=_integer,
+            parse_float=NumberText,
+            parse_constant=NumberText,
+            object_pairs_hook=_object,
+        )
+    except RecursionError:
+        raise _too_deep(limits) from None
+    except json.JSONDecodeError as error:
+        raise InputError(
+            f"not JSON: {error.msg} at line {error.lineno}, column {error.colno}"
+        ) from None
+    for depth, level in enumerate(_levels(document), start=1):
+        if depth > limits.depth:
+            raise _too_deep(limits)
+        for container in level:
+            if isinstance(container, JsonObject) and container.repeated is not None:
+                raise InputError(
+                    f"the key {quoted(container.repeated)} is given twice; "
+                    "two readers would see two different things, keep one"
+                )
+    return document
+
+
+def _decoded(data: bytes, limits: Limits) -> str:
+    """Decode UTF-8."""
+    if len(data) > limits.bytes:
+        raise _too_large(limits)
+    if data.startswith(_BYTE_ORDER_MARK):
+        raise InputError("starts with a byte order mark; save it as UTF-8 without one")
+    try:
+        return data.decode("utf-8")
+    except UnicodeDecodeError as error:
+        raise InputError(
+            f"not UTF-8 text: byte {error.start} is 0x{data[error.start]:02x}"
+        ) from None
+
+
+def _integer(text: str) -> int | NumberText:
+    return int(text) if len(text) <= _SHORT else NumberText(text)
+
+
+def _object(pairs: list[tuple[str, Any]]) -> JsonObject:
+    found = JsonObject(pairs)
+    if len(found) != len(pairs):
+        seen: set[str] = set()
+        for key, _ in pairs:
+            if key in seen:
+                found.repeated = key
+                break
+            seen.add(key)
+    return found
+
+
+def _too_deep(limits: Limits) -> InputError:
+    return InputError(f"expected at most {limits.depth} nested levels (Limits.depth), found more")
+
+
+def _levels(document: Any) -> Iterator[list[Any]]:
+    """The containers of each depth, outermost first, without recursion."""
+    level = [document] if isinstance(document, (list, dict)) else []
+    while level:
+        yield level
+        level = [
+            child
+            for container in level
+            for child in (container.values() if isinstance(container, dict) else container)
+            if type(child) is list or type(child) is JsonObject
+        ]
+
+
+def expect_object(
+    value: Any, where: str | None, required: Collection[str], optional: Collection[str] = ()
+) -> dict[str, Any]:
+    """Return a JSON object that has all required keys and no unknown one.
+
+    Raises
+    ------
+    InputError
+        Naming the missing or unknown key, and the known key that is nearest to it.
+    """
+    if not isinstance(value, dict):
+        raise InputError(f"expected a JSON object, found {kind_of(value)}", where=where)
+    known = [*required, *optional]
+    for key in value:
+        if key not in known:
+            raise InputError(f"unknown key {quoted(key)}{nearest(key, known)}", where=where)
+    for key in required:
+        if key not in value:
+            raise InputError(f"the key {quoted(key)} is missing", where=where)
+    return value
+
+
+def expect_list(value: Any, where: str) -> list[Any]:
+    """Return a JSON list."""
+    if not isinstance(value, list):
+        raise InputError(f"expected a list, found {kind_of(value)}", where=where)
+    return value
+
+
+def expect_integer(value: Any, where: str) -> int:
+    """Return a nonnegative integer of moderate size."""
+    if type(value) is not int or value < 0:
+        shown = str(value)[:40] if isinstance(value, (int, NumberText)) else kind_of(value)
+        raise InputError(f"expected an integer >= 0, found {shown}", where=where)
+    return value
+
+
+def expect_format(document: Any, expected: str) -> dict[str, Any]:
+    """Return a document that says it is of the expected format.
+
+    Raises
+    ------
+    InputError
+        Saying which kind of file was given instead, or that the version is unknown.
+    """
+    if not isinstance(document, dict):
+        raise InputError(
+            f'expected a JSON object with "format": "{expected}", found {kind_of(document)}'
+        )
+    found = document.get("format")
+    if found == expected:
+        return document
+    if found is None:
+        raise InputError(f'the key \'format\' is missing; expected "format": "{expected}"')
+    wanted = _KINDS.get(expected.partition("/")[0], "another file")
+    if isinstance(found, str):
+        stem = found.partition("/")[0]
+        if stem == expected.partition("/")[0]:
+            raise InputError(
+                f'expected "{expected}", found version {quoted(found)}, '
+                "which this program does not know",
+                where="format",
+            )
+        if stem in _KINDS:
+            raise InputError(f"expected {wanted}, found {_KINDS[stem]}", where="format")
+    raise InputError(f'expected "{expected}", found {quoted(found)}', where="format")
+
+
+_KINDS = {
+    "mcexact-system": "a system file",
+    "mcexact-controller": "a controller file",
+    "mcexact-certificate": "a certificate",
+}
+
+
+def kind_of(value: Any) -> str:
+    """Name a JSON value by its kind, for a message."""
+    if value is None:
+        return "null"
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, (int, NumberText)):
+        return "a number"
+    if isinstance(value, str):
+        return f"the string {quoted(value)}"
+    return "a list" if isinstance(value, list) else "an object"

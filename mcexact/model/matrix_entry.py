@@ -1,0 +1,137 @@
+"""Matrices as users hand them over in Python: nested lists, numpy integers, sympy, strings."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from mcexact.errors import FloatRefused, InputError
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.rational import as_fraction
+
+_TWO_WAYS_IN = (
+    "write the numbers as integers, fractions or strings, or use "
+    'MultiChannelSystem.from_float(..., rounding="decimal" or "dyadic")'
+)
+
+
+def as_matrix(value: Any, where: str, ncols: int | None = None) -> Matrix:
+    """Return an exact matrix from whatever a user may reasonably write.
+
+    Parameters
+    ----------
+    value : Matrix, sequence of rows, numpy or scipy array of integers or objects, sympy matrix
+        Entries as `as_fraction` takes them.
+    where : str
+        Its place, for messages.
+    ncols : int, optional
+        The number of columns when there are no rows to tell it.
+
+    Raises
+    ------
+    FloatRefused
+        If an entry is a float.
+    InputError
+        If it is no matrix, ragged, or an entry is not a rational number.
+
+    Examples
+    --------
+    >>> as_matrix([["1/3", 2]], "A").shape
+    (1, 2)
+    >>> as_matrix([[0.5]], "A")  # doctest: +ELLIPSIS
+    Traceback (most recent call last):
+        ...
+    mcexact.errors.FloatRefused: A[0][0]: ...
+    """
+    if isinstance(value, Matrix):
+        return value
+    rows = _rows(value, where)
+    if not rows:
+        width = getattr(value, "shape", (0, ncols or 0))[1]
+        return Matrix.zeros(0, int(width))
+    width = len(rows[0])
+    for k, row in enumerate(rows):
+        if len(row) != width:
+            raise InputError(
+                f"expected {width} entries as in row 0, found {len(row)}", where=f"{where}[{k}]"
+            )
+    if all(type(entry) is int for row in rows for entry in row):
+        return Matrix.from_integers(rows, ncols=width)
+    exact = [
+        [as_fraction(entry, where=f"{where}[{i}][{j}]") for j, entry in enumerate(row)]
+        for i, row in enumerate(rows)
+    ]
+    return Matrix.from_rows(exact, ncols=width)
+
+
+def _rows(value: Any, where: str) -> list[tuple[Any, ...]]:
+    """Copy a matrix-like value as tuples, so that nothing can change under our hands."""
+    if isinstance(value, (str, bytes)):
+        raise InputError(
+            "expected a matrix as a list of rows, found a string; write [[1, 2], [3, 4]]",
+            where=where,
+        )
+    if hasattr(value, "toarray"):
+        value = value.toarray()
+    dtype = getattr(value, "dtype", None)
+    if dtype is not None and hasattr(dtype, "kind"):
+        if dtype.kind == "f":
+            raise FloatRefused(f"found an array of {dtype}; {_TWO_WAYS_IN}", where=where)
+        if dtype.kind not in "iuO":
+            raise InputError(
+                f"expected an array of integers or of exact objects, found {dtype}", where=where
+            )
+        if value.ndim != 2:
+            raise InputError(
+                f"expected a two-dimensional array, found {value.ndim} dimensions", where=where
+            )
+    if hasattr(value, "tolist"):
+        value = value.tolist()
+    try:
+        rows = tuple(value)
+    except TypeError:
+        raise InputError(
+            f"expected a matrix as a list of rows, found {type(value).__name__}", where=where
+        ) from None
+    copied = []
+    for k, row in enumerate(rows):
+        if isinstance(row, (str, bytes)) or not hasattr(row, "__iter__"):
+            raise InputError(
+                f"expected a row as a list, found {type(row).__name__}; "
+                "write a column as [[1], [2]] and a row as [[1, 2]]",
+                where=f"{where}[{k}]",
+            )
+        copied.append(tuple(row))
+    return copied
+
+
+def require_shape(M: Matrix, where: str, nrows: int | None, ncols: int | None) -> Matrix:
+    """Return the matrix if it has the expected numbers of rows and columns.
+
+    Raises
+    ------
+    InputError
+        Such as ``channels[2].B: expected 4 rows, found 3``.
+    """
+    for expected, found, what in (
+        (nrows, M.shape[0], "row"),
+        (ncols, M.shape[1], "column"),
+    ):
+        if expected is not None and found != expected:
+            plural = "" if expected == 1 else "s"
+            raise InputError(f"expected {expected} {what}{plural}, found {found}", where=where)
+    return M
+
+
+def require_square(M: Matrix, where: str) -> Matrix:
+    """Return the matrix if it is square.
+
+    Raises
+    ------
+    InputError
+        If it is not.
+    """
+    if M.shape[0] != M.shape[1]:
+        raise InputError(
+            f"expected a square matrix, found {M.shape[0]} × {M.shape[1]}", where=where
+        )
+    return M

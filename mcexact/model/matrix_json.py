@@ -1,0 +1,183 @@
+"""Matrices in files: dense rows or sparse entries, read strictly, written in lowest terms."""
+
+from __future__ import annotations
+
+import math
+from decimal import Decimal
+from fractions import Fraction
+from typing import Any
+
+from mcexact.errors import InputError
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.rational import DEFAULT_LIMITS, Limits, parse_rational
+from mcexact.model.json_text import (
+    NumberText,
+    expect_integer,
+    expect_list,
+    expect_object,
+    kind_of,
+)
+from mcexact.model.matrix_entry import require_shape
+
+_BITS_PER_DIGIT = math.log2(10)
+
+
+def read_number(value: Any, where: str, limits: Limits = DEFAULT_LIMITS) -> Fraction:
+    """Read one exact number: an integer, a decimal as typed, or a string "p/q".
+
+    Raises
+    ------
+    InputError
+        If it is none of them, or too long.
+    """
+    if type(value) is int:
+        return Fraction(value)
+    if not isinstance(value, str):
+        raise InputError(f"expected a number, found {kind_of(value)}", where=where)
+    number = parse_rational(str(value), limits, where=where)
+    # A decimal can be longer written out than it is as typed.
+    bits = max(number.numerator.bit_length(), number.denominator.bit_length())
+    if bits > limits.digits * _BITS_PER_DIGIT + 1:
+        raise InputError(
+            f"expected at most {limits.digits} digits when written out (Limits.digits), "
+            f"found {len(value)} characters that stand for more",
+            where=where,
+        )
+    return number
+
+
+def read_matrix(
+    value: Any,
+    where: str,
+    nrows: int | None = None,
+    ncols: int | None = None,
+    limits: Limits = DEFAULT_LIMITS,
+) -> Matrix:
+    """Read a matrix of a known or unknown shape.
+
+    Parameters
+    ----------
+    value : list of rows, or object
+        Dense: a list of rows.  Sparse: ``{"shape": [r, c], "entries": [[i, j, value], …]}``,
+        positions from 0, what is not listed is 0.
+    where : str
+        Its place, for messages.
+    nrows, ncols : int, optional
+        The expected shape where it is known.
+    limits : Limits
+
+    Raises
+    ------
+    InputError
+        If it is malformed or of another shape.
+
+    Examples
+    --------
+    >>> read_matrix({"shape": [2, 3], "entries": [[1, 2, "1/2"]]}, "A")[1, 2]
+    Fraction(1, 2)
+    >>> read_matrix([[1], [2], [3]], "channels[2].B", nrows=4)
+    Traceback (most recent call last):
+        ...
+    mcexact.errors.InputError: channels[2].B: expected 4 rows, found 3
+    """
+    if isinstance(value, dict):
+        return _sparse(value, where, nrows, ncols, limits)
+    rows = expect_list(value, where)
+    for k, row in enumerate(rows):
+        if not isinstance(row, list):
+            raise InputError(
+                f"expected a row as a list, found {kind_of(row)}; "
+                "write a column as [[1], [2]] and a row as [[1, 2]]",
+                where=f"{where}[{k}]",
+            )
+        if len(row) != len(rows[0]):
+            raise InputError(
+                f"expected {len(rows[0])} entries as in row 0, found {len(row)}",
+                where=f"{where}[{k}]",
+            )
+    if rows:
+        width = len(rows[0])
+    else:
+        width = ncols or 0
+    # The shape first: it is quick, and says more than a bad entry does.
+    if nrows not in (None, len(rows)) or ncols not in (None, width):
+        require_shape(Matrix.zeros(len(rows), width), where, nrows, ncols)
+    if all(type(entry) is int for row in rows for entry in row):
+        return Matrix.from_integers(rows, ncols=width)
+    return Matrix.from_rows(
+        [
+            [
+                entry if type(entry) is int else read_number(entry, f"{where}[{i}][{j}]", limits)
+                for j, entry in enumerate(row)
+            ]
+            for i, row in enumerate(rows)
+        ],
+        ncols=width,
+    )
+
+
+def _sparse(
+    value: dict[str, Any], where: str, nrows: int | None, ncols: int | None, limits: Limits
+) -> Matrix:
+    """Read a matrix that lists its entries."""
+    expect_object(value, where, ("shape", "entries"))
+    shape = expect_list(value["shape"], f"{where}.shape")
+    if len(shape) != 2:
+        raise InputError(
+            f"expected [rows, columns], found {len(shape)} numbers", where=f"{where}.shape"
+        )
+    r, c = (expect_integer(size, f"{where}.shape[{k}]") for k, size in enumerate(shape))
+    for expected, found, what in ((nrows, r, "rows"), (ncols, c, "columns")):
+        if expected is not None and expected != found:
+            raise InputError(f"expected {expected} {what}, found {found}", where=where)
+    # Each cell of a dense matrix takes two bytes or more; a sparse one may not ask for much more.
+    if max(r, c) * max(min(r, c), 1) > limits.bytes // 4:
+        raise InputError(
+            f"expected at most {limits.bytes // 4} cells (Limits.bytes / 4), found {r} × {c}",
+            where=where,
+        )
+    entries = expect_list(value["entries"], f"{where}.entries")
+    rows: list[list[int | Fraction]] = [[0] * c for _ in range(r)]
+    seen: set[tuple[int, int]] = set()
+    for k, entry in enumerate(entries):
+        place = f"{where}.entries[{k}]"
+        if len(expect_list(entry, place)) != 3:
+            raise InputError(
+                f"expected [row, column, value], found {len(entry)} items", where=place
+            )
+        i, j = (expect_integer(entry[axis], f"{place}[{axis}]") for axis in (0, 1))
+        if i >= r or j >= c:
+            raise InputError(f"expected a position inside {r} × {c}, found [{i}, {j}]", where=place)
+        if (i, j) in seen:
+            raise InputError(f"the position [{i}, {j}] is listed twice", where=place)
+        seen.add((i, j))
+        rows[i][j] = read_number(entry[2], f"{place}[2]", limits)
+    return Matrix.from_rows(rows, ncols=c)
+
+
+def number_json(value: Fraction) -> int | str:
+    """Write a rational as a JSON integer, or as a string "p/q" in lowest terms."""
+    if value.denominator == 1:
+        return value.numerator
+    return f"{_digits(value.numerator)}/{_digits(value.denominator)}"
+
+
+def _digits(value: int) -> str:
+    """Decimal digits of an integer of any length (`str` refuses beyond 4300)."""
+    return str(value) if value.bit_length() < 14_000 else str(Decimal(value))
+
+
+def matrix_json(M: Matrix) -> Any:
+    """Write a matrix as a list of rows; one with columns but no rows says its shape."""
+    r, c = M.shape
+    if not r and c:
+        return {"shape": [0, c], "entries": []}
+    d = M.denominator
+    if d == 1:
+        return [list(row) for row in M.numerators]
+    return [[number_json(Fraction(entry, d)) for entry in row] for row in M.numerators]
+
+
+def json_text_of_number(value: int | str | NumberText) -> str:
+    """The JSON text of a number as `number_json` gives it, of any length."""
+    return f'"{value}"' if isinstance(value, str) else _digits(value)

@@ -1,0 +1,112 @@
+"""What a channel may be called, and how a name is quoted in a message."""
+
+from __future__ import annotations
+
+import difflib
+import unicodedata
+from collections.abc import Collection, Sequence
+
+from mcexact.errors import InputError
+
+LONGEST_NAME = 256
+# Control characters, invisible format characters (among them every reordering of text), lone
+# surrogates, and line and paragraph separators.
+_REFUSED_CATEGORIES = frozenset({"Cc", "Cf", "Cs", "Zl", "Zp"})
+
+
+def quoted(text: object, width: int = 40) -> str:
+    """Quote a text that came from outside: ASCII only, shortened.
+
+    Examples
+    --------
+    >>> quoted("u\\u202e1")
+    "'u\\\\u202e1'"
+    """
+    if not isinstance(text, str):
+        return f"a value of type {type(text).__name__}"
+    return ascii(text) if len(text) <= width else ascii(text[:width]) + "…"
+
+
+def nearest(name: str, known: Collection[str]) -> str:
+    """The end of a message that says which known name may be meant, or nothing."""
+    close = difflib.get_close_matches(name[:LONGEST_NAME], list(known), n=1)
+    return f" (did you mean {quoted(close[0])}?)" if close else ""
+
+
+def checked_text(text: object, where: str, *, longest: int = 10_000) -> str:
+    """Return a line or paragraph of prose, such as a system's name or source.
+
+    Raises
+    ------
+    InputError
+        If it is no string, too long, or holds characters that do not print.
+    """
+    if not isinstance(text, str):
+        raise InputError(f"expected a string, found {quoted(text)}", where=where)
+    if len(text) > longest:
+        raise InputError(f"expected at most {longest} characters, found {len(text)}", where=where)
+    for character in text:
+        if unicodedata.category(character) in _REFUSED_CATEGORIES and character not in "\n\t":
+            raise InputError(
+                f"remove the character U+{ord(character):04X}, which does not print", where=where
+            )
+    return text
+
+
+def checked_name(name: object, where: str) -> str:
+    """Return the name of a channel or agent.
+
+    Raises
+    ------
+    InputError
+        If it is no string, empty, longer than 256 characters, or holds control or invisible
+        characters (text that reorders itself would show another channel than is meant).
+    """
+    if not isinstance(name, str):
+        raise InputError(
+            f'expected a name as a string, such as "1", found {quoted(name)}', where=where
+        )
+    if not name:
+        raise InputError("expected a name, found the empty string", where=where)
+    if len(name) > LONGEST_NAME:
+        raise InputError(
+            f"expected a name of at most {LONGEST_NAME} characters, found {len(name)}", where=where
+        )
+    for character in name:
+        if unicodedata.category(character) in _REFUSED_CATEGORIES:
+            raise InputError(
+                f"remove the character U+{ord(character):04X} from the name {quoted(name)}: "
+                "it does not print",
+                where=where,
+            )
+    return name
+
+
+def checked_names(names: Sequence[object], places: Sequence[str]) -> tuple[str, ...]:
+    """Return the names of all channels, in order.
+
+    Parameters
+    ----------
+    names : sequence
+        One name for each channel.
+    places : sequence of str
+        Where each of them stands, for messages.
+
+    Raises
+    ------
+    InputError
+        If one is no name, or two channels have names that look the same.
+    """
+    seen: dict[str, str] = {}
+    checked = []
+    for name, where in zip(names, places, strict=True):
+        good = checked_name(name, where)
+        form = unicodedata.normalize("NFC", good)
+        if form in seen:
+            raise InputError(
+                f"expected a name of its own, found {quoted(good)}, which is also {seen[form]}",
+                where=where,
+            )
+        seen[form] = where
+        checked.append(good)
+    return tuple(checked)

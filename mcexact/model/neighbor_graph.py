@@ -1,0 +1,362 @@
+"""Who hears whom: the neighbor graph of the agents, with the delays on its arcs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from mcexact.errors import FloatRefused, InputError, UsageError
+from mcexact.model.names import checked_name, checked_names, nearest, quoted
+
+
+@dataclass(frozen=True)
+class NeighborGraph:
+    """A directed graph on the m agents with an arc j → i just in case i hears j.
+
+    Agents are addressed by position, 0 … m−1; names stand at the border.  N_i always holds i.
+
+    Parameters
+    ----------
+    names : sequence of str
+        The agents, in the order of the channels.
+    neighbors : sequence of iterables of int
+        ``neighbors[i]`` is N_i; i itself may be left out and is added.
+    delays : iterable of (i, j, d), optional
+        d_ij ≥ 0, the time units that a message takes from j to i; 0 where not given, and d_ii = 0.
+
+    Raises
+    ------
+    InputError
+        If a position is out of range, a delay is negative or stands on no arc.
+
+    Notes
+    -----
+    Paper, sections I and V-A.  ``neighbors`` and ``delays`` are kept sorted, zero delays are
+    dropped, so equal graphs compare equal.
+
+    Examples
+    --------
+    The paper's cyclic graph, N_1 = {1, 2}, N_2 = {2, 3}, N_3 = {3, 1}:
+
+    >>> graph = NeighborGraph(("1", "2", "3"), [[1], [2], [0]])
+    >>> graph.neighborhood(2)
+    (0, 2)
+    >>> graph.is_strongly_connected()
+    True
+    >>> NeighborGraph(("1", "2"), [[1], []]).is_strongly_connected()
+    False
+    """
+
+    names: tuple[str, ...]
+    neighbors: tuple[tuple[int, ...], ...]
+    delays: tuple[tuple[int, int, int], ...] = field(default=())
+
+    def __init__(
+        self,
+        names: Sequence[str],
+        neighbors: Sequence[Iterable[int]],
+        delays: Iterable[tuple[int, int, int]] = (),
+    ) -> None:
+        names = checked_names(list(names), [f"names[{i}]" for i in range(len(names))])
+        m = len(names)
+        if len(neighbors) != m:
+            raise InputError(
+                f"expected {m} neighbor sets, one for each agent, found {len(neighbors)}",
+                where="neighbors",
+            )
+        sets = []
+        for i, heard in enumerate(neighbors):
+            where = f"neighbors[{i}]"
+            sets.append(tuple(sorted({i, *(_position(j, m, where) for j in heard)})))
+        object.__setattr__(self, "names", names)
+        object.__setattr__(self, "neighbors", tuple(sets))
+        object.__setattr__(self, "delays", self._checked_delays(delays))
+
+    def _checked_delays(
+        self, delays: Iterable[tuple[int, int, int]]
+    ) -> tuple[tuple[int, int, int], ...]:
+        """Sort the delays and drop the zeros; refuse what stands on no arc."""
+        found: dict[tuple[int, int], int] = {}
+        for i, j, delay in delays:
+            i, j = _position(i, self.m, "delays"), _position(j, self.m, "delays")
+            where = f"delays[{quoted(self.names[i])}][{quoted(self.names[j])}]"
+            if isinstance(delay, bool) or not isinstance(delay, int) or delay < 0:
+                kind = FloatRefused if isinstance(delay, float) else InputError
+                raise kind(f"expected an integer >= 0, found {delay!r}", where=where)
+            if (i, j) in found:
+                raise InputError("expected one delay, found two", where=where)
+            if delay and i == j:
+                raise InputError("expected 0: an agent hears itself at once", where=where)
+            if j not in self.neighbors[i]:
+                raise InputError(
+                    f"there is no such wire; list {quoted(self.names[j])} among the neighbors "
+                    f"of {quoted(self.names[i])}, or remove the delay",
+                    where=where,
+                )
+            found[i, j] = delay
+        return tuple(sorted((i, j, d) for (i, j), d in found.items() if d))
+
+    @classmethod
+    def from_names(
+        cls,
+        names: Sequence[str],
+        neighbors: Mapping[str, Iterable[str]],
+        delays: Mapping[str, Mapping[str, int]] | None = None,
+    ) -> NeighborGraph:
+        """Build a graph from the names of who hears whom, as a system file lists them.
+
+        Parameters
+        ----------
+        names : sequence of str
+            The agents, in the order of the channels.
+        neighbors : mapping
+            ``neighbors[i]`` lists whom i hears; an agent without an entry hears itself only.
+        delays : mapping, optional
+            ``delays[i][j]`` is d_ij.
+
+        Raises
+        ------
+        InputError
+            If an agent is unknown or listed twice.
+
+        Examples
+        --------
+        >>> graph = NeighborGraph.from_names(("a", "b"), {"a": ["b"]}, {"a": {"b": 2}})
+        >>> graph.arcs(), graph.delay(0, 1)
+        (((1, 0),), 2)
+        """
+        names = tuple(names)
+        position = {name: i for i, name in enumerate(names)}
+
+        def at(name: object, where: str) -> int:
+            good = checked_name(name, where)
+            if good not in position:
+                raise InputError(
+                    f"there is no agent {quoted(good)}{nearest(good, names)}", where=where
+                )
+            return position[good]
+
+        sets: list[list[int]] = [[] for _ in names]
+        for name, heard in neighbors.items():
+            where = f"neighbors[{quoted(name)}]"
+            i = at(name, "neighbors")
+            if isinstance(heard, str):
+                raise InputError("expected a list of names, found a string", where=where)
+            for k, other in enumerate(heard):
+                j = at(other, f"{where}[{k}]")
+                if j in sets[i]:
+                    raise InputError(f"{quoted(other)} is listed twice", where=f"{where}[{k}]")
+                sets[i].append(j)
+        late = [
+            (at(name, "delays"), at(other, f"delays[{quoted(name)}]"), delay)
+            for name, row in (delays or {}).items()
+            for other, delay in row.items()
+        ]
+        return cls(names, sets, late)
+
+    @classmethod
+    def complete(cls, names: Sequence[str]) -> NeighborGraph:
+        """The graph in which everybody hears everybody, at once."""
+        return cls(names, [range(len(names))] * len(names))
+
+    @classmethod
+    def ring(cls, names: Sequence[str]) -> NeighborGraph:
+        """The cyclic graph N_i = {i, i+1}, N_m = {m, 1}, as in the paper's example."""
+        m = len(names)
+        return cls(names, [[(i + 1) % m] for i in range(m)])
+
+    @classmethod
+    def empty(cls, names: Sequence[str]) -> NeighborGraph:
+        """The graph in which everybody hears only itself: decentralized control."""
+        return cls(names, [[] for _ in names])
+
+    @property
+    def m(self) -> int:
+        """Number of agents."""
+        return len(self.names)
+
+    def neighborhood(self, i: int) -> tuple[int, ...]:
+        """N_i, in the order of the channels; i is in it."""
+        return self.neighbors[i]
+
+    def union(self, channels: Iterable[int]) -> tuple[int, ...]:
+        """N_s, the union of the N_i over i in s, in the order of the channels."""
+        return tuple(sorted({j for i in channels for j in self.neighbors[i]}))
+
+    def followers(self, j: int) -> tuple[int, ...]:
+        """F_j, the agents that hear j; j is in it."""
+        return tuple(i for i in range(self.m) if j in self.neighbors[i])
+
+    def arcs(self) -> tuple[tuple[int, int], ...]:
+        """All arcs (j, i), from j to i ≠ j, sorted."""
+        return tuple(
+            sorted((j, i) for i, heard in enumerate(self.neighbors) for j in heard if i != j)
+        )
+
+    def delay(self, i: int, j: int) -> int:
+        """d_ij, the time units that a message takes from j to i."""
+        return self._delay_of.get((i, j), 0)
+
+    def longest_delay(self, j: int) -> int:
+        """d_j, the largest d_ij over the followers i of j."""
+        return max((d for (_, sender), d in self._delay_of.items() if sender == j), default=0)
+
+    @property
+    def _delay_of(self) -> dict[tuple[int, int], int]:
+        return {(i, j): d for i, j, d in self.delays}
+
+    def with_arcs(self, added: Iterable[tuple[int, int]]) -> NeighborGraph:
+        """The graph with more arcs (j, i), each without delay: j joins N_i."""
+        sets = [set(heard) for heard in self.neighbors]
+        for j, i in added:
+            _position(j, self.m, "arcs")
+            sets[_position(i, self.m, "arcs")].add(j)
+        return NeighborGraph(self.names, sets, self.delays)
+
+    def is_strongly_connected(self) -> bool:
+        """Whether every agent can be reached from every other along arcs."""
+        import networkx
+
+        return bool(networkx.is_strongly_connected(self._digraph(range(self.m))))
+
+    def _digraph(self, nodes: Sequence[Any]) -> Any:
+        import networkx
+
+        graph = networkx.DiGraph()
+        graph.add_nodes_from(nodes)
+        graph.add_edges_from((nodes[j], nodes[i]) for j, i in self.arcs())
+        return graph
+
+    def to_networkx(self) -> Any:
+        """A ``networkx.DiGraph`` on the names, arcs j → i, nonzero delays under ``delay``."""
+        graph = self._digraph(self.names)
+        for i, j, delay in self.delays:
+            graph.edges[self.names[j], self.names[i]]["delay"] = delay
+        return graph
+
+    @classmethod
+    def from_networkx(cls, graph: Any, names: Sequence[str] | None = None) -> NeighborGraph:
+        """Read a directed networkx graph whose arc j → i says that i hears j.
+
+        Parameters
+        ----------
+        graph : networkx.DiGraph
+            Nodes are strings or integers; an arc may have an integer ``delay``, nothing else that
+            would be lost.
+        names : sequence of str, optional
+            The channels in order; every one must be a node and every node one of them.  By
+            default the nodes in the graph's own order.
+
+        Raises
+        ------
+        InputError
+            If the graph is undirected or has parallel arcs, if a node is neither a string nor an
+            integer (networkx merges the nodes 1, True and 1.0 silently), if the nodes are not the
+            channels, or if an arc has a weight.
+        FloatRefused
+            If a node or a delay is a float.
+
+        Examples
+        --------
+        >>> import networkx
+        >>> graph = networkx.DiGraph([("b", "a")])
+        >>> NeighborGraph.from_networkx(graph, names=("a", "b")).arcs()
+        ((1, 0),)
+        >>> NeighborGraph.from_networkx(networkx.Graph([("b", "a")]))  # doctest: +ELLIPSIS
+        Traceback (most recent call last):
+            ...
+        mcexact.errors.InputError: graph: expected a directed graph, found an undirected one; ...
+        """
+        if not getattr(graph, "is_directed", lambda: False)():
+            raise InputError(
+                "expected a directed graph, found an undirected one; "
+                "use graph.to_directed() if everybody on an edge hears the other",
+                where="graph",
+            )
+        if graph.is_multigraph():
+            raise InputError(
+                "expected at most one arc from an agent to another, found a multigraph; "
+                "use networkx.DiGraph(graph)",
+                where="graph",
+            )
+        labels = {node: _label(node) for node in graph.nodes}
+        if names is None:
+            names = tuple(labels.values())
+        missing = [name for name in names if name not in labels.values()]
+        if missing or len(labels) != len(names):
+            more = [label for label in labels.values() if label not in names]
+            raise InputError(
+                "expected the channels as nodes; "
+                + (f"no node for {', '.join(map(quoted, missing))}" if missing else "")
+                + ("; " if missing and more else "")
+                + (f"no channel for {', '.join(map(quoted, more))}" if more else ""),
+                where="graph",
+            )
+        heard: dict[str, list[str]] = {name: [] for name in names}
+        delays: dict[str, dict[str, int]] = {name: {} for name in names}
+        for sender, receiver, data in graph.edges(data=True):
+            j, i = labels[sender], labels[receiver]
+            heard[i].append(j)
+            delays[i][j] = _arc_delay(data, f"arc {quoted(j)} -> {quoted(i)}")
+        return cls.from_names(names, heard, delays)
+
+
+def _position(value: object, m: int, where: str) -> int:
+    """The position of an agent, checked."""
+    if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value < m:
+        raise InputError(f"expected positions of agents 0 … {m - 1}, found {value!r}", where=where)
+    return value
+
+
+def _label(node: object) -> str:
+    """The name of a networkx node."""
+    if isinstance(node, float):
+        raise FloatRefused(f"expected names or integers as nodes, found {node!r}", where="graph")
+    if isinstance(node, bool) or not isinstance(node, (str, int)):
+        raise InputError(f"expected names or integers as nodes, found {node!r}", where="graph")
+    return str(node)
+
+
+def _arc_delay(data: Mapping[str, object], where: str) -> int:
+    """The delay on a networkx arc; a weight is refused, because it would be lost."""
+    weight = data.get("weight", 1)
+    if isinstance(weight, float):
+        raise FloatRefused(f"an arc has a delay but no weight, found {weight!r}", where=where)
+    if weight != 1:
+        raise InputError(f"an arc has a delay but no weight, found {weight!r}", where=where)
+    delay = data.get("delay", 0)
+    if isinstance(delay, float):
+        raise FloatRefused(f"expected a delay as an integer >= 0, found {delay!r}", where=where)
+    if isinstance(delay, bool) or not isinstance(delay, int):
+        raise InputError(f"expected a delay as an integer >= 0, found {delay!r}", where=where)
+    return delay
+
+
+def graph_for(
+    graph: NeighborGraph | Mapping[str, Iterable[str]] | None, names: tuple[str, ...]
+) -> NeighborGraph | None:
+    """A graph that is about exactly these channels, from a graph or a mapping of names.
+
+    Raises
+    ------
+    UsageError
+        If the graph is about other agents, or about the same in another order.
+    """
+    if graph is None:
+        return None
+    if isinstance(graph, Mapping):
+        return NeighborGraph.from_names(names, graph)
+    if not isinstance(graph, NeighborGraph):
+        raise InputError(
+            f"expected a NeighborGraph, found {type(graph).__name__}; "
+            "use NeighborGraph.from_networkx for a networkx graph",
+            where="neighbors",
+        )
+    if graph.names != names:
+        raise UsageError(
+            f"expected a graph on the agents {', '.join(map(quoted, names))} in this order, "
+            f"found {', '.join(map(quoted, graph.names))}",
+            where="neighbors",
+        )
+    return graph

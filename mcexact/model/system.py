@@ -1,0 +1,374 @@
+"""The multi-channel system: what everything else in this package is about."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Any, Self
+
+from mcexact.errors import InputError, UsageError
+from mcexact.exact.block import hstack, vstack
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.rational import Rounding, as_fraction
+from mcexact.model.matrix_entry import as_matrix, require_shape, require_square
+from mcexact.model.names import checked_names, checked_text, nearest, quoted
+from mcexact.model.neighbor_graph import NeighborGraph, graph_for
+
+Construction = Mapping[str, Any]
+TIMES = ("continuous", "discrete")
+# The constructions whose result depends on the neighbor graph of the plant.
+_GRAPH_IN_USE = frozenset({"augmented_outputs", "arcs", "extended", "lifted", "held", "error"})
+
+
+@dataclass(frozen=True)
+class Channel:
+    """One channel: the agent's name, B_i (n×p_i) and C_i (q_i×n)."""
+
+    name: str
+    B: Matrix
+    C: Matrix
+
+
+@dataclass(frozen=True, init=False, repr=False)
+class MultiChannelSystem:
+    """A linear system with m channels, exact over the rationals.
+
+    In continuous time ẋ = A x + Σ B_i u_i, y_i = C_i x; in discrete time x(t+1) in place of ẋ.
+    Agent i measures y_i and sets u_i.  (Paper, section I; equations `mcs` and `mcsd`.)
+
+    Parameters
+    ----------
+    A : matrix, n×n
+        A list of rows, a numpy array of integers, or a sympy matrix; n = 0 is legal.  Entries are
+        int, Fraction, Decimal, sympy Rational, or strings such as "1/3" and "0.25".
+    B : sequence of m matrices
+        B_i is n×p_i; p_i = 0 is legal.
+    C : sequence of m matrices
+        C_i is q_i×n; q_i = 0 is legal.
+    time : {"continuous", "discrete"}
+    names : sequence of str, optional
+        The channels, by default "1" … "m".
+    neighbors : NeighborGraph or mapping of names, optional
+        Who hears whom; delays live on its arcs.
+    sample_time : rational, optional
+        For discrete time.  Carried, never used in a decision.
+    name, source : str, optional
+        Carried, never used in a decision.
+
+    Attributes
+    ----------
+    plant : MultiChannelSystem
+        The user's system: this one, or the one that this was made from.
+    subject : tuple of mappings
+        The constructions that made this system from the plant, in order, as the certificate
+        format names them; empty for a plant.
+
+    Raises
+    ------
+    FloatRefused
+        If an entry is a float: `from_float` says how floats are meant.
+    InputError
+        If there are no channels, or a shape, an entry, a name or the graph is not as expected.
+
+    Examples
+    --------
+    >>> system = MultiChannelSystem(A=[[0, 1], [0, 0]], B=[[[0], [1]]], C=[[["1/3", 0]]])
+    >>> system
+    MultiChannelSystem(n=2, m=1, continuous time, channels: '1')
+    >>> MultiChannelSystem(A=[[0]], B=[[[1], [2]]], C=[[[1]]])
+    Traceback (most recent call last):
+        ...
+    mcexact.errors.InputError: B[0]: expected 1 row, found 2
+    """
+
+    A: Matrix
+    channels: tuple[Channel, ...]
+    time: str
+    neighbors: NeighborGraph | None
+    sample_time: Fraction | None
+    name: str | None = field(compare=False)
+    source: str | None = field(compare=False)
+    subject: tuple[Construction, ...] = field(hash=False)
+    _plant: MultiChannelSystem | None
+
+    def __init__(
+        self,
+        A: Any,
+        B: Sequence[Any],
+        C: Sequence[Any],
+        *,
+        time: str = "continuous",
+        names: Sequence[str] | None = None,
+        neighbors: NeighborGraph | Mapping[str, Iterable[str]] | None = None,
+        sample_time: Any = None,
+        name: str | None = None,
+        source: str | None = None,
+    ) -> None:
+        exact = require_square(as_matrix(A, "A"), "A")
+        channels = _channels(exact.shape[0], _listed(B, "B"), _listed(C, "C"), names)
+        labels = tuple(channel.name for channel in channels)
+        if time not in TIMES:
+            raise InputError(
+                f'expected "continuous" or "discrete", found {quoted(time)}', where="time"
+            )
+        self._fill(
+            A=exact,
+            channels=channels,
+            time=time,
+            neighbors=graph_for(neighbors, labels),
+            sample_time=_checked_sample_time(sample_time, time),
+            name=None if name is None else checked_text(name, "name"),
+            source=None if source is None else checked_text(source, "source"),
+            subject=(),
+            _plant=None,
+        )
+
+    def _fill(self, **fields: Any) -> None:
+        for key, value in fields.items():
+            object.__setattr__(self, key, value)
+
+    @classmethod
+    def from_float(
+        cls, A: Any, B: Sequence[Any], C: Sequence[Any], *, rounding: Rounding, **options: Any
+    ) -> MultiChannelSystem:
+        """Build an exact system from matrices of floats.
+
+        Parameters
+        ----------
+        A, B, C : matrices of floats
+            Shapes as in the constructor.
+        rounding : {"decimal", "dyadic"}
+            How a float is meant: as the shortest decimal that prints it (0.1 becomes 1/10), or as
+            the binary fraction that it is (0.1 becomes 3602879701896397/36028797018963968).
+        **options
+            As in the constructor.
+
+        Examples
+        --------
+        >>> A, B, C = [[0.1]], [[[1.0]]], [[[1.0]]]
+        >>> MultiChannelSystem.from_float(A, B, C, rounding="decimal").A[0, 0]
+        Fraction(1, 10)
+        """
+        from mcexact.exact.floats import matrix_from_float
+
+        def exact(M: Any, where: str) -> Matrix:
+            try:
+                return matrix_from_float(M, rounding=rounding)
+            except InputError as error:
+                raise error.within(where) from None
+
+        return cls(
+            exact(A, "A"),
+            [exact(b, f"B[{i}]") for i, b in enumerate(_listed(B, "B"))],
+            [exact(c, f"C[{i}]") for i, c in enumerate(_listed(C, "C"))],
+            **options,
+        )
+
+    @property
+    def n(self) -> int:
+        """Number of states."""
+        return self.A.shape[0]
+
+    @property
+    def m(self) -> int:
+        """Number of channels."""
+        return len(self.channels)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names of the channels, in order."""
+        return tuple(channel.name for channel in self.channels)
+
+    @property
+    def plant(self) -> MultiChannelSystem:
+        """The user's system: this one, or the one that this was made from."""
+        return self if self._plant is None else self._plant
+
+    def B(self, i: int) -> Matrix:
+        """B_i, n×p_i."""
+        return self.channels[i].B
+
+    def C(self, i: int) -> Matrix:
+        """C_i, q_i×n."""
+        return self.channels[i].C
+
+    def p(self, i: int) -> int:
+        """Number of inputs of channel i."""
+        return self.channels[i].B.shape[1]
+
+    def q(self, i: int) -> int:
+        """Number of outputs of channel i."""
+        return self.channels[i].C.shape[0]
+
+    def input_matrix(self, channels: Iterable[int] | None = None) -> Matrix:
+        """B_T = [B_i, i ∈ T], in the order of the channels; T is every channel by default."""
+        chosen = range(self.m) if channels is None else sorted(set(channels))
+        return hstack([self.B(i) for i in chosen], nrows=self.n)
+
+    def output_matrix(self, channels: Iterable[int] | None = None) -> Matrix:
+        """C_T, the C_i, i ∈ T, below each other; T is every channel by default."""
+        chosen = range(self.m) if channels is None else sorted(set(channels))
+        return vstack([self.C(i) for i in chosen], ncols=self.n)
+
+    def index(self, name: str) -> int:
+        """The position of a channel.
+
+        Raises
+        ------
+        UsageError
+            If no channel has this name.
+        """
+        if name not in self.names:
+            raise UsageError(
+                f"there is no channel {quoted(name)}{nearest(str(name), self.names)}; "
+                f"the channels are {', '.join(map(quoted, self.names))}"
+            )
+        return self.names.index(name)
+
+    def indices(self, names: Iterable[str]) -> tuple[int, ...]:
+        """The positions of some channels, in the order of the system."""
+        return tuple(sorted({self.index(name) for name in names}))
+
+    def named(self, channels: Iterable[int]) -> tuple[str, ...]:
+        """The names of some channels, in the order of the system."""
+        return tuple(self.channels[i].name for i in sorted(set(channels)))
+
+    def derived(
+        self,
+        A: Matrix,
+        B: Sequence[Matrix],
+        C: Sequence[Matrix],
+        construction: Construction,
+        *,
+        neighbors: NeighborGraph | None = None,
+    ) -> MultiChannelSystem:
+        """A system made from this one, which remembers the plant and how it was made.
+
+        Parameters
+        ----------
+        A : Matrix, N×N
+        B, C : sequences of Matrix
+            One for each channel of this system, N×r_i and s_i×N; or none at all, for a closed loop.
+        construction : mapping
+            As the certificate format names it; it is appended to ``subject``.
+        neighbors : NeighborGraph, optional
+            The neighbor graph of the result.
+        """
+        names = self.names if B else ()
+        made = object.__new__(MultiChannelSystem)
+        made._fill(
+            A=require_square(A, "A"),
+            channels=tuple(Channel(*each) for each in zip(names, B, C, strict=True)),
+            time=self.time,
+            neighbors=neighbors,
+            sample_time=self.sample_time,
+            name=self.name,
+            source=self.source,
+            subject=(*self.subject, dict(construction)),
+            _plant=self.plant,
+        )
+        return made
+
+    def with_neighbors(self, graph: NeighborGraph | Mapping[str, Iterable[str]]) -> Self:
+        """The same system with another neighbor graph, also on the plant that it was made from.
+
+        Raises
+        ------
+        UsageError
+            If the graph is about other agents, or this system was made with its own graph.
+        """
+        found = graph_for(graph, self.names)
+        if found == self.neighbors:
+            return self
+        used = [c["construction"] for c in self.subject if c["construction"] in _GRAPH_IN_USE]
+        if used or any(c["construction"] == "dual" for c in self.subject):
+            raise UsageError(
+                f"the system was already made by {self.subject[-1]['construction']!r}; "
+                "give the graph to the plant",
+                where="graph",
+            )
+        other = object.__new__(type(self))
+        other._fill(**{name: getattr(self, name) for name in self.__dataclass_fields__})
+        plant = None if self._plant is None else self._plant.with_neighbors(graph)
+        other._fill(neighbors=found, _plant=plant)
+        return other
+
+    def __repr__(self) -> str:
+        shown = ", ".join(quoted(name) for name in self.names[:8]) + (", …" if self.m > 8 else "")
+        made = "".join(f", {c['construction']}" for c in self.subject)
+        return (
+            f"MultiChannelSystem(n={self.n}, m={self.m}, {self.time} time, channels: {shown}{made})"
+        )
+
+
+def with_graph(
+    system: MultiChannelSystem, graph: NeighborGraph | Mapping[str, Iterable[str]] | None = None
+) -> tuple[MultiChannelSystem, NeighborGraph]:
+    """A system that carries the graph in question, and that graph.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    graph : NeighborGraph or mapping of names, optional
+        Overrides ``system.neighbors``.
+
+    Raises
+    ------
+    UsageError
+        If there is no neighbor graph anywhere.
+    """
+    if graph is not None:
+        system = system.with_neighbors(graph)
+    if system.neighbors is None:
+        raise UsageError(
+            "a neighbor graph is needed: give the system file a key 'neighbors', or pass graph="
+        )
+    return system, system.neighbors
+
+
+def _listed(value: Any, where: str) -> list[Any]:
+    """The matrices of all channels."""
+    if isinstance(value, (str, bytes, Mapping)) or not hasattr(value, "__iter__"):
+        raise InputError(
+            f"expected a list of matrices, one for each channel, found {type(value).__name__}",
+            where=where,
+        )
+    return list(value)
+
+
+def _channels(
+    n: int, B: list[Any], C: list[Any], names: Sequence[str] | None
+) -> tuple[Channel, ...]:
+    """Check the matrices of all channels."""
+    m = len(B)
+    if m != len(C):
+        raise InputError(f"expected as many matrices as in B, {m}, found {len(C)}", where="C")
+    if not m:
+        raise InputError("expected at least one channel, found none", where="B")
+    if isinstance(names, str):
+        raise InputError("expected a list of names, found a string", where="names")
+    labels = [str(i + 1) for i in range(m)] if names is None else list(names)
+    if len(labels) != m:
+        raise InputError(f"expected {m} names, found {len(labels)}", where="names")
+    checked = checked_names(labels, [f"names[{i}]" for i in range(m)])
+    return tuple(
+        Channel(
+            checked[i],
+            require_shape(as_matrix(B[i], f"B[{i}]"), f"B[{i}]", n, None),
+            require_shape(as_matrix(C[i], f"C[{i}]", ncols=n), f"C[{i}]", None, n),
+        )
+        for i in range(m)
+    )
+
+
+def _checked_sample_time(value: Any, time: str) -> Fraction | None:
+    """A positive rational, in discrete time only."""
+    if value is None:
+        return None
+    if time != "discrete":
+        raise InputError("only discrete time has a sample time; remove it", where="sample_time")
+    exact = as_fraction(value, where="sample_time")
+    if exact <= 0:
+        raise InputError(f"expected a number > 0, found {exact}", where="sample_time")
+    return exact

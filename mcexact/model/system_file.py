@@ -1,0 +1,282 @@
+"""System files, ``mcexact-system/1``: read strictly, written canonically, and their digest."""
+
+from __future__ import annotations
+
+import json
+import os
+from typing import Any
+
+from mcexact.certificate import codec
+from mcexact.errors import InputError
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.rational import DEFAULT_LIMITS, Limits
+from mcexact.model.atomic import write_text
+from mcexact.model.json_text import (
+    expect_format,
+    expect_integer,
+    expect_list,
+    expect_object,
+    kind_of,
+    parse,
+    read_bytes,
+)
+from mcexact.model.matrix_entry import require_square
+from mcexact.model.matrix_json import (
+    json_text_of_number,
+    matrix_json,
+    number_json,
+    read_matrix,
+    read_number,
+)
+from mcexact.model.names import checked_names, checked_text, quoted
+from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.system import TIMES, MultiChannelSystem
+
+FORMAT = "mcexact-system/1"
+_REQUIRED = ("format", "time", "A", "channels")
+_OPTIONAL = ("name", "source", "sample_time", "neighbors", "delays", "D")
+
+
+def load_system(
+    path: str | os.PathLike[str], *, limits: Limits = DEFAULT_LIMITS
+) -> MultiChannelSystem:
+    """Read a system from a file.
+
+    Parameters
+    ----------
+    path : path
+        ``-`` is the standard input.
+    limits : Limits, optional
+
+    Raises
+    ------
+    InputError
+        If the file is missing, unreadable, too large or malformed; the message says where.
+    """
+    try:
+        return read_system(read_bytes(path, limits), limits=limits)
+    except InputError as error:
+        place = "standard input" if os.fspath(path) == "-" else os.fspath(path)
+        raise error.within(place) from None
+
+
+def read_system(data: bytes | str, *, limits: Limits = DEFAULT_LIMITS) -> MultiChannelSystem:
+    """Read a system from the text of a system file.
+
+    Parameters
+    ----------
+    data : bytes or str
+    limits : Limits, optional
+
+    Raises
+    ------
+    InputError
+        If it is malformed; the message says where.
+
+    Examples
+    --------
+    >>> read_system('''{"format": "mcexact-system/1", "time": "continuous", "A": [[0.1]],
+    ...     "channels": [{"name": "1", "B": [[1]], "C": [[1]]}]}''').A[0, 0]
+    Fraction(1, 10)
+    >>> read_system('{"format": "mcexact-system/1", "time": "continuous", "A": [], "chanels": []}')
+    Traceback (most recent call last):
+        ...
+    mcexact.errors.InputError: unknown key 'chanels' (did you mean 'channels'?)
+    """
+    document = expect_format(parse(data, limits), FORMAT)
+    expect_object(document, None, _REQUIRED, _OPTIONAL)
+    time = document["time"]
+    if time not in TIMES:
+        raise InputError(f'expected "continuous" or "discrete", found {quoted(time)}', where="time")
+    if "D" in document:
+        _refuse_feedthrough(document["D"], "D", limits)
+    A = require_square(read_matrix(document["A"], "A", limits=limits), "A")
+    names, B, C = _read_channels(document["channels"], A.shape[0], limits)
+    sample_time = None
+    if "sample_time" in document:
+        sample_time = read_number(document["sample_time"], "sample_time", limits)
+    return MultiChannelSystem(
+        A,
+        B,
+        C,
+        time=time,
+        names=names,
+        neighbors=_read_graph(document, names),
+        sample_time=sample_time,
+        name=_optional_text(document, "name"),
+        source=_optional_text(document, "source"),
+    )
+
+
+def _optional_text(document: dict[str, Any], key: str) -> str | None:
+    return checked_text(document[key], key) if key in document else None
+
+
+def _read_channels(
+    value: Any, n: int, limits: Limits
+) -> tuple[tuple[str, ...], list[Matrix], list[Matrix]]:
+    """Read names and matrices of all channels."""
+    channels = expect_list(value, "channels")
+    if not channels:
+        raise InputError("expected at least one channel, found none", where="channels")
+    names, places, B, C = [], [], [], []
+    for k, channel in enumerate(channels):
+        where = f"channels[{k}]"
+        expect_object(channel, where, ("B", "C"), ("name", "D"))
+        names.append(channel.get("name", str(k + 1)))
+        places.append(f"{where}.name")
+        B.append(read_matrix(channel["B"], f"{where}.B", nrows=n, limits=limits))
+        C.append(read_matrix(channel["C"], f"{where}.C", ncols=n, limits=limits))
+        if "D" in channel:
+            _refuse_feedthrough(channel["D"], f"{where}.D", limits)
+    return checked_names(names, places), B, C
+
+
+def _refuse_feedthrough(value: Any, where: str, limits: Limits) -> None:
+    """Accept a feedthrough of zeros only."""
+    if not read_matrix(value, where, limits=limits).is_zero():
+        raise InputError(
+            "expected zeros: outputs are y_i = C_i x, without direct feedthrough of an input; "
+            "the theory used here does not cover it",
+            where=where,
+        )
+
+
+def _read_graph(document: dict[str, Any], names: tuple[str, ...]) -> NeighborGraph | None:
+    """Read neighbors and delays."""
+    if "neighbors" not in document:
+        if "delays" in document:
+            raise InputError("there are no wires: the key 'neighbors' is missing", where="delays")
+        return None
+    neighbors = _mapping(document["neighbors"], "neighbors")
+    for name, heard in neighbors.items():
+        expect_list(heard, f"neighbors[{quoted(name)}]")
+    delays = {}
+    for name, row in _mapping(document.get("delays", {}), "delays").items():
+        where = f"delays[{quoted(name)}]"
+        delays[name] = {
+            other: expect_integer(delay, f"{where}[{quoted(other)}]")
+            for other, delay in _mapping(row, where).items()
+        }
+    return NeighborGraph.from_names(names, neighbors, delays)
+
+
+def _mapping(value: Any, where: str) -> dict[str, Any]:
+    if not isinstance(value, dict):
+        raise InputError(f"expected an object keyed by agents, found {kind_of(value)}", where=where)
+    return value
+
+
+def canonical_document(system: MultiChannelSystem) -> dict[str, Any]:
+    """The plant of a system as the ``system`` object of a certificate.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        Of a derived system the plant is written.
+
+    Returns
+    -------
+    dict
+        Plain data; matrices are rows of reduced rationals.  Without name and source.
+    """
+    plant = system.plant
+    document: dict[str, Any] = {
+        "time": plant.time,
+        "A": matrix_json(plant.A),
+        "channels": [
+            {"name": channel.name, "B": matrix_json(channel.B), "C": matrix_json(channel.C)}
+            for channel in plant.channels
+        ],
+    }
+    if plant.neighbors is not None:
+        document.update(graph_json(plant.neighbors))
+    return document
+
+
+def graph_json(graph: NeighborGraph) -> dict[str, Any]:
+    """The keys ``neighbors`` and, where there are any, ``delays``, by names."""
+    names = graph.names
+    document: dict[str, Any] = {
+        "neighbors": {
+            names[i]: [names[j] for j in graph.neighborhood(i) if j != i] for i in range(graph.m)
+        }
+    }
+    if graph.delays:
+        rows: dict[str, dict[str, int]] = {}
+        for i, j, delay in graph.delays:
+            rows.setdefault(names[i], {})[names[j]] = delay
+        document["delays"] = rows
+    return document
+
+
+def digest(system: MultiChannelSystem) -> str:
+    """The SHA-256 of the plant's canonical JSON, in lower-case hexadecimal.
+
+    Examples
+    --------
+    Names, order, graph and every number count; how they are written, ``name`` and ``source`` do
+    not:
+
+    >>> first = MultiChannelSystem([["1/2"]], [[[1]]], [[[1]]], name="a")
+    >>> second = MultiChannelSystem([["0.50"]], [[[1]]], [[[1]]], source="b")
+    >>> digest(first) == digest(second)
+    True
+    """
+    return codec.digest(canonical_document(system))
+
+
+def save_system(system: MultiChannelSystem, path: str | os.PathLike[str]) -> None:
+    """Write a system as a system file, whole or not at all.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        A derived system is written by its own matrices, as a plant of its own.
+    path : path
+
+    Raises
+    ------
+    InputError
+        If the file cannot be written.
+    """
+    write_text(path, system_text(system))
+
+
+def system_text(system: MultiChannelSystem) -> str:
+    """The text of a system file: one row of a matrix a line."""
+    head: list[tuple[str, str]] = [("format", json.dumps(FORMAT))]
+    for key, text in (("name", system.name), ("source", system.source)):
+        if text is not None:
+            head.append((key, json.dumps(text)))
+    head.append(("time", json.dumps(system.time)))
+    if system.sample_time is not None:
+        head.append(("sample_time", json_text_of_number(number_json(system.sample_time))))
+    head.append(("A", matrix_text(system.A, "  ")))
+    head.append(("channels", _channels_text(system)))
+    if system.neighbors is not None:
+        head.extend((key, json.dumps(value)) for key, value in graph_json(system.neighbors).items())
+    return "{\n" + ",\n".join(f'  "{key}": {text}' for key, text in head) + "\n}\n"
+
+
+def _channels_text(system: MultiChannelSystem) -> str:
+    blocks = []
+    for channel in system.channels:
+        lines = [
+            f'      "name": {json.dumps(channel.name)}',
+            f'      "B": {matrix_text(channel.B, "      ")}',
+            f'      "C": {matrix_text(channel.C, "      ")}',
+        ]
+        blocks.append("    {\n" + ",\n".join(lines) + "\n    }")
+    return "[\n" + ",\n".join(blocks) + "\n  ]"
+
+
+def matrix_text(M: Matrix, indent: str) -> str:
+    """The JSON text of a matrix, on one line where it is short, else one row a line."""
+    value = matrix_json(M)
+    if isinstance(value, dict) or not value:
+        return json.dumps(value)
+    rows = ["[" + ", ".join(map(json_text_of_number, row)) + "]" for row in value]
+    if sum(map(len, rows)) + 2 * len(rows) <= 80 - len(indent):
+        return "[" + ", ".join(rows) + "]"
+    return "[\n" + ",\n".join(f"{indent}  {row}" for row in rows) + f"\n{indent}]"
