@@ -92,13 +92,13 @@ def _answer(
 ) -> dict[str, Any]:
     """Read, decide, and put the answer into text: what the child process does."""
     from mcexact.certificate import codec
-    from mcexact.model.json_text import FileLimits
+    from mcexact.exact.rational import Limits
     from mcexact.model.system_file import load_system
     from mcexact.report.assessment import assess
     from mcexact.report.json_view import assessment_view
     from mcexact.report.text import assessment_tables
 
-    assessment = assess(load_system(file, limits=FileLimits(**limits)), **question)
+    assessment = assess(load_system(file, limits=Limits(**limits)), **question)
     certificates = assessment.certificates() if with_certificates else {}
     return {
         "json": assessment_view(assessment, with_certificates=with_certificates),

@@ -46,7 +46,34 @@ def command(
 
 
 def _digest(file: str, limits: dict[str, int]) -> str:
-    from mcexact.model.json_text import FileLimits
+    from mcexact.exact.rational import Limits
     from mcexact.model.system_file import digest, load_system
 
-    return digest(load_system(file, limits=FileLimits(**limits)))
+    return digest(load_system(file, limits=Limits(**limits)))
+
+
+def _line(file: str, expected: str | None, limits: dict[str, int]) -> dict[str, str]:
+    """The verdict on one file."""
+    from mcexact.checker import check_document
+    from mcexact.errors import InputError
+    from mcexact.exact.rational import Limits
+    from mcexact.model.json_text import read_bytes
+
+    try:
+        data = read_bytes(file, Limits(**limits))
+    except InputError as error:
+        return {"file": file, "verdict": "MALFORMED", "code": "unreadable", "place": error.message}
+    verdict = check_document(data, system_digest=expected)
+    line = {"file": file, "verdict": verdict.verdict, "system": verdict.digest}
+    if verdict.verdict == "VALID":
+        return line | {"theorem": verdict.theorem}
+    return line | {"code": verdict.code, "place": verdict.place}
+
+
+def _text(line: dict[str, str]) -> str:
+    """The verdict as one line; what is not VALID names its file."""
+    from mcexact.cli.failures import printable
+
+    if line["verdict"] == "VALID":
+        return printable(f"VALID {line['theorem']} {line['system']}", limit=100_000)
+    return printable(f"{line['verdict']} {line['code']} {line['file']}: {line['place']}")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import click
 
 from mcexact.errors import McexactError
@@ -37,7 +39,8 @@ def one_message(error: BaseException) -> str:
     elif isinstance(error, click.ClickException):
         text = f"mcexact: {error.format_message()}"
     elif isinstance(error, McexactError) and error.exit_status != INTERNAL_ERROR:
-        text = f"mcexact: {error}"
+        # Messages name a limit as Python does; here it is an option.
+        text = re.sub(r"\bLimits\.(\w+)", r"--limit \1=N", f"mcexact: {error}")
     elif isinstance(error, OSError):
         place = f"{error.filename}: " if error.filename is not None else ""
         text = f"mcexact: {place}{error.strerror or error}"

@@ -12,68 +12,49 @@ import click
 F = TypeVar("F", bound=Callable[..., Any])
 
 
-class Rational(click.ParamType):
-    """An exact number on the command line: the number grammar of the files, such as -1/2."""
+def rational(text: str) -> Fraction:
+    """An exact number on the command line, in the number grammar of the files.
 
-    name = "rational"
+    Examples
+    --------
+    >>> rational("-1/2")
+    Fraction(-1, 2)
+    """
+    from mcexact.errors import InputError
+    from mcexact.exact.rational import parse_rational
 
-    def convert(
-        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
-    ) -> Fraction:
-        """The fraction that the text stands for."""
-        if isinstance(value, Fraction):
-            return value
-        from mcexact.errors import InputError
-        from mcexact.exact.rational import parse_rational
-
-        try:
-            return parse_rational(str(value))
-        except InputError as error:
-            self.fail(error.message, param, ctx)
+    try:
+        return parse_rational(text)
+    except InputError as error:
+        raise click.BadParameter(error.message) from None
 
 
-class FileLimit(click.ParamType):
-    """One limit on what a file may ask for, such as ``digits=10000``."""
-
-    name = "limit"
-
-    def convert(
-        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
-    ) -> tuple[str, int]:
-        """The name of the limit and its value."""
-        import dataclasses
-
-        from mcexact.model.json_text import FileLimits
-
-        names = [field.name for field in dataclasses.fields(FileLimits)]
-        name, _, number = str(value).partition("=")
-        if name not in names:
-            self.fail(f"expected one of {', '.join(names)}, found '{name}'", param, ctx)
-        if not (number.isascii() and number.isdigit() and len(number) < 16 and int(number) > 0):
-            self.fail(f"expected a whole number above 0 for {name}, found '{number}'", param, ctx)
-        return name, int(number)
-
-
-class Seconds(click.ParamType):
+def seconds(text: str) -> float:
     """A time limit: a finite number of seconds above 0."""
-
-    name = "seconds"
-
-    def convert(
-        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
-    ) -> float:
-        """The number of seconds."""
-        try:
-            seconds = float(value)
-        except ValueError:
-            seconds = 0.0
-        if not 0 < seconds < float("inf"):
-            self.fail(f"expected a number of seconds above 0, found '{value}'", param, ctx)
-        return seconds
+    try:
+        number = float(text)
+    except ValueError:
+        number = 0.0
+    if not 0 < number < float("inf"):
+        raise click.BadParameter(f"expected a number of seconds above 0, found '{text}'")
+    return number
 
 
-RATIONAL = Rational()
-SECONDS = Seconds()
+def file_limit(text: str) -> tuple[str, int]:
+    """One limit on what a file may ask for, such as ``digits=10000``."""
+    import dataclasses
+
+    from mcexact.exact.rational import Limits
+
+    names = [field.name for field in dataclasses.fields(Limits)]
+    name, _, number = text.partition("=")
+    if name not in names:
+        raise click.BadParameter(f"expected one of {', '.join(names)}, found '{name}'")
+    if not (number.isascii() and number.isdigit() and len(number) < 16 and int(number) > 0):
+        raise click.BadParameter(f"expected a whole number above 0 for {name}, found '{number}'")
+    return name, int(number)
+
+
 FOLDER = click.Path(path_type=Path)
 
 as_json = click.option("--json", "as_json", is_flag=True, help="Print one JSON document.")
@@ -90,10 +71,10 @@ certificates = click.option(
 file_limits = click.option(
     "--limit",
     "limits",
-    type=FileLimit(),
+    type=file_limit,
     multiple=True,
     metavar="NAME=VALUE",
-    help="Move a limit that a message named: size, depth, digits, exponent or cells.",
+    help="Move a limit that a message named: bytes, depth, digits or exponent.",
 )
 
 
@@ -108,7 +89,7 @@ def work_limits(function: F) -> F:
         ),
         click.option(
             "--timeout",
-            type=SECONDS,
+            type=seconds,
             metavar="SECONDS",
             help="Time that the computation may take; beyond it, status 4.",
         ),

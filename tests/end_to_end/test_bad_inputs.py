@@ -1,0 +1,88 @@
+"""Every bad input ends with its status and one message that says where, what and how to mend it."""
+
+import json
+import shlex
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.end_to_end.bad_input_files import arguments
+from tests.end_to_end.command_line import MCEXACT, Run, run
+
+TABLE = json.loads((Path(__file__).parent / "bad_inputs.json").read_text(encoding="utf-8"))
+MOST_SECONDS = 1.0
+MOST_MEBIBYTES = 256
+
+
+@pytest.fixture(scope="module")
+def documents(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
+    """The base system and the certificate of its fixed spectrum."""
+    folder = tmp_path_factory.mktemp("base")
+    file = folder / "system.json"
+    file.write_text(json.dumps(TABLE["base_system"]), encoding="utf-8")
+    done = run("analyze", str(file), "--certificates", str(folder / "certificates"))
+    assert done.status == 0, done.stderr
+    made = folder / "certificates" / "fixed_spectrum.json"
+    certificate = json.loads(made.read_text(encoding="utf-8"))
+    return {"system": TABLE["base_system"], "certificate": certificate}
+
+
+def run_entry(entry: dict[str, Any], found: list[str]) -> Run:
+    environment = entry.get("environment", {})
+    if "shell" in entry:
+        command = entry["shell"].format(command=shlex.join([*MCEXACT, *found]))
+        return run("-c", command, program=["sh"], environment=environment)
+    if entry.get("closed_stdin"):
+        return run("-c", f"{shlex.join([*MCEXACT, *found])} <&-", program=["sh"])
+    return run(*found, environment=environment)
+
+
+@pytest.mark.parametrize("entry", TABLE["entries"], ids=lambda entry: entry["id"])
+def test_bad_input_gets_its_status_and_one_message(
+    entry: dict[str, Any], documents: dict[str, Any], tmp_path: Path
+) -> None:
+    done = run_entry(entry, arguments(entry, tmp_path, documents))
+    expected = entry["exit"] if isinstance(entry["exit"], list) else [entry["exit"]]
+    assert done.status in expected, done
+    assert "Traceback" not in done.stdout + done.stderr
+    messages = (done.stdout if entry["argv"][0] == "check" else done.stderr) or done.stderr
+    if done.status in {2, 3}:
+        shown = done.stdout + done.stderr
+        assert messages.count("\n") == shown.count("\n"), "more than one message"
+        assert messages.count("\n") == (len(entry["argv"]) - 1 if entry["id"] == "B211" else 1)
+    elif entry["argv"][0] == "analyze":
+        assert not done.stderr
+    for text in entry["says"]:
+        assert text in messages
+    for text in entry.get("prints", ()):
+        assert text in done.stdout
+    assert done.cpu_seconds < MOST_SECONDS
+    assert done.mebibytes < MOST_MEBIBYTES
+
+
+def test_no_bad_input_leaves_a_file_behind(documents: dict[str, Any], tmp_path: Path) -> None:
+    file = tmp_path / "bad.json"
+    file.write_text("{", encoding="utf-8")
+    done = run("analyze", str(file), "--certificates", str(tmp_path / "certificates"))
+    assert done.status == 3
+    assert [path.name for path in tmp_path.iterdir()] == ["bad.json"]
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="limits on memory are tested where they are")
+def test_a_limit_is_status_4_and_never_a_verdict(tmp_path: Path) -> None:
+    drawn = run("sample", "--states", "60", "--channels", "30", "--output", str(tmp_path))
+    assert drawn.status == 0, drawn.stderr
+    file = str(tmp_path / "sample-0.json")
+    for option, value, said in (
+        ("--timeout", "0.01", "time limit of 0.01 s"),
+        ("--max-memory", "1", "memory limit of 1 MiB"),
+    ):
+        done = run("analyze", file, option, value, "--certificates", str(tmp_path / "made"))
+        assert done.status == 4, done
+        assert done.stdout == ""
+        assert said in done.stderr
+        assert option in done.stderr
+        assert done.stderr.count("\n") == 1
+        assert not (tmp_path / "made").exists()
