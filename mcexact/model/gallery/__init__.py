@@ -64,7 +64,7 @@ def expected(name: str) -> dict[str, Any]:
     Examples
     --------
     >>> expected("hidden-triple-mode")["fixed_factors"]
-    [{'factor': 'x + (-1)', 'multiplicity': 3}]
+    [{'factor': 'x - 1', 'multiplicity': 3}]
     """
     answers: dict[str, dict[str, Any]] = json.loads(text(_EXPECTED))
     return answers[name]
