@@ -1,0 +1,185 @@
+"""Linear algebra over the rational numbers."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import flint
+
+from mcexact.errors import InputError
+from mcexact.exact.matrix import Matrix, _made, from_flint, hstack, lowest_terms
+from mcexact.exact.polynomial import Polynomial
+
+# A prime for a first look at a rank: full rank modulo it is full rank over Q.
+_PROBE = 2**61 - 1
+
+
+def rank(M: Matrix) -> int:
+    """The rank.
+
+    Examples
+    --------
+    >>> rank(Matrix.from_rows([[1, 2], ["1/2", 1]]))
+    1
+    """
+    below = int(flint.nmod_mat(M._integer, _PROBE).rank())
+    if below == min(M.shape):
+        return below
+    return int(M._integer.rank())
+
+
+def row_echelon(M: Matrix) -> tuple[Matrix, tuple[int, ...]]:
+    """The reduced row echelon form without its zero rows, and its pivot columns.
+
+    Returns
+    -------
+    R : Matrix, r × ncols
+        The same row space as M, r its rank; the columns `pivots` form the identity.
+    pivots : tuple of int
+        Ascending.
+
+    Examples
+    --------
+    >>> R, pivots = row_echelon(Matrix.from_rows([[0, 2, 4], [0, 1, 2]]))
+    >>> R.numerators, pivots
+    (((0, 1, 2),), (1,))
+    """
+    reduced, denominator, r = M._integer.rref()
+    # flint stops at rank 0 without a denominator
+    whole = from_flint(reduced, int(denominator) if r else 1)
+    pivots = []
+    j = 0
+    for row in whole.numerators[:r]:
+        while not row[j]:
+            j += 1
+        pivots.append(j)
+    return _made(r, M.ncols, whole.numerators[:r], whole.denominator), tuple(pivots)
+
+
+def column_echelon(M: Matrix) -> tuple[Matrix, tuple[int, ...]]:
+    """A basis of the column space whose rows `pivots` form the identity.
+
+    Returns
+    -------
+    X : Matrix, nrows × r
+        r = rank M.
+    pivots : tuple of int
+        Ascending rows.
+    """
+    reduced, pivots = row_echelon(M.T)
+    return reduced.T, pivots
+
+
+def kernel(M: Matrix) -> tuple[Matrix, tuple[int, ...]]:
+    """A basis of {x : Mx = 0} and the rows of it that form the identity.
+
+    Returns
+    -------
+    X : Matrix, ncols × (ncols − rank M)
+    pivots : tuple of int
+        The columns of M that are no pivots of its echelon form, ascending.
+    """
+    reduced, bound = row_echelon(M)
+    free = tuple(sorted(set(range(M.ncols)) - set(bound)))
+    position = {j: i for i, j in enumerate(bound)}
+    rows = []
+    for j in range(M.ncols):
+        if j in position:
+            row = reduced.numerators[position[j]]
+            rows.append(tuple(-row[k] for k in free))
+        else:
+            rows.append(tuple(reduced.denominator if k == j else 0 for k in free))
+    return lowest_terms(M.ncols, len(free), tuple(rows), reduced.denominator), free
+
+
+def nullspace(M: Matrix) -> Matrix:
+    """A basis of {x : Mx = 0} as columns, in echelon form (see `kernel`).
+
+    Examples
+    --------
+    >>> nullspace(Matrix.from_rows([[1, 2]])).numerators
+    ((-2,), (1,))
+    """
+    return kernel(M)[0]
+
+
+def left_nullspace(M: Matrix) -> Matrix:
+    """A basis of {w : wM = 0} as rows, in echelon form."""
+    return nullspace(M.T).T
+
+
+def solve(M: Matrix, right: Matrix) -> Matrix | None:
+    """One X with MX = right, free unknowns 0; None if there is none.
+
+    Examples
+    --------
+    >>> solve(Matrix.from_rows([[2, 1], [4, 2]]), Matrix.column([1, 2])).rows()
+    ((Fraction(1, 2),), (Fraction(0, 1),))
+    >>> solve(Matrix.from_rows([[2, 1], [4, 2]]), Matrix.column([1, 3])) is None
+    True
+    """
+    if M.nrows != right.nrows:
+        raise InputError(f"expected a right side with {M.nrows} rows, found {right.nrows}")
+    reduced, pivots = row_echelon(hstack([M, right]))
+    if pivots and pivots[-1] >= M.ncols:
+        return None
+    position = {j: i for i, j in enumerate(pivots)}
+    rows = tuple(
+        reduced.numerators[position[j]][M.ncols :] if j in position else (0,) * right.ncols
+        for j in range(M.ncols)
+    )
+    return lowest_terms(M.ncols, right.ncols, rows, reduced.denominator)
+
+
+def inverse(M: Matrix) -> Matrix | None:
+    """The inverse of a square matrix; None if it is singular."""
+    _require_square(M)
+    return solve(M, Matrix.identity(M.nrows)) if rank(M) == M.nrows else None
+
+
+def determinant(M: Matrix) -> Fraction:
+    """The determinant of a square matrix; 1 if it is 0 × 0."""
+    _require_square(M)
+    return Fraction(int(M._integer.det()), M.denominator**M.nrows)
+
+
+def characteristic_polynomial(M: Matrix) -> Polynomial:
+    """det(xI − M) of a square matrix.
+
+    Examples
+    --------
+    >>> str(characteristic_polynomial(Matrix.from_rows([[0, "1/2"], [1, 0]])))
+    'x^2 - 1/2'
+    """
+    _require_square(M)
+    return _unscaled(M._integer.charpoly(), M.denominator)
+
+
+def minimal_polynomial(M: Matrix) -> Polynomial:
+    """The monic polynomial of least degree that M satisfies; 1 if M is 0 × 0."""
+    _require_square(M)
+    if M.nrows == 0:
+        return Polynomial.of(1)
+    return _unscaled(M._integer.minpoly(), M.denominator)
+
+
+def _unscaled(p: flint.fmpz_poly, d: int) -> Polynomial:
+    """From the monic p of N to that of N/d: p(d x) / d^k for p of degree k."""
+    coefficients = [int(c) for c in p.coeffs()]
+    degree = len(coefficients) - 1
+    return Polynomial(tuple(Fraction(c, d ** (degree - k)) for k, c in enumerate(coefficients)))
+
+
+def _require_square(M: Matrix) -> None:
+    if not M.is_square():
+        raise InputError(f"expected a square matrix, found {M.nrows} × {M.ncols}")
+
+
+def evaluate_at(p: Polynomial, M: Matrix) -> Matrix:
+    """p(M) of a square matrix."""
+    _require_square(M)
+    result = Matrix.zeros(M.nrows, M.nrows)
+    unit = Matrix.identity(M.nrows)
+    for c in reversed(p.coefficients):
+        result = result @ M + unit * c
+    return result

@@ -1,0 +1,422 @@
+"""Rational matrices, integer numerators over one common denominator, and blocks of them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+import flint
+
+from mcexact.errors import InputError
+from mcexact.exact.rational import Entry, as_fraction
+
+Rows = tuple[tuple[int, ...], ...]
+
+
+@dataclass(frozen=True)
+class Matrix:
+    """A rational matrix, M = N / d with integer N and d ≥ 1 in lowest terms.
+
+    Parameters
+    ----------
+    nrows, ncols : int
+        Either may be 0.
+    numerators : tuple of nrows tuples of ncols int
+    denominator : int
+        At least 1 and coprime to the numerators taken together; 1 for a matrix without entries.
+
+    Notes
+    -----
+    Exact, immutable, hashable; equal matrices are equal objects in the sense of ``==``.  Build one
+    with `from_rows` (any exact entries) or `from_integers`.
+
+    Examples
+    --------
+    >>> M = Matrix.from_rows([[1, "1/2"], [0, "0.25"]])
+    >>> M.numerators, M.denominator
+    (((4, 2), (0, 1)), 4)
+    >>> (M @ M)[0, 1]
+    Fraction(5, 8)
+    >>> Matrix.zeros(0, 3).T.shape
+    (3, 0)
+    """
+
+    nrows: int
+    ncols: int
+    numerators: Rows
+    denominator: int
+
+    def __post_init__(self) -> None:
+        for size, name in ((self.nrows, "rows"), (self.ncols, "columns")):
+            if type(size) is not int or size < 0:
+                raise InputError(f"expected a number of {name} that is at least 0, found {size!r}")
+        if type(self.denominator) is not int or self.denominator < 1:
+            raise InputError(f"expected a denominator of at least 1, found {self.denominator!r}")
+        if type(self.numerators) is not tuple or len(self.numerators) != self.nrows:
+            raise InputError(f"expected a tuple of {self.nrows} rows of numerators")
+        for row in self.numerators:
+            if type(row) is not tuple or len(row) != self.ncols:
+                raise InputError(f"expected rows that are tuples of {self.ncols} numerators")
+            if not all(type(entry) is int for entry in row):
+                raise InputError("expected numerators of type int; use Matrix.from_rows")
+        if self.denominator != 1 and _content(self.numerators, self.denominator) != 1:
+            raise InputError("expected lowest terms; use Matrix.from_integers")
+
+    @classmethod
+    def from_rows(
+        cls, rows: Iterable[Iterable[Entry]], ncols: int | None = None, *, where: str | None = None
+    ) -> Matrix:
+        """The matrix with the given rows of exact entries.
+
+        Parameters
+        ----------
+        rows : iterable of iterables of int, Fraction, Decimal, str or sympy Rational
+        ncols : int, optional
+            Needed for a matrix without rows, which otherwise has no columns.
+        where : str, optional
+            The place to name in an error, such as ``channels[0].B``.
+
+        Raises
+        ------
+        InputError
+            The rows differ in length, or an entry is not a rational number.
+        FloatRefused
+            An entry is a float.
+        """
+        table: list[list[Any]] = []
+        for i, row in enumerate(_items(rows, where)):
+            place = f"{where or ''}[{i}]"
+            table.append(list(_items(row, place)))
+        width = (len(table[0]) if table else 0) if ncols is None else ncols
+        for i, entries in enumerate(table):
+            if len(entries) != width:
+                raise InputError(
+                    f"expected {width} entries in the row, found {len(entries)}",
+                    where=f"{where or ''}[{i}]",
+                )
+        if all(type(entry) is int for entries in table for entry in entries):
+            return cls(len(table), width, tuple(map(tuple, table)), 1)
+        fractions = [
+            [as_fraction(entry, where=f"{where or ''}[{i}][{j}]") for j, entry in enumerate(row)]
+            for i, row in enumerate(table)
+        ]
+        denominator = math.lcm(*{entry.denominator for row in fractions for entry in row})
+        numerators = tuple(
+            tuple(entry.numerator * (denominator // entry.denominator) for entry in row)
+            for row in fractions
+        )
+        return cls(len(table), width, numerators, denominator)
+
+    @classmethod
+    def from_integers(
+        cls, rows: Iterable[Iterable[int]], denominator: int = 1, ncols: int | None = None
+    ) -> Matrix:
+        """The matrix of integer rows over a common denominator, brought to lowest terms.
+
+        Raises
+        ------
+        InputError
+            An entry is not an int, the denominator is 0, or the rows differ in length.
+        """
+        table = tuple(tuple(row) for row in rows)
+        width = (len(table[0]) if table else 0) if ncols is None else ncols
+        if type(denominator) is not int or denominator == 0:
+            raise InputError(f"expected a nonzero integer denominator, found {denominator!r}")
+        numerators = cls(len(table), width, table, 1).numerators
+        return lowest_terms(len(table), width, numerators, denominator)
+
+    @classmethod
+    def zeros(cls, nrows: int, ncols: int) -> Matrix:
+        """The nrows × ncols zero matrix."""
+        return cls(nrows, ncols, ((0,) * ncols,) * nrows, 1)
+
+    @classmethod
+    def identity(cls, n: int) -> Matrix:
+        """The n × n identity matrix."""
+        return cls(n, n, tuple((0,) * i + (1,) + (0,) * (n - 1 - i) for i in range(n)), 1)
+
+    @classmethod
+    def column(cls, entries: Iterable[Entry]) -> Matrix:
+        """The matrix with one column."""
+        return cls.from_rows([[entry] for entry in entries], ncols=1)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Numbers of rows and columns."""
+        return self.nrows, self.ncols
+
+    @property
+    def T(self) -> Matrix:
+        """The transpose."""
+        columns = tuple(zip(*self.numerators, strict=True)) if self.nrows else ((),) * self.ncols
+        return _made(self.ncols, self.nrows, columns, self.denominator)
+
+    def __getitem__(self, position: tuple[int, int]) -> Fraction:
+        """The entry in a row and a column, counted from 0; negative positions are refused."""
+        i, j = position
+        if not (0 <= i < self.nrows and 0 <= j < self.ncols):
+            raise IndexError(f"no entry ({i}, {j}) in a {self.nrows} × {self.ncols} matrix")
+        return Fraction(self.numerators[i][j], self.denominator)
+
+    def rows(self) -> tuple[tuple[Fraction, ...], ...]:
+        """The entries as Fractions; slower than `numerators` for large matrices."""
+        return tuple(
+            tuple(Fraction(entry, self.denominator) for entry in row) for row in self.numerators
+        )
+
+    def take(self, rows: Sequence[int] | None = None, cols: Sequence[int] | None = None) -> Matrix:
+        """The submatrix with these rows and columns, in the order given; None takes all.
+
+        Examples
+        --------
+        >>> Matrix.identity(3).take(rows=[2, 0]).numerators
+        ((0, 0, 1), (1, 0, 0))
+        """
+        for chosen, size, name in ((rows, self.nrows, "row"), (cols, self.ncols, "column")):
+            for k in chosen or ():
+                if not 0 <= k < size:
+                    raise IndexError(f"no {name} {k} in a {self.nrows} × {self.ncols} matrix")
+        table = self.numerators if rows is None else tuple(self.numerators[i] for i in rows)
+        if cols is not None:
+            table = tuple(tuple(row[j] for j in cols) for row in table)
+        return lowest_terms(
+            len(table), self.ncols if cols is None else len(cols), table, self.denominator
+        )
+
+    def is_zero(self) -> bool:
+        """Whether every entry is 0; true without entries."""
+        return not any(map(any, self.numerators))
+
+    def is_square(self) -> bool:
+        """Whether there are as many rows as columns."""
+        return self.nrows == self.ncols
+
+    def __add__(self, other: Matrix) -> Matrix:
+        return self._combined(other, 1)
+
+    def __sub__(self, other: Matrix) -> Matrix:
+        return self._combined(other, -1)
+
+    def _combined(self, other: Matrix, sign: int) -> Matrix:
+        if not isinstance(other, Matrix):
+            return NotImplemented
+        if self.shape != other.shape:
+            raise _shapes_do_not_match("+" if sign > 0 else "-", self, other)
+        denominator = math.lcm(self.denominator, other.denominator)
+        a, b = denominator // self.denominator, sign * (denominator // other.denominator)
+        table = tuple(
+            tuple(a * x + b * y for x, y in zip(row, addend, strict=True))
+            for row, addend in zip(self.numerators, other.numerators, strict=True)
+        )
+        return lowest_terms(self.nrows, self.ncols, table, denominator)
+
+    def __neg__(self) -> Matrix:
+        table = tuple(tuple(-entry for entry in row) for row in self.numerators)
+        return _made(self.nrows, self.ncols, table, self.denominator)
+
+    def __matmul__(self, other: Matrix) -> Matrix:
+        if not isinstance(other, Matrix):
+            return NotImplemented
+        if self.ncols != other.nrows:
+            raise _shapes_do_not_match("@", self, other)
+        return from_flint(self._integer * other._integer, self.denominator * other.denominator)
+
+    def __mul__(self, factor: int | Fraction) -> Matrix:
+        if isinstance(factor, bool) or not isinstance(factor, (int, Fraction)):
+            return NotImplemented
+        p, q = factor.numerator, factor.denominator
+        table = tuple(tuple(p * entry for entry in row) for row in self.numerators)
+        return lowest_terms(self.nrows, self.ncols, table, q * self.denominator)
+
+    __rmul__ = __mul__
+
+    def power(self, k: int) -> Matrix:
+        """The k-th power of a square matrix, k ≥ 0."""
+        if not self.is_square():
+            raise InputError(f"expected a square matrix, found {self.nrows} × {self.ncols}")
+        if type(k) is not int or k < 0:
+            raise InputError(f"expected an exponent that is at least 0, found {k!r}")
+        result = Matrix.identity(self.nrows)
+        for bit in bin(k)[2:]:
+            result = result @ result
+            if bit == "1":
+                result = result @ self
+        return result
+
+    def trace(self) -> Fraction:
+        """The sum of the diagonal entries of a square matrix."""
+        if not self.is_square():
+            raise InputError(f"expected a square matrix, found {self.nrows} × {self.ncols}")
+        return Fraction(sum(self.numerators[i][i] for i in range(self.nrows)), self.denominator)
+
+    @cached_property
+    def _integer(self) -> flint.fmpz_mat:
+        """The numerators for flint; shared, so never to be changed by anyone."""
+        return flint.fmpz_mat(self.nrows, self.ncols, [x for row in self.numerators for x in row])
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: self.__dict__[name] for name in self.__dataclass_fields__}
+
+    def __repr__(self) -> str:
+        rows = ", ".join("[" + ", ".join(map(str, row)) + "]" for row in self.rows())
+        shape = "" if self.nrows and self.ncols else f", shape={self.shape}"
+        return f"Matrix([{rows}]{shape})"
+
+
+def _items(rows: Any, where: str | None) -> Iterable[Any]:
+    if isinstance(rows, (str, bytes, dict)) or not isinstance(rows, Iterable):
+        raise InputError(
+            f"expected a list of rows, each a list of numbers, found {type(rows).__name__}",
+            where=where,
+        )
+    return rows
+
+
+def _content(numerators: Rows, denominator: int) -> int:
+    """The greatest common divisor of the denominator and all numerators."""
+    content = denominator
+    for row in numerators:
+        content = math.gcd(content, *row)
+        if content == 1:
+            break
+    return content
+
+
+def _made(nrows: int, ncols: int, numerators: Rows, denominator: int) -> Matrix:
+    """A matrix from parts known to be valid; `__post_init__` would look at every entry again."""
+    made = object.__new__(Matrix)
+    made.__dict__.update(nrows=nrows, ncols=ncols, numerators=numerators, denominator=denominator)
+    return made
+
+
+def lowest_terms(nrows: int, ncols: int, numerators: Rows, denominator: int) -> Matrix:
+    """The matrix numerators / denominator in lowest terms; the parts are valid, denominator ≠ 0."""
+    content = _content(numerators, abs(denominator))
+    if denominator < 0:
+        content = -content
+    if content != 1:
+        numerators = tuple(tuple(entry // content for entry in row) for row in numerators)
+    return _made(nrows, ncols, numerators, denominator // content)
+
+
+def from_flint(table: flint.fmpz_mat, denominator: int = 1) -> Matrix:
+    """The matrix table / denominator, denominator ≠ 0."""
+    nrows, ncols = table.nrows(), table.ncols()
+    entries = tuple(map(int, table.entries()))
+    rows = tuple(entries[i * ncols : (i + 1) * ncols] for i in range(nrows))
+    return lowest_terms(nrows, ncols, rows, denominator)
+
+
+def _shapes_do_not_match(operation: str, a: Matrix, b: Matrix) -> InputError:
+    return InputError(
+        f"shapes do not match: {a.nrows} × {a.ncols} {operation} {b.nrows} × {b.ncols}"
+    )
+
+
+def hstack(matrices: Sequence[Matrix], nrows: int | None = None) -> Matrix:
+    """The matrices beside each other, [M1 M2 …].
+
+    Parameters
+    ----------
+    matrices : sequence of Matrix
+        All with the same number of rows.
+    nrows : int, optional
+        That number, needed where there may be no matrix at all.
+
+    Examples
+    --------
+    >>> hstack([Matrix.identity(2), Matrix.column([5, 6])]).numerators
+    ((1, 0, 5), (0, 1, 6))
+    >>> hstack([], nrows=2).shape
+    (2, 0)
+    """
+    height = _common(matrices, [M.nrows for M in matrices], nrows, "rows", "hstack")
+    tables, denominator = _over_one_denominator(matrices)
+    rows = tuple(tuple(entry for table in tables for entry in table[i]) for i in range(height))
+    return lowest_terms(height, sum(M.ncols for M in matrices), rows, denominator)
+
+
+def vstack(matrices: Sequence[Matrix], ncols: int | None = None) -> Matrix:
+    """The matrices below each other; all have the same number of columns (see `hstack`)."""
+    width = _common(matrices, [M.ncols for M in matrices], ncols, "columns", "vstack")
+    tables, denominator = _over_one_denominator(matrices)
+    rows = tuple(row for table in tables for row in table)
+    return lowest_terms(len(rows), width, rows, denominator)
+
+
+def block(rows: Sequence[Sequence[Matrix]]) -> Matrix:
+    """The matrix assembled from rows of blocks.
+
+    At least one row of blocks, each with at least one block.
+
+    Examples
+    --------
+    >>> I = Matrix.identity(1)
+    >>> block([[I, 2 * I], [3 * I, 4 * I]]).numerators
+    ((1, 2), (3, 4))
+    """
+    if not rows:
+        raise InputError("block: expected at least one row of blocks")
+    return vstack([hstack(row) for row in rows])
+
+
+def block_diagonal(matrices: Sequence[Matrix]) -> Matrix:
+    """The matrix diag(M1, M2, …); blocks without rows or columns keep their place.
+
+    Examples
+    --------
+    >>> block_diagonal([Matrix.identity(1), Matrix.zeros(0, 2), Matrix.identity(1)]).numerators
+    ((1, 0, 0, 0), (0, 0, 0, 1))
+    """
+    tables, denominator = _over_one_denominator(matrices)
+    width = sum(M.ncols for M in matrices)
+    rows: list[tuple[int, ...]] = []
+    left = 0
+    for M, table in zip(matrices, tables, strict=True):
+        right = width - left - M.ncols
+        rows += [(0,) * left + row + (0,) * right for row in table]
+        left += M.ncols
+    return lowest_terms(len(rows), width, tuple(rows), denominator)
+
+
+def kronecker(A: Matrix, B: Matrix) -> Matrix:
+    """The Kronecker product, the block matrix of all a_ij B.
+
+    Examples
+    --------
+    >>> kronecker(Matrix.from_rows([[1, 2]]), Matrix.identity(2)).numerators
+    ((1, 0, 2, 0), (0, 1, 0, 2))
+    """
+    rows = tuple(
+        tuple(a * b for a in upper for b in lower)
+        for upper in A.numerators
+        for lower in B.numerators
+    )
+    return lowest_terms(A.nrows * B.nrows, A.ncols * B.ncols, rows, A.denominator * B.denominator)
+
+
+def _common(
+    matrices: Sequence[Matrix], sizes: list[int], given: int | None, name: str, caller: str
+) -> int:
+    found = set(sizes) | (set() if given is None else {given})
+    if not found:
+        raise InputError(f"{caller}: expected at least one matrix, or the number of {name}")
+    if len(found) > 1:
+        raise InputError(f"{caller}: expected equal numbers of {name}, found {sorted(found)}")
+    return found.pop()
+
+
+def _over_one_denominator(matrices: Sequence[Matrix]) -> tuple[list[Rows], int]:
+    denominator = math.lcm(*(M.denominator for M in matrices))
+    tables = []
+    for M in matrices:
+        factor = denominator // M.denominator
+        if factor == 1:
+            tables.append(M.numerators)
+        else:
+            tables.append(tuple(tuple(factor * entry for entry in row) for row in M.numerators))
+    return tables, denominator

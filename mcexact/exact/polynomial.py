@@ -1,0 +1,353 @@
+"""Polynomials in one variable over the rational numbers."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+import flint
+
+from mcexact.errors import InputError
+from mcexact.exact.rational import Entry, as_fraction, written
+
+
+@dataclass(frozen=True)
+class Polynomial:
+    """A polynomial c_0 + c_1 x + … + c_d x^d with rational coefficients.
+
+    Parameters
+    ----------
+    coefficients : tuple of Fraction
+        Constant term first, the last one not 0; () is the zero polynomial.  `of` takes any exact
+        entries and drops zeros at the end.
+
+    Examples
+    --------
+    >>> p = Polynomial.of(-2, 0, 1)
+    >>> str(p), p.degree, p(Fraction(3, 2))
+    ('x^2 - 2', 2, Fraction(1, 4))
+    >>> [(str(q), e) for q, e in (p * p * Polynomial.of(1, 1)).factor()]
+    [('x + 1', 1), ('x^2 - 2', 2)]
+    """
+
+    coefficients: tuple[Fraction, ...]
+
+    def __post_init__(self) -> None:
+        if type(self.coefficients) is not tuple or not all(
+            type(c) is Fraction for c in self.coefficients
+        ):
+            raise InputError("expected a tuple of Fractions; use Polynomial.of")
+        if self.coefficients and not self.coefficients[-1]:
+            raise InputError("expected a last coefficient that is not 0; use Polynomial.of")
+
+    @classmethod
+    def of(cls, *coefficients: Entry) -> Polynomial:
+        """The polynomial with these coefficients, constant term first."""
+        return cls.from_coefficients(coefficients)
+
+    @classmethod
+    def from_coefficients(
+        cls, coefficients: Iterable[Entry], *, where: str | None = None
+    ) -> Polynomial:
+        """The polynomial with a list of exact coefficients, constant term first."""
+        entries = [as_fraction(c, where=where) for c in coefficients]
+        while entries and not entries[-1]:
+            entries.pop()
+        return cls(tuple(entries))
+
+    @classmethod
+    def from_roots(cls, roots: Iterable[Entry]) -> Polynomial:
+        """The monic polynomial with these rational roots, repeated as given."""
+        return product(cls((-as_fraction(root), Fraction(1))) for root in roots)
+
+    @classmethod
+    def constant(cls, value: Entry) -> Polynomial:
+        """A constant."""
+        return cls.of(value)
+
+    @classmethod
+    def x(cls) -> Polynomial:
+        """The variable."""
+        return cls.of(0, 1)
+
+    @property
+    def degree(self) -> int:
+        """The degree; −1 for the zero polynomial."""
+        return len(self.coefficients) - 1
+
+    @property
+    def leading(self) -> Fraction:
+        """The last coefficient; 0 for the zero polynomial."""
+        return self.coefficients[-1] if self.coefficients else Fraction(0)
+
+    def is_zero(self) -> bool:
+        """Whether this is the zero polynomial."""
+        return not self.coefficients
+
+    def is_monic(self) -> bool:
+        """Whether the leading coefficient is 1."""
+        return self.leading == 1
+
+    @cached_property
+    def denominator(self) -> int:
+        """The least common denominator of the coefficients."""
+        return math.lcm(*(c.denominator for c in self.coefficients))
+
+    @cached_property
+    def numerators(self) -> tuple[int, ...]:
+        """The coefficients times `denominator`."""
+        d = self.denominator
+        return tuple(c.numerator * (d // c.denominator) for c in self.coefficients)
+
+    @cached_property
+    def _integer(self) -> flint.fmpz_poly:
+        """The numerators for flint; shared, so never to be changed by anyone."""
+        return flint.fmpz_poly(list(self.numerators))
+
+    @property
+    def _rational(self) -> flint.fmpq_poly:
+        return flint.fmpq_poly(self._integer, self.denominator)
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {"coefficients": self.coefficients}
+
+    def monic(self) -> Polynomial:
+        """This polynomial divided by its leading coefficient; refuses 0."""
+        if self.is_zero():
+            raise InputError("the zero polynomial has no monic multiple")
+        lead = self.leading
+        return self if lead == 1 else Polynomial(tuple(c / lead for c in self.coefficients))
+
+    def derivative(self) -> Polynomial:
+        """The derivative."""
+        return Polynomial(tuple(k * c for k, c in enumerate(self.coefficients))[1:])
+
+    def __call__(self, value: Fraction | int) -> Fraction:
+        """The value at a rational number.
+
+        The numerator is accumulated in integers, which spares a greatest common divisor per step.
+        """
+        if not self.coefficients:
+            return Fraction(0)
+        p, q = value.numerator, value.denominator
+        total, power = 0, 1
+        for c in reversed(self.numerators):
+            total = total * p + c * power
+            power *= q
+        return Fraction(total, self.denominator * (power // q))
+
+    def _coerced(self, other: Any) -> Polynomial | None:
+        if isinstance(other, Polynomial):
+            return other
+        if isinstance(other, (int, Fraction)) and not isinstance(other, bool):
+            return Polynomial.of(other)
+        return None
+
+    def __add__(self, other: Polynomial | int | Fraction) -> Polynomial:
+        addend = self._coerced(other)
+        return (
+            NotImplemented if addend is None else _from_rational(self._rational + addend._rational)
+        )
+
+    __radd__ = __add__
+
+    def __sub__(self, other: Polynomial | int | Fraction) -> Polynomial:
+        addend = self._coerced(other)
+        return (
+            NotImplemented if addend is None else _from_rational(self._rational - addend._rational)
+        )
+
+    def __rsub__(self, other: int | Fraction) -> Polynomial:
+        return -self + other
+
+    def __neg__(self) -> Polynomial:
+        return Polynomial(tuple(-c for c in self.coefficients))
+
+    def __mul__(self, other: Polynomial | int | Fraction) -> Polynomial:
+        factor = self._coerced(other)
+        return (
+            NotImplemented if factor is None else _from_rational(self._rational * factor._rational)
+        )
+
+    __rmul__ = __mul__
+
+    def __pow__(self, exponent: int) -> Polynomial:
+        if type(exponent) is not int or exponent < 0:
+            raise InputError(f"expected an exponent that is at least 0, found {exponent!r}")
+        result, square = Polynomial.of(1), self
+        while exponent:
+            if exponent & 1:
+                result = result * square
+            exponent >>= 1
+            square = square * square if exponent else square
+        return result
+
+    def __divmod__(self, other: Polynomial) -> tuple[Polynomial, Polynomial]:
+        if not isinstance(other, Polynomial):
+            return NotImplemented
+        if other.is_zero():
+            raise ZeroDivisionError("division by the zero polynomial")
+        quotient, remainder = divmod(self._rational, other._rational)
+        return _from_rational(quotient), _from_rational(remainder)
+
+    def __floordiv__(self, other: Polynomial) -> Polynomial:
+        return divmod(self, other)[0]
+
+    def __mod__(self, other: Polynomial) -> Polynomial:
+        return divmod(self, other)[1]
+
+    def divides(self, other: Polynomial) -> bool:
+        """Whether other is a multiple of this polynomial."""
+        if self.is_zero():
+            return other.is_zero()
+        return (other % self).is_zero()
+
+    def multiplicity_in(self, other: Polynomial) -> int:
+        """The largest e with this polynomial to the e dividing other.
+
+        This polynomial has degree at least 1, other is not 0.
+        """
+        if self.degree < 1 or other.is_zero():
+            raise InputError("expected a divisor of degree at least 1 and a nonzero polynomial")
+        count = 0
+        quotient, remainder = divmod(other, self)
+        while remainder.is_zero():
+            count += 1
+            quotient, remainder = divmod(quotient, self)
+        return count
+
+    def gcd(self, other: Polynomial) -> Polynomial:
+        """The monic greatest common divisor; 0 only of two zeros."""
+        return _from_rational(self._rational.gcd(other._rational))
+
+    def squarefree_part(self) -> Polynomial:
+        """The monic product of the distinct irreducible factors; refuses 0."""
+        p = self.monic()
+        return (p // p.gcd(p.derivative())).monic() if p.degree > 0 else p
+
+    def is_squarefree(self) -> bool:
+        """Whether no factor of degree at least 1 occurs twice; false for 0."""
+        return not self.is_zero() and self.gcd(self.derivative()).degree <= 0
+
+    def factor(self) -> list[tuple[Polynomial, int]]:
+        """The monic irreducible factors over Q with their multiplicities.
+
+        Sorted by degree, then by coefficients.  Constants have none; 0 is refused.
+        """
+        if self.is_zero():
+            raise InputError("the zero polynomial has no factorization")
+        _, factors = self._integer.factor()
+        found = [
+            (_from_rational(flint.fmpq_poly(factor)).monic(), int(multiplicity))
+            for factor, multiplicity in factors
+        ]
+        return sorted(found, key=lambda pair: (pair[0].degree, pair[0].coefficients))
+
+    def is_irreducible(self) -> bool:
+        """Whether the degree is at least 1 and there is no proper factor over Q."""
+        if self.degree < 1:
+            return False
+        factors = self.factor()
+        return len(factors) == 1 and factors[0][1] == 1
+
+    def compose_shift(self, a: Fraction | int) -> Polynomial:
+        """p(x + a)."""
+        return _from_rational(self._rational(flint.fmpq_poly([_fmpq(a), 1])))
+
+    def scale(self, a: Fraction | int) -> Polynomial:
+        """p(a x)."""
+        power, scaled = Fraction(1), []
+        for c in self.coefficients:
+            scaled.append(c * power)
+            power *= a
+        return Polynomial.from_coefficients(scaled)
+
+    def compose(self, other: Polynomial) -> Polynomial:
+        """p(q(x)) for q the other polynomial."""
+        return _from_rational(self._rational(other._rational))
+
+    def reversed(self) -> Polynomial:
+        """x^d p(1/x), d the degree: the coefficients in the opposite order."""
+        return Polynomial.from_coefficients(self.coefficients[::-1])
+
+    def as_json(self) -> list[int | str]:
+        """The coefficients as certificates write them: integers or ``"p/q"``.
+
+        Examples
+        --------
+        >>> Polynomial.of("1/2", -3).as_json()
+        ['1/2', -3]
+        """
+        return [written(c) for c in self.coefficients]
+
+    def __str__(self) -> str:
+        return _rendered(self, "x^{}", lambda c: str(abs(c)), "*")
+
+    def latex(self) -> str:
+        """LaTeX source.
+
+        Examples
+        --------
+        >>> print(Polynomial.of(1, "-1/2", 1).latex())
+        x^{2} - \\frac{1}{2} x + 1
+        """
+
+        def coefficient(c: Fraction) -> str:
+            p, q = abs(c.numerator), c.denominator
+            return str(p) if q == 1 else f"\\frac{{{p}}}{{{q}}}"
+
+        return _rendered(self, "x^{{{}}}", coefficient, " ")
+
+    def __repr__(self) -> str:
+        return f"Polynomial.of({', '.join(map(repr, self.as_json()))})"
+
+
+def product(polynomials: Iterable[Polynomial]) -> Polynomial:
+    """The product; 1 for none.
+
+    Examples
+    --------
+    >>> str(product([Polynomial.of(1, 1), Polynomial.of(-1, 1)]))
+    'x^2 - 1'
+    """
+    level = list(polynomials)
+    while len(level) > 1:
+        pairs = [a * b for a, b in zip(level[::2], level[1::2], strict=False)]
+        level = pairs + (level[-1:] if len(level) % 2 else [])
+    return level[0] if level else Polynomial.of(1)
+
+
+def _fmpq(value: Fraction | int) -> flint.fmpq:
+    return flint.fmpq(value.numerator, value.denominator)
+
+
+def _from_rational(p: flint.fmpq_poly) -> Polynomial:
+    """The polynomial that flint computed."""
+    denominator = int(p.denom())
+    return Polynomial(tuple(Fraction(int(c), denominator) for c in p.numer().coeffs()))
+
+
+def from_integer_coefficients(numerators: Iterable[int], denominator: int = 1) -> Polynomial:
+    """The polynomial Σ numerators[k] x^k / denominator."""
+    return Polynomial.from_coefficients([Fraction(int(c), denominator) for c in numerators])
+
+
+def _rendered(p: Polynomial, power: str, coefficient: Any, times: str) -> str:
+    """Terms from the highest power down, with signs between them."""
+    terms: list[str] = []
+    for k in range(p.degree, -1, -1):
+        c = p.coefficients[k]
+        if not c:
+            continue
+        variable = "" if k == 0 else "x" if k == 1 else power.format(k)
+        if abs(c) == 1 and variable:
+            body = variable
+        else:
+            body = coefficient(c) + (times + variable if variable else "")
+        sign = ("-" if c < 0 else "") if not terms else (" - " if c < 0 else " + ")
+        terms.append(sign + body)
+    return "".join(terms) or "0"

@@ -1,0 +1,283 @@
+"""One rational number: what may be an entry, how it is written, and the way in from a float."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from decimal import Decimal
+from fractions import Fraction
+from typing import Any, Literal
+
+from mcexact.errors import FloatRefused, InputError
+
+Entry = Any
+"""int, Fraction, Decimal, str in the written grammar, or a sympy Rational."""
+
+Rounding = Literal["decimal", "dyadic"]
+
+
+@dataclass(frozen=True)
+class Limits:
+    """How much input is read before it is refused.
+
+    Parameters
+    ----------
+    bytes : int
+        Length of a document.
+    depth : int
+        Nesting of a JSON document.
+    digits : int
+        Digits of one number, numerator and denominator counted separately.
+    exponent : int
+        Largest absolute value of a decimal exponent.
+    """
+
+    bytes: int = 64 * 2**20
+    depth: int = 16
+    digits: int = 4300
+    exponent: int = 1000
+
+
+DEFAULT_LIMITS = Limits()
+
+_NUMBER = re.compile(
+    r"(?P<sign>-?)(?:(?P<numerator>[0-9]+)/(?P<denominator>[0-9]+)"
+    r"|(?P<whole>[0-9]+)(?:\.(?P<decimals>[0-9]+))?(?:[eE](?P<exponent>[+-]?[0-9]+))?)",
+    re.ASCII,
+)
+_GRAMMAR = 'an integer, a decimal such as "-0.25" or "1e-3", or a quotient such as "1/3"'
+_TWO_WAYS_IN = (
+    "a float is not exact: write the number as an integer, a Fraction or a string such as "
+    '"0.25" or "1/3", or say how floats are to be read with '
+    'MultiChannelSystem.from_float(..., rounding="decimal" | "dyadic")'
+)
+# CPython refuses int() of longer digit strings; below it, conversion is quick enough.
+_CHUNK = 4000
+
+
+def parse_rational(
+    text: str, limits: Limits = DEFAULT_LIMITS, *, where: str | None = None
+) -> Fraction:
+    """Read one number as it is written: every decimal is the rational that it says.
+
+    Parameters
+    ----------
+    text : str
+        An optional minus sign and either ``p/q``, or digits with an optional decimal part and an
+        optional exponent.  ASCII only; no blanks, no plus sign in front, no underscores.
+    limits : Limits
+    where : str, optional
+        The place to name in an error.
+
+    Returns
+    -------
+    Fraction
+
+    Raises
+    ------
+    InputError
+        The text is not in the grammar, has a zero denominator, or exceeds a limit.
+
+    Examples
+    --------
+    >>> parse_rational("0.1"), parse_rational("-6/4"), parse_rational("25e-2")
+    (Fraction(1, 10), Fraction(-3, 2), Fraction(1, 4))
+    >>> parse_rational("1_000")
+    Traceback (most recent call last):
+    ...
+    mcexact.errors.InputError: expected an integer, a decimal such as "-0.25" or "1e-3", or a \
+quotient such as "1/3", found '1_000'
+    """
+    if len(text) > 2 * limits.digits + 16:
+        raise _too_long(limits, where)
+    match = _NUMBER.fullmatch(text)
+    if match is None:
+        raise InputError(f"expected {_GRAMMAR}, found {_shown(text)}", where=where)
+    sign = -1 if match["sign"] else 1
+    if match["numerator"] is not None:
+        if max(len(match["numerator"]), len(match["denominator"])) > limits.digits:
+            raise _too_long(limits, where)
+        denominator = _integer(match["denominator"])
+        if denominator == 0:
+            raise InputError(
+                f"the denominator is zero in {_shown(text)}; write a nonzero one", where=where
+            )
+        return Fraction(sign * _integer(match["numerator"]), denominator)
+    decimals = match["decimals"] or ""
+    if len(match["whole"]) + len(decimals) > limits.digits:
+        raise _too_long(limits, where)
+    exponent = _exponent(match["exponent"] or "0", limits, where)
+    mantissa = sign * _integer(match["whole"] + decimals)
+    power = exponent - len(decimals)
+    if power >= 0:
+        return Fraction(mantissa * 10**power)
+    return Fraction(mantissa, 10**-power)
+
+
+def _integer(digits: str) -> int:
+    """The integer that a string of ASCII digits of any length is."""
+    if len(digits) <= _CHUNK:
+        return int(digits)
+    half = len(digits) // 2
+    return _integer(digits[:-half]) * 10**half + _integer(digits[-half:])
+
+
+def _exponent(digits: str, limits: Limits, where: str | None) -> int:
+    significant = digits.lstrip("+-").lstrip("0")
+    if len(significant) > 18 or int(significant or "0") > limits.exponent:
+        raise InputError(
+            f"expected an exponent of at most {limits.exponent} in absolute value, "
+            f"found {_shown(digits)}; write the number with fewer digits or raise Limits.exponent",
+            where=where,
+        )
+    return int(digits)
+
+
+def _too_long(limits: Limits, where: str | None) -> InputError:
+    return InputError(
+        f"the number has more than {limits.digits} digits; shorten it or raise Limits.digits",
+        where=where,
+    )
+
+
+def _shown(text: str) -> str:
+    return repr(text) if len(text) <= 40 else f"{text[:37]!r}..."
+
+
+def as_fraction(entry: Entry, *, where: str | None = None) -> Fraction:
+    """The rational number that an entry is; floats and Booleans are refused.
+
+    Parameters
+    ----------
+    entry : int, Fraction, Decimal, str or sympy Rational
+        Integers of numpy count as int.
+    where : str, optional
+        The place to name in an error.
+
+    Raises
+    ------
+    FloatRefused
+        The entry is a float: the message names the two ways in.
+    InputError
+        The entry is not a rational number.
+
+    Examples
+    --------
+    >>> as_fraction("1/3") + as_fraction(2)
+    Fraction(7, 3)
+    >>> as_fraction(0.5)
+    Traceback (most recent call last):
+    ...
+    mcexact.errors.FloatRefused: a float is not exact: write the number as an integer, a Fraction \
+or a string such as "0.25" or "1/3", or say how floats are to be read with \
+MultiChannelSystem.from_float(..., rounding="decimal" | "dyadic")
+    """
+    if type(entry) is int:
+        return Fraction(entry)
+    if type(entry) is Fraction:
+        return entry
+    if isinstance(entry, str):
+        return parse_rational(entry, where=where)
+    kind = type(entry)
+    if isinstance(entry, bool) or kind.__name__ in ("bool_", "bool"):
+        raise InputError(f"expected a number, found the Boolean {entry!r}", where=where)
+    if isinstance(entry, (float, complex)) or _is_inexact(entry):
+        raise FloatRefused(_TWO_WAYS_IN, where=where)
+    if isinstance(entry, Decimal):
+        return _from_decimal(entry, where)
+    if isinstance(entry, (int, Fraction)):
+        return Fraction(int(entry.numerator), int(entry.denominator))
+    if hasattr(entry, "__index__"):
+        return Fraction(entry.__index__())
+    if getattr(entry, "is_Rational", False) is True:
+        return Fraction(int(entry.p), int(entry.q))
+    raise InputError(
+        f"expected a rational number ({_GRAMMAR}), found {_shown(repr(entry))} "
+        f"of type {kind.__name__}",
+        where=where,
+    )
+
+
+def _is_inexact(entry: Any) -> bool:
+    """Whether an entry is a numpy or sympy floating-point number."""
+    return getattr(getattr(entry, "dtype", None), "kind", "") in ("f", "c") or (
+        getattr(entry, "is_Float", False) is True
+    )
+
+
+def _from_decimal(entry: Decimal, where: str | None) -> Fraction:
+    if not entry.is_finite():
+        raise InputError(f"expected a finite number, found {entry!r}", where=where)
+    sign, digits, exponent = entry.as_tuple()
+    limit = DEFAULT_LIMITS.exponent
+    if not isinstance(exponent, int) or abs(exponent) > limit + DEFAULT_LIMITS.digits:
+        raise InputError(
+            f"expected a Decimal with an exponent of at most {limit} in absolute value, found "
+            f"exponent {exponent}; pass a Fraction instead",
+            where=where,
+        )
+    mantissa = _integer("".join(map(str, digits)) or "0") * (-1 if sign else 1)
+    return mantissa * Fraction(10) ** exponent
+
+
+def from_float(x: float, rounding: Rounding, *, where: str | None = None) -> Fraction:
+    """The rational number that a float is taken for: one of the two crossings.
+
+    Parameters
+    ----------
+    x : float
+        Finite; a numpy floating-point scalar will do.
+    rounding : {"decimal", "dyadic"}
+        "decimal" reads the shortest decimal that prints the float (0.1 is 1/10), "dyadic" the
+        binary fraction that is stored.
+
+    Raises
+    ------
+    InputError
+        The number is not finite, or the rounding is unknown.
+
+    Examples
+    --------
+    >>> from_float(0.1, "decimal")
+    Fraction(1, 10)
+    >>> from_float(0.1, "dyadic")
+    Fraction(3602879701896397, 36028797018963968)
+    """
+    if rounding not in ("decimal", "dyadic"):
+        raise InputError(
+            f'expected rounding "decimal" or "dyadic", found {rounding!r}', where=where
+        )
+    value = float(x)
+    if not math.isfinite(value):
+        raise InputError(f"expected a finite number, found {value!r}", where=where)
+    if rounding == "dyadic":
+        return Fraction(value)
+    return Fraction(repr(value))
+
+
+def to_float(q: Fraction) -> float:
+    """The float nearest to a rational number: the other crossing.
+
+    A number beyond the range of floats becomes an infinity of its sign.
+
+    Examples
+    --------
+    >>> to_float(Fraction(1, 3))
+    0.3333333333333333
+    """
+    try:
+        return q.numerator / q.denominator
+    except OverflowError:
+        return math.inf if q > 0 else -math.inf
+
+
+def written(q: Fraction) -> int | str:
+    """A rational number as certificates write it: an integer, or ``"p/q"`` in lowest terms.
+
+    Examples
+    --------
+    >>> written(Fraction(3)), written(Fraction(-1, 2))
+    (3, '-1/2')
+    """
+    return q.numerator if q.denominator == 1 else f"{q.numerator}/{q.denominator}"
