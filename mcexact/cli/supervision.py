@@ -8,6 +8,7 @@ behind.
 from __future__ import annotations
 
 import contextlib
+import faulthandler
 import multiprocessing
 import os
 import pickle
@@ -110,6 +111,7 @@ def _child(
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     _end_with_parent()
     # What compiled code says before it aborts is not for the user, who gets one message.
+    faulthandler.disable()
     silence = os.open(os.devnull, os.O_WRONLY)
     os.dup2(silence, 1)
     os.dup2(silence, 2)
@@ -163,11 +165,12 @@ def _lost(exit_code: int | None, doing: str, max_memory: int | None) -> McexactE
 
 
 def _out_of_memory(doing: str, max_memory: int | None) -> LimitReached:
-    limit = "the memory" if max_memory is None else f"the memory limit of {max_memory} MiB"
+    """What to say when memory was not enough."""
+    if max_memory is None:
+        return LimitReached(f"the memory was exhausted while {doing}; nothing has been decided")
     return LimitReached(
-        f"{limit} was exhausted while {doing}; nothing has been decided (--max-memory allows more)"
-        if max_memory is not None
-        else f"{limit} was exhausted while {doing}; nothing has been decided"
+        f"the memory limit of {max_memory} MiB was exhausted while {doing}; "
+        "nothing has been decided (--max-memory allows more)"
     )
 
 

@@ -1,0 +1,101 @@
+"""Long work can be limited and interrupted at any moment, also inside compiled code."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+from mcexact.cli.supervision import supervised
+from mcexact.errors import Impossible, InputError, InternalError, LimitReached
+
+
+def deaf(digits: int) -> int:
+    """One call of compiled code that listens to no signal."""
+    return (10**digits) // (3**digits)
+
+
+def double(number: int) -> int:
+    return 2 * number
+
+
+def refuse(certificate: str) -> None:
+    raise Impossible("there is none", certificate, where="plant.json")
+
+
+def stumble() -> None:
+    raise KeyError("surprise")
+
+
+def read_badly() -> None:
+    raise InputError("expected 4 rows, found 3", where="channels[2].B")
+
+
+def allocate(mebibytes: int) -> int:
+    return len(bytearray(mebibytes << 20))
+
+
+def abort() -> None:
+    os.abort()
+
+
+def test_the_result_comes_back() -> None:
+    assert supervised(double, 21, doing="doubling") == 42
+
+
+def test_an_error_comes_back_with_what_it_carries() -> None:
+    with pytest.raises(Impossible, match=r"plant\.json: there is none") as caught:
+        supervised(refuse, "why", doing="refusing")
+    assert caught.value.certificate == "why"
+    with pytest.raises(InputError, match=r"channels\[2\]\.B: expected 4 rows, found 3"):
+        supervised(read_badly, doing="reading")
+
+
+def test_an_error_that_was_not_intended_is_an_internal_error() -> None:
+    with pytest.raises(InternalError, match=r"KeyError.*surprise.*test_supervision"):
+        supervised(stumble, doing="stumbling")
+
+
+def test_compiled_code_that_aborts_is_an_internal_error() -> None:
+    with pytest.raises(InternalError, match="while aborting"):
+        supervised(abort, doing="aborting")
+
+
+def test_a_time_limit_ends_compiled_code() -> None:
+    start = time.monotonic()
+    with pytest.raises(LimitReached, match=r"time limit of 0\.2 s was reached while dividing"):
+        supervised(deaf, 10**9, doing="dividing", timeout=0.2)
+    assert time.monotonic() - start < 2
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="there the limit is defined")
+def test_a_memory_limit_is_reached_and_one_that_suffices_is_not() -> None:
+    with pytest.raises(LimitReached, match="memory limit of 50 MiB was exhausted while filling"):
+        supervised(allocate, 200, doing="filling", max_memory=50)
+    assert supervised(allocate, 20, doing="filling", max_memory=50) == 20 << 20
+
+
+def test_an_interrupt_ends_compiled_code_within_two_seconds() -> None:
+    script = (
+        "from mcexact.cli.supervision import supervised\n"
+        "from tests.cli.test_supervision import deaf\n"
+        "print('ready', flush=True)\n"
+        "supervised(deaf, 10**9, doing='dividing')\n"
+    )
+    with subprocess.Popen(
+        [sys.executable, "-c", script],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        cwd=os.getcwd(),
+    ) as process:
+        if process.stdout is None:
+            raise RuntimeError("no standard output")
+        process.stdout.readline()
+        time.sleep(0.3)
+        start = time.monotonic()
+        process.send_signal(signal.SIGINT)
+        process.wait(timeout=10)
+        assert time.monotonic() - start < 2
+        assert process.returncode == -signal.SIGINT
