@@ -1,0 +1,263 @@
+(* checker/evidence.py: shrunk subspaces and zero transfers, the evidence that several kinds share.
+
+   A shrunk subspace (T, U, V) of deficiency d for p: modulo p, (xI - A) U = B_T V and C_i U = 0
+   for i outside T; some rows of U are an identity modulo p; the columns of U number at least
+   rank B_T + d (rank over the field of the data). *)
+From mathcomp Require Import all_ssreflect all_algebra.
+From mcexact Require Import multichannel.
+Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
+Import GRing.Theory.
+Local Open Scope ring_scope.
+
+Lemma rank_count (r u n b d : nat) : (r + u - n <= b -> b + d <= u -> r + d <= n)%N.
+Proof.
+rewrite leq_subLR => h1 h2; rewrite -(leq_add2r b) -addnA [(d + b)%N]addnC.
+by apply: leq_trans h1; rewrite leq_add2l.
+Qed.
+
+Section Stacks.
+Variables (R : comRingType) (n m : nat) (p q : 'I_m -> nat).
+Implicit Types (S : multichannel R n p q) (T : {set 'I_m}).
+
+Lemma inputsE S T u (X : forall i, 'M[R]_(p i, u)) :
+  (forall i, i \notin T -> X i = 0) -> \sum_i mcB S i *m X i = inputs S T *m \mxcol_i X i.
+Proof.
+move=> X0; rewrite mul_mxrow_mxcol; apply: eq_bigr => i _.
+by case: ifPn => // /X0->; rewrite !mulmx0.
+Qed.
+
+Lemma outputs_eq0 S T u (U : 'M[R]_(n, u)) :
+  outputs S T *m U = 0 <-> (forall i, i \in T -> mcC S i *m U = 0).
+Proof.
+rewrite /outputs mxcol_mul; split=> [/mxcolP e i iT | e].
+  by have := e i; rewrite mxcolK iT submxcol0.
+apply/mxcolP => i; rewrite mxcolK submxcol0; case: ifPn => [/e //|_]; exact: mul0mx.
+Qed.
+End Stacks.
+
+Section Map.
+Variables (R R' : ringType) (f : {rmorphism R -> R'}) (n m : nat) (p q : 'I_m -> nat).
+Implicit Types (S : multichannel R n p q).
+
+Lemma map_inputs S T : map_mx f (inputs S T) = inputs (map_system f S) T.
+Proof.
+apply/mxrowP=> i; rewrite mxrowK; have := mxrowK (fun i => if i \in T then mcB S i else 0) i.
+rewrite /inputs; move: (mxrow _) => M; rewrite /submxrow => e.
+by rewrite -map_mxsub e; case: ifP => //= _; rewrite map_mx0.
+Qed.
+
+Lemma map_outputs S T : map_mx f (outputs S T) = outputs (map_system f S) T.
+Proof.
+apply/mxcolP=> i; rewrite mxcolK; have := mxcolK (fun i => if i \in T then mcC S i else 0) i.
+rewrite /outputs; move: (mxcol _) => M; rewrite /submxcol => e.
+by rewrite -map_mxsub e; case: ifP => //= _; rewrite map_mx0.
+Qed.
+
+Lemma map_closed_loop S (F : gains R p q) :
+  map_mx f (closed_loop S F) = closed_loop (map_system f S) (fun i => map_mx f (F i)).
+Proof.
+rewrite /closed_loop map_mxD (map_mx_sum f); congr (_ + _).
+by apply: eq_bigr => i _; rewrite !map_mxM.
+Qed.
+
+Lemma map_pencil S s x : map_mx f (pencil S s x) = pencil (map_system f S) s (f x).
+Proof.
+by rewrite /pencil map_block_mx map_mxB map_scalar_mx map_inputs map_outputs map_mx0.
+Qed.
+End Map.
+
+Section Shrunk.
+Variables (L : fieldType) (n m : nat) (p q : 'I_m -> nat).
+Variables (S : multichannel L n p q) (lambda : L) (T : {set 'I_m}).
+
+(* At a point lambda of any field. *)
+Definition shrunk u (U : 'M[L]_(n, u)) (V : 'M[L]_(\sum_i p i, u)) :=
+  (lambda%:M - mcA S) *m U = inputs S T *m V /\ (forall i, i \notin T -> mcC S i *m U = 0).
+
+Variables (u : nat) (U : 'M[L]_(n, u)) (V : 'M[L]_(\sum_i p i, u)).
+Hypotheses (sh : shrunk U V) (fU : \rank U = u).
+
+Lemma shrunk_image (F : gains L p q) :
+  (lambda%:M - closed_loop S F) *m U =
+  inputs S T *m (V - \mxcol_i (F i *m mcC S i *m U)).
+Proof.
+have [e z] := sh; rewrite /closed_loop opprD addrA mulmxDl e mulmxBr; congr (_ + _).
+rewrite mulNmx mulmx_suml; congr (- _).
+rewrite -(@inputsE _ _ _ _ _ S T u (fun i => F i *m mcC S i *m U)).
+  by apply: eq_bigr => i _; rewrite !mulmxA.
+by move=> i /z e'; rewrite -mulmxA e' mulmx0.
+Qed.
+
+(* Rule "shrunk subspace": for every F, rank (lambda I - A_F) <= n - d. *)
+Theorem shrunk_rank d (F : gains L p q) : (\rank (inputs S T) + d <= u)%N ->
+  (\rank (lambda%:M - closed_loop S F)%R + d <= n)%N.
+Proof.
+have := mxrank_mul_min (lambda%:M - closed_loop S F) U.
+rewrite shrunk_image fU => h1.
+by move=> h; apply: rank_count (leq_trans h1 (mxrankM_maxl _ _)) h.
+Qed.
+
+(* The pencil of the paper's subset s, the complement of T, loses rank as well. *)
+Theorem shrunk_pencil_rank d : (\rank (inputs S T) + d <= u)%N ->
+  (\rank (pencil S (~: T) lambda) + d <= n)%N.
+Proof.
+have [e z] := sh; move=> h.
+have z' : outputs S (~: T) *m U = 0 by apply/outputs_eq0 => i; rewrite inE => /z.
+pose N := block_mx U 0 (- V) 1%:M : 'M_(n + \sum_i p i, u + \sum_i p i).
+have eN : pencil S (~: T) lambda *m N = block_mx 0 (inputs S T) 0 0.
+  by rewrite mulmx_block setCK e z' !mulmx0 !mul0mx mulmxN subrr !addr0 mulmx1 add0r.
+have rN : (u + \sum_i p i <= \rank N)%N.
+  rewrite -{1}fU -[X in (_ + X)%N](mxrank1 L) -rank_diag_block_mx.
+  apply: leq_trans (mxrankM_maxl _ (block_mx 1%:M 0 V 1%:M)).
+  by rewrite mulmx_block !mulmx1 !mul1mx !mulmx0 !mul0mx !addr0 add0r addNr.
+have := mxrank_mul_min (pencil S (~: T) lambda) N.
+rewrite eN block_mxEv row_mx0 rank_col_mx0 rank_row_0mx => h1.
+apply: rank_count h; apply: leq_trans h1; rewrite -(subnDr (\sum_i p i)%N) leq_sub2r//.
+by rewrite -addnA leq_add2l.
+Qed.
+End Shrunk.
+
+Section Dynamic.
+Variables (L : fieldType) (n m : nat) (p q k : 'I_m -> nat).
+Variables (S : multichannel L n p q) (lambda : L) (T : {set 'I_m}).
+Variables (u : nat) (U : 'M[L]_(n, u)) (V : 'M[L]_(\sum_i p i, u)).
+
+(* The same evidence for every dynamic channel controller.  U is enlarged by all states z_i, i in T;
+   nothing is assumed of the K_i, so lambda may be a pole of the controller. *)
+Theorem shrunk_dynamic_rank d (D : controllers L p q k) :
+  shrunk S lambda T U V -> \rank U = u -> (\rank (inputs S T) + d <= u)%N ->
+  (\rank (lambda%:M - dynamic_loop S D)%R + d <= n + \sum_i k i)%N.
+Proof.
+move=> sh fU h; have [_ z] := sh.
+pose Z : 'M[L]_(\sum_i k i) := \mxdiag_i (if i \in T then 1%:M else 0).
+pose Y12 : 'M[L]_(\sum_i p i, \sum_i k i) := \mxrow_j (submxrow 1%:M j *m ctG D j).
+pose Y : 'M_(\sum_i p i + \sum_i k i, u + \sum_i k i) :=
+  block_mx (V - \mxcol_i (ctF D i *m mcC S i *m U)) (- Y12)
+           (- \mxcol_i (ctL D i *m mcC S i *m U)) (lambda%:M - \mxdiag_i ctK D i).
+have e : (lambda%:M - dynamic_loop S D) *m block_mx U 0 0 Z = block_mx (inputs S T) 0 0 Z *m Y.
+  rewrite /dynamic_loop scalar_mx_block opp_block_mx add_block_mx !mulmx_block.
+  rewrite !mulmx0 !mul0mx !addr0 !add0r (shrunk_image sh); congr block_mx.
+  - rewrite mulNmx mulmxN; congr (- _); rewrite mul_mxrow_mxdiag mul_mxrow; apply: eq_mxrow => j.
+    rewrite mulmxA mul_submxrow mulmx1 mxrowK.
+    by case: ifP => _; rewrite ?mulmx1 ?mulmx0 ?mul0mx.
+  - rewrite mulNmx mulmxN; congr (- _); rewrite mxcol_mul mul_mxdiag_mxcol; apply: eq_mxcol => j.
+    by case: ifPn => [|/z zj]; rewrite ?mul1mx ?mul0mx// -mulmxA zj mulmx0.
+  - rewrite mulmxBl mulmxBr scalar_mxC; congr (_ - _).
+    rewrite /mxdiag !mul_mxblock_mxdiag; apply: eq_mxblock => i j.
+    case: eqVneq => [{j}<-|_]; last by rewrite !mul0mx.
+    by rewrite !conform_mx_id; case: ifP => _; rewrite ?mulmx1 ?mul1mx ?mulmx0 ?mul0mx.
+have := mxrank_mul_min (lambda%:M - dynamic_loop S D) (block_mx U 0 0 Z).
+rewrite e rank_diag_block_mx fU => h1.
+apply: rank_count (leq_trans h1 (mxrankM_maxl _ _)) _.
+by rewrite rank_diag_block_mx addnAC leq_add2r.
+Qed.
+End Dynamic.
+
+Section ModuloPolynomial.
+Variables (K L : fieldType) (f : {rmorphism K -> L}) (P : {poly K}).
+
+(* "exactly, modulo p": every entry of the difference is a multiple of p. *)
+Definition zero_modulo a b (M : 'M[{poly K}]_(a, b)) := forall i j, P %| M i j.
+
+(* The value of a polynomial over K at a point of L. *)
+Definition value (lambda : L) : {poly K} -> L := horner_eval lambda \o map_poly f.
+Canonical value_additive lambda := [additive of value lambda].
+Canonical value_rmorphism lambda := [rmorphism of value lambda].
+
+Lemma value_poly lambda r : value lambda r = (map_poly f r).[lambda]. Proof. by []. Qed.
+Lemma valueC lambda c : value lambda c%:P = f c.
+Proof. by rewrite value_poly map_polyC hornerC. Qed.
+Lemma valueX lambda : value lambda 'X = lambda.
+Proof. by rewrite value_poly map_polyX hornerX. Qed.
+
+Lemma value_const lambda a b (M : 'M[K]_(a, b)) :
+  map_mx (value lambda) (map_mx polyC M) = map_mx f M.
+Proof. by apply/matrixP=> i j; rewrite !mxE valueC. Qed.
+
+Lemma value_zero lambda a b (M : 'M[{poly K}]_(a, b)) :
+  root (map_poly f P) lambda -> zero_modulo M -> map_mx (value lambda) M = 0.
+Proof.
+move=> /rootP r0 z; apply/matrixP=> i j; rewrite !mxE value_poly.
+by have /dvdpP[c ->] := z i j; rewrite rmorphM hornerM r0 mulr0.
+Qed.
+End ModuloPolynomial.
+
+Section Certificate.
+Variables (K : fieldType) (n m : nat) (p q : 'I_m -> nat) (S : multichannel K n p q).
+
+(* The certificate: polynomial matrices U, V over K, and the rows `pivots`. *)
+Record shrunk_subspace (P : {poly K}) (T : {set 'I_m}) (d : nat) := ShrunkSubspace {
+  sh_u : nat;
+  sh_U : 'M[{poly K}]_(n, sh_u);
+  sh_V : 'M[{poly K}]_(\sum_i p i, sh_u);
+  sh_pivots : 'I_sh_u -> 'I_n;
+  sh_state : zero_modulo P (('X%:M - map_mx polyC (mcA S)) *m sh_U - map_mx polyC (inputs S T) *m sh_V);
+  sh_output : forall i, i \notin T -> zero_modulo P (map_mx polyC (mcC S i) *m sh_U);
+  sh_identity : zero_modulo P (rowsub sh_pivots sh_U - 1%:M);
+  sh_count : (\rank (inputs S T) + d <= sh_u)%N }.
+
+Arguments sh_state {P T d} _ _ _.
+Arguments sh_output {P T d} _ _ _ _ _.
+Arguments sh_identity {P T d} _ _ _.
+
+Variables (P : {poly K}) (T : {set 'I_m}) (d : nat) (E : shrunk_subspace P T d).
+Variables (L : fieldType) (f : {rmorphism K -> L}) (lambda : L).
+Hypothesis root_lambda : root (map_poly f P) lambda.
+
+Let U := map_mx (value f lambda) (sh_U E).
+Let V := map_mx (value f lambda) (sh_V E).
+
+Lemma certificate_shrunk : shrunk (map_system f S) lambda T U V.
+Proof.
+split=> [|i iT].
+  have := value_zero root_lambda (sh_state E).
+  rewrite map_mxB !map_mxM map_mxB map_scalar_mx /= valueX !value_const map_inputs => /eqP.
+  by rewrite subr_eq0 => /eqP.
+by have := value_zero root_lambda (sh_output E i iT); rewrite map_mxM value_const.
+Qed.
+
+Lemma certificate_free : \rank U = sh_u E.
+Proof.
+have := value_zero root_lambda (sh_identity E); rewrite map_mxB map_mx1 => /eqP.
+rewrite subr_eq0 => /eqP e; apply/eqP; rewrite eqn_leq rank_leq_col /=.
+rewrite -[X in (X <= _)%N](mxrank1 L) -e map_mxsub mxrankS//; exact: rowsub_sub.
+Qed.
+
+Lemma certificate_count : (\rank (inputs (map_system f S) T) + d <= sh_u E)%N.
+Proof. by rewrite -map_inputs mxrank_map sh_count. Qed.
+
+(* Rule "shrunk subspace": static gains over every extension field L of the field of the data. *)
+Theorem shrunk_subspace_rank (F : gains L p q) :
+  (\rank (lambda%:M - closed_loop (map_system f S) F)%R + d <= n)%N.
+Proof. exact: (shrunk_rank certificate_shrunk certificate_free F certificate_count). Qed.
+
+(* The same rule for the paper's pencil, s the complement of T. *)
+Theorem shrunk_subspace_pencil :
+  (\rank (pencil (map_system f S) (~: T) lambda) + d <= n)%N.
+Proof. exact: (shrunk_pencil_rank certificate_shrunk certificate_free certificate_count). Qed.
+
+(* The same rule for dynamic channel controllers. *)
+Theorem shrunk_subspace_dynamic k (D : controllers L p q k) :
+  (\rank (lambda%:M - dynamic_loop (map_system f S) D)%R + d <= n + \sum_i k i)%N.
+Proof. exact: shrunk_dynamic_rank certificate_shrunk certificate_free certificate_count. Qed.
+
+Lemma eigenvalue_rank a (M : 'M[L]_a) : eigenvalue M lambda = (\rank (lambda%:M - M)%R < a)%N.
+Proof.
+rewrite /eigenvalue /eigenspace -mxrank_eq0 mxrank_ker subn_eq0 -ltnNge -opprB.
+by rewrite mxrank_opp.
+Qed.
+
+(* Every root of p is fixed, and remains so under dynamic channel controllers. *)
+Theorem shrunk_subspace_fixed : (0 < d)%N -> fixed (map_system f S) lambda.
+Proof.
+move=> d0 F; rewrite eigenvalue_rank (leq_trans _ (shrunk_subspace_rank F))//.
+by rewrite -[X in (X < _)%N]addn0 ltn_add2l.
+Qed.
+
+Theorem shrunk_subspace_fixed_dynamic k (D : controllers L p q k) : (0 < d)%N ->
+  eigenvalue (dynamic_loop (map_system f S) D) lambda.
+Proof.
+move=> d0; rewrite eigenvalue_rank (leq_trans _ (shrunk_subspace_dynamic D))//.
+by rewrite -[X in (X < _)%N]addn0 ltn_add2l.
+Qed.
+End Certificate.
