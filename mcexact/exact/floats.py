@@ -1,0 +1,90 @@
+"""Arrays of floats to rational matrices and back: the two crossings, entry by entry."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from mcexact.errors import InputError
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.rational import Rounding, from_float, to_float
+
+
+def matrix_from_float(
+    M: Any, rounding: Rounding = "decimal", *, where: str | None = None
+) -> Matrix:
+    """The rational matrix that a matrix of floats is taken for.
+
+    Parameters
+    ----------
+    M : array_like, r × c
+        A real two-dimensional array, or a list of rows of numbers.  Integers stay what they are.
+    rounding : {"decimal", "dyadic"}
+        See `from_float`.
+    where : str, optional
+        The place to name in an error.
+
+    Raises
+    ------
+    InputError
+        The array is not a real two-dimensional one, or holds an infinity or NaN.
+
+    Examples
+    --------
+    >>> matrix_from_float([[0.1, 2.0]]).rows()
+    ((Fraction(1, 10), Fraction(2, 1)),)
+    """
+    if hasattr(M, "toarray"):
+        M = M.toarray()
+    array = np.asarray(M) if hasattr(M, "__array__") else _array(M, where)
+    if array.ndim != 2:
+        raise InputError(
+            f"expected a two-dimensional array, found {array.ndim} dimensions", where=where
+        )
+    if array.dtype.kind not in "fiu" and array.size:
+        raise InputError(
+            f"expected an array of real numbers, found dtype {array.dtype}", where=where
+        )
+    rows = [
+        [
+            entry
+            if isinstance(entry, int)
+            else from_float(entry, rounding, where=f"{where or ''}[{i}][{j}]")
+            for j, entry in enumerate(row)
+        ]
+        for i, row in enumerate(array.tolist())
+    ]
+    return Matrix.from_rows(rows, ncols=array.shape[1])
+
+
+def _array(rows: Any, where: str | None) -> npt.NDArray[Any]:
+    """A list of rows as an array; numpy would turn ragged rows or text into something else."""
+    if isinstance(rows, (str, bytes, dict)) or not isinstance(rows, Iterable):
+        raise InputError(
+            f"expected a two-dimensional array, found {type(rows).__name__}", where=where
+        )
+    try:
+        array = np.array([list(row) for row in rows])
+    except (TypeError, ValueError):
+        raise InputError("expected rows of numbers, all of one length", where=where) from None
+    return array if array.ndim != 1 or array.size else array.reshape(0, 0)
+
+
+def matrix_to_float(M: Matrix) -> npt.NDArray[np.float64]:
+    """The array of the floats nearest to the entries of a rational matrix.
+
+    Entries beyond the range of floats become infinities.
+
+    Examples
+    --------
+    >>> matrix_to_float(Matrix.from_rows([[1, "1/4"]]))
+    array([[1.  , 0.25]])
+    """
+    array = np.empty(M.shape, dtype=np.float64)
+    for i, row in enumerate(M.rows()):
+        for j, entry in enumerate(row):
+            array[i, j] = to_float(entry)
+    return array
