@@ -52,6 +52,8 @@ def plain(value: Any) -> Any:
         return f"{value.numerator}/{value.denominator}"
     if hasattr(value, "document"):
         return plain(value.document())
+    if hasattr(value, "as_json"):
+        return value.as_json()
     if hasattr(value, "numerators"):
         return {"denominator": value.denominator, "entries": _integers(value.numerators)}
     if hasattr(value, "coefficients"):

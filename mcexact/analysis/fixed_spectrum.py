@@ -1,0 +1,197 @@
+"""The fixed spectrum: the modes that no decentralized feedback moves, where they lie, and why."""
+
+from __future__ import annotations
+
+import random
+from dataclasses import dataclass
+
+from mcexact.analysis.modular_system import closed_loop, generator, lifted, lifted_gains
+from mcexact.analysis.obstructions import Decision, Obstruction, decide
+from mcexact.analysis.rate import best_rate
+from mcexact.analysis.shrunk_subspace import ExactSubspace
+from mcexact.certificate.evidence import RateInterval, RootDisc, ShrunkSubspace
+from mcexact.certificate.fixed_spectrum import FixedFactorClaim, FixedSpectrumCertificate
+from mcexact.exact.enclosures import root_discs
+from mcexact.exact.location import StabilityRegion
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.modular import polynomial_residues, random_matrix
+from mcexact.exact.polynomial import Polynomial, product
+from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system_file import canonical_document
+
+
+@dataclass(frozen=True)
+class FixedFactor:
+    """An irreducible polynomial whose roots are fixed modes.
+
+    Attributes
+    ----------
+    polynomial : Polynomial
+        p, monic and irreducible over Q.
+    multiplicity_in_A : int
+        The exponent of p in χ_A.
+    multiplicity_at_most : int
+        The exponent of p in χ_{A_F} for the drawn F: every F keeps p at most this often for some F,
+        and drawn gains attain the least exponent.
+    channels : tuple of str
+        s, the largest set of channels whose pencil P_s(λ) = [λI − A, B_{m−s}; C_s, 0] has the
+        least rank.
+    rank : int
+        That rank, below n.
+    roots : tuple of RootDisc
+        Disjoint discs, each with exactly one root of p.
+    stable : bool
+        Whether every root lies in the stability region of the system's time domain.
+    subspace : ShrunkSubspace
+        The evidence.
+    """
+
+    polynomial: Polynomial
+    multiplicity_in_A: int
+    multiplicity_at_most: int
+    channels: tuple[str, ...]
+    rank: int
+    roots: tuple[RootDisc, ...]
+    stable: bool
+    subspace: ShrunkSubspace
+
+
+@dataclass(frozen=True)
+class FixedSpectrum:
+    """The modes that stay under every decentralized feedback u_i = F_i y_i, static or dynamic.
+
+    Attributes
+    ----------
+    empty : bool
+        Whether no mode is fixed.
+    polynomial : Polynomial
+        The product of the distinct factors, 1 if there is none.
+    factors : tuple of FixedFactor
+        Sorted by degree, then by coefficients.
+    stabilizable : bool
+        Whether every fixed mode lies in the stability region: then and only then some
+        decentralized dynamic feedback stabilizes the system.
+    best_rate : RateInterval or None
+        Encloses minus the largest real part (continuous time) or the largest modulus (discrete
+        time) of the fixed modes; None if there is none.
+    certificate : FixedSpectrumCertificate
+    """
+
+    empty: bool
+    polynomial: Polynomial
+    factors: tuple[FixedFactor, ...]
+    stabilizable: bool
+    best_rate: RateInterval | None
+    certificate: FixedSpectrumCertificate
+
+    def outside(self, region: StabilityRegion) -> tuple[FixedFactor, ...]:
+        """The factors with a root outside a region: a design for this rate has to free them."""
+        return tuple(f for f in self.factors if not region.contains_roots(f.polynomial))
+
+
+def fixed_spectrum(system: MultiChannelSystem) -> FixedSpectrum:
+    """Decide which modes no decentralized feedback can move.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        A plant or a derived system.
+
+    Notes
+    -----
+    Exact; no subset of channels is enumerated.  The certificate holds gains F and a modulus ℓ such
+    that χ_{A_F} is coprime modulo ℓ to what is left of χ_A without the fixed factors, and a shrunk
+    subspace for each of these.  Without fixed modes it takes two characteristic polynomials modulo
+    a word-size prime, O(n³).
+
+    Examples
+    --------
+    >>> from mcexact import MultiChannelSystem
+    >>> A = [[1, 0, 0], [0, 1, 0], [0, 1, 1]]
+    >>> B = [[[1], [0], [0]], [[0], [1], [0]], [[0], [1], [0]]]
+    >>> C = [[[1, 0, 0], [0, 0, 1]], [[0, 1, 0]], [[0, 0, 1]]]
+    >>> fixed_spectrum(MultiChannelSystem(A, B, C)).empty
+    False
+    """
+    rng = generator(system, "fixed_spectrum")
+    decision = decide(system, rng)
+    region = StabilityRegion(system.time)
+    factors = tuple(_factor(system, decision, o, region) for o in decision.obstructions)
+    polynomial = product(factor.polynomial for factor in factors)
+    stabilizable = all(factor.stable for factor in factors)
+    rate = best_rate(system.time, [disc for factor in factors for disc in factor.roots])
+    certificate = FixedSpectrumCertificate(
+        system=canonical_document(system.plant),
+        subject=system.subject,
+        polynomial=polynomial,
+        factors=tuple(_claim(factor) for factor in factors),
+        stabilizable=stabilizable,
+        best_rate=rate,
+        gains=lifted_gains(decision.modular, decision.gains),
+        modulus=decision.modular.modulus,
+        subspaces=tuple(factor.subspace for factor in factors),
+        completion=_completion(decision, rng) if factors else None,
+    )
+    return FixedSpectrum(not factors, polynomial, factors, stabilizable, rate, certificate)
+
+
+def evidence(system: MultiChannelSystem, subspace: ExactSubspace) -> ShrunkSubspace:
+    """The certificate's form of a shrunk subspace."""
+    return ShrunkSubspace(
+        channels_T=system.named(subspace.channels_T),
+        U=subspace.U,
+        V=subspace.V,
+        pivots=subspace.pivots,
+    )
+
+
+def _factor(
+    system: MultiChannelSystem, decision: Decision, found: Obstruction, region: StabilityRegion
+) -> FixedFactor:
+    T = set(found.subspace.channels_T)
+    p = found.polynomial
+    return FixedFactor(
+        polynomial=p,
+        multiplicity_in_A=found.multiplicity_in_A,
+        multiplicity_at_most=polynomial_residues(p, decision.closed.modulus).multiplicity_in(
+            decision.closed
+        ),
+        channels=system.named(i for i in range(system.m) if i not in T),
+        rank=system.n - found.subspace.deficiency,
+        roots=tuple(RootDisc(d.re, d.im, d.radius) for d in root_discs(p)),
+        stable=region.contains_roots(p),
+        subspace=evidence(system, found.subspace),
+    )
+
+
+def _claim(factor: FixedFactor) -> FixedFactorClaim:
+    return FixedFactorClaim(
+        polynomial=factor.polynomial,
+        multiplicity_in_A=factor.multiplicity_in_A,
+        multiplicity_at_most=factor.multiplicity_at_most,
+        channels=factor.channels,
+        rank=factor.rank,
+        stable=factor.stable,
+        roots=factor.roots,
+    )
+
+
+def _completion(decision: Decision, rng: random.Random) -> tuple[Matrix, Matrix]:
+    """B_0 (n × ρ) and C_0 (ρ × n): with d columns and rows they free the factors of deficiency d."""
+    modular = decision.modular
+    n, ell = modular.system.n, modular.modulus
+    rho = max(o.subspace.deficiency for o in decision.obstructions)
+    closed = closed_loop(modular, decision.gains)
+    stuck: dict[int, Polynomial] = {}
+    for o in decision.obstructions:
+        d = o.subspace.deficiency
+        stuck[d] = stuck.get(d, product([])) * o.polynomial
+    while True:
+        B0, C0 = random_matrix(n, rho, ell, rng), random_matrix(rho, n, ell, rng)
+        for d, factors in stuck.items():
+            cut = closed + B0.take(cols=range(d)) @ C0.take(rows=range(d))
+            freed = cut.characteristic_polynomial().gcd(polynomial_residues(factors, ell))
+            if freed.degree > 0:
+                break
+        else:
+            return lifted(B0), lifted(C0)

@@ -1,0 +1,138 @@
+"""A system's residues modulo a prime, drawn gains, and the closed loops they make there."""
+
+from __future__ import annotations
+
+import hashlib
+import random
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+from mcexact.certificate.codec import canonical, plain
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.modular import ModularMatrix, low_rank_update, primes, residues
+from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system_file import digest
+
+Gains = tuple[tuple[tuple[int, ...], ...], ...]
+"""One p_i × q_i matrix of residues for each channel."""
+
+
+@dataclass(frozen=True, eq=False)
+class ModularSystem:
+    """A, B = [B_1 … B_m] and C = [C_1; …; C_m] modulo a prime.
+
+    Attributes
+    ----------
+    system : MultiChannelSystem
+    modulus : int
+        A prime ℓ that divides no denominator of the system.
+    """
+
+    system: MultiChannelSystem
+    modulus: int
+
+    @cached_property
+    def A(self) -> ModularMatrix:
+        """A modulo ℓ, n × n."""
+        return residues(self.system.A, self.modulus)
+
+    @cached_property
+    def B(self) -> ModularMatrix:
+        """All inputs, n × Σ p_i."""
+        return residues(self.system.input_matrix(), self.modulus)
+
+    @cached_property
+    def C(self) -> ModularMatrix:
+        """All outputs, Σ q_i × n."""
+        return residues(self.system.output_matrix(), self.modulus)
+
+    @cached_property
+    def inputs(self) -> tuple[range, ...]:
+        """The columns of ``B`` that belong to each channel."""
+        return _ranges([self.system.p(i) for i in range(self.system.m)])
+
+    @cached_property
+    def outputs(self) -> tuple[range, ...]:
+        """The rows of ``C`` that belong to each channel."""
+        return _ranges([self.system.q(i) for i in range(self.system.m)])
+
+
+def _ranges(sizes: Sequence[int]) -> tuple[range, ...]:
+    """Consecutive ranges of the given sizes."""
+    ranges, start = [], 0
+    for size in sizes:
+        ranges.append(range(start, start + size))
+        start += size
+    return tuple(ranges)
+
+
+def generator(system: MultiChannelSystem, kind: str) -> random.Random:
+    """A source of draws that depends on the plant, the subject and the kind of question alone.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    kind : str
+        The kind of certificate the draws are for.
+    """
+    text = canonical([digest(system.plant), plain(system.subject), kind])
+    seed = hashlib.sha256(text.encode("ascii")).digest()
+    return random.Random(int.from_bytes(seed, "big"))
+
+
+def residue_systems(
+    system: MultiChannelSystem, rng: random.Random, bits: int = 30
+) -> Iterator[ModularSystem]:
+    """The system modulo one prime of this size after another, denominators avoided."""
+    denominators = [system.A.denominator]
+    for channel in system.channels:
+        denominators += [channel.B.denominator, channel.C.denominator]
+    product = 1
+    for denominator in set(denominators):
+        product *= denominator
+    for ell in primes(rng.getrandbits(64), bits):
+        if product % ell:
+            yield ModularSystem(system, ell)
+
+
+def drawn_gains(modular: ModularSystem, rng: random.Random) -> Gains:
+    """Uniform residues for every gain F_i, p_i × q_i."""
+    ell, randrange = modular.modulus, rng.randrange
+    return tuple(
+        tuple(tuple(randrange(ell) for _ in outputs) for _ in inputs)
+        for inputs, outputs in zip(modular.inputs, modular.outputs, strict=True)
+    )
+
+
+def closed_loop(modular: ModularSystem, gains: Gains) -> ModularMatrix:
+    """A_F = A + B diag(F_1, …, F_m) C modulo ℓ, n × n."""
+    q = modular.C.nrows
+    rows = []
+    for F, outputs in zip(gains, modular.outputs, strict=True):
+        before, after = (0,) * outputs.start, (0,) * (q - outputs.stop)
+        rows += [(*before, *row, *after) for row in F]
+    stacked = ModularMatrix.from_rows(rows, modular.modulus, ncols=q)
+    return low_rank_update(modular.A, modular.B, stacked, modular.C)
+
+
+def symmetric(residue: int, ell: int) -> int:
+    """The representative of a residue in −ℓ/2 … ℓ/2."""
+    return residue - ell if 2 * residue > ell else residue
+
+
+def lifted(M: ModularMatrix) -> Matrix:
+    """The integer matrix with the symmetric residues."""
+    ell = M.modulus
+    return Matrix.from_integers([[symmetric(v, ell) for v in row] for row in M.rows()], ncols=M.ncols)
+
+
+def lifted_gains(modular: ModularSystem, gains: Gains) -> tuple[Matrix, ...]:
+    """The gains as integer matrices with the symmetric residues."""
+    ell = modular.modulus
+    return tuple(
+        Matrix.from_integers(
+            [[symmetric(value, ell) for value in row] for row in F], ncols=len(outputs)
+        )
+        for F, outputs in zip(gains, modular.outputs, strict=True)
+    )
