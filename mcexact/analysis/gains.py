@@ -1,0 +1,191 @@
+"""Decentralized gains that make single channels control and observe a whole system, found by search.
+
+The search draws small gains and tests them modulo a prime: a rank reached modulo a prime is
+reached over Q, so whatever it accepts has the properties; what it never finds, it does not judge.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from random import Random
+
+from mcexact.analysis.modular_system import ModularSystem, generator, residue_systems
+from mcexact.exact.matrix import Matrix, block_diagonal, hstack
+from mcexact.exact.modular import ModularMatrix, residues
+from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem
+
+Draw = Callable[[int, Random], tuple[Matrix, ...]]
+"""The gains of one trial: from its number and a source of choices, one F_i for each channel."""
+
+
+@dataclass(frozen=True)
+class ReachingGains:
+    """Gains F_i with which every channel of a set controls and observes the system.
+
+    Attributes
+    ----------
+    gains : tuple of Matrix
+        F_i, p_i×q_i.
+    matrix : Matrix
+        A_F = A + Σ B_i F_i C_i, cyclic: its minimal polynomial has degree n.
+    controllability_indices : tuple of int
+        The index of (A_F, B_q) for each channel q of the set.
+    observability_indices : tuple of int
+        The index of (C_q, A_F).
+    """
+
+    gains: tuple[Matrix, ...]
+    matrix: Matrix
+    controllability_indices: tuple[int, ...]
+    observability_indices: tuple[int, ...]
+
+    @property
+    def height(self) -> int:
+        """The largest absolute numerator or denominator in the gains."""
+        entries = [entry for F in self.gains for row in F.rows() for entry in row]
+        return max((max(abs(e.numerator), e.denominator) for e in entries), default=0)
+
+
+def reaching_gains(
+    system: MultiChannelSystem,
+    channels: Sequence[int],
+    draw: Draw,
+    *,
+    index: int | None = None,
+    attempts: int = 200,
+) -> Iterator[ReachingGains]:
+    """Draw gains, and yield those with which every named channel controls and observes the system.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    channels : sequence of int
+        The channels q that must do it, all with the same gains.
+    draw : callable
+        Makes the gains of a trial.
+    index : int, optional
+        The largest controllability index that is accepted.
+    attempts : int
+        How many draws are made.
+
+    Notes
+    -----
+    A_F is cyclic as well: some drawn vector generates the whole space.  Each test is a rank modulo
+    a word-size prime, O(n³) word operations for each channel.
+    """
+    rng = generator(system, "reaching_gains")
+    modular = next(iter(residue_systems(system, rng)))
+    B, C = system.input_matrix(), system.output_matrix()
+    bound = system.n if index is None else min(index, system.n)
+    for trial in range(attempts):
+        gains = draw(trial, rng)
+        if any(F.denominator % modular.modulus == 0 for F in gains):
+            continue
+        F = block_diagonal(gains)
+        M = modular.A + modular.B @ residues(F, modular.modulus) @ modular.C
+        found = _indices(modular, M, channels, bound)
+        if found is not None and _is_cyclic(M, rng):
+            yield ReachingGains(gains, system.A + B @ F @ C, *found)
+
+
+def _indices(
+    modular: ModularSystem, M: ModularMatrix, channels: Sequence[int], bound: int
+) -> tuple[tuple[int, ...], tuple[int, ...]] | None:
+    """Controllability and observability indices modulo ℓ, or None if a channel falls short."""
+    controllable, observable = [], []
+    for q in channels:
+        reached = reach_index(M, modular.B.take(cols=list(modular.inputs[q])), bound)
+        if reached is None:
+            return None
+        seen = reach_index(M.T, modular.C.take(rows=list(modular.outputs[q])).T, M.nrows)
+        if seen is None:
+            return None
+        controllable.append(reached)
+        observable.append(seen)
+    return tuple(controllable), tuple(observable)
+
+
+def reach_index(M: ModularMatrix, B: ModularMatrix, bound: int) -> int | None:
+    """The least ν ≤ bound with rank [B, MB, …, M^{ν−1}B] = n modulo ℓ, at least 1, or None."""
+    n, rows = M.nrows, []
+    if n == 0:
+        return 1
+    block = B
+    for index in range(1, bound + 1):
+        rows += [list(row) for row in block.T.rows()]
+        if len(rows) >= n and ModularMatrix.from_rows(rows, M.modulus, ncols=n).rank() == n:
+            return index
+        block = M @ block
+    return None
+
+
+def _is_cyclic(M: ModularMatrix, rng: Random) -> bool:
+    """Whether a drawn vector generates the whole space modulo ℓ."""
+    n, ell = M.nrows, M.modulus
+    vector = ModularMatrix.from_rows([[rng.randrange(ell)] for _ in range(n)], ell, ncols=1)
+    return n == 0 or reach_index(M, vector, n) is not None
+
+
+def error_gain_draws(
+    system: MultiChannelSystem, graph: NeighborGraph, feedback: Sequence[Matrix]
+) -> Draw:
+    """Small lists [K_i, H_ij …] for the error system, by turns in four shapes.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        The plant, n states.
+    graph : NeighborGraph
+    feedback : sequence of Matrix
+        F_i, p_i×n.
+
+    Notes
+    -----
+    With H_ij = −B_jF_j − S the block E_ij of the error matrix is S: a signed permutation keeps the
+    numbers of the channel controller shortest, as was found by trying.  The other shapes (a signed
+    permutation as H_ij, sparse and dense draws) help where that one fails; the range of the dense
+    draws grows slowly.
+    """
+    n = system.n
+    coupling = [system.B(j) @ feedback[j] for j in range(system.m)]
+
+    def draw(trial: int, rng: Random) -> tuple[Matrix, ...]:
+        shape, bound = trial % 4, 1 + trial // 40
+        gains = []
+        for i in range(system.m):
+            blocks = [_drawn(rng, n, system.q(i), bound, 0.5 if shape == 3 else 0.25)]
+            for j in graph.neighbors[i]:
+                if j == i:
+                    continue
+                if shape < 2:
+                    S = _signed_permutation(rng, n)
+                    blocks.append(S if shape else -coupling[j] - S)
+                else:
+                    blocks.append(_drawn(rng, n, n, bound, 0.3 if shape == 2 else 0.8))
+            gains.append(hstack(blocks, nrows=n))
+        return tuple(gains)
+
+    return draw
+
+
+def _drawn(rng: Random, nrows: int, ncols: int, bound: int, density: float) -> Matrix:
+    """A matrix of integers in −bound … bound, most of them 0 where the density is low."""
+
+    def entry() -> int:
+        return rng.randint(-bound, bound) if rng.random() < density else 0
+
+    return Matrix.from_integers(
+        [[entry() for _ in range(ncols)] for _ in range(nrows)], ncols=ncols
+    )
+
+
+def _signed_permutation(rng: Random, n: int) -> Matrix:
+    """A permutation matrix with signs."""
+    places = list(range(n))
+    rng.shuffle(places)
+    rows = [[0] * n for _ in range(n)]
+    for i, j in enumerate(places):
+        rows[i][j] = rng.choice((1, -1))
+    return Matrix.from_integers(rows, ncols=n)

@@ -1,0 +1,226 @@
+"""A controller: one linear program per agent, each of which uses what that agent receives."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from mcexact.errors import InputError, UsageError
+from mcexact.exact.matrix import Matrix
+from mcexact.model.matrix_json import matrix_json
+from mcexact.model.names import quoted
+from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem
+
+MAPS = ("shared_update", "private_update", "input")
+
+
+@dataclass(frozen=True)
+class LinearMap:
+    """Σ_j outputs[j] y_j + Σ_j shared[j] x_j + private z_i + reference r_i, by agent i.
+
+    Attributes
+    ----------
+    outputs : mapping of int to Matrix
+        What multiplies y_j, k×q_j, for the agents j that are used.
+    shared : mapping of int to Matrix
+        What multiplies the shared sub-state x_j, k×n_j.
+    private : Matrix or None
+        What multiplies z_i.
+    reference : Matrix or None
+        What multiplies the set-point r_i of the agent's own outputs, k×q_i.
+    """
+
+    outputs: Mapping[int, Matrix] = field(default_factory=dict)
+    shared: Mapping[int, Matrix] = field(default_factory=dict)
+    private: Matrix | None = None
+    reference: Matrix | None = None
+
+    def without_zeros(self) -> LinearMap:
+        """The same map, listing only what it uses."""
+        return LinearMap(
+            {j: M for j, M in sorted(self.outputs.items()) if not M.is_zero()},
+            {j: M for j, M in sorted(self.shared.items()) if not M.is_zero()},
+            None if self.private is None or self.private.is_zero() else self.private,
+            None if self.reference is None or self.reference.is_zero() else self.reference,
+        )
+
+    def matrices(self) -> Iterator[Matrix]:
+        """All matrices of the map."""
+        yield from self.outputs.values()
+        yield from self.shared.values()
+        if self.private is not None:
+            yield self.private
+        if self.reference is not None:
+            yield self.reference
+
+
+@dataclass(frozen=True)
+class AgentProgram:
+    """What one agent computes: updates (or derivatives) of x_i and z_i, and its input u_i.
+
+    Attributes
+    ----------
+    name : str
+    shared : int
+        Dimension of x_i, which the agent sends to its followers.
+    private : int
+        Dimension of z_i, which it keeps.
+    shared_update, private_update, input : LinearMap
+        ẋ_i, ż_i (in discrete time x_i(t+1), z_i(t+1)) and u_i.
+    hold : mapping of int to int
+        Steps for which the agent holds x_i before it sends it to a follower j, or, under its own
+        position, before it uses it itself; discrete time only.
+    """
+
+    name: str
+    shared: int
+    private: int
+    shared_update: LinearMap = field(default_factory=LinearMap)
+    private_update: LinearMap = field(default_factory=LinearMap)
+    input: LinearMap = field(default_factory=LinearMap)
+    hold: Mapping[int, int] = field(default_factory=dict)
+
+    def maps(self) -> tuple[LinearMap, LinearMap, LinearMap]:
+        """The three maps, in the order of `MAPS`."""
+        return self.shared_update, self.private_update, self.input
+
+    def hears(self) -> tuple[int, ...]:
+        """The agents whose outputs or sub-states the program uses, ascending."""
+        heard = {j for each in self.maps() for used in (each.outputs, each.shared) for j in used}
+        return tuple(sorted(heard))
+
+
+@dataclass(frozen=True)
+class Controller:
+    """m agent programs for a system of m channels.
+
+    Attributes
+    ----------
+    time : {"continuous", "discrete"}
+    system : str
+        The digest of the plant that it was made for.
+    agents : tuple of AgentProgram
+        In the order of the channels.
+
+    Notes
+    -----
+    Agents are addressed by position in the programs, by name in files.
+    """
+
+    time: str
+    system: str
+    agents: tuple[AgentProgram, ...]
+
+    @property
+    def order(self) -> int:
+        """The dimension of all agents' states together."""
+        return sum(agent.shared + agent.private for agent in self.agents)
+
+    def height(self) -> int:
+        """Bits of the longest numerator or denominator of an entry."""
+        longest = 0
+        for agent in self.agents:
+            for each in agent.maps():
+                for M in each.matrices():
+                    for row in M.rows():
+                        for entry in row:
+                            longest = max(
+                                longest,
+                                entry.numerator.bit_length(),
+                                entry.denominator.bit_length(),
+                            )
+        return longest
+
+    def arcs(self) -> tuple[tuple[int, int], ...]:
+        """The arcs (j, i), j ≠ i, on which agent i uses something of agent j."""
+        return tuple((j, i) for i, agent in enumerate(self.agents) for j in agent.hears() if j != i)
+
+    def require_fits(self, system: MultiChannelSystem, graph: NeighborGraph) -> None:
+        """Refuse a controller that this system cannot run over this graph.
+
+        Raises
+        ------
+        UsageError
+            If the time domain, the agents or their order differ.
+        InputError
+            If a matrix has the wrong shape, or an agent uses a signal that it does not receive.
+        """
+        if self.time != system.time:
+            raise UsageError(
+                f"the controller is for {self.time} time, the system is in {system.time} time"
+            )
+        names = tuple(agent.name for agent in self.agents)
+        if names != system.names:
+            raise UsageError(
+                f"expected the agents {', '.join(map(quoted, system.names))} in this order, "
+                f"found {', '.join(map(quoted, names))}",
+                where="agents",
+            )
+        for i in range(system.m):
+            self._require_agent_fits(system, graph, i)
+
+    def _require_agent_fits(self, system: MultiChannelSystem, graph: NeighborGraph, i: int) -> None:
+        """Check the program of one agent."""
+        agent, names = self.agents[i], system.names
+        heard = set(graph.neighborhood(i))
+        for j in agent.hold:
+            if i not in graph.neighborhood(j):
+                raise InputError(
+                    f"agent {quoted(names[j])} is no follower", where=f"agents[{i}].hold"
+                )
+        if agent.hold and self.time != "discrete":
+            raise InputError("only discrete time can hold a signal", where=f"agents[{i}].hold")
+        sizes = (agent.shared, agent.private, system.p(i))
+        for label, each, nrows in zip(MAPS, agent.maps(), sizes, strict=True):
+            where = f"agents[{i}].{label}"
+            for what, used in (("outputs", each.outputs), ("shared", each.shared)):
+                for j, M in used.items():
+                    if j not in heard:
+                        raise InputError(
+                            f"agent {quoted(names[i])} does not hear agent {quoted(names[j])}",
+                            where=f"{where}.{what}",
+                        )
+                    width = system.q(j) if what == "outputs" else self.agents[j].shared
+                    _require(M, nrows, width, f"{where}.{what}[{quoted(names[j])}]")
+            if each.private is not None:
+                _require(each.private, nrows, agent.private, f"{where}.private")
+            if each.reference is not None:
+                _require(each.reference, nrows, system.q(i), f"{where}.reference")
+
+    def document(self) -> dict[str, Any]:
+        """The object of a controller file without ``format`` and ``system``, as plain data."""
+        names = [agent.name for agent in self.agents]
+        return {"time": self.time, "agents": [_agent_json(a, names) for a in self.agents]}
+
+
+def _require(M: Matrix, nrows: int, ncols: int, where: str) -> None:
+    if M.shape != (nrows, ncols):
+        raise InputError(
+            f"expected a {nrows} × {ncols} matrix, found {M.nrows} × {M.ncols}", where=where
+        )
+
+
+def _agent_json(agent: AgentProgram, names: list[str]) -> dict[str, Any]:
+    """One agent's program as plain data."""
+    document: dict[str, Any] = {
+        "name": agent.name,
+        "shared": agent.shared,
+        "private": agent.private,
+    }
+    for label, each in zip(MAPS, agent.maps(), strict=True):
+        used = each.without_zeros()
+        entry: dict[str, Any] = {}
+        if used.outputs:
+            entry["outputs"] = {names[j]: matrix_json(M) for j, M in used.outputs.items()}
+        if used.shared:
+            entry["shared"] = {names[j]: matrix_json(M) for j, M in used.shared.items()}
+        if used.private is not None:
+            entry["private"] = matrix_json(used.private)
+        if used.reference is not None:
+            entry["reference"] = matrix_json(used.reference)
+        document[label] = entry
+    if any(agent.hold.values()):
+        document["hold"] = {names[j]: d for j, d in sorted(agent.hold.items()) if d}
+    return document

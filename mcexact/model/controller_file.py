@@ -1,0 +1,132 @@
+"""Controller files: one readable program per agent, read strictly, written whole or not at all."""
+
+from __future__ import annotations
+
+import json
+import os
+from typing import Any
+
+from mcexact.errors import InputError
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.rational import DEFAULT_LIMITS, Limits
+from mcexact.model.atomic import write_text
+from mcexact.model.controller import MAPS, AgentProgram, Controller, LinearMap
+from mcexact.model.json_text import (
+    expect_format,
+    expect_integer,
+    expect_list,
+    expect_object,
+    parse,
+    read_bytes,
+)
+from mcexact.model.matrix_json import read_matrix
+from mcexact.model.names import checked_names, nearest, quoted
+
+FORMAT = "mcexact-controller/1"
+
+
+def load_controller(path: str | os.PathLike[str], limits: Limits = DEFAULT_LIMITS) -> Controller:
+    """Read a controller file, or standard input for ``-``.
+
+    Raises
+    ------
+    InputError
+        If it is missing, unreadable or malformed; the message says where.
+    """
+    try:
+        return read_controller(read_bytes(path, limits), limits)
+    except InputError as error:
+        raise error.within(os.fspath(path)) from None
+
+
+def read_controller(text: bytes | str, limits: Limits = DEFAULT_LIMITS) -> Controller:
+    """Read the text of a controller file.
+
+    Raises
+    ------
+    InputError
+        Naming the place, what was expected and what was found.
+    """
+    document = expect_format(parse(text, limits), FORMAT)
+    expect_object(document, None, ("format", "time", "system", "agents"))
+    if document["time"] not in ("continuous", "discrete"):
+        raise InputError(
+            f'expected "continuous" or "discrete", found {quoted(document["time"])}', where="time"
+        )
+    if not isinstance(document["system"], str):
+        raise InputError("expected the digest of a system, a string", where="system")
+    agents = expect_list(document["agents"], "agents")
+    if not agents:
+        raise InputError("expected at least one agent, found none", where="agents")
+    keys = ("name", "shared", "private", *MAPS)
+    for k, agent in enumerate(agents):
+        expect_object(agent, f"agents[{k}]", keys, ("hold",))
+    places = [f"agents[{k}].name" for k in range(len(agents))]
+    names = checked_names([agent["name"] for agent in agents], places)
+    programs = [_read_agent(agent, f"agents[{k}]", names, limits) for k, agent in enumerate(agents)]
+    return Controller(document["time"], document["system"], tuple(programs))
+
+
+def _read_agent(
+    agent: dict[str, Any], where: str, names: tuple[str, ...], limits: Limits
+) -> AgentProgram:
+    """Read one program."""
+    shared = expect_integer(agent["shared"], f"{where}.shared")
+    private = expect_integer(agent["private"], f"{where}.private")
+    sizes = (shared, private, None)
+    maps = [
+        _read_map(agent[label], f"{where}.{label}", size, names, limits)
+        for label, size in zip(MAPS, sizes, strict=True)
+    ]
+    hold = {}
+    for name, steps in _by_agent(agent.get("hold", {}), f"{where}.hold", names).items():
+        hold[name] = expect_integer(steps, f"{where}.hold[{quoted(names[name])}]")
+    return AgentProgram(agent["name"], shared, private, *maps, hold=hold)
+
+
+def _read_map(
+    value: Any, where: str, nrows: int | None, names: tuple[str, ...], limits: Limits
+) -> LinearMap:
+    """Read one linear map."""
+    expect_object(value, where, (), ("outputs", "shared", "private", "reference"))
+
+    def matrix(entry: Any, place: str) -> Matrix:
+        return read_matrix(entry, place, nrows=nrows, limits=limits)
+
+    def by_agent(key: str) -> dict[int, Matrix]:
+        found = _by_agent(value.get(key, {}), f"{where}.{key}", names)
+        return {j: matrix(M, f"{where}.{key}[{quoted(names[j])}]") for j, M in found.items()}
+
+    return LinearMap(
+        by_agent("outputs"),
+        by_agent("shared"),
+        matrix(value["private"], f"{where}.private") if "private" in value else None,
+        matrix(value["reference"], f"{where}.reference") if "reference" in value else None,
+    )
+
+
+def _by_agent(value: Any, where: str, names: tuple[str, ...]) -> dict[int, Any]:
+    """An object keyed by agents, by position, ascending."""
+    if not isinstance(value, dict):
+        raise InputError("expected an object keyed by agents", where=where)
+    for name in value:
+        if name not in names:
+            raise InputError(f"there is no agent {quoted(name)}{nearest(name, names)}", where=where)
+    return {j: value[name] for j, name in enumerate(names) if name in value}
+
+
+def controller_text(controller: Controller) -> str:
+    """The text of a controller file."""
+    document = {"format": FORMAT, "system": controller.system, **controller.document()}
+    return json.dumps(document, indent=1, ensure_ascii=True) + "\n"
+
+
+def save_controller(controller: Controller, path: str | os.PathLike[str]) -> None:
+    """Write a controller file, whole or not at all.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be written.
+    """
+    write_text(path, controller_text(controller))

@@ -1,0 +1,183 @@
+"""Prescribed spectra: coefficient lists, or roots and complex pairs, as monic polynomials over Q."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from typing import Any
+
+from mcexact.errors import InputError, UsageError
+from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.rational import as_fraction
+
+
+def spectrum_polynomial(spectrum: Any, degree: int, *, where: str = "spectrum") -> Polynomial:
+    """The monic polynomial whose roots are a prescribed symmetric set of numbers.
+
+    Parameters
+    ----------
+    spectrum : Polynomial, or sequence
+        The coefficients of a monic polynomial, constant term first; or its roots, each a rational
+        number, or ``{"re": a, "im": b}`` with b ≠ 0 for the pair a ± b i.
+    degree : int
+        How many numbers are prescribed.  It tells ``degree + 1`` coefficients from ``degree`` roots.
+    where : str
+        The place to name in an error.
+
+    Returns
+    -------
+    Polynomial
+        Monic, of the given degree.
+
+    Raises
+    ------
+    InputError
+        If the length is wrong (the message states the right one), the polynomial is not monic, or
+        an entry is not a rational number.
+
+    Examples
+    --------
+    >>> str(spectrum_polynomial(["-1", {"re": "-1", "im": "2"}], 3))
+    'x^3 + 3*x^2 + 7*x + 5'
+    >>> spectrum_polynomial([5, 2, 1], 2) == spectrum_polynomial([{"re": -1, "im": 2}], 2)
+    True
+    >>> spectrum_polynomial([-1, -2], 3)
+    Traceback (most recent call last):
+        ...
+    mcexact.errors.InputError: spectrum: expected 3 numbers (or 4 coefficients of a monic \
+polynomial, constant term first), found a list of 2
+    """
+    if isinstance(spectrum, Polynomial):
+        entries: Sequence[Any] = spectrum.coefficients
+    elif isinstance(spectrum, Sequence) and not isinstance(spectrum, (str, bytes)):
+        entries = spectrum
+    else:
+        raise InputError(
+            f"expected a list of coefficients, or of roots and pairs, found "
+            f"{type(spectrum).__name__}",
+            where=where,
+        )
+    if any(isinstance(entry, Mapping) for entry in entries):
+        return _from_roots(entries, degree, where)
+    if len(entries) == degree + 1:
+        values = [as_fraction(e, where=f"{where}[{k}]") for k, e in enumerate(entries)]
+        if values[-1] != 1:
+            raise InputError(
+                f"expected a monic polynomial of degree {degree} (last coefficient 1) or "
+                f"{degree} roots, found {degree + 1} numbers of which the last is {values[-1]}",
+                where=where,
+            )
+        return Polynomial(tuple(values))
+    if isinstance(spectrum, Polynomial):
+        raise InputError(
+            f"expected a polynomial of degree {degree}, found degree {spectrum.degree}", where=where
+        )
+    return _from_roots(entries, degree, where)
+
+
+def _from_roots(entries: Sequence[Any], degree: int, where: str) -> Polynomial:
+    """The product of the factors that the roots and pairs stand for."""
+    result, count = Polynomial((Fraction(1),)), 0
+    for k, entry in enumerate(entries):
+        place = f"{where}[{k}]"
+        if isinstance(entry, Mapping):
+            if set(entry) != {"re", "im"}:
+                raise InputError(
+                    'expected a pair as {"re": a, "im": b}, its conjugate is implied', where=place
+                )
+            re = as_fraction(entry["re"], where=f"{place}.re")
+            im = as_fraction(entry["im"], where=f"{place}.im")
+            if im == 0:
+                raise InputError(
+                    "expected an imaginary part that is not 0; write a real root as one number",
+                    where=place,
+                )
+            factor = Polynomial((re * re + im * im, -2 * re, Fraction(1)))
+        else:
+            factor = Polynomial((-as_fraction(entry, where=place), Fraction(1)))
+        result, count = result * factor, count + factor.degree
+    if count != degree:
+        found = f"a list of {len(entries)}"
+        if count != len(entries):
+            found += f" that stands for {count} numbers (a pair counts twice)"
+        raise InputError(
+            f"expected {degree} numbers (or {degree + 1} coefficients of a monic polynomial, "
+            f"constant term first), found {found}",
+            where=where,
+        )
+    return result
+
+
+def default_polynomial(time: str, bound: Fraction, degree: int) -> Polynomial:
+    """A polynomial of small height with every root in the region that a rate or a radius names.
+
+    Parameters
+    ----------
+    time : {"continuous", "discrete"}
+    bound : Fraction
+        R: every root gets real part below −R (continuous), or modulus below R (discrete).
+    degree : int
+
+    Returns
+    -------
+    Polynomial
+        Continuous time: the roots −c, −c−1, −c−2, −c, … with c the least integer above R.  Discrete
+        time: x^degree (deadbeat), which meets every radius and has the least height.
+
+    Examples
+    --------
+    >>> str(default_polynomial("continuous", Fraction(1, 2), 2))
+    'x^2 + 3*x + 2'
+    """
+    if time == "discrete":
+        return Polynomial((Fraction(0),) * degree + (Fraction(1),))
+    least = bound.numerator // bound.denominator + 1
+    result = Polynomial((Fraction(1),))
+    for k in range(degree):
+        result = result * Polynomial((Fraction(least + k % 3), Fraction(1)))
+    return result
+
+
+def convergence_bound(
+    time: str, rate: Any = None, radius: Any = None, *, needed: bool = False
+) -> Fraction | None:
+    """The rate in continuous time, or the radius in discrete time, checked.
+
+    Parameters
+    ----------
+    time : {"continuous", "discrete"}
+    rate, radius : rational, optional
+        At most the one that belongs to the time domain; rate > 0, 0 < radius ≤ 1.
+    needed : bool
+        Whether leaving both out is an error.
+
+    Raises
+    ------
+    UsageError
+        If the one is given that belongs to the other time domain, or it is out of range.
+    """
+    if time == "continuous":
+        if radius is not None:
+            raise UsageError(
+                "a radius is for discrete time; in continuous time give a rate", where="radius"
+            )
+        if rate is None:
+            return _missing("rate") if needed else None
+        bound = as_fraction(rate, where="rate")
+        if bound <= 0:
+            raise UsageError(f"expected a rate > 0, found {bound}", where="rate")
+        return bound
+    if rate is not None:
+        raise UsageError(
+            "a rate is for continuous time; in discrete time give a radius", where="rate"
+        )
+    if radius is None:
+        return _missing("radius") if needed else None
+    bound = as_fraction(radius, where="radius")
+    if not 0 < bound <= 1:
+        raise UsageError(f"expected a radius with 0 < radius <= 1, found {bound}", where="radius")
+    return bound
+
+
+def _missing(name: str) -> None:
+    raise UsageError(f"give a {name} or a spectrum: nothing says how fast the loop must be")
