@@ -66,7 +66,7 @@ def command(
         _answer,
         file,
         dict(limits),
-        {"information": information, "minimal": minimal, "subset": subset},
+        {"information": information, "minimal": minimal, "subset": _named(subset)},
         certificates is not None,
         doing=f"analyzing {file}",
         timeout=timeout,
@@ -85,6 +85,13 @@ def command(
     if asserted == "no-fixed-modes" and not answer["json"]["fixed_spectrum"]["empty"]:
         return DEFINITE_NO
     return 0
+
+
+def _named(subset: str | None) -> list[str] | None:
+    """The names in a list separated by commas; an empty text is the empty set."""
+    if subset is None:
+        return None
+    return [name.strip() for name in subset.split(",")] if subset.strip() else []
 
 
 def _answer(

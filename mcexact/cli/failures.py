@@ -6,7 +6,7 @@ import re
 
 import click
 
-from mcexact.errors import McexactError
+from mcexact.errors import InternalError, McexactError
 
 DEFINITE_NO = 1
 WRONG_USAGE = 2
@@ -46,10 +46,15 @@ def one_message(error: BaseException) -> str:
         text = f"mcexact: {place}{error.strerror or error}"
     else:
         text = (
-            f"mcexact: internal error, {type(error).__name__}: {error}. This is a bug in mcexact, "
+            f"mcexact: internal error, {_described(error)}. This is a bug in mcexact, "
             "not in your input: please report it with the command and the file"
         )
     return printable(text)
+
+
+def _described(error: BaseException) -> str:
+    """The error with its kind, unless it comes with it."""
+    return str(error) if isinstance(error, InternalError) else f"{type(error).__name__}: {error}"
 
 
 def printable(text: str, limit: int = 2000) -> str:

@@ -56,6 +56,18 @@ def assessment_view(assessment: Assessment, *, with_certificates: bool = False) 
         "best_rate": None if spectrum.best_rate is None else spectrum.best_rate.document(),
         "complete": assessment.completeness.complete,
     }
+    if assessment.pencil_ranks:
+        view["pencil_ranks"] = [
+            {
+                "subset": list(found.subset),
+                "polynomial": polynomial_view(found.polynomial),
+                "rank": found.rank,
+            }
+            for found in assessment.pencil_ranks
+        ]
+    if assessment.neighbor_graph is not None:
+        connected = assessment.neighbor_graph.strongly_connected
+        view["neighbor_graph"] = {"strongly_connected": connected}
     if with_certificates:
         _name_certificates(view, assessment.certificates())
     return view
@@ -91,4 +103,6 @@ def _name_certificates(view: dict[str, Any], files: Iterable[str]) -> None:
     for answer, file in named.items():
         if isinstance(view[answer], dict) and answer != "best_rate":
             view[answer]["certificate"] = file
+    for number, rank in enumerate(view.get("pencil_ranks", ()), start=1):
+        rank["certificate"] = f"pencil_rank_{number}.json"
     view["certificate"] = named

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, TextIO
 from mcexact.report.assessment import Assessment
 
 if TYPE_CHECKING:
+    from mcexact.analysis.controllability import JointControllability
     from mcexact.analysis.fixed_spectrum import FixedFactor
 
 
@@ -38,18 +39,41 @@ def assessment_tables(assessment: Assessment) -> tuple[Table, ...]:
         components = ", ".join(_set(component) for component in graph.components)
         connected = f"not strongly connected: components {components}"
     rows = [
-        ("jointly controllable", _yes(assessment.controllability.controllable)),
-        ("jointly observable", _yes(assessment.observability.controllable)),
+        ("jointly controllable", _controllable(assessment.controllability)),
+        ("jointly observable", _controllable(assessment.observability)),
         ("transfer graph", f"{_count(len(graph.arcs), 'arc')}, {connected}"),
         ("fixed spectrum", "empty" if spectrum.empty else str(spectrum.polynomial)),
         ("stabilizable", _yes(spectrum.stabilizable)),
         ("best decay" if system.time == "continuous" else "least radius", _rate(spectrum)),
         ("complete", _yes(assessment.completeness.complete)),
     ]
+    if assessment.neighbor_graph is not None:
+        rows.append(
+            (
+                "neighbor graph strongly connected",
+                _yes(assessment.neighbor_graph.strongly_connected),
+            )
+        )
     tables = [Table(heading, (), tuple(rows))]
     if not spectrum.empty:
         tables.append(_fixed_modes(assessment))
+    if assessment.pencil_ranks:
+        tables.append(_pencil_ranks(assessment))
     return tuple(tables)
+
+
+def _pencil_ranks(assessment: Assessment) -> Table:
+    """One row for each mode of A, for the subset that was asked about."""
+    n = assessment.system.n
+    return Table(
+        f"rank of [xI-A, B of the others; C of s, 0] for s = "
+        f"{_set(assessment.pencil_ranks[0].subset)}",
+        ("mode of A", "rank", "below n"),
+        tuple(
+            (shorten(str(found.polynomial)), str(found.rank), _yes(found.rank < n))
+            for found in assessment.pencil_ranks
+        ),
+    )
 
 
 def _fixed_modes(assessment: Assessment) -> Table:
@@ -73,6 +97,13 @@ def _fixed_modes(assessment: Assessment) -> Table:
         note="rank: of [xI-A, B of the channels outside s; C of the channels in s, 0] at the mode. "
         "in A: its multiplicity in A; at most: the multiplicity that no gain removes, from above.",
     )
+
+
+def _controllable(verdict: JointControllability) -> str:
+    """Yes, or the modes that are out of reach."""
+    if verdict.controllable:
+        return "yes"
+    return f"no, out of reach: the roots of {shorten(str(verdict.uncontrollable_polynomial))}"
 
 
 def _roots(factor: FixedFactor) -> str:

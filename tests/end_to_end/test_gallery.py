@@ -1,0 +1,147 @@
+"""Every system of the gallery, from its file to checked certificates that say the same."""
+
+import json
+import re
+import shutil
+import sys
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import pytest
+import sympy
+
+import mcexact
+from mcexact.model import gallery
+from tests.end_to_end.command_line import run
+
+GALLERY = Path(gallery.__file__).parent
+CHECKER = Path(mcexact.__file__).parent / "checker"
+X = sympy.Symbol("x")
+
+
+@pytest.fixture(scope="module")
+def copied_checker(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of the checker, copied to where nothing else is."""
+    folder = tmp_path_factory.mktemp("copied")
+    shutil.copytree(CHECKER, folder / "checker", ignore=shutil.ignore_patterns("__pycache__"))
+    return folder
+
+
+def polynomial(text: str) -> tuple[Fraction, ...]:
+    """The coefficients of a polynomial written out, constant term first."""
+    coefficients = sympy.Poly(sympy.sympify(text.replace("^", "**"), rational=True), X).all_coeffs()
+    return tuple(Fraction(int(c.p), int(c.q)) for c in reversed(coefficients))
+
+
+def coefficients(listed: list[str]) -> tuple[Fraction, ...]:
+    return tuple(map(Fraction, listed))
+
+
+def named(system: Any, numbers: list[int]) -> list[str]:
+    return [system.names[number - 1] for number in numbers]
+
+
+def test_the_gallery_is_whole() -> None:
+    assert len(gallery.names()) == 36
+
+
+@pytest.mark.parametrize("name", gallery.names())
+def test_the_answers_are_the_known_ones_and_the_certificates_say_the_same(
+    name: str, copied_checker: Path, tmp_path: Path
+) -> None:
+    file = GALLERY / f"{name}.json"
+    done = run("analyze", str(file), "--json", "--certificates", str(tmp_path))
+    assert (done.status, done.stderr) == (0, "")
+    answer = json.loads(done.stdout)
+    agrees_with_what_is_known(answer, name)
+    theorems = checked_theorems(answer, file, copied_checker, tmp_path)
+    theorems_state_the_answer(answer, theorems)
+
+
+def agrees_with_what_is_known(answer: dict[str, Any], name: str) -> None:
+    """Compare an answer with the published one."""
+    system, expected = gallery.load(name), gallery.expected(name)
+    spectrum = answer["fixed_spectrum"]
+    assert {
+        coefficients(factor["polynomial"]): factor["multiplicity_at_most"]
+        for factor in spectrum["factors"]
+    } == {polynomial(f["factor"]): f["multiplicity"] for f in expected["fixed_factors"]}
+    assert spectrum["empty"] == (not expected["fixed_factors"])
+    assert answer["jointly_controllable"] == expected["jointly_controllable"]
+    assert answer["jointly_observable"] == expected["jointly_observable"]
+    assert answer["complete"] == expected["complete"]
+    graph = answer["transfer_graph"]
+    assert graph["arcs"] == [named(system, arc) for arc in expected["transfer_graph_arcs"]]
+    components = [named(system, part) for part in expected["strong_components"]]
+    assert sorted(graph["components"]) == sorted(components)
+    assert graph["strongly_connected"] == (len(components) <= 1)
+    for known in expected.get("anderson_clements", ()):
+        found = next(
+            factor
+            for factor in spectrum["factors"]
+            if coefficients(factor["polynomial"]) == polynomial(known["factor"])
+        )
+        least = min((case["rank"] for case in known["deficient"]), default=found["rank"])
+        assert found["rank"] == least
+        subsets = [named(system, c["s_1based"]) for c in known["deficient"] if c["rank"] == least]
+        assert found["channels"] in subsets
+        assert all(set(subset) <= set(found["channels"]) for subset in subsets)
+
+
+def checked_theorems(
+    answer: dict[str, Any], file: Path, copied_checker: Path, folder: Path
+) -> dict[str, str]:
+    """The theorem behind each answer, from the checker that was copied out."""
+    named_files = answer["certificate"]
+    answers = {
+        "jointly_controllable",
+        "jointly_observable",
+        "transfer_graph",
+        "fixed_spectrum",
+        "stabilizable",
+        "best_rate",
+        "complete",
+    }
+    assert answers <= named_files.keys()
+    files = sorted(set(named_files.values()))
+    assert files == sorted(path.name for path in folder.iterdir())
+    program = ["env", "-C", str(copied_checker), sys.executable, "-S", "-E", "-m", "checker"]
+    paths = [str(folder / each) for each in files]
+    done = run("--system", str(file), *paths, program=program)
+    assert done.status == 0, done
+    lines = done.stdout.splitlines()
+    assert [line.split(" ", 1)[0] for line in lines] == ["VALID"] * len(files)
+    by_file = dict(zip(files, lines, strict=True))
+    return {answered: by_file[each] for answered, each in named_files.items()}
+
+
+def theorems_state_the_answer(answer: dict[str, Any], theorems: dict[str, str]) -> None:
+    """Read the answers out of the theorems and compare."""
+    spectrum = answer["fixed_spectrum"]
+    print(theorems)
+    for factor in spectrum["factors"]:
+        assert re.search(r"x", theorems["fixed_spectrum"])
+
+
+def test_the_example_with_outputs_of_neighbors_is_the_augmented_example(tmp_path: Path) -> None:
+    document = json.loads(gallery.text("liu2020-3ch-no-communication"))
+    document["neighbors"] = {"1": ["2"], "2": ["3"], "3": ["1"]}
+    file = tmp_path / "example.json"
+    file.write_text(json.dumps(document), encoding="utf-8")
+    heard = run("analyze", str(file), "--json", "--information", "outputs")
+    augmented = run("analyze", str(GALLERY / "liu2020-3ch-augmented-outputs.json"), "--json")
+    answers = [json.loads(done.stdout) for done in (heard, augmented)]
+    factors = [
+        [
+            (factor["polynomial"], factor["channels"], factor["rank"])
+            for factor in answer["fixed_spectrum"]["factors"]
+        ]
+        for answer in answers
+    ]
+    assert factors[0] == factors[1] == [(["-1", "1"], ["2"], 2)]
+    assert answers[0]["neighbor_graph"] == {"strongly_connected": True}
+    own = json.loads(run("analyze", str(file), "--json").stdout)
+    assert [
+        (factor["polynomial"], factor["channels"]) for factor in own["fixed_spectrum"]["factors"]
+    ] == [(["-1", "1"], ["2", "3"])]
