@@ -91,7 +91,9 @@ def test_a_stage_imports_only_lower_stages(path: Path) -> None:
 
 
 def test_every_folder_is_a_stage_or_beside_them() -> None:
-    folders = {path.name for path in PACKAGE.iterdir() if path.is_dir() and path.name[0] not in "._"}
+    folders = {
+        path.name for path in PACKAGE.iterdir() if path.is_dir() and path.name[0] not in "._"
+    }
     assert folders <= STAGE.keys() | BESIDE
 
 
@@ -138,23 +140,24 @@ def test_no_module_is_named_for_having_no_topic() -> None:
 
 def test_no_stage_walks_through_the_subsets_of_the_channels() -> None:
     """Powersets and bit masks over channels belong to the slow oracle in the tests."""
-    banned = {"itertools.combinations", "itertools.chain.from_iterable", "powerset", "subsets"}
     for path in MODULES:
-        imported = {name for name, _, _ in imports_of(path)}
-        assert not imported & banned, path
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            if isinstance(node, ast.Call):
-                called = ast.unparse(node.func).rpartition(".")[2]
-                assert called not in {"combinations", "powerset", "subsets"}, (path, node.lineno)
-                if called == "range" and node.args:
-                    bound = ast.unparse(node.args[-1])
-                    assert not bound.startswith(("2 **", "1 <<")), (path, node.lineno)
+            if not isinstance(node, ast.Call):
+                continue
+            place = f"{path}:{node.lineno}"
+            called = ast.unparse(node.func).rpartition(".")[2]
+            assert called not in {"powerset", "subsets"}, place
+            if called == "combinations":  # of a fixed size, such as pairs
+                assert isinstance(node.args[1], ast.Constant), place
+            if called == "range" and node.args:
+                assert not ast.unparse(node.args[-1]).startswith(("2 **", "1 <<")), place
 
 
-def test_every_file_and_every_function_is_short_enough_to_read() -> None:
+def test_every_module_is_short_enough_to_have_one_topic() -> None:
     for path in MODULES:
-        text = path.read_text(encoding="utf-8")
-        assert text.count("\n") <= 450, f"{path} hides two topics"
+        tree = ast.parse(path.read_text(encoding="utf-8"))
+        statements = sum(isinstance(node, ast.stmt) for node in ast.walk(tree))
+        assert statements <= 400, f"{path} hides two topics: {statements} statements"
 
 
 def test_nothing_is_validated_by_a_statement_that_an_option_deletes() -> None:
