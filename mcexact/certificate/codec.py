@@ -8,12 +8,25 @@ import os
 import tempfile
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 from .evidence import Certificate, Document
 
 FORMAT = "mcexact-certificate/1"
+
+
+class PlainObject(dict[str, Any]):
+    """A JSON object made of plain data, not to be changed; its canonical text is made once.
+
+    The system is most of a certificate, and all certificates about it share it.
+    """
+
+    @cached_property
+    def text(self) -> str:
+        """The canonical JSON text."""
+        return canonical(self)
 
 
 def plain(value: Any) -> Any:
@@ -44,7 +57,7 @@ def plain(value: Any) -> Any:
         ...
     TypeError: a certificate holds exact data only, found float
     """
-    if value is None or isinstance(value, (bool, int, str)):
+    if value is None or isinstance(value, (bool, int, str, PlainObject)):
         return value
     if isinstance(value, Fraction):
         if value.denominator == 1:
@@ -70,7 +83,7 @@ def plain(value: Any) -> Any:
 
 def _integers(rows: Sequence[Sequence[int]]) -> list[list[int]]:
     """Copy rows of integers as lists."""
-    return [[int(entry) for entry in row] for row in rows]
+    return [list(map(int, row)) for row in rows]
 
 
 def canonical(value: Any) -> str:
@@ -80,15 +93,21 @@ def canonical(value: Any) -> str:
 
 def digest(system: Document) -> str:
     """The SHA-256 of the canonical JSON of a canonical system object, in lower-case hexadecimal."""
-    return hashlib.sha256(canonical(plain(system)).encode("ascii")).hexdigest()
+    return hashlib.sha256(_text(system).encode("ascii")).hexdigest()
+
+
+def _text(value: Any) -> str:
+    """The canonical JSON text of exact objects."""
+    return value.text if isinstance(value, PlainObject) else canonical(plain(value))
 
 
 def document(certificate: Certificate) -> dict[str, Any]:
     """The certificate as one JSON object of plain data, with the six keys of ``FORMAT.md``."""
+    system = certificate.system
     return {
         "format": FORMAT,
         "kind": certificate.kind,
-        "system": plain(certificate.system),
+        "system": json.loads(system.text) if isinstance(system, PlainObject) else plain(system),
         "subject": plain(certificate.subject),
         "claim": plain(certificate.claim()),
         "witness": plain(certificate.witness()),
@@ -97,7 +116,15 @@ def document(certificate: Certificate) -> dict[str, Any]:
 
 def encode(certificate: Certificate) -> str:
     """The certificate as JSON text with a final line feed; equal certificates give equal text."""
-    return canonical(document(certificate)) + "\n"
+    parts = {
+        "claim": certificate.claim(),
+        "format": FORMAT,
+        "kind": certificate.kind,
+        "subject": certificate.subject,
+        "system": certificate.system,
+        "witness": certificate.witness(),
+    }
+    return "{" + ",".join(f'"{key}":{_text(value)}' for key, value in parts.items()) + "}\n"
 
 
 def write(certificate: Certificate, path: str | os.PathLike[str]) -> None:

@@ -167,7 +167,7 @@ def _mapping(value: Any, where: str) -> dict[str, Any]:
     return value
 
 
-def canonical_document(system: MultiChannelSystem) -> dict[str, Any]:
+def canonical_document(system: MultiChannelSystem) -> codec.PlainObject:
     """The plant of a system as the ``system`` object of a certificate.
 
     Parameters
@@ -178,10 +178,15 @@ def canonical_document(system: MultiChannelSystem) -> dict[str, Any]:
     Returns
     -------
     dict
-        Plain data; matrices are rows of reduced rationals.  Without name and source.
+        Plain data, not to be changed; matrices are rows of reduced rationals.  Without name and
+        source.
     """
     plant = system.plant
-    document: dict[str, Any] = {
+    known: codec.PlainObject | None = plant.__dict__.get("_canonical_document")
+    if known is not None:
+        return known
+    document = codec.PlainObject()
+    document |= {
         "time": plant.time,
         "A": matrix_json(plant.A),
         "channels": [
@@ -191,6 +196,8 @@ def canonical_document(system: MultiChannelSystem) -> dict[str, Any]:
     }
     if plant.neighbors is not None:
         document.update(graph_json(plant.neighbors))
+    # Systems are immutable, so this is made once; every certificate about the plant holds it.
+    object.__setattr__(plant, "_canonical_document", document)
     return document
 
 
