@@ -3,21 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from mcexact.errors import UsageError
+from mcexact.errors import LimitReached, UsageError
 
 if TYPE_CHECKING:
+    from mcexact.analysis.allocation import SharedDimensionBound, SharedDimensions
     from mcexact.analysis.completeness import Completeness
     from mcexact.analysis.controllability import JointControllability
     from mcexact.analysis.fixed_spectrum import FixedSpectrum
     from mcexact.analysis.neighbor_graph import NeighborGraphVerdict
     from mcexact.analysis.pencil import PencilRank
     from mcexact.analysis.transfer_graph import TransferGraph
+    from mcexact.derived.extended import Share
     from mcexact.model.system import MultiChannelSystem
 
-SHARING = ("outputs+states", "states")
+SHARING: tuple[Share, ...] = ("outputs+states", "states")
 
 
 @dataclass(frozen=True)
@@ -37,10 +39,11 @@ class Assessment:
     pencil_ranks : tuple of PencilRank
         For the subset that was asked about, at every mode of A.
     neighbor_graph : NeighborGraphVerdict or None
-        None if the plant has no neighbor graph, as the next two.
-    shared_dimension_bound : SharedDimensionBound or None
-    minimal_shared_dimensions : mapping from the way of sharing, or None
-        None unless it was asked for.
+        None if the plant has no neighbor graph.
+    shared_dimension_bounds : mapping from the way of sharing to SharedDimensionBound
+        Empty if the plant has no neighbor graph.
+    minimal_shared_dimensions : mapping from the way of sharing to SharedDimensions, or None
+        None unless it was asked for; a `LimitReached` where the node limit was reached.
     """
 
     system: MultiChannelSystem
@@ -52,8 +55,8 @@ class Assessment:
     completeness: Completeness
     pencil_ranks: tuple[PencilRank, ...] = ()
     neighbor_graph: NeighborGraphVerdict | None = None
-    shared_dimension_bound: Any = None
-    minimal_shared_dimensions: Mapping[str, Any] | None = None
+    shared_dimension_bounds: Mapping[Share, SharedDimensionBound] = field(default_factory=dict)
+    minimal_shared_dimensions: Mapping[Share, SharedDimensions | LimitReached] | None = None
 
     def certificates(self) -> dict[str, Any]:
         """The certificates under the names of their files, in the order of the answers."""
@@ -64,17 +67,23 @@ class Assessment:
             "fixed_spectrum": self.fixed_spectrum,
             "completeness": self.completeness,
             "neighbor_graph": self.neighbor_graph,
-            "shared_dimension_bound": self.shared_dimension_bound,
         }
         for number, rank in enumerate(self.pencil_ranks, start=1):
             answers[f"pencil_rank_{number}"] = rank
-        for share, answer in (self.minimal_shared_dimensions or {}).items():
-            answers[f"minimal_shared_dimensions_{share.replace('+', '_')}"] = answer
+        for share, bound in self.shared_dimension_bounds.items():
+            answers[f"shared_dimension_bound_{stem(share)}"] = bound
+        for share, least in (self.minimal_shared_dimensions or {}).items():
+            answers[f"minimal_shared_dimensions_{stem(share)}"] = least
         return {
             f"{name}.json": answer.certificate
             for name, answer in answers.items()
             if getattr(answer, "certificate", None) is not None
         }
+
+
+def stem(share: Share) -> str:
+    """How a way of sharing appears in the name of a file."""
+    return share.replace("+", "_")
 
 
 def assess(
@@ -120,11 +129,11 @@ def assess(
                 "neighbors, and this system names no neighbors: add 'neighbors' to the file"
             )
         system = augmented_outputs(plant)
-    heard = None
-    if plant.neighbors is not None:
-        from mcexact.analysis.neighbor_graph import neighbor_graph
-
-        heard = neighbor_graph(plant)
+    if minimal and plant.neighbors is None:
+        raise UsageError(
+            "--minimal asks what the agents must share with their neighbors, and this system "
+            "names no neighbors: add 'neighbors' to the file"
+        )
     return Assessment(
         system=system,
         information=information,
@@ -134,8 +143,30 @@ def assess(
         fixed_spectrum=fixed_spectrum(system),
         completeness=completeness(system),
         pencil_ranks=() if subset is None else _pencil_ranks(system, subset),
-        neighbor_graph=heard,
+        **({} if plant.neighbors is None else _of_the_graph(plant, minimal)),
     )
+
+
+def _of_the_graph(plant: MultiChannelSystem, minimal: bool) -> dict[str, Any]:
+    """The answers that need a neighbor graph."""
+    from mcexact.analysis.allocation import minimal_shared_dimensions, shared_dimension_bound
+    from mcexact.analysis.neighbor_graph import neighbor_graph
+
+    def least(share: Share) -> SharedDimensions | LimitReached:
+        try:
+            return minimal_shared_dimensions(plant, share=share)
+        except LimitReached as reached:
+            return reached
+
+    return {
+        "neighbor_graph": neighbor_graph(plant),
+        "shared_dimension_bounds": {
+            share: shared_dimension_bound(plant, share=share) for share in SHARING
+        },
+        "minimal_shared_dimensions": {share: least(share) for share in SHARING}
+        if minimal
+        else None,
+    }
 
 
 def _pencil_ranks(system: MultiChannelSystem, subset: Sequence[str]) -> tuple[PencilRank, ...]:

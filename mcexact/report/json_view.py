@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from mcexact.report.assessment import Assessment
+from mcexact.errors import LimitReached
+from mcexact.report.assessment import Assessment, stem
+
+if TYPE_CHECKING:
+    from mcexact.analysis.allocation import SharedDimensions
+    from mcexact.model.system import MultiChannelSystem
 
 
 def polynomial_view(polynomial: Any) -> list[str]:
@@ -68,9 +73,29 @@ def assessment_view(assessment: Assessment, *, with_certificates: bool = False) 
     if assessment.neighbor_graph is not None:
         connected = assessment.neighbor_graph.strongly_connected
         view["neighbor_graph"] = {"strongly_connected": connected}
+        view["shared_dimension_bound"] = {
+            share: {"per_agent": bound.per_agent, "total": bound.total}
+            for share, bound in assessment.shared_dimension_bounds.items()
+        }
+        least = assessment.minimal_shared_dimensions
+        view["minimal_shared_dimensions"] = least and {
+            share: shared_dimensions_view(system, found) for share, found in least.items()
+        }
     if with_certificates:
         _name_certificates(view, assessment.certificates())
     return view
+
+
+def shared_dimensions_view(
+    system: MultiChannelSystem, found: SharedDimensions | LimitReached
+) -> dict[str, Any]:
+    """The least dimensions by agent; the bounds on their sum where the node limit was reached."""
+    if isinstance(found, LimitReached):
+        return {name: getattr(found, name, None) for name in ("lower", "upper")}
+    dimensions = None
+    if found.dimensions is not None:
+        dimensions = dict(zip(system.names, found.dimensions, strict=True))
+    return {"feasible": found.feasible, "total": found.total, "dimensions": dimensions}
 
 
 def transfer_graph_view(assessment: Assessment) -> dict[str, Any]:
@@ -92,7 +117,6 @@ _ANSWERS = {
     "best_rate": "fixed_spectrum.json",
     "complete": "completeness.json",
     "neighbor_graph": "neighbor_graph.json",
-    "shared_dimension_bound": "shared_dimension_bound.json",
 }
 
 
@@ -105,4 +129,9 @@ def _name_certificates(view: dict[str, Any], files: Iterable[str]) -> None:
             view[answer]["certificate"] = file
     for number, rank in enumerate(view.get("pencil_ranks", ()), start=1):
         rank["certificate"] = f"pencil_rank_{number}.json"
+    for question in ("shared_dimension_bound", "minimal_shared_dimensions"):
+        for share, answer in (view.get(question) or {}).items():
+            file = f"{question}_{stem(share)}.json"
+            if file in files:
+                answer["certificate"] = named[f"{question}[{share}]"] = file
     view["certificate"] = named

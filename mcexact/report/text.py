@@ -6,9 +6,11 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TextIO
 
+from mcexact.errors import LimitReached
 from mcexact.report.assessment import Assessment
 
 if TYPE_CHECKING:
+    from mcexact.analysis.allocation import SharedDimensions
     from mcexact.analysis.controllability import JointControllability
     from mcexact.analysis.fixed_spectrum import FixedFactor
 
@@ -47,19 +49,38 @@ def assessment_tables(assessment: Assessment) -> tuple[Table, ...]:
         ("best decay" if system.time == "continuous" else "least radius", _rate(spectrum)),
         ("complete", _yes(assessment.completeness.complete)),
     ]
-    if assessment.neighbor_graph is not None:
-        rows.append(
-            (
-                "neighbor graph strongly connected",
-                _yes(assessment.neighbor_graph.strongly_connected),
-            )
-        )
+    rows += _of_the_graph(assessment)
     tables = [Table(heading, (), tuple(rows))]
     if not spectrum.empty:
         tables.append(_fixed_modes(assessment))
     if assessment.pencil_ranks:
         tables.append(_pencil_ranks(assessment))
     return tuple(tables)
+
+
+def _of_the_graph(assessment: Assessment) -> list[tuple[str, str]]:
+    """What depends on the neighbor graph."""
+    if assessment.neighbor_graph is None:
+        return []
+    connected = _yes(assessment.neighbor_graph.strongly_connected)
+    rows = [("neighbor graph strongly connected", connected)]
+    for share, bound in assessment.shared_dimension_bounds.items():
+        enough = f"{bound.per_agent} by each agent, {bound.total} together"
+        rows.append((f"enough to share ({share})", enough))
+    for share, least in (assessment.minimal_shared_dimensions or {}).items():
+        rows.append((f"least to share ({share})", _least(assessment, least)))
+    return rows
+
+
+def _least(assessment: Assessment, least: SharedDimensions | LimitReached) -> str:
+    """The least dimensions, or why there are none."""
+    if isinstance(least, LimitReached):
+        return str(least)
+    if least.dimensions is None:
+        return "no amount of sharing over this graph suffices"
+    names = assessment.system.names
+    used = [f"{n} by {name}" for name, n in zip(names, least.dimensions, strict=True) if n]
+    return f"{least.total}: {', '.join(used)}" if used else "nothing"
 
 
 def _pencil_ranks(assessment: Assessment) -> Table:
