@@ -291,7 +291,7 @@ class ModularMatrix:
         return ModularMatrix(self.modulus, reduced), _pivots(reduced, rank)
 
     def nullspace(self) -> ModularMatrix:
-        """A basis of {x : Mx = 0} as columns; its rows at the free columns of M are the identity."""
+        """A basis of {x : Mx = 0} as columns, the identity in its rows at the free columns of M."""
         return self.kernel()[0]
 
     def kernel(self) -> tuple[ModularMatrix, tuple[int, ...]]:
@@ -483,7 +483,7 @@ class ModularPolynomial:
         return (other % self).degree < 0
 
     def multiplicity_in(self, other: ModularPolynomial) -> int:
-        """The largest e with this polynomial to the e dividing other; both of degree ≥ 0, this ≥ 1."""
+        """The largest e with this polynomial, of degree ≥ 1, to the e dividing other, not 0."""
         if self.degree < 1 or other.degree < 0:
             raise InputError("expected a divisor of degree at least 1 and a nonzero polynomial")
         count = 0

@@ -7,8 +7,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import flint
-
 from mcexact.errors import InputError
 from mcexact.exact.matrix import Matrix, Rows
 from mcexact.exact.modular import ModularMatrix
