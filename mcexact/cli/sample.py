@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from mcexact.cli.options import FOLDER, as_json
+
+if TYPE_CHECKING:
+    from mcexact.model.system import MultiChannelSystem
 
 
 @click.command(name="sample", short_help="Draw systems with known structure.")
@@ -19,9 +23,19 @@ from mcexact.cli.options import FOLDER, as_json
     "--plant-fixed-mode",
     "degree",
     type=click.IntRange(min=1),
-    metavar="DEGREE",
-    help="Hide a fixed mode in it: an irreducible factor of this degree.",
+    is_flag=False,
+    flag_value=1,
+    metavar="[DEGREE]",
+    help="Hide a fixed mode in it: the roots of an irreducible factor of this degree, or of 1.",
 )
+@click.option(
+    "--time",
+    "domain",
+    type=click.Choice(["continuous", "discrete"]),
+    default="continuous",
+    show_default=True,
+)
+@click.option("--neighbors", is_flag=True, help="Draw a strongly connected neighbor graph as well.")
 @click.option(
     "--count",
     type=click.IntRange(min=1),
@@ -38,6 +52,8 @@ def command(
     states: int,
     channels: int,
     degree: int | None,
+    domain: str,
+    neighbors: bool,
     count: int,
     output: Path | None,
     as_json: bool,
@@ -47,17 +63,36 @@ def command(
     A system file is JSON, so --json changes nothing here.
     """
     from mcexact.cli.output import directory, emit
-    from mcexact.derived.drawn import sample_system
     from mcexact.model.atomic import write_text
     from mcexact.model.system_file import system_text
 
     if count > 1 and output is None:
         raise click.UsageError("--count needs --output, a directory for the files")
-    if degree is not None and degree > states:
-        raise click.UsageError(f"a fixed mode of degree {degree} needs at least {degree} states")
     for number in range(seed, seed + count):
-        text = system_text(sample_system(number, states, channels, degree))
+        text = system_text(_drawn(number, states, channels, degree, domain, neighbors))
         if output is None:
             emit(text)
         else:
             write_text(directory(output) / f"sample-{number}.json", text)
+
+
+def _drawn(
+    seed: int, states: int, channels: int, degree: int | None, time: str, neighbors: bool
+) -> MultiChannelSystem:
+    """Draw one system."""
+    from mcexact.derived.choices import SeededChoices
+    from mcexact.derived.drawn import (
+        drawn_graph,
+        jointly_controllable_system,
+        system_with_fixed_mode,
+    )
+
+    choices = SeededChoices(seed)
+    if degree is None:
+        system = jointly_controllable_system(choices, states, channels, time=time).system
+    else:
+        system = system_with_fixed_mode(choices, states, channels, degree, time=time).system
+    if neighbors:
+        graph = drawn_graph(choices, system.names, strongly_connected=True)
+        system = system.with_neighbors(graph)
+    return system
