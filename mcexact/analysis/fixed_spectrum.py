@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 from dataclasses import dataclass
+from typing import cast
 
 from mcexact.analysis.modular_system import closed_loop, generator, lifted, lifted_gains
 from mcexact.analysis.obstructions import Decision, Obstruction, decide
@@ -12,7 +13,7 @@ from mcexact.analysis.shrunk_subspace import ExactSubspace
 from mcexact.certificate.evidence import RateInterval, RootDisc, ShrunkSubspace
 from mcexact.certificate.fixed_spectrum import FixedFactorClaim, FixedSpectrumCertificate
 from mcexact.exact.enclosures import root_discs
-from mcexact.exact.location import StabilityRegion
+from mcexact.exact.location import StabilityRegion, Time
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import polynomial_residues, random_matrix
 from mcexact.exact.polynomial import Polynomial, product
@@ -86,7 +87,7 @@ class FixedSpectrum:
 
     def outside(self, region: StabilityRegion) -> tuple[FixedFactor, ...]:
         """The factors with a root outside a region: a design for this rate has to free them."""
-        return tuple(f for f in self.factors if not region.contains_roots(f.polynomial))
+        return tuple(f for f in self.factors if not region.contains_roots_of(f.polynomial))
 
 
 def fixed_spectrum(system: MultiChannelSystem) -> FixedSpectrum:
@@ -108,14 +109,17 @@ def fixed_spectrum(system: MultiChannelSystem) -> FixedSpectrum:
     --------
     >>> from mcexact import MultiChannelSystem
     >>> A = [[1, 0, 0], [0, 1, 0], [0, 1, 1]]
-    >>> B = [[[1], [0], [0]], [[0], [1], [0]], [[0], [1], [0]]]
-    >>> C = [[[1, 0, 0], [0, 0, 1]], [[0, 1, 0]], [[0, 0, 1]]]
-    >>> fixed_spectrum(MultiChannelSystem(A, B, C)).empty
-    False
+    >>> B = [[[1], [0], [0]], [[0], [1], [0]], [[1], [0], [0]]]
+    >>> C = [[[1, 0, 0], [0, 0, 1]], [[0, 1, 0]], [[0, 1, 0]]]
+    >>> [factor] = fixed_spectrum(MultiChannelSystem(A, B, C)).factors
+    >>> str(factor.polynomial), factor.channels, factor.rank
+    ('x - 1', ('2', '3'), 2)
+    >>> fixed_spectrum(MultiChannelSystem([[1]], [[[1]]], [[[1]]])).empty
+    True
     """
     rng = generator(system, "fixed_spectrum")
     decision = decide(system, rng)
-    region = StabilityRegion(system.time)
+    region = StabilityRegion(cast(Time, system.time))
     factors = tuple(_factor(system, decision, o, region) for o in decision.obstructions)
     polynomial = product(factor.polynomial for factor in factors)
     stabilizable = all(factor.stable for factor in factors)
@@ -159,7 +163,7 @@ def _factor(
         channels=system.named(i for i in range(system.m) if i not in T),
         rank=system.n - found.subspace.deficiency,
         roots=tuple(RootDisc(d.re, d.im, d.radius) for d in root_discs(p)),
-        stable=region.contains_roots(p),
+        stable=region.contains_roots_of(p),
         subspace=evidence(system, found.subspace),
     )
 
@@ -177,7 +181,7 @@ def _claim(factor: FixedFactor) -> FixedFactorClaim:
 
 
 def _completion(decision: Decision, rng: random.Random) -> tuple[Matrix, Matrix]:
-    """B_0 (n × ρ) and C_0 (ρ × n): with d columns and rows they free the factors of deficiency d."""
+    """B_0 (n × ρ) and C_0 (ρ × n); d columns and rows free the factors of deficiency d."""
     modular = decision.modular
     n, ell = modular.system.n, modular.modulus
     rho = max(o.subspace.deficiency for o in decision.obstructions)

@@ -124,7 +124,9 @@ def symmetric(residue: int, ell: int) -> int:
 def lifted(M: ModularMatrix) -> Matrix:
     """The integer matrix with the symmetric residues."""
     ell = M.modulus
-    return Matrix.from_integers([[symmetric(v, ell) for v in row] for row in M.rows()], ncols=M.ncols)
+    return Matrix.from_integers(
+        [[symmetric(v, ell) for v in row] for row in M.rows()], ncols=M.ncols
+    )
 
 
 def lifted_gains(modular: ModularSystem, gains: Gains) -> tuple[Matrix, ...]:

@@ -77,9 +77,9 @@ def decide(system: MultiChannelSystem, rng: random.Random) -> Decision:
     F is uniform modulo a word-size prime.  Where χ_A and χ_{A_F} are coprime modulo the prime, as
     they nearly always are when nothing is fixed, that is all: two characteristic polynomials.
     Otherwise their common factors modulo one or more primes are lifted to a factor of χ_A over Q,
-    which is factored (from then on primes are long ones, so that an accident is out of the question
-    and the exponents are the least); each irreducible factor has a shrunk subspace or falls away.  It ends when
-    what is left of χ_A is coprime to χ_{A_F}.
+    which is factored; from then on primes have 61 bits, so that the exponents in χ_{A_F} are the
+    least ones but for an accident.  Each irreducible factor has a shrunk subspace or falls away.
+    It ends when what is left of χ_A is coprime to χ_{A_F}.
     """
     lift: CommonFactor | None = None
     known: dict[Polynomial, ExactSubspace | None] = {}
@@ -130,9 +130,7 @@ class CommonFactor:
         has more only by accident.
         """
         degree, ell, d = common.degree, common.modulus, self._denominator
-        scaled = [
-            c * pow(d, degree - k, ell) % ell for k, c in enumerate(common.coefficients)
-        ]
+        scaled = [c * pow(d, degree - k, ell) % ell for k, c in enumerate(common.coefficients)]
         if not self._residues or degree < len(self._residues) - 1:
             self._residues, self._modulus = scaled, ell
         elif degree == len(self._residues) - 1:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import Any
 
 from mcexact.analysis.modular_system import generator
@@ -139,9 +138,7 @@ def _irreducible(mode: Any) -> Polynomial:
     return factors[0]
 
 
-def _modulus(
-    system: MultiChannelSystem, M0: Matrix, M1: Matrix, p: Polynomial, rank: int
-) -> int:
+def _modulus(system: MultiChannelSystem, M0: Matrix, M1: Matrix, p: Polynomial, rank: int) -> int:
     """A prime modulo which the pencil keeps its rank at every root of p."""
     inflated = inflate(PolynomialMatrix.pencil(M0, M1), p)
     for ell in primes(generator(system, "pencil_rank").getrandbits(64), bits=61):

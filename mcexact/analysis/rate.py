@@ -7,6 +7,7 @@ from fractions import Fraction
 from math import isqrt
 
 from mcexact.certificate.evidence import RateInterval, RootDisc
+from mcexact.exact.enclosures import decimal
 
 
 def best_rate(time: str, discs: Sequence[RootDisc]) -> RateInterval | None:
@@ -39,13 +40,16 @@ def best_rate(time: str, discs: Sequence[RootDisc]) -> RateInterval | None:
         upper = -max(re - radius for re, _, radius in numbers)
     else:
         moduli = [(_root_below(re, im, digits), radius) for re, im, radius in numbers]
-        exact = [m * m == re * re + im * im for (m, _), (re, im, _) in zip(moduli, numbers, strict=True)]
+        exact = [
+            m * m == re * re + im * im for (m, _), (re, im, _) in zip(moduli, numbers, strict=True)
+        ]
         step = Fraction(1, 10**digits)
         lower = max(Fraction(0), max(m - radius for m, radius in moduli))
         upper = max(
-            m + radius + (0 if sharp else step) for (m, radius), sharp in zip(moduli, exact, strict=True)
+            m + radius + (0 if sharp else step)
+            for (m, radius), sharp in zip(moduli, exact, strict=True)
         )
-    return RateInterval(_decimal(lower, digits), _decimal(upper, digits))
+    return RateInterval(*(decimal(int(end * 10**digits), digits) for end in (lower, upper)))
 
 
 def _digits(text: str) -> int:
@@ -58,12 +62,3 @@ def _root_below(re: Fraction, im: Fraction, digits: int) -> Fraction:
     scale = 10**digits
     square = (re * re + im * im) * scale * scale
     return Fraction(isqrt(square.numerator // square.denominator), scale)
-
-
-def _decimal(value: Fraction, digits: int) -> str:
-    """A decimal with at most this many digits behind the point, exactly."""
-    scaled = value * 10**digits
-    sign = "-" if scaled < 0 else ""
-    whole, rest = divmod(abs(scaled.numerator), 10**digits)
-    fraction = str(rest).zfill(digits).rstrip("0") if digits else ""
-    return f"{sign}{whole}.{fraction}" if fraction else f"{sign}{whole}"

@@ -61,9 +61,7 @@ class _Echelon:
     solutions: ModularMatrix
 
 
-def obstruction_modulo(
-    modular: ModularSystem, gains: Gains, mu: int
-) -> ModularObstruction | None:
+def obstruction_modulo(modular: ModularSystem, gains: Gains, mu: int) -> ModularObstruction | None:
     """Decide whether μ is fixed modulo ℓ, over the field with ℓ elements.
 
     Parameters
@@ -118,7 +116,9 @@ def _reduce(modular: ModularSystem, gains: Gains, mu: int) -> _Echelon:
     images = [not any(row[n + j] for row in below) for j in range(width)]
     for row, position in zip(rows, bound, strict=False):
         kernel[position] = [-row[f] % ell for f in free]
-        solutions[position] = [v if inside else 0 for v, inside in zip(row[n:], images, strict=True)]
+        solutions[position] = [
+            v if inside else 0 for v, inside in zip(row[n:], images, strict=True)
+        ]
     return _Echelon(
         ModularMatrix.from_rows(kernel, ell, ncols=len(free)),
         images,

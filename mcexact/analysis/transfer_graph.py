@@ -68,7 +68,8 @@ def transfer_graph(system: MultiChannelSystem) -> TransferGraph:
     Examples
     --------
     >>> from mcexact import MultiChannelSystem
-    >>> system = MultiChannelSystem([[0, 0], [1, 0]], [[[1], [0]], [[0], [1]]], [[[1, 0]], [[0, 1]]])
+    >>> B, C = [[[1], [0]], [[0], [1]]], [[[1, 0]], [[0, 1]]]
+    >>> system = MultiChannelSystem([[0, 0], [1, 0]], B, C)
     >>> graph = transfer_graph(system)
     >>> graph.arcs
     (('1', '1'), ('1', '2'), ('2', '2'))

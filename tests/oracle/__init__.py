@@ -1,1 +1,1 @@
-"""A slow second opinion: every subset of channels, with sympy's exact matrices, on small systems."""
+"""A slow second opinion on small systems: every subset of channels, sympy's exact matrices."""
