@@ -261,3 +261,22 @@ move=> d0; rewrite eigenvalue_rank (leq_trans _ (shrunk_subspace_dynamic D))//.
 by rewrite -[X in (X < _)%N]addn0 ltn_add2l.
 Qed.
 End Certificate.
+
+(* The easy half of Anderson-Clements (Proposition 2): no gains exceed the rank of a pencil. *)
+Section Easy.
+Variables (L : fieldType) (n m : nat) (p q : 'I_m -> nat).
+
+Theorem loop_rank_pencil (S : multichannel L n p q) (s : {set 'I_m}) (lambda : L) (F : gains L p q) :
+  (\rank (lambda%:M - closed_loop S F)%R <= \rank (pencil S s lambda))%N.
+Proof.
+pose X := row_mx 1%:M (- \mxrow_i (mcB S i *m F i)) : 'M_(n, n + \sum_i q i).
+pose Y := col_mx 1%:M (- \mxcol_i (F i *m mcC S i)) : 'M_(n + \sum_i p i, n).
+have -> : lambda%:M - closed_loop S F = X *m pencil S s lambda *m Y.
+  rewrite mul_row_block mul_row_col !mul1mx !mulmx0 addr0 !mulmx1 mulNmx mulmxN.
+  rewrite !mul_mxrow_mxcol -addrA -opprD -big_split /closed_loop opprD addrA; congr (_ - _).
+  apply: eq_bigr => i _; rewrite inE; case: (i \in s) => /=.
+    by rewrite mul0mx [RHS]addr0.
+  by rewrite mulmx0 [RHS]add0r mulmxA.
+by rewrite (leq_trans (mxrankM_maxl _ _))// mxrankM_maxr.
+Qed.
+End Easy.
