@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
-
-import numpy as np
-import numpy.typing as npt
+from typing import TYPE_CHECKING, Any
 
 from mcexact.errors import InputError
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.rational import Rounding, from_float, to_float
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
 
 
 def matrix_from_float(
@@ -37,6 +38,8 @@ def matrix_from_float(
     >>> matrix_from_float([[0.1, 2.0]]).rows()
     ((Fraction(1, 10), Fraction(2, 1)),)
     """
+    import numpy as np
+
     if hasattr(M, "toarray"):
         M = M.toarray()
     array = np.asarray(M) if hasattr(M, "__array__") else _array(M, where)
@@ -62,6 +65,8 @@ def matrix_from_float(
 
 def _array(rows: Any, where: str | None) -> npt.NDArray[Any]:
     """A list of rows as an array; numpy would turn ragged rows or text into something else."""
+    import numpy as np
+
     if isinstance(rows, (str, bytes, dict)) or not isinstance(rows, Iterable):
         raise InputError(
             f"expected a two-dimensional array, found {type(rows).__name__}", where=where
@@ -83,6 +88,8 @@ def matrix_to_float(M: Matrix) -> npt.NDArray[np.float64]:
     >>> matrix_to_float(Matrix.from_rows([[1, "1/4"]]))
     array([[1.  , 0.25]])
     """
+    import numpy as np
+
     array = np.empty(M.shape, dtype=np.float64)
     for i, row in enumerate(M.rows()):
         for j, entry in enumerate(row):

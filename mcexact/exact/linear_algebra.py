@@ -7,7 +7,7 @@ from fractions import Fraction
 import flint
 
 from mcexact.errors import InputError
-from mcexact.exact.matrix import Matrix, _made, from_flint, hstack, lowest_terms
+from mcexact.exact.matrix import Matrix, from_flint, hstack, lowest_terms, unchecked
 from mcexact.exact.polynomial import Polynomial
 
 # A prime for a first look at a rank: full rank modulo it is full rank over Q.
@@ -53,7 +53,7 @@ def row_echelon(M: Matrix) -> tuple[Matrix, tuple[int, ...]]:
         while not row[j]:
             j += 1
         pivots.append(j)
-    return _made(r, M.ncols, whole.numerators[:r], whole.denominator), tuple(pivots)
+    return unchecked(r, M.ncols, whole.numerators[:r], whole.denominator), tuple(pivots)
 
 
 def column_echelon(M: Matrix) -> tuple[Matrix, tuple[int, ...]]:

@@ -153,7 +153,7 @@ class Matrix:
     def T(self) -> Matrix:
         """The transpose."""
         columns = tuple(zip(*self.numerators, strict=True)) if self.nrows else ((),) * self.ncols
-        return _made(self.ncols, self.nrows, columns, self.denominator)
+        return unchecked(self.ncols, self.nrows, columns, self.denominator)
 
     def __getitem__(self, position: tuple[int, int]) -> Fraction:
         """The entry in a row and a column, counted from 0; negative positions are refused."""
@@ -216,7 +216,7 @@ class Matrix:
 
     def __neg__(self) -> Matrix:
         table = tuple(tuple(-entry for entry in row) for row in self.numerators)
-        return _made(self.nrows, self.ncols, table, self.denominator)
+        return unchecked(self.nrows, self.ncols, table, self.denominator)
 
     def __matmul__(self, other: Matrix) -> Matrix:
         if not isinstance(other, Matrix):
@@ -286,7 +286,7 @@ def _content(numerators: Rows, denominator: int) -> int:
     return content
 
 
-def _made(nrows: int, ncols: int, numerators: Rows, denominator: int) -> Matrix:
+def unchecked(nrows: int, ncols: int, numerators: Rows, denominator: int) -> Matrix:
     """A matrix from parts known to be valid; `__post_init__` would look at every entry again."""
     made = object.__new__(Matrix)
     made.__dict__.update(nrows=nrows, ncols=ncols, numerators=numerators, denominator=denominator)
@@ -300,7 +300,7 @@ def lowest_terms(nrows: int, ncols: int, numerators: Rows, denominator: int) -> 
         content = -content
     if content != 1:
         numerators = tuple(tuple(entry // content for entry in row) for row in numerators)
-    return _made(nrows, ncols, numerators, denominator // content)
+    return unchecked(nrows, ncols, numerators, denominator // content)
 
 
 def from_flint(table: flint.fmpz_mat, denominator: int = 1) -> Matrix:

@@ -1,76 +1,21 @@
-"""Matrices and polynomials modulo word-size primes: the workhorse of every exact decision."""
+"""Matrices modulo word-size primes: the workhorse of every exact decision."""
 
 from __future__ import annotations
 
 import random
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
-from functools import lru_cache
 from typing import Any
 
 import flint
 
 from mcexact.errors import InputError
 from mcexact.exact.matrix import Matrix
-from mcexact.exact.polynomial import Polynomial
-
-# A product of two residues below 2**30 stays in two digits of a Python integer: the checker, which
-# has no library, is quick at such moduli, and flint is at any below 2**63.
-_BITS = 30
-
-
-@lru_cache(maxsize=1024)
-def _is_prime(ell: int) -> bool:
-    return bool(flint.fmpz(ell).is_prime())
-
-
-def _require_prime(ell: int) -> None:
-    """Refuse a modulus that flint would abort on."""
-    if type(ell) is not int or not 2 <= ell < 2**63 or not _is_prime(ell):
-        raise InputError(f"expected a prime modulus below 2**63, found {ell!r}")
-
-
-def primes(seed: int, bits: int = _BITS) -> Iterator[int]:
-    """An endless stream of primes with exactly this many bits, drawn from a seed.
-
-    Parameters
-    ----------
-    seed : int
-        The same seed gives the same primes, on every machine.
-    bits : int
-        From 8 to 63.
-
-    Examples
-    --------
-    >>> stream = primes(7)
-    >>> all(2**29 < next(stream) < 2**30 for _ in range(5))
-    True
-    """
-    if not 8 <= bits <= 63:
-        raise InputError(f"expected primes of 8 to 63 bits, found {bits}")
-    rng = random.Random(seed)
-    while True:
-        candidate = rng.getrandbits(bits) | 1 << bits - 1 | 1
-        if flint.fmpz(candidate).is_prime():
-            yield candidate
-
-
-def residue(q: Fraction | int, ell: int) -> int:
-    """A rational number modulo a prime that does not divide its denominator.
-
-    Examples
-    --------
-    >>> residue(Fraction(1, 2), 7)
-    4
-    """
-    if q.denominator % ell == 0:
-        raise _divides_denominator(ell)
-    return q.numerator * pow(q.denominator, -1, ell) % ell
-
-
-def _divides_denominator(ell: int) -> InputError:
-    return InputError(f"the modulus {ell} divides a denominator; draw another")
+from mcexact.exact.modular_polynomial import ModularPolynomial as ModularPolynomial
+from mcexact.exact.modular_polynomial import polynomial_residues as polynomial_residues
+from mcexact.exact.prime_field import divides_denominator, require_prime
+from mcexact.exact.prime_field import primes as primes
+from mcexact.exact.prime_field import residue as residue
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,7 +46,7 @@ class ModularMatrix:
         cls, rows: Iterable[Iterable[int]], modulus: int, ncols: int | None = None
     ) -> ModularMatrix:
         """The matrix with rows of integers, reduced modulo ℓ; `ncols` where there are no rows."""
-        _require_prime(modulus)
+        require_prime(modulus)
         table = [list(row) for row in rows]
         width = (len(table[0]) if table else 0) if ncols is None else ncols
         if any(len(row) != width for row in table):
@@ -115,7 +60,7 @@ class ModularMatrix:
     @classmethod
     def zeros(cls, nrows: int, ncols: int, modulus: int) -> ModularMatrix:
         """The nrows × ncols zero matrix."""
-        _require_prime(modulus)
+        require_prime(modulus)
         if min(nrows, ncols) < 0:
             raise InputError(f"expected sizes that are at least 0, found {nrows} × {ncols}")
         return cls(modulus, flint.nmod_mat(nrows, ncols, modulus))
@@ -375,9 +320,9 @@ def residues(M: Matrix, ell: int) -> ModularMatrix:
     >>> residues(Matrix.from_rows([["1/2", 3]]), 7).rows()
     [[4, 3]]
     """
-    _require_prime(ell)
+    require_prime(ell)
     if M.denominator % ell == 0:
-        raise _divides_denominator(ell)
+        raise divides_denominator(ell)
     table = flint.nmod_mat(M._integer, ell)
     if M.denominator != 1:
         table = table * pow(M.denominator, -1, ell)
@@ -386,7 +331,7 @@ def residues(M: Matrix, ell: int) -> ModularMatrix:
 
 def random_matrix(nrows: int, ncols: int, ell: int, rng: random.Random) -> ModularMatrix:
     """A matrix of independent uniform residues, drawn row by row."""
-    _require_prime(ell)
+    require_prime(ell)
     entries = [rng.randrange(ell) for _ in range(nrows * ncols)]
     return ModularMatrix(ell, flint.nmod_mat(nrows, ncols, entries, ell))
 
@@ -398,124 +343,3 @@ def low_rank_update(
     if not B.ncols or not C.nrows:
         return A
     return A + (B @ F) @ C if B.ncols > C.nrows else A + B @ (F @ C)
-
-
-@dataclass(frozen=True, eq=False)
-class ModularPolynomial:
-    """A polynomial over the field with ℓ elements.
-
-    Attributes
-    ----------
-    modulus : int
-        A prime ℓ below 2**63.
-
-    Examples
-    --------
-    >>> p = ModularPolynomial.from_coefficients([-1, 0, 1], 7)
-    >>> p.degree, p.roots(), p.gcd(ModularPolynomial.from_coefficients([1, 1], 7)).coefficients
-    (2, [1, 6], (1, 1))
-    """
-
-    modulus: int
-    _poly: flint.nmod_poly
-
-    @classmethod
-    def from_coefficients(cls, coefficients: Iterable[int], modulus: int) -> ModularPolynomial:
-        """The polynomial with integer coefficients, constant term first, reduced modulo ℓ."""
-        _require_prime(modulus)
-        return cls(modulus, flint.nmod_poly([int(c) % modulus for c in coefficients], modulus))
-
-    @property
-    def coefficients(self) -> tuple[int, ...]:
-        """Residues from 0 to ℓ − 1, constant term first, the last one not 0."""
-        return tuple(map(int, self._poly.coeffs()))
-
-    @property
-    def degree(self) -> int:
-        """The degree; −1 for 0."""
-        return int(self._poly.degree())
-
-    def __call__(self, value: int) -> int:
-        """The value at a residue."""
-        return int(self._poly(value % self.modulus))
-
-    def _same(self, other: ModularPolynomial) -> None:
-        if self.modulus != other.modulus:
-            raise InputError(f"moduli do not match: {self.modulus} and {other.modulus}")
-
-    def __add__(self, other: ModularPolynomial) -> ModularPolynomial:
-        self._same(other)
-        return ModularPolynomial(self.modulus, self._poly + other._poly)
-
-    def __sub__(self, other: ModularPolynomial) -> ModularPolynomial:
-        self._same(other)
-        return ModularPolynomial(self.modulus, self._poly - other._poly)
-
-    def __mul__(self, other: ModularPolynomial) -> ModularPolynomial:
-        self._same(other)
-        return ModularPolynomial(self.modulus, self._poly * other._poly)
-
-    def __divmod__(self, other: ModularPolynomial) -> tuple[ModularPolynomial, ModularPolynomial]:
-        self._same(other)
-        if other.degree < 0:
-            raise ZeroDivisionError("division by the zero polynomial")
-        quotient, remainder = divmod(self._poly, other._poly)
-        return (
-            ModularPolynomial(self.modulus, quotient),
-            ModularPolynomial(self.modulus, remainder),
-        )
-
-    def __floordiv__(self, other: ModularPolynomial) -> ModularPolynomial:
-        return divmod(self, other)[0]
-
-    def __mod__(self, other: ModularPolynomial) -> ModularPolynomial:
-        return divmod(self, other)[1]
-
-    def gcd(self, other: ModularPolynomial) -> ModularPolynomial:
-        """The monic greatest common divisor; 0 only of two zeros."""
-        self._same(other)
-        return ModularPolynomial(self.modulus, self._poly.gcd(other._poly))
-
-    def divides(self, other: ModularPolynomial) -> bool:
-        """Whether other is a multiple of this polynomial."""
-        if self.degree < 0:
-            return other.degree < 0
-        return (other % self).degree < 0
-
-    def multiplicity_in(self, other: ModularPolynomial) -> int:
-        """The largest e with this polynomial, of degree ≥ 1, to the e dividing other, not 0."""
-        if self.degree < 1 or other.degree < 0:
-            raise InputError("expected a divisor of degree at least 1 and a nonzero polynomial")
-        count = 0
-        quotient, remainder = divmod(other, self)
-        while remainder.degree < 0:
-            count += 1
-            quotient, remainder = divmod(quotient, self)
-        return count
-
-    def roots(self) -> list[int]:
-        """The distinct roots in the field with ℓ elements, ascending."""
-        if self.degree < 0:
-            raise InputError("expected a nonzero polynomial: every residue is a root of 0")
-        if self.degree == 0:
-            return []
-        return sorted(int(root) for root, _ in self._poly.roots())
-
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, ModularPolynomial):
-            return NotImplemented
-        return self.modulus == other.modulus and self.coefficients == other.coefficients
-
-    def __hash__(self) -> int:
-        return hash((self.modulus, self.coefficients))
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return ModularPolynomial.from_coefficients, (self.coefficients, self.modulus)
-
-    def __repr__(self) -> str:
-        return f"ModularPolynomial({list(self.coefficients)}, modulus={self.modulus})"
-
-
-def polynomial_residues(p: Polynomial, ell: int) -> ModularPolynomial:
-    """A rational polynomial modulo a prime that divides no denominator of its coefficients."""
-    return ModularPolynomial.from_coefficients([residue(c, ell) for c in p.coefficients], ell)
