@@ -1,0 +1,11 @@
+"""The independent checker of certificates: standard library only, nothing of the rest of mcexact.
+
+Takes documents of ``mcexact-certificate/1``, gives verdicts, and never searches: what it says is
+VALID follows from equalities that it has recomputed, by rules proved in ``proofs/``.  The folder
+can be copied away and run with ``python -S -E -m checker FILE…``.
+"""
+
+from .kinds import Verdict, check_document
+from .reading import Limits
+
+__all__ = ["Limits", "Verdict", "check_document"]

@@ -1,0 +1,292 @@
+"""Exact arithmetic: matrices of integers over one denominator, polynomials, and both modulo an ℓ.
+
+A modulus need not be prime: whatever is inverted must be a unit, else :class:`NotAUnit` is raised.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import count
+from operator import mul
+from typing import Any
+
+Polynomial = list[Any]
+"""Coefficients, constant term first: Fractions over Q, integers modulo ℓ."""
+
+Rows = list[list[int]]
+
+
+class NotAUnit(Exception):
+    """A number that had to be inverted is not invertible modulo ℓ."""
+
+
+@dataclass(frozen=True)
+class Matrix:
+    """A rational matrix: rows of integers over one denominator."""
+
+    rows: Rows
+    ncols: int
+    denominator: int = 1
+
+    @staticmethod
+    def zeros(nrows: int, ncols: int) -> Matrix:
+        """The zero matrix."""
+        return Matrix([[0] * ncols for _ in range(nrows)], ncols)
+
+    @staticmethod
+    def identity(n: int) -> Matrix:
+        """The identity matrix."""
+        return Matrix([[int(i == j) for j in range(n)] for i in range(n)], n)
+
+    @staticmethod
+    def of(rows: Sequence[Sequence[Fraction]], ncols: int) -> Matrix:
+        """The matrix of these rationals."""
+        d = math.lcm(*(entry.denominator for row in rows for entry in row))
+        return Matrix([[e.numerator * (d // e.denominator) for e in row] for row in rows], ncols, d)
+
+    @property
+    def nrows(self) -> int:
+        """The number of rows."""
+        return len(self.rows)
+
+    @property
+    def T(self) -> Matrix:
+        """The transpose."""
+        columns = [[row[j] for row in self.rows] for j in range(self.ncols)]
+        return Matrix(columns, self.nrows, self.denominator)
+
+    def __matmul__(self, other: Matrix) -> Matrix:
+        rows = product(self.rows, other.rows, other.ncols)
+        return Matrix(rows, other.ncols, self.denominator * other.denominator)
+
+    def __add__(self, other: Matrix) -> Matrix:
+        d = math.lcm(self.denominator, other.denominator)
+        f, g = d // self.denominator, d // other.denominator
+        pairs = zip(self.rows, other.rows, strict=True)
+        rows = [[f * a + g * b for a, b in zip(r, s, strict=True)] for r, s in pairs]
+        return Matrix(rows, self.ncols, d)
+
+    def __sub__(self, other: Matrix) -> Matrix:
+        return self + other.times(Fraction(-1))
+
+    def times(self, factor: Fraction) -> Matrix:
+        """The multiple by a rational factor."""
+        rows = [[factor.numerator * entry for entry in row] for row in self.rows]
+        return Matrix(rows, self.ncols, self.denominator * factor.denominator)
+
+    def is_zero(self) -> bool:
+        """Whether every entry is 0."""
+        return not any(map(any, self.rows))
+
+    def equals(self, other: Matrix) -> bool:
+        """Whether all entries agree."""
+        return (self - other).is_zero()
+
+    def take(self, rows: Sequence[int] | None = None, cols: Sequence[int] | None = None) -> Matrix:
+        """The submatrix of these rows and columns."""
+        chosen = self.rows if rows is None else [self.rows[i] for i in rows]
+        if cols is None:
+            return Matrix(chosen, self.ncols, self.denominator)
+        return Matrix([[row[j] for j in cols] for row in chosen], len(cols), self.denominator)
+
+    def modulo(self, ell: int) -> Rows:
+        """The residues modulo ℓ; the denominator must be a unit."""
+        f = inverse(self.denominator, ell)
+        return [[f * entry % ell for entry in row] for row in self.rows]
+
+
+def block(grid: Sequence[Sequence[Matrix]]) -> Matrix:
+    """The matrix put together from blocks, at least one."""
+    d = math.lcm(*(part.denominator for parts in grid for part in parts))
+    rows: Rows = []
+    for parts in grid:
+        scaled = [part.times(Fraction(d // part.denominator)).rows for part in parts]
+        rows += [[e for piece in pieces for e in piece] for pieces in zip(*scaled, strict=True)]
+    return Matrix(rows, sum(part.ncols for part in grid[0]), d)
+
+
+def diagonal(parts: Sequence[Matrix]) -> Matrix:
+    """The block diagonal matrix of at least one block."""
+    return block(
+        [
+            [p if i == j else Matrix.zeros(p.nrows, q.ncols) for j, q in enumerate(parts)]
+            for i, p in enumerate(parts)
+        ]
+    )
+
+
+def product(A: Rows, B: Rows, ncols: int, ell: int = 0) -> Rows:
+    """A·B over the integers, or modulo ℓ if one is given."""
+    columns: Iterable[Any] = list(zip(*B, strict=True)) if B else [()] * ncols
+    rows = [[sum(map(mul, row, column)) for column in columns] for row in A]
+    return [[entry % ell for entry in row] for row in rows] if ell else rows
+
+
+def inverse(number: int, ell: int) -> int:
+    """The inverse modulo ℓ."""
+    if math.gcd(number, ell) != 1:
+        raise NotAUnit
+    return pow(number, -1, ell)
+
+
+def rank(A: Matrix) -> int:
+    """The rank over Q, by fraction-free elimination (Bareiss): every quotient is exact."""
+    rows, found, previous = [list(row) for row in A.rows], 0, 1
+    for column in range(A.ncols):
+        pivot = next((i for i in range(found, len(rows)) if rows[i][column]), None)
+        if pivot is None:
+            continue
+        rows[found], rows[pivot] = rows[pivot], rows[found]
+        top, p = rows[found], rows[found][column]
+        for i in range(found + 1, len(rows)):
+            f = rows[i][column]
+            rows[i] = [(p * a - f * b) // previous for a, b in zip(rows[i], top, strict=True)]
+        previous, found = p, found + 1
+    return found
+
+
+class Echelon:
+    """Vectors modulo ℓ in echelon form, every pivot 1: their number bounds a rank from below."""
+
+    def __init__(self, ell: int) -> None:
+        self.ell = ell
+        self.rows: list[tuple[int, list[int]]] = []
+
+    def add(self, vector: Sequence[int]) -> list[int] | None:
+        """Reduce a vector; keep and return what is left of it, or None if nothing is."""
+        left = list(vector)
+        for pivot, row in self.rows:
+            if f := left[pivot]:
+                left = [(a - f * b) % self.ell for a, b in zip(left, row, strict=True)]
+        pivot = next((k for k, entry in enumerate(left) if entry), -1)
+        if pivot < 0:
+            return None
+        f = inverse(left[pivot], self.ell)
+        self.rows.append((pivot, [f * entry % self.ell for entry in left]))
+        return self.rows[-1][1]
+
+
+def characteristic_polynomial_modulo(A: Rows, ell: int) -> Polynomial:
+    """The characteristic polynomial of an integer matrix modulo ℓ.
+
+    A L = L H with L unit lower triangular (up to a common permutation of rows and columns) and H
+    upper Hessenberg, column by column: one reduction modulo ℓ for each inner product.
+    """
+    n, A = len(A), [list(row) for row in A]
+    L: Rows = [[int(i == 0)] for i in range(n)]
+    H: Rows = []
+    below: list[int] = []
+    for j in range(n):
+        column = [row[j] for row in L]
+        w = [sum(map(mul, row, column)) for row in A]
+        h: list[int] = []
+        for i in range(j + 1):
+            h.append((w[i] - sum(map(mul, L[i], h))) % ell)
+        rest = [(w[i] - sum(map(mul, L[i], h))) % ell for i in range(j + 1, n)]
+        H.append(h)
+        if j + 1 == n:
+            break
+        k = next((k for k, entry in enumerate(rest) if entry), 0)
+        below.append(rest[k])
+        if rest[k]:
+            for items in (A, L, *A):
+                items[j + 1], items[j + 1 + k] = items[j + 1 + k], items[j + 1]  # type: ignore[index]
+            rest[0], rest[k] = rest[k], rest[0]
+            f = inverse(rest[0], ell)
+            rest = [f * entry % ell for entry in rest]
+        for i in range(n):
+            L[i].append(0 if i <= j else rest[i - j - 1])
+        L[j + 1][j + 1] = 1
+    return _hessenberg_polynomial(H, below, ell)
+
+
+def _hessenberg_polynomial(H: Rows, below: list[int], ell: int) -> Polynomial:
+    """det(xI − H) modulo ℓ for H upper Hessenberg: column k holds H[k], then ``below[k]``.
+
+    p_{k+1} = (x − h_kk) p_k − Σ_{i<k} h_ik (below_i … below_{k−1}) p_i, coefficient by coefficient.
+    """
+    coefficients: Rows = [[1]]  # coefficients[c][k] is the coefficient of x^c in p_k
+    for k, weights in enumerate(H):
+        chain = 1
+        for i in reversed(range(k)):
+            chain = chain * below[i] % ell
+            weights[i] = weights[i] * chain % ell
+        carried = 0
+        coefficients.append([0] * (k + 1))
+        for column in coefficients:
+            shifted, carried = carried, column[k]
+            column.append((shifted - sum(map(mul, weights, column))) % ell)
+    return [column[-1] for column in coefficients]
+
+
+def characteristic_polynomial(A: Matrix) -> Polynomial:
+    """The characteristic polynomial over Q.
+
+    The coefficients of det(xI − N), N the integer numerators, are at most Π (1 + |row|) in absolute
+    value (Hadamard, minor by minor), so they are read off modulo one larger power of an odd q.
+    """
+    bound = math.prod(2 + math.isqrt(sum(entry * entry for entry in row)) for row in A.rows)
+    for q in count(2**61 - 1, 2):
+        ell = q ** (bound.bit_length() // 60 + 1)
+        try:
+            residues = characteristic_polynomial_modulo(A.rows, ell)
+        except NotAUnit:
+            continue
+        lifted = [c - ell if 2 * c > ell else c for c in residues]
+        n, d = A.nrows, A.denominator
+        return [Fraction(c, d ** (n - k)) for k, c in enumerate(lifted)]
+    raise NotAUnit
+
+
+def poly_modulo(p: Polynomial, ell: int) -> Polynomial:
+    """A polynomial over Q modulo ℓ; its denominators must be units."""
+    return stripped([c.numerator * inverse(c.denominator, ell) % ell for c in p])
+
+
+def stripped(p: Polynomial) -> Polynomial:
+    """The same polynomial without zeros at the end."""
+    while p and not p[-1]:
+        p.pop()
+    return p
+
+
+def poly_product(a: Polynomial, b: Polynomial) -> Polynomial:
+    """The product a·b."""
+    result: Polynomial = [0] * (len(a) + len(b) - 1)
+    for i, f in enumerate(a):
+        for k, g in enumerate(b):
+            result[i + k] += f * g
+    return result
+
+
+def poly_divide(a: Polynomial, b: Polynomial, ell: int = 0) -> tuple[Polynomial, Polynomial]:
+    """Quotient and remainder of a by b ≠ 0, over Q, or modulo ℓ if one is given."""
+    f = inverse(b[-1], ell) if ell else 1 / Fraction(b[-1])
+    rest, quotient = list(a), []
+    while len(rest) >= len(b):
+        factor = rest[-1] * f
+        quotient.append(factor % ell if ell else factor)
+        for k in range(len(b)):
+            rest[k - len(b)] -= quotient[-1] * b[k]
+        rest.pop()
+    return quotient[::-1], stripped([entry % ell for entry in rest] if ell else rest)
+
+
+def exponent(p: Polynomial, f: Polynomial, ell: int = 0) -> tuple[int, Polynomial]:
+    """The number of times that p, of degree ≥ 1, divides f ≠ 0, and what is left of f."""
+    times = 0
+    while True:
+        quotient, rest = poly_divide(f, p, ell)
+        if rest:
+            return times, f
+        times, f = times + 1, quotient
+
+
+def coprime(a: Polynomial, b: Polynomial, ell: int) -> bool:
+    """Whether Euclid's algorithm ends with a unit: then u·a + v·b = 1 modulo ℓ for some u, v."""
+    while b:
+        a, b = b, poly_divide(a, b, ell)[1]
+    return len(a) == 1 and inverse(a[0], ell) > 0

@@ -1,0 +1,49 @@
+"""Kind ``completeness``: connected and nothing fixed, or not; ``proofs/completeness.md``."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from . import evidence
+from .arithmetic import characteristic_polynomial_modulo
+from .reading import boolean, fields, polynomial, require
+from .system import System
+from .transfer_graph import read_arcs, require_arcs
+from .words import channel_set, described, polynomial_text
+
+
+def check(claim: Any, witness: Any, system: System) -> str:
+    """Check gains and arcs for yes; a fixed mode or a cut of the transfer graph for no."""
+    (verdict,) = fields(claim, "claim", "complete")
+    if boolean(verdict, "claim.complete"):
+        return f"{described(system)} is complete: {_freedom(witness, system)}"
+    if isinstance(witness, dict) and "zero" in witness:
+        (zero,) = fields(witness, "witness", "zero")
+        sources, X = evidence.zero_transfer(zero, "witness.zero", system)
+        rest = evidence.complement(system, sources)
+        require(
+            bool(sources and rest), "cut", "witness.zero.from", "expected a nonempty proper set"
+        )
+        for i in rest:
+            message = f"C X is not zero for channel number {i + 1}"
+            require((system.C[i] @ X).is_zero(), "identity", "witness.zero", message)
+        reason = f"no transfer from the channels {channel_set(system, sources)} to any other"
+        return f"{described(system)} is not complete: {reason}"
+    coefficients, subspace = fields(witness, "witness", "polynomial", "subspace")
+    p = polynomial(coefficients, "witness.polynomial", 1)
+    evidence.shrunk_subspace(subspace, "witness.subspace", system, p, 1)
+    return f"{described(system)} is not complete: the roots of {polynomial_text(p)} are fixed modes"
+
+
+def _freedom(witness: Any, system: System) -> str:
+    number, gains, listed = fields(witness, "witness", "modulus", "gains", "arcs")
+    ell = evidence.modulus(number, "witness.modulus")
+    A_F = evidence.closed_loop(system, evidence.read_gains(gains, "witness.gains", system))
+    before = characteristic_polynomial_modulo(system.A.modulo(ell), ell)
+    after = characteristic_polynomial_modulo(A_F.modulo(ell), ell)
+    evidence.require_coprime(before, after, ell, "det(xI - A) and det(xI - A_F)")
+    arcs = read_arcs(listed, "witness.arcs", system)
+    require_arcs(system, arcs, ell)
+    connected = len(evidence.components(system.m, [(j, i) for j, i, _ in arcs])) <= 1
+    require(connected, "arc", "witness.arcs", "these arcs do not connect all channels")
+    return "its transfer graph is strongly connected and no mode is fixed"

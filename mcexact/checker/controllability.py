@@ -1,0 +1,58 @@
+"""Kind ``controllability``: what a set of channels controls; ``proofs/controllability.md``."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from .arithmetic import Echelon, characteristic_polynomial, product
+from .evidence import inputs, modulus, require_identity
+from .reading import boolean, fields, integer, matrix, names, polynomial, positions, require
+from .system import System
+from .words import channel_set, described, polynomial_text
+
+
+def check(claim: Any, witness: Any, system: System) -> str:
+    """Check an annihilator W from above and a Krylov rank modulo ℓ from below."""
+    listed, size, verdict, factor = fields(
+        claim, "claim", "channels", "dimension", "controllable", "uncontrollable_polynomial"
+    )
+    ell, rows, columns = fields(witness, "witness", "modulus", "annihilator", "pivots")
+    T = names(listed, "claim.channels", system.names)
+    d, n = integer(size, "claim.dimension"), system.n
+    chi = polynomial(factor, "claim.uncontrollable_polynomial")
+    pivots = positions(columns, "witness.pivots", n)
+    require(len(pivots) == n - d, "dimension", "witness.pivots", f"expected {n} - {d} of them")
+    W = matrix(rows, "witness.annihilator", n - d, n)
+    require_identity([W.T], pivots, "witness.pivots")
+    WA, B_T = W @ system.A, inputs(system, T)
+    Z = WA.take(cols=pivots)
+    require(WA.equals(Z @ W), "identity", "witness.annihilator", "W A is not Z W")
+    require((W @ B_T).is_zero(), "identity", "witness.annihilator", "W B is not zero")
+    reached = krylov_ranks(system, T, modulus(ell, "witness.modulus"), n)[-1]
+    require(reached >= d, "rank", "claim.dimension", f"only {reached} reached modulo ℓ")
+    controllable = boolean(verdict, "claim.controllable")
+    require(controllable == (d == n), "claim", "claim.controllable", f"{d} of {n} are controllable")
+    same = characteristic_polynomial(Z) == chi
+    require(same, "claim", "claim.uncontrollable_polynomial", "not det(xI - Z)")
+    answer = "controllable" if controllable else "not controllable"
+    return (
+        f"the channels {channel_set(system, T)} of {described(system)} control a subspace of "
+        f"dimension exactly {d}: {answer} through them together; "
+        f"uncontrollable polynomial {polynomial_text(chi)}"
+    )
+
+
+def krylov_ranks(system: System, T: list[int], ell: int, blocks: int) -> list[int]:
+    """Ranks modulo ℓ of [B_T], [B_T, A B_T], …, at most this many, until they stop growing.
+
+    Each bounds the rank over Q from below: the block k + 1 adds A times what the block k added.
+    """
+    A, fresh = system.A.modulo(ell), list(zip(*inputs(system, T).modulo(ell), strict=True))
+    echelon, ranks = Echelon(ell), [0]
+    while len(ranks) <= blocks and fresh:
+        left = [echelon.add(vector) for vector in fresh]
+        kept = [vector for vector in left if vector is not None]
+        images = product(A, [list(row) for row in zip(*kept, strict=True)], len(kept), ell)
+        fresh = list(zip(*images, strict=True)) if kept else []
+        ranks.append(len(echelon.rows))
+    return ranks

@@ -1,0 +1,51 @@
+"""Kind ``controllability_indices``; ``proofs/controllability_indices.md``."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import Any
+
+from .arithmetic import Echelon
+from .controllability import krylov_ranks
+from .evidence import inputs, modulus
+from .reading import fields, integer, items, matrix, names, require
+from .system import System
+from .words import channel_set, described
+
+
+def check(claim: Any, witness: Any, system: System) -> str:
+    """Check rows that annihilate the first k blocks, and the ranks modulo ℓ from below."""
+    listed, claimed, top, parts = fields(claim, "claim", "channels", "ranks", "index", "indices")
+    number, rows = fields(witness, "witness", "modulus", "annihilator")
+    T, n = names(listed, "claim.channels", system.names), system.n
+    ranks = [0, *(integer(r, "claim.ranks", 1) for r in items(claimed, "claim.ranks"))]
+    growing = ranks == sorted(set(ranks)) and ranks[-1] <= n
+    require(growing, "claim", "claim.ranks", f"expected strictly increasing ranks up to {n}")
+    ell, nu = modulus(number, "witness.modulus"), len(ranks) - 1
+    W = matrix(rows, "witness.annihilator", n - ranks[min(nu, 1)], n)
+    echelon = Echelon(ell)
+    independent = all(echelon.add(row) is not None for row in W.modulo(ell))
+    require(independent, "rank", "witness.annihilator", "its rows are dependent modulo ℓ")
+    power = inputs(system, T)
+    for k in range(1, nu + 2):
+        first = W.take(rows=range(n - ranks[min(k, nu)]))
+        message = f"its first {first.nrows} rows do not annihilate block {k}"
+        require((first @ power).is_zero(), "identity", "witness.annihilator", message)
+        power = system.A @ power
+    reached = krylov_ranks(system, T, ell, nu)
+    # Where the blocks stop growing modulo ℓ, the last rank stands for all that follow.
+    reached += [reached[-1]] * (nu + 1 - len(reached))
+    enough = all(low >= r for low, r in zip(reached, ranks, strict=True))
+    require(enough, "rank", "claim.ranks", f"only {reached[1:]} are reached modulo ℓ")
+    index = None if top is None else integer(top, "claim.index")
+    require(index == (nu if ranks[-1] == n else None), "claim", "claim.index", "does not follow")
+    steps = [b - a for a, b in pairwise(ranks)]
+    conjugate = [sum(step > i for step in steps) for i in range(max(steps, default=0))]
+    kappa = [integer(part, "claim.indices") for part in items(parts, "claim.indices")]
+    require(kappa == conjugate, "claim", "claim.indices", f"the ranks give {conjugate}")
+    answer = f"controllability index {index}" if index is not None else "not controllable, no index"
+    return (
+        f"the ranks of [B ... A^(k-1)B] for the channels {channel_set(system, T)} of "
+        f"{described(system)} are {ranks[1:]} and grow no further: {answer}; "
+        f"controllability indices {kappa}"
+    )

@@ -1,0 +1,42 @@
+"""Kind ``deficiency``: the largest loss of rank over all subsets; ``proofs/deficiency.md``."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from . import evidence
+from .arithmetic import characteristic_polynomial_modulo
+from .reading import fields, integer, matrix, polynomial, require
+from .system import System
+from .words import channel_set, described, polynomial_text
+
+
+def check(claim: Any, witness: Any, system: System) -> str:
+    """Check a completed loop that moves every mode, and a shrunk subspace that loses as much."""
+    (number,) = fields(claim, "claim", "deficiency")
+    ell, gains, left, right, coefficients, subspace = fields(
+        witness, "witness", "modulus", "gains", "B0", "C0", "polynomial", "subspace"
+    )
+    rho, n = integer(number, "claim.deficiency"), system.n
+    ell = evidence.modulus(ell, "witness.modulus")
+    F = evidence.read_gains(gains, "witness.gains", system)
+    B0, C0 = matrix(left, "witness.B0", n, rho), matrix(right, "witness.C0", rho, n)
+    completed = evidence.closed_loop(system, F) + B0 @ C0
+    before = characteristic_polynomial_modulo(system.A.modulo(ell), ell)
+    after = characteristic_polynomial_modulo(completed.modulo(ell), ell)
+    evidence.require_coprime(before, after, ell, "det(xI - A) and det(xI - A_F - B0 C0)")
+    where = ""
+    if rho:
+        p = polynomial(coefficients, "witness.polynomial", 1)
+        T = evidence.shrunk_subspace(subspace, "witness.subspace", system, p, rho)
+        s = channel_set(system, evidence.complement(system, T))
+        where = f", reached at the roots of {polynomial_text(p)} by the channels {s}"
+    else:
+        null = coefficients is None and subspace is None
+        require(
+            null, "claim", "witness", "expected no polynomial and no subspace, rank is not lost"
+        )
+    return (
+        f"the largest n - rank [xI - A, B; C, 0] of {described(system)} is {rho}, over all x and "
+        f"all sets of channels, C the outputs of the set and B the inputs of the others{where}"
+    )

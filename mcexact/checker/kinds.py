@@ -1,0 +1,135 @@
+"""The kinds of certificates that this checker knows, and the one place that says VALID."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from . import (
+    communication,
+    completeness,
+    controllability,
+    controllability_indices,
+    deficiency,
+    fixed_spectrum,
+    neighbor_graph,
+    pencil_rank,
+    shared_dimensions,
+    transfer_graph,
+)
+from .arithmetic import NotAUnit
+from .reading import Limits, Refused, fields, incomplete, malformed, parse, require, shown, string
+from .subject import read_subject
+from .system import System, digest, read_plant
+
+FORMAT = "mcexact-certificate/1"
+
+Rule = Callable[[Any, Any, System], str]
+
+KINDS: dict[str, Rule] = {
+    "communication": communication.check,
+    "completeness": completeness.check,
+    "controllability": controllability.check,
+    "controllability_indices": controllability_indices.check,
+    "deficiency": deficiency.check,
+    "fixed_spectrum": fixed_spectrum.check,
+    "neighbor_graph": neighbor_graph.check,
+    "pencil_rank": pencil_rank.check,
+    "shared_dimensions": shared_dimensions.check,
+    "transfer_graph": transfer_graph.check,
+}
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What is said of one certificate.
+
+    Attributes
+    ----------
+    verdict : str
+        VALID, INVALID, MALFORMED, INCOMPLETE, or ERROR for a bug in this checker.
+    theorem : str
+        The statement that was checked, in words; empty unless VALID.
+    digest : str
+        The SHA-256 of the certificate's plant; empty if it could not be read.
+    code, place, message : str
+        Why it is not VALID: a word for the reason, where in the document, and a sentence.
+    """
+
+    verdict: str
+    theorem: str = ""
+    digest: str = ""
+    code: str = ""
+    place: str = ""
+    message: str = ""
+
+    @property
+    def status(self) -> int:
+        """The exit status that this verdict asks for."""
+        return {"VALID": 0, "INVALID": 1, "MALFORMED": 3, "INCOMPLETE": 5}.get(self.verdict, 70)
+
+    def line(self) -> str:
+        """The verdict as one line of text."""
+        if self.verdict == "VALID":
+            return f"VALID {self.theorem} {self.digest}"
+        return f"{self.verdict} {self.code} {self.place}: {self.message}"
+
+
+def check_document(
+    data: bytes | Mapping[str, Any], system_digest: str | None = None, limits: Limits | None = None
+) -> Verdict:
+    """Check one certificate.
+
+    Parameters
+    ----------
+    data : bytes or mapping
+        The text of the file, or the document that it would parse to.
+    system_digest : str, optional
+        The digest of the system that the certificate must be about.
+    limits : Limits, optional
+
+    Returns
+    -------
+    Verdict
+        Anything unexpected, an exception included, is a verdict other than VALID.
+    """
+    known, digits = "", sys.get_int_max_str_digits()
+    try:
+        # The limit on digits is kept by the reader; the interpreter's own would stop some messages.
+        sys.set_int_max_str_digits(0)
+        document = parse(data, limits or Limits()) if isinstance(data, bytes) else data
+        kind, plant, steps, claim, witness = _parts(document)
+        system = read_plant(plant)
+        known = digest(system)
+        if system_digest is not None:
+            same = known == system_digest
+            require(same, "system", "system", f"about another system, of digest {known}")
+        theorem = KINDS[kind](claim, witness, read_subject(steps, system))
+        return Verdict("VALID", theorem, known)
+    except Refused as found:
+        return Verdict(found.verdict, "", known, found.code, found.place, found.message)
+    except NotAUnit:
+        message = "a number that has to be inverted is not a unit modulo ℓ"
+        return Verdict("INVALID", "", known, "unit", "witness.modulus", message)
+    except Exception as error:
+        message = f"{type(error).__name__}: {error}".splitlines()[0][:200]
+        return Verdict("ERROR", "", known, "internal", "checker", ascii(message))
+    finally:
+        sys.set_int_max_str_digits(digits)
+
+
+def _parts(document: Any) -> list[Any]:
+    """The five parts of a certificate of a known version and kind."""
+    if not isinstance(document, Mapping):
+        malformed("file", f"expected a certificate, found {shown(document)}")
+    version = string(document.get("format"), "format")
+    if version != FORMAT:
+        if version.startswith(FORMAT.partition("/")[0] + "/"):
+            incomplete("version", "format", f"{shown(version)} is not a version known here")
+        malformed("format", f"expected {FORMAT!r}, found {shown(version)}")
+    _, *parts = fields(document, "file", "format", "kind", "system", "subject", "claim", "witness")
+    if string(parts[0], "kind") not in KINDS:
+        incomplete("kind", "kind", f"{shown(parts[0])} is not a kind known here")
+    return parts

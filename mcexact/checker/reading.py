@@ -1,0 +1,248 @@
+"""Strict reading: bytes to JSON, and JSON to numbers, polynomials, matrices, positions and names.
+
+Every reader takes the value and its place in the document, for the message.  What has the wrong
+form is MALFORMED; :func:`require` is how a rule says INVALID.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any, NoReturn
+
+from .arithmetic import Matrix, Polynomial
+
+# Strings are stepped over whole; possessive quantifiers keep the scans linear in time.
+TOKEN = re.compile(r'"(?:[^"\\]++|\\.)*+"|[\[{]|[\]}]', re.DOTALL)
+LONG_NUMBER = re.compile(r"[0-9]{20}[0-9]*+")
+QUOTIENT = re.compile(r"-?(?:0|[1-9][0-9]*+)/[1-9][0-9]*+")
+DECIMAL = re.compile(r"(-?)(0|[1-9][0-9]*+)(?:\.([0-9]++))?")
+
+
+class Refused(Exception):
+    """The end of a check that is not VALID: a verdict, a code, a place and a message."""
+
+    def __init__(self, verdict: str, code: str, place: str, message: str) -> None:
+        super().__init__(verdict, code, place, message)
+        self.verdict, self.code, self.place, self.message = verdict, code, place, message
+
+
+@dataclass(frozen=True)
+class Limits:
+    """How large a document may be: bytes, nesting, digits of a number, size of an exponent."""
+
+    bytes: int = 64 * 2**20
+    depth: int = 16
+    digits: int = 4300
+    exponent: int = 1000
+
+
+def malformed(place: str, message: str) -> NoReturn:
+    """Stop: the document does not have the form that the format prescribes."""
+    raise Refused("MALFORMED", "form", place, message)
+
+
+def incomplete(code: str, place: str, message: str) -> NoReturn:
+    """Stop: well formed as far as can be told, but more than this checker handles."""
+    raise Refused("INCOMPLETE", code, place, message)
+
+
+def require(condition: bool, code: str, place: str, message: str) -> None:
+    """Stop unless the condition holds: the evidence does not prove the claim."""
+    if not condition:
+        raise Refused("INVALID", code, place, message)
+
+
+def parse(data: bytes, limits: Limits, decimal: Callable[[str], Any] | None = None) -> Any:
+    """Parse JSON text: UTF-8, no key twice, no constants such as NaN, nothing beyond the limits.
+
+    ``decimal`` reads a number that has a point or an exponent; without it such a number is refused.
+    """
+    if len(data) > limits.bytes:
+        incomplete("size", "file", f"{len(data)} bytes, the limit is {limits.bytes} (--max-bytes)")
+    try:
+        text = data.decode("utf-8")
+    except UnicodeDecodeError as error:
+        malformed("file", f"expected UTF-8 text, found another encoding at byte {error.start}")
+    if text.startswith("\ufeff"):
+        malformed("file", "remove the byte order mark at the start")
+    depth = 0
+    for token in TOKEN.finditer(text):
+        depth += (token[0] in "[{") - (token[0] in "]}")
+        if depth > limits.depth:
+            malformed("file", f"nested deeper than {limits.depth} levels (--max-depth)")
+    for number in LONG_NUMBER.finditer(text):
+        if len(number[0]) > limits.digits:
+            message = f"{len(number[0])} digits, the limit is {limits.digits} (--max-digits)"
+            incomplete("size", f"number {number[0][:12]}…", message)
+
+    def decimal_of(number: str) -> Any:
+        if decimal is None:
+            malformed(f"number {number[:24]}", 'expected an integer or a string "p/q"')
+        return decimal(number)
+
+    def constant_of(name: str) -> NoReturn:
+        malformed(f"number {name}", "expected a rational number")
+
+    def object_of(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+        result = dict(pairs)
+        for key, _ in pairs if len(result) < len(pairs) else []:
+            if [name for name, _ in pairs].count(key) > 1:
+                malformed(f"key {shown(key)}", "expected once, found twice in one object")
+        return result
+
+    try:
+        return json.loads(
+            text,
+            parse_float=decimal_of,
+            parse_constant=constant_of,
+            object_pairs_hook=object_of,
+        )
+    except json.JSONDecodeError as error:
+        malformed(f"line {error.lineno} column {error.colno}", f"not JSON: {error.msg}")
+
+
+def shown(value: Any) -> str:
+    """A value from outside as a message may show it: ASCII, on one line, and short."""
+    if type(value) is int and value.bit_length() > 200:
+        return f"an integer of {value.bit_length()} bits"
+    text = json.dumps(value) if type(value) in (str, int, bool, type(None)) else ""
+    article = {"dict": "an object", "list": "a list", "float": "a float"}
+    return text if 0 < len(text) <= 40 else article.get(type(value).__name__, text[:40] + "…")
+
+
+def fields(value: Any, place: str, *names: str, optional: tuple[str, ...] = ()) -> list[Any]:
+    """The values of an object that has exactly these keys; an optional one may be None."""
+    if not isinstance(value, Mapping):
+        malformed(place, f"expected an object, found {shown(value)}")
+    for name in names:
+        if name not in value:
+            malformed(place, f"the key {shown(name)} is missing")
+    for key in value:
+        if key not in names and key not in optional:
+            malformed(place, f"unknown key {shown(key)}")
+    return [value.get(name) for name in names + optional]
+
+
+def items(value: Any, place: str, length: int | None = None) -> list[Any]:
+    """The members of a list, of a given length if one is prescribed."""
+    if type(value) is not list:
+        malformed(place, f"expected a list, found {shown(value)}")
+    if length is not None and len(value) != length:
+        malformed(place, f"expected {length} of them, found {len(value)}")
+    return value
+
+
+def integer(value: Any, place: str, least: int | None = 0) -> int:
+    """An integer, not below ``least``."""
+    if type(value) is not int or (least is not None and value < least):
+        bound = "" if least is None else f" from {least} on"
+        malformed(place, f"expected an integer{bound}, found {shown(value)}")
+    return value
+
+
+def boolean(value: Any, place: str) -> bool:
+    """True or false."""
+    if type(value) is not bool:
+        malformed(place, f"expected true or false, found {shown(value)}")
+    return value
+
+
+def string(value: Any, place: str, *choices: str) -> str:
+    """A string, one of the choices if there are any."""
+    if type(value) is not str or (choices and value not in choices):
+        expected = " or ".join(map(shown, choices)) or "a string"
+        malformed(place, f"expected {expected}, found {shown(value)}")
+    return value
+
+
+def rational(value: Any, place: str) -> Fraction:
+    """A rational: an integer, or "p/q" in lowest terms with q ≥ 2."""
+    if type(value) is int:
+        return Fraction(value)
+    if type(value) is str and QUOTIENT.fullmatch(value):
+        numerator, denominator = map(int, value.split("/"))
+        if denominator > 1 and math.gcd(numerator, denominator) == 1:
+            return Fraction(numerator, denominator)
+    malformed(place, f'expected an integer or "p/q" in lowest terms, found {shown(value)}')
+
+
+def decimal(value: Any, place: str) -> Fraction:
+    """A decimal: a string such as "-1.25", without exponent."""
+    match = DECIMAL.fullmatch(value) if type(value) is str else None
+    if match is None:
+        malformed(place, f'expected a decimal such as "-1.25", found {shown(value)}')
+    return Fraction(value)
+
+
+def polynomial(value: Any, place: str, least_degree: int = 0) -> Polynomial:
+    """A monic polynomial: its coefficients, constant term first, the last one 1."""
+    entries = items(value, place)
+    result = [rational(entry, f"{place}[{k}]") for k, entry in enumerate(entries)]
+    if len(result) <= least_degree or result[-1] != 1:
+        expected = f"a monic polynomial of degree {least_degree} or more"
+        malformed(place, f"expected {expected}, constant term first, found {shown(value)}")
+    return result
+
+
+def integer_rows(value: Any, place: str, nrows: int, ncols: int) -> list[list[int]]:
+    """Rows of integers, of the prescribed shape."""
+    rows = items(value, place)
+    if len(rows) != nrows:
+        malformed(place, f"expected {nrows} rows, found {len(rows)}")
+    for i, row in enumerate(rows):
+        if len(items(row, f"{place}[{i}]")) != ncols:
+            malformed(f"{place}[{i}]", f"expected {ncols} entries, found {len(row)}")
+        if not all(type(entry) is int for entry in row):
+            malformed(f"{place}[{i}]", "expected integers over the common denominator")
+    return rows
+
+
+def matrix(value: Any, place: str, nrows: int, ncols: int) -> Matrix:
+    """A matrix of the prescribed shape: integer entries over one denominator."""
+    denominator, entries = fields(value, place, "denominator", "entries")
+    rows = integer_rows(entries, f"{place}.entries", nrows, ncols)
+    return Matrix(rows, ncols, integer(denominator, f"{place}.denominator", 1))
+
+
+def matrices(value: Any, place: str, shapes: list[tuple[int, int]]) -> list[Matrix]:
+    """A list of matrices of the prescribed shapes."""
+    entries = enumerate(items(value, place, len(shapes)))
+    return [matrix(entry, f"{place}[{i}]", *shapes[i]) for i, entry in entries]
+
+
+def polynomial_matrix(value: Any, place: str, nrows: int, ncols: int, degree: int) -> list[Matrix]:
+    """The coefficient matrices of a polynomial matrix reduced modulo a p of this degree."""
+    denominator, layers = fields(value, place, "denominator", "coefficients")
+    d = integer(denominator, f"{place}.denominator", 1)
+    if not 1 <= len(items(layers, f"{place}.coefficients")) <= degree:
+        malformed(f"{place}.coefficients", f"expected 1 to {degree} matrices, found {len(layers)}")
+    result = [
+        Matrix(integer_rows(layer, f"{place}.coefficients[{k}]", nrows, ncols), ncols, d)
+        for k, layer in enumerate(layers)
+    ]
+    return result + [Matrix.zeros(nrows, ncols)] * (degree - len(layers))
+
+
+def positions(value: Any, place: str, below: int) -> list[int]:
+    """Strictly increasing positions from 0 to ``below`` − 1."""
+    result = [integer(entry, f"{place}[{k}]") for k, entry in enumerate(items(value, place))]
+    if result != sorted(set(result)) or (result and result[-1] >= below):
+        malformed(place, f"expected increasing positions below {below}, found {result[:8]}")
+    return result
+
+
+def names(value: Any, place: str, known: list[str]) -> list[int]:
+    """The positions of named channels, each known, in the order of the system, none twice."""
+    entries = items(value, place)
+    for k, entry in enumerate(entries):
+        if type(entry) is not str or entry not in known:
+            malformed(f"{place}[{k}]", f"expected the name of a channel, found {shown(entry)}")
+    result = [known.index(entry) for entry in entries]
+    if result != sorted(set(result)):
+        malformed(place, "expected channels in the order of the system, none of them twice")
+    return result

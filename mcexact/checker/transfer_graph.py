@@ -1,0 +1,78 @@
+"""Kind ``transfer_graph``: which channels reach which; ``proofs/transfer_graph.md``."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from .arithmetic import Rows, product
+from .evidence import components, modulus, zero_transfer
+from .reading import boolean, fields, integer, items, malformed, names, require
+from .system import System
+from .words import channel, channel_set, described
+
+
+def check(claim: Any, witness: Any, system: System) -> str:
+    """Check a power for each arc, a zero transfer for each other pair, and the components."""
+    listed, parts, verdict = fields(claim, "claim", "arcs", "components", "strongly_connected")
+    number, exponents, zeros = fields(witness, "witness", "modulus", "powers", "zeros")
+    arcs = []
+    for k, entry in enumerate(items(listed, "claim.arcs")):
+        ends = items(entry, f"claim.arcs[{k}]", 2)
+        j, i = (names([end], f"claim.arcs[{k}]", system.names)[0] for end in ends)
+        arcs.append((j, i))
+    if arcs != sorted(set(arcs)):
+        malformed("claim.arcs", "expected them sorted, none twice")
+    powers = items(exponents, "witness.powers", len(arcs))
+    ell = modulus(number, "witness.modulus")
+    triples = [(j, i, integer(k, "witness.powers")) for (j, i), k in zip(arcs, powers, strict=True)]
+    require_arcs(system, triples, ell)
+    missing = {(j, i) for j in range(system.m) for i in range(system.m)} - set(arcs)
+    for k, entry in enumerate(items(zeros, "witness.zeros")):
+        sources, X = zero_transfer(entry, f"witness.zeros[{k}]", system)
+        unseen = [i for i, C in enumerate(system.C) if (C @ X).is_zero()]
+        missing -= {(j, i) for j in sources for i in unseen}
+    uncovered = [(system.names[j], system.names[i]) for j, i in sorted(missing)][:1]
+    require(
+        not missing, "arc", "witness.zeros", f"{uncovered!a} is no arc, but nothing proves that"
+    )
+    claimed = [names(p, "claim.components", system.names) for p in items(parts, "claim.components")]
+    found = components(system.m, arcs)
+    require(claimed == found, "claim", "claim.components", "these are not the strong components")
+    connected = boolean(verdict, "claim.strongly_connected")
+    require(connected == (len(found) <= 1), "claim", "claim.strongly_connected", "does not follow")
+    shown = ", ".join(f"{channel(system, j)} -> {channel(system, i)}" for j, i in arcs)
+    return (
+        f"the arcs of the transfer graph of {described(system)} are exactly: {shown or 'none'}; "
+        f"strong components {' '.join(channel_set(system, part) for part in found)}; "
+        f"{'strongly connected' if connected else 'not strongly connected'}"
+    )
+
+
+def read_arcs(value: Any, where: str, system: System) -> list[tuple[int, int, int]]:
+    """Arcs (j, i) with a power k each, sorted and none twice."""
+    arcs = []
+    for place, entry in ((f"{where}[{k}]", e) for k, e in enumerate(items(value, where))):
+        *ends, power = items(entry, place, 3)
+        j, i = (names([end], place, system.names)[0] for end in ends)
+        arcs.append((j, i, integer(power, place)))
+    if [arc[:2] for arc in arcs] != sorted({arc[:2] for arc in arcs}):
+        malformed(where, "expected them sorted, none twice")
+    return arcs
+
+
+def require_arcs(system: System, triples: list[tuple[int, int, int]], ell: int) -> None:
+    """Stop unless k < n and C_i A^k B_j ≠ 0 modulo ℓ for every (j, i, k)."""
+    A, C = system.A.modulo(ell), [M.modulo(ell) for M in system.C]
+    wanted: dict[int, dict[int, list[int]]] = {}
+    for j, i, k in triples:
+        require(k < system.n, "arc", "witness", f"the power {k} is not below {system.n}")
+        wanted.setdefault(j, {}).setdefault(k, []).append(i)
+    for j, targets in wanted.items():
+        width = system.B[j].ncols
+        power: Rows = system.B[j].modulo(ell)
+        for k in range(max(targets) + 1):
+            for i in targets.get(k, []):
+                seen = any(map(any, product(C[i], power, width, ell)))
+                message = f"C A^{k} B is 0 modulo ℓ from channel number {j + 1} to {i + 1}"
+                require(seen, "arc", "witness", message)
+            power = product(A, power, width, ell)

@@ -1,0 +1,48 @@
+"""Statements in words: polynomials, sets of channels and systems as a theorem names them."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterable
+from fractions import Fraction
+
+from .arithmetic import Polynomial
+from .system import System
+
+PLAIN_NAME = re.compile(r"[\w.+-]{1,256}")
+
+
+def channel(system: System, i: int) -> str:
+    """The name of a channel; in quotes and escaped unless it is a plain word."""
+    name = system.names[i]
+    return name if PLAIN_NAME.fullmatch(name) and name.isprintable() else json.dumps(name)
+
+
+def channel_set(system: System, channels: Iterable[int]) -> str:
+    """A set of channels, such as {1, 3}."""
+    return "{" + ", ".join(channel(system, i) for i in channels) + "}"
+
+
+def polynomial_text(p: Polynomial) -> str:
+    """A polynomial, highest power first, such as x^2 - 3/2*x + 1."""
+    terms = []
+    for k, c in reversed(list(enumerate(map(Fraction, p)))):
+        if c:
+            power = "" if k == 0 else "x" if k == 1 else f"x^{k}"
+            size = str(abs(c)) if abs(c) != 1 or not power else ""
+            terms += ["-" if c < 0 else "+", size + ("*" if size and power else "") + power]
+    sign = "-" if terms and terms[0] == "-" else ""
+    return sign + " ".join(terms[1:]) if terms else "0"
+
+
+def disc_text(disc: tuple[Fraction, Fraction, Fraction]) -> str:
+    """A disc that holds one root, such as 1 + 2i +- 1/8."""
+    re, im, radius = disc
+    imaginary = f" {'-' if im < 0 else '+'} {abs(im)}i" if im else ""
+    return f"{re}{imaginary} +- {radius}"
+
+
+def described(system: System) -> str:
+    """The system a claim is about: what it was made from, its size, its time."""
+    return f"{system.words} ({system.time} time, {system.n} states, {system.m} channels)"
