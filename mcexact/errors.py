@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import Any
 
 
@@ -89,9 +90,28 @@ class Impossible(McexactError):
 
 
 class LimitReached(McexactError):
-    """A limit on time, memory or work was reached: nothing has been decided."""
+    """A limit on time, memory or work was reached: nothing has been decided.
+
+    Parameters
+    ----------
+    message : str
+    where : str, optional
+    lower, upper : Fraction, optional
+        What is proved of the number asked for.
+    """
 
     exit_status = 4
+
+    def __init__(
+        self,
+        message: str,
+        *,
+        where: str | None = None,
+        lower: Fraction | None = None,
+        upper: Fraction | None = None,
+    ) -> None:
+        super().__init__(message, where=where)
+        self.lower, self.upper = lower, upper
 
 
 class InternalError(McexactError):

@@ -105,8 +105,7 @@ def minimize(program: CoveringProgram, *, canonical: bool = True) -> tuple[int, 
     program
         The covering program.
     canonical
-        Break ties: among all optimal points take the one whose last variables are largest, that is,
-        minimize x_1, then x_2, and so on.
+        Break ties: among all optimal points take the lexicographically least.
 
     Notes
     -----
@@ -214,7 +213,9 @@ def branch_tree(
         count += 1
         if count > node_limit:
             raise LimitReached(
-                f"the branch tree reached its limit of {node_limit} nodes; raise it with --node-limit"
+                f"the branch tree reached its limit of {node_limit} nodes; raise it with --node-limit",
+                lower=proved,
+                upper=value,
             )
         if progress is not None:
             progress(count)
@@ -241,7 +242,19 @@ def branch_tree(
         }
 
     start = tuple(_tighter(u, value, c) for u, c in zip(program.upper, program.costs, strict=True))
+    proved = _relaxation_bound(program, start)
     return BranchTree(grow((0,) * len(program.costs), start), count)
+
+
+def _relaxation_bound(program: CoveringProgram, upper: Sequence[int | None]) -> Fraction:
+    """A proved lower bound on the cost of every point below ``upper``, from the relaxation."""
+    lower = (0,) * len(program.costs)
+    if program.violated_cut(upper) is not None:
+        return Fraction(0)
+    _, duals = _relaxation(program, lower, upper)
+    multipliers = _multipliers(duals, _MULTIPLIER_DENOMINATORS[-1])
+    bound = leaf_bound(program, lower, upper, multipliers) or Fraction(0)
+    return Fraction(math.ceil(bound * program.grid), program.grid)
 
 
 def _tighter(upper: int | None, value: Fraction | None, cost: Fraction) -> int | None:
@@ -282,15 +295,17 @@ def _proving_multipliers(
 ) -> list[tuple[int, Fraction]] | None:
     """Multipliers of small denominator near ``duals`` whose exact bound reaches ``value``, or None."""
     for denominator in _MULTIPLIER_DENOMINATORS:
-        multipliers = [
-            (k, y)
-            for k, dual in enumerate(duals)
-            if (y := Fraction(float(dual)).limit_denominator(denominator)) > 0
-        ]
+        multipliers = _multipliers(duals, denominator)
         bound = leaf_bound(program, lower, upper, multipliers)
         if bound is not None and Fraction(math.ceil(bound * program.grid), program.grid) >= value:
             return multipliers
     return None
+
+
+def _multipliers(duals: Floats, denominator: int) -> list[tuple[int, Fraction]]:
+    """The positive multipliers near ``duals`` of at most this denominator."""
+    rounded = (Fraction(float(dual)).limit_denominator(denominator) for dual in duals)
+    return [(k, y) for k, y in enumerate(rounded) if y > 0]
 
 
 def leaf_bound(

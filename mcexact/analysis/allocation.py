@@ -1,0 +1,423 @@
+"""What agents must share: Theorem 2's bound, and the least dimensions by cut generation."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from mcexact.analysis.covering import (
+    DEFAULT_NODE_LIMIT,
+    CoveringCut,
+    CoveringProgram,
+    branch_tree,
+    minimize,
+)
+from mcexact.analysis.deficiency import deficiency
+from mcexact.analysis.invariant_subspace import controllable_subspace
+from mcexact.analysis.modular_system import generator
+from mcexact.analysis.separation import (
+    absence,
+    boundary,
+    deficiency_cut,
+    violated_subsets,
+    violating_factors,
+)
+from mcexact.analysis.transfer_graph import transfer_graph, zero_transfer
+from mcexact.certificate.covering import ConnectivityCut, DeficiencyCut
+from mcexact.certificate.deficiency import DeficiencyCertificate
+from mcexact.certificate.shared_dimensions import SharedDimensionsCertificate
+from mcexact.derived.augmented_outputs import augmented_outputs
+from mcexact.derived.extended import Share, checked_share, extended_system
+from mcexact.errors import LimitReached, UsageError
+from mcexact.exact.location import StabilityRegion
+from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.rational import Entry, as_fraction
+from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem, with_graph
+from mcexact.model.system_file import canonical_document
+
+Progress = Callable[[str], None]
+
+
+@dataclass(frozen=True)
+class SharedDimensionBound:
+    """Theorem 2's bound (Remark 2's, when only sub-states are shared).
+
+    Attributes
+    ----------
+    share : str
+    per_agent : int
+        ρ, the largest n − rank P_s(λ) over all s and λ.  With n_i ≥ ρ for every agent the extended
+        system has no fixed mode, if the neighbor graph is strongly connected and the plant
+        jointly controllable and observable.
+    total : int
+        m ρ.
+    certificate : DeficiencyCertificate
+    """
+
+    share: str
+    per_agent: int
+    total: int
+    certificate: DeficiencyCertificate
+
+
+@dataclass(frozen=True)
+class BindingSubset:
+    """A subset that holds its boundary to its deficiency.
+
+    Attributes
+    ----------
+    subset : tuple of str
+        s, by name.
+    boundary : tuple of str
+        N_s∖s: the agents that must share.
+    mode : Polynomial or None
+        p, at whose roots P_s loses rank; None if s is cut off in the transfer graph instead.
+    deficiency : int
+        Σ n_i over the boundary must be at least this.
+    """
+
+    subset: tuple[str, ...]
+    boundary: tuple[str, ...]
+    mode: Polynomial | None
+    deficiency: int
+
+
+@dataclass(frozen=True)
+class SharedDimensions:
+    """The least that must be shared, or that nothing suffices.
+
+    Attributes
+    ----------
+    share : str
+    feasible : bool
+    dimensions : tuple of int, or None
+        n_1 … n_m in the order of the channels; None when nothing suffices.
+    total : int or None
+        Σ n_i.
+    cost : Fraction or None
+        Σ c_i n_i.
+    binding : tuple of BindingSubset
+        The cuts that the answer meets with equality; when infeasible, those that cannot be met.
+    cuts, nodes : int
+        Number of cuts that the proof uses, and of nodes of its branch tree.
+    certificate : SharedDimensionsCertificate
+    """
+
+    share: str
+    feasible: bool
+    dimensions: tuple[int, ...] | None
+    total: int | None
+    cost: Fraction | None
+    binding: tuple[BindingSubset, ...]
+    cuts: int
+    nodes: int
+    certificate: SharedDimensionsCertificate
+
+
+def base_system(system: MultiChannelSystem, share: str) -> MultiChannelSystem:
+    """The system whose pencils decide: the plant, with augmented outputs where those are shared."""
+    return augmented_outputs(system) if share == "outputs+states" else system
+
+
+def shared_dimension_bound(
+    system: MultiChannelSystem, graph: NeighborGraph | None = None, share: Share = "outputs+states"
+) -> SharedDimensionBound:
+    """Theorem 2's bound on the dimension that every agent must share.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    graph : NeighborGraph, optional
+        Overrides ``system.neighbors``.
+    share : {"outputs+states", "states"}
+        Theorem 2's bound (`eqn:n_i`) or Remark 2's (`neqn:n_i`).
+
+    Raises
+    ------
+    UsageError
+        If there is no neighbor graph.
+
+    Notes
+    -----
+    Exact, and no subset is enumerated: ρ is the largest deficiency of (A, B_i, C_{N_i}), or of
+    (A, B_i, C_i), over all λ and all subsets, ∅ and all channels included; these two contribute
+    nothing when the plant is jointly controllable and observable, as the theorem assumes.
+
+    Examples
+    --------
+    >>> from mcexact.model import gallery
+    >>> plant = gallery.load("liu2020-3ch-no-communication")
+    >>> shared_dimension_bound(plant, NeighborGraph.ring(plant.names)).per_agent
+    1
+    """
+    system, _ = with_graph(system, graph)
+    found = deficiency(base_system(system, checked_share(share)))
+    per_agent = found.deficiency
+    return SharedDimensionBound(share, per_agent, per_agent * system.m, found.certificate)
+
+
+@dataclass(frozen=True)
+class _Problem:
+    """What is asked, in the order of the channels."""
+
+    system: MultiChannelSystem
+    graph: NeighborGraph
+    share: Share
+    costs: tuple[Fraction, ...]
+    upper: tuple[int | None, ...]
+    bound: Fraction | None
+    free_assignability: bool
+
+    @property
+    def region(self) -> StabilityRegion | None:
+        """Where a mode may stay fixed."""
+        if self.bound is None:
+            return None
+        return StabilityRegion(self.system.time, self.bound)
+
+
+@dataclass(frozen=True)
+class _Cut:
+    """A cut, as an inequality and as evidence."""
+
+    inequality: CoveringCut
+    evidence: DeficiencyCut | ConnectivityCut
+
+
+def minimal_shared_dimensions(
+    system: MultiChannelSystem,
+    graph: NeighborGraph | None = None,
+    share: Share = "outputs+states",
+    *,
+    costs: Sequence[Entry] | None = None,
+    upper: Sequence[int | None] | None = None,
+    bound: Entry | None = None,
+    free_assignability: bool = False,
+    node_limit: int = DEFAULT_NODE_LIMIT,
+    progress: Progress | None = None,
+) -> SharedDimensions:
+    """The least Σ c_i n_i with which the extended system has no fixed mode.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        A plant, not a derived system.
+    graph : NeighborGraph, optional
+        Overrides ``system.neighbors``.
+    share : {"outputs+states", "states"}
+    costs : sequence of m rationals > 0, optional
+        The price of one dimension of each agent, 1 by default.
+    upper : sequence of m int or None, optional
+        Upper bounds of the n_i.
+    bound : rational, optional
+        A rate R (continuous time: only modes whose real part is not below −R count) or a radius
+        (discrete time: modulus not below it).
+    free_assignability : bool
+        Ask for a strongly connected extended transfer graph as well, so that the whole closed-loop
+        spectrum is freely assignable.
+    node_limit : int
+        Nodes of the branch tree after which to give up.
+    progress : callable, optional
+        Called with a line of text now and then.
+
+    Raises
+    ------
+    UsageError
+        If there is no neighbor graph, the system is a derived one, or a price is not positive.
+    LimitReached
+        At the node limit; its ``lower`` and ``upper`` bound the least cost.
+
+    Notes
+    -----
+    The extended system has no fixed mode iff Σ n_i over N_s∖s is at least n − rank P_s(λ) for all s
+    and λ.  An integer master problem proposes dimensions; the fixed spectrum of the extended system
+    either confirms them or names a subset that they violate, which becomes a cut.  The
+    certificate proves feasibility at the optimum, every cut, and by a branch tree that nothing is
+    cheaper.  The problem is NP-hard (it contains vertex cover).  Among optimal dimensions the
+    lexicographically least are taken.
+
+    Examples
+    --------
+    >>> from mcexact.model import gallery
+    >>> plant = gallery.load("liu2020-3ch-no-communication")
+    >>> ring = NeighborGraph.ring(plant.names)
+    >>> minimal_shared_dimensions(plant, ring).dimensions
+    (0, 0, 1)
+    >>> minimal_shared_dimensions(plant, ring, "states").dimensions
+    (1, 0, 1)
+    >>> minimal_shared_dimensions(plant, NeighborGraph.empty(plant.names)).feasible
+    False
+    """
+    problem = _checked(system, graph, share, costs, upper, bound, free_assignability)
+    cuts: list[_Cut] = []
+    dimensions = _generate(problem, cuts, progress)
+    program = _program(problem, cuts)
+    cost = None if dimensions is None else program.cost(dimensions)
+    try:
+        tree = branch_tree(program, cost, node_limit=node_limit)
+    except LimitReached as error:
+        raise LimitReached(
+            f"{error.message}; the least cost is between {error.lower} and {cost}",
+            lower=error.lower,
+            upper=cost,
+        ) from None
+    used = sorted(_cuts_used(tree.root))
+    binding = tuple(_binding(problem, cuts[k], dimensions) for k in used)
+    evidence = None
+    if dimensions is not None:
+        extended = extended_system(problem.system, dimensions, share)
+        rng = generator(extended, SharedDimensionsCertificate.kind)
+        evidence = absence(extended, problem.region, rng, connected=free_assignability)
+    certificate = SharedDimensionsCertificate(
+        system=canonical_document(problem.system),
+        subject=(),
+        share=share,
+        bound=problem.bound,
+        free_assignability=free_assignability,
+        costs=problem.costs,
+        upper=problem.upper,
+        dimensions=dimensions,
+        cost=cost,
+        absence=evidence,
+        cuts=tuple(cuts[k].evidence for k in used),
+        tree=_named(tree.root, problem.system.names, {k: place for place, k in enumerate(used)}),
+    )
+    return SharedDimensions(
+        share=share,
+        feasible=dimensions is not None,
+        dimensions=dimensions,
+        total=None if dimensions is None else sum(dimensions),
+        cost=cost,
+        binding=tuple(b for b in binding if b is not None),
+        cuts=len(used),
+        nodes=tree.nodes,
+        certificate=certificate,
+    )
+
+
+def _checked(
+    system: MultiChannelSystem,
+    graph: NeighborGraph | None,
+    share: Share,
+    costs: Sequence[Entry] | None,
+    upper: Sequence[int | None] | None,
+    bound: Entry | None,
+    free_assignability: bool,
+) -> _Problem:
+    system, found = with_graph(system, graph)
+    if system.subject:
+        raise UsageError("give the plant, not a system derived from it", where="system")
+    m = system.m
+    prices = tuple(as_fraction(c) for c in costs) if costs is not None else (Fraction(1),) * m
+    if len(prices) != m or any(price <= 0 for price in prices):
+        raise UsageError(f"expected {m} positive numbers, one for each agent", where="costs")
+    limits = tuple(upper) if upper is not None else (None,) * m
+    if len(limits) != m or any(u is not None and u < 0 for u in limits):
+        raise UsageError(f"expected {m} integers >= 0 or None, one for each agent", where="upper")
+    return _Problem(
+        system=system,
+        graph=found,
+        share=checked_share(share),
+        costs=prices,
+        upper=limits,
+        bound=None if bound is None else as_fraction(bound),
+        free_assignability=free_assignability,
+    )
+
+
+def _program(problem: _Problem, cuts: Sequence[_Cut]) -> CoveringProgram:
+    return CoveringProgram(problem.costs, problem.upper, tuple(cut.inequality for cut in cuts))
+
+
+def _generate(
+    problem: _Problem, cuts: list[_Cut], progress: Progress | None
+) -> tuple[int, ...] | None:
+    """Add cuts until an optimal point of the master problem violates none; None if it has none."""
+    base = base_system(problem.system, problem.share)
+    factors = violating_factors(problem.system, problem.region)
+    rng = generator(base, SharedDimensionsCertificate.kind)
+    canonical = False
+    while True:
+        values = minimize(_program(problem, cuts), canonical=canonical)
+        if progress is not None:
+            progress(f"{len(cuts)} cuts, at least {sum(values) if values else 0} to share")
+        if values is None:
+            return None
+        extended = extended_system(problem.system, values, problem.share)
+        violated = violated_subsets(base, extended, factors, values, problem.graph, rng)
+        new = [
+            _Cut(CoveringCut(boundary(problem.graph, v.s), v.deficiency), deficiency_cut(base, v))
+            for v in violated
+        ]
+        if not new and problem.free_assignability:
+            new = _connectivity_cuts(problem, base, extended)
+        if new:
+            cuts += new
+        elif canonical:
+            return values
+        else:
+            canonical = True
+
+
+def _connectivity_cuts(
+    problem: _Problem, base: MultiChannelSystem, extended: MultiChannelSystem
+) -> list[_Cut]:
+    """The cut of one strong component that no arc leaves, if there is more than one component."""
+    found = transfer_graph(extended)
+    if found.strongly_connected:
+        return []
+    closed = next(
+        component
+        for component in found.components
+        if all(i in component for j, i in found.arcs if j in component)
+    )
+    T = base.indices(closed)
+    s = tuple(i for i in range(base.m) if i not in T)
+    rng = generator(base, SharedDimensionsCertificate.kind)
+    subspace = controllable_subspace(base.A, base.input_matrix(T), rng)
+    zero = zero_transfer(base, T, subspace)
+    return [
+        _Cut(CoveringCut(boundary(problem.graph, s), 1), ConnectivityCut(base.named(s), zero))
+    ]
+
+
+def _binding(
+    problem: _Problem, cut: _Cut, dimensions: Sequence[int] | None
+) -> BindingSubset | None:
+    """What a cut says, if the dimensions meet it with equality (or cannot meet it at all)."""
+    support, demand = cut.inequality.support, cut.inequality.demand
+    if dimensions is not None and sum(dimensions[i] for i in support) > demand:
+        return None
+    evidence = cut.evidence
+    return BindingSubset(
+        subset=evidence.subset,
+        boundary=problem.system.named(support),
+        mode=evidence.polynomial if isinstance(evidence, DeficiencyCut) else None,  # type: ignore[arg-type]
+        deficiency=demand,
+    )
+
+
+def _cuts_used(node: dict[str, Any]) -> set[int]:
+    """The numbers of the cuts that the leaves of a branch tree name."""
+    if "violated" in node:
+        return {node["violated"]}
+    if "multipliers" in node:
+        return {k for k, _ in node["multipliers"]}
+    return _cuts_used(node["below"]) | _cuts_used(node["above"])
+
+
+def _named(node: dict[str, Any], names: Sequence[str], place: dict[int, int]) -> dict[str, Any]:
+    """A branch tree in the shape of the certificate: agents by name, cuts by new numbers."""
+    if "violated" in node:
+        return {"violated": place[node["violated"]]}
+    if "multipliers" in node:
+        return {"multipliers": [[place[k], y] for k, y in node["multipliers"]]}
+    return {
+        "agent": names[node["variable"]],
+        "at_most": node["at_most"],
+        "below": _named(node["below"], names, place),
+        "above": _named(node["above"], names, place),
+    }
