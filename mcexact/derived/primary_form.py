@@ -1,0 +1,298 @@
+"""Integer systems laid out chain by chain, with zones that some channels cannot reach or see.
+
+A *chain* of a monic p of degree d and length k is the block J_k(p), k companion matrices of p on
+the diagonal and identities above them: a Jordan chain for every root of p.  Its left eigenvectors
+live in its last block, its right eigenvectors in its first.  So a system of chains is controllable
+iff for every p the last blocks are reached independently over Q[x]/(p), and observable iff the
+first blocks are seen independently.  Every pair (A, B) is similar to such a one.
+
+A *zone* is 1, 2 or 3.  Blocks of a chain never step down in zone, so that A is block upper
+triangular in them::
+
+            zone 1  zone 2  zone 3               T    s
+        A = ⎡ *       *       * ⎤          B = ⎡ *    * ⎤       C_T = [ *  *  * ]
+            ⎢ 0       *       * ⎥              ⎢ 0    * ⎥       C_s = [ 0  0  * ]
+            ⎣ 0       0       * ⎦              ⎣ 0    * ⎦
+
+Channels in T drive zone 1 only and the others, s, see zone 3 only.  Then no decentralized gain
+moves an eigenvalue of zone 2.  (A chain that does step down, from zone 3 to zone 1, carries what T
+puts in to where s sees it.)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from mcexact.derived.choices import Choices, shuffled
+from mcexact.exact.matrix import Matrix
+
+Coefficients = tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Chain:
+    """A chain of a monic polynomial, and who has to reach and to see it.
+
+    Attributes
+    ----------
+    polynomial : tuple of int
+        Coefficients, constant first.
+    zones : tuple of int
+        One for each block.
+    reached_by, seen_by : frozenset of int or None
+        The channels of which one makes its end controllable (its start observable): None for any,
+        the empty set for no channel at all.
+    pure : bool
+        Whether the input and the output that do so touch nothing else.
+    """
+
+    polynomial: Coefficients
+    zones: tuple[int, ...]
+    reached_by: frozenset[int] | None = None
+    seen_by: frozenset[int] | None = None
+    pure: bool = False
+
+    @property
+    def degree(self) -> int:
+        """Degree of the polynomial."""
+        return len(self.polynomial) - 1
+
+    @property
+    def size(self) -> int:
+        """Number of states."""
+        return self.degree * len(self.zones)
+
+
+@dataclass(frozen=True)
+class Ports:
+    """The inputs or the outputs of all channels in one row.
+
+    Attributes
+    ----------
+    owners : tuple of int
+        The channel of each input (output).
+    confined : frozenset of int
+        The channels that are kept to one zone: T for inputs, s for outputs.
+    zone : int
+        That zone: 1 for inputs, 3 for outputs.
+    dead : frozenset of int
+        The channels whose matrix stays 0.
+    """
+
+    owners: tuple[int, ...]
+    confined: frozenset[int]
+    zone: int
+    dead: frozenset[int] = frozenset()
+
+    def may_touch(self, port: int, zone: int) -> bool:
+        """Whether an input reaches (an output sees) a zone."""
+        owner = self.owners[port]
+        return owner not in self.dead and (owner not in self.confined or zone == self.zone)
+
+
+@dataclass
+class Draft:
+    """Integer matrices while they are put together: A (n×n), B (n×Σp_i), C (Σq_i×n)."""
+
+    A: list[list[int]]
+    B: list[list[int]]
+    C: list[list[int]]
+    scales: list[Fraction] = field(default_factory=list)
+
+    @property
+    def n(self) -> int:
+        """Number of states."""
+        return len(self.A)
+
+    def hide(self, choices: Choices, steps: int, bound: int = 60) -> None:
+        """Change the basis of the states by drawn unimodular steps.
+
+        Parameters
+        ----------
+        choices : Choices
+        steps : int
+            The number of elementary steps tried.
+        bound : int
+            A step that makes an entry larger than this, and than it was, is left out.
+        """
+        n = self.n
+        if n < 2:
+            return
+        for _ in range(steps):
+            i, k = choices.integer(0, n - 1), choices.integer(1, n - 1)
+            self._elementary(i, (i + k) % n, choices.option((1, -1)), bound)
+        order = shuffled(choices, range(n))
+        self.A = [[self.A[i][j] for j in order] for i in order]
+        self.B = [self.B[i] for i in order]
+        self.C = [[row[j] for j in order] for row in self.C]
+
+    def _elementary(self, i: int, j: int, sign: int, bound: int) -> None:
+        """Add ``sign`` times row j to row i, and subtract column i from column j accordingly."""
+        driven = [a + sign * b for a, b in zip(self.B[i], self.B[j], strict=True)]
+        row = [a + sign * b for a, b in zip(self.A[i], self.A[j], strict=True)]
+        row[j] -= sign * row[i]
+        column = [row[j] if k == i else line[j] - sign * line[i] for k, line in enumerate(self.A)]
+        seen = [line[j] - sign * line[i] for line in self.C]
+        if max(map(abs, [*row, *column, *driven, *seen])) > bound:
+            return
+        self.A[i] = row
+        for k, line in enumerate(self.A):
+            line[j] = column[k]
+        self.B[i] = driven
+        for line, entry in zip(self.C, seen, strict=True):
+            line[j] = entry
+
+    def matrices(
+        self, inputs: Sequence[int], outputs: Sequence[int], m: int
+    ) -> tuple[Matrix, list[Matrix], list[Matrix]]:
+        """A, the B_i and the C_i, columns and rows given to their owners."""
+        d = self.scales or [Fraction(1)] * self.n
+        A = Matrix.from_rows(
+            [[x * d[i] / d[j] for j, x in enumerate(row)] for i, row in enumerate(self.A)],
+            ncols=self.n,
+        )
+        B = Matrix.from_rows(
+            [[x * d[i] for x in row] for i, row in enumerate(self.B)], ncols=len(inputs)
+        )
+        C = Matrix.from_rows(
+            [[x / d[j] for j, x in enumerate(row)] for row in self.C], ncols=self.n
+        )
+        return (
+            A,
+            [B.take(cols=[k for k, owner in enumerate(inputs) if owner == i]) for i in range(m)],
+            [C.take(rows=[k for k, owner in enumerate(outputs) if owner == i]) for i in range(m)],
+        )
+
+
+def lay_out(choices: Choices, chains: Sequence[Chain], inputs: Ports, outputs: Ports) -> Draft:
+    """Put chains below each other and draw B and C so that their ends are reached and seen.
+
+    Parameters
+    ----------
+    choices : Choices
+    chains : sequence of Chain
+        For every p no more than there are inputs that may reach their ends and outputs that may
+        see their starts.
+    inputs, outputs : Ports
+
+    Returns
+    -------
+    Draft
+        (A, B) is controllable and (C, A) observable, except for chains that nobody is to reach or
+        to see.
+    """
+    n = sum(chain.size for chain in chains)
+    A = [[0] * n for _ in range(n)]
+    zones: list[int] = []
+    firsts: list[list[int]] = []
+    lasts: list[list[int]] = []
+    for chain in chains:
+        start, d = len(zones), chain.degree
+        for k in range(len(chain.zones)):
+            _companion(A, start + k * d, chain.polynomial)
+            if k:
+                for j in range(d):
+                    A[start + (k - 1) * d + j][start + k * d + j] = 1
+        zones += [zone for zone in chain.zones for _ in range(d)]
+        firsts.append(list(range(start, start + d)))
+        lasts.append(list(range(len(zones) - d, len(zones))))
+    # A companion matrix is driven through its last state and seen through its first.
+    drive = [
+        _End(chain.polynomial, rows, rows[-1], chain.reached_by, chain.pure)
+        for chain, rows in zip(chains, lasts, strict=True)
+    ]
+    sight = [
+        _End(chain.polynomial, rows, rows[0], chain.seen_by, chain.pure)
+        for chain, rows in zip(chains, firsts, strict=True)
+    ]
+    B = _connect(choices, drive, inputs, zones)
+    C = _connect(choices, sight, outputs, zones)
+    return Draft(A, [[row[state] for row in B] for state in range(n)], C)
+
+
+def _companion(A: list[list[int]], start: int, polynomial: Coefficients) -> None:
+    d = len(polynomial) - 1
+    for k in range(d - 1):
+        A[start + k][start + k + 1] = 1
+    for k in range(d):
+        A[start + d - 1][start + k] = -polynomial[k]
+
+
+@dataclass(frozen=True)
+class _End:
+    """One end of a chain: its states, and the one that stands for 1 in Q[x]/(p)."""
+
+    polynomial: Coefficients
+    states: list[int]
+    unit: int
+    joined_by: frozenset[int] | None
+    pure: bool
+
+
+def _connect(
+    choices: Choices, ends: Sequence[_End], ports: Ports, zones: Sequence[int]
+) -> list[list[int]]:
+    """Draw one row of n entries for each port such that the ends of each p are independent.
+
+    For every p the joined ends get ports of their own, and there the matrix over Q[x]/(p) is
+    triangular with units on the diagonal; everything else is drawn.
+    """
+    n = len(zones)
+    table = [[0] * n for _ in ports.owners]
+    settled: set[tuple[int, int]] = set()
+    for polynomial in dict.fromkeys(end.polynomial for end in ends):
+        fitting = [
+            (end, _fitting(end, ports, zones)) for end in ends if end.polynomial == polynomial
+        ]
+        # Ends that few ports may join choose first.
+        fitting.sort(key=lambda pair: len(pair[1]))
+        taken: list[int] = []
+        for end, candidates in fitting:
+            if not candidates:
+                settled.update((k, state) for k in range(len(table)) for state in end.states)
+                continue
+            port = choices.option([k for k in candidates if k not in taken])
+            settled.update((k, state) for k in (*taken, port) for state in end.states)
+            if end.pure:
+                settled.update((port, state) for state in range(n))
+            table[port][end.unit] = 1
+            taken.append(port)
+    _scatter(choices, table, settled, ports, zones)
+    return table
+
+
+def _fitting(end: _End, ports: Ports, zones: Sequence[int]) -> list[int]:
+    """The ports that may join an end."""
+    return [
+        k
+        for k, owner in enumerate(ports.owners)
+        if ports.may_touch(k, zones[end.unit]) and (end.joined_by is None or owner in end.joined_by)
+    ]
+
+
+def _scatter(
+    choices: Choices,
+    table: list[list[int]],
+    settled: set[tuple[int, int]],
+    ports: Ports,
+    zones: Sequence[int],
+) -> None:
+    """Draw some of the entries that are free; give silent ports one where they may have it."""
+    n = len(zones)
+    if not n or not table:
+        return
+    for _ in range(choices.integer(0, n + len(table))):
+        port, state = choices.integer(0, len(table) - 1), choices.integer(0, n - 1)
+        value = choices.option((1, -1, 2, -2, 3))
+        if (port, state) not in settled and ports.may_touch(port, zones[state]):
+            table[port][state] = value
+    for port, row in enumerate(table):
+        free = [
+            state
+            for state in range(n)
+            if (port, state) not in settled and ports.may_touch(port, zones[state])
+        ]
+        if free and not any(row):
+            row[choices.option(free)] = 1

@@ -1,0 +1,46 @@
+"""Hypothesis strategies that draw exact systems of known structure.
+
+For this package's own tests, and for the tests of anybody who writes control algorithms::
+
+    from hypothesis import given
+    from mcexact.testing import jointly_controllable_systems
+
+    @given(jointly_controllable_systems(max_states=4))
+    def test_my_rank_test_agrees(drawn):
+        A = drawn.system.A
+        ...
+
+A strategy draws a `Drawn`: a system, and what is known about it *by construction*, so nothing is
+filtered away and examples shrink to few states, few channels and small entries.  The systems are
+exact; ``mcexact.exact.floats.matrix_to_float`` makes arrays of their matrices.
+"""
+
+from mcexact.derived.drawn import Drawn
+from mcexact.testing.strategies import (
+    HypothesisChoices,
+    incomplete_systems,
+    jointly_controllable_systems,
+    neighbor_graphs,
+    sparse_systems,
+    systems,
+    systems_on_graphs,
+    systems_with_fixed_mode,
+    systems_with_indices,
+    systems_with_remnant,
+    uncontrollable_systems,
+)
+
+__all__ = [
+    "Drawn",
+    "HypothesisChoices",
+    "incomplete_systems",
+    "jointly_controllable_systems",
+    "neighbor_graphs",
+    "sparse_systems",
+    "systems",
+    "systems_on_graphs",
+    "systems_with_fixed_mode",
+    "systems_with_indices",
+    "systems_with_remnant",
+    "uncontrollable_systems",
+]

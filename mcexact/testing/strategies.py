@@ -1,0 +1,320 @@
+"""The strategies: Hypothesis as the source of choices for `mcexact.derived.drawn`."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TypeVar
+
+from hypothesis import strategies as st
+from hypothesis.strategies import DrawFn, SearchStrategy
+
+from mcexact.derived import drawn, drawn_structure
+from mcexact.derived.drawn import Drawn
+from mcexact.derived.drawn_graph import drawn_graph
+from mcexact.model.neighbor_graph import NeighborGraph
+
+T = TypeVar("T")
+
+
+class HypothesisChoices:
+    """Hypothesis as a source of choices: what it draws, it can shrink.
+
+    Parameters
+    ----------
+    draw : callable
+        As a composite strategy gets it, or the ``draw`` of ``st.data()``.
+
+    Examples
+    --------
+    Any function of `mcexact.derived.drawn` inside a test of one's own::
+
+        @given(st.data())
+        def test_something(data):
+            drawn = jointly_controllable_system(HypothesisChoices(data.draw), 4, 2)
+    """
+
+    def __init__(self, draw: DrawFn) -> None:
+        self._draw = draw
+
+    def integer(self, low: int, high: int) -> int:
+        """An integer from ``low`` to ``high``; shrinks towards 0, or the end nearest to it."""
+        return self._draw(st.integers(low, high))
+
+    def option(self, options: Sequence[T]) -> T:
+        """One of the options; shrinks towards the first."""
+        return options[self._draw(st.integers(0, len(options) - 1))]
+
+
+def _time(choices: HypothesisChoices, time: str | None) -> str:
+    return choices.option(("continuous", "discrete")) if time is None else time
+
+
+@st.composite
+def _systems(
+    draw: DrawFn, min_states: int, max_states: int, max_channels: int, time: str | None
+) -> Drawn:
+    choices = HypothesisChoices(draw)
+    n, m = choices.integer(min_states, max_states), choices.integer(1, max_channels)
+    return drawn.drawn_system(choices, n, m, time=_time(choices, time))
+
+
+def systems(
+    max_states: int = 5, max_channels: int = 4, *, min_states: int = 0, time: str | None = None
+) -> SearchStrategy[Drawn]:
+    """Systems of every kind: sparse, minimal, with dead channels, with fixed modes, uncontrollable.
+
+    Parameters
+    ----------
+    max_states, max_channels, min_states : int
+    time : {"continuous", "discrete"}, optional
+        Either, by default.
+
+    Returns
+    -------
+    SearchStrategy of Drawn
+        Whatever is not known by construction is None.
+    """
+    return _systems(min_states, max_states, max_channels, time)
+
+
+@st.composite
+def _minimal(
+    draw: DrawFn,
+    min_states: int,
+    max_states: int,
+    max_channels: int,
+    dead_channels: bool,
+    denominators: bool,
+    time: str | None,
+) -> Drawn:
+    choices = HypothesisChoices(draw)
+    n, m = choices.integer(min_states, max_states), choices.integer(1, max_channels)
+    return drawn.jointly_controllable_system(
+        choices,
+        n,
+        m,
+        time=_time(choices, time),
+        dead_channels=dead_channels,
+        denominators=denominators,
+    )
+
+
+def jointly_controllable_systems(
+    max_states: int = 5,
+    max_channels: int = 4,
+    *,
+    min_states: int = 0,
+    dead_channels: bool = False,
+    denominators: bool = False,
+    time: str | None = None,
+) -> SearchStrategy[Drawn]:
+    """Jointly controllable and jointly observable systems, by construction.
+
+    Parameters
+    ----------
+    max_states, max_channels, min_states : int
+    dead_channels : bool
+        Whether some channels may have B_i = 0 or C_i = 0.
+    denominators : bool
+        Whether entries may be fractions.
+    time : {"continuous", "discrete"}, optional
+
+    Returns
+    -------
+    SearchStrategy of Drawn
+        Repeated eigenvalues, long Jordan chains and irrational modes included.
+    """
+    return _minimal(min_states, max_states, max_channels, dead_channels, denominators, time)
+
+
+@st.composite
+def _with_fixed_mode(
+    draw: DrawFn, degree: int | None, max_states: int, max_channels: int, time: str | None
+) -> Drawn:
+    choices = HypothesisChoices(draw)
+    chosen = choices.integer(1, min(3, max_states)) if degree is None else degree
+    n, m = choices.integer(chosen, max_states), choices.integer(2, max_channels)
+    return drawn.system_with_fixed_mode(choices, n, m, chosen, time=_time(choices, time))
+
+
+def systems_with_fixed_mode(
+    max_states: int = 5,
+    max_channels: int = 4,
+    *,
+    degree: int | None = None,
+    time: str | None = None,
+) -> SearchStrategy[Drawn]:
+    """Jointly controllable and observable systems with a planted fixed mode.
+
+    Parameters
+    ----------
+    max_states : int
+        At least the degree.
+    max_channels : int
+        At least 2.
+    degree : int, optional
+        Of the fixed mode's irreducible polynomial; 1 to 3 by default.
+    time : {"continuous", "discrete"}, optional
+
+    Returns
+    -------
+    SearchStrategy of Drawn
+        With ``fixed_mode``, ``multiplicity`` and ``subset``.
+    """
+    return _with_fixed_mode(degree, max_states, max_channels, time)
+
+
+@st.composite
+def _uncontrollable(
+    draw: DrawFn, max_states: int, max_channels: int, observable_side: bool, time: str | None
+) -> Drawn:
+    choices = HypothesisChoices(draw)
+    n, m = choices.integer(1, max_states), choices.integer(1, max_channels)
+    return drawn.uncontrollable_system(
+        choices, n, m, observable_side=observable_side, time=_time(choices, time)
+    )
+
+
+def uncontrollable_systems(
+    max_states: int = 5,
+    max_channels: int = 4,
+    *,
+    observable_side: bool = False,
+    time: str | None = None,
+) -> SearchStrategy[Drawn]:
+    """Systems with a mode that no channel reaches (or, on the other side, sees)."""
+    return _uncontrollable(max_states, max_channels, observable_side, time)
+
+
+@st.composite
+def _sparse(draw: DrawFn, max_states: int, max_channels: int, time: str | None) -> Drawn:
+    choices = HypothesisChoices(draw)
+    n, m = choices.integer(0, max_states), choices.integer(1, max_channels)
+    return drawn.sparse_system(choices, n, m, time=_time(choices, time))
+
+
+def sparse_systems(
+    max_states: int = 5, max_channels: int = 4, *, time: str | None = None
+) -> SearchStrategy[Drawn]:
+    """Systems with sparse small entries about which nothing is known; anything may happen."""
+    return _sparse(max_states, max_channels, time)
+
+
+@st.composite
+def _graphs(
+    draw: DrawFn, names: Sequence[str], strongly_connected: bool | None, longest_delay: int
+) -> NeighborGraph:
+    return drawn_graph(HypothesisChoices(draw), names, strongly_connected, longest_delay)
+
+
+def neighbor_graphs(
+    names: Sequence[str], *, strongly_connected: bool | None = None, longest_delay: int = 0
+) -> SearchStrategy[NeighborGraph]:
+    """Neighbor graphs on given agents.
+
+    Parameters
+    ----------
+    names : sequence of str
+    strongly_connected : bool, optional
+        Any graph by default.
+    longest_delay : int
+        Every arc has a delay from 0 to this.
+    """
+    return _graphs(tuple(names), strongly_connected, longest_delay)
+
+
+@st.composite
+def _on_graphs(
+    draw: DrawFn,
+    base: SearchStrategy[Drawn],
+    strongly_connected: bool | None,
+    longest_delay: int,
+) -> Drawn:
+    found = draw(base)
+    graph = draw(_graphs(found.system.names, strongly_connected, longest_delay))
+    return drawn.on_graph(found, graph)
+
+
+def systems_on_graphs(
+    base: SearchStrategy[Drawn] | None = None,
+    *,
+    strongly_connected: bool | None = None,
+    longest_delay: int = 0,
+) -> SearchStrategy[Drawn]:
+    """Systems that carry a neighbor graph, with delays on its arcs if wanted.
+
+    Parameters
+    ----------
+    base : SearchStrategy of Drawn, optional
+        Where the systems come from; `jointly_controllable_systems` by default, in discrete time if
+        there are delays.
+    strongly_connected : bool, optional
+    longest_delay : int
+    """
+    if base is None:
+        base = jointly_controllable_systems(time="discrete" if longest_delay else None)
+    return _on_graphs(base, strongly_connected, longest_delay)
+
+
+@st.composite
+def _with_indices(draw: DrawFn, max_states: int, max_channels: int, time: str | None) -> Drawn:
+    choices = HypothesisChoices(draw)
+    left, m = choices.integer(1, max_states), choices.integer(1, max_channels)
+    indices = []
+    while left:
+        indices.append(choices.integer(1, left))
+        left -= indices[-1]
+    return drawn_structure.system_with_indices(choices, indices, m, time=_time(choices, time))
+
+
+def systems_with_indices(
+    max_states: int = 5, max_channels: int = 4, *, time: str | None = None
+) -> SearchStrategy[Drawn]:
+    """Systems whose controllability (Brunovsky) ``indices`` are known."""
+    return _with_indices(max_states, max_channels, time)
+
+
+@st.composite
+def _with_remnant(draw: DrawFn, max_states: int, max_channels: int, time: str | None) -> Drawn:
+    choices = HypothesisChoices(draw)
+    n, m = choices.integer(3, max_states), choices.integer(2, max_channels)
+    return drawn_structure.system_with_remnant(
+        choices, n, m, nonzero_transfer=choices.option((False, True)), time=_time(choices, time)
+    )
+
+
+def systems_with_remnant(
+    max_states: int = 5, max_channels: int = 4, *, time: str | None = None
+) -> SearchStrategy[Drawn]:
+    """Systems with a ``subset`` whose complementary subsystem has a known ``remnant``."""
+    return _with_remnant(max_states, max_channels, time)
+
+
+@st.composite
+def _incomplete(
+    draw: DrawFn, reason: str | None, max_states: int, max_channels: int, time: str | None
+) -> Drawn:
+    choices = HypothesisChoices(draw)
+    why = choices.option(("transfer graph", "fixed mode")) if reason is None else reason
+    n, m = choices.integer(2, max_states), choices.integer(2, max_channels)
+    return drawn_structure.incomplete_system(choices, n, m, why, time=_time(choices, time))
+
+
+def incomplete_systems(
+    max_states: int = 5,
+    max_channels: int = 4,
+    *,
+    reason: str | None = None,
+    time: str | None = None,
+) -> SearchStrategy[Drawn]:
+    """Jointly controllable and observable systems that are not complete.
+
+    Parameters
+    ----------
+    max_states, max_channels : int
+        At least 2.
+    reason : {"fixed mode", "transfer graph"}, optional
+        Either, by default.
+    time : {"continuous", "discrete"}, optional
+    """
+    return _incomplete(reason, max_states, max_channels, time)
