@@ -7,4 +7,102 @@ polynomial's roots with respect to a stability region.  Refuses floats, except t
 `from_float` and `matrix_from_float`, which say how a float is meant.
 
 No other stage imports flint: sizes and moduli that it would abort on are refused here.
+
+=================  ====================================================================
+`rational`         one number: entries, the written grammar, the way in from floats
+`matrix`           rational matrices and blocks of them
+`linear_algebra`   ranks, kernels, solutions, characteristic polynomials over Q
+`polynomial`       rational polynomials
+`modular`          matrices and polynomials modulo word-size primes
+`reconstruction`   rational numbers from their residues
+`number_field`     matrices of polynomials; kernels and ranks over Q[x]/(p)
+`location`         Hurwitz and Schur tests, stability regions
+`enclosures`       discs and intervals around roots
+`floats`           arrays of floats to rational matrices and back
+=================  ====================================================================
 """
+
+from mcexact.exact.enclosures import Disc, real_root_intervals, root_discs
+from mcexact.exact.floats import matrix_from_float, matrix_to_float
+from mcexact.exact.linear_algebra import (
+    characteristic_polynomial,
+    column_echelon,
+    determinant,
+    inverse,
+    left_nullspace,
+    minimal_polynomial,
+    nullspace,
+    rank,
+    row_echelon,
+    solve,
+)
+from mcexact.exact.location import StabilityRegion, in_region, is_hurwitz, is_schur
+from mcexact.exact.matrix import Matrix, block, block_diagonal, hstack, kronecker, vstack
+from mcexact.exact.modular import (
+    ModularMatrix,
+    ModularPolynomial,
+    low_rank_update,
+    polynomial_residues,
+    primes,
+    random_matrix,
+    residues,
+)
+from mcexact.exact.number_field import PolynomialMatrix, kernel_at
+from mcexact.exact.polynomial import Polynomial, product
+from mcexact.exact.rational import (
+    DEFAULT_LIMITS,
+    Entry,
+    Limits,
+    as_fraction,
+    from_float,
+    parse_rational,
+    to_float,
+    written,
+)
+
+__all__ = [
+    "DEFAULT_LIMITS",
+    "Disc",
+    "Entry",
+    "Limits",
+    "Matrix",
+    "ModularMatrix",
+    "ModularPolynomial",
+    "Polynomial",
+    "PolynomialMatrix",
+    "StabilityRegion",
+    "as_fraction",
+    "block",
+    "block_diagonal",
+    "characteristic_polynomial",
+    "column_echelon",
+    "determinant",
+    "from_float",
+    "hstack",
+    "in_region",
+    "inverse",
+    "is_hurwitz",
+    "is_schur",
+    "kernel_at",
+    "kronecker",
+    "left_nullspace",
+    "low_rank_update",
+    "matrix_from_float",
+    "matrix_to_float",
+    "minimal_polynomial",
+    "nullspace",
+    "parse_rational",
+    "polynomial_residues",
+    "primes",
+    "product",
+    "random_matrix",
+    "rank",
+    "real_root_intervals",
+    "residues",
+    "root_discs",
+    "row_echelon",
+    "solve",
+    "to_float",
+    "vstack",
+    "written",
+]
