@@ -48,7 +48,7 @@ def command(
     as_json: bool,
     timeout: float | None,
     max_memory: int | None,
-    limits: tuple[tuple[str, int], ...],
+    **limits: int | None,
 ) -> int:
     """Decide everything about the system in FILE (- for standard input).
 
@@ -57,18 +57,22 @@ def command(
     """
     import sys
 
-    from mcexact.cli.output import directory, emit, emit_json, on_terminal
+    from mcexact.cli.files import directory, read
+    from mcexact.cli.output import emit, emit_json, on_terminal
     from mcexact.cli.supervision import supervised
     from mcexact.model.atomic import write_text
     from mcexact.report.text import plain, show
 
+    place = "standard input" if file == "-" else file
+    moved = options.given(limits)
     answer = supervised(
         _answer,
-        file,
-        dict(limits),
+        place,
+        read(file, place, moved),
+        moved,
         {"information": information, "minimal": minimal, "subset": _named(subset)},
         certificates is not None,
-        doing=f"analyzing {file}",
+        doing=f"analyzing {place}",
         timeout=timeout,
         max_memory=max_memory,
     )
@@ -95,17 +99,26 @@ def _named(subset: str | None) -> list[str] | None:
 
 
 def _answer(
-    file: str, limits: dict[str, int], question: dict[str, Any], with_certificates: bool
+    place: str,
+    data: bytes,
+    limits: dict[str, int],
+    question: dict[str, Any],
+    with_certificates: bool,
 ) -> dict[str, Any]:
-    """Read, decide, and put the answer into text: what the child process does."""
+    """Decide, and put the answer into text: what the child process does."""
     from mcexact.certificate import codec
+    from mcexact.errors import InputError
     from mcexact.exact.rational import Limits
-    from mcexact.model.system_file import load_system
+    from mcexact.model.system_file import read_system
     from mcexact.report.assessment import assess
     from mcexact.report.json_view import assessment_view
     from mcexact.report.text import assessment_tables
 
-    assessment = assess(load_system(file, limits=Limits(**limits)), **question)
+    try:
+        system = read_system(data, limits=Limits(**limits))
+    except InputError as error:
+        raise error.within(place) from None
+    assessment = assess(system, **question)
     certificates = assessment.certificates() if with_certificates else {}
     return {
         "json": assessment_view(assessment, with_certificates=with_certificates),

@@ -40,7 +40,7 @@ def one_message(error: BaseException) -> str:
         text = f"mcexact: {error.format_message()}"
     elif isinstance(error, McexactError) and error.exit_status != INTERNAL_ERROR:
         # Messages name a limit as Python does; here it is an option.
-        text = re.sub(r"\bLimits\.(\w+)", r"--limit \1=N", f"mcexact: {error}")
+        text = re.sub(r"\bLimits\.(\w+)", r"--max-\1", f"mcexact: {error}")
     elif isinstance(error, OSError):
         place = f"{error.filename}: " if error.filename is not None else ""
         text = f"mcexact: {place}{error.strerror or error}"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from fractions import Fraction
 from pathlib import Path
 from typing import Any, TypeVar
@@ -40,21 +40,6 @@ def seconds(text: str) -> float:
     return number
 
 
-def file_limit(text: str) -> tuple[str, int]:
-    """One limit on what a file may ask for, such as ``digits=10000``."""
-    import dataclasses
-
-    from mcexact.exact.rational import Limits
-
-    names = [field.name for field in dataclasses.fields(Limits)]
-    name, _, number = text.partition("=")
-    if name not in names:
-        raise click.BadParameter(f"expected one of {', '.join(names)}, found '{name}'")
-    if not (number.isascii() and number.isdigit() and len(number) < 16 and int(number) > 0):
-        raise click.BadParameter(f"expected a whole number above 0 for {name}, found '{number}'")
-    return name, int(number)
-
-
 FOLDER = click.Path(path_type=Path)
 
 as_json = click.option("--json", "as_json", is_flag=True, help="Print one JSON document.")
@@ -68,14 +53,30 @@ certificates = click.option(
 )
 
 
-file_limits = click.option(
-    "--limit",
-    "limits",
-    type=file_limit,
-    multiple=True,
-    metavar="NAME=VALUE",
-    help="Move a limit that a message named: bytes, depth, digits or exponent.",
-)
+def file_limits(function: F) -> F:
+    """Add the options that move the limits on what a file may ask for.
+
+    The command gets them as keywords, ``bytes`` and so on; see `given`.
+    """
+    for name, what in (
+        ("exponent", "exponent of a decimal"),
+        ("digits", "number of digits"),
+        ("depth", "nesting"),
+        ("bytes", "size of a file"),
+    ):
+        function = click.option(
+            f"--max-{name}",
+            name,
+            type=click.IntRange(min=1, max=10**15),
+            metavar="N",
+            help=f"Largest {what} that is read.",
+        )(function)
+    return function
+
+
+def given(limits: Mapping[str, int | None]) -> dict[str, int]:
+    """The limits that were moved."""
+    return {name: limit for name, limit in limits.items() if limit is not None}
 
 
 def work_limits(function: F) -> F:

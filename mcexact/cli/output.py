@@ -1,14 +1,11 @@
-"""Standard output that survives a closed pipe, and the folders that results go to."""
+"""Standard output that survives a closed pipe."""
 
 from __future__ import annotations
 
 import json
 import os
 import sys
-from pathlib import Path
 from typing import Any
-
-from mcexact.errors import InputError
 
 
 def emit(text: str) -> None:
@@ -32,21 +29,6 @@ def emit(text: str) -> None:
 def emit_json(document: Any) -> None:
     """Write one JSON document to standard output."""
     emit(json.dumps(document, indent=2, ensure_ascii=True) + "\n")
-
-
-def directory(path: Path) -> Path:
-    """The directory at this path, made if it is missing.
-
-    Raises
-    ------
-    InputError
-        If it cannot be made, or if something else stands there.
-    """
-    try:
-        path.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InputError(f"cannot be made a directory: {error.strerror}", where=str(path)) from None
-    return path
 
 
 def on_terminal() -> bool:

@@ -62,7 +62,8 @@ def command(
 
     A system file is JSON, so --json changes nothing here.
     """
-    from mcexact.cli.output import directory, emit
+    from mcexact.cli.files import directory
+    from mcexact.cli.output import emit
     from mcexact.model.atomic import write_text
     from mcexact.model.system_file import system_text
 
@@ -81,11 +82,8 @@ def _drawn(
 ) -> MultiChannelSystem:
     """Draw one system."""
     from mcexact.derived.choices import SeededChoices
-    from mcexact.derived.drawn import (
-        drawn_graph,
-        jointly_controllable_system,
-        system_with_fixed_mode,
-    )
+    from mcexact.derived.drawn import jointly_controllable_system, system_with_fixed_mode
+    from mcexact.derived.drawn_graph import drawn_graph
 
     choices = SeededChoices(seed)
     if degree is None:

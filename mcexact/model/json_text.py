@@ -40,6 +40,8 @@ def read_bytes(path: str | os.PathLike[str], limits: Limits = DEFAULT_LIMITS) ->
     """
     try:
         if os.fspath(path) == "-":
+            if sys.stdin is None:
+                raise InputError("cannot be read: it is closed")
             data = sys.stdin.buffer.read(limits.bytes + 1)
         else:
             with open(path, "rb") as stream:

@@ -1,0 +1,42 @@
+"""What commands read, and the folders that results go to."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from mcexact.errors import InputError
+
+
+def read(file: str, place: str, limits: Mapping[str, int]) -> bytes:
+    """The bytes of a file, or of the standard input for ``-``.
+
+    This is done before a child process is started, which has no standard input.
+
+    Raises
+    ------
+    InputError
+        If it is missing, unreadable or too large.
+    """
+    from mcexact.exact.rational import Limits
+    from mcexact.model.json_text import read_bytes
+
+    try:
+        return read_bytes(file, Limits(**limits))
+    except InputError as error:
+        raise error.within(place) from None
+
+
+def directory(path: Path) -> Path:
+    """The directory at this path, made if it is missing.
+
+    Raises
+    ------
+    InputError
+        If it cannot be made, or if something else stands there.
+    """
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(f"cannot be made a directory: {error.strerror}", where=str(path)) from None
+    return path
