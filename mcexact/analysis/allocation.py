@@ -176,7 +176,7 @@ class _Problem:
         """Where a mode may stay fixed."""
         if self.bound is None:
             return None
-        return StabilityRegion(self.system.time, self.bound)
+        return StabilityRegion(self.system.time, self.bound or None)
 
 
 @dataclass(frozen=True)
@@ -307,6 +307,7 @@ def _checked(
     bound: Entry | None,
     free_assignability: bool,
 ) -> _Problem:
+    checked_share(share)
     system, found = with_graph(system, graph)
     if system.subject:
         raise UsageError("give the plant, not a system derived from it", where="system")
@@ -320,7 +321,7 @@ def _checked(
     return _Problem(
         system=system,
         graph=found,
-        share=checked_share(share),
+        share=share,
         costs=prices,
         upper=limits,
         bound=None if bound is None else as_fraction(bound),
@@ -379,9 +380,7 @@ def _connectivity_cuts(
     rng = generator(base, SharedDimensionsCertificate.kind)
     subspace = controllable_subspace(base.A, base.input_matrix(T), rng)
     zero = zero_transfer(base, T, subspace)
-    return [
-        _Cut(CoveringCut(boundary(problem.graph, s), 1), ConnectivityCut(base.named(s), zero))
-    ]
+    return [_Cut(CoveringCut(boundary(problem.graph, s), 1), ConnectivityCut(base.named(s), zero))]
 
 
 def _binding(

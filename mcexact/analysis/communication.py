@@ -22,7 +22,7 @@ from mcexact.certificate.communication import CommunicationCertificate
 from mcexact.certificate.covering import ArcCut
 from mcexact.derived.arcs import add_arcs
 from mcexact.derived.augmented_outputs import augmented_outputs
-from mcexact.derived.extended import extended_system, selector
+from mcexact.derived.extended import Share, extended_system, selector
 from mcexact.errors import UsageError
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix, block_diagonal
@@ -76,7 +76,7 @@ class _Problem:
         wired = add_arcs(self.plant, arcs) if arcs else self.plant
         if self.dimensions is None:
             return augmented_outputs(wired)
-        share = "states" if self.share == "states" else "outputs+states"
+        share: Share = "states" if self.share == "states" else "outputs+states"
         return extended_system(wired, self.dimensions, share)
 
     def carried(self, j: int) -> Matrix:
@@ -212,7 +212,7 @@ def _checked(
         plant=plant,
         share=carried,
         dimensions=None if dimensions is None else tuple(dimensions),
-        region=None if bound is None else StabilityRegion(plant.time, as_fraction(bound)),
+        region=None if bound is None else StabilityRegion(plant.time, as_fraction(bound) or None),
         candidates=candidates,
         costs=tuple(prices.get(arc, Fraction(1)) for arc in candidates),
     )
@@ -223,16 +223,12 @@ def _arc(plant: MultiChannelSystem, arc: tuple[str, str]) -> Arc:
     return plant.index(sender), plant.index(receiver)
 
 
-def _program(
-    problem: _Problem, cuts: Sequence[tuple[CoveringCut, ArcCut]]
-) -> CoveringProgram:
+def _program(problem: _Problem, cuts: Sequence[tuple[CoveringCut, ArcCut]]) -> CoveringProgram:
     size = len(problem.candidates)
     return CoveringProgram(problem.costs, (1,) * size, tuple(cut for cut, _ in cuts))
 
 
-def _generate(
-    problem: _Problem, cuts: list[tuple[CoveringCut, ArcCut]]
-) -> tuple[int, ...] | None:
+def _generate(problem: _Problem, cuts: list[tuple[CoveringCut, ArcCut]]) -> tuple[int, ...] | None:
     """Add cuts until an optimal set of arcs is broken by none; None if there is no set at all."""
     factors = violating_factors(problem.plant, problem.region)
     rng = generator(problem.system(()), CommunicationCertificate.kind)
@@ -258,15 +254,11 @@ def _generate(
             canonical = True
 
 
-def _cut(
-    problem: _Problem, subspace: ExactSubspace, p: Polynomial
-) -> tuple[CoveringCut, ArcCut]:
+def _cut(problem: _Problem, subspace: ExactSubspace, p: Polynomial) -> tuple[CoveringCut, ArcCut]:
     """The candidates that break an obstruction: j → i, i outside T, with S_j U ≠ 0 modulo p."""
     subspace = _trimmed(subspace)
     U = subspace.U
-    senders = {
-        j for j in range(problem.plant.m) if not ((problem.carried(j) @ U) % p).is_zero()
-    }
+    senders = {j for j in range(problem.plant.m) if not ((problem.carried(j) @ U) % p).is_zero()}
     breaking = frozenset(
         k
         for k, (j, i) in enumerate(problem.candidates)

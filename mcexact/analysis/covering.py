@@ -2,11 +2,11 @@
 
 The program is
 
-    minimize  Σ c_i x_i   subject to   Σ_{i ∈ S_k} x_i ≥ d_k for every cut k,   0 ≤ x_i ≤ u_i,   x integer,
+    minimize Σ c_i x_i  subject to  Σ_{i ∈ S_k} x_i ≥ d_k for every cut k, 0 ≤ x_i ≤ u_i, x integer,
 
-with positive rational costs.  HiGHS searches in floating point; nothing it says is believed: values are
-re-checked as integers, and the lower bound is a tree of rational multipliers verified here and again
-by the checker.
+with positive rational costs.  HiGHS searches in floating point; nothing it says is believed: values
+are re-checked as integers, and the lower bound is a tree of rational multipliers verified here and
+again by the checker.
 """
 
 from __future__ import annotations
@@ -114,6 +114,8 @@ def minimize(program: CoveringProgram, *, canonical: bool = True) -> tuple[int, 
     """
     if program.violated_cut(program.upper) is not None:
         return None
+    if not program.costs:
+        return ()
     costs = [float(cost) for cost in program.costs]
     values = _integer_optimum(program, costs, ())
     if not canonical or not any(values):
@@ -155,7 +157,7 @@ def _integer_optimum(
         lower[i] = upper[i] = value
     found = milp(
         np.array(objective),
-        integrality=np.ones(size),
+        integrality=np.ones(size, dtype=int),
         bounds=Bounds(lower, upper),
         constraints=constraints,
     )
@@ -202,8 +204,9 @@ def branch_tree(
 
     Notes
     -----
-    A leaf holds multipliers y ≥ 0.  With r = c − Σ_k y_k 1_{S_k} every point of the leaf costs at least
-    Σ y_k d_k + Σ_i min(r_i l_i, r_i u_i); rounded up to the grid of the costs this is ≥ ``value``.
+    A leaf holds multipliers y ≥ 0.  With r = c − Σ_k y_k 1_{S_k} every point of the leaf costs at
+    least Σ y_k d_k + Σ_i min(r_i l_i, r_i u_i); rounded up to the grid of the costs this is ≥
+    ``value``.
     A point cheaper than ``value`` has x_i ≤ value / c_i, so every leaf is bounded from above.
     """
     count = 0
@@ -213,7 +216,7 @@ def branch_tree(
         count += 1
         if count > node_limit:
             raise LimitReached(
-                f"the branch tree reached its limit of {node_limit} nodes; raise it with --node-limit",
+                f"the branch tree reached its limit of {node_limit} nodes (--node-limit)",
                 lower=proved,
                 upper=value,
             )
@@ -293,7 +296,7 @@ def _proving_multipliers(
     duals: Floats,
     value: Fraction,
 ) -> list[tuple[int, Fraction]] | None:
-    """Multipliers of small denominator near ``duals`` whose exact bound reaches ``value``, or None."""
+    """Multipliers of small denominator near ``duals`` that prove ``value`` exactly, or None."""
     for denominator in _MULTIPLIER_DENOMINATORS:
         multipliers = _multipliers(duals, denominator)
         bound = leaf_bound(program, lower, upper, multipliers)

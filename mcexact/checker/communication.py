@@ -1,4 +1,4 @@
-"""Kind ``communication``: the cheapest arcs to add, or none suffice; ``proofs/communication.md``."""
+"""Kind ``communication``: the cheapest arcs to add; ``proofs/communication.md``."""
 
 from __future__ import annotations
 
@@ -52,9 +52,7 @@ def check(claim: Any, witness: Any, system: System) -> str:
         p = polynomial(factor, f"{place}.polynomial", 1)
         require_outside(p, subject, bound, place)
         T = evidence.shrunk_subspace(subspace, f"{place}.subspace", subject, p, 1)
-        U = polynomial_matrix(
-            subspace["U"], place, subject.n, len(subspace["pivots"]), len(p) - 1
-        )
+        U = polynomial_matrix(subspace["U"], place, subject.n, len(subspace["pivots"]), len(p) - 1)
         sends = [j for j, S in enumerate(rows) if any(not (S @ layer).is_zero() for layer in U)]
         broken = {v for v, (j, i) in enumerate(ends) if j in sends and i not in T}
         found.append((broken, 1))

@@ -1,4 +1,4 @@
-"""Branch trees and absence, for ``shared_dimensions`` and ``communication``; ``proofs/covering.md``."""
+"""Branch trees and absence, for allocations; ``proofs/shared_dimensions.md``."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ from .transfer_graph import read_arcs, require_arcs
 class Program:
     """Σ c_i x_i is to be small, Σ_{i ∈ S} x_i ≥ d for every cut (S, d), the x_i integers.
 
-    ``labels`` are the names of the variables in the tree, under the key ``key``; without a ``value``
-    the tree has to show that there is no point at all.
+    ``labels`` are the names of the variables in the tree, under the key ``key``; without a
+    ``value`` the tree has to show that there is no point at all.
     """
 
     costs: Sequence[Fraction]

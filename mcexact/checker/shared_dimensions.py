@@ -1,4 +1,4 @@
-"""Kind ``shared_dimensions``: the least to share, or nothing suffices; ``proofs/shared_dimensions.md``."""
+"""Kind ``shared_dimensions``: the least to share; ``proofs/shared_dimensions.md``."""
 
 from __future__ import annotations
 
@@ -71,7 +71,8 @@ def _cut(
         p, demand = polynomial(factor, f"{place}.polynomial", 1), integer(deficiency, place, 1)
         require_outside(p, base, bound, place)
         T = evidence.shrunk_subspace(subspace, f"{place}.subspace", base, p, demand)
-        require(T == evidence.complement(base, s), "cut", place, "T is not the complement of s")
+        others = evidence.complement(base, s)
+        require(others == T, "cut", place, "T is not the complement of s")
     return {j for i in s for j in N[i]} - set(s), demand
 
 

@@ -108,7 +108,7 @@ class StabilityRegion:
     False
     """
 
-    time: Time
+    time: str
     bound: Fraction | None = None
 
     def __post_init__(self) -> None:
@@ -153,7 +153,7 @@ class StabilityRegion:
 
 
 def in_region(
-    p: Polynomial, time: Time, rate: Fraction | None = None, radius: Fraction | None = None
+    p: Polynomial, time: str, rate: Fraction | None = None, radius: Fraction | None = None
 ) -> bool:
     """Whether every root of p lies in the stability region of the time domain.
 
@@ -171,7 +171,7 @@ def in_region(
 
 
 def region(
-    time: Time, rate: Fraction | None = None, radius: Fraction | None = None
+    time: str, rate: Fraction | None = None, radius: Fraction | None = None
 ) -> StabilityRegion:
     """The stability region of a time domain; a rate or radius for the other one is wrong usage."""
     if time == "continuous" and radius is not None:

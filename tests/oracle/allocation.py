@@ -1,4 +1,4 @@
-"""Allocations by exhaustive search: every subset of channels, every vector of dimensions or arcs."""
+"""Allocations by exhaustive search over subsets of channels, and dimensions or arcs."""
 
 from __future__ import annotations
 

@@ -1,0 +1,1 @@
+"""Long comparisons with slow oracles: ``python -m tests.campaigns.<topic> COUNT SEED``."""
