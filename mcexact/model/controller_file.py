@@ -73,15 +73,16 @@ def _read_agent(
     """Read one program."""
     shared = expect_integer(agent["shared"], f"{where}.shared")
     private = expect_integer(agent["private"], f"{where}.private")
-    sizes = (shared, private, None)
-    maps = [
+    shared_update, private_update, given = (
         _read_map(agent[label], f"{where}.{label}", size, names, limits)
-        for label, size in zip(MAPS, sizes, strict=True)
-    ]
+        for label, size in zip(MAPS, (shared, private, None), strict=True)
+    )
     hold = {}
     for name, steps in _by_agent(agent.get("hold", {}), f"{where}.hold", names).items():
         hold[name] = expect_integer(steps, f"{where}.hold[{quoted(names[name])}]")
-    return AgentProgram(agent["name"], shared, private, *maps, hold=hold)
+    return AgentProgram(
+        agent["name"], shared, private, shared_update, private_update, given, hold
+    )
 
 
 def _read_map(

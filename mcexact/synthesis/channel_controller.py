@@ -47,6 +47,11 @@ class ChannelController:
         """Bits of the longest numerator or denominator."""
         return height(self.A, self.B, self.C, self.D)
 
+    @property
+    def largest(self) -> Fraction:
+        """The largest absolute value of an entry."""
+        return largest(self.A, self.B, self.C, self.D)
+
     def closed_loop(self, A: Matrix, B: Matrix, C: Matrix) -> Matrix:
         """The matrix of the loop around ẋ = Ax + Bu, y = Cx, state (x, z):
 
@@ -64,6 +69,17 @@ def height(*matrices: Matrix) -> int:
             for entry in row:
                 longest = max(longest, entry.numerator.bit_length(), entry.denominator.bit_length())
     return longest
+
+
+def largest(*matrices: Matrix) -> Fraction:
+    """The largest absolute value among the entries."""
+    return max(
+        (
+            Fraction(max((abs(x) for row in M.numerators for x in row), default=0), M.denominator)
+            for M in matrices
+        ),
+        default=Fraction(0),
+    )
 
 
 def channel_controller(
@@ -196,7 +212,7 @@ def _numerators(A: Matrix, B: Matrix, c: Matrix, d: Polynomial) -> list[list[Fra
 def _assigned(
     d: Polynomial, numerators: list[list[Fraction]], wanted: Polynomial, order: int
 ) -> tuple[list[Fraction], list[list[Fraction]]]:
-    """Solve d p_c − Σ_j N_j n_j = wanted: the coefficients of p_c below the leading one, and of n_j."""
+    """Solve d p_c − Σ_j N_j n_j = wanted: p_c without its leading coefficient, and all n_j."""
     n = d.degree
     size = n + order
     shifts = [[Fraction(0)] * k + list(d.coefficients) for k in range(order)]

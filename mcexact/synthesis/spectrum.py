@@ -1,4 +1,4 @@
-"""Prescribed spectra: coefficient lists, or roots and complex pairs, as monic polynomials over Q."""
+"""Prescribed spectra: coefficient lists, or roots and pairs, as monic polynomials over Q."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 from mcexact.errors import InputError, UsageError
+from mcexact.exact.location import Time, region
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import as_fraction
 
@@ -20,7 +21,7 @@ def spectrum_polynomial(spectrum: Any, degree: int, *, where: str = "spectrum") 
         The coefficients of a monic polynomial, constant term first; or its roots, each a rational
         number, or ``{"re": a, "im": b}`` with b ≠ 0 for the pair a ± b i.
     degree : int
-        How many numbers are prescribed.  It tells ``degree + 1`` coefficients from ``degree`` roots.
+        How many numbers are prescribed: it tells degree + 1 coefficients from degree roots.
     where : str
         The place to name in an error.
 
@@ -139,7 +140,7 @@ def default_polynomial(time: str, bound: Fraction, degree: int) -> Polynomial:
 
 
 def convergence_bound(
-    time: str, rate: Any = None, radius: Any = None, *, needed: bool = False
+    time: Time, rate: Any = None, radius: Any = None, *, needed: bool = False
 ) -> Fraction | None:
     """The rate in continuous time, or the radius in discrete time, checked.
 
@@ -156,28 +157,12 @@ def convergence_bound(
     UsageError
         If the one is given that belongs to the other time domain, or it is out of range.
     """
-    if time == "continuous":
-        if radius is not None:
-            raise UsageError(
-                "a radius is for discrete time; in continuous time give a rate", where="radius"
-            )
-        if rate is None:
-            return _missing("rate") if needed else None
-        bound = as_fraction(rate, where="rate")
-        if bound <= 0:
-            raise UsageError(f"expected a rate > 0, found {bound}", where="rate")
-        return bound
-    if rate is not None:
-        raise UsageError(
-            "a rate is for continuous time; in discrete time give a radius", where="rate"
-        )
-    if radius is None:
-        return _missing("radius") if needed else None
-    bound = as_fraction(radius, where="radius")
-    if not 0 < bound <= 1:
-        raise UsageError(f"expected a radius with 0 < radius <= 1, found {bound}", where="radius")
-    return bound
-
-
-def _missing(name: str) -> None:
-    raise UsageError(f"give a {name} or a spectrum: nothing says how fast the loop must be")
+    found = region(
+        time,
+        None if rate is None else as_fraction(rate, where="rate"),
+        None if radius is None else as_fraction(radius, where="radius"),
+    )
+    if needed and found.bound is None:
+        name = "rate" if time == "continuous" else "radius"
+        raise UsageError(f"give a {name} or a spectrum: nothing says how fast the loop must be")
+    return found.bound

@@ -3,20 +3,25 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from fractions import Fraction
+from math import ceil
 from random import Random
 
 from mcexact.analysis.controllability import joint_controllability
-from mcexact.errors import Impossible, LimitReached
-from mcexact.exact.linear_algebra import characteristic_polynomial, solve
+from mcexact.errors import Impossible, InternalError, LimitReached
+from mcexact.exact.linear_algebra import (
+    characteristic_polynomial,
+    determinant,
+    row_echelon,
+    solve,
+)
 from mcexact.exact.matrix import Matrix, hstack
-from mcexact.exact.modular import primes, residues
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.channel_controller import height
+from mcexact.synthesis.channel_controller import height, largest
 
 _CANDIDATES = 24
-_DRAWS = 2000
+_DRAWS = 4000
+_DRAWS_IF_FOUND = 600
 
 
 @dataclass(frozen=True)
@@ -55,11 +60,12 @@ def state_feedback(system: MultiChannelSystem, polynomial: Polynomial) -> StateF
     Notes
     -----
     Exact.  Heymann: a small F_0 and an input direction g with (A + B F_0, B g) controllable, then
-    one row by Ackermann's formula; of several candidates the one of least height.  Continuous and
-    discrete time are the same.  (Paper, beginning of section II-C.)
+    one row by Ackermann's formula; of several candidates the one with the shortest numbers.
+    Continuous and discrete time are the same.  (Paper, beginning of section II-C.)
 
     Examples
     --------
+    >>> from fractions import Fraction
     >>> system = MultiChannelSystem([[0, 1], [0, 0]], [[[0], [1]]], [[[1, 0]]])
     >>> found = state_feedback(system, Polynomial((Fraction(2), Fraction(3), Fraction(1))))
     >>> found.gains[0].numerators
@@ -107,33 +113,106 @@ def assigning_feedback(A: Matrix, B: Matrix, polynomial: Polynomial, *, seed: in
     Raises
     ------
     LimitReached
-        If no suitable direction was found, which for a controllable pair does not happen.
+        If no suitable direction was drawn, which for a controllable pair does not happen.
+
+    Notes
+    -----
+    The denominators of F divide det X, X = [b, Mb, …, M^{n−1}b], with M = A + B F_0 and b = B g,
+    where A, B, F_0 and g are integral.  So many F_0 and g are drawn, and those with the least
+    determinant are kept.  Half of the F_0 are sparse; the others bring M close to a shift of the
+    coordinates in some order, as far as im B reaches, for which det X would be ±1.
     """
     n, p = B.shape
     if n == 0:
         return Matrix.zeros(p, 0)
     rng = Random(seed)
-    ell = next(p for p in primes(seed) if A.denominator % p and B.denominator % p)
-    best: Matrix | None = None
-    found = 0
+    reach = _left_inverse(B)
+    drawn: list[tuple[int, int, _Direction]] = []
     for draw in range(_DRAWS):
-        bound = draw // 40 + 1
-        F0 = _drawn(rng, p, n, 0 if draw < 2 * p else bound, sparse=draw % 2 == 0)
-        g = Matrix.column([int(k == draw % p) for k in range(p)])
-        if draw >= p:
-            g = _drawn(rng, p, 1, bound)
-        M, b = A + B @ F0, B @ g
-        if not _controllable_modulo(M, b, ell):
-            continue
-        F = F0 + g @ _ackermann(M, b, polynomial)
-        if best is None or height(F) < height(best):
-            best = F
-        found += 1
-        if found >= _CANDIDATES:
+        if drawn and draw >= _DRAWS_IF_FOUND:
             break
-    if best is None:
+        direction = _drawn_direction(A, B, reach, rng, draw)
+        size = determinant(direction.X)
+        if size:
+            drawn.append((abs(size.numerator) * size.denominator, draw, direction))
+    if not drawn:
         raise LimitReached("no input direction was found that controls the system by itself")
-    return best
+    drawn.sort(key=lambda each: each[:2])
+    found = [direction.feedback(polynomial) for _, _, direction in drawn[:_CANDIDATES]]
+    return min(found, key=_cost)
+
+
+def _cost(F: Matrix) -> int:
+    """What makes the numbers of a design that builds on F long: denominators above all."""
+    return 4 * F.denominator.bit_length() + height(F) + 3 * ceil(largest(F)).bit_length()
+
+
+@dataclass(frozen=True)
+class _Direction:
+    """M = A + B F_0, an input direction g, and X = [b, Mb, …, M^{n−1}b] with b = B g."""
+
+    F0: Matrix
+    g: Matrix
+    M: Matrix
+    X: Matrix
+
+    def feedback(self, polynomial: Polynomial) -> Matrix:
+        """F = F_0 + g k with χ_{M + bk} = p: k = −w p(M), w the last row of X⁻¹ (Ackermann)."""
+        n = self.M.nrows
+        last = solve(self.X.T, Matrix.column([int(k == n - 1) for k in range(n)]))
+        if last is None:
+            raise InternalError("a direction lost its rank")
+        row, result = last.T, Matrix.zeros(1, n)
+        for coefficient in polynomial.coefficients:
+            result = result + row * coefficient
+            row = row @ self.M
+        return self.F0 - self.g @ result
+
+
+def _drawn_direction(A: Matrix, B: Matrix, reach: Matrix, rng: Random, draw: int) -> _Direction:
+    """The unit directions without feedback first, then draws of slowly growing range."""
+    n, p = B.shape
+    bound = 1 + draw // 400
+    if draw < p:
+        F0, g = Matrix.zeros(p, n), Matrix.column([int(k == draw) for k in range(p)])
+    else:
+        if draw % 2:
+            F0 = _drawn(rng, p, n, bound, 0.25)
+        else:
+            F0 = _rounded(reach @ (_drawn_shift(rng, n) - A))
+        g = _drawn(rng, p, 1, bound, 0.5)
+    M = A + B @ F0
+    columns = [B @ g]
+    for _ in range(n - 1):
+        columns.append(M @ columns[-1])
+    return _Direction(F0, g, M, hstack(columns))
+
+
+def _left_inverse(B: Matrix) -> Matrix:
+    """L (p×n) with B L the orthogonal projection onto im B; rows of dependent columns are 0."""
+    _, independent = row_echelon(B)
+    chosen = B.take(cols=independent)
+    inner = solve(chosen.T @ chosen, chosen.T)
+    if inner is None:
+        raise InternalError("independent columns have a singular Gram matrix")
+    rows = {j: inner.rows()[k] for k, j in enumerate(independent)}
+    zero = (0,) * B.nrows
+    return Matrix.from_rows([rows.get(j, zero) for j in range(B.ncols)], ncols=B.nrows)
+
+
+def _rounded(M: Matrix) -> Matrix:
+    """The nearest integers."""
+    return Matrix.from_integers([[round(x) for x in row] for row in M.rows()], ncols=M.ncols)
+
+
+def _drawn_shift(rng: Random, n: int) -> Matrix:
+    """The nilpotent matrix that moves the unit vectors along in a drawn order."""
+    order = list(range(n))
+    rng.shuffle(order)
+    rows = [[0] * n for _ in range(n)]
+    for k in range(n - 1):
+        rows[order[k + 1]][order[k]] = rng.choice((1, -1))
+    return Matrix.from_integers(rows, ncols=n)
 
 
 def _split(system: MultiChannelSystem, F: Matrix) -> tuple[Matrix, ...]:
@@ -146,39 +225,12 @@ def _split(system: MultiChannelSystem, F: Matrix) -> tuple[Matrix, ...]:
     return tuple(gains)
 
 
-def _drawn(rng: Random, nrows: int, ncols: int, bound: int, sparse: bool = False) -> Matrix:
-    """A matrix of integers in −bound … bound; three quarters of them 0 if sparse."""
+def _drawn(rng: Random, nrows: int, ncols: int, bound: int, density: float) -> Matrix:
+    """A matrix of integers in −bound … bound, most of them 0 where the density is low."""
 
     def entry() -> int:
-        return 0 if sparse and rng.random() < 0.75 else rng.randint(-bound, bound)
+        return rng.randint(-bound, bound) if rng.random() < density else 0
 
     return Matrix.from_integers(
         [[entry() for _ in range(ncols)] for _ in range(nrows)], ncols=ncols
     )
-
-
-def _controllable_modulo(A: Matrix, b: Matrix, ell: int) -> bool:
-    """Whether [b, Ab, …] has rank n modulo a prime; then it has over Q."""
-    A_, v = residues(A, ell), residues(b, ell)
-    columns = []
-    for _ in range(A.nrows):
-        columns.append([row[0] for row in v.rows()])
-        v = A_ @ v
-    return type(v).from_rows(columns, ell, ncols=A.nrows).rank() == A.nrows
-
-
-def _ackermann(A: Matrix, b: Matrix, polynomial: Polynomial) -> Matrix:
-    """The row k with χ_{A + bk} = p: k = −w p(A), w the last row of [b, Ab, …]⁻¹."""
-    n = A.nrows
-    columns = [b]
-    for _ in range(n - 1):
-        columns.append(A @ columns[-1])
-    last = Matrix.column([int(k == n - 1) for k in range(n)])
-    w = solve(hstack(columns).T, last)
-    if w is None:
-        raise LimitReached("the direction lost controllability over Q")
-    row, result = w.T, Matrix.zeros(1, n)
-    for coefficient in polynomial.coefficients:
-        result = result + row * Fraction(coefficient)
-        row = row @ A
-    return -result

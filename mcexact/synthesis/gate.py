@@ -1,0 +1,220 @@
+"""The gate: the one way to a certified closed loop."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from math import lcm, prod
+from typing import Any
+
+from mcexact.analysis.modular_system import generator
+from mcexact.certificate.closed_loop_spectrum import ClosedLoopSpectrumCertificate
+from mcexact.certificate.distributed_observer import DistributedObserverCertificate
+from mcexact.errors import InternalError
+from mcexact.exact.location import StabilityRegion
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.modular import polynomial_residues, primes, residues
+from mcexact.exact.polynomial import Polynomial
+from mcexact.model.closed_loop import closed_loop
+from mcexact.model.controller import Controller
+from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system_file import canonical_document
+
+_MODULUS_BITS = 61
+_KEY = object()
+
+
+@dataclass(frozen=True, eq=False)
+class CertifiedClosedLoop:
+    """A loop whose claim was verified exactly; holding one is the proof that it was.
+
+    Attributes
+    ----------
+    loop : MultiChannelSystem
+        The whole loop, a system without channels that remembers plant and controller.
+    controller : Controller
+    polynomial : Polynomial or None
+        The characteristic polynomial of the whole loop, where the certificate states it.
+    certificate : Certificate
+        What an independent checker needs.
+
+    Raises
+    ------
+    InternalError
+        If it is made anywhere but in the functions of this module.
+    """
+
+    loop: MultiChannelSystem
+    controller: Controller
+    polynomial: Polynomial | None
+    certificate: Any
+    key: object
+
+    def __post_init__(self) -> None:
+        if self.key is not _KEY:
+            raise InternalError("a certified closed loop is made by the functions of the gate")
+
+    @property
+    def matrix(self) -> Matrix:
+        """The matrix of the loop, state (x, x_1, z_1, …)."""
+        return self.loop.A
+
+
+def certify_spectrum(
+    system: MultiChannelSystem,
+    controller: Controller,
+    polynomial: Polynomial,
+    graph: NeighborGraph | None = None,
+) -> CertifiedClosedLoop:
+    """Verify that the loop, assembled from the agents' programs, has a characteristic polynomial.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        A plant.
+    controller : Controller
+    polynomial : Polynomial
+        Monic, of the dimension of the loop.
+    graph : NeighborGraph, optional
+
+    Raises
+    ------
+    InternalError
+        If it has another: the design that promised it is wrong.
+
+    Notes
+    -----
+    Exact: the coefficients agree modulo primes whose product exceeds twice a bound on them
+    (`proofs/closed_loop_spectrum.md`).
+    """
+    loop = closed_loop(system, controller, graph)
+    seed = generator(loop, "closed_loop_spectrum").getrandbits(64)
+    moduli = agreeing_moduli([(loop.A, polynomial)], seed)
+    certificate = ClosedLoopSpectrumCertificate(
+        canonical_document(loop.plant), loop.subject, polynomial, moduli
+    )
+    return CertifiedClosedLoop(loop, controller, polynomial, certificate, _KEY)
+
+
+def certify_observer(
+    system: MultiChannelSystem,
+    controller: Controller,
+    feedback: Polynomial,
+    error: Polynomial,
+    *,
+    bound: Fraction | None = None,
+    graph: NeighborGraph | None = None,
+) -> CertifiedClosedLoop:
+    """Verify the separation of a distributed observer, and the spectra of both parts.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        A plant with n states.
+    controller : Controller
+        Every agent shares an estimate of the n states.
+    feedback, error : Polynomial
+        The characteristic polynomials of A + Σ B_i F_i and of the error system.
+    bound : Fraction, optional
+        A rate or radius that every root of both meets.
+    graph : NeighborGraph, optional
+
+    Raises
+    ------
+    InternalError
+        If one of the statements fails: the design that promised it is wrong.
+
+    Notes
+    -----
+    With e_i = x_i − x the loop becomes, in the coordinates (x, e_1, z_1, …)::
+
+        ⎡ A + Σ B_i F_i    *  ⎤
+        ⎣       0         M_E ⎦
+
+    Soundness: `proofs/distributed_observer.md`.
+    """
+    loop = closed_loop(system, controller, graph)
+    M_F, M_E = separated(loop.A, system.n, [agent.private for agent in controller.agents])
+    if bound is not None:
+        region = StabilityRegion(system.time, bound)
+        if not (region.contains_roots_of(feedback) and region.contains_roots_of(error)):
+            raise InternalError(f"a root does not meet the bound {bound}")
+    seed = generator(loop, "distributed_observer").getrandbits(64)
+    moduli = agreeing_moduli([(M_F, feedback), (M_E, error)], seed)
+    certificate = DistributedObserverCertificate(
+        canonical_document(loop.plant), loop.subject, feedback, error, bound, moduli
+    )
+    return CertifiedClosedLoop(loop, controller, feedback * error, certificate, _KEY)
+
+
+def separated(M: Matrix, n: int, private: list[int]) -> tuple[Matrix, Matrix]:
+    """The diagonal blocks of the loop in the coordinates (x, e_1, z_1, …), e_i = x_i − x.
+
+    Raises
+    ------
+    InternalError
+        If the block below the first is not 0: the errors do not evolve by themselves.
+    """
+    rows = [[int(i == j) for j in range(M.nrows)] for i in range(M.nrows)]
+    start = n
+    for k in private:
+        for i in range(n):
+            rows[start + i][i] = 1
+        start += n + k
+    if start != M.nrows:
+        raise InternalError("the loop is not made of a plant and m estimates of its state")
+    S = Matrix.from_integers(rows, ncols=M.nrows)
+    inverse = Matrix.identity(M.nrows) * 2 - S
+    moved = inverse @ M @ S
+    first, rest = list(range(n)), list(range(n, M.nrows))
+    if not moved.take(rest, first).is_zero():
+        raise InternalError("the estimation errors do not evolve by themselves")
+    return moved.take(first, first), moved.take(rest, rest)
+
+
+def agreeing_moduli(claims: list[tuple[Matrix, Polynomial]], seed: int) -> tuple[int, ...]:
+    """Primes that prove χ_M = p for every pair (M, p).
+
+    Raises
+    ------
+    InternalError
+        If χ_M is not p.
+
+    Notes
+    -----
+    With D = Π d_i over the row denominators, D·χ_M = det(diag(d)x − diag(d)M) is integral, with
+    coefficients of absolute value at most β = Π (d_i + Σ_j |d_i M_ij|).
+    """
+    bounds = [coefficient_bound(M) for M, _ in claims]
+    for (M, p), (D, beta) in zip(claims, bounds, strict=True):
+        scaled = [c * D for c in p.coefficients]
+        if p.degree != M.nrows or any(c.denominator != 1 or abs(c) > beta for c in scaled):
+            raise InternalError("the closed loop does not have the spectrum it was designed for")
+    largest = max(2 * beta for _, beta in bounds)
+    moduli: list[int] = []
+    product = 1
+    denominators = prod(D for D, _ in bounds)
+    for ell in primes(seed, _MODULUS_BITS):
+        if product > largest:
+            break
+        if denominators % ell == 0 or ell in moduli:
+            continue
+        for M, p in claims:
+            if residues(M, ell).characteristic_polynomial() != polynomial_residues(p, ell):
+                raise InternalError(
+                    "the closed loop does not have the spectrum it was designed for"
+                )
+        moduli.append(ell)
+        product *= ell
+    return tuple(moduli)
+
+
+def coefficient_bound(M: Matrix) -> tuple[int, int]:
+    """(D, β): the product of the row denominators, and the bound on the coefficients of D·χ_M."""
+    D = beta = 1
+    for row in M.rows():
+        d = lcm(*(entry.denominator for entry in row))
+        D *= d
+        beta *= d + sum(abs(entry.numerator) * (d // entry.denominator) for entry in row)
+    return D, beta
