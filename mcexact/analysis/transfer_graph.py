@@ -122,7 +122,7 @@ def witnessed_powers(modular: ModularSystem, suspected: set[Arc]) -> dict[Arc, i
             moved = modular.A @ moved
         for arc in _nonzero_blocks(modular, modular.C @ moved):
             found.setdefault(arc, k)
-        if len(found) >= len(suspected):
+        if suspected <= found.keys():
             break
     return found
 
