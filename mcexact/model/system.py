@@ -152,10 +152,7 @@ class MultiChannelSystem:
         from mcexact.exact.floats import matrix_from_float
 
         def exact(M: Any, where: str) -> Matrix:
-            try:
-                return matrix_from_float(M, rounding=rounding)
-            except InputError as error:
-                raise error.within(where) from None
+            return matrix_from_float(M, rounding, where=where)
 
         return cls(
             exact(A, "A"),
