@@ -43,6 +43,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     SystemExit
         Always.
     """
+    # What is read is limited by its own grammar; what is printed may be longer.
+    sys.set_int_max_str_digits(0)
     try:
         returned = command_line.main(arguments, prog_name="mcexact", standalone_mode=False)
         sys.exit(returned if isinstance(returned, int) else 0)

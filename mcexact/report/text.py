@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TextIO
+from typing import TYPE_CHECKING, TextIO
 
 from mcexact.errors import LimitReached
 from mcexact.report.assessment import Assessment
@@ -12,7 +12,8 @@ from mcexact.report.assessment import Assessment
 if TYPE_CHECKING:
     from mcexact.analysis.allocation import SharedDimensions
     from mcexact.analysis.controllability import JointControllability
-    from mcexact.analysis.fixed_spectrum import FixedFactor
+    from mcexact.analysis.fixed_spectrum import FixedFactor, FixedSpectrum
+    from mcexact.analysis.transfer_graph import TransferGraph
 
 
 @dataclass(frozen=True)
@@ -35,18 +36,13 @@ def assessment_tables(assessment: Assessment) -> tuple[Table, ...]:
     if assessment.information == "outputs":
         heading += "; each agent feeds back the outputs of all its neighbors"
     spectrum = assessment.fixed_spectrum
-    graph = assessment.transfer_graph
-    connected = "strongly connected"
-    if not graph.strongly_connected:
-        components = ", ".join(_set(component) for component in graph.components)
-        connected = f"not strongly connected: components {components}"
     rows = [
         ("jointly controllable", _controllable(assessment.controllability)),
         ("jointly observable", _controllable(assessment.observability)),
-        ("transfer graph", f"{_count(len(graph.arcs), 'arc')}, {connected}"),
-        ("fixed spectrum", "empty" if spectrum.empty else str(spectrum.polynomial)),
-        ("stabilizable", _yes(spectrum.stabilizable)),
-        ("best decay" if system.time == "continuous" else "least radius", _rate(spectrum)),
+        ("transfer graph", _transfer_graph(assessment.transfer_graph)),
+        ("fixed spectrum", "empty" if spectrum.empty else shorten(str(spectrum.polynomial))),
+        ("decentrally stabilizable", _yes(spectrum.stabilizable)),
+        ("best decay rate" if system.time == "continuous" else "least radius", _rate(spectrum)),
         ("complete", _yes(assessment.completeness.complete)),
     ]
     rows += _of_the_graph(assessment)
@@ -120,6 +116,18 @@ def _fixed_modes(assessment: Assessment) -> Table:
     )
 
 
+def _transfer_graph(graph: TransferGraph) -> str:
+    """The arcs, where they are few, the components, and the channels without effect."""
+    arcs = ", ".join(f"{start} -> {end}" for start, end in graph.arcs)
+    said = arcs if 0 < len(arcs) <= 60 else _count(len(graph.arcs), "arc")
+    if graph.strongly_connected:
+        said += "; strongly connected"
+    else:
+        components = " ".join(_set(component) for component in graph.components)
+        said += f"; components {shorten(components, 120)}"
+    return f"{said}; dead channels {_set(graph.dead)}" if graph.dead else said
+
+
 def _controllable(verdict: JointControllability) -> str:
     """Yes, or the modes that are out of reach."""
     if verdict.controllable:
@@ -142,13 +150,13 @@ def _complex(re: str, im: str) -> str:
     return f"{real:.6g}{imaginary:+.6g}i"
 
 
-def _rate(spectrum: Any) -> str:
+def _rate(spectrum: FixedSpectrum) -> str:
     """The best rate, to the digits that its enclosure is sure of."""
     rate = spectrum.best_rate
     if rate is None:
         return "any: nothing is fixed"
     if rate.lower == rate.upper:
-        return str(rate.lower)
+        return shorten(rate.lower, 24)
     return f"between {shorten(rate.lower, 24)} and {shorten(rate.upper, 24)}"
 
 

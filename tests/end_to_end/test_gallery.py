@@ -116,12 +116,64 @@ def checked_theorems(
     return {answered: by_file[each] for answered, each in named_files.items()}
 
 
+FACTOR = re.compile(
+    r"(?P<polynomial>[-+*/^x0-9 ]+) \(exponent (?P<in_A>\d+) in det\(xI - A\), "
+    r"at most (?P<at_most>\d+) in the gcd of all det\(xI - A_F\); "
+    r"least pencil rank (?P<rank>\d+), reached by the channels \{(?P<channels>[^}]*)\}; "
+    r"(?P<stable>stable|not stable); roots (?P<roots>[^)]*)\)"
+)
+
+
+def disc(text: str) -> tuple[Fraction, Fraction, Fraction]:
+    """A disc written as 1 + 2i +- 1/8: its center and radius."""
+    center, _, radius = text.partition(" +- ")
+    real, sign, imaginary = re.fullmatch(r"(\S+)(?: ([-+]) (\S+)i)?", center).groups()
+    return Fraction(real), Fraction(f"{sign or ''}{imaginary or 0}"), Fraction(radius)
+
+
 def theorems_state_the_answer(answer: dict[str, Any], theorems: dict[str, str]) -> None:
     """Read the answers out of the theorems and compare."""
     spectrum = answer["fixed_spectrum"]
-    print(theorems)
-    for factor in spectrum["factors"]:
-        assert re.search(r"x", theorems["fixed_spectrum"])
+    theorem = theorems["fixed_spectrum"]
+    read = [
+        {
+            "polynomial": polynomial(found["polynomial"]),
+            "multiplicity_in_A": int(found["in_A"]),
+            "multiplicity_at_most": int(found["at_most"]),
+            "rank": int(found["rank"]),
+            "channels": found["channels"].split(", "),
+            "stable": found["stable"] == "stable",
+            "roots": [disc(each) for each in found["roots"].split(", ")],
+        }
+        for found in FACTOR.finditer(theorem.partition(": ")[2])
+    ]
+    assert read == [
+        {
+            **factor,
+            "polynomial": coefficients(factor["polynomial"]),
+            "roots": [
+                tuple(Fraction(root[part]) for part in ("re", "im", "radius"))
+                for root in factor["roots"]
+            ],
+        }
+        for factor in spectrum["factors"]
+    ]
+    assert ("has no fixed modes" in theorem) == spectrum["empty"]
+    assert (" not stabilizable" in theorem) == (not answer["stabilizable"])
+    if answer["best_rate"] is not None:
+        rate = answer["best_rate"]
+        assert f"between {rate['lower']} and {rate['upper']}" in theorem
+    for question in ("jointly_controllable", "jointly_observable"):
+        assert (": not controllable" in theorems[question]) == (not answer[question])
+        assert ("of the dual of" in theorems[question]) == (question == "jointly_observable")
+    graph = answer["transfer_graph"]
+    arcs = theorems["transfer_graph"].partition("exactly: ")[2].partition(";")[0]
+    stated = [arc.split(" -> ") for arc in arcs.split(", ")] if " -> " in arcs else []
+    assert stated == graph["arcs"]
+    for component in graph["components"]:
+        assert "{" + ", ".join(component) + "}" in theorems["transfer_graph"]
+    assert ("not strongly connected" in theorems["transfer_graph"]) != graph["strongly_connected"]
+    assert (" is not complete" in theorems["complete"]) != answer["complete"]
 
 
 def test_the_example_with_outputs_of_neighbors_is_the_augmented_example(tmp_path: Path) -> None:

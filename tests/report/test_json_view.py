@@ -1,0 +1,75 @@
+"""The JSON of `analyze` has the keys that programs rely on, and plain exact values."""
+
+import json
+from typing import Any
+
+import pytest
+
+from mcexact import MultiChannelSystem, NeighborGraph
+from mcexact.errors import UsageError
+from mcexact.report.assessment import assess
+from mcexact.report.json_view import assessment_view
+from tests.report.test_text import EXAMPLE
+
+ALWAYS = {
+    "system",
+    "jointly_controllable",
+    "jointly_observable",
+    "transfer_graph",
+    "fixed_spectrum",
+    "stabilizable",
+    "best_rate",
+    "complete",
+}
+
+
+def view_of(system: MultiChannelSystem, **question: Any) -> dict[str, Any]:
+    view = assessment_view(assess(system, **question), with_certificates=True)
+    assert json.loads(json.dumps(view)) == view
+    return view
+
+
+def test_every_answer_is_there_and_names_its_certificate() -> None:
+    view = view_of(MultiChannelSystem(**EXAMPLE))
+    assert view.keys() >= ALWAYS
+    assert view["system"].items() >= {"n": 3, "m": 3, "time": "continuous"}.items()
+    assert view["certificate"].keys() == ALWAYS - {"system"}
+    assert view["fixed_spectrum"]["certificate"] == "fixed_spectrum.json"
+    assert "neighbor_graph" not in view
+
+
+def test_polynomials_are_lists_of_strings_and_channels_are_names() -> None:
+    plant = MultiChannelSystem(
+        [["1/3", 0], [0, 2]], [[[1], [0]]] * 2, [[[1, 0]]] * 2, names=["left", "right"]
+    )
+    spectrum = view_of(plant)["fixed_spectrum"]
+    assert spectrum["polynomial"] == ["-2", "1"]
+    (factor,) = spectrum["factors"]
+    assert factor["channels"] == ["left", "right"]
+    assert factor["roots"] == [{"re": "2", "im": "0", "radius": "0"}]
+    assert view_of(plant)["transfer_graph"]["arcs"][1] == ["left", "right"]
+
+
+def test_with_neighbors_sharing_is_answered_and_least_sharing_only_when_asked() -> None:
+    plant = MultiChannelSystem(**EXAMPLE)
+    heard = plant.with_neighbors(NeighborGraph.ring(plant.names))
+    view = view_of(heard)
+    assert view["neighbor_graph"]["strongly_connected"] is True
+    assert (
+        view["shared_dimension_bound"]["outputs+states"].items()
+        >= {
+            "per_agent": 1,
+            "total": 3,
+        }.items()
+    )
+    assert view["minimal_shared_dimensions"] is None
+    least = view_of(heard, minimal=True)["minimal_shared_dimensions"]
+    assert least["outputs+states"]["dimensions"] == {"1": 0, "2": 0, "3": 1}
+    assert least["states"]["total"] == 2
+    assert least["states"]["certificate"] == "minimal_shared_dimensions_states.json"
+
+
+@pytest.mark.parametrize("question", [{"information": "outputs"}, {"minimal": True}])
+def test_a_question_about_neighbors_needs_neighbors(question: dict[str, Any]) -> None:
+    with pytest.raises(UsageError, match="add 'neighbors' to the file"):
+        assess(MultiChannelSystem(**EXAMPLE), **question)
