@@ -1,0 +1,52 @@
+"""Kind ``closed_loop_spectrum``: the whole spectrum; ``proofs/closed_loop_spectrum.md``."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from .arithmetic import Matrix, Polynomial, characteristic_polynomial_modulo, poly_modulo
+from .reading import fields, integer, items, polynomial, require
+from .system import System
+from .words import described, polynomial_text
+
+
+def check(claim: Any, witness: Any, system: System) -> str:
+    """Compare with det(xI − A) modulo every ℓ; there are enough of them to make it equal."""
+    (listed,) = fields(claim, "claim", "polynomial")
+    (numbers,) = fields(witness, "witness", "moduli")
+    p = polynomial(listed, "claim.polynomial")
+    require_spectrum(system.A, p, "claim.polynomial", moduli(numbers, "witness.moduli"))
+    return f"the characteristic polynomial of {described(system)} is {polynomial_text(p)}"
+
+
+def moduli(value: Any, place: str) -> list[int]:
+    """Integers ≥ 2, pairwise coprime."""
+    found, product = [], 1
+    for k, entry in enumerate(items(value, place)):
+        found.append(integer(entry, f"{place}[{k}]", 2))
+        coprime = math.gcd(product, found[-1]) == 1
+        require(coprime, "modulus", f"{place}[{k}]", "not coprime to those before it")
+        product *= found[-1]
+    return found
+
+
+def require_spectrum(A: Matrix, p: Polynomial, place: str, ells: list[int]) -> None:
+    """Stop unless det(xI − A) = p, given that the moduli suffice.
+
+    D·det(xI − A) = det(diag(d)x − diag(d)A), d_i the denominator of row i and D = Π d_i, has
+    integer coefficients of absolute value at most β = Π (d_i + Σ_j |d_i A_ij|).
+    """
+    D = beta = 1
+    for row in A.rows:
+        common = math.gcd(A.denominator, *row)
+        D *= A.denominator // common
+        beta *= (A.denominator + sum(map(abs, row))) // common
+    require(len(p) == A.nrows + 1, "degree", place, f"expected degree {A.nrows}")
+    small = all(D % c.denominator == 0 and abs(D * c) <= beta for c in p)
+    require(small, "bound", place, "a coefficient that no matrix with these rows has")
+    require(math.prod(ells) > 2 * beta, "moduli", "witness.moduli", "too few for these entries")
+    for ell in ells:
+        require(math.gcd(D, ell) == 1, "modulus", "witness.moduli", "divides a denominator")
+        found = characteristic_polynomial_modulo(A.modulo(ell), ell)
+        require(found == poly_modulo(p, ell), "spectrum", place, f"differs modulo {ell}")
