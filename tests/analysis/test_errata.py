@@ -1,0 +1,83 @@
+"""The instances of ``proofs/ERRATA.md``, decided and certified."""
+
+from __future__ import annotations
+
+from mcexact.analysis.allocation import shared_dimension_bound
+from mcexact.analysis.completeness import completeness
+from mcexact.analysis.controllability import joint_controllability, joint_observability
+from mcexact.analysis.extended import bound_attained, graph_inclusion
+from mcexact.analysis.fixed_spectrum import fixed_spectrum
+from mcexact.analysis.transfer_graph import transfer_graph
+from mcexact.certificate import Certificate, encode
+from mcexact.checker.kinds import check_document
+from mcexact.derived.extended import extended_system
+from mcexact.derived.integrators import setpoint_system
+from mcexact.exact.linear_algebra import rank
+from mcexact.exact.matrix import Matrix, block
+from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem
+from tests.oracle.enumeration import pencil_rank, plain
+
+
+def assert_valid(certificate: Certificate) -> None:
+    verdict = check_document(encode(certificate).encode("ascii"))
+    assert verdict.verdict == "VALID", verdict.line()
+
+
+def test_a_pole_at_zero_hides_a_zero_at_zero_from_the_determinant() -> None:
+    """det diag(1/s, s/(s+1)²) = 1/(s+1)², yet the set-point condition fails."""
+    A = [[0, 0, 0], [0, -2, -1], [0, 1, 0]]
+    plant = MultiChannelSystem(A, [[[1], [0], [0]], [[0], [1], [0]]], [[[1, 0, 0]], [[0, 1, 0]]])
+    for verdict in (joint_controllability(plant), joint_observability(plant)):
+        assert verdict.controllable
+        assert_valid(verdict.certificate)
+    B, C = plant.input_matrix(), plant.output_matrix()
+    assert rank(block([[plant.A, B], [C, Matrix.zeros(2, 2)]])) == 4
+    augmented = joint_controllability(setpoint_system(plant))
+    assert str(augmented.uncontrollable_polynomial) == "x"
+    assert_valid(augmented.certificate)
+
+
+def test_a_neighbor_that_two_members_hear_counts_once() -> None:
+    one = [[1]]
+    plant = MultiChannelSystem([[0]], [one] * 3, [one] * 3)
+    graph = NeighborGraph.complete(plant.names)
+    sizes, s, mode = [1, 1, 1], (0, 1), (0, 1)
+    extended = plain(extended_system(plant, sizes, "states", graph))
+    loss = pencil_rank(extended, s, mode) - pencil_rank(plain(plant), s, mode)
+    once = sum(sizes[j] for j in graph.union(s))
+    counted = sum(sizes[j] for i in s for j in graph.neighborhood(i))
+    outside = sum(size for i, size in enumerate(sizes) if i not in s)
+    assert (once, counted) == (3, 6)
+    assert loss == outside + once
+
+
+def test_a_bound_below_one_is_attained_by_nobody() -> None:
+    one = [[1]]
+    plant = MultiChannelSystem([[0]], [one] * 2, [one] * 2)
+    graph = NeighborGraph.complete(plant.names)
+    bound = shared_dimension_bound(plant, graph)
+    assert bound.per_agent == 0 and bound_attained(plant, graph) == ()
+    assert_valid(bound.certificate)
+
+
+def test_no_fixed_mode_and_no_shared_state_can_leave_the_spectrum_split() -> None:
+    """Corollary 1 with n_i = 0: the hypotheses of Theorem 2 hold, the conclusion does not."""
+    e1, e2 = [[1], [0]], [[0], [1]]
+    plant = MultiChannelSystem(
+        [[0, 0], [0, 0]],
+        [e1, e2, e2],
+        [[[1, 0]], [[1, 0]], [[0, 1]]],
+        neighbors={"1": ["2"], "2": ["3"], "3": ["1"]},
+    )
+    assert plant.neighbors is not None and plant.neighbors.is_strongly_connected()
+    assert shared_dimension_bound(plant).per_agent == 0
+    alone = extended_system(plant, [0, 0, 0])
+    spectrum, graph, freedom = fixed_spectrum(alone), transfer_graph(alone), completeness(alone)
+    assert spectrum.empty and not freedom.complete
+    assert graph.components == (("1",), ("2", "3"))
+    shared = extended_system(plant, [1, 1, 1])
+    assert completeness(shared).complete
+    assert graph_inclusion(plant, [1, 1, 1]).holds
+    for evidence in (spectrum, graph, freedom, completeness(shared)):
+        assert_valid(evidence.certificate)
