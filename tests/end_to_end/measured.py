@@ -7,13 +7,19 @@ the one that starts it must be small.  Run as ``python -S -E measured.py USAGE P
 import os
 import sys
 
-child = os.fork()
-if child == 0:
-    try:
-        os.execvp(sys.argv[2], sys.argv[2:])
-    finally:
-        os._exit(127)
-_, status, usage = os.wait4(child, 0)
-with open(sys.argv[1], "w", encoding="ascii") as report:
-    report.write(f"{usage.ru_utime + usage.ru_stime} {usage.ru_maxrss / 1024}")
-sys.exit(os.waitstatus_to_exitcode(status) % 256)
+
+def main(usage_file: str, *program: str) -> int:
+    child = os.fork()
+    if child == 0:
+        try:
+            os.execvp(program[0], program)
+        finally:
+            os._exit(127)
+    _, status, usage = os.wait4(child, 0)
+    with open(usage_file, "w", encoding="ascii") as report:
+        report.write(f"{usage.ru_utime + usage.ru_stime} {usage.ru_maxrss / 1024}")
+    return os.waitstatus_to_exitcode(status) % 256
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))
