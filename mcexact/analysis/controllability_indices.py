@@ -1,0 +1,194 @@
+"""Controllability and observability indices of some channels, by the ranks of [B … A^{k−1}B]."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from itertools import pairwise
+
+from mcexact.analysis.modular_system import generator, residue_systems
+from mcexact.certificate.controllability_indices import ControllabilityIndicesCertificate
+from mcexact.derived.dual import dual
+from mcexact.errors import InternalError
+from mcexact.exact.linear_algebra import solve
+from mcexact.exact.matrix import Matrix, hstack
+from mcexact.exact.modular import ModularMatrix, residues
+from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system_file import canonical_document
+
+
+@dataclass(frozen=True)
+class ControllabilityIndices:
+    """The ranks r_k of [B_T, AB_T, …, A^{k−1}B_T], and the indices that follow from them.
+
+    Attributes
+    ----------
+    channels : tuple of str
+        T, by name.
+    ranks : tuple of int
+        r_1 < … < r_ν, until they stop growing; empty if B_T = 0.
+    index : int or None
+        The controllability index ν, the smallest with r_ν = n; None if there is none.
+    indices : tuple of int
+        The controllability (Brunovsky) indices κ_1 ≥ κ_2 ≥ …, the conjugate partition of
+        r_1, r_2 − r_1, …; they sum to r_ν.
+    certificate : ControllabilityIndicesCertificate
+    """
+
+    channels: tuple[str, ...]
+    ranks: tuple[int, ...]
+    index: int | None
+    indices: tuple[int, ...]
+    certificate: ControllabilityIndicesCertificate
+
+
+@dataclass(frozen=True)
+class _Profile:
+    """Ranks r_1 < … < r_ν modulo ℓ; r_k independent columns and rows of [B … A^{k−1}B]."""
+
+    columns: list[list[int]]
+    rows: list[tuple[int, ...]]
+
+    @property
+    def ranks(self) -> tuple[int, ...]:
+        return tuple(map(len, self.rows))
+
+
+def controllability_indices(
+    system: MultiChannelSystem, channels: Iterable[str] | None = None
+) -> ControllabilityIndices:
+    """Compute the controllability index and the controllability indices of (A, B_T).
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    channels : iterable of str, optional
+        T, names of channels; all of them if it is not given.
+
+    Notes
+    -----
+    Exact.  The ranks are found modulo a prime, which bounds them from below.  From above: W, whose
+    first n − r_k rows annihilate the first k blocks.  With independent rows P and columns J of the
+    first k blocks K, each row f outside P that block k + 1 no longer leaves dependent gives one row
+    of W, the solution of w_P K_{P,J} = −K_{f,J}.
+
+    Examples
+    --------
+    >>> from mcexact import MultiChannelSystem
+    >>> A = [[0, 1, 0], [0, 0, 0], [0, 0, 0]]
+    >>> B = [[[0], [1], [0]], [[0], [0], [1]]]
+    >>> found = controllability_indices(MultiChannelSystem(A, B, [[[1, 0, 0]]] * 2))
+    >>> found.ranks, found.index, found.indices
+    ((2, 3), 2, (2, 1))
+    >>> controllability_indices(MultiChannelSystem(A, B, [[[1, 0, 0]]] * 2), ["2"]).index is None
+    True
+    """
+    T = range(system.m) if channels is None else system.indices(channels)
+    B = system.input_matrix(T)
+    rng = generator(system, "controllability_indices")
+    for modular in residue_systems(system, rng, bits=61):
+        profile = _profile(modular.A, residues(B, modular.modulus))
+        W = _annihilator(system.A, B, profile)
+        if W is not None:
+            return _result(system, T, profile.ranks, modular.modulus, W)
+    raise InternalError("the stream of primes is endless")
+
+
+def observability_indices(
+    system: MultiChannelSystem, channels: Iterable[str] | None = None
+) -> ControllabilityIndices:
+    """Compute the observability index and indices of (C_T, A): those of the dual.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    channels : iterable of str, optional
+        T, names of channels; all of them if it is not given.
+    """
+    return controllability_indices(dual(system), channels)
+
+
+def _profile(A: ModularMatrix, B: ModularMatrix) -> _Profile:
+    """Independent columns and rows of the first k blocks modulo ℓ, for each k until it ends."""
+    n, p = A.nrows, B.ncols
+    columns: list[list[int]] = []
+    rows: list[tuple[int, ...]] = []
+    chosen: list[int] = []
+    block, basis = B, ModularMatrix.zeros(0, n, A.modulus)
+    for k in range(n):
+        table = basis.rows() + block.T.rows()
+        stacked = ModularMatrix.from_rows(table, A.modulus, ncols=n)
+        _, independent = stacked.T.rref()
+        new = [j - basis.nrows for j in independent if j >= basis.nrows]
+        if not new:
+            break
+        chosen = chosen + [k * p + j for j in new]
+        basis, places = stacked.take(rows=independent).rref()
+        columns.append(chosen)
+        rows.append(places)
+        block = A @ block
+    return _Profile(columns, rows)
+
+
+def _annihilator(A: Matrix, B: Matrix, profile: _Profile) -> Matrix | None:
+    """W, its first n − r_k rows annihilating the first k blocks; None if the ranks are larger."""
+    n, ranks = A.nrows, profile.ranks
+    if not ranks:
+        return Matrix.identity(n) if B.is_zero() else None
+    blocks = [B]
+    for _ in ranks:
+        blocks.append(A @ blocks[-1])
+    K = hstack(blocks, nrows=n)
+    parts: list[tuple[tuple[int, ...], Matrix]] = []
+    for k, (J, P) in enumerate(zip(profile.columns, profile.rows, strict=True)):
+        later = set(profile.rows[k + 1]) if k + 1 < len(ranks) else set(range(n))
+        parts.append((P, _rows_of(K.take(cols=J), P, sorted(later - set(P)))))
+    W = Matrix.zeros(0, n)
+    for k, (_, part) in reversed(list(enumerate(parts))):
+        W = Matrix.from_rows([*W.rows(), *part.rows()], ncols=n)
+        last = blocks[: k + 2] if k + 1 == len(ranks) else blocks[: k + 1]
+        if not all((W @ block).is_zero() for block in last):
+            return None
+    return W
+
+
+def _rows_of(K: Matrix, P: tuple[int, ...], wanted: list[int]) -> Matrix:
+    """For each wanted f, the row with w_f = 1 and support P besides, wK = 0; K n × |P|."""
+    n = K.nrows
+    found = solve(K.take(rows=P).T, -K.take(rows=wanted).T)
+    if found is None:
+        raise InternalError("independent rows and columns make a nonsingular matrix")
+    place = {row: k for k, row in enumerate(P)}
+    table = [
+        [
+            found.numerators[place[j]][i] if j in place else found.denominator * (j == f)
+            for j in range(n)
+        ]
+        for i, f in enumerate(wanted)
+    ]
+    return Matrix.from_integers(table, found.denominator, ncols=n)
+
+
+def _result(
+    system: MultiChannelSystem,
+    T: Iterable[int],
+    ranks: tuple[int, ...],
+    modulus: int,
+    W: Matrix,
+) -> ControllabilityIndices:
+    names = system.named(T)
+    reached = ranks[-1] if ranks else 0
+    index = len(ranks) if reached == system.n else None
+    steps = [b - a for a, b in pairwise((0, *ranks))]
+    indices = tuple(sum(step > i for step in steps) for i in range(max(steps, default=0)))
+    certificate = ControllabilityIndicesCertificate(
+        system=canonical_document(system.plant),
+        subject=system.subject,
+        channels=names,
+        ranks=ranks,
+        index=index,
+        indices=indices,
+        modulus=modulus,
+        annihilator=W,
+    )
+    return ControllabilityIndices(names, ranks, index, indices, certificate)
