@@ -11,10 +11,13 @@ from typing import Any
 
 import flint
 
-from mcexact.errors import InputError
+from mcexact.errors import InputError, LimitReached
 from mcexact.exact.rational import Entry, as_fraction
 
 Rows = tuple[tuple[int, ...], ...]
+
+# 2 GiB of machine words
+_MOST_ENTRIES = 2**28
 
 
 @dataclass(frozen=True)
@@ -51,9 +54,7 @@ class Matrix:
     denominator: int
 
     def __post_init__(self) -> None:
-        for size, name in ((self.nrows, "rows"), (self.ncols, "columns")):
-            if type(size) is not int or size < 0:
-                raise InputError(f"expected a number of {name} that is at least 0, found {size!r}")
+        require_sizes(self.nrows, self.ncols)
         if type(self.denominator) is not int or self.denominator < 1:
             raise InputError(f"expected a denominator of at least 1, found {self.denominator!r}")
         if type(self.numerators) is not tuple or len(self.numerators) != self.nrows:
@@ -132,11 +133,13 @@ class Matrix:
     @classmethod
     def zeros(cls, nrows: int, ncols: int) -> Matrix:
         """The nrows × ncols zero matrix."""
+        require_sizes(nrows, ncols)
         return cls(nrows, ncols, ((0,) * ncols,) * nrows, 1)
 
     @classmethod
     def identity(cls, n: int) -> Matrix:
         """The n × n identity matrix."""
+        require_sizes(n, n)
         return cls(n, n, tuple((0,) * i + (1,) + (0,) * (n - 1 - i) for i in range(n)), 1)
 
     @classmethod
@@ -265,6 +268,17 @@ class Matrix:
         rows = ", ".join("[" + ", ".join(map(str, row)) + "]" for row in self.rows())
         shape = "" if self.nrows and self.ncols else f", shape={self.shape}"
         return f"Matrix([{rows}]{shape})"
+
+
+def require_sizes(nrows: int, ncols: int) -> None:
+    """Refuse sizes that flint would abort on, and matrices that cannot fit into memory."""
+    for size, name in ((nrows, "rows"), (ncols, "columns")):
+        if type(size) is not int or size < 0:
+            raise InputError(f"expected a number of {name} that is at least 0, found {size!r}")
+    if max(nrows, 1) * max(ncols, 1) > _MOST_ENTRIES:
+        raise LimitReached(
+            f"a {nrows} × {ncols} matrix has more than {_MOST_ENTRIES} entries: too many for memory"
+        )
 
 
 def _items(rows: Any, where: str | None) -> Iterable[Any]:

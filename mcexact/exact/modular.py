@@ -10,7 +10,7 @@ from typing import Any
 import flint
 
 from mcexact.errors import InputError
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, require_sizes
 from mcexact.exact.modular_polynomial import ModularPolynomial as ModularPolynomial
 from mcexact.exact.modular_polynomial import polynomial_residues as polynomial_residues
 from mcexact.exact.prime_field import divides_denominator, require_prime
@@ -49,6 +49,7 @@ class ModularMatrix:
         require_prime(modulus)
         table = [list(row) for row in rows]
         width = (len(table[0]) if table else 0) if ncols is None else ncols
+        require_sizes(len(table), width)
         if any(len(row) != width for row in table):
             raise InputError(f"expected rows of {width} entries each")
         entries = [entry for row in table for entry in row]
@@ -61,8 +62,7 @@ class ModularMatrix:
     def zeros(cls, nrows: int, ncols: int, modulus: int) -> ModularMatrix:
         """The nrows × ncols zero matrix."""
         require_prime(modulus)
-        if min(nrows, ncols) < 0:
-            raise InputError(f"expected sizes that are at least 0, found {nrows} × {ncols}")
+        require_sizes(nrows, ncols)
         return cls(modulus, flint.nmod_mat(nrows, ncols, modulus))
 
     @classmethod
@@ -339,6 +339,7 @@ def residues(M: Matrix, ell: int) -> ModularMatrix:
 def random_matrix(nrows: int, ncols: int, ell: int, rng: random.Random) -> ModularMatrix:
     """A matrix of independent uniform residues, drawn row by row."""
     require_prime(ell)
+    require_sizes(nrows, ncols)
     entries = [rng.randrange(ell) for _ in range(nrows * ncols)]
     return ModularMatrix(ell, flint.nmod_mat(nrows, ncols, entries, ell))
 

@@ -1,0 +1,86 @@
+"""The crossings of arrays."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+import scipy.sparse
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mcexact.errors import InputError
+from mcexact.exact.floats import matrix_from_float, matrix_to_float
+from mcexact.exact.matrix import Matrix
+from tests.exact.draws import matrices
+
+finite = st.floats(allow_nan=False, allow_infinity=False)
+
+
+@given(
+    st.lists(st.tuples(finite, finite), min_size=1, max_size=3),
+    st.sampled_from(["decimal", "dyadic"]),
+)
+def test_arrays_come_back_unchanged(rows, rounding):
+    array = np.array(rows)
+    assert np.array_equal(matrix_to_float(matrix_from_float(array, rounding)), array)
+
+
+@given(matrices())
+def test_every_entry_is_the_nearest_float(M):
+    array = matrix_to_float(M)
+    assert array.shape == M.shape
+    assert array.dtype == np.float64
+    for row, exact in zip(array, M.rows(), strict=True):
+        assert [float(q) for q in exact] == list(row)
+
+
+def test_the_two_roundings():
+    assert matrix_from_float([[0.1]], "decimal")[0, 0] == Fraction(1, 10)
+    assert matrix_from_float([[0.1]], "dyadic")[0, 0] == Fraction(0.1)
+
+
+def test_large_integers_are_not_rounded():
+    M = matrix_from_float(np.array([[2**62 + 1]]))
+    assert M[0, 0] == 2**62 + 1
+
+
+def test_single_precision_is_read_as_the_number_it_is():
+    assert matrix_from_float(np.array([[0.5]], dtype=np.float32))[0, 0] == Fraction(1, 2)
+
+
+@pytest.mark.parametrize("shape", [(0, 0), (0, 3), (3, 0)])
+def test_arrays_without_entries_keep_their_shape(shape):
+    assert matrix_from_float(np.zeros(shape)).shape == shape
+    assert matrix_to_float(Matrix.zeros(*shape)).shape == shape
+
+
+def test_lists_and_sparse_arrays():
+    assert matrix_from_float([]).shape == (0, 0)
+    assert matrix_from_float([[], []]).shape == (2, 0)
+    assert matrix_from_float(scipy.sparse.eye(2)) == Matrix.identity(2)
+
+
+@pytest.mark.parametrize(
+    ("array", "message"),
+    [
+        (np.zeros(3), "expected a two-dimensional array, found 1 dimensions"),
+        (np.zeros((1, 1, 1)), "expected a two-dimensional array, found 3 dimensions"),
+        (np.zeros((1, 1), dtype=complex), "expected an array of real numbers, found dtype complex"),
+        (np.array([[True]]), "expected an array of real numbers, found dtype bool"),
+        (np.array([["1"]]), "expected an array of real numbers"),
+        ([[1.0], [2.0, 3.0]], "expected rows of numbers, all of one length"),
+        ([1.0, 2.0], "expected rows of numbers"),
+        ("12", "expected a two-dimensional array, found str"),
+        (3.0, "expected a two-dimensional array, found float"),
+        ([[0.0, float("nan")]], r"^B\[0\]\[1\]: expected a finite number, found nan"),
+        ([[float("inf")]], r"^B\[0\]\[0\]: expected a finite number, found inf"),
+    ],
+)
+def test_what_is_no_real_matrix_is_refused(array, message):
+    with pytest.raises(InputError, match=message):
+        matrix_from_float(array, where="B")
+
+
+def test_an_unknown_rounding_is_refused():
+    with pytest.raises(InputError, match="expected rounding"):
+        matrix_from_float([[0.5]], "up")

@@ -1,0 +1,276 @@
+"""Arithmetic modulo primes: defining equations, and agreement with Q."""
+
+import itertools
+import pickle
+import random
+from fractions import Fraction
+
+import pytest
+import sympy
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mcexact.errors import InputError, LimitReached
+from mcexact.exact.linear_algebra import characteristic_polynomial, rank
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.modular import (
+    ModularMatrix,
+    ModularPolynomial,
+    hstack,
+    low_rank_update,
+    polynomial_residues,
+    primes,
+    random_matrix,
+    residue,
+    residues,
+    vstack,
+)
+from mcexact.exact.polynomial import Polynomial
+from tests.exact.draws import matrices, polynomials, square_matrices
+
+ELL = 1_000_003
+SMALL_PRIME = 5
+entries = st.integers(0, SMALL_PRIME - 1)
+
+
+@st.composite
+def modular_matrices(draw, nrows=None, ncols=None):
+    """A matrix over the field with five elements."""
+    r = draw(st.integers(0, 4)) if nrows is None else nrows
+    c = draw(st.integers(0, 4)) if ncols is None else ncols
+    rows = [[draw(entries) for _ in range(c)] for _ in range(r)]
+    return ModularMatrix.from_rows(rows, SMALL_PRIME, ncols=c)
+
+
+def test_the_stream_of_primes_is_repeatable_and_prime():
+    found = list(itertools.islice(primes(5), 20))
+    assert found == list(itertools.islice(primes(5), 20))
+    assert found != list(itertools.islice(primes(6), 20))
+    assert all(sympy.isprime(ell) and ell.bit_length() == 30 for ell in found)
+    assert next(primes(0, bits=63)).bit_length() == 63
+    with pytest.raises(InputError, match="expected primes of 8 to 63 bits, found 64"):
+        next(primes(0, bits=64))
+
+
+@pytest.mark.parametrize("modulus", [0, 1, -7, 9, 2**63, 2**61, 2**89 - 1, 7.0, True, "7"])
+def test_a_modulus_is_a_prime_below_the_machine_word(modulus):
+    for operation in (
+        lambda: residues(Matrix.identity(2), modulus),
+        lambda: ModularMatrix.from_rows([[1]], modulus),
+        lambda: ModularMatrix.zeros(1, 1, modulus),
+        lambda: ModularPolynomial.from_coefficients([1], modulus),
+        lambda: random_matrix(1, 1, modulus, random.Random(0)),
+    ):
+        with pytest.raises(InputError, match="expected a prime modulus below"):
+            operation()
+
+
+@given(matrices())
+def test_residues_are_those_of_the_entries(M):
+    found = residues(M, ELL)
+    assert found.rows() == [[residue(q, ELL) for q in row] for row in M.rows()]
+    assert found.shape == M.shape
+
+
+def test_a_modulus_that_divides_a_denominator_is_refused():
+    with pytest.raises(InputError, match="the modulus 5 divides a denominator; draw another"):
+        residues(Matrix.from_rows([["1/10"]]), 5)
+    with pytest.raises(InputError, match="divides a denominator"):
+        residue(Fraction(1, 5), 5)
+    with pytest.raises(InputError, match="divides a denominator"):
+        polynomial_residues(Polynomial.of("1/5"), 5)
+
+
+@given(square_matrices())
+def test_characteristic_polynomials_commute_with_reduction(M):
+    expected = polynomial_residues(characteristic_polynomial(M), ELL)
+    assert residues(M, ELL).characteristic_polynomial() == expected
+
+
+@given(matrices())
+def test_a_rank_modulo_a_prime_is_never_too_large(M):
+    assert residues(M, ELL).rank() <= rank(M)
+    integral = M * M.denominator
+    assert residues(integral, 2).rank() <= rank(M)
+
+
+@given(st.data())
+def test_sums_products_and_blocks(data):
+    r, k, c = (data.draw(st.integers(0, 3)) for _ in range(3))
+    A, D = data.draw(modular_matrices(r, k)), data.draw(modular_matrices(r, k))
+    B = data.draw(modular_matrices(k, c))
+    expected = [
+        [sum(A[i, t] * B[t, j] for t in range(k)) % SMALL_PRIME for j in range(c)] for i in range(r)
+    ]
+    assert (A @ B).rows() == expected
+    assert A + D - D == A
+    assert ModularMatrix.zeros(r, k, SMALL_PRIME) == A - A
+    assert (A - A).is_zero()
+    assert -A == A * -1 == -1 * A
+    assert (A @ B).T == B.T @ A.T
+    both = hstack([A, D])
+    assert both.rows() == [x + y for x, y in zip(A.rows(), D.rows(), strict=True)]
+    assert both.take(cols=range(k)) == A
+    assert vstack([A, D]).rows() == A.rows() + D.rows()
+    assert vstack([A, D]).take(rows=range(r, 2 * r)) == D
+    assert pickle.loads(pickle.dumps(A)) == A
+    assert hash(A) == hash(A + D - D)
+
+
+@given(modular_matrices())
+def test_echelon_forms_and_kernels(M):
+    reduced, pivots = M.rref()
+    assert reduced.shape == M.shape
+    r = M.rank()
+    assert reduced.take(rows=range(r), cols=pivots) == ModularMatrix.identity(r, SMALL_PRIME)
+    assert M.take(cols=pivots) @ reduced.take(rows=range(r)) == M
+    X, free = M.kernel()
+    assert (M @ X).is_zero()
+    assert X.shape == (M.ncols, M.ncols - r)
+    assert X.take(rows=free) == ModularMatrix.identity(X.ncols, SMALL_PRIME)
+    assert M.nullspace() == X
+
+
+@given(st.data())
+def test_solutions_exist_exactly_when_the_rank_does_not_grow(data):
+    r, k, c = (data.draw(st.integers(0, 3)) for _ in range(3))
+    M, right = data.draw(modular_matrices(r, k)), data.draw(modular_matrices(r, c))
+    X = M.solve(right)
+    if X is None:
+        assert hstack([M, right]).rank() > M.rank()
+    else:
+        assert right == M @ X
+
+
+@given(st.integers(0, 3).flatmap(lambda n: modular_matrices(n, n)))
+def test_square_matrices(M):
+    n = M.nrows
+    chi = M.characteristic_polynomial()
+    assert chi(0) == (-1) ** n * M.determinant() % SMALL_PRIME
+    assert M.minimal_polynomial().divides(chi)
+    found = M.inverse()
+    if found is None:
+        assert M.determinant() == 0
+    else:
+        assert found @ M == ModularMatrix.identity(n, SMALL_PRIME)
+    shifted = ModularMatrix.scalar(n, 2, SMALL_PRIME) - M
+    assert chi(2) == shifted.determinant()
+    assert (shifted.rank() < n) == (2 in chi.roots())
+
+
+@pytest.mark.parametrize("shape", [(0, 0), (0, 3), (3, 0)])
+def test_matrices_without_entries(shape):
+    Z = ModularMatrix.zeros(*shape, ELL)
+    assert Z.rank() == 0
+    assert Z.rows() == [[]] * shape[0]
+    assert Z.nullspace() == ModularMatrix.identity(shape[1], ELL)
+    assert (Z @ Z.T).shape == (shape[0], shape[0])
+    assert hstack([Z, Z]).shape == (shape[0], 2 * shape[1])
+    assert pickle.loads(pickle.dumps(Z)) == Z
+
+
+@given(st.data())
+def test_a_closed_loop_modulo_a_prime_is_the_residue_of_the_closed_loop(data):
+    n, p, q = (data.draw(st.integers(0, 3)) for _ in range(3))
+    A, B = data.draw(matrices(n, n)), data.draw(matrices(n, p))
+    F, C = data.draw(matrices(p, q)), data.draw(matrices(q, n))
+    parts = [residues(M, ELL) for M in (A, B, F, C)]
+    assert low_rank_update(*parts) == residues(A + B @ F @ C, ELL)
+
+
+def test_block_diagonal_gains_keep_the_place_of_every_channel():
+    blocks = [[[1, 2]], Matrix.from_rows([["1/2"], [3]]), [], Matrix.zeros(1, 0)]
+    found = ModularMatrix.block_diagonal(blocks, 7, ncols=3)
+    assert found.rows() == [[1, 2, 0], [0, 0, 4], [0, 0, 3], [0, 0, 0]]
+    with pytest.raises(InputError, match="expected blocks of 2 columns in all, found 3"):
+        ModularMatrix.block_diagonal(blocks, 7, ncols=2)
+
+
+def test_random_matrices_come_from_the_given_source():
+    first = random_matrix(2, 3, ELL, random.Random(4))
+    assert first == random_matrix(2, 3, ELL, random.Random(4))
+    assert first != random_matrix(2, 3, ELL, random.Random(5))
+
+
+def test_large_integers_are_reduced():
+    assert ModularMatrix.from_rows([[2**200, -5]], 7).rows() == [[4, 2]]
+
+
+I2 = ModularMatrix.identity(2, 7)
+
+
+@pytest.mark.parametrize(
+    ("operation", "message"),
+    [
+        (lambda: I2 + ModularMatrix.identity(2, 5), "moduli do not match: 7 and 5"),
+        (lambda: I2 + ModularMatrix.identity(3, 7), r"2 × 2 \+ 3 × 3"),
+        (lambda: I2 - ModularMatrix.identity(3, 7), r"2 × 2 - 3 × 3"),
+        (lambda: I2 @ ModularMatrix.identity(3, 7), r"2 × 2 @ 3 × 3"),
+        (lambda: I2.solve(ModularMatrix.identity(3, 7)), "2 × 2 against 3 × 3"),
+        (lambda: hstack([I2, ModularMatrix.identity(3, 7)]), "2 × 2 stacked with 3 × 3"),
+        (lambda: hstack([]), "expected at least one matrix to stack"),
+        (lambda: vstack([]), "expected at least one matrix to stack"),
+        (lambda: ModularMatrix.zeros(2, 3, 7).determinant(), "expected a square matrix"),
+        (lambda: ModularMatrix.zeros(-1, 3, 7), "number of rows that is at least 0"),
+        (lambda: ModularMatrix.from_rows([[1], [1, 2]], 7), "expected rows of 1 entries"),
+        (lambda: ModularMatrix.from_rows([[0.5]], 7), "expected integer entries"),
+        (lambda: ModularMatrix.from_rows([], 7, ncols=-1), "number of columns that is at least 0"),
+        (lambda: random_matrix(-1, 2, 7, random.Random(0)), "number of rows that is at least 0"),
+    ],
+)
+def test_what_makes_no_sense_is_refused(operation, message):
+    with pytest.raises(InputError, match=message):
+        operation()
+
+
+def test_a_matrix_beyond_memory_is_refused():
+    with pytest.raises(LimitReached, match="too many for memory"):
+        ModularMatrix.zeros(2**40, 2**40, 7)
+
+
+def test_positions_outside_are_refused():
+    for wrong in (lambda: I2[2, 0], lambda: I2[0, -1], lambda: I2.take(rows=[2])):
+        with pytest.raises(IndexError, match="in a 2 × 2 matrix"):
+            wrong()
+
+
+@given(polynomials(), polynomials())
+def test_polynomial_arithmetic_commutes_with_reduction(p, q):
+    a, b = polynomial_residues(p, ELL), polynomial_residues(q, ELL)
+    assert a + b == polynomial_residues(p + q, ELL)
+    assert a - b == polynomial_residues(p - q, ELL)
+    assert a * b == polynomial_residues(p * q, ELL)
+    assert pickle.loads(pickle.dumps(a)) == a
+    assert hash(a + b - b) == hash(a)
+    if b.degree >= 0:
+        assert a // b * b + a % b == a
+        assert b.divides(a * b)
+    assert a.gcd(b).divides(a)
+
+
+def test_roots_and_multiplicities_modulo_a_prime():
+    x_minus_2 = ModularPolynomial.from_coefficients([-2, 1], 7)
+    p = x_minus_2 * x_minus_2 * ModularPolynomial.from_coefficients([1, 0, 1], 7)
+    assert p.roots() == [2]
+    assert p(2) == 0
+    assert x_minus_2.multiplicity_in(p) == 2
+    zero = ModularPolynomial.from_coefficients([7], 7)
+    assert zero.degree == -1
+    assert zero.divides(zero)
+    assert not zero.divides(p)
+    assert ModularPolynomial.from_coefficients([3], 7).roots() == []
+    assert repr(x_minus_2) == "ModularPolynomial([5, 1], modulus=7)"
+    assert repr(I2) == "ModularMatrix([[1, 0], [0, 1]], modulus=7, shape=(2, 2))"
+
+
+def test_operations_that_make_no_sense_for_polynomials():
+    zero = ModularPolynomial.from_coefficients([], 7)
+    one = ModularPolynomial.from_coefficients([1], 7)
+    with pytest.raises(ZeroDivisionError):
+        divmod(one, zero)
+    with pytest.raises(InputError, match="every residue is a root of 0"):
+        zero.roots()
+    with pytest.raises(InputError, match="expected a divisor of degree at least 1"):
+        one.multiplicity_in(one)
+    with pytest.raises(InputError, match="moduli do not match"):
+        one + ModularPolynomial.from_coefficients([1], 5)
