@@ -11,6 +11,12 @@ if TYPE_CHECKING:
     from mcexact.analysis.completeness import completeness as completeness
     from mcexact.analysis.controllability import joint_controllability as joint_controllability
     from mcexact.analysis.controllability import joint_observability as joint_observability
+    from mcexact.analysis.controllability_indices import (
+        controllability_indices as controllability_indices,
+    )
+    from mcexact.analysis.controllability_indices import (
+        observability_indices as observability_indices,
+    )
     from mcexact.analysis.fixed_spectrum import fixed_spectrum as fixed_spectrum
     from mcexact.analysis.pencil import pencil_rank as pencil_rank
     from mcexact.analysis.transfer_graph import transfer_graph as transfer_graph
@@ -26,11 +32,13 @@ _HOME = {
     "NeighborGraph": "model.neighbor_graph",
     "augmented_outputs": "derived.augmented_outputs",
     "completeness": "analysis.completeness",
+    "controllability_indices": "analysis.controllability_indices",
     "dual": "derived.dual",
     "fixed_spectrum": "analysis.fixed_spectrum",
     "joint_controllability": "analysis.controllability",
     "joint_observability": "analysis.controllability",
     "load_system": "model.system_file",
+    "observability_indices": "analysis.controllability_indices",
     "pencil_rank": "analysis.pencil",
     "save_system": "model.system_file",
     "transfer_graph": "analysis.transfer_graph",

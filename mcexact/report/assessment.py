@@ -134,14 +134,15 @@ def assess(
             "--minimal asks what the agents must share with their neighbors, and this system "
             "names no neighbors: add 'neighbors' to the file"
         )
+    spectrum = fixed_spectrum(system)
     return Assessment(
         system=system,
         information=information,
         controllability=joint_controllability(system),
         observability=joint_observability(system),
         transfer_graph=transfer_graph(system),
-        fixed_spectrum=fixed_spectrum(system),
-        completeness=completeness(system),
+        fixed_spectrum=spectrum,
+        completeness=completeness(system, spectrum=spectrum),
         pencil_ranks=() if subset is None else _pencil_ranks(system, subset),
         **({} if plant.neighbors is None else _of_the_graph(plant, minimal)),
     )
