@@ -37,15 +37,9 @@ class Matrix:
         return Matrix([[0] * ncols for _ in range(nrows)], ncols)
 
     @staticmethod
-    def identity(n: int) -> Matrix:
-        """The identity matrix."""
-        return Matrix([[int(i == j) for j in range(n)] for i in range(n)], n)
-
-    @staticmethod
-    def of(rows: Sequence[Sequence[Fraction]], ncols: int) -> Matrix:
-        """The matrix of these rationals."""
-        d = math.lcm(*(entry.denominator for row in rows for entry in row))
-        return Matrix([[e.numerator * (d // e.denominator) for e in row] for row in rows], ncols, d)
+    def unit_rows(n: int, start: int, size: int) -> Matrix:
+        """[0 I 0]: ``size`` rows of the n × n identity from row ``start`` on."""
+        return Matrix([[int(j == start + i) for j in range(n)] for i in range(size)], n)
 
     @property
     def nrows(self) -> int:
@@ -59,6 +53,8 @@ class Matrix:
         return Matrix(columns, self.nrows, self.denominator)
 
     def __matmul__(self, other: Matrix) -> Matrix:
+        if self.ncols != other.nrows:
+            raise ValueError(f"no product of {self.ncols} columns and {other.nrows} rows")
         rows = product(self.rows, other.rows, other.ncols)
         return Matrix(rows, other.ncols, self.denominator * other.denominator)
 
@@ -85,12 +81,12 @@ class Matrix:
         """Whether all entries agree."""
         return (self - other).is_zero()
 
-    def take(self, rows: Sequence[int] | None = None, cols: Sequence[int] | None = None) -> Matrix:
+    def take(self, rows: Iterable[int] | None = None, cols: Iterable[int] | None = None) -> Matrix:
         """The submatrix of these rows and columns."""
+        if cols is not None:
+            return self.take(rows).T.take(cols).T
         chosen = self.rows if rows is None else [self.rows[i] for i in rows]
-        if cols is None:
-            return Matrix(chosen, self.ncols, self.denominator)
-        return Matrix([[row[j] for j in cols] for row in chosen], len(cols), self.denominator)
+        return Matrix(chosen, self.ncols, self.denominator)
 
     def modulo(self, ell: int) -> Rows:
         """The residues modulo ℓ; the denominator must be a unit."""
@@ -98,24 +94,24 @@ class Matrix:
         return [[f * entry % ell for entry in row] for row in self.rows]
 
 
-def block(grid: Sequence[Sequence[Matrix]]) -> Matrix:
-    """The matrix put together from blocks, at least one."""
-    d = math.lcm(*(part.denominator for parts in grid for part in parts))
-    rows: Rows = []
-    for parts in grid:
-        scaled = [part.times(Fraction(d // part.denominator)).rows for part in parts]
-        rows += [[e for piece in pieces for e in piece] for pieces in zip(*scaled, strict=True)]
-    return Matrix(rows, sum(part.ncols for part in grid[0]), d)
+def stack(parts: Iterable[Matrix], ncols: int) -> Matrix:
+    """The matrices one above the other, all of ``ncols`` columns."""
+    above = list(parts)
+    d = math.lcm(*(part.denominator for part in above))
+    rows = [[d // M.denominator * entry for entry in row] for M in above for row in M.rows]
+    return Matrix(rows, ncols, d)
 
 
-def diagonal(parts: Sequence[Matrix]) -> Matrix:
-    """The block diagonal matrix of at least one block."""
-    return block(
-        [
-            [p if i == j else Matrix.zeros(p.nrows, q.ncols) for j, q in enumerate(parts)]
-            for i, p in enumerate(parts)
-        ]
-    )
+def beside(parts: Iterable[Matrix], nrows: int) -> Matrix:
+    """The matrices side by side, all of ``nrows`` rows."""
+    return stack((part.T for part in parts), nrows).T
+
+
+def diagonal(A: Matrix, B: Matrix) -> Matrix:
+    """[A 0; 0 B]."""
+    top = beside([A, Matrix.zeros(A.nrows, B.ncols)], A.nrows)
+    bottom = beside([Matrix.zeros(B.nrows, A.ncols), B], B.nrows)
+    return stack([top, bottom], A.ncols + B.ncols)
 
 
 def product(A: Rows, B: Rows, ncols: int, ell: int = 0) -> Rows:

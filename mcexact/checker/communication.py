@@ -8,6 +8,7 @@ from typing import Any
 from . import evidence
 from .arithmetic import Matrix, diagonal
 from .covering import Program, read_bound, require_absence, require_outside
+from .exchange import arcs, augmented_outputs, extended, neighbors_of
 from .reading import (
     boolean,
     fields,
@@ -21,7 +22,6 @@ from .reading import (
     require,
     string,
 )
-from .subject import arcs, augmented_outputs, extended, neighbors_of, unit_rows
 from .system import System
 from .words import channel, described
 
@@ -99,9 +99,9 @@ def _carried(system: System, share: str, sizes: Any) -> list[Matrix]:
         return system.C
     widths = [integer(size, "claim.dimensions") for size in sizes]
     starts = [sum(widths[:j]) for j in range(system.m)]
-    E = [unit_rows(sum(widths), s, w) for s, w in zip(starts, widths, strict=True)]
+    E = [Matrix.unit_rows(sum(widths), s, w) for s, w in zip(starts, widths, strict=True)]
     C = system.C if share == "outputs+states" else [Matrix.zeros(0, system.n)] * system.m
-    return [diagonal([C_j, E_j]) for C_j, E_j in zip(C, E, strict=True)]
+    return [diagonal(C_j, E_j) for C_j, E_j in zip(C, E, strict=True)]
 
 
 def _theorem(

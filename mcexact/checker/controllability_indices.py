@@ -28,7 +28,7 @@ def check(claim: Any, witness: Any, system: System) -> str:
     require(independent, "rank", "witness.annihilator", "its rows are dependent modulo ℓ")
     power = inputs(system, T)
     for k in range(1, nu + 2):
-        first = W.take(rows=range(n - ranks[min(k, nu)]))
+        first = W.take(range(n - ranks[min(k, nu)]))
         message = f"its first {first.nrows} rows do not annihilate block {k}"
         require((first @ power).is_zero(), "identity", "witness.annihilator", message)
         power = system.A @ power

@@ -31,7 +31,7 @@ def check(claim: Any, witness: Any, system: System) -> str:
 
 def separated(system: System) -> tuple[Matrix, Matrix]:
     """The diagonal blocks in the coordinates (x, e_1, z_1, …), e_i = x_i − x."""
-    blocks = system.blocks or []
+    blocks = list(system.blocks)
     good = len(blocks) > 1 and sum(blocks) == system.n and set(blocks[1::2]) == {blocks[0]}
     require(good, "subject", "subject", "not a loop in which every agent estimates the state")
     n, rows = blocks[0], [list(row) for row in system.A.rows]

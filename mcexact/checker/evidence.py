@@ -2,18 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from typing import Any
 
-from .arithmetic import (
-    Matrix,
-    Polynomial,
-    block,
-    coprime,
-    poly_modulo,
-    rank,
-)
+from .arithmetic import Matrix, Polynomial, beside, coprime, poly_modulo, rank, stack
 from .reading import (
     decimal,
     fields,
@@ -33,19 +27,14 @@ Disc = tuple[Fraction, Fraction, Fraction]
 """Real part, imaginary part, radius."""
 
 
-def stacked(parts: Sequence[Matrix], nrows: int) -> Matrix:
-    """The matrices side by side, n rows each: B_T from the B_i of its channels."""
-    return block([[Matrix.zeros(nrows, 0), *parts]])
-
-
 def inputs(system: System, channels: Iterable[int]) -> Matrix:
     """B_T, the inputs of these channels side by side."""
-    return stacked([system.B[i] for i in channels], system.n)
+    return beside([system.B[i] for i in channels], system.n)
 
 
 def outputs(system: System, channels: Iterable[int]) -> Matrix:
     """C_s, the outputs of these channels one above the other."""
-    return stacked([system.C[i].T for i in channels], system.n).T
+    return stack([system.C[i] for i in channels], system.n)
 
 
 def complement(system: System, channels: Iterable[int]) -> list[int]:
@@ -58,8 +47,10 @@ def require_identity(layers: Sequence[Matrix], pivots: list[int], place: str) ->
 
     The columns are then independent, whatever x is.
     """
-    parts = [layer.take(rows=pivots) for layer in layers]
-    good = parts[0].equals(Matrix.identity(len(pivots))) and all(M.is_zero() for M in parts[1:])
+    parts = [layer.take(pivots) for layer in layers]
+    good = parts[0].equals(Matrix.unit_rows(len(pivots), 0, len(pivots))) and all(
+        M.is_zero() for M in parts[1:]
+    )
     require(good, "pivots", place, "expected an identity matrix there")
 
 
@@ -104,14 +95,14 @@ def zero_transfer(value: Any, place: str, system: System) -> tuple[list[int], Ma
     X = matrix(X_rows, f"{place}.X", system.n, len(pivots))
     require_identity([X], pivots, f"{place}.pivots")
     for image, what in ((system.A @ X, "A X"), (inputs(system, sources), "B")):
-        inside = image.equals(X @ image.take(rows=pivots))
+        inside = image.equals(X @ image.take(pivots))
         require(inside, "identity", place, f"the columns of {what} leave the span of X")
     return sources, X
 
 
 def closed_loop(system: System, gains: Sequence[Matrix]) -> Matrix:
     """A_F = A + Σ B_i F_i C_i."""
-    left = stacked([B @ F for B, F in zip(system.B, gains, strict=True)], system.n)
+    left = beside([B @ F for B, F in zip(system.B, gains, strict=True)], system.n)
     return system.A + left @ outputs(system, range(system.m))
 
 
@@ -123,7 +114,7 @@ def read_gains(value: Any, place: str, system: System) -> list[Matrix]:
 
 def modulus(value: Any, place: str) -> int:
     """A modulus ℓ ≥ 2; whether it divides no denominator shows where it is used."""
-    ell = integer(value, place, None)
+    ell = integer(value, place, -math.inf)
     require(ell >= 2, "modulus", place, f"expected an integer from 2 on, found {shown(ell)}")
     return ell
 

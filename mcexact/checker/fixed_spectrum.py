@@ -84,7 +84,7 @@ def _require_ranks(completion: Any, losses: list[Any], A_F: Matrix, ell: int) ->
     B0 = reading.matrix(left, "witness.completion.B0", A_F.nrows, rho)
     C0 = reading.matrix(right, "witness.completion.C0", rho, A_F.nrows)
     for d in {loss for _, loss in losses}:
-        completed = A_F + B0.take(cols=range(d)) @ C0.take(rows=range(d))
+        completed = A_F + B0.take(cols=range(d)) @ C0.take(range(d))
         chi = polynomial_modulo(completed.modulo(ell), ell)
         for p in (p for p, loss in losses if loss == d):
             evidence.require_coprime(p, chi, ell, "a factor, and det(xI - A_F - B0 C0),")

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from .evidence import components
+from .exchange import neighbors_of
 from .reading import boolean, fields, require
-from .subject import neighbors_of
 from .system import System
 from .words import described
 

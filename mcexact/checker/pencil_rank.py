@@ -11,11 +11,12 @@ from .arithmetic import (
     Matrix,
     NotAUnit,
     Polynomial,
-    block,
+    beside,
     inverse,
     poly_divide,
     poly_modulo,
     poly_product,
+    stack,
 )
 from .reading import fields, require
 from .system import System
@@ -34,14 +35,15 @@ def check(claim: Any, witness: Any, system: System) -> str:
     require(len(pivots) == c - r, "rank", "witness.pivots", f"expected {c} - {r} of them")
     kernel = reading.polynomial_matrix(layers, "witness.kernel", c, c - r, len(p) - 1)
     evidence.require_identity(kernel, pivots, "witness.pivots")
-    U = [layer.take(rows=range(n)) for layer in kernel]
-    V = [layer.take(rows=range(n, c)).times(Fraction(-1)) for layer in kernel]
+    U = [layer.take(range(n)) for layer in kernel]
+    V = [layer.take(range(n, c)).times(Fraction(-1)) for layer in kernel]
     evidence.require_pencil_kernel(system.A, B, U, V, p, "witness.kernel")
     unseen = all((C @ layer).is_zero() for layer in U)
     require(unseen, "identity", "witness.kernel", "C U is not zero")
     ell = evidence.modulus(ell, "witness.modulus")
     kept = sorted(set(range(c)) - set(pivots))
-    constant = block([[system.A.times(Fraction(-1)), B], [C, Matrix.zeros(C.nrows, B.ncols)]])
+    top = beside([system.A.times(Fraction(-1)), B], n)
+    constant = stack([top, beside([C, Matrix.zeros(C.nrows, B.ncols)], C.nrows)], c)
     residues = enumerate(constant.take(cols=kept).modulo(ell))
     pencil = [[[e, int(i == j < n)] for j, e in zip(kept, row, strict=True)] for i, row in residues]
     independent = _are_independent(pencil, len(kept), poly_modulo(p, ell), ell)

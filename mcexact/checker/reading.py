@@ -20,7 +20,7 @@ from .arithmetic import Matrix, Polynomial
 TOKEN = re.compile(r'"(?:[^"\\]++|\\.)*+"|[\[{]|[\]}]', re.DOTALL)
 LONG_NUMBER = re.compile(r"[0-9]{20}[0-9]*+")
 QUOTIENT = re.compile(r"-?(?:0|[1-9][0-9]*+)/[1-9][0-9]*+")
-DECIMAL = re.compile(r"(-?)(0|[1-9][0-9]*+)(?:\.([0-9]++))?")
+DECIMAL = re.compile(r"-?(?:0|[1-9][0-9]*+)(?:\.[0-9]++)?")
 
 
 class Refused(Exception):
@@ -57,62 +57,52 @@ def require(condition: bool, code: str, place: str, message: str) -> None:
         raise Refused("INVALID", code, place, message)
 
 
-def parse(data: bytes, limits: Limits, decimal: Callable[[str], Any] | None = None) -> Any:
+def parse(data: bytes, limits: Limits, decimal_of: Callable[[str], Any] | None = None) -> Any:
     """Parse JSON text: UTF-8, no key twice, no constants such as NaN, nothing beyond the limits.
 
-    ``decimal`` reads a number that has a point or an exponent; without it such a number is refused.
+    ``decimal_of`` reads a number with a point or an exponent; without it such a number is refused.
     """
     if len(data) > limits.bytes:
-        incomplete("size", "file", f"{len(data)} bytes, the limit is {limits.bytes} (--max-bytes)")
+        incomplete("size", "file", f"more than {limits.bytes} bytes (--max-bytes)")
     try:
         text = data.decode("utf-8")
     except UnicodeDecodeError as error:
-        malformed("file", f"expected UTF-8 text, found another encoding at byte {error.start}")
+        malformed(f"byte {error.start}", "expected UTF-8 text")
     if text.startswith("\ufeff"):
-        malformed("file", "remove the byte order mark at the start")
+        malformed("byte 0", "remove the byte order mark")
     depth = 0
     for token in TOKEN.finditer(text):
         depth += (token[0] in "[{") - (token[0] in "]}")
         if depth > limits.depth:
             malformed("file", f"nested deeper than {limits.depth} levels (--max-depth)")
-    for number in LONG_NUMBER.finditer(text):
-        if len(number[0]) > limits.digits:
-            message = f"{len(number[0])} digits, the limit is {limits.digits} (--max-digits)"
-            incomplete("size", f"number {number[0][:12]}…", message)
+    if any(len(number[0]) > limits.digits for number in LONG_NUMBER.finditer(text)):
+        incomplete("size", "file", f"a number of more than {limits.digits} digits (--max-digits)")
 
-    def decimal_of(number: str) -> Any:
-        if decimal is None:
-            malformed(f"number {number[:24]}", 'expected an integer or a string "p/q"')
-        return decimal(number)
-
-    def constant_of(name: str) -> NoReturn:
-        malformed(f"number {name}", "expected a rational number")
+    def refuse(number: str) -> NoReturn:
+        malformed(f"number {number[:24]}", 'expected an integer or a string "p/q"')
 
     def object_of(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-        result = dict(pairs)
-        for key, _ in pairs if len(result) < len(pairs) else []:
-            if [name for name, _ in pairs].count(key) > 1:
-                malformed(f"key {shown(key)}", "expected once, found twice in one object")
+        result: dict[str, Any] = {}
+        for key, value in pairs:
+            if key in result:
+                malformed(f"key {shown(key)}", "given twice in one object")
+            result[key] = value
         return result
 
+    floats, pairs = decimal_of or refuse, object_of
     try:
-        return json.loads(
-            text,
-            parse_float=decimal_of,
-            parse_constant=constant_of,
-            object_pairs_hook=object_of,
-        )
+        return json.loads(text, parse_float=floats, parse_constant=refuse, object_pairs_hook=pairs)
     except json.JSONDecodeError as error:
         malformed(f"line {error.lineno} column {error.colno}", f"not JSON: {error.msg}")
 
 
 def shown(value: Any) -> str:
     """A value from outside as a message may show it: ASCII, on one line, and short."""
-    if type(value) is int and value.bit_length() > 200:
-        return f"an integer of {value.bit_length()} bits"
-    text = json.dumps(value) if type(value) in (str, int, bool, type(None)) else ""
-    article = {"dict": "an object", "list": "a list", "float": "a float"}
-    return text if 0 < len(text) <= 40 else article.get(type(value).__name__, text[:40] + "…")
+    if isinstance(value, (Mapping, list, float)):
+        return f"a value of type {type(value).__name__}"
+    if type(value) is int and value.bit_length() > 99:
+        return "a large integer"
+    return json.dumps(value if type(value) is not str else value[:40], default=repr)
 
 
 def fields(value: Any, place: str, *names: str, optional: tuple[str, ...] = ()) -> list[Any]:
@@ -122,8 +112,9 @@ def fields(value: Any, place: str, *names: str, optional: tuple[str, ...] = ()) 
     for name in names:
         if name not in value:
             malformed(place, f"the key {shown(name)} is missing")
+    allowed = {*names, *optional}
     for key in value:
-        if key not in names and key not in optional:
+        if key not in allowed:
             malformed(place, f"unknown key {shown(key)}")
     return [value.get(name) for name in names + optional]
 
@@ -137,11 +128,10 @@ def items(value: Any, place: str, length: int | None = None) -> list[Any]:
     return value
 
 
-def integer(value: Any, place: str, least: int | None = 0) -> int:
+def integer(value: Any, place: str, least: float = 0) -> int:
     """An integer, not below ``least``."""
-    if type(value) is not int or (least is not None and value < least):
-        bound = "" if least is None else f" from {least} on"
-        malformed(place, f"expected an integer{bound}, found {shown(value)}")
+    if type(value) is not int or value < least:
+        malformed(place, f"expected an integer from {least} on, found {shown(value)}")
     return value
 
 
@@ -173,33 +163,25 @@ def rational(value: Any, place: str) -> Fraction:
 
 def decimal(value: Any, place: str) -> Fraction:
     """A decimal: a string such as "-1.25", without exponent."""
-    match = DECIMAL.fullmatch(value) if type(value) is str else None
-    if match is None:
+    if type(value) is not str or not DECIMAL.fullmatch(value):
         malformed(place, f'expected a decimal such as "-1.25", found {shown(value)}')
     return Fraction(value)
 
 
 def polynomial(value: Any, place: str, least_degree: int = 0) -> Polynomial:
     """A monic polynomial: its coefficients, constant term first, the last one 1."""
-    entries = items(value, place)
-    result = [rational(entry, f"{place}[{k}]") for k, entry in enumerate(entries)]
+    result = [rational(entry, f"{place}[{k}]") for k, entry in enumerate(items(value, place))]
     if len(result) <= least_degree or result[-1] != 1:
-        expected = f"a monic polynomial of degree {least_degree} or more"
-        malformed(place, f"expected {expected}, constant term first, found {shown(value)}")
+        malformed(place, f"expected a monic polynomial of degree at least {least_degree}")
     return result
 
 
 def integer_rows(value: Any, place: str, nrows: int, ncols: int) -> list[list[int]]:
     """Rows of integers, of the prescribed shape."""
-    rows = items(value, place)
-    if len(rows) != nrows:
-        malformed(place, f"expected {nrows} rows, found {len(rows)}")
-    for i, row in enumerate(rows):
-        if len(items(row, f"{place}[{i}]")) != ncols:
-            malformed(f"{place}[{i}]", f"expected {ncols} entries, found {len(row)}")
-        if not all(type(entry) is int for entry in row):
+    for i, row in enumerate(items(value, place, nrows)):
+        if not all(type(entry) is int for entry in items(row, f"{place}[{i}]", ncols)):
             malformed(f"{place}[{i}]", "expected integers over the common denominator")
-    return rows
+    return value  # type: ignore[no-any-return]
 
 
 def matrix(value: Any, place: str, nrows: int, ncols: int) -> Matrix:
@@ -221,28 +203,25 @@ def polynomial_matrix(value: Any, place: str, nrows: int, ncols: int, degree: in
     d = integer(denominator, f"{place}.denominator", 1)
     if not 1 <= len(items(layers, f"{place}.coefficients")) <= degree:
         malformed(f"{place}.coefficients", f"expected 1 to {degree} matrices, found {len(layers)}")
-    result = [
-        Matrix(integer_rows(layer, f"{place}.coefficients[{k}]", nrows, ncols), ncols, d)
-        for k, layer in enumerate(layers)
-    ]
-    return result + [Matrix.zeros(nrows, ncols)] * (degree - len(layers))
+    rows = [integer_rows(layer, f"{place}.coefficients", nrows, ncols) for layer in layers]
+    padding = [Matrix.zeros(nrows, ncols)] * (degree - len(layers))
+    return [Matrix(layer, ncols, d) for layer in rows] + padding
 
 
 def positions(value: Any, place: str, below: int) -> list[int]:
     """Strictly increasing positions from 0 to ``below`` − 1."""
-    result = [integer(entry, f"{place}[{k}]") for k, entry in enumerate(items(value, place))]
-    if result != sorted(set(result)) or (result and result[-1] >= below):
-        malformed(place, f"expected increasing positions below {below}, found {result[:8]}")
+    result = [integer(entry, place) for entry in items(value, place)]
+    if result != sorted(set(result)) or any(entry >= below for entry in result):
+        malformed(place, f"expected increasing positions below {below}")
     return result
 
 
 def names(value: Any, place: str, known: list[str]) -> list[int]:
     """The positions of named channels, each known, in the order of the system, none twice."""
-    entries = items(value, place)
-    for k, entry in enumerate(entries):
+    for entry in items(value, place):
         if type(entry) is not str or entry not in known:
-            malformed(f"{place}[{k}]", f"expected the name of a channel, found {shown(entry)}")
-    result = [known.index(entry) for entry in entries]
+            malformed(place, f"expected the name of a channel, found {shown(entry)}")
+    result = [known.index(entry) for entry in value]
     if result != sorted(set(result)):
         malformed(place, "expected channels in the order of the system, none of them twice")
     return result

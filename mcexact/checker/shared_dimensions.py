@@ -7,8 +7,8 @@ from typing import Any
 
 from . import evidence
 from .covering import Program, read_bound, require_absence, require_outside
+from .exchange import augmented_outputs, extended, neighbors_of
 from .reading import boolean, fields, integer, items, names, polynomial, rational, require, string
-from .subject import augmented_outputs, extended, neighbors_of
 from .system import System
 from .words import channel_set, described
 

@@ -1,0 +1,65 @@
+"""Constructions ``augmented_outputs``, ``arcs`` and ``extended``: what agents tell each other."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from . import reading
+from .arithmetic import Matrix, diagonal, stack
+from .evidence import outputs
+from .system import System
+
+SHARED = {"outputs+states": "outputs and sub-states", "states": "sub-states"}
+
+
+def neighbors_of(system: System, place: str) -> list[list[int]]:
+    """The sets N_i; the system must have a neighbor graph."""
+    found = system.neighbors is not None
+    reading.require(found, "subject", place, f"{system.words} has no neighbor graph")
+    return system.neighbors or []
+
+
+def augmented_outputs(system: System, step: dict[str, Any], place: str) -> System:
+    """C_i becomes C_{N_i}."""
+    reading.fields(step, place)
+    C = [outputs(system, N_i) for N_i in neighbors_of(system, place)]
+    return replace(system, C=C, words=f"{system.words} with neighbors' outputs shared")
+
+
+def arcs(system: System, step: dict[str, Any], place: str) -> System:
+    """j joins N_i for each added arc [j, i]."""
+    (listed,) = reading.fields(step, place, "added")
+    sets = [set(N_i) for N_i in neighbors_of(system, place)]
+    for arc in reading.items(listed, place):
+        j, i = (system.place_of(end, place) for end in reading.items(arc, place, 2))
+        reading.require(j not in sets[i], "subject", place, "an arc is there already")
+        sets[i].add(j)
+    words = f"{system.words} with {len(listed)} arcs added to its neighbor graph"
+    return replace(system, neighbors=[sorted(N_i) for N_i in sets], words=words)
+
+
+def read_shares(system: System, step: dict[str, Any], place: str) -> tuple[str, list[int]]:
+    """What is shared, and the dimensions n_i of the sub-states."""
+    share, listed = reading.fields(step, place, "share", "dimensions")
+    return reading.string(share, place, *SHARED), read_dimensions(system, listed, place)
+
+
+def read_dimensions(system: System, value: Any, place: str) -> list[int]:
+    """The dimensions n_i, one for each agent."""
+    return [reading.integer(size, place) for size in reading.items(value, place, system.m)]
+
+
+def extended(system: System, step: dict[str, Any], place: str) -> System:
+    """Paper, section IV-C: state (x, x_1, …, x_m); x_i' or x_i(t+1) is an input of agent i."""
+    (share, sizes), N = read_shares(system, step, place), neighbors_of(system, place)
+    total = sum(sizes)
+    E = [Matrix.unit_rows(total, sum(sizes[:i]), size) for i, size in enumerate(sizes)]
+    B = [diagonal(B_i, E_i.T) for B_i, E_i in zip(system.B, E, strict=True)]
+    own = [outputs(system, N_i if share == "outputs+states" else [i]) for i, N_i in enumerate(N)]
+    heard = [stack([E[j] for j in N_i], total) for N_i in N]
+    C = [diagonal(C_i, E_N) for C_i, E_N in zip(own, heard, strict=True)]
+    A = diagonal(system.A, Matrix.zeros(total, total))
+    what = f"the extended system of {system.words} sharing {SHARED[share]}"
+    words = f"{what} with dimensions {tuple(sizes)}"
+    return replace(system, A=A, B=B, C=C, words=words)
