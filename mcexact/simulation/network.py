@@ -1,0 +1,250 @@
+"""Agents on a network: each knows its own program, its own output, and what its wires deliver."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from mcexact.errors import InputError
+from mcexact.exact.matrix import Matrix
+from mcexact.model.controller import AgentProgram, Controller, LinearMap
+from mcexact.model.names import quoted
+from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem
+from mcexact.simulation.arithmetic import Arithmetic, Native
+
+
+class SignalNotReceived(InputError):
+    """A program asks for a signal that no wire brings to its agent."""
+
+
+@dataclass(frozen=True)
+class Message:
+    """What an agent sends along an arc: its output y_j and its shared sub-state x_j."""
+
+    output: Native
+    shared: Native
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """The whole state at one time, in native numbers."""
+
+    plant: list[Any]
+    shared: list[list[Any]]
+    private: list[list[Any]]
+
+    def flat(self) -> list[Any]:
+        """(x, x_1, z_1, …, x_m, z_m), as the matrix of the loop orders it."""
+        result = list(self.plant)
+        for x_i, z_i in zip(self.shared, self.private, strict=True):
+            result += [*x_i, *z_i]
+        return result
+
+
+class _Map:
+    """A linear map of one agent in native numbers."""
+
+    def __init__(self, each: LinearMap, zero: Native, arithmetic: Arithmetic) -> None:
+        def by_agent(used: Mapping[int, Matrix]) -> dict[int, Native]:
+            return {j: arithmetic.convert(M) for j, M in used.items()}
+
+        self.zero = zero
+        self.outputs = by_agent(each.outputs)
+        self.shared = by_agent(each.shared)
+        self.private = None if each.private is None else arithmetic.convert(each.private)
+        self.reference = None if each.reference is None else arithmetic.convert(each.reference)
+
+
+class Agent:
+    """One agent: a program, its own state, and an inbox.  It sees nothing else.
+
+    Parameters
+    ----------
+    position : int
+    program : AgentProgram
+    inputs, outputs : int
+        p_i and q_i.
+    arithmetic : Arithmetic
+    """
+
+    def __init__(
+        self,
+        position: int,
+        program: AgentProgram,
+        inputs: int,
+        outputs: int,
+        arithmetic: Arithmetic,
+    ) -> None:
+        def zero(size: int) -> Native:
+            return arithmetic.convert(Matrix.zeros(size, 1))
+
+        self.position, self.name = position, program.name
+        self._shared_update = _Map(program.shared_update, zero(program.shared), arithmetic)
+        self._private_update = _Map(program.private_update, zero(program.private), arithmetic)
+        self._input = _Map(program.input, zero(inputs), arithmetic)
+        self._hold = dict(program.hold)
+        self.shared, self.private = zero(program.shared), zero(program.private)
+        self.reference = zero(outputs)
+        self._output = zero(outputs)
+        longest = max(self._hold.values(), default=0)
+        self._past: deque[Native] = deque([zero(program.shared)] * (longest + 1), longest + 1)
+        self._inbox: dict[int, Message] = {}
+
+    def measure(self, output: Native) -> None:
+        """Take the measurement y_i; what was heard before is forgotten."""
+        self._output = output
+        self._past.appendleft(self.shared)
+        self._inbox = {}
+
+    def message_for(self, receiver: int) -> Message:
+        """What goes to a follower now: y_i, and x_i after the time that it is held."""
+        return Message(self._output, self._past[self._hold.get(receiver, 0)])
+
+    def receive(self, sender: int, message: Message) -> None:
+        """Put what a wire delivers into the inbox."""
+        self._inbox[sender] = message
+
+    def input(self) -> Native:
+        """u_i."""
+        return self._applied(self._input)
+
+    def update(self) -> tuple[Native, Native]:
+        """What the program makes of x_i and z_i: the next values, or the derivatives."""
+        return self._applied(self._shared_update), self._applied(self._private_update)
+
+    def _heard(self, j: int) -> Message:
+        """The message of an agent; the agent's own signals need no wire."""
+        if j == self.position:
+            return self.message_for(j)
+        if j not in self._inbox:
+            raise SignalNotReceived(
+                f"agent {quoted(self.name)} asks for a signal of agent number {j + 1}, "
+                "which no wire brings to it"
+            )
+        return self._inbox[j]
+
+    def _applied(self, each: _Map) -> Native:
+        """Σ_j outputs[j] y_j + Σ_j shared[j] x_j + private z_i + reference r_i."""
+        result = each.zero
+        for j, M in each.outputs.items():
+            result = result + M @ self._heard(j).output
+        for j, M in each.shared.items():
+            result = result + M @ self._heard(j).shared
+        if each.private is not None:
+            result = result + each.private @ self.private
+        if each.reference is not None:
+            result = result + each.reference @ self.reference
+        return result
+
+
+class Wire:
+    """An arc: what is put in comes out after the delay; before that, zeros do.
+
+    Parameters
+    ----------
+    sender, receiver : int
+    delay : int
+        In steps.
+    silence : Message
+        What is heard before the first message arrives.
+    """
+
+    def __init__(self, sender: int, receiver: int, delay: int, silence: Message) -> None:
+        self.sender, self.receiver = sender, receiver
+        self._under_way: deque[Message] = deque([silence] * delay)
+
+    def carry(self, message: Message) -> Message:
+        """Send a message and take the one that arrives now."""
+        self._under_way.append(message)
+        return self._under_way.popleft()
+
+
+class Network:
+    """A plant, m agents and the wires between them.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        The plant.
+    controller : Controller
+    graph : NeighborGraph
+        Its arcs are the wires.
+    arithmetic : Arithmetic
+
+    Raises
+    ------
+    InputError, UsageError
+        If the controller has the wrong shape for the plant.
+
+    Notes
+    -----
+    Whether a program uses only what its agent receives is not checked here: the agent finds out,
+    and `SignalNotReceived` is raised, when it runs.
+    """
+
+    def __init__(
+        self,
+        system: MultiChannelSystem,
+        controller: Controller,
+        graph: NeighborGraph,
+        arithmetic: Arithmetic,
+    ) -> None:
+        # Shapes only: over the complete graph everybody hears everybody.
+        controller.require_fits(system, NeighborGraph.complete(system.names))
+        self.arithmetic = arithmetic
+        self._A = arithmetic.convert(system.A)
+        self._B = [arithmetic.convert(channel.B) for channel in system.channels]
+        self._C = [arithmetic.convert(channel.C) for channel in system.channels]
+        self.state = arithmetic.convert(Matrix.zeros(system.n, 1))
+        self.agents = [
+            Agent(i, program, system.p(i), system.q(i), arithmetic)
+            for i, program in enumerate(controller.agents)
+        ]
+        self._wires = []
+        for j, i in graph.arcs():
+            if i != j:
+                agent = self.agents[j]
+                silence = Message(agent.reference, agent.shared)
+                self._wires.append(Wire(j, i, graph.delay(i, j), silence))
+
+    def set_state(self, state: Native, parts: Sequence[tuple[Native, Native]]) -> None:
+        """Set x and, agent by agent, (x_i, z_i)."""
+        self.state = state
+        for agent, (shared, private) in zip(self.agents, parts, strict=True):
+            agent.shared, agent.private = shared, private
+
+    def snapshot(self) -> Snapshot:
+        """The state of the plant and of every agent."""
+        entries = self.arithmetic.entries
+        return Snapshot(
+            entries(self.state),
+            [entries(agent.shared) for agent in self.agents],
+            [entries(agent.private) for agent in self.agents],
+        )
+
+    def evolution(self) -> tuple[Native, list[tuple[Native, Native]]]:
+        """One round: measure, send, receive, compute.
+
+        Returns
+        -------
+        state : column
+            A x + Σ B_i u_i: the plant's next state, or its derivative.
+        parts : list of (column, column)
+            The same of x_i and z_i, agent by agent.
+        """
+        for agent, C in zip(self.agents, self._C, strict=True):
+            agent.measure(C @ self.state)
+        for wire in self._wires:
+            message = self.agents[wire.sender].message_for(wire.receiver)
+            self.agents[wire.receiver].receive(wire.sender, wire.carry(message))
+        state = self._A @ self.state
+        for agent, B in zip(self.agents, self._B, strict=True):
+            state = state + B @ agent.input()
+        return state, [agent.update() for agent in self.agents]
+
+    def step(self) -> None:
+        """Advance by one step of discrete time."""
+        self.set_state(*self.evolution())
