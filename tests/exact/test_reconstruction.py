@@ -1,30 +1,47 @@
-"""Rational numbers from residues."""
+"""Rational numbers from their residues."""
 
 from fractions import Fraction
 
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mcexact.exact.reconstruction import combine, rational, rationals
+from mcexact.exact.modular import residue
+from mcexact.exact.reconstruction import (
+    combine,
+    integers,
+    rational,
+    rational_coefficients,
+    rationals,
+)
 
-PRIME, OTHER = 2**61 - 1, 2**31 - 1
-
-
-@given(st.lists(st.fractions(-(10**8), 10**8, max_denominator=9), min_size=1, max_size=5))
-def test_rationals_come_back_from_their_residues(values: list[Fraction]) -> None:
-    modulus = PRIME * OTHER
-    residues = [v.numerator * pow(v.denominator, -1, modulus) % modulus for v in values]
-    found = rationals([residues], modulus)
-    assert found is not None
-    numerators, denominator = found
-    assert [Fraction(p, denominator) for p in numerators[0]] == values
+ELLS = (1_000_003, 998_244_353)
+MODULUS = ELLS[0] * ELLS[1]
 
 
-@given(st.integers(0, PRIME * OTHER - 1))
-def test_remainders_are_combined(value: int) -> None:
-    assert combine([[value % PRIME]], PRIME, [[value % OTHER]], OTHER) == [[value]]
+@given(st.lists(st.integers(0, MODULUS - 1), min_size=1, max_size=4))
+def test_chinese_remainders_bring_a_row_back(row):
+    parts = [[value % ell for value in row] for ell in ELLS]
+    assert combine([parts[0]], ELLS[0], [parts[1]], ELLS[1]) == [row]
 
 
-def test_a_residue_without_a_small_fraction_has_none() -> None:
-    assert rational(50, 101, 3) is None or rational(50, 101, 3) == (-1, 2)
-    assert rationals([[10**9]], PRIME * OTHER) == ([[10**9]], 1)
+@given(st.fractions(-99, 99, max_denominator=99))
+def test_a_small_fraction_comes_back(q):
+    assert rational(residue(q, ELLS[1]), ELLS[1], 2**14) == (q.numerator, q.denominator)
+
+
+@given(st.lists(st.fractions(-9, 9, max_denominator=20), min_size=1, max_size=3))
+def test_fractions_with_a_small_common_denominator_come_back_over_it(row):
+    remainders = [q.numerator * pow(q.denominator, -1, MODULUS) % MODULUS for q in row]
+    assert rational_coefficients(remainders, MODULUS) == row
+    numerators, denominator = rationals([remainders], MODULUS)
+    assert [Fraction(p, denominator) for p in numerators[0]] == row
+
+
+def test_a_residue_without_a_small_fraction_is_reported():
+    assert rational(5000, 10007, 2) is None
+    found = [rationals([[value]], 10007) for value in range(10007)]
+    assert None in found
+
+
+def test_integers_are_the_residues_of_least_absolute_value():
+    assert integers([0, 1, 6, 3, 4], 7) == [0, 1, -1, 3, -3]
