@@ -8,11 +8,13 @@ from dataclasses import dataclass
 from typing import Any
 
 from . import (
+    closed_loop_spectrum,
     communication,
     completeness,
     controllability,
     controllability_indices,
     deficiency,
+    distributed_observer,
     fixed_spectrum,
     neighbor_graph,
     pencil_rank,
@@ -29,11 +31,13 @@ FORMAT = "mcexact-certificate/1"
 Rule = Callable[[Any, Any, System], str]
 
 KINDS: dict[str, Rule] = {
+    "closed_loop_spectrum": closed_loop_spectrum.check,
     "communication": communication.check,
     "completeness": completeness.check,
     "controllability": controllability.check,
     "controllability_indices": controllability_indices.check,
     "deficiency": deficiency.check,
+    "distributed_observer": distributed_observer.check,
     "fixed_spectrum": fixed_spectrum.check,
     "neighbor_graph": neighbor_graph.check,
     "pencil_rank": pencil_rank.check,
