@@ -186,16 +186,22 @@ rewrite -unitmxE => u; apply: (@rank_from_below _ _ _ _ (rowsub i 1%:M)
 by rewrite mulmxA mul_rowsub_mx mul1mx mulmx_colsub mulmx1 -mxsubcr mulmxV.
 Qed.
 
-Lemma map_resultant_monic (aR rR : ringType) (f : {rmorphism aR -> rR}) (a b : {poly aR}) :
-  a \is monic -> b \is monic -> f (resultant a b) = resultant (map_poly f a) (map_poly f b).
+Lemma map_resultant_lead (aR rR : ringType) (f : {rmorphism aR -> rR}) (a b : {poly aR}) :
+  f (lead_coef a) != 0 -> f (lead_coef b) != 0 ->
+  f (resultant a b) = resultant (map_poly f a) (map_poly f b).
 Proof.
-move=> ma mb; rewrite /resultant /Sylvester_mx !size_map_poly_id0 ?(monicP ma) ?(monicP mb) ?rmorph1 ?oner_eq0//.
+move=> na nb; rewrite /resultant /Sylvester_mx !size_map_poly_id0//.
 rewrite -det_map_mx /= map_col_mx; congr (\det (col_mx _ _));
   by apply: map_lin1_mx => v; rewrite map_poly_rV rmorphM /= map_rVpoly.
 Qed.
 
-Lemma coprime_modulo_monic (a b : {poly Zloc l}) (u v : {poly 'Z_l}) :
-  a \is monic -> b \is monic ->
+(* The leading coefficient is a unit modulo l; a monic polynomial is the case that is most used. *)
+Definition unit_lead (a : {poly Zloc l}) := residue (lead_coef a) \is a GRing.unit.
+Lemma monic_unit_lead a : a \is monic -> unit_lead a.
+Proof. by rewrite /unit_lead => /monicP->; rewrite rmorph1 unitr1. Qed.
+
+Lemma coprime_modulo_both (a b : {poly Zloc l}) (u v : {poly 'Z_l}) :
+  unit_lead a -> unit_lead b ->
   u * map_poly (@residue l) a + v * map_poly (@residue l) b = 1 ->
   coprimep (map_poly into a) (map_poly into b).
 Proof.
@@ -203,36 +209,43 @@ move=> ma mb e; pose r : {rmorphism Zloc l -> 'F_l} := [rmorphism of @to_prime l
 have cF : coprimep (map_poly r a) (map_poly r b).
   apply/Bezout_eq1_coprimepP; exists (map_poly (@to_prime l) u, map_poly (@to_prime l) v) => /=.
   by rewrite !map_poly_comp -!rmorphM -rmorphD e rmorph1.
-have nz (F : fieldType) (f : {rmorphism Zloc l -> F}) : map_poly f a != 0.
-  by rewrite monic_neq0// monic_map.
 have cop (F : fieldType) (f : {rmorphism Zloc l -> F}) :
+    f (lead_coef a) != 0 -> f (lead_coef b) != 0 ->
     coprimep (map_poly f a) (map_poly f b) = (f (resultant a b) != 0).
-  rewrite map_resultant_monic// resultant_eq0 /coprimep ltnNge negbK eqn_leq.
-  by rewrite size_poly_gt0 gcdp_eq0 (negPf (nz _ _)) andbT.
-move: cF; rewrite (cop _ r) (cop _ into_rmorphism) => nr.
-by rewrite into_eq0; apply: contraNneq nr => ->; rewrite rmorph0.
+  move=> na nb; rewrite map_resultant_lead// resultant_eq0 /coprimep ltnNge negbK eqn_leq.
+  have nz : map_poly f a != 0.
+    by apply: contraNneq na => e0; rewrite lead_coefE -coef_map e0 coef0.
+  by rewrite size_poly_gt0 gcdp_eq0 (negPf nz) andbT.
+have nr (c : {poly Zloc l}) : unit_lead c -> r (lead_coef c) != 0.
+  by move=> uc; rewrite -unitfE; apply: (rmorph_unit [rmorphism of @to_prime l] uc).
+have ni (c : {poly Zloc l}) : unit_lead c -> into (lead_coef c) != 0 by apply: Zloc_neq0.
+move: cF; rewrite (cop _ r) ?nr// (cop _ into_rmorphism) ?ni// => nres.
+by rewrite into_eq0; apply: contraNneq nres => ->; rewrite rmorph0.
 Qed.
 
-(* The rule: no common factor modulo l, for one monic polynomial, is no common root over any
-   field that contains Q.  A Bezout identity modulo l is what Euclid's algorithm with unit leading
+(* The rule: no common factor modulo l is no common root over any field that contains Q, provided
+   that one of the two leading coefficients is a unit modulo l (1 + l x and 1 + l x have no common
+   factor modulo l).  A Bezout identity modulo l is what Euclid's algorithm with unit leading
    coefficients yields (euclid_step, euclid_end). *)
 Theorem coprime_modulo (a b : {poly Zloc l}) (u v : {poly 'Z_l}) :
-  a \is monic -> u * map_poly (@residue l) a + v * map_poly (@residue l) b = 1 ->
+  unit_lead a -> u * map_poly (@residue l) a + v * map_poly (@residue l) b = 1 ->
   coprimep (map_poly into a) (map_poly into b).
 Proof.
 move=> ma e; pose k := size b; pose b' := b + 'X^k * a.
-have mb' : b' \is monic.
-  rewrite monicE lead_coefDr; first by rewrite lead_coef_Mmonic// lead_coefXn.
-  rewrite size_Mmonic ?monic_neq0 ?monicXn// size_polyXn addSn/= -[X in (X < _)%N]addn0 ltn_add2l.
-  by rewrite size_poly_gt0 monic_neq0.
-have := @coprime_modulo_monic a b' (u - v * 'X^k) v ma mb'.
-rewrite /b' !rmorphD !rmorphM/= !map_polyXn mulrDr mulrBl mulrA addrACA.
-rewrite [- _ + _]addrC subrr addr0 => /(_ e).
+have na : a != 0 by apply: contraTneq ma => ->; rewrite /unit_lead lead_coef0 rmorph0 unitr0.
+have lb' : lead_coef b' = lead_coef a.
+  have s : size ('X^k * a) = (k + size a)%N.
+    by rewrite size_monicM ?monicXn// size_polyXn.
+  rewrite /b' lead_coefDr; first by rewrite lead_coef_monicM ?monicXn.
+  by rewrite s -[X in (X < _)%N]addn0 ltn_add2l size_poly_gt0.
+have := @coprime_modulo_both a b' (u - v * 'X^k) v ma.
+rewrite /unit_lead lb' /b' !rmorphD !rmorphM/= !map_polyXn mulrDr mulrBl mulrA addrACA.
+rewrite [- _ + _]addrC subrr addr0 => /(_ ma e).
 by rewrite addrC coprimep_addl_mul.
 Qed.
 
 Theorem no_common_root (a b : {poly Zloc l}) (u v : {poly 'Z_l}) (x : L) :
-  a \is monic -> u * map_poly (@residue l) a + v * map_poly (@residue l) b = 1 ->
+  unit_lead a -> u * map_poly (@residue l) a + v * map_poly (@residue l) b = 1 ->
   root (map_poly into a) x -> ~~ root (map_poly into b) x.
 Proof. by move=> ma e ra; rewrite /root (coprimep_root (coprime_modulo ma e) ra). Qed.
 End Lifting.

@@ -48,7 +48,7 @@ have eA : eigenvalue (mcA SL) lambda.
 have eF : root (map_poly up (chi F)) lambda.
   by rewrite -eigenvalue_into map_loop_into.
 move: eA; rewrite /= -map_mx_comp eigenvalue_into map_poly_into e rmorphM/= rootM => /orP[//|].
-by rewrite -map_poly_into => /(no_common_root mpsi b); rewrite eF.
+by rewrite -map_poly_into => /(no_common_root (monic_unit_lead mpsi) b); rewrite eF.
 Qed.
 
 (* Rule "absence" without factors, chi_A needed only modulo l: the fixed spectrum is empty. *)
@@ -66,7 +66,7 @@ Theorem completion d (F : gains (Zloc l) p q) (B0 : 'M_(n, d)) (C0 : 'M_(d, n)) 
   root (map_poly up P) lambda ->
   (n <= \rank (lambda%:M - map_mx up (closed_loop S F))%R + d)%N.
 Proof.
-move=> mP b rP; have := no_common_root mP b rP; rewrite -eigenvalue_into eigenvalue_rank -leqNgt.
+move=> mP b rP; have := no_common_root (monic_unit_lead mP) b rP; rewrite -eigenvalue_into eigenvalue_rank -leqNgt.
 rewrite map_mxD map_mxM opprD addrA => /leq_trans; apply.
 apply: leq_trans (mxrank_add _ _) _; rewrite leq_add2l mxrank_opp.
 by rewrite (leq_trans (mxrankM_maxl _ _))// rank_leq_col.

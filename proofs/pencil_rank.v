@@ -67,7 +67,7 @@ have resD : res D = \det (X *m map_mx res M *m Y).
   by rewrite -det_map_mx !map_mxM /= eX eY.
 have [d ed] := det_1_plus (res P) E; rewrite e ed in resD.
 have : ~~ root (map_poly (into h) D) lambda.
-  by apply: (@no_common_root _ _ h P D (- d) 1) => //; rewrite resD mulNr mul1r mulrC addrCA addNr addr0.
+  by apply: (@no_common_root _ _ h P D (- d) 1 _ (monic_unit_lead mP)) => //; rewrite resD mulNr mul1r mulrC addrCA addNr addr0.
 pose ev : {rmorphism {poly Zloc l} -> L} := [rmorphism of horner_eval lambda \o map_poly (into h)].
 rewrite /root -[_.[_]]/(ev D) /D -det_map_mx -unitfE -unitmxE -row_full_unit.
 move=> /eqP <-; rewrite !map_mxM.

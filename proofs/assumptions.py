@@ -1,0 +1,60 @@
+"""Print the assumptions of every theorem in this folder and fail unless there are none.
+
+`theorems.txt` names for every rule of the checker the theorem that justifies it; each name there
+must be a theorem here.
+"""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+CLOSED = "Closed under the global context"
+HERE = Path(__file__).parent
+
+
+def theorems() -> list[str]:
+    """Every `Theorem` in the folder as file.name, in the order of the files."""
+    pattern = re.compile(r"^(?:Theorem|Corollary|Proposition) (\w+)", re.MULTILINE)
+    return [
+        f"{path.stem}.{name}"
+        for path in sorted(HERE.glob("*.v"))
+        for name in pattern.findall(path.read_text())
+    ]
+
+
+def listed() -> list[str]:
+    """The theorems that `theorems.txt` names."""
+    lines = (HERE / "theorems.txt").read_text().splitlines()
+    return [line.split()[0] for line in lines if line.strip() and not line.startswith("#")]
+
+
+def main(flags: list[str]) -> int:
+    """Compile one file of `Print Assumptions` and read the answers."""
+    names = theorems()
+    missing = sorted(set(listed()) - set(names))
+    if missing:
+        print("listed, but not a theorem:", ", ".join(missing))
+        return 1
+    files = " ".join(sorted({name.split(".")[0] for name in names}))
+    prints = "".join(f"Print Assumptions {name}.\n" for name in names)
+    with tempfile.TemporaryDirectory() as folder:
+        source = Path(folder) / "assumptions_all.v"
+        source.write_text(f"From mcexact Require {files}.\n{prints}")
+        command = ["coqc", *flags, str(source)]
+        run = subprocess.run(command, cwd=HERE, capture_output=True, text=True, check=False)
+    answers = run.stdout.splitlines()
+    for name, answer in zip(names, answers, strict=False):
+        print(f"{name}: {answer}")
+    if run.returncode or answers != [CLOSED] * len(names):
+        print(run.stderr)
+        return 1
+    print(f"{len(names)} theorems, all: {CLOSED}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
