@@ -101,7 +101,7 @@ def decide(system: MultiChannelSystem, rng: random.Random) -> Decision:
         found = []
         for p, _ in candidate.factor():
             if p not in known:
-                known[p] = shrunk_subspace(system, p, rng)
+                known[p] = shrunk_subspace(system, p, rng, first=modular)
             subspace = known[p]
             if subspace is not None:
                 found.append(Obstruction(p, p.multiplicity_in(lift.characteristic), subspace))

@@ -9,6 +9,7 @@ prove that every root of p is fixed: for every F, λI − A_F maps im U into the
 
 from __future__ import annotations
 
+import itertools
 import random
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -195,7 +196,11 @@ class ExactSubspace:
 
 
 def shrunk_subspace(
-    system: MultiChannelSystem, p: Polynomial, rng: random.Random
+    system: MultiChannelSystem,
+    p: Polynomial,
+    rng: random.Random,
+    *,
+    first: ModularSystem | None = None,
 ) -> ExactSubspace | None:
     """Prove that the roots of p are fixed, or find that they are not.
 
@@ -205,6 +210,8 @@ def shrunk_subspace(
     p : Polynomial
         Monic and irreducible over Q.
     rng : random.Random
+    first : ModularSystem, optional
+        The system modulo a prime to be tried first.
 
     Returns
     -------
@@ -217,7 +224,8 @@ def shrunk_subspace(
     there make λI − A_F nonsingular, so None is proved; the subspace is computed over Q[x]/(p) and
     is proof by itself.  A prime where T or the deficiency is wrong gives way to the next.
     """
-    for modular in residue_systems(system, rng):
+    given = () if first is None else (first,)
+    for modular in itertools.chain(given, residue_systems(system, rng)):
         roots = polynomial_residues(p, modular.modulus).roots()
         if not roots:
             continue

@@ -88,7 +88,9 @@ def _integers(rows: Sequence[Sequence[int]]) -> list[list[int]]:
 
 def canonical(value: Any) -> str:
     """The one JSON text of plain data: sorted keys, no blanks, non-ASCII characters escaped."""
-    return json.dumps(value, sort_keys=True, separators=(",", ":"), ensure_ascii=True)
+    return json.dumps(
+        value, sort_keys=True, separators=(",", ":"), ensure_ascii=True, check_circular=False
+    )
 
 
 def digest(system: Document) -> str:

@@ -62,7 +62,7 @@ class Matrix:
         for row in self.numerators:
             if type(row) is not tuple or len(row) != self.ncols:
                 raise InputError(f"expected rows that are tuples of {self.ncols} numerators")
-            if not all(type(entry) is int for entry in row):
+            if not set(map(type, row)) <= {int}:
                 raise InputError("expected numerators of type int; use Matrix.from_rows")
         if self.denominator != 1 and _content(self.numerators, self.denominator) != 1:
             raise InputError("expected lowest terms; use Matrix.from_integers")
@@ -99,7 +99,7 @@ class Matrix:
                     f"expected {width} entries in the row, found {len(entries)}",
                     where=f"{where or ''}[{i}]",
                 )
-        if all(type(entry) is int for entries in table for entry in entries):
+        if all(set(map(type, entries)) <= {int} for entries in table):
             return cls(len(table), width, tuple(map(tuple, table)), 1)
         fractions = [
             [as_fraction(entry, where=f"{where or ''}[{i}][{j}]") for j, entry in enumerate(row)]
