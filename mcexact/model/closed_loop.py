@@ -43,7 +43,9 @@ class LoopLayout:
         longest = [[0, 0] for _ in self.controller.agents]
         for i, agent in enumerate(self.controller.agents):
             for each in agent.maps():
-                for kind, used in enumerate((each.shared, each.outputs)):
+                # What is multiplied by zeros is not used, and is not written to files either.
+                used_for = each.without_zeros()
+                for kind, used in enumerate((used_for.shared, used_for.outputs)):
                     for j in used:
                         longest[j][kind] = max(longest[j][kind], self.waits(j, i)[kind])
         return tuple((b, a) for b, a in longest)
@@ -81,9 +83,10 @@ class LoopLayout:
     def rows(self, each: LinearMap, i: int, nrows: int) -> Matrix:
         """What a map of agent i computes, nrows rows over the whole state, without set-points."""
         result = Matrix.zeros(nrows, self.dimension)
-        for j, M in each.shared.items():
+        used = each.without_zeros()
+        for j, M in used.shared.items():
             result = result + M @ self.pick("x_", j, self.waits(j, i)[0])
-        for j, M in each.outputs.items():
+        for j, M in used.outputs.items():
             result = result + M @ self.pick("y_", j, self.waits(j, i)[1])
         if each.private is not None:
             result = result + each.private @ self.pick("z_", i)
@@ -110,6 +113,10 @@ def loop_layout(
     if graph is None and system.neighbors is None:
         graph = NeighborGraph.empty(system.names)
     system, found = with_graph(system, graph)
+    if found.delays and system.time != "discrete":
+        raise UsageError(
+            'delays are analyzed in discrete time only; this system has "time": "continuous"'
+        )
     controller.require_fits(system, found)
     return LoopLayout(system, controller, found)
 

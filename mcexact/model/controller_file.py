@@ -80,9 +80,7 @@ def _read_agent(
     hold = {}
     for name, steps in _by_agent(agent.get("hold", {}), f"{where}.hold", names).items():
         hold[name] = expect_integer(steps, f"{where}.hold[{quoted(names[name])}]")
-    return AgentProgram(
-        agent["name"], shared, private, shared_update, private_update, given, hold
-    )
+    return AgentProgram(agent["name"], shared, private, shared_update, private_update, given, hold)
 
 
 def _read_map(

@@ -11,7 +11,6 @@ from mcexact.errors import InputError
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.rational import DEFAULT_LIMITS, Limits, parse_rational
 from mcexact.model.json_text import (
-    NumberText,
     expect_integer,
     expect_list,
     expect_object,
@@ -155,16 +154,24 @@ def _sparse(
     return Matrix.from_rows(rows, ncols=c)
 
 
+# CPython converts integers of up to 4300 digits to text at once; this many bits are fewer.
+_PRINTABLE = 14_000
+
+
 def number_json(value: Fraction) -> int | str:
-    """Write a rational as a JSON integer, or as a string "p/q" in lowest terms."""
-    if value.denominator == 1:
-        return value.numerator
-    return f"{_digits(value.numerator)}/{_digits(value.denominator)}"
+    """Write a rational as a JSON integer, or as a string "p/q" in lowest terms.
+
+    An integer of thousands of digits, which no default limit lets in again, becomes a string too.
+    """
+    p, q = value.numerator, value.denominator
+    if q == 1:
+        return p if p.bit_length() < _PRINTABLE else _digits(p)
+    return f"{_digits(p)}/{_digits(q)}"
 
 
 def _digits(value: int) -> str:
     """Decimal digits of an integer of any length (`str` refuses beyond 4300)."""
-    return str(value) if value.bit_length() < 14_000 else str(Decimal(value))
+    return str(value) if value.bit_length() < _PRINTABLE else str(Decimal(value))
 
 
 def matrix_json(M: Matrix) -> Any:
@@ -173,11 +180,11 @@ def matrix_json(M: Matrix) -> Any:
     if not r and c:
         return {"shape": [0, c], "entries": []}
     d = M.denominator
-    if d == 1:
+    if d == 1 and all(entry.bit_length() < _PRINTABLE for row in M.numerators for entry in row):
         return [list(row) for row in M.numerators]
     return [[number_json(Fraction(entry, d)) for entry in row] for row in M.numerators]
 
 
-def json_text_of_number(value: int | str | NumberText) -> str:
-    """The JSON text of a number as `number_json` gives it, of any length."""
-    return f'"{value}"' if isinstance(value, str) else _digits(value)
+def json_text_of_number(value: int | str) -> str:
+    """The JSON text of a number as `number_json` gives it."""
+    return f'"{value}"' if isinstance(value, str) else str(value)
