@@ -1,0 +1,234 @@
+"""Distributed observers for drawn systems: design, certificate, network; prints what occurred.
+
+Run as ``python -m tests.campaigns.observer [COUNT] [SEED]``; the tests call it with small counts.
+"""
+
+from __future__ import annotations
+
+import json
+import random
+import sys
+import time
+from collections import Counter
+from fractions import Fraction
+from typing import Any
+
+from mcexact.certificate import encode
+from mcexact.checker.kinds import check_document
+from mcexact.derived.choices import SeededChoices
+from mcexact.derived.drawn import jointly_controllable_system
+from mcexact.derived.drawn_graph import drawn_graph
+from mcexact.exact.linear_algebra import characteristic_polynomial
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.polynomial import Polynomial
+from mcexact.model.controller_file import controller_text
+from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system_file import canonical_document
+from mcexact.simulation.trajectory import InitialState, simulate
+from mcexact.synthesis.observer import ObserverDesign, design_observer
+from tests.oracle.controller_loop import applied, loop_rows
+
+TOO_LARGE_FOR_DOUBLES = 10**5
+
+
+def drawn_plant(seed: int) -> MultiChannelSystem:
+    """A plant with n, m ≤ 4 over a strongly connected graph; odd seeds in discrete time."""
+    choices, rng = SeededChoices(f"observer {seed}"), random.Random(seed)
+    system = jointly_controllable_system(
+        choices,
+        rng.randint(1, 4),
+        rng.randint(1, 4),
+        time="discrete" if seed % 2 else "continuous",
+    ).system
+    return system.with_neighbors(drawn_graph(choices, system.names, strongly_connected=True))
+
+
+def drawn_spectrum(rng: random.Random, degree: int, discrete: bool) -> list[Any]:
+    """Roots and pairs inside the stability region, some repeated."""
+    roots: list[Any] = []
+    left = degree
+    while left:
+        if left >= 2 and rng.random() < 0.3:
+            re, im = Fraction(-rng.randint(1, 3)), Fraction(rng.randint(1, 2))
+            if discrete:
+                re, im = re / 6, im / 4
+            roots.append({"re": re, "im": im})
+            left -= 2
+        else:
+            value = Fraction(-rng.randint(1, 4))
+            roots.append(rng.choice([value / 5, Fraction(0), -value / 7]) if discrete else value)
+            left -= 1
+    return roots
+
+
+def expanded(roots: list[Any]) -> Polynomial:
+    """The product of the factors, by the definition."""
+    result = Polynomial.of(1)
+    for root in roots:
+        if isinstance(root, dict):
+            re, im = root["re"], root["im"]
+            result = result * Polynomial.of(re * re + im * im, -2 * re, 1)
+        else:
+            result = result * Polynomial.of(-root, 1)
+    return result
+
+
+def one_design(seed: int) -> tuple[MultiChannelSystem, ObserverDesign]:
+    """Design for one drawn plant and compare every polynomial and the certificate.
+
+    Raises
+    ------
+    AssertionError
+        On the first disagreement.
+    """
+    system, rng = drawn_plant(seed), random.Random(seed)
+    n, m, discrete = system.n, system.m, system.time == "discrete"
+    feedback = drawn_spectrum(rng, n, discrete)
+    error = drawn_spectrum(rng, n * m + m - 1, discrete)
+    q = rng.choice(system.names)
+    design = design_observer(system, q=q, spectrum={"feedback": feedback, "error": error})
+    verdict = check_document(encode(design.certificate).encode())
+    assert verdict.verdict == "VALID", verdict
+    loop = Matrix.from_rows(loop_of(system, design))
+    assert loop == design.loop.matrix
+    assert characteristic_polynomial(loop) == expanded(feedback) * expanded(error)
+    return system, design
+
+
+def loop_of(system: MultiChannelSystem, design: ObserverDesign) -> list[list[Fraction]]:
+    """The matrix of the loop from the files alone."""
+    plant = json.loads(json.dumps(canonical_document(system)))
+    return loop_rows(plant, controller_text(design.controller))
+
+
+def drawn_initial(system: MultiChannelSystem, design: ObserverDesign, seed: int) -> InitialState:
+    """Small rational numbers everywhere."""
+    rng = random.Random(seed)
+
+    def numbers(count: int) -> tuple[Fraction, ...]:
+        return tuple(Fraction(rng.randint(-9, 9), rng.randint(1, 4)) for _ in range(count))
+
+    agents = design.controller.agents
+    return InitialState(
+        numbers(system.n),
+        tuple(numbers(agent.shared) for agent in agents),
+        tuple(numbers(agent.private) for agent in agents),
+    )
+
+
+def compare_discrete(system: MultiChannelSystem, design: ObserverDesign, seed: int) -> None:
+    """The network's steps are powers of the loop matrix, exactly."""
+    matrix = loop_of(system, design)
+    run = simulate(
+        system, design.controller, initial=drawn_initial(system, design, seed), horizon=6
+    )
+    state = run.snapshots[0].flat()
+    for snapshot in run.snapshots[1:]:
+        state = applied(matrix, state)
+        assert snapshot.flat() == state
+
+
+def compare_multiprecision(system: MultiChannelSystem, design: ObserverDesign, seed: int) -> float:
+    """The agents at 60 digits against mpmath's exponential; the relative difference."""
+    from mpmath import mp
+
+    with mp.workdps(80):
+        rows = [
+            [mp.mpf(x.numerator) / x.denominator for x in row] for row in loop_of(system, design)
+        ]
+        end = Fraction(1)
+        run = simulate(
+            system,
+            design.controller,
+            initial=drawn_initial(system, design, seed),
+            horizon=end,
+            points=2,
+            arithmetic="multiprecision",
+        )
+        start = mp.matrix([mp.mpf(x) for x in run.snapshots[0].flat()])
+        expected = mp.expm(mp.matrix(rows) * mp.mpf(1), method="taylor") * start
+        found = run.snapshots[-1].flat()
+        scale = max(abs(x) for x in expected)
+        return float(max(abs(a - b) for a, b in zip(found, expected, strict=True)) / scale)
+
+
+def compare_double(system: MultiChannelSystem, design: ObserverDesign, seed: int) -> float:
+    """The agents in double precision against scipy's exponential; the relative difference."""
+    import numpy as np
+    from scipy.linalg import expm
+
+    M = np.array([[float(x) for x in row] for row in loop_of(system, design)])
+    run = simulate(
+        system,
+        design.controller,
+        initial=drawn_initial(system, design, seed),
+        horizon=2,
+        points=4,
+        arithmetic="float",
+    )
+    start = np.array(run.snapshots[0].flat())
+    worst = 0.0
+    for t, snapshot in zip(run.times, run.snapshots, strict=True):
+        expected = expm(M * float(t)) @ start
+        scale = max(np.abs(expected).max(), np.abs(start).max())
+        worst = max(worst, float(np.abs(expected - np.array(snapshot.flat())).max() / scale))
+    return worst
+
+
+def campaign(count: int, seed: int, multiprecision: int = 10) -> Counter[str]:
+    """Design and run for ``count`` drawn plants; what occurred, and the worst figures on stdout."""
+    seen: Counter[str] = Counter()
+    heights, worst, slowest, exponential = [], 0.0, 0.0, 0.0
+    for number in range(seed, seed + count):
+        began = time.perf_counter()
+        system, design = one_design(number)
+        slowest = max(slowest, time.perf_counter() - began)
+        heights.append(design.height)
+        seen[f"{system.time} time"] += 1
+        seen["large entries"] += design.largest_entry >= TOO_LARGE_FOR_DOUBLES
+        if system.time == "discrete":
+            compare_discrete(system, design, number)
+            continue
+        # What a network computes does not depend on what its steps are called.
+        compare_discrete(*as_discrete(system, design), number)
+        if design.largest_entry < TOO_LARGE_FOR_DOUBLES:
+            seen["compared in double precision"] += 1
+            worst = max(worst, compare_double(system, design, number))
+        if max(system.n, system.m) <= 3 and seen["compared at 60 digits"] < multiprecision:
+            seen["compared at 60 digits"] += 1
+            exponential = max(exponential, compare_multiprecision(system, design, number))
+    print(f"longest number in bits: median {sorted(heights)[count // 2]}, worst {max(heights)}")
+    print(f"slowest design with check and comparison {slowest:.1f} s")
+    print(f"worst relative difference: double precision {worst:.1e}, 60 digits {exponential:.1e}")
+    return seen
+
+
+def as_discrete(
+    system: MultiChannelSystem, design: ObserverDesign
+) -> tuple[MultiChannelSystem, Any]:
+    """The same matrices read as discrete time, so that powers can be compared exactly."""
+    from dataclasses import replace
+
+    channels = system.channels
+    turned = MultiChannelSystem(
+        system.A,
+        [channel.B for channel in channels],
+        [channel.C for channel in channels],
+        time="discrete",
+        names=system.names,
+        neighbors=system.neighbors,
+    )
+    controller = replace(design.controller, time="discrete")
+    return turned, _Turned(controller)
+
+
+class _Turned:
+    """As much of a design as the comparisons need."""
+
+    def __init__(self, controller: Any) -> None:
+        self.controller = controller
+
+
+if __name__ == "__main__":
+    numbers = [int(text) for text in sys.argv[1:]]
+    print(dict(campaign(numbers[0] if numbers else 100, numbers[1] if numbers[1:] else 0)))
