@@ -136,8 +136,7 @@ def _sparse(
             where=where,
         )
     entries = expect_list(value["entries"], f"{where}.entries")
-    rows: list[list[int | Fraction]] = [[0] * c for _ in range(r)]
-    seen: set[tuple[int, int]] = set()
+    values: dict[tuple[int, int], Fraction] = {}
     for k, entry in enumerate(entries):
         place = f"{where}.entries[{k}]"
         if len(expect_list(entry, place)) != 3:
@@ -147,11 +146,18 @@ def _sparse(
         i, j = (expect_integer(entry[axis], f"{place}[{axis}]") for axis in (0, 1))
         if i >= r or j >= c:
             raise InputError(f"expected a position inside {r} × {c}, found [{i}, {j}]", where=place)
-        if (i, j) in seen:
+        if (i, j) in values:
             raise InputError(f"the position [{i}, {j}] is listed twice", where=place)
-        seen.add((i, j))
-        rows[i][j] = read_number(entry[2], f"{place}[2]", limits)
-    return Matrix.from_rows(rows, ncols=c)
+        values[i, j] = read_number(entry[2], f"{place}[2]", limits)
+    denominator = math.lcm(*(number.denominator for number in values.values()))
+    touched: dict[int, list[int]] = {}
+    for (i, j), number in values.items():
+        row = touched.setdefault(i, [0] * c)
+        row[j] = number.numerator * (denominator // number.denominator)
+    # Rows of zeros share one tuple.
+    zeros = (0,) * c
+    rows = [touched.get(i, zeros) for i in range(r)]
+    return Matrix.from_integers(rows, denominator, ncols=c)
 
 
 # CPython converts integers of up to 4300 digits to text at once; this many bits are fewer.
