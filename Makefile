@@ -5,7 +5,7 @@ BIN := .venv/bin
 STAMP := .venv/.installed
 GALLERY := mcexact/model/gallery
 
-.PHONY: demo test lint types tests
+.PHONY: demo test lint types tests agreement
 
 demo: $(STAMP)
 	$(BIN)/mcexact demo
@@ -23,6 +23,10 @@ types: $(STAMP)
 
 tests: $(STAMP)
 	HYPOTHESIS_PROFILE=ci $(BIN)/python -m pytest --quiet --numprocesses 2 --dist loadscope
+
+# Every decision beside exhaustive enumeration, on 10,000 drawn systems: minutes.
+agreement: $(STAMP)
+	$(BIN)/python -m tests.oracle.agreement 10000
 
 $(STAMP): pyproject.toml
 	$(PYTHON) -m venv .venv
