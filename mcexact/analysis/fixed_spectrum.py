@@ -32,8 +32,8 @@ class FixedFactor:
     multiplicity_in_A : int
         The exponent of p in χ_A.
     multiplicity_at_most : int
-        The exponent of p in χ_{A_F} for the drawn F: every F keeps p at most this often for some F,
-        and drawn gains attain the least exponent.
+        The exponent of p in χ_{A_F} for the drawn F.  The multiplicity that no gain removes, the
+        least such exponent, is at most this; drawn gains attain it but for an accident.
     channels : tuple of str
         s, the largest set of channels whose pencil P_s(λ) = [λI − A, B_{m−s}; C_s, 0] has the
         least rank.
