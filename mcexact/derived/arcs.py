@@ -19,7 +19,8 @@ def add_arcs(
     ----------
     system : MultiChannelSystem
     added : iterable of (j, i)
-        Positions of channels; the new wires have no delay.
+        Positions of channels; the new wires have no delay.  An arc that is there already stays as
+        it is.
     graph : NeighborGraph, optional
         The graph that they are added to; overrides ``system.neighbors``.
 
@@ -37,8 +38,9 @@ def add_arcs(
     ((0, 1),)
     """
     system, found = with_graph(system, graph)
-    arcs = sorted(set(added))
-    joined = found.with_arcs(arcs)
+    added = list(added)
+    joined = found.with_arcs(added)
+    arcs = sorted({(j, i) for j, i in added if j not in found.neighborhood(i)})
     return system.derived(
         system.A,
         [channel.B for channel in system.channels],

@@ -79,7 +79,7 @@ def test_the_rank_of_the_extended_pencil_grows_by_what_crosses_the_cut(drawn, da
 
 
 def test_added_arcs_join_the_neighborhoods_and_keep_the_plant(plant):
-    made = add_arcs(plant, [(2, 0), (0, 1), (0, 1)])
+    made = add_arcs(plant, [(2, 0), (0, 1), (0, 1), (1, 0), (1, 1)])
     assert made.neighbors.arcs() == tuple(sorted({*plant.neighbors.arcs(), (0, 1), (2, 0)}))
     assert made.subject == ({"construction": "arcs", "added": [["1", "2"], ["3", "1"]]},)
     assert made.plant == plant and made.channels == plant.channels

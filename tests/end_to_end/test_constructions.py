@@ -1,0 +1,91 @@
+"""Every construction, built by the package and rebuilt by the checker, gives the same system."""
+
+import json
+import random
+from fractions import Fraction
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mcexact import testing
+from mcexact.certificate import codec
+from mcexact.checker.subject import read_subject
+from mcexact.checker.system import digest as checked_digest
+from mcexact.checker.system import read_plant
+from mcexact.derived.arcs import add_arcs
+from mcexact.derived.augmented_outputs import augmented_outputs
+from mcexact.derived.dual import dual
+from mcexact.derived.error_system import error_system
+from mcexact.derived.extended import extended_system
+from mcexact.derived.feedback import feedback, full_output
+from mcexact.derived.held import held_system
+from mcexact.derived.integrators import setpoint_system
+from mcexact.derived.lifted import lifted_system
+from mcexact.exact.matrix import Matrix
+from mcexact.model.closed_loop import closed_loop
+from mcexact.model.system_file import canonical_document, digest
+from tests.model.test_controller import drawn_controller
+
+SHARES = ("outputs+states", "states")
+
+
+def rebuilt(system):
+    """Let the checker build the subject from what a certificate would hold; compare everything."""
+    plant = read_plant(json.loads(codec.canonical(codec.plain(canonical_document(system)))))
+    assert checked_digest(plant) == digest(system)
+    found = read_subject(json.loads(codec.canonical(codec.plain(system.subject))), plant)
+    assert plain(found.A) == system.A.rows()
+    assert [plain(B) for B in found.B] == [channel.B.rows() for channel in system.channels]
+    assert [plain(C) for C in found.C] == [channel.C.rows() for channel in system.channels]
+
+
+def plain(M):
+    return tuple(tuple(Fraction(x, M.denominator) for x in row) for row in M.rows)
+
+
+def gains(rng, system, widths):
+    return [
+        Matrix.from_integers(
+            [[rng.randint(-2, 2) for _ in range(w)] for _ in range(system.p(i))], 3, ncols=w
+        )
+        for i, w in enumerate(widths)
+    ]
+
+
+plants = testing.systems_on_graphs(
+    testing.systems(max_states=3, max_channels=3, time="discrete"), longest_delay=3
+)
+
+
+@given(plants, st.integers(0, 10**6))
+def test_checker_and_package_build_the_same_subjects(drawn, seed):
+    rng, system = random.Random(seed), drawn.system
+    m = system.m
+    sizes = [rng.randint(0, 2) for _ in range(m)]
+    outputs = [system.q(i) for i in range(m)]
+    rebuilt(system)
+    rebuilt(dual(augmented_outputs(system)))
+    rebuilt(full_output(feedback(system, gains(rng, system, outputs)), rng.randrange(m)))
+    rebuilt(dual(extended_system(system, sizes, rng.choice(SHARES))))
+    more = add_arcs(system, [(rng.randrange(m), rng.randrange(m)) for _ in range(2)])
+    rebuilt(augmented_outputs(more))
+    rebuilt(extended_system(more, sizes, rng.choice(SHARES)))
+    rebuilt(lifted_system(system, sizes, rng.choice(SHARES)))
+    rebuilt(held_system(system, sizes))
+    rebuilt(setpoint_system(system))
+    rebuilt(error_system(system, gains(rng, system, [system.n] * m)))
+    augmented = setpoint_system(system)
+    rebuilt(error_system(augmented, gains(rng, augmented, [augmented.n] * m)))
+
+
+@given(testing.systems_on_graphs(testing.systems(max_states=3, max_channels=3, time="continuous")))
+def test_they_agree_on_integrators_in_continuous_time_too(drawn):
+    rebuilt(setpoint_system(drawn.system))
+
+
+@given(plants, st.integers(0, 10**6), st.booleans())
+def test_checker_and_package_close_the_same_loop(drawn, seed, holding):
+    controller = drawn_controller(
+        random.Random(seed), drawn.system, references=True, holding=holding
+    )
+    rebuilt(closed_loop(drawn.system, controller))
