@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 from mcexact.errors import InputError, UsageError
-from mcexact.exact.location import Time, region
+from mcexact.exact.location import region
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import as_fraction
 
@@ -140,7 +140,7 @@ def default_polynomial(time: str, bound: Fraction, degree: int) -> Polynomial:
 
 
 def convergence_bound(
-    time: Time, rate: Any = None, radius: Any = None, *, needed: bool = False
+    time: str, rate: Any = None, radius: Any = None, *, needed: bool = False
 ) -> Fraction | None:
     """The rate in continuous time, or the radius in discrete time, checked.
 

@@ -11,6 +11,7 @@ import sys
 import time
 from collections import Counter
 from fractions import Fraction
+from itertools import pairwise
 from typing import Any
 
 from mcexact.certificate import encode
@@ -153,25 +154,26 @@ def compare_multiprecision(system: MultiChannelSystem, design: ObserverDesign, s
 
 
 def compare_double(system: MultiChannelSystem, design: ObserverDesign, seed: int) -> float:
-    """The agents in double precision against scipy's exponential; the relative difference."""
+    """The agents in double precision against scipy's exponential, interval by interval.
+
+    The relative difference, the worst of 128 intervals.  The intervals are short because it is
+    scipy's exponential that errs over long ones: for one of these loops, of entries up to 8e4, it
+    is off by a factor of 13 at t = 2, the agents by less than 1e-6, measured at 60 digits.
+    """
     import numpy as np
     from scipy.linalg import expm
 
     M = np.array([[float(x) for x in row] for row in loop_of(system, design)])
+    initial = drawn_initial(system, design, seed)
     run = simulate(
-        system,
-        design.controller,
-        initial=drawn_initial(system, design, seed),
-        horizon=2,
-        points=4,
-        arithmetic="float",
+        system, design.controller, initial=initial, horizon=2, points=128, arithmetic="float"
     )
-    start = np.array(run.snapshots[0].flat())
+    states = [np.array(snapshot.flat()) for snapshot in run.snapshots]
+    over_one = expm(M * float(run.times[1]))
     worst = 0.0
-    for t, snapshot in zip(run.times, run.snapshots, strict=True):
-        expected = expm(M * float(t)) @ start
-        scale = max(np.abs(expected).max(), np.abs(start).max())
-        worst = max(worst, float(np.abs(expected - np.array(snapshot.flat())).max() / scale))
+    for before, after in pairwise(states):
+        scale = max(np.abs(before).max(), np.abs(after).max())
+        worst = max(worst, float(np.abs(over_one @ before - after).max() / scale))
     return worst
 
 

@@ -1,0 +1,122 @@
+"""Figures: how a loop decays beside the certified rate, and where its eigenvalues are."""
+
+from __future__ import annotations
+
+import io
+from fractions import Fraction
+from typing import Any
+
+from mcexact.analysis.closed_loop_spectrum import LoopSpectrum
+from mcexact.report.trajectory import error_norms, state_norms
+from mcexact.simulation.trajectory import Trajectory
+
+
+def simulation_png(run: Trajectory, spectrum: LoopSpectrum | None, title: str = "") -> bytes:
+    """Three panels: the state and the certified rate, the estimation errors, the spectrum.
+
+    Parameters
+    ----------
+    run : Trajectory
+    spectrum : LoopSpectrum, optional
+        Of the whole loop; without it there is neither the line of the rate nor the third panel.
+    title : str
+
+    Returns
+    -------
+    bytes
+        A PNG image.
+    """
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    errors = error_norms(run)
+    panels = 1 + bool(errors) + (spectrum is not None)
+    figure = Figure(figsize=(4.6 * panels, 4.0), layout="constrained")
+    FigureCanvasAgg(figure)
+    axes = list(figure.subplots(1, panels, squeeze=False)[0])
+    if title:
+        figure.suptitle(title)
+    _decay(axes.pop(0), run, {"state": state_norms(run)}, spectrum, "largest entry of the state")
+    if errors:
+        named = {f"agent {name}": values for name, values in errors.items()}
+        _decay(axes.pop(0), run, named, spectrum, "largest entry of the estimation errors")
+    if spectrum is not None:
+        _eigenvalues(axes.pop(0), run.time, spectrum)
+    image = io.BytesIO()
+    figure.savefig(image, format="png", dpi=120, metadata={"Software": None})
+    return image.getvalue()
+
+
+def _decay(
+    axis: Any,
+    run: Trajectory,
+    curves: dict[str, list[float]],
+    spectrum: LoopSpectrum | None,
+    label: str,
+) -> None:
+    """Norms on a logarithmic axis, with the certified rate through the largest first value."""
+    times = [float(t) for t in run.times]
+    marker = "." if run.time == "discrete" else ""
+    shown = [value for values in curves.values() for value in values if 0 < value < float("inf")]
+    for name, values in curves.items():
+        visible = [value if 0 < value < float("inf") else float("nan") for value in values]
+        axis.plot(times, visible, marker=marker, label=name)
+    if spectrum is not None and spectrum.rate is not None and shown:
+        start = max((values[0] for values in curves.values()), default=0.0) or max(shown)
+        line = [start * factor for factor in _envelope(run.time, spectrum, times)]
+        floor = min(shown) / 10
+        visible = [value if value >= floor else float("nan") for value in line]
+        axis.plot(
+            times, visible, "k--", linewidth=1, label=f"certified {_rate_text(run, spectrum)}"
+        )
+    if shown:
+        axis.set_yscale("log")
+    axis.set_xlabel("step" if run.time == "discrete" else "time")
+    axis.set_title(label, fontsize="medium")
+    axis.legend(fontsize="small")
+
+
+def _envelope(time: str, spectrum: LoopSpectrum, times: list[float]) -> list[float]:
+    """exp(−rate·t), or radius^t."""
+    import math
+
+    if spectrum.rate is None:
+        return []
+    if time == "continuous":
+        lower = float(Fraction(spectrum.rate.lower))
+        return [math.exp(min(700.0, -lower * t)) for t in times]
+    upper = float(Fraction(spectrum.rate.upper))
+    return [min(1e300, upper**t) for t in times]
+
+
+def _rate_text(run: Trajectory, spectrum: LoopSpectrum) -> str:
+    """The certified end of the enclosure of the rate."""
+    if spectrum.rate is None:
+        return ""
+    if run.time == "continuous":
+        return f"rate {float(Fraction(spectrum.rate.lower)):.4g}"
+    return f"radius {float(Fraction(spectrum.rate.upper)):.4g}"
+
+
+def _eigenvalues(axis: Any, time: str, spectrum: LoopSpectrum) -> None:
+    """The eigenvalues, and the stability region in gray."""
+    from matplotlib.patches import Circle
+
+    re = [float(Fraction(disc.re)) for disc in spectrum.discs]
+    im = [float(Fraction(disc.im)) for disc in spectrum.discs]
+    if time == "continuous":
+        left = min([*re, -1.0]) * 1.2 - 0.5
+        axis.axvspan(left, 0, color="0.92", zorder=0)
+        axis.set_xlim(left, max([*re, 0.0]) + 0.1 * abs(left))
+        axis.axvline(0, color="0.6", linewidth=0.8)
+    else:
+        axis.add_patch(Circle((0, 0), 1, color="0.92", zorder=0))
+        axis.set_aspect("equal")
+        reach = 1.1 * max([1.0, *map(abs, re), *map(abs, im)])
+        axis.set_xlim(-reach, reach)
+        axis.set_ylim(-reach, reach)
+    axis.plot(re, im, "x", color="C3")
+    axis.axhline(0, color="0.6", linewidth=0.8)
+    axis.set_title("eigenvalues of the closed loop", fontsize="medium")
+    axis.set_xlabel("real part")
+    axis.set_ylabel("imaginary part")
