@@ -1,0 +1,96 @@
+"""The rule of ``completeness``: one way to prove yes, two ways to prove no."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.checker.handmade import (
+    COMPLETE,
+    CUT,
+    INTEGRATOR,
+    MODE,
+    Document,
+    certificate,
+    changed,
+    checked,
+    matrix,
+    plant,
+)
+
+EXCHANGE = certificate(
+    "completeness",
+    plant([[0, 1], [1, 0]], ([[1], [0]], [[1, 0]]), ([[0], [1]], [[0, 1]])),
+    {"complete": True},
+    {
+        "modulus": 101,
+        "gains": [matrix([2]), matrix([3])],
+        "arcs": [["1", "2", 1], ["2", "1", 1]],
+    },
+)
+
+EVERYBODY = {"from": ["1", "2"], "X": matrix([1, 0], [0, 1]), "pivots": [0, 1]}
+
+ACCEPTED = [
+    ("one integrator", COMPLETE),
+    ("two channels that reach each other", EXCHANGE),
+    ("one channel needs no arcs", changed(COMPLETE, ("witness.arcs", []))),
+    ("a cut between integrators", CUT),
+    ("the paper's fixed mode", MODE),
+    ("other gains", changed(EXCHANGE, ("witness.gains.0", matrix([5])))),
+]
+
+REJECTED = [
+    ("yes turned into no", COMPLETE, ("claim.complete", False)),
+    ("no turned into yes", MODE, ("claim.complete", True)),
+    ("no turned into yes, by a cut", CUT, ("claim.complete", True)),
+    ("1 for true", COMPLETE, ("claim.complete", 1)),
+    ("gains that move nothing", COMPLETE, ("witness.gains.0", matrix([0]))),
+    ("gains that move nothing modulo ℓ", COMPLETE, ("witness.gains.0", matrix([7]))),
+    ("arcs that do not connect", EXCHANGE, ("witness.arcs", [["1", "2", 1]])),
+    ("an arc that is not there", EXCHANGE, ("witness.arcs.0", ["1", "2", 0])),
+    ("an arc twice", EXCHANGE, ("witness.arcs", [["1", "2", 1], ["1", "2", 1]])),
+    ("modulus 1", EXCHANGE, ("witness.modulus", 1)),
+    ("gains of zeros", EXCHANGE, ("witness.gains", [matrix([0]), matrix([0])])),
+    ("a cut from nobody", CUT, ("witness.zero.from", [])),
+    ("a cut from everybody", CUT, ("witness.zero", EVERYBODY)),
+    ("a cut that leaks", CUT, ("system.channels.0.C", [[1, 1]])),
+    ("a cut that is not invariant", CUT, ("system.A.0.1", 1)),
+    ("no evidence", MODE, ("witness", {})),
+    ("both kinds of evidence", MODE, ("witness", {**MODE["witness"], **CUT["witness"]})),
+    ("deg p = 0", MODE, ("witness.polynomial", [1])),
+    ("another polynomial", MODE, ("witness.polynomial", [-2, 1])),
+    ("u = rank B_T, no drop", MODE, ("witness.subspace.channels_T", ["1", "2"])),
+    ("a plant without that mode", MODE, ("system.channels.2.C", [[1, 0, 0]])),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("reason", "document"), ACCEPTED)
+def test_sound_evidence_is_accepted(reason: str, document: Document) -> None:
+    verdict = checked(document)
+    assert verdict.verdict == "VALID", verdict.line()
+
+
+@pytest.mark.parametrize(("reason", "document", "edit"), REJECTED)
+def test_a_change_of_one_place_is_rejected(
+    reason: str, document: Document, edit: tuple[str, object]
+) -> None:
+    assert checked(document).verdict == "VALID"
+    verdict = checked(changed(document, edit))
+    assert verdict.verdict in ("INVALID", "MALFORMED"), verdict.line()
+
+
+def test_uncontrollable_modes_count_although_no_subsystem_sees_them() -> None:
+    # A = diag(0, 1), B_i = (1, 0)', C_i = (1, 1): every complementary subsystem looks complete.
+    port = ([[1], [0]], [[1, 1]])
+    denied = certificate(
+        "completeness",
+        plant([[0, 0], [0, 1]], port, port),
+        {"complete": True},
+        {
+            "modulus": 101,
+            "gains": [matrix([1]), matrix([1])],
+            "arcs": [["1", "2", 0], ["2", "1", 0]],
+        },
+    )
+    assert checked(denied).code == "common_factor"
+    assert checked(changed(denied, ("system", INTEGRATOR))).verdict == "MALFORMED"

@@ -1,0 +1,88 @@
+"""The rule of ``controllability_indices``."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.checker.handmade import (
+    INDICES,
+    NO_INDEX,
+    Document,
+    certificate,
+    changed,
+    checked,
+    matrix,
+    plant,
+)
+
+TWO_INPUTS = certificate(
+    "controllability_indices",
+    plant([[0, 0, 0], [1, 0, 0], [0, 1, 0]], ([[1, 0], [0, 1], [0, 0]], [[0, 0, 1]])),
+    {"channels": ["1"], "ranks": [2, 3], "index": 2, "indices": [2, 1]},
+    {"modulus": 7, "annihilator": matrix([0, 0, 1])},
+)
+NO_INPUT = certificate(
+    "controllability_indices",
+    plant([[0, 1], [0, 0]], ([[0], [0]], [[1, 0]])),
+    {"channels": ["1"], "ranks": [], "index": None, "indices": []},
+    {"modulus": 7, "annihilator": matrix([1, 0], [0, 1])},
+)
+NO_STATES = certificate(
+    "controllability_indices",
+    plant([], ([], [])),
+    {"channels": ["1"], "ranks": [], "index": 0, "indices": []},
+    {"modulus": 7, "annihilator": matrix()},
+)
+
+ACCEPTED = [
+    ("a chain of two", INDICES),
+    ("a mode that stays out of reach", NO_INDEX),
+    ("two inputs, indices 2 and 1", TWO_INPUTS),
+    ("an input of zeros has no ranks", NO_INPUT),
+    ("no states have index 0", NO_STATES),
+    ("another annihilator", changed(INDICES, ("witness.annihilator", matrix([0, -3])))),
+    ("another modulus", changed(INDICES, ("witness.modulus", 6))),
+]
+
+REJECTED = [
+    ("an index too low", INDICES, ("claim.index", 1)),
+    ("an index where there is none", NO_INDEX, ("claim.index", 1)),
+    ("no index where there is one", INDICES, ("claim.index", None)),
+    ("a rank too low", INDICES, ("claim.ranks", [1])),
+    ("a rank too high", NO_INDEX, ("claim.ranks", [2])),
+    ("a rank that repeats", INDICES, ("claim.ranks", [1, 1, 2])),
+    ("a rank of 0", INDICES, ("claim.ranks", [0, 1, 2])),
+    ("ranks beyond n", NO_INDEX, ("claim.ranks", [1, 2, 3])),
+    ("the ranks themselves for indices", TWO_INPUTS, ("claim.indices", [2, 3])),
+    ("the steps for indices", INDICES, ("claim.indices", [1, 1])),
+    ("W with dependent rows", NO_INPUT, ("witness.annihilator", matrix([1, 0], [2, 0]))),
+    ("W that does not annihilate B", INDICES, ("witness.annihilator", matrix([1, 0]))),
+    ("an empty W", INDICES, ("witness.annihilator", matrix())),
+    ("W = 0", NO_INDEX, ("witness.annihilator", matrix([0, 0]))),
+    ("W that vanishes modulo ℓ", NO_INDEX, ("witness.annihilator", matrix([0, 7]))),
+    ("modulus 1", INDICES, ("witness.modulus", 1)),
+    ("a plant whose last rank is lost modulo ℓ", INDICES, ("system.A.1.0", 14)),
+    ("a plant that goes on growing", NO_INDEX, ("system.A.1.0", 1)),
+]
+
+
+@pytest.mark.parametrize(("reason", "document"), ACCEPTED)
+def test_sound_evidence_is_accepted(reason: str, document: Document) -> None:
+    verdict = checked(document)
+    assert verdict.verdict == "VALID", verdict.line()
+
+
+@pytest.mark.parametrize(("reason", "document", "edit"), REJECTED)
+def test_a_change_of_one_place_is_rejected(
+    reason: str, document: Document, edit: tuple[str, object]
+) -> None:
+    assert checked(document).verdict == "VALID"
+    verdict = checked(changed(document, edit))
+    assert verdict.verdict in ("INVALID", "MALFORMED"), verdict.line()
+
+
+def test_the_words_name_the_index() -> None:
+    assert checked(TWO_INPUTS).theorem.endswith(
+        "are [2, 3] and grow no further: controllability index 2; controllability indices [2, 1]"
+    )
+    assert "not controllable, no index" in checked(NO_INDEX).theorem

@@ -1,0 +1,89 @@
+"""The rule of ``pencil_rank``: a kernel from above, unit pivots from below."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.checker.handmade import (
+    OSCILLATOR_RANK,
+    RANK,
+    Document,
+    certificate,
+    changed,
+    checked,
+    layers,
+    plant,
+)
+
+OSCILLATOR_DROP = certificate(
+    "pencil_rank",
+    OSCILLATOR_RANK["system"],
+    {"subset": [], "polynomial": [1, 0, 1], "rank": 1},
+    {
+        "modulus": 101,
+        "kernel": layers([[1, 0], [0, 0], [0, 1]], [[0, 0], [1, 0], [0, 0]]),
+        "pivots": [0, 2],
+    },
+)
+ELSEWHERE = changed(
+    RANK,
+    ("claim", {"subset": ["2"], "polynomial": [-2, 1], "rank": 3}),
+    ("witness.kernel", layers([[-1, -1], [0, 0], [0, 0], [1, 0], [0, 1]])),
+    ("witness.pivots", [3, 4]),
+)
+# At 0 the rank of xI − diag(0, 1) is 1, and so it is at 1: but not by the same column.
+TWO_ROOTS = certificate(
+    "pencil_rank",
+    plant([[0, 0], [0, 1]], ([[0], [0]], [[0, 0]])),
+    {"subset": ["1"], "polynomial": [0, -1, 1], "rank": 2},
+    {"modulus": 101, "kernel": layers([[], []]), "pivots": []},
+)
+
+ACCEPTED = [
+    ("the paper's pencil drops at 1", RANK),
+    ("and at 2 it does not", ELSEWHERE),
+    ("full rank at a pair of roots", OSCILLATOR_RANK),
+    ("a drop at a pair of roots", OSCILLATOR_DROP),
+    ("another modulus", changed(RANK, ("witness.modulus", 2))),
+    ("a modulus in which p splits", changed(OSCILLATOR_DROP, ("witness.modulus", 5))),
+    ("full rank by one unit, where p splits", changed(OSCILLATOR_RANK, ("witness.modulus", 5))),
+]
+
+REJECTED = [
+    ("a rank too high", RANK, ("claim.rank", 3)),
+    ("a rank too low", RANK, ("claim.rank", 1)),
+    ("a rank beyond the columns", RANK, ("claim.rank", 6)),
+    ("another subset", RANK, ("claim.subset", ["3"])),
+    ("another polynomial", RANK, ("claim.polynomial", [-2, 1])),
+    ("deg p = 0", RANK, ("claim.polynomial", [1])),
+    ("an empty kernel", RANK, ("witness.kernel", layers([[]] * 5))),
+    ("a kernel of zeros", RANK, ("witness.kernel", layers([[0, 0, 0]] * 5))),
+    ("a kernel with dependent columns", RANK, ("witness.pivots", [0, 2, 4])),
+    ("a kernel that is none", RANK, ("witness.kernel.coefficients.0.4", [0, 0, 1])),
+    ("a kernel that the outputs see", RANK, ("witness.kernel.coefficients.0.1", [1, 0, 0])),
+    ("no layers", RANK, ("witness.kernel.coefficients", [])),
+    ("a denominator of 0", RANK, ("witness.kernel.denominator", 0)),
+    ("modulus 1", RANK, ("witness.modulus", 1)),
+    ("modulus 0", RANK, ("witness.modulus", 0)),
+    (
+        "a modulus that takes the pivots",
+        changed(RANK, ("system.A.2.1", 101)),
+        ("system.channels.1.C.0.1", 101),
+    ),
+    ("a drop at one root of two", TWO_ROOTS, ("claim.rank", 1)),
+    ("full rank where it drops at both roots", TWO_ROOTS, ("claim.rank", 2)),
+]
+
+
+@pytest.mark.parametrize(("reason", "document"), ACCEPTED)
+def test_sound_evidence_is_accepted(reason: str, document: Document) -> None:
+    verdict = checked(document)
+    assert verdict.verdict == "VALID", verdict.line()
+
+
+@pytest.mark.parametrize(("reason", "document", "edit"), REJECTED)
+def test_a_change_of_one_place_is_rejected(
+    reason: str, document: Document, edit: tuple[str, object]
+) -> None:
+    verdict = checked(changed(document, edit))
+    assert verdict.verdict in ("INVALID", "MALFORMED"), verdict.line()

@@ -1,0 +1,79 @@
+"""The checker stays small enough to be read in one sitting, and depends on nothing."""
+
+from __future__ import annotations
+
+import ast
+import io
+import sys
+import tokenize
+from pathlib import Path
+
+import pytest
+
+from mcexact import checker
+from mcexact.checker.kinds import KINDS
+
+FOLDER = Path(checker.__file__).parent
+FILES = sorted(FOLDER.glob("*.py"))
+RULES = {rule.__module__.rpartition(".")[2] for rule in KINDS.values()}
+SKIPPED = {
+    tokenize.COMMENT,
+    tokenize.DEDENT,
+    tokenize.ENDMARKER,
+    tokenize.INDENT,
+    tokenize.NEWLINE,
+    tokenize.NL,
+}
+
+
+def lines_of_code(path: Path) -> int:
+    """Count the lines that hold code: no blank lines, comments or docstrings."""
+    source = path.read_text(encoding="utf-8")
+    lines = set()
+    for token in tokenize.generate_tokens(io.StringIO(source).readline):
+        if token.type not in SKIPPED:
+            lines.update(range(token.start[0], token.end[0] + 1))
+    for node in ast.walk(ast.parse(source)):
+        # A string that stands alone documents what it follows.
+        alone = isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
+        if alone and isinstance(node.value.value, str):
+            lines -= set(range(node.lineno, (node.end_lineno or node.lineno) + 1))
+    return len(lines)
+
+
+@pytest.mark.parametrize("stem", sorted(RULES))
+def test_a_rule_takes_at_most_60_lines(stem: str) -> None:
+    assert lines_of_code(FOLDER / f"{stem}.py") <= 60
+
+
+def test_what_the_rules_share_takes_at_most_600_lines() -> None:
+    shared = {path.name: lines_of_code(path) for path in FILES if path.stem not in RULES}
+    assert sum(shared.values()) <= 600, shared
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
+def test_only_the_standard_library_and_the_folder_itself_are_imported(path: Path) -> None:
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            assert all(alias.name in sys.stdlib_module_names for alias in node.names)
+        if isinstance(node, ast.ImportFrom):
+            assert node.level == 1 or (node.level == 0 and node.module is not None)
+            if node.level == 0:
+                assert str(node.module).partition(".")[0] in sys.stdlib_module_names
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
+def test_no_step_can_vanish_under_optimization(path: Path) -> None:
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    assert not any(isinstance(node, ast.Assert) for node in ast.walk(tree))
+
+
+def test_valid_is_said_in_one_place() -> None:
+    made = [
+        node
+        for path in FILES
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.Call)
+        and any(isinstance(arg, ast.Constant) and arg.value == "VALID" for arg in node.args)
+    ]
+    assert len(made) == 1

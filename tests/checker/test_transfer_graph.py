@@ -1,0 +1,65 @@
+"""The rule of ``transfer_graph``."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.checker.handmade import GRAPH, Document, changed, checked, matrix
+
+WHOLE = {"from": ["1", "2"], "X": matrix([1, 0], [0, 1]), "pivots": [0, 1]}
+ZEROS = GRAPH["witness"]["zeros"]
+THIRDS = matrix([0], [3], denominator=3)
+TOO_MANY = [["1", "1"], ["1", "2"], ["2", "1"], ["2", "2"]]
+DEAD = changed(
+    GRAPH,
+    ("system.channels.1.C", [[0, 0]]),
+    ("claim.arcs", [["1", "1"]]),
+    ("witness.powers", [0]),
+    ("witness.zeros", [WHOLE, *ZEROS]),
+)
+
+ACCEPTED = [
+    ("a chain of two channels", GRAPH),
+    ("a channel whose outputs see nothing", DEAD),
+    ("a zero transfer that is not needed", changed(GRAPH, ("witness.zeros", [*ZEROS, WHOLE]))),
+    ("another modulus", changed(GRAPH, ("witness.modulus", 2))),
+    ("a column over a denominator", changed(GRAPH, ("witness.zeros.0.X", THIRDS))),
+]  # fmt: skip
+
+REJECTED = [
+    ("an arc left out", ("claim.arcs", [["1", "1"], ["1", "2"]]), ("witness.powers", [0, 1])),
+    ("an arc that is not there", ("claim.arcs", TOO_MANY), ("witness.powers", [0, 1, 0, 0])),
+    ("arcs out of order", ("claim.arcs", [["1", "2"], ["1", "1"], ["2", "2"]])),
+    ("an arc twice", ("claim.arcs", [["1", "1"], ["1", "1"], ["2", "2"]])),
+    ("an arc to nowhere", ("claim.arcs.1", ["1", "3"])),
+    ("an arc of three", ("claim.arcs.1", ["1", "2", "2"])),
+    ("a power that gives 0", ("witness.powers.1", 0)),
+    ("a power of n", ("witness.powers.1", 2)),
+    ("a negative power", ("witness.powers.1", -1)),
+    ("a power missing", ("witness.powers", [0, 1])),
+    ("no zero transfer", ("witness.zeros", [])),
+    ("a zero transfer from the wrong channel", ("witness.zeros.0.from", ["1"])),
+    ("a zero transfer from nobody", ("witness.zeros.0.from", [])),
+    ("X empty", ("witness.zeros.0.X", matrix([], [])), ("witness.zeros.0.pivots", [])),
+    ("X not invariant", ("witness.zeros.0.X", matrix([1], [0])), ("witness.zeros.0.pivots", [0])),
+    ("X that C sees", ("witness.zeros.0", WHOLE)),
+    ("components merged", ("claim.components", [["1", "2"]])),
+    ("components in another order", ("claim.components", [["2"], ["1"]])),
+    ("a component left out", ("claim.components", [["1"]])),
+    ("called strongly connected", ("claim.strongly_connected", True)),
+    ("modulus 1", ("witness.modulus", 1)),
+    ("a transfer that vanishes modulo ℓ", ("system.A.1.0", 7)),
+    ("a plant with a transfer back", ("system.A.0.1", 1)),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("reason", "document"), ACCEPTED)
+def test_sound_evidence_is_accepted(reason: str, document: Document) -> None:
+    verdict = checked(document)
+    assert verdict.verdict == "VALID", verdict.line()
+
+
+@pytest.mark.parametrize("edits", REJECTED, ids=[row[0] for row in REJECTED])
+def test_a_change_is_rejected(edits: tuple[object, ...]) -> None:
+    verdict = checked(changed(GRAPH, *edits[1:]))  # type: ignore[arg-type]
+    assert verdict.verdict in ("INVALID", "MALFORMED"), verdict.line()
