@@ -29,9 +29,9 @@ def copied_checker(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def polynomial(text: str) -> tuple[Fraction, ...]:
-    """The coefficients of a polynomial written out, constant term first."""
-    coefficients = sympy.Poly(sympy.sympify(text.replace("^", "**"), rational=True), X).all_coeffs()
-    return tuple(Fraction(int(c.p), int(c.q)) for c in reversed(coefficients))
+    """The coefficients of a polynomial written out, made monic, constant term first."""
+    written = sympy.Poly(sympy.sympify(text.replace("^", "**"), rational=True), X).monic()
+    return tuple(Fraction(int(c.p), int(c.q)) for c in reversed(written.all_coeffs()))
 
 
 def coefficients(listed: list[str]) -> tuple[Fraction, ...]:
@@ -141,7 +141,7 @@ def theorems_state_the_answer(answer: dict[str, Any], theorems: dict[str, str]) 
             "multiplicity_in_A": int(found["in_A"]),
             "multiplicity_at_most": int(found["at_most"]),
             "rank": int(found["rank"]),
-            "channels": found["channels"].split(", "),
+            "channels": found["channels"].split(", ") if found["channels"] else [],
             "stable": found["stable"] == "stable",
             "roots": [disc(each) for each in found["roots"].split(", ")],
         }
