@@ -8,7 +8,7 @@ from mcexact.analysis.rate import best_rate
 from mcexact.certificate.evidence import RateInterval, RootDisc
 from mcexact.exact.enclosures import root_discs
 from mcexact.exact.linear_algebra import characteristic_polynomial
-from mcexact.exact.location import StabilityRegion, Time
+from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 
@@ -36,7 +36,7 @@ class LoopSpectrum:
     rate: RateInterval | None
 
 
-def closed_loop_spectrum(M: Matrix, time: Time) -> LoopSpectrum:
+def closed_loop_spectrum(M: Matrix, time: str) -> LoopSpectrum:
     """Enclose every eigenvalue of a rational matrix.
 
     Parameters

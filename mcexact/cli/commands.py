@@ -8,7 +8,7 @@ import importlib
 import click
 
 # In the order in which a user meets them; each is the module of that name in this package.
-COMMANDS = ("analyze", "check", "demo", "sample")
+COMMANDS = ("analyze", "check", "design", "simulate", "demo", "sample")
 
 
 class Commands(click.Group):

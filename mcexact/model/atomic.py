@@ -24,23 +24,34 @@ def write_text(path: str | os.PathLike[str], text: str) -> None:
     InputError
         If the folder is missing or cannot be written.
     """
+    write_bytes(path, text.encode("utf-8"))
+
+
+def write_bytes(path: str | os.PathLike[str], data: bytes) -> None:
+    """Write bytes to a file as `write_text` writes a text.
+
+    Raises
+    ------
+    InputError
+        If the folder is missing or cannot be written.
+    """
     target = Path(os.path.realpath(path))
     try:
         if target.exists() and not target.is_file():
-            with open(path, "w", encoding="utf-8", newline="\n") as stream:
-                stream.write(text)
+            with open(path, "wb") as stream:
+                stream.write(data)
             return
-        _replace(target, text)
+        _replace(target, data)
     except OSError as error:
         raise InputError(f"cannot write: {error.strerror or error}", where=str(path)) from error
 
 
-def _replace(target: Path, text: str) -> None:
+def _replace(target: Path, data: bytes) -> None:
     """Write beside the target, then rename."""
     handle, temporary = tempfile.mkstemp(prefix=f".{target.name[:100]}.", dir=target.parent)
     try:
-        with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as stream:
-            stream.write(text)
+        with os.fdopen(handle, "wb") as stream:
+            stream.write(data)
         if target.exists():
             mode = target.stat().st_mode & 0o777
         else:

@@ -1,0 +1,137 @@
+"""`mcexact design observer`: the distributed observer with a prescribed spectrum."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import click
+
+from mcexact.cli import options
+
+
+@click.command(name="observer", short_help="A distributed observer with a prescribed spectrum.")
+@click.argument("file")
+@click.option("--rate", type=options.rational, help="Continuous time: every real part below -RATE.")
+@click.option("--radius", type=options.rational, help="Discrete time: every modulus below RADIUS.")
+@click.option(
+    "--spectrum",
+    metavar="FILE",
+    help='JSON {"feedback": P, "error": P}, P a list of coefficients or of roots and pairs.',
+)
+@click.option("--agent", metavar="NAME", help="Who carries the channel controller; else the first.")
+@click.option(
+    "--order",
+    type=click.Choice(["least"]),
+    help="The least order that one of the indices allows, instead of m - 1.",
+)
+@click.option(
+    "-o",
+    "--output",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Write the controller here; else it goes to standard output.",
+)
+@options.certificates
+@options.as_json
+@options.work_limits
+@options.file_limits
+def command(
+    file: str,
+    rate: Fraction | None,
+    radius: Fraction | None,
+    spectrum: str | None,
+    agent: str | None,
+    order: str | None,
+    output: Path | None,
+    certificates: Path | None,
+    as_json: bool,
+    timeout: float | None,
+    max_memory: int | None,
+    **limits: int | None,
+) -> None:
+    """Design a distributed observer-based controller for the system in FILE (- for standard input).
+
+    FILE needs a neighbor graph. Give a rate or radius, or all the numbers: n for the feedback and
+    nm + m - 1 for the estimation errors. If it is impossible the status is 1, and the certificate
+    says why.
+    """
+    from mcexact.cli.files import directory, read
+    from mcexact.cli.output import emit, emit_json
+    from mcexact.cli.supervision import supervised
+    from mcexact.errors import Impossible
+    from mcexact.model.atomic import write_text
+    from mcexact.report.text import plain
+
+    place = "standard input" if file == "-" else file
+    moved = options.given(limits)
+    prescribed = None if spectrum is None else (spectrum, read(spectrum, spectrum, moved))
+    wanted = {"q": agent, "rate": rate, "radius": radius, "order": order}
+    answer = supervised(
+        _designed,
+        place,
+        read(file, place, moved),
+        prescribed,
+        moved,
+        wanted,
+        doing=f"designing for {place}",
+        timeout=timeout,
+        max_memory=max_memory,
+    )
+    if certificates is not None and answer["certificate"] is not None:
+        name, text = answer["certificate"]
+        write_text(directory(certificates) / name, text)
+    if "impossible" in answer:
+        raise Impossible(answer["impossible"])
+    if output is not None:
+        write_text(output, answer["controller"])
+    if as_json:
+        if certificates is not None:
+            answer["json"]["certificate"] = answer["certificate"][0]
+        emit_json(answer["json"])
+    elif output is not None:
+        emit(plain(answer["tables"]))
+    else:
+        emit(answer["controller"])
+
+
+def _designed(
+    place: str,
+    data: bytes,
+    prescribed: tuple[str, bytes] | None,
+    limits: dict[str, int],
+    wanted: dict[str, Any],
+) -> dict[str, Any]:
+    """Design, and put the answer into text: what the child process does."""
+    from mcexact.certificate import codec
+    from mcexact.errors import Impossible, InputError
+    from mcexact.exact.rational import Limits
+    from mcexact.model.controller_file import controller_text
+    from mcexact.model.json_text import parse
+    from mcexact.model.system_file import read_system
+    from mcexact.report.design_view import observer_tables, observer_view
+    from mcexact.synthesis.observer import design_observer
+
+    bounds = Limits(**limits)
+    spectrum = None
+    try:
+        system = read_system(data, limits=bounds)
+    except InputError as error:
+        raise error.within(place) from None
+    try:
+        if prescribed is not None:
+            spectrum = parse(prescribed[1], bounds)
+        design = design_observer(system, spectrum=spectrum, **wanted)
+    except InputError as error:
+        raise error.within(prescribed[0] if prescribed is not None else place) from None
+    except Impossible as refused:
+        found = refused.certificate
+        written = None if found is None else (f"{found.kind}.json", codec.encode(found))
+        return {"impossible": str(refused), "certificate": written}
+    return {
+        "controller": controller_text(design.controller),
+        "certificate": (f"{design.certificate.kind}.json", codec.encode(design.certificate)),
+        "json": observer_view(design),
+        "tables": observer_tables(design),
+    }

@@ -1,0 +1,136 @@
+"""`mcexact simulate`: run a controller as a network of agents."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import click
+
+from mcexact.cli import options
+
+
+@click.command(name="simulate", short_help="Run a controller as a network of agents.")
+@click.argument("file")
+@click.argument("controller")
+@click.option(
+    "--initial",
+    metavar="NUMBERS",
+    help="The plant's initial state, such as 1,0,-1/2; ones by default. The agents start at 0.",
+)
+@click.option(
+    "--horizon",
+    type=options.rational,
+    help="Steps in discrete time, the final time in continuous time; by default from the spectrum.",
+)
+@click.option(
+    "--reference",
+    metavar="NUMBERS",
+    help="Set-points, one number for each output in the order of the channels; 0 by default.",
+)
+@click.option(
+    "--arithmetic",
+    type=click.Choice(["exact", "multiprecision", "float"]),
+    help="Exact by default in discrete time, float in continuous time.",
+)
+@click.option(
+    "-o",
+    "--output",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Write the trajectory here: .csv, .png or .html.",
+)
+@options.as_json
+@options.work_limits
+@options.file_limits
+def command(
+    file: str,
+    controller: str,
+    initial: str | None,
+    horizon: Fraction | None,
+    reference: str | None,
+    arithmetic: str | None,
+    output: Path | None,
+    as_json: bool,
+    timeout: float | None,
+    max_memory: int | None,
+    **limits: int | None,
+) -> None:
+    """Run the CONTROLLER for the system in FILE, one agent each, messages along arcs only."""
+    from mcexact.cli.files import read
+    from mcexact.cli.output import emit, emit_json
+    from mcexact.cli.supervision import supervised
+    from mcexact.model.atomic import write_bytes
+    from mcexact.report.text import plain
+
+    suffix = "" if output is None else output.suffix
+    if suffix not in ("", ".csv", ".png", ".html") or (output is not None and not suffix):
+        raise click.UsageError(f"expected a file that ends in .csv, .png or .html, found {output}")
+    moved = options.given(limits)
+    answer = supervised(
+        _simulated,
+        (file, read(file, file, moved)),
+        (controller, read(controller, controller, moved)),
+        moved,
+        {
+            "initial": _numbers(initial, "--initial"),
+            "reference": _numbers(reference, "--reference"),
+            "horizon": horizon,
+            "arithmetic": arithmetic,
+        },
+        suffix,
+        doing=f"simulating {file}",
+        timeout=timeout,
+        max_memory=max_memory,
+    )
+    for warning in answer["warnings"]:
+        click.echo(f"mcexact: warning: {warning}", err=True)
+    if output is not None:
+        write_bytes(output, answer["file"])
+    if as_json:
+        emit_json(answer["json"])
+    else:
+        emit(plain(answer["tables"]))
+
+
+def _numbers(text: str | None, name: str) -> list[Fraction] | None:
+    """Numbers separated by commas."""
+    if text is None:
+        return None
+    try:
+        return [options.rational(part.strip()) for part in text.split(",")] if text else []
+    except click.BadParameter as error:
+        raise click.BadParameter(error.message, param_hint=name) from None
+
+
+def _simulated(
+    plant: tuple[str, bytes],
+    program: tuple[str, bytes],
+    limits: dict[str, int],
+    wanted: dict[str, Any],
+    suffix: str,
+) -> dict[str, Any]:
+    """Run, and put the answer into text and bytes: what the child process does."""
+    from mcexact.errors import InputError
+    from mcexact.exact.rational import Limits
+    from mcexact.model.controller_file import read_controller
+    from mcexact.model.system_file import read_system
+    from mcexact.report.simulation import run_report
+
+    bounds = Limits(**limits)
+    try:
+        system = read_system(plant[1], limits=bounds)
+    except InputError as error:
+        raise error.within(plant[0]) from None
+    try:
+        controller = read_controller(program[1], bounds)
+    except InputError as error:
+        raise error.within(program[0]) from None
+    report = run_report(system, controller, **wanted)
+    return {
+        "warnings": report.warnings,
+        "json": report.as_json(),
+        "tables": report.tables(),
+        "file": report.file(suffix),
+    }
