@@ -12,7 +12,7 @@ from typing import Any
 import flint
 
 from mcexact.errors import InputError, LimitReached
-from mcexact.exact.rational import Entry, as_fraction
+from mcexact.exact.rational import Entry, as_fraction, require_power
 
 Rows = tuple[tuple[int, ...], ...]
 
@@ -241,8 +241,8 @@ class Matrix:
         """The k-th power of a square matrix, k ≥ 0."""
         if not self.is_square():
             raise InputError(f"expected a square matrix, found {self.nrows} × {self.ncols}")
-        if type(k) is not int or k < 0:
-            raise InputError(f"expected an exponent that is at least 0, found {k!r}")
+        heights = (x.bit_length() for row in self.numerators for x in row)
+        k = require_power(k, max(self.denominator.bit_length(), *heights, 1))
         result = Matrix.identity(self.nrows)
         for bit in bin(k)[2:]:
             result = result @ result

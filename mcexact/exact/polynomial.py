@@ -12,7 +12,7 @@ from typing import Any
 import flint
 
 from mcexact.errors import InputError
-from mcexact.exact.rational import Entry, as_fraction, written
+from mcexact.exact.rational import Entry, as_fraction, require_power, written
 
 
 @dataclass(frozen=True)
@@ -176,8 +176,10 @@ class Polynomial:
     __rmul__ = __mul__
 
     def __pow__(self, exponent: int) -> Polynomial:
-        if type(exponent) is not int or exponent < 0:
-            raise InputError(f"expected an exponent that is at least 0, found {exponent!r}")
+        heights = (
+            max(c.numerator.bit_length(), c.denominator.bit_length()) for c in self.coefficients
+        )
+        exponent = require_power(exponent, max(self.degree, *heights, 1))
         result, square = Polynomial.of(1), self
         while exponent:
             if exponent & 1:

@@ -9,7 +9,7 @@ from decimal import Decimal
 from fractions import Fraction
 from typing import Any, Literal
 
-from mcexact.errors import FloatRefused, InputError
+from mcexact.errors import FloatRefused, InputError, LimitReached
 
 Entry = Any
 """int, Fraction, Decimal, str in the written grammar, or a sympy Rational."""
@@ -54,6 +54,7 @@ _TWO_WAYS_IN = (
 )
 # CPython refuses int() of longer digit strings; below it, conversion is quick enough.
 _CHUNK = 4000
+_MOST_BITS = 2**31
 
 
 def parse_rational(
@@ -271,6 +272,37 @@ def to_float(q: Fraction) -> float:
         return q.numerator / q.denominator
     except OverflowError:
         return math.inf if q > 0 else -math.inf
+
+
+def require_power(exponent: Any, bits: int) -> int:
+    """The exponent of a power, if it is one that fits into memory.
+
+    Parameters
+    ----------
+    exponent : object
+        Should be an integer that is at least 0.
+    bits : int
+        By how much each further factor can lengthen a number.
+
+    Raises
+    ------
+    InputError
+        It is something else.
+    LimitReached
+        The power could be too large for memory.
+
+    Examples
+    --------
+    >>> require_power(10**12, bits=2)
+    Traceback (most recent call last):
+        ...
+    mcexact.errors.LimitReached: the power 1000000000000 would be too large for memory
+    """
+    if type(exponent) is not int or exponent < 0:
+        raise InputError(f"expected an exponent that is at least 0, found {exponent!r}")
+    if exponent * max(bits, 1) > _MOST_BITS:
+        raise LimitReached(f"the power {exponent} would be too large for memory")
+    return exponent
 
 
 def written(q: Fraction) -> int | str:
