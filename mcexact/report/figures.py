@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import math
 from fractions import Fraction
 from typing import Any
 
@@ -61,14 +62,13 @@ def _decay(
     for name, values in curves.items():
         visible = [value if 0 < value < float("inf") else float("nan") for value in values]
         axis.plot(times, visible, marker=marker, label=name)
-    if spectrum is not None and spectrum.rate is not None and shown:
-        start = max((values[0] for values in curves.values()), default=0.0) or max(shown)
-        line = [start * factor for factor in _envelope(run.time, spectrum, times)]
+    if spectrum is not None and shown:
+        line = _slope(run.time, spectrum, times, list(curves.values()))
         floor = min(shown) / 10
         visible = [value if value >= floor else float("nan") for value in line]
-        axis.plot(
-            times, visible, "k--", linewidth=1, label=f"certified {_rate_text(run, spectrum)}"
-        )
+        if line:
+            label_of_line = f"slope of the certified {_rate_text(run, spectrum)}"
+            axis.plot(times, visible, "k--", linewidth=1, label=label_of_line)
     if shown:
         axis.set_yscale("log")
     axis.set_xlabel("step" if run.time == "discrete" else "time")
@@ -76,17 +76,30 @@ def _decay(
     axis.legend(fontsize="small")
 
 
-def _envelope(time: str, spectrum: LoopSpectrum, times: list[float]) -> list[float]:
-    """exp(−rate·t), or radius^t."""
-    import math
-
-    if spectrum.rate is None:
+def _slope(
+    time: str, spectrum: LoopSpectrum, times: list[float], curves: list[list[float]]
+) -> list[float]:
+    """The certified rate as a line from the highest point on; nothing for a radius of 0."""
+    rate = spectrum.rate
+    if rate is None:
         return []
+    tops = [
+        max((v for v in values if v < math.inf), default=0.0)
+        for values in zip(*curves, strict=True)
+    ]
+    top = max(tops)
+    start = tops.index(top)
     if time == "continuous":
-        lower = float(Fraction(spectrum.rate.lower))
-        return [math.exp(min(700.0, -lower * t)) for t in times]
-    upper = float(Fraction(spectrum.rate.upper))
-    return [min(1e300, upper**t) for t in times]
+        decay = float(Fraction(rate.lower))
+    else:
+        radius = float(Fraction(rate.upper))
+        if radius <= 0:
+            return []
+        decay = -math.log(radius)
+    elapsed = [t - times[start] for t in times]
+    return [
+        top * math.exp(-decay * t) if t >= 0 and abs(decay * t) < 600 else math.nan for t in elapsed
+    ]
 
 
 def _rate_text(run: Trajectory, spectrum: LoopSpectrum) -> str:
