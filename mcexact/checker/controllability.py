@@ -29,7 +29,7 @@ def check(claim: Any, witness: Any, system: System) -> str:
     require(WA.equals(Z @ W), "identity", "witness.annihilator", "W A is not Z W")
     require((W @ B_T).is_zero(), "identity", "witness.annihilator", "W B is not zero")
     reached = krylov_ranks(system, T, modulus(ell, "witness.modulus"), n)[-1]
-    require(reached >= d, "rank", "claim.dimension", f"only {reached} reached modulo ℓ")
+    require(reached >= d, "rank", "claim.dimension", f"only {reached} reached modulo l")
     controllable = boolean(verdict, "claim.controllable")
     require(controllable == (d == n), "claim", "claim.controllable", f"{d} of {n} are controllable")
     same = characteristic_polynomial(Z) == chi

@@ -25,7 +25,7 @@ def check(claim: Any, witness: Any, system: System) -> str:
     W = matrix(rows, "witness.annihilator", n - ranks[min(nu, 1)], n)
     echelon = Echelon(ell)
     independent = all(echelon.add(row) is not None for row in W.modulo(ell))
-    require(independent, "rank", "witness.annihilator", "its rows are dependent modulo ℓ")
+    require(independent, "rank", "witness.annihilator", "its rows are dependent modulo l")
     power = inputs(system, T)
     for k in range(1, nu + 2):
         first = W.take(range(n - ranks[min(k, nu)]))
@@ -36,7 +36,7 @@ def check(claim: Any, witness: Any, system: System) -> str:
     # Where the blocks stop growing modulo ℓ, the last rank stands for all that follow.
     reached += [reached[-1]] * (nu + 1 - len(reached))
     enough = all(low >= r for low, r in zip(reached, ranks, strict=True))
-    require(enough, "rank", "claim.ranks", f"only {reached[1:]} are reached modulo ℓ")
+    require(enough, "rank", "claim.ranks", f"only {reached[1:]} are reached modulo l")
     index = None if top is None else integer(top, "claim.index")
     require(index == (nu if ranks[-1] == n else None), "claim", "claim.index", "does not follow")
     steps = [b - a for a, b in pairwise(ranks)]

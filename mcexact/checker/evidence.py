@@ -62,7 +62,7 @@ def require_pencil_kernel(
     for t, (U_t, V_t) in enumerate(zip(U, V, strict=True)):
         left = A @ U_t + B @ V_t + top.times(p[t])
         shifted = U[t - 1] if t else Matrix.zeros(U_t.nrows, U_t.ncols)
-        require(shifted.equals(left), "identity", place, "(xI − A) U differs from B V modulo p")
+        require(shifted.equals(left), "identity", place, "(xI - A) U differs from B V modulo p")
 
 
 def shrunk_subspace(
@@ -82,7 +82,7 @@ def shrunk_subspace(
         require(unseen, "identity", place, f"C_i U is not zero for channel number {i + 1}")
     lost = u - rank(B_T)
     require(
-        lost >= deficiency >= 1, "rank", place, f"proves deficiency {lost}, not {deficiency} ≥ 1"
+        lost >= deficiency >= 1, "rank", place, f"proves deficiency {lost}, not {deficiency} >= 1"
     )
     return T
 
@@ -122,7 +122,7 @@ def modulus(value: Any, place: str) -> int:
 def require_coprime(a: Polynomial, b: Polynomial, ell: int, what: str) -> None:
     """Stop unless two monic polynomials are coprime modulo ℓ, and therefore over Q."""
     parts = poly_modulo(a, ell), poly_modulo(b, ell)
-    require(coprime(*parts, ell), "common_factor", "witness", f"{what} are not coprime modulo ℓ")
+    require(coprime(*parts, ell), "common_factor", "witness", f"{what} are not coprime modulo l")
 
 
 def root_discs(value: Any, place: str, p: Polynomial) -> list[Disc]:

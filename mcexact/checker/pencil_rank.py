@@ -47,7 +47,7 @@ def check(claim: Any, witness: Any, system: System) -> str:
     residues = enumerate(constant.take(cols=kept).modulo(ell))
     pencil = [[[e, int(i == j < n)] for j, e in zip(kept, row, strict=True)] for i, row in residues]
     independent = _are_independent(pencil, len(kept), poly_modulo(p, ell), ell)
-    require(independent, "rank", "witness", f"elimination modulo ℓ and p does not reach {r}")
+    require(independent, "rank", "witness", f"elimination modulo l and p does not reach {r}")
     return (
         f"the pencil [xI - A, B; C, 0] of {described(system)}, C the outputs of the channels "
         f"{channel_set(system, s)} and B the inputs of the others, has rank exactly {r} at every "

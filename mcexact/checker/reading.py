@@ -18,7 +18,6 @@ from .arithmetic import Matrix, Polynomial
 
 # Strings are stepped over whole; possessive quantifiers keep the scans linear in time.
 TOKEN = re.compile(r'"(?:[^"\\]++|\\.)*+"|[\[{]|[\]}]', re.DOTALL)
-LONG_NUMBER = re.compile(r"[0-9]{20}[0-9]*+")
 QUOTIENT = re.compile(r"-?(?:0|[1-9][0-9]*+)/[1-9][0-9]*+")
 DECIMAL = re.compile(r"-?(?:0|[1-9][0-9]*+)(?:\.[0-9]++)?")
 
@@ -75,7 +74,8 @@ def parse(data: bytes, limits: Limits, decimal_of: Callable[[str], Any] | None =
         depth += (token[0] in "[{") - (token[0] in "]}")
         if depth > limits.depth:
             malformed("file", f"nested deeper than {limits.depth} levels (--max-depth)")
-    if any(len(number[0]) > limits.digits for number in LONG_NUMBER.finditer(text)):
+    long_number = re.compile(f"[0-9]{{{min(20, limits.digits + 1)}}}[0-9]*+")
+    if any(len(number[0]) > limits.digits for number in long_number.finditer(text)):
         incomplete("size", "file", f"a number of more than {limits.digits} digits (--max-digits)")
 
     def refuse(number: str) -> NoReturn:

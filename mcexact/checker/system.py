@@ -168,7 +168,7 @@ def read_plant(value: Any) -> System:
     """The system object of a certificate, which must be canonical."""
     system = read_system(value)
     if canonical(system) != value:
-        malformed("system", "expected the canonical form: lowest terms, neighbors in order, …")
+        malformed("system", "expected the canonical form: lowest terms, neighbors in order")
     return system
 
 

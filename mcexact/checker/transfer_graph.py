@@ -73,6 +73,6 @@ def require_arcs(system: System, triples: list[tuple[int, int, int]], ell: int) 
         for k in range(max(targets) + 1):
             for i in targets.get(k, []):
                 seen = any(map(any, product(C[i], power, width, ell)))
-                message = f"C A^{k} B is 0 modulo ℓ from channel number {j + 1} to {i + 1}"
+                message = f"C A^{k} B is 0 modulo l from channel number {j + 1} to {i + 1}"
                 require(seen, "arc", "witness", message)
             power = product(A, power, width, ell)

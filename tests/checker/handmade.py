@@ -45,7 +45,7 @@ def changed(document: Document, *edits: tuple[str, Any]) -> Document:
     result = copy.deepcopy(document)
     for place, value in edits:
         node, last = _parent(result, place)
-        node[last] = value
+        node[last] = copy.deepcopy(value)
     return result
 
 

@@ -1,0 +1,104 @@
+"""The checker's arithmetic beside sympy's, and modulo numbers that are not prime."""
+
+from __future__ import annotations
+
+import random
+from fractions import Fraction
+
+import pytest
+from sympy import ZZ
+from sympy.polys.matrices import DomainMatrix
+
+from mcexact.checker.arithmetic import (
+    Echelon,
+    Matrix,
+    NotAUnit,
+    characteristic_polynomial,
+    characteristic_polynomial_modulo,
+    coprime,
+    exponent,
+    poly_divide,
+    poly_product,
+    rank,
+)
+
+
+def drawn(rng: random.Random, nrows: int, ncols: int, size: int) -> Matrix:
+    """Small entries, many zeros, some rows repeated."""
+    rows = [
+        [rng.choice([0, 0, rng.randint(-size, size)]) for _ in range(ncols)] for _ in range(nrows)
+    ]
+    for i in range(1, nrows):
+        if rng.random() < 0.2:
+            rows[i] = list(rows[i - 1])
+    return Matrix(rows, ncols, rng.choice([1, 1, 6]))
+
+
+def test_characteristic_polynomials_over_q_are_sympys() -> None:
+    rng = random.Random(1)
+    for _ in range(150):
+        n = rng.randint(0, 6)
+        A = drawn(rng, n, n, rng.choice([1, 3, 10**30]))
+        expected = DomainMatrix(A.rows, (n, n), ZZ).charpoly()[::-1] if n else [1]
+        scaled = [Fraction(int(c), A.denominator ** (n - k)) for k, c in enumerate(expected)]
+        assert characteristic_polynomial(A) == scaled
+
+
+def test_a_matrix_full_of_the_first_modulus_is_no_obstacle() -> None:
+    q = 2**61 - 1
+    A = Matrix([[0, 0, 1], [q, 0, 0], [q, q + 2, 1]], 3)
+    expected = DomainMatrix(A.rows, (3, 3), ZZ).charpoly()[::-1]
+    assert characteristic_polynomial(A) == [int(c) for c in expected]
+
+
+def test_characteristic_polynomials_modulo_l_are_reductions_or_nothing() -> None:
+    rng = random.Random(2)
+    for _ in range(300):
+        n, ell = rng.randint(0, 6), rng.choice([2, 3, 4, 6, 7, 35, 2**61 - 1])
+        A = Matrix(drawn(rng, n, n, 3).rows, n)
+        try:
+            found = characteristic_polynomial_modulo(A.modulo(ell), ell)
+        except NotAUnit:
+            continue
+        assert found == [int(c) % ell for c in characteristic_polynomial(A)]
+
+
+def test_ranks_over_q_are_sympys() -> None:
+    rng = random.Random(3)
+    for _ in range(200):
+        r, c = rng.randint(0, 6), rng.randint(0, 6)
+        A = drawn(rng, r, c, 3)
+        assert rank(A) == (
+            DomainMatrix(A.rows, (r, c), ZZ).convert_to(ZZ.get_field()).rank() if r and c else 0
+        )
+
+
+def test_an_echelon_never_claims_more_than_the_rank() -> None:
+    rng = random.Random(4)
+    for _ in range(200):
+        A, ell = drawn(rng, rng.randint(0, 5), 5, 5), rng.choice([2, 6, 7, 2**61 - 1])
+        echelon = Echelon(ell)
+        try:
+            for row in A.rows:
+                echelon.add([entry % ell for entry in row])
+        except NotAUnit:
+            pass
+        assert len(echelon.rows) <= rank(A)
+
+
+def test_division_and_exponents() -> None:
+    p, f = [Fraction(-1), Fraction(1)], [Fraction(2), Fraction(0), Fraction(1)]
+    power = poly_product(poly_product(p, p), f)
+    assert exponent(p, power) == (2, f)
+    assert exponent(f, p) == (0, p)
+    assert poly_divide(power, [Fraction(2)])[1] == []
+    assert poly_divide([3, 2, 1], [2, 1], 5) == ([0, 1], [3])
+
+
+def test_coprime_modulo_a_composite_number_needs_units() -> None:
+    assert coprime([0, 1], [1, 1], 6)
+    assert not coprime([0, 1], [0, 1], 6)
+    with pytest.raises(NotAUnit):
+        coprime([0, 1], [2, 1], 6)
+    with pytest.raises(NotAUnit):
+        Matrix([[1]], 1, 3).modulo(6)

@@ -1,0 +1,164 @@
+"""The checker's own command line, run as a stranger would: copied away, standard library only."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+
+from mcexact import checker
+from mcexact.checker.system import digest, read_plant
+from tests.checker.handmade import FIXED, FREE, PAPER, changed
+
+ENVIRONMENTS = [
+    {},
+    {"LANG": "C", "LC_ALL": "C", "PYTHONCOERCECLOCALE": "0", "PYTHONUTF8": "0"},
+    {"PYTHONINTMAXSTRDIGITS": "0"},
+]
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder that holds a copy of the checker and some certificates."""
+    target = tmp_path_factory.mktemp("elsewhere")
+    shutil.copytree(
+        Path(checker.__file__).parent,
+        target / "checker",
+        ignore=shutil.ignore_patterns("__pycache__"),
+    )
+    documents = {
+        "valid": FREE,
+        "fixed": FIXED,
+        "invalid": changed(FREE, ("witness.gains.0.entries", [[0]])),
+        "malformed": changed(FREE, ("verified", True)),
+        "incomplete": changed(FREE, ("kind", "is_nice")),
+        "accented": changed(
+            FREE, ("system.channels.0.name", "\u00e9\u2192"), ("kind", "controllability")
+        ),
+        "system": {"format": "mcexact-system/1", "name": "paper", **PAPER},
+        "other": {"format": "mcexact-system/1", **PAPER, "A": [[0.1, 0, 0]] * 3},
+    }
+    for name, document in documents.items():
+        (target / f"{name}.json").write_text(json.dumps(document), encoding="utf-8")
+    return target
+
+
+def run(
+    folder: Path, *arguments: str, start: Sequence[str] = ("-m", "checker"), **environment: str
+) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-S", "-E", *start, *arguments],
+        cwd=folder,
+        env={"PATH": os.environ.get("PATH", ""), **environment},
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        check=False,
+        timeout=60,
+    )
+
+
+@pytest.mark.parametrize("start", [("-m", "checker"), ("checker",), ("-O", "checker")])
+def test_the_folder_runs_by_itself(folder: Path, start: Sequence[str]) -> None:
+    done = run(folder, "fixed.json", start=start)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout == (
+        "VALID the fixed spectrum of the plant (continuous time, 3 states, 3 channels) is that of "
+        "x - 1: x - 1 (exponent 3 in det(xI - A), at most 1 in the gcd of all det(xI - A_F); least "
+        "pencil rank 2, reached by the channels {2, 3}; not stable; roots 1 +- 0); not "
+        "stabilizable by decentralized control; best decay rate between -1 and -1 "
+        f"{digest(read_plant(PAPER))}\n"
+    )
+
+
+@pytest.mark.parametrize("environment", ENVIRONMENTS, ids=str)
+def test_neither_locale_nor_settings_matter(folder: Path, environment: dict[str, str]) -> None:
+    files = ["valid.json", "accented.json", "fixed.json"]
+    done = run(folder, *files, start=("-O", "-m", "checker"), **environment)
+    assert done.stderr == ""
+    assert [line.split()[0] for line in done.stdout.splitlines()] == ["VALID", "MALFORMED", "VALID"]
+
+
+@pytest.mark.parametrize(
+    ("files", "status"),
+    [
+        (["valid", "fixed"], 0),
+        (["invalid"], 1),
+        (["malformed"], 3),
+        (["incomplete"], 5),
+        (["missing"], 3),
+        (["valid", "invalid", "fixed"], 1),
+        (["incomplete", "invalid"], 1),
+        (["invalid", "malformed", "incomplete"], 3),
+        (["incomplete", "valid"], 5),
+    ],
+)
+def test_the_exit_status_is_the_worst_of_all_files(
+    folder: Path, files: list[str], status: int
+) -> None:
+    done = run(folder, *(f"{name}.json" for name in files))
+    assert done.returncode == status
+    assert len(done.stdout.splitlines()) == len(files)
+    assert "Traceback" not in done.stdout + done.stderr
+
+
+def test_a_folder_or_a_missing_file_is_unreadable(folder: Path) -> None:
+    done = run(folder, ".", "missing.json", "a\x01b")
+    assert done.returncode == 3
+    assert [line.split()[:2] for line in done.stdout.splitlines()] == [
+        ["MALFORMED", "unreadable"]
+    ] * 3
+
+
+def test_wrong_usage_ends_with_2(folder: Path) -> None:
+    assert run(folder).returncode == 2
+    assert run(folder, "valid.json", "--sytem", "system.json").returncode == 2
+    assert run(folder, "valid.json", "--max-bytes", "many").returncode == 2
+
+
+def test_the_system_can_be_insisted_on(folder: Path) -> None:
+    assert run(folder, "fixed.json", "--system", "system.json").returncode == 0
+    other = run(folder, "fixed.json", "--system", "other.json")
+    assert other.returncode == 1
+    assert other.stdout.startswith("INVALID system system: about another system, of digest ")
+    for wrong in ("fixed.json", "missing.json"):
+        refused = run(folder, "fixed.json", "--system", wrong)
+        assert (refused.returncode, refused.stdout) == (3, "")
+        assert len(refused.stderr.splitlines()) == 1
+
+
+def test_json_says_the_same(folder: Path) -> None:
+    done = run(folder, "--json", "fixed.json", "invalid.json")
+    assert done.returncode == 1
+    first, second = json.loads(done.stdout)["verdicts"]
+    assert (first["file"], first["verdict"]) == ("fixed.json", "VALID")
+    assert first["digest"] == digest(read_plant(PAPER))
+    assert first["theorem"].startswith("the fixed spectrum of the plant")
+    assert (second["verdict"], second["code"]) == ("INVALID", "common_factor")
+    assert second["theorem"] == ""
+
+
+def test_standard_input_is_a_file_as_well(folder: Path) -> None:
+    done = subprocess.run(
+        [sys.executable, "-S", "-E", "-m", "checker", "-"],
+        cwd=folder,
+        input=json.dumps(FREE).encode(),
+        capture_output=True,
+        check=False,
+        timeout=60,
+    )
+    assert done.returncode == 0
+    assert done.stdout.startswith(b"VALID the plant")
+
+
+def test_limits_can_be_adjusted(folder: Path) -> None:
+    assert run(folder, "fixed.json", "--max-bytes", "100").returncode == 5
+    assert run(folder, "fixed.json", "--max-depth", "3").returncode == 3
+    assert run(folder, "fixed.json", "--max-digits", "2").returncode == 5
+    assert run(folder, "fixed.json", "--max-digits", "3").returncode == 0

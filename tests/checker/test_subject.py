@@ -1,0 +1,179 @@
+"""The checker builds every subject as the finder does, although they share no code."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable
+from fractions import Fraction
+from typing import Any
+
+import pytest
+
+from mcexact.certificate.codec import plain
+from mcexact.checker import arithmetic
+from mcexact.checker.reading import Refused
+from mcexact.checker.subject import CONSTRUCTIONS, read_subject
+from mcexact.checker.system import System, digest, read_plant
+from mcexact.derived.arcs import add_arcs
+from mcexact.derived.augmented_outputs import augmented_outputs
+from mcexact.derived.dual import dual
+from mcexact.derived.error_system import error_system
+from mcexact.derived.extended import extended_system
+from mcexact.derived.feedback import feedback, full_output
+from mcexact.derived.held import held_system
+from mcexact.derived.integrators import setpoint_system
+from mcexact.derived.lifted import lifted_system
+from mcexact.exact.matrix import Matrix
+from mcexact.model import system_file
+from mcexact.model.closed_loop import closed_loop
+from mcexact.model.controller import AgentProgram, Controller, LinearMap
+from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem
+from tests.checker.handmade import FREE, changed, checked
+
+ENTRIES = (0, 0, 1, -1, 2, Fraction(1, 2), Fraction(-2, 3))
+
+
+def drawn(rng: random.Random, nrows: int, ncols: int) -> Matrix:
+    rows = [[rng.choice(ENTRIES) for _ in range(ncols)] for _ in range(nrows)]
+    return Matrix.from_rows(rows, ncols=ncols)
+
+
+def drawn_plant(rng: random.Random, time: str) -> MultiChannelSystem:
+    """A plant with a neighbor graph and delays; no states, inputs or outputs are possible."""
+    n, m = rng.randint(0, 3), rng.randint(1, 3)
+    names = [f"agent {i}" for i in range(m)]
+    heard = [[j for j in range(m) if rng.random() < 0.5] for _ in range(m)]
+    waits = [(i, j, rng.randint(0, 2)) for i in range(m) for j in heard[i] if i != j]
+    B = [drawn(rng, n, rng.randint(0, 2)) for _ in range(m)]
+    C = [drawn(rng, rng.randint(0, 2), n) for _ in range(m)]
+    graph = NeighborGraph(names, heard, waits if time == "discrete" else [])
+    return MultiChannelSystem(drawn(rng, n, n), B, C, time=time, names=names, neighbors=graph)
+
+
+def sizes(rng: random.Random, system: MultiChannelSystem) -> list[int]:
+    return [rng.randint(0, 2) for _ in range(system.m)]
+
+
+def missing_arcs(system: MultiChannelSystem) -> list[tuple[int, int]]:
+    pairs = [(j, i) for j in range(system.m) for i in range(system.m) if i != j]
+    return [arc for arc in pairs if arc not in system.neighbors.arcs()][:2]  # type: ignore[union-attr]
+
+
+def controller(rng: random.Random, system: MultiChannelSystem) -> Controller:
+    """A controller that uses something of everything an agent hears, and holds some of it."""
+    graph, m = system.neighbors, system.m
+    shared, private = sizes(rng, system), sizes(rng, system)
+
+    def drawn_map(i: int, nrows: int) -> LinearMap:
+        heard = graph.neighborhood(i)  # type: ignore[union-attr]
+        return LinearMap(
+            {j: drawn(rng, nrows, system.q(j)) for j in heard if rng.random() < 0.7},
+            {j: drawn(rng, nrows, shared[j]) for j in heard if rng.random() < 0.7},
+            drawn(rng, nrows, private[i]) if rng.random() < 0.7 else None,
+            drawn(rng, nrows, system.q(i)) if rng.random() < 0.3 else None,
+        ).without_zeros()
+
+    agents = []
+    for i in range(m):
+        followers = graph.followers(i) if system.time == "discrete" else ()  # type: ignore[union-attr]
+        hold = {j: rng.randint(0, 2) for j in followers if rng.random() < 0.5}
+        maps = (drawn_map(i, size) for size in (shared[i], private[i], system.p(i)))
+        agents.append(AgentProgram(system.names[i], shared[i], private[i], *maps, hold))
+    return Controller(system.time, "", tuple(agents))
+
+
+Build = Callable[[random.Random, MultiChannelSystem], MultiChannelSystem]
+
+BUILDS: dict[str, list[Build]] = {
+    "arcs": [lambda rng, s: add_arcs(s, missing_arcs(s))],
+    "augmented_outputs": [lambda rng, s: augmented_outputs(s)],
+    "closed_loop": [lambda rng, s: closed_loop(s, controller(rng, s))],
+    "dual": [lambda rng, s: dual(s)],
+    "error": [lambda rng, s: error_system(s, [drawn(rng, s.p(i), s.n) for i in range(s.m)])],
+    "extended": [
+        lambda rng, s: extended_system(s, sizes(rng, s)),
+        lambda rng, s: extended_system(s, sizes(rng, s), share="states"),
+    ],
+    "feedback": [lambda rng, s: feedback(s, [drawn(rng, s.p(i), s.q(i)) for i in range(s.m)])],
+    "full_output": [lambda rng, s: full_output(s, rng.randrange(s.m))],
+    "held": [lambda rng, s: held_system(s, sizes(rng, s))],
+    "integrators": [lambda rng, s: setpoint_system(s)],
+    "lifted": [
+        lambda rng, s: lifted_system(s, sizes(rng, s)),
+        lambda rng, s: lifted_system(s, sizes(rng, s), share="states"),
+    ],
+}
+
+
+def equal(ours: arithmetic.Matrix, theirs: Matrix) -> bool:
+    rows = [[Fraction(entry, ours.denominator) for entry in row] for row in ours.rows]
+    shape = (ours.nrows, ours.ncols) == theirs.shape
+    return shape and rows == [list(row) for row in theirs.rows()]
+
+
+def assert_same(ours: System, theirs: MultiChannelSystem) -> None:
+    assert equal(ours.A, theirs.A)
+    assert ours.m == theirs.m
+    for i in range(theirs.m):
+        assert equal(ours.B[i], theirs.B(i))
+        assert equal(ours.C[i], theirs.C(i))
+
+
+@pytest.mark.parametrize("name", sorted(CONSTRUCTIONS))
+def test_every_construction_is_built_as_the_finder_builds_it(name: str) -> None:
+    rng = random.Random(name)
+    delayed = name in ("held", "lifted")
+    for _ in range(25):
+        for build in BUILDS[name]:
+            time = "discrete" if delayed else rng.choice(["continuous", "discrete"])
+            derived = build(rng, drawn_plant(rng, time))
+            document = system_file.canonical_document(derived)
+            assert_same(read_subject(plain(derived.subject), read_plant(document)), derived)
+
+
+def test_constructions_are_applied_in_order() -> None:
+    rng = random.Random(1)
+    for _ in range(20):
+        derived = drawn_plant(rng, "discrete")
+        for name in rng.sample(["augmented_outputs", "extended", "integrators", "feedback"], 3):
+            derived = BUILDS[name][0](rng, derived)
+        derived = dual(derived)
+        document = system_file.canonical_document(derived)
+        ours = read_subject(plain(derived.subject), read_plant(document))
+        assert_same(ours, derived)
+        assert ours.words.startswith("the dual of ")
+
+
+def test_the_digest_is_recomputed_independently() -> None:
+    rng = random.Random(2)
+    for _ in range(50):
+        system = drawn_plant(rng, rng.choice(["continuous", "discrete"]))
+        document = system_file.canonical_document(system)
+        assert digest(read_plant(document)) == system_file.digest(system)
+
+
+@pytest.mark.parametrize(
+    ("step", "verdict"),
+    [
+        ({"construction": "augmented_outputs"}, "INVALID"),
+        ({"construction": "dual", "of": "A"}, "MALFORMED"),
+        ({"construction": "extended", "share": "states", "dimensions": [1]}, "INVALID"),
+        ({"construction": "full_output", "channel": "2"}, "MALFORMED"),
+        ({"construction": "feedback", "gains": []}, "MALFORMED"),
+        ({"construction": "closed_loop", "controller": {}}, "MALFORMED"),
+        ({"construction": ["dual"]}, "MALFORMED"),
+        ({}, "MALFORMED"),
+        ("dual", "MALFORMED"),
+        (None, "MALFORMED"),
+    ],
+    ids=str,
+)
+def test_a_construction_that_cannot_be_applied_proves_nothing(step: Any, verdict: str) -> None:
+    assert checked(changed(FREE, ("subject", [step]))).verdict == verdict
+
+
+def test_delays_need_discrete_time() -> None:
+    plant = read_plant(system_file.canonical_document(drawn_plant(random.Random(3), "continuous")))
+    with pytest.raises(Refused, match="discrete"):
+        read_subject([{"construction": "held", "dimensions": [1] * plant.m}], plant)

@@ -1,0 +1,82 @@
+"""System files, read by the checker itself so that a digest can be compared."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from mcexact.checker.reading import Limits, Refused
+from mcexact.checker.system import digest, read_plant, read_system_file
+from mcexact.model import gallery, system_file
+from tests.checker.handmade import PAPER
+
+BASE = {"format": "mcexact-system/1", **PAPER}
+
+
+def digest_of(text: str) -> str:
+    return digest(read_system_file(text.encode(), Limits()))
+
+
+def test_the_gallery_has_the_digests_that_the_finder_gives() -> None:
+    for name in gallery.names():
+        system = gallery.load(name)
+        assert digest_of(system_file.system_text(system)) == system_file.digest(system)
+
+
+@pytest.mark.parametrize(
+    ("reason", "A"),
+    [
+        ("decimals as typed", "[[0.5, 0], [0, 0.10]]"),
+        ("exponents", "[[5e-1, 0], [0, 1E-1]]"),
+        ("quotients", '[["1/2", 0], [0, "1/10"]]'),
+        ("quotients that can be reduced", '[["2/4", "0/7"], [0, "01/10"]]'),
+        ("strings", '[["0.5", "0"], ["-0", "100e-3"]]'),
+        ("sparse", '{"shape": [2, 2], "entries": [[1, 1, 0.1], [0, 0, "1/2"]]}'),
+    ],
+)
+def test_one_matrix_may_be_written_in_many_ways(reason: str, A: str) -> None:
+    rest = '"time": "continuous", "channels": [{"B": [[1], [0]], "C": [], "D": []}]'
+    text = f'{{"format": "mcexact-system/1", "name": "x", "source": "y", "A": {A}, {rest}}}'
+    plant = {
+        "time": "continuous",
+        "A": [["1/2", 0], [0, "1/10"]],
+        "channels": [{"name": "1", "B": [[1], [0]], "C": {"shape": [0, 2], "entries": []}}],
+    }
+    assert (
+        digest_of(text)
+        == digest(read_plant(plant))
+        == system_file.digest(system_file.read_system(text))
+    )
+
+
+def test_neighbors_may_be_listed_in_any_order_and_with_the_agent_itself() -> None:
+    listed = {
+        **BASE,
+        "neighbors": {"3": ["1", "3"], "1": ["2"], "2": ["3"]},
+        "delays": {"1": {"2": 0}},
+    }
+    assert digest_of(json.dumps(listed)) == digest(read_plant(PAPER))
+
+
+@pytest.mark.parametrize(
+    ("reason", "edit"),
+    [
+        ("a certificate", {"format": "mcexact-certificate/1"}),
+        ("another version", {"format": "mcexact-system/2"}),
+        ("an unknown key", {"channel": []}),
+        ("feedthrough", {"channels": [{"B": [[1], [0], [0]], "C": [[1, 0, 0]], "D": [[1]]}]}),
+        ("a zero denominator", {"A": [["1/0"] * 3] * 3}),
+        ("a huge exponent", {"A": [["1e1001"] * 3] * 3}),
+        ("a float that is no number", {"A": [["nan"] * 3] * 3}),
+        ("a huge shape", {"A": {"shape": [10**6, 10**6], "entries": []}}),
+        ("an entry twice", {"A": {"shape": [3, 3], "entries": [[0, 0, 1], [0, 0, 1]]}}),
+        ("an entry outside", {"A": {"shape": [3, 3], "entries": [[3, 0, 1]]}}),
+        ("an entry from the end", {"A": {"shape": [3, 3], "entries": [[-1, 0, 1]]}}),
+        ("delays without wires", {"neighbors": None, "delays": {"1": {"2": 1}}}),
+        ("no channels", {"channels": []}),
+    ],
+)
+def test_a_wrong_system_file_is_refused(reason: str, edit: dict[str, object]) -> None:
+    with pytest.raises(Refused):
+        digest_of(json.dumps({**BASE, **edit}))
