@@ -68,7 +68,7 @@ class Program:
     def _cut(self, number: Any, place: str) -> tuple[set[int], int]:
         if integer(number, place) >= len(self.cuts):
             malformed(place, f"expected the number of a cut, below {len(self.cuts)}")
-        return self.cuts[number]
+        return self.cuts[int(number)]
 
     def _require_multipliers(
         self, node: Any, place: str, low: list[int], high: list[int | None]

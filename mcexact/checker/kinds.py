@@ -19,6 +19,7 @@ from . import (
     neighbor_graph,
     pencil_rank,
     shared_dimensions,
+    stability,
     transfer_graph,
 )
 from .arithmetic import NotAUnit
@@ -42,6 +43,7 @@ KINDS: dict[str, Rule] = {
     "neighbor_graph": neighbor_graph.check,
     "pencil_rank": pencil_rank.check,
     "shared_dimensions": shared_dimensions.check,
+    "stability": stability.check,
     "transfer_graph": transfer_graph.check,
 }
 
@@ -115,7 +117,7 @@ def check_document(
     except Refused as found:
         return Verdict(found.verdict, "", known, found.code, found.place, found.message)
     except NotAUnit:
-        message = "a number that has to be inverted is not a unit modulo ℓ"
+        message = "a number that has to be inverted is not a unit modulo l"
         return Verdict("INVALID", "", known, "unit", "witness.modulus", message)
     except Exception as error:
         message = f"{type(error).__name__}: {error}".splitlines()[0][:200]

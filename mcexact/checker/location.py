@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from fractions import Fraction
 
-from .arithmetic import Polynomial, stripped
+from .arithmetic import Polynomial
 
 
 def in_stability_region(p: Polynomial, time: str) -> bool:
@@ -28,28 +29,40 @@ def in_region(p: Polynomial, time: str, bound: Fraction | None) -> bool:
 
 
 def is_hurwitz(p: Polynomial) -> bool:
-    """Routh's recursion: p = x^d + a x^(d−1) + … is Hurwitz iff a > 0 and the next polynomial is.
+    """Routh's array of p_d, p_{d−2}, … and p_{d−1}, p_{d−3}, …: every first entry is positive.
 
-    The next one takes x/a times every second term, from x^(d−1) down, away from p: it has degree
-    d − 1, and with the same odd or even part the roots stay on their side of the axis.
+    The rows are kept in integers: with Δ_k the first entry of row k ≥ 1, row k+1 is
+    (Δ_k · row k−1 − its first entry · row k) without the first place, over Δ_{k−2} (1 for k ≤ 2):
+    an exact division, Δ_k being a Hurwitz determinant; Routh's own row k is this one over Δ_{k−1}.
     """
-    while len(p) > 1:
-        if p[-2] <= 0:
+    d = len(p) - 1
+    # x/2^e in place of x shortens the numbers where the denominators are powers of 2
+    powers = [(q & -q).bit_length() - 1 for q in (Fraction(c / p[-1]).denominator for c in p)]
+    e = max((-(-power // (d - k)) for k, power in enumerate(powers[:d])), default=0)
+    p = [c / p[-1] * 2 ** (e * (d - k)) for k, c in enumerate(p)]
+    scale = math.lcm(*(Fraction(c).denominator for c in p))
+    descending = [int(c * scale) for c in reversed(p)]
+    upper, lower, divisors = descending[0::2], descending[1::2], (1, 1)
+    while lower:
+        if lower[0] <= 0:
             return False
-        f = p[-1] / p[-2]
-        p = [c - f * p[k - 1] if k and (len(p) - k) % 2 else c for k, c in enumerate(p)][:-1]
+        below = [*lower[1:], 0]
+        rows = zip(upper[1:], below, strict=False)
+        following = [(lower[0] * a - upper[0] * b) // divisors[0] for a, b in rows]
+        upper, lower, divisors = lower, following, (divisors[1], lower[0])
     return True
 
 
 def is_schur(p: Polynomial) -> bool:
-    """Schur–Cohn's recursion: p is Schur iff |p_0| < |p_d| and (p_d p − p_0 p*)/x is Schur.
+    """p is Schur iff p(−1) ≠ 0 and (1 − s)^d p((1 + s)/(1 − s)) is Hurwitz.
 
-    p* has the coefficients of p in reverse: on the unit circle |p*| = |p|, so Rouché's theorem
-    gives p_d p − p_0 p* as many roots inside as p.
+    s ↦ (1 + s)/(1 − s) maps the left half-plane onto the unit disc; the coefficient of s^d is
+    ±p(−1), so that no root is lost to infinity unless −1 is one.
     """
-    while len(p) > 1:
-        if abs(p[0]) >= abs(p[-1]):
-            return False
-        f = p[0] / p[-1]
-        p = stripped([c - f * r for c, r in zip(p, reversed(p), strict=True)][1:])
-    return True
+    moved: Polynomial = []  # Σ p_k (1 + s)^k (1 − s)^(d−k), by Horner's rule
+    power: Polynomial = [Fraction(1)]  # (1 − s)^k
+    for c in reversed(p):
+        grown = [a + b for a, b in zip([*moved, 0], [0, *moved], strict=True)]  # times 1 + s
+        moved = [a + c * b for a, b in zip(grown, power, strict=True)]
+        power = [a - b for a, b in zip([*power, 0], [0, *power], strict=True)]
+    return bool(moved[-1]) and is_hurwitz(moved)

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Literal
+
+import flint
 
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.polynomial import Polynomial
@@ -19,26 +20,33 @@ def is_hurwitz(p: Polynomial) -> bool:
 
     Notes
     -----
-    Routh's array in integers, each row divided by its content: all entries of the first column
-    must be positive.  O(d²) operations for degree d.
+    Routh's array, every first entry of which must be positive, kept in integers by exact divisions:
+    the first entry of row k is the Hurwitz determinant Δ_k, so the numbers grow linearly.
+    O(d²) operations for degree d.
 
     Examples
     --------
     >>> is_hurwitz(Polynomial.of(1, 1, 1)), is_hurwitz(Polynomial.of(1, 0, 1))
     (True, False)
     """
-    descending = _descending(p)
+    if p.is_zero():
+        raise InputError("expected a nonzero polynomial: every number is a root of 0")
+    # x/2^e in place of x shortens the numbers where the denominators are powers of 2.
+    p = p.monic()
+    twos = [(c.denominator & -c.denominator).bit_length() - 1 for c in p.coefficients]
+    e = max((-(-power // (p.degree - k)) for k, power in enumerate(twos[:-1])), default=0)
+    p = p.scale(Fraction(1, 2**e))
+    sign = 1 if p.leading > 0 else -1
+    descending = [flint.fmpz(sign * c) for c in reversed(p.numerators)]
     if min(descending) <= 0:
         return False
-    upper, lower = descending[0::2], descending[1::2]
+    upper, lower, divisors = descending[0::2], descending[1::2], (flint.fmpz(1), flint.fmpz(1))
     while lower:
         if lower[0] <= 0:
             return False
-        padded = lower + [0] * (len(upper) - len(lower))
-        following = [
-            lower[0] * upper[k + 1] - upper[0] * padded[k + 1] for k in range(len(upper) - 1)
-        ]
-        upper, lower = lower, _primitive(following)
+        rows = zip(upper[1:], [*lower[1:], 0], strict=False)
+        following = [(lower[0] * a - upper[0] * b) // divisors[0] for a, b in rows]
+        upper, lower, divisors = lower, following, (divisors[1], lower[0])
     return True
 
 
@@ -47,37 +55,19 @@ def is_schur(p: Polynomial) -> bool:
 
     Notes
     -----
-    The Schur–Cohn recursion in integers: |p(0)| must be below the leading coefficient, and then
-    (p_d p − p_0 p*)/x, p* the reversed polynomial, takes the place of p.
+    p(−1) must not vanish, and then (1 − s)^d p((1 + s)/(1 − s)) must be Hurwitz.  (The Schur–Cohn
+    recursion in integers was 130 times slower at degree 60 with word-size coefficients.)
 
     Examples
     --------
     >>> is_schur(Polynomial.of("1/2", 1, 1)), is_schur(Polynomial.of(1, "1/2", 1))
     (True, False)
     """
-    descending = _descending(p)
-    while len(descending) > 1:
-        first, last = descending[0], descending[-1]
-        if abs(last) >= first:
-            return False
-        mirrored = descending[::-1]
-        descending = _primitive(
-            [first * a - last * b for a, b in zip(descending, mirrored, strict=True)][:-1]
-        )
-    return True
-
-
-def _descending(p: Polynomial) -> list[int]:
-    """Integer coefficients from the leading one down, the leading one positive."""
-    if p.is_zero():
-        raise InputError("expected a nonzero polynomial: every number is a root of 0")
-    sign = 1 if p.leading > 0 else -1
-    return _primitive([sign * c for c in reversed(p.numerators)])
-
-
-def _primitive(row: list[int]) -> list[int]:
-    content = math.gcd(*row)
-    return [entry // content for entry in row] if content > 1 else row
+    plus, minus = Polynomial.of(1, 1), Polynomial.of(1, -1)
+    moved, power = Polynomial.of(), Polynomial.of(1)
+    for c in reversed(p.coefficients):
+        moved, power = moved * plus + power * c, power * minus
+    return moved.degree == p.degree and is_hurwitz(moved)
 
 
 @dataclass(frozen=True)

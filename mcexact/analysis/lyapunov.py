@@ -1,0 +1,205 @@
+"""Lyapunov matrices: found in floating point, refined exactly, and verified exactly.
+
+For a square rational D and a rate b the derivative of xᵀPx along x' = (D + b)x is −xᵀSx with
+
+    S = −(DᵀP + PD + 2bP),          in discrete time, radius r:   S = r²P − DᵀPD.
+
+A symmetric matrix is positive definite if RᵀPR is strictly diagonally dominant with a positive
+diagonal for some square R.  Everything is done in coordinates that are balanced by powers of 2.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from mcexact.exact.floats import matrix_from_float, matrix_to_float
+from mcexact.exact.matrix import Matrix
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+    Floats = npt.NDArray[np.float64]
+
+_FACTOR_BITS = 26
+_REFINEMENTS = 4
+
+
+@dataclass(frozen=True)
+class QuadraticForm:
+    """P, with R and R2 that show P and S to be positive definite; R is None if P is not.
+
+    Attributes
+    ----------
+    P, R2 : Matrix
+        k × k; P is symmetric.
+    R : Matrix or None
+    v : Matrix or None
+        A column with vᵀPv ≤ 0, if R is None.
+    """
+
+    P: Matrix
+    R: Matrix | None
+    R2: Matrix
+    v: Matrix | None
+
+
+def decrease(D: Matrix, P: Matrix, time: str, bound: Fraction) -> Matrix:
+    """S, the symmetric matrix that must be positive definite."""
+    if time == "continuous":
+        half = D.T @ P
+        return -(half + half.T + P * (2 * bound))
+    return P * bound**2 - D.T @ (P @ D)
+
+
+def is_dominant(S: Matrix) -> bool:
+    """Whether every diagonal entry exceeds the sum of the absolute values of its row's rest."""
+    return all(row[i] > sum(map(abs, row)) - abs(row[i]) for i, row in enumerate(S.numerators))
+
+
+def quadratic_form(D: Matrix, time: str, bound: Fraction) -> QuadraticForm | None:
+    """Search for a quadratic form that decides where the eigenvalues of D lie.
+
+    Parameters
+    ----------
+    D : Matrix
+        k × k.
+    time : {"continuous", "discrete"}
+    bound : Fraction
+        The rate or the radius.
+
+    Returns
+    -------
+    QuadraticForm or None
+        With R: every eigenvalue is inside.  With v: some eigenvalue is not.  None if floating
+        point is not up to it, as for eigenvalues very near the boundary.
+
+    Notes
+    -----
+    Floating point proposes P with S near the identity; as long as S is not dominant, the exact
+    residual is solved for a correction.  O(k³) operations on floats and on short integers.
+    """
+    k = D.nrows
+    if k == 0:
+        empty = Matrix.zeros(0, 0)
+        return QuadraticForm(empty, empty, empty, None)
+    scales = _balancing(D)
+    balanced = scaled(D, [1 / s for s in scales], scales)
+    P = _approximate(balanced, time, bound)
+    if P is None:
+        return None
+    R2 = _diagonal(scales)
+    inner = [1 / s for s in scales]
+    definite = _cholesky_factor(matrix_to_float(P))
+    outer = scaled(P, inner, inner)
+    if definite is not None:
+        R = scaled(definite, scales, [Fraction(1)] * k)
+        if is_dominant(R.T @ (outer @ R)):
+            return QuadraticForm(outer, R, R2, None)
+        return None
+    v = _negative_direction(P)
+    if v is None:
+        return None
+    return QuadraticForm(outer, None, R2, scaled(v, scales, [Fraction(1)]))
+
+
+def scaled(M: Matrix, left: list[Fraction], right: list[Fraction]) -> Matrix:
+    """diag(left) M diag(right)."""
+    return _diagonal(left) @ (M @ _diagonal(right))
+
+
+def _diagonal(entries: list[Fraction]) -> Matrix:
+    size = len(entries)
+    return Matrix.from_rows(
+        [[entries[i] if i == j else 0 for j in range(size)] for i in range(size)], ncols=size
+    )
+
+
+def _balancing(D: Matrix) -> list[Fraction]:
+    """Powers of 2 that bring the rows and columns of D to like size."""
+    from scipy.linalg import matrix_balance
+
+    _, (factors, _) = matrix_balance(matrix_to_float(D), permute=False, separate=True)
+    return [Fraction(float(factor)) for factor in factors]
+
+
+def _approximate(D: Matrix, time: str, bound: Fraction) -> Matrix | None:
+    """A symmetric P with S dominant, found by floating-point solutions of exact residuals."""
+    import numpy as np
+
+    k = D.nrows
+    identity = Matrix.identity(k)
+    D_float = matrix_to_float(D)
+    if not np.all(np.isfinite(D_float)):
+        return None
+    P, residual = Matrix.zeros(k, k), identity
+    for _ in range(_REFINEMENTS):
+        step = _solve(D_float, matrix_to_float(residual), time, float(bound))
+        if step is None:
+            return None
+        P = P + _dyadic(step)
+        S = decrease(D, P, time, bound)
+        if is_dominant(S):
+            return P
+        residual = identity - S
+    return None
+
+
+def _solve(D: Floats, Q: Floats, time: str, bound: float) -> Floats | None:
+    """The symmetric solution of DᵀP + PD + 2bP = −Q, or of r²P − DᵀPD = Q, in floating point."""
+    import warnings
+
+    import numpy as np
+    from scipy.linalg import LinAlgError, solve_continuous_lyapunov, solve_discrete_lyapunov
+
+    with warnings.catch_warnings():
+        # An ill-conditioned equation may still give a P that passes the exact test.
+        warnings.simplefilter("ignore")
+        try:
+            if time == "continuous":
+                P = solve_continuous_lyapunov((D + bound * np.eye(len(D))).T, -Q)
+            else:
+                P = solve_discrete_lyapunov(D.T / bound, Q / bound**2)
+        except (LinAlgError, ValueError):
+            return None
+    if not np.all(np.isfinite(P)):
+        return None
+    return np.asarray((P + P.T) / 2, dtype=np.float64)
+
+
+def _dyadic(M: Floats, bits: int = 52) -> Matrix:
+    """M rounded to multiples of 2^−bits of its largest entry; symmetric if M is."""
+    import numpy as np
+
+    largest = float(np.max(np.abs(M), initial=0.0))
+    if largest == 0.0:
+        return Matrix.zeros(*M.shape)
+    exponent = bits - int(np.frexp(largest)[1])
+    return matrix_from_float(np.round(np.ldexp(M, exponent)), "dyadic") * (Fraction(2) ** -exponent)
+
+
+def _cholesky_factor(P: Floats) -> Matrix | None:
+    """An upper triangular R, RᵀPR near a diagonal matrix; None if P is not definite."""
+    import numpy as np
+    from scipy.linalg import solve_triangular
+
+    try:
+        L = np.linalg.cholesky(P)
+    except np.linalg.LinAlgError:
+        return None
+    R = solve_triangular(L, np.eye(len(P)), lower=True).T
+    columns = np.exp2(np.round(np.log2(np.max(np.abs(R), axis=0))))
+    return _dyadic(R / columns, _FACTOR_BITS)
+
+
+def _negative_direction(P: Matrix) -> Matrix | None:
+    """A column v ≠ 0 with vᵀPv ≤ 0, exactly."""
+    import numpy as np
+
+    values, vectors = np.linalg.eigh(matrix_to_float(P))
+    if values[0] >= 0:
+        return None
+    v = _dyadic(vectors[:, :1], _FACTOR_BITS)
+    return v if (v.T @ (P @ v))[0, 0] <= 0 else None

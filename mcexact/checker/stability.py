@@ -1,0 +1,89 @@
+"""Kind ``stability``: every eigenvalue meets a bound, or one does not; ``proofs/stability.md``."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any
+
+from . import evidence
+from .arithmetic import Echelon, Matrix, characteristic_polynomial
+from .covering import read_bound
+from .location import in_region
+from .reading import boolean, fields, integer, items, matrix, require, string
+from .system import System
+from .words import described
+
+
+def check(claim: Any, witness: Any, system: System) -> str:
+    """Place the characteristic polynomial, or check quadratic forms that grow or decrease."""
+    limit, verdict = fields(claim, "claim", "bound", "stable")
+    stable, given = boolean(verdict, "claim.stable"), read_bound(limit, system)
+    bound = Fraction(int(system.time == "discrete")) if given is None else given
+    method, M = witness.get("method") if isinstance(witness, dict) else None, system.A
+    if string(method, "witness.method", "polynomial", "lyapunov", "instability") == "polynomial":
+        fields(witness, "witness", "method")
+        found = in_region(characteristic_polynomial(M), system.time, bound)
+        require(found == stable, "claim", "claim.stable", "the characteristic polynomial differs")
+    elif method == "lyapunov":
+        require(stable, "claim", "claim.stable", "this evidence is for a stable loop")
+        _, change, listed = fields(witness, "witness", "method", "transformation", "blocks")
+        entries = items(listed, "witness.blocks")
+        sizes = [
+            integer(fields(entry, f"witness.blocks[{k}]", "size", "P", "R", "R2")[0], "size")
+            for k, entry in enumerate(entries)
+        ]
+        require(sum(sizes) == M.nrows, "size", "witness.blocks", f"expected {M.nrows} states")
+        start = 0
+        Delta = M if change is None else _transformed(change, M)
+        for k, (entry, size) in enumerate(zip(entries, sizes, strict=True)):
+            block, place = range(start, start + size), f"witness.blocks[{k}]"
+            below = Delta.take(range(start + size, M.nrows), block)
+            require(below.is_zero(), "blocks", place, "not block upper triangular")
+            P = _decreasing(entry, place, Delta.take(block, block), system.time, bound)
+            R = matrix(entry["R"], f"{place}.R", size, size)
+            _require_dominant(R.T @ (P @ R), f"{place}.R")
+            start += size
+    else:
+        require(not stable, "claim", "claim.stable", "this evidence is for an unstable loop")
+        _, _, _, direction = fields(witness, "witness", "method", "P", "R2", "v")
+        P = _decreasing(witness, "witness", M, system.time, bound)
+        v = matrix(direction, "witness.v", M.nrows, 1)
+        falls = not v.is_zero() and (v.T @ (P @ v)).rows[0][0] <= 0
+        require(falls, "direction", "witness.v", "expected v not 0 with v'Pv <= 0")
+    what = f"real part below {-bound}" if system.time == "continuous" else f"modulus below {bound}"
+    every = "every eigenvalue has" if stable else "not every eigenvalue has"
+    return f"{every} {what} in {described(system)}"
+
+
+def _transformed(value: Any, M: Matrix) -> Matrix:
+    """Δ with M T = T Δ for a T that is nonsingular modulo ℓ."""
+    place, N = "witness.transformation", M.nrows
+    left, right, number = fields(value, place, "T", "Delta", "modulus")
+    T, Delta = matrix(left, f"{place}.T", N, N), matrix(right, f"{place}.Delta", N, N)
+    basis = Echelon(evidence.modulus(number, f"{place}.modulus"))
+    independent = all(basis.add(row) is not None for row in T.modulo(basis.ell))
+    require(independent, "rank", f"{place}.T", "singular modulo ℓ")
+    require((M @ T).equals(T @ Delta), "identity", place, "M T differs from T Δ")
+    return Delta
+
+
+def _decreasing(value: Any, place: str, D: Matrix, time: str, bound: Fraction) -> Matrix:
+    """P, symmetric, with −(DᵀP + PD + 2·bound·P), or bound²P − DᵀPD, positive definite by R2."""
+    k = D.nrows
+    P, R2 = (matrix(value[key], f"{place}.{key}", k, k) for key in ("P", "R2"))
+    require(P.equals(P.T), "symmetry", f"{place}.P", "not symmetric")
+    half = P @ D
+    if time == "continuous":
+        S = (half + half.T + P.times(2 * bound)).times(Fraction(-1))
+    else:
+        S = P.times(bound**2) - D.T @ half
+    _require_dominant(R2.T @ (S @ R2), f"{place}.R2")
+    return P
+
+
+def _require_dominant(S: Matrix, place: str) -> None:
+    """Stop unless S is strictly diagonally dominant with positive diagonal."""
+    fits = all(
+        2 * row[i] > row[i] + sum(map(abs, row)) - abs(row[i]) for i, row in enumerate(S.rows)
+    )
+    require(fits, "dominance", place, "not strictly diagonally dominant")
