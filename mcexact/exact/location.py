@@ -44,7 +44,7 @@ def is_hurwitz(p: Polynomial) -> bool:
     while lower:
         if lower[0] <= 0:
             return False
-        rows = zip(upper[1:], [*lower[1:], 0], strict=False)
+        rows = zip(upper[1:], [*lower[1:], flint.fmpz(0)], strict=False)
         following = [(lower[0] * a - upper[0] * b) // divisors[0] for a, b in rows]
         upper, lower, divisors = lower, following, (divisors[1], lower[0])
     return True
