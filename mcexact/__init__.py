@@ -8,6 +8,9 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from mcexact.analysis.allocation import minimal_shared_dimensions as minimal_shared_dimensions
+    from mcexact.analysis.allocation import shared_dimension_bound as shared_dimension_bound
+    from mcexact.analysis.communication import minimal_communication as minimal_communication
     from mcexact.analysis.completeness import completeness as completeness
     from mcexact.analysis.controllability import joint_controllability as joint_controllability
     from mcexact.analysis.controllability import joint_observability as joint_observability
@@ -22,25 +25,40 @@ if TYPE_CHECKING:
     from mcexact.analysis.transfer_graph import transfer_graph as transfer_graph
     from mcexact.derived.augmented_outputs import augmented_outputs as augmented_outputs
     from mcexact.derived.dual import dual as dual
+    from mcexact.derived.error_system import error_system as error_system
+    from mcexact.derived.extended import extended_system as extended_system
+    from mcexact.derived.held import held_system as held_system
+    from mcexact.derived.integrators import setpoint_system as setpoint_system
+    from mcexact.derived.lifted import lifted_system as lifted_system
     from mcexact.model.neighbor_graph import NeighborGraph as NeighborGraph
     from mcexact.model.system import MultiChannelSystem as MultiChannelSystem
     from mcexact.model.system_file import load_system as load_system
     from mcexact.model.system_file import save_system as save_system
+    from mcexact.report.verdict import check as check
 
 _HOME = {
     "MultiChannelSystem": "model.system",
     "NeighborGraph": "model.neighbor_graph",
     "augmented_outputs": "derived.augmented_outputs",
+    "check": "report.verdict",
     "completeness": "analysis.completeness",
     "controllability_indices": "analysis.controllability_indices",
     "dual": "derived.dual",
+    "error_system": "derived.error_system",
+    "extended_system": "derived.extended",
     "fixed_spectrum": "analysis.fixed_spectrum",
+    "held_system": "derived.held",
     "joint_controllability": "analysis.controllability",
     "joint_observability": "analysis.controllability",
+    "lifted_system": "derived.lifted",
     "load_system": "model.system_file",
+    "minimal_communication": "analysis.communication",
+    "minimal_shared_dimensions": "analysis.allocation",
     "observability_indices": "analysis.controllability_indices",
     "pencil_rank": "analysis.pencil",
     "save_system": "model.system_file",
+    "setpoint_system": "derived.integrators",
+    "shared_dimension_bound": "analysis.allocation",
     "transfer_graph": "analysis.transfer_graph",
 }
 
