@@ -1,0 +1,223 @@
+"""Each command does what it says, ends with its status, and writes whole files."""
+
+import json
+import os
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+import mcexact
+from mcexact.cli import main
+from mcexact.cli.commands import COMMANDS
+from mcexact.model import gallery
+from mcexact.model.system_file import load_system
+
+GALLERY = Path(gallery.__file__).parent
+TRIPLE = str(GALLERY / "hidden-triple-mode.json")
+README = Path(mcexact.__file__).parents[1] / "README.md"
+
+Call = Callable[..., tuple[int, str, str]]
+
+
+@pytest.fixture
+def call(capsys: pytest.CaptureFixture[str]) -> Call:
+    """Run the command line in this process: status, standard output, standard error."""
+
+    def run(*arguments: str) -> tuple[int, str, str]:
+        with pytest.raises(SystemExit) as ended:
+            main(arguments)
+        code = ended.value.code
+        assert isinstance(code, int)
+        captured = capsys.readouterr()
+        return code, captured.out, captured.err
+
+    return run
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_every_command_has_help_with_a_sentence_and_its_options(name: str, call: Call) -> None:
+    status, out, _ = call(name, "--help")
+    assert status == 0
+    assert out.startswith(f"Usage: mcexact {name} ")
+    assert "--json" in out or "COMMAND [ARGS]" in out
+    assert call("--help")[1].count(f"  {name} ") == 1
+
+
+@pytest.mark.parametrize(
+    ("typed", "meant"),
+    [("anlyze", "analyze"), ("analyse", "analyze"), ("chekc", "check"), ("sampel", "sample")],
+)
+def test_a_near_miss_is_answered_with_the_nearest_command(
+    typed: str, meant: str, call: Call
+) -> None:
+    status, out, err = call(typed, "file.json")
+    assert (status, out) == (2, "")
+    assert f"did you mean '{meant}'?" in err
+
+
+def test_a_word_that_is_near_to_nothing_gets_the_list(call: Call) -> None:
+    assert "one of analyze, check" in call("xyzzy")[2]
+
+
+def test_an_error_that_nobody_foresaw_asks_to_be_reported(
+    call: Call, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def broken() -> None:
+        raise ZeroDivisionError("surprise")
+
+    monkeypatch.setattr("mcexact.report.demonstration.demonstration", broken)
+    status, out, err = call("demo")
+    assert (status, out) == (70, "")
+    assert "internal error, ZeroDivisionError: surprise" in err
+    assert "please report it" in err
+    assert err.count("\n") == 1
+
+
+def test_an_interruption_is_status_130(call: Call, monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupted() -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("mcexact.report.demonstration.demonstration", interrupted)
+    assert call("demo")[0] == 130
+
+
+def test_demo_prints_what_the_readme_says_it_prints(call: Call) -> None:
+    status, out, _ = call("demo")
+    assert status == 0
+    quoted = README.read_text(encoding="utf-8").replace("\n    ", "\n")
+    assert out in quoted
+
+
+def test_demo_as_json_has_both_failures(call: Call) -> None:
+    shown = json.loads(call("demo", "--json")[1])
+    assert shown["controllability"]["numpy"]["rank"] == 7
+    assert shown["controllability"]["mcexact"]["rank"] == 20
+    assert [row["runs_that_found_none"] for row in shown["fixed_modes"]["numpy"]] == [200] * 3
+    (fixed,) = shown["fixed_modes"]["mcexact"]
+    assert fixed == {"factor": "x - 1", "multiplicity_at_most": 3}
+
+
+def test_analyze_writes_a_valid_certificate_for_every_answer(call: Call, tmp_path: Path) -> None:
+    folder = tmp_path / "new" / "evidence"
+    status, out, err = call(
+        "analyze", TRIPLE, "--json", "--subset", "u1", "--certificates", str(folder)
+    )
+    assert (status, err) == (0, "")
+    answer = json.loads(out)
+    named = set(answer["certificate"].values()) | {
+        rank["certificate"] for rank in answer["pencil_ranks"]
+    }
+    assert named == {path.name for path in folder.iterdir()}
+    files = [str(folder / name) for name in sorted(named)]
+    status, out, _ = call("check", *files, "--system", TRIPLE)
+    assert status == 0
+    assert [line.split()[0] for line in out.splitlines()] == ["VALID"] * len(files)
+
+
+def test_the_same_input_gives_the_same_bytes(call: Call, tmp_path: Path) -> None:
+    for name in ("first", "second"):
+        call("analyze", TRIPLE, "--certificates", str(tmp_path / name))
+    first, second = (
+        {path.name: path.read_bytes() for path in (tmp_path / name).iterdir()}
+        for name in ("first", "second")
+    )
+    assert first == second
+
+
+def test_an_assertion_that_holds_is_status_0_and_one_that_does_not_is_1(call: Call) -> None:
+    free = str(GALLERY / "quadruple-tank-pminus.json")
+    assert call("analyze", free, "--assert", "no-fixed-modes")[0] == 0
+    assert call("analyze", TRIPLE, "--assert", "no-fixed-modes")[0] == 1
+
+
+def test_the_empty_subset_is_written_as_nothing(call: Call) -> None:
+    answer = json.loads(call("analyze", TRIPLE, "--json", "--subset", "")[1])
+    assert {tuple(rank["subset"]) for rank in answer["pencil_ranks"]} == {()}
+
+
+def test_check_ends_with_the_worst_status_in_its_order(call: Call, tmp_path: Path) -> None:
+    call("analyze", TRIPLE, "--certificates", str(tmp_path))
+    good = tmp_path / "fixed_spectrum.json"
+    document = json.loads(good.read_text(encoding="ascii"))
+    made = {
+        "valid": document,
+        "invalid": {**document, "claim": {**document["claim"], "stabilizable": True}},
+        "incomplete": {**document, "kind": "wish"},
+        "malformed": {**document, "verified": True},
+    }
+    files = {}
+    for name, content in made.items():
+        files[name] = str(tmp_path / f"{name}.json")
+        Path(files[name]).write_text(json.dumps(content), encoding="ascii")
+    assert call("check", files["valid"])[0] == 0
+    assert call("check", files["valid"], files["incomplete"])[0] == 5
+    assert call("check", files["incomplete"], files["invalid"])[0] == 1
+    status, out, _ = call("check", *files.values())
+    assert status == 3
+    words = [line.split()[0] for line in out.splitlines()]
+    assert words == ["VALID", "INVALID", "INCOMPLETE", "MALFORMED"]
+    status, out, _ = call("check", "--json", *files.values())
+    assert [row["verdict"] for row in json.loads(out)["verdicts"]] == words
+
+
+def test_sample_draws_the_same_system_from_the_same_seed(call: Call) -> None:
+    drawn = [call("sample", "--seed", seed, "--states", "5")[1] for seed in ("1", "1", "2")]
+    assert drawn[0] == drawn[1] != drawn[2]
+
+
+def test_sample_plants_a_fixed_mode_of_the_degree_that_was_asked_for(
+    call: Call, tmp_path: Path
+) -> None:
+    for degree in ("1", "3"):
+        out = call("sample", "--states", "5", "--channels", "3", "--plant-fixed-mode", degree)[1]
+        file = tmp_path / "drawn.json"
+        file.write_text(out, encoding="utf-8")
+        answer = json.loads(call("analyze", str(file), "--json")[1])
+        assert answer["jointly_controllable"]
+        assert answer["jointly_observable"]
+        degrees = [len(f["polynomial"]) - 1 for f in answer["fixed_spectrum"]["factors"]]
+        assert int(degree) in degrees
+
+
+def test_sample_writes_many_files_and_neighbors_when_asked(call: Call, tmp_path: Path) -> None:
+    options = ("--count", "3", "--seed", "7", "--neighbors", "--time", "discrete")
+    assert call("sample", *options)[0] == 2
+    assert call("sample", *options, "--output", str(tmp_path / "drawn"))[0] == 0
+    files = sorted((tmp_path / "drawn").iterdir())
+    assert [file.name for file in files] == ["sample-7.json", "sample-8.json", "sample-9.json"]
+    for file in files:
+        system = load_system(file)
+        assert system.time == "discrete"
+        assert system.neighbors is not None
+        assert system.neighbors.is_strongly_connected()
+
+
+@pytest.mark.skipif(not hasattr(os, "openpty"), reason="there are no terminals here")
+def test_a_terminal_gets_tables_and_a_pipe_gets_plain_text(call: Call) -> None:
+    import subprocess
+    import sys
+
+    terminal, end = os.openpty()
+    with subprocess.Popen(
+        [sys.executable, "-m", "mcexact", "analyze", TRIPLE], stdout=end, stderr=end
+    ) as process:
+        os.close(end)
+        drawn = b""
+        while chunk := _read(terminal):
+            drawn += chunk
+        assert process.wait() == 0
+    os.close(terminal)
+    assert "┃" in drawn.decode()
+    plain = call("analyze", TRIPLE)[1]
+    assert "┃" not in plain
+    assert "\x1b" not in plain
+    assert re.search(r"x - 1 +1 +no +3 +3 +\{u1\} +4 of 5", plain)
+
+
+def _read(terminal: int) -> bytes:
+    try:
+        return os.read(terminal, 4096)
+    except OSError:  # how Linux says that the other end was closed
+        return b""
