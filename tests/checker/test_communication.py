@@ -1,0 +1,69 @@
+"""The rule of ``communication``."""
+
+from __future__ import annotations
+
+import pytest
+
+from mcexact.analysis.communication import minimal_communication
+from mcexact.certificate.codec import document
+from mcexact.model import gallery
+from mcexact.model.neighbor_graph import NeighborGraph
+from tests.checker.handmade import Document, changed, checked
+
+PLANT = gallery.load("liu2020-3ch-no-communication")
+SILENT = NeighborGraph.empty(PLANT.names)
+CHAIN = NeighborGraph.from_names(PLANT.names, {"1": ["2"], "3": ["1"]})
+
+OUTPUTS = document(minimal_communication(PLANT, SILENT).certificate)
+EXTENDED = document(minimal_communication(PLANT, CHAIN, dimensions=(0, 0, 1)).certificate)
+BLOCKED = document(
+    minimal_communication(
+        PLANT, SILENT, forbidden=[(j, i) for j in "123" for i in "123"]
+    ).certificate
+)
+
+ACCEPTED = [
+    ("outputs alone", OUTPUTS),
+    ("one more wire for the extended system", EXTENDED),
+    ("no candidate, no way", BLOCKED),
+    ("another modulus", changed(OUTPUTS, ("witness.absence.modulus", 2**31 - 1))),
+]
+
+REJECTED = [
+    ("an arc that does not help", EXTENDED, ("claim.added", [["2", "3"]])),
+    ("no arc at all", EXTENDED, ("claim.added", [])),
+    ("an arc that is no candidate", EXTENDED, ("claim.added", [["2", "1"]])),
+    ("an arc twice", EXTENDED, ("claim.added", [["3", "2"], ["3", "2"]])),
+    ("a cost that is not the arcs'", EXTENDED, ("claim.cost", 2)),
+    ("other dimensions", EXTENDED, ("claim.dimensions", [0, 0, 0])),
+    ("dimensions for outputs alone", OUTPUTS, ("claim.dimensions", [0, 0, 0])),
+    ("sub-states without dimensions", EXTENDED, ("claim.dimensions", None)),
+    ("another thing carried", EXTENDED, ("claim.share", "outputs")),
+    ("a candidate that the graph has", EXTENDED, ("claim.candidates.0", ["2", "1", 1])),
+    ("candidates out of order", EXTENDED, ("claim.candidates", [["3", "2", 1], ["1", "2", 1]])),
+    ("a free candidate", EXTENDED, ("claim.candidates.0.2", 0)),
+    ("no cut", EXTENDED, ("witness.cuts", [])),
+    ("deg p = 0", EXTENDED, ("witness.cuts.0.polynomial", [1])),
+    ("another T", EXTENDED, ("witness.cuts.0.subspace.channels_T", ["1", "2", "3"])),
+    ("a tree without proof", EXTENDED, ("witness.tree", {"multipliers": []})),
+    ("a violated cut that is not", EXTENDED, ("witness.tree", {"violated": 0})),
+    ("possible after all", BLOCKED, ("claim.feasible", True)),
+    ("a candidate forgotten", BLOCKED, ("claim.candidates", [["1", "2", 1]])),
+    ("modulus 0", OUTPUTS, ("witness.absence.modulus", 0)),
+    ("another plant", OUTPUTS, ("system.A.2.1", 0)),
+]
+
+
+@pytest.mark.parametrize(("reason", "document"), ACCEPTED)
+def test_sound_evidence_is_accepted(reason: str, document: Document) -> None:
+    verdict = checked(document)
+    assert verdict.verdict == "VALID", verdict.line()
+
+
+@pytest.mark.parametrize(("reason", "document", "edit"), REJECTED)
+def test_a_change_of_one_place_is_rejected(
+    reason: str, document: Document, edit: tuple[str, object]
+) -> None:
+    assert checked(document).verdict == "VALID"
+    verdict = checked(changed(document, edit))
+    assert verdict.verdict in ("INVALID", "MALFORMED"), verdict.line()

@@ -1,0 +1,109 @@
+"""The rule of ``shared_dimensions``."""
+
+from __future__ import annotations
+
+import pytest
+
+from mcexact.analysis.allocation import minimal_shared_dimensions
+from mcexact.certificate.codec import document
+from mcexact.model import gallery
+from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem
+from tests.checker.handmade import Document, changed, checked
+
+PLANT = gallery.load("liu2020-3ch-no-communication")
+RING = NeighborGraph.ring(PLANT.names)
+SQUARE = MultiChannelSystem(
+    [[0, 0], [0, 0]],
+    [[[1], [0]], [[0], [1]]],
+    [[[1, 0]], [[0, 1]]],
+    neighbors={"1": ["2"], "2": ["1"]},
+)
+
+BOTH = document(minimal_shared_dimensions(PLANT, RING).certificate)
+STATES = document(minimal_shared_dimensions(PLANT, RING, "states").certificate)
+NOTHING = document(minimal_shared_dimensions(PLANT, NeighborGraph.empty(PLANT.names)).certificate)
+FREE = document(
+    minimal_shared_dimensions(SQUARE, share="states", free_assignability=True).certificate
+)
+STABLE = document(
+    minimal_shared_dimensions(PLANT, RING, "states", bound=1, costs=[2, 1, "1/3"]).certificate
+)
+SPLIT: Document = {
+    "agent": "1",
+    "at_most": 0,
+    "below": {"violated": 0},
+    "above": {"violated": 0},
+}
+
+ACCEPTED = [
+    ("the paper's example, outputs and sub-states", BOTH),
+    ("the paper's example, sub-states alone", STATES),
+    ("nothing suffices without a graph", NOTHING),
+    ("a connected graph asked for besides", FREE),
+    ("only modes beyond a rate, at other prices", STABLE),
+    ("more split than needed", changed(
+        STATES,
+        ("witness.tree", {
+            "agent": "2", "at_most": 5,
+            "below": STATES["witness"]["tree"], "above": STATES["witness"]["tree"],
+        }),
+    )),
+    ("an upper bound that does not bind", changed(BOTH, ("claim.upper", [0, 0, 1]))),
+]  # fmt: skip
+
+REJECTED = [
+    ("an optimum that is too high", BOTH, ("claim.dimensions", [1, 0, 1])),
+    ("dimensions that leave the mode fixed", BOTH, ("claim.dimensions", [1, 0, 0])),
+    ("the mode left fixed, at its own cost", STATES, ("claim.dimensions", [0, 0, 1])),
+    ("a cost that is not that of the dimensions", BOTH, ("claim.cost", 0)),
+    ("an upper bound that the dimensions exceed", BOTH, ("claim.upper", [None, None, 0])),
+    ("free of charge", BOTH, ("claim.costs.0", 0)),
+    ("a negative price", BOTH, ("claim.costs.0", -1)),
+    ("another price", STABLE, ("claim.costs.0", 3)),
+    ("a cut for another subset", STATES, ("witness.cuts.0.subset", ["1"])),
+    ("a cut that demands too much", STATES, ("witness.cuts.0.deficiency", 2)),
+    ("deg p = 0", STATES, ("witness.cuts.0.polynomial", [1])),
+    ("no cut at all", STATES, ("witness.cuts", [])),
+    ("a tree without proof", STATES, ("witness.tree", {"multipliers": []})),
+    ("a violated cut that is not violated", STATES, ("witness.tree", {"violated": 0})),
+    ("a negative multiplier", STATES, ("witness.tree.multipliers.0.1", -1)),
+    ("the number of a cut that is not there", STATES, ("witness.tree.multipliers.0.0", 2)),
+    ("a negative number", STATES, ("witness.tree.multipliers.0.0", -1)),
+    ("a split without leaves", STATES, ("witness.tree", {"agent": "1", "at_most": 0})),
+    ("leaves that prove nothing", STATES, ("witness.tree", SPLIT)),
+    ("a split on nobody", NOTHING, ("witness.tree", {**SPLIT, "agent": "7"})),
+    ("the other way of sharing", STATES, ("claim.share", "outputs+states")),
+    ("an unknown way of sharing", STATES, ("claim.share", "wishes")),
+    ("a rate that the mode does not violate", STABLE, ("claim.bound", -2)),
+    ("possible after all", NOTHING, ("claim.feasible", True)),
+    ("impossible after all", BOTH, ("claim.feasible", False)),
+    ("a mode allowed that violates the bound", STATES, ("witness.absence.allowed", [[[-1, 1], 1]])),
+    ("gains of zeros", STATES, (
+        "witness.absence.gains",
+        [{"denominator": 1, "entries": [[0 for _ in row] for row in gain["entries"]]}
+         for gain in STATES["witness"]["absence"]["gains"]],
+    )),
+    ("modulus 1", STATES, ("witness.absence.modulus", 1)),
+    ("arcs forgotten", FREE, ("witness.absence.arcs", None)),
+    ("arcs that do not connect", FREE, ("witness.absence.arcs", [])),
+    ("a cut of connectivity for no such claim", FREE, ("claim.free_assignability", False)),
+    ("a cut of connectivity for everyone", FREE, ("witness.cuts.0.subset", ["1", "2"])),
+    ("another plant", STATES, ("system.A.2.1", 0)),
+    ("one wire less", STATES, ("system.neighbors.2", [])),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("reason", "document"), ACCEPTED)
+def test_sound_evidence_is_accepted(reason: str, document: Document) -> None:
+    verdict = checked(document)
+    assert verdict.verdict == "VALID", verdict.line()
+
+
+@pytest.mark.parametrize(("reason", "document", "edit"), REJECTED)
+def test_a_change_of_one_place_is_rejected(
+    reason: str, document: Document, edit: tuple[str, object]
+) -> None:
+    assert checked(document).verdict == "VALID"
+    verdict = checked(changed(document, edit))
+    assert verdict.verdict in ("INVALID", "MALFORMED"), verdict.line()
