@@ -1,9 +1,10 @@
-"""The group of commands: loaded one by one, and a near miss is answered with the nearest name."""
+"""Groups of commands: loaded one by one, and a near miss is answered with the nearest name."""
 
 from __future__ import annotations
 
 import difflib
 import importlib
+from typing import Any
 
 import click
 
@@ -12,20 +13,37 @@ COMMANDS = ("analyze", "check", "design", "simulate", "demo", "sample")
 
 
 class Commands(click.Group):
-    """The commands of `mcexact`, each imported when it is named."""
+    """A group whose commands are modules of this package, each imported when it is named.
+
+    Parameters
+    ----------
+    names : tuple of str
+        The commands, in the order in which help lists them.
+    prefix : str
+        What stands before a command's name in the name of its module.
+    **attributes
+        Of `click.Group`.
+    """
+
+    def __init__(
+        self, *, names: tuple[str, ...] = COMMANDS, prefix: str = "", **attributes: Any
+    ) -> None:
+        super().__init__(**attributes)
+        self.names = names
+        self.prefix = prefix
 
     def list_commands(self, ctx: click.Context) -> list[str]:
-        """The commands in the order of the table above."""
-        return list(COMMANDS)
+        """The commands in the order of the table."""
+        return list(self.names)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         """The command of this name, or None."""
-        if cmd_name not in COMMANDS:
+        if cmd_name not in self.names:
             return None
-        module = importlib.import_module(f"mcexact.cli.{cmd_name}")
+        module = importlib.import_module(f"mcexact.cli.{self.prefix}{cmd_name}")
         command = module.command
         if not isinstance(command, click.Command):
-            raise TypeError(f"mcexact.cli.{cmd_name}.command is not a command")
+            raise TypeError(f"{module.__name__}.command is not a command")
         return command
 
     def resolve_command(
@@ -39,8 +57,8 @@ class Commands(click.Group):
             If no command has this name.
         """
         name = args[0]
-        if name not in COMMANDS and not name.startswith("-"):
-            nearest = difflib.get_close_matches(name, COMMANDS, n=1, cutoff=0.5)
-            hint = f"did you mean '{nearest[0]}'?" if nearest else f"one of {', '.join(COMMANDS)}"
+        if name not in self.names and not name.startswith("-"):
+            nearest = difflib.get_close_matches(name, self.names, n=1, cutoff=0.5)
+            hint = f"did you mean '{nearest[0]}'?" if nearest else f"one of {', '.join(self.names)}"
             raise click.UsageError(f"there is no command '{name}': {hint}", ctx)
         return super().resolve_command(ctx, args)
