@@ -71,10 +71,11 @@ ACCEPTED = [
     ("a composite modulus", changed(ONE, ("witness.moduli", [15]))),
 ]
 
+EXCHANGED = {"feedback": [4, 1], "error": [2, 1], "bound": None}
 OUTPUT = "subject.0.controller.agents.0.shared_update.outputs.1"
 
 REJECTED = [
-    ("feedback and error exchanged", ONE, ("claim", {**ONE["claim"], "feedback": [4, 1], "error": [2, 1]})),
+    ("feedback and error exchanged", ONE, ("claim", EXCHANGED)),
     ("the wrong feedback polynomial", ONE, ("claim.feedback", [3, 1])),
     ("the wrong error polynomial", ONE, ("claim.error", [5, 1])),
     ("a factor of the error polynomial", ONE, ("claim.error", [1])),

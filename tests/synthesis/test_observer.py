@@ -1,0 +1,207 @@
+"""The distributed observer: prescribed spectra on the paper's example and on drawn plants."""
+
+import pytest
+
+from mcexact.certificate import encode
+from mcexact.checker import check_document
+from mcexact.derived.error_system import error_system
+from mcexact.errors import Impossible, InputError, UsageError
+from mcexact.exact.linear_algebra import characteristic_polynomial
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.polynomial import Polynomial
+from mcexact.model.controller_file import controller_text, read_controller
+from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem
+from mcexact.synthesis.channel_controller import height
+from mcexact.synthesis.observer import design_observer
+from mcexact.synthesis.spectrum import spectrum_polynomial
+from tests.campaigns.observer import one_design
+from tests.synthesis.three_channels import three_channels
+
+ELEVEN = {
+    "distinct real numbers": [-k for k in range(1, 12)],
+    "complex pairs": [-1, -2, -3, *({"re": -k, "im": 1} for k in range(1, 5))],
+    "all equal": [-2] * 11,
+}
+
+
+def verdict_on(certificate):
+    return check_document(encode(certificate).encode())
+
+
+@pytest.mark.parametrize("q", ["1", "2", "3"])
+@pytest.mark.parametrize("reason", ELEVEN)
+def test_eleven_prescribed_numbers_through_each_agent(reason, q):
+    error = ELEVEN[reason]
+    design = design_observer(
+        three_channels(), q=q, spectrum={"feedback": [-1, -2, -3], "error": error}
+    )
+    assert design.error == spectrum_polynomial(error, 11)
+    assert design.channel.order == 2
+    assert [a.private for a in design.controller.agents] == [2 * (name == q) for name in "123"]
+    chi = characteristic_polynomial(design.loop.matrix)
+    assert chi == Polynomial.from_roots([-1, -2, -3]) * design.error
+    verdict = verdict_on(design.certificate)
+    assert verdict.verdict == "VALID", verdict.line()
+
+
+@pytest.mark.parametrize("q", ["1", "2", "3"])
+def test_the_numbers_stay_short(q):
+    design = design_observer(
+        three_channels(), q=q, spectrum={"feedback": [-1, -2, -3], "error": [-2] * 11}
+    )
+    assert design.height < 150
+    assert design.largest_entry < 10**5
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_drawn_plants_get_the_prescribed_polynomials(seed):
+    one_design(1000 + seed)
+
+
+def test_a_rate_is_certified():
+    design = design_observer(three_channels(), rate="3/2")
+    verdict = verdict_on(design.certificate)
+    assert verdict.verdict == "VALID" and "real part is below -3/2" in verdict.theorem
+
+
+def test_a_radius_is_certified_and_met_by_deadbeat():
+    design = design_observer(three_channels("discrete"), radius="1/10")
+    assert design.error == Polynomial.of(*[0] * 11, 1)
+    verdict = verdict_on(design.certificate)
+    assert verdict.verdict == "VALID" and "modulus is below 1/10" in verdict.theorem
+
+
+def test_gains_from_outside_are_used_as_they_are():
+    gains = [[[-1, 0, 0]], [[0, -2, -1]], [[0, 0, 0]]]
+    design = design_observer(three_channels(), gains=gains, spectrum={"error": [-1] * 11})
+    assert [F.numerators for F in design.feedback.gains] == [tuple(map(tuple, F)) for F in gains]
+    assert verdict_on(design.certificate).verdict == "VALID"
+
+
+def test_the_least_order_can_be_below_the_usual_one():
+    graph = NeighborGraph.complete(("1", "2", "3"))
+    system = three_channels().with_neighbors(graph)
+    design = design_observer(system, order="least", rate=1)
+    assert design.channel.order < 2
+    assert design.error.degree == 9 + design.channel.order
+    assert verdict_on(design.certificate).verdict == "VALID"
+
+
+def test_one_agent_alone_is_an_ordinary_observer():
+    plant = MultiChannelSystem([[0, 1], [2, 1]], [[[0], [1]]], [[[1, 0]]], neighbors={"1": []})
+    design = design_observer(plant, spectrum={"feedback": [-1, -1], "error": [-3, -4]})
+    assert design.channel.order == 0
+    assert characteristic_polynomial(design.loop.matrix) == Polynomial.from_roots([-1, -1, -3, -4])
+
+
+def test_the_controller_survives_its_file():
+    design = design_observer(three_channels(), rate=1)
+    assert read_controller(controller_text(design.controller)) == design.controller
+
+
+def test_the_same_input_gives_the_same_bytes():
+    first, second = (design_observer(three_channels(), rate=1) for _ in range(2))
+    assert encode(first.certificate) == encode(second.certificate)
+    assert controller_text(first.controller) == controller_text(second.controller)
+
+
+def test_a_wrong_length_is_an_error_that_states_the_right_one():
+    spectrum = {"feedback": [-1] * 3, "error": [-1] * 10}
+    with pytest.raises(InputError, match=r"spectrum.error: expected 11 numbers"):
+        design_observer(three_channels(), spectrum=spectrum)
+    with pytest.raises(InputError, match=r"spectrum.feedback: expected 3 numbers"):
+        design_observer(three_channels(), spectrum={"feedback": [-1], "error": [-1] * 11})
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({}, "give a rate or a spectrum"),
+        ({"radius": 1}, "a radius is for discrete time"),
+        ({"rate": 1, "q": "4"}, "no channel"),
+        ({"rate": 1, "order": "most"}, 'expected order "least"'),
+    ],
+)
+def test_arguments_that_make_no_sense_are_wrong_usage(options, message):
+    with pytest.raises(UsageError, match=message):
+        design_observer(three_channels(), **options)
+
+
+@pytest.mark.parametrize("spectrum", [{"error": [-1] * 11}, {"feedback": [-1] * 3}, [-1] * 14])
+def test_a_spectrum_has_both_parts(spectrum):
+    with pytest.raises(InputError, match="spectrum"):
+        design_observer(three_channels(), spectrum=spectrum)
+
+
+def test_delays_are_for_another_design():
+    graph = NeighborGraph(("1", "2", "3"), [[1], [2], [0]], [(0, 1, 1)])
+    with pytest.raises(UsageError, match="no delays"):
+        design_observer(three_channels("discrete"), graph, radius=1)
+
+
+def test_a_derived_system_is_refused():
+    gains = [Matrix.zeros(1, 3)] * 3
+    with pytest.raises(UsageError, match="plant"):
+        design_observer(error_system(three_channels(), gains), rate=1)
+
+
+def test_an_uncontrollable_mode_refuses_with_its_certificate():
+    plant = MultiChannelSystem(
+        [[1, 0], [0, 2]], [[[1], [0]]] * 2, [[[1, 1]], [[1, 1]]], neighbors={"1": ["2"], "2": ["1"]}
+    )
+    with pytest.raises(Impossible, match="not jointly controllable") as caught:
+        design_observer(plant, rate=1)
+    assert verdict_on(caught.value.certificate).verdict == "VALID"
+
+
+def test_an_unobservable_mode_refuses_with_its_certificate():
+    plant = MultiChannelSystem(
+        [[1, 0], [0, 2]], [[[1], [1]]] * 2, [[[1, 0]]] * 2, neighbors={"1": ["2"], "2": ["1"]}
+    )
+    with pytest.raises(Impossible, match="not observable") as caught:
+        design_observer(plant, rate=1)
+    verdict = verdict_on(caught.value.certificate)
+    assert verdict.verdict == "VALID" and "dual" in verdict.theorem
+
+
+def test_the_obstruction_is_that_of_the_error_system():
+    plant = MultiChannelSystem([[1]], [[[1]], [[0]]], [[[0]], [[1]]], neighbors={"1": [], "2": []})
+    with pytest.raises(Impossible, match="error system") as caught:
+        design_observer(plant, rate=1)
+    assert caught.value.certificate.subject[-1]["construction"] == "error"
+    assert verdict_on(caught.value.certificate).verdict == "VALID"
+
+
+def test_strong_connectivity_is_sufficient_but_not_necessary():
+    # The terms B_j F_j (e_i − e_j) couple the errors through the plant.
+    plant = MultiChannelSystem([[0]], [[[1]]] * 2, [[[1]]] * 2, neighbors={"1": [], "2": []})
+    design = design_observer(plant, gains=[[[-1]], [[-1]]], spectrum={"error": [-1, -2, -3]})
+    assert verdict_on(design.certificate).verdict == "VALID"
+    assert design.controller.arcs() == ()
+
+
+def test_no_states_leave_the_channel_controller_alone():
+    system = MultiChannelSystem(
+        Matrix.zeros(0, 0),
+        [Matrix.zeros(0, 1)] * 2,
+        [Matrix.zeros(1, 0)] * 2,
+        neighbors={"1": ["2"], "2": ["1"]},
+    )
+    design = design_observer(system, rate=1)
+    assert design.loop.matrix.nrows == design.controller.order
+    assert verdict_on(design.certificate).verdict == "VALID"
+
+
+def test_progress_is_told():
+    told = []
+    design_observer(three_channels(), rate=1, progress=told.append)
+    assert told[0] == "state feedback" and told[-1] == "certificate"
+
+
+def test_the_height_is_that_of_the_controller():
+    design = design_observer(three_channels(), rate=1)
+    entries = [
+        M for agent in design.controller.agents for each in agent.maps() for M in each.matrices()
+    ]
+    assert design.height == height(*entries)

@@ -1,0 +1,84 @@
+"""Prescribed spectra: what is read, and what each mistake is answered with."""
+
+from fractions import Fraction
+
+import pytest
+
+from mcexact.errors import FloatRefused, InputError, UsageError
+from mcexact.exact.location import StabilityRegion
+from mcexact.exact.polynomial import Polynomial
+from mcexact.synthesis.spectrum import convergence_bound, default_polynomial, spectrum_polynomial
+
+
+@pytest.mark.parametrize(
+    ("spectrum", "degree", "expected"),
+    [
+        ([], 0, [1]),
+        ([1], 0, [1]),
+        (["-1", "-3/2"], 2, ["3/2", "5/2", 1]),
+        ([2, 3, 1], 2, [2, 3, 1]),
+        ([{"re": "0", "im": "1/2"}], 2, ["1/4", 0, 1]),
+        ([{"re": -1, "im": -2}, -1], 3, [5, 7, 3, 1]),
+        (["0", "0", "0"], 3, [0, 0, 0, 1]),
+        (["1", "1"], 2, [1, -2, 1]),
+        (["1", "1"], 1, [1, 1]),
+        (Polynomial.of(4, 1), 1, [4, 1]),
+    ],
+)
+def test_coefficients_or_roots_become_a_monic_polynomial(spectrum, degree, expected):
+    assert spectrum_polynomial(spectrum, degree) == Polynomial.of(*expected)
+
+
+@pytest.mark.parametrize(
+    ("spectrum", "degree", "message"),
+    [
+        ([-1], 3, "expected 3 numbers"),
+        ([{"re": -1, "im": 1}], 3, "a pair counts twice"),
+        ([1, 2, 3, 4], 3, "last coefficient 1"),
+        ([{"re": -1, "im": 0}, -1], 3, "imaginary part that is not 0"),
+        ([{"re": -1}, -1, -1], 3, '{"re": a, "im": b}'),
+        ("-1", 1, "expected a list"),
+        (Polynomial.of(1, 1), 3, "degree 3, found degree 1"),
+        (["x"], 1, "expected an integer"),
+    ],
+)
+def test_a_wrong_spectrum_says_what_is_right(spectrum, degree, message):
+    with pytest.raises(InputError, match="spectrum") as caught:
+        spectrum_polynomial(spectrum, degree)
+    assert message in str(caught.value)
+
+
+def test_a_float_is_refused():
+    with pytest.raises(FloatRefused):
+        spectrum_polynomial([-1.5], 1)
+
+
+@pytest.mark.parametrize(("time", "bound"), [("continuous", "5/2"), ("discrete", "1/3")])
+@pytest.mark.parametrize("degree", [0, 1, 7])
+def test_the_default_meets_its_bound(time, bound, degree):
+    p = default_polynomial(time, Fraction(bound), degree)
+    assert p.degree == degree and p.is_monic()
+    assert StabilityRegion(time, Fraction(bound)).contains_roots_of(p)
+
+
+@pytest.mark.parametrize(
+    ("time", "options"),
+    [
+        ("continuous", {"radius": 1}),
+        ("discrete", {"rate": 1}),
+        ("continuous", {"rate": 0}),
+        ("continuous", {"rate": -1}),
+        ("discrete", {"radius": 0}),
+        ("discrete", {"radius": 2}),
+        ("discrete", {"needed": True}),
+        ("continuous", {"needed": True}),
+    ],
+)
+def test_the_wrong_bound_is_wrong_usage(time, options):
+    with pytest.raises(UsageError):
+        convergence_bound(time, **options)
+
+
+def test_a_bound_may_be_left_out():
+    assert convergence_bound("continuous") is None
+    assert convergence_bound("discrete", radius="1/2") == Fraction(1, 2)
