@@ -2,126 +2,87 @@
 
 from __future__ import annotations
 
+import json
 from fractions import Fraction
 from typing import Any
 
-from . import evidence
+from . import covering, evidence, reading
 from .arithmetic import Matrix, diagonal
-from .covering import Program, read_bound, require_absence, require_outside
 from .exchange import arcs, augmented_outputs, extended, neighbors_of
-from .reading import (
-    boolean,
-    fields,
-    integer,
-    items,
-    malformed,
-    names,
-    polynomial,
-    polynomial_matrix,
-    rational,
-    require,
-    string,
-)
+from .reading import fields, items, require
 from .system import System
-from .words import channel, described
+from .words import described
+
+Candidates = list[tuple[int, int, Fraction]]
 
 
 def check(claim: Any, witness: Any, system: System) -> str:
     """Check that the added arcs suffice, every cut, and the tree that leaves nothing cheaper."""
-    share, sizes, limit, listed, verdict, added, total = fields(
+    share, sizes, limit, listed, _, added, _ = fields(
         claim, "claim", "share", "dimensions", "bound", "candidates", "feasible", "added", "cost"
     )
     absence, cuts, tree = fields(witness, "witness", "absence", "cuts", "tree")
-    carried = string(share, "claim.share", "outputs", "outputs+states", "states")
-    require((sizes is None) == (carried == "outputs"), "claim", "claim.dimensions", "do not fit")
-    bound, candidates = read_bound(limit, system), _candidates(listed, system)
-    costs = [cost for *_, cost in candidates]
-    ends = [(j, i) for j, i, _ in candidates]
-    step = {"share": carried, "dimensions": sizes}
+    reading.string(share, "claim.share", "outputs", "outputs+states", "states")
+    require((sizes is None) == (share == "outputs"), "claim", "claim.dimensions", "do not fit")
+    bound, candidates = covering.read_bound(limit, system), _candidates(listed, system)
+    costs, ends = [cost for *_, cost in candidates], [(j, i) for j, i, _ in candidates]
+    step = {"share": share, "dimensions": sizes}
 
     def wired(plant: System) -> System:
         if sizes is None:
             return augmented_outputs(plant, {}, "claim")
         return extended(plant, step, "claim")
 
-    subject, rows = wired(system), _carried(system, carried, sizes)
-    found = []
-    for k, entry in enumerate(items(cuts, "witness.cuts")):
-        place = f"witness.cuts[{k}]"
+    subject, found = wired(system), []
+    for place, entry in ((f"witness.cuts[{k}]", e) for k, e in enumerate(items(cuts, "cuts"))):
         factor, subspace = fields(entry, place, "polynomial", "subspace")
-        p = polynomial(factor, f"{place}.polynomial", 1)
-        require_outside(p, subject, bound, place)
+        p = reading.polynomial(factor, f"{place}.polynomial", 1)
+        covering.require_outside(p, subject, bound, place)
         T = evidence.shrunk_subspace(subspace, f"{place}.subspace", subject, p, 1)
-        U = polynomial_matrix(subspace["U"], place, subject.n, len(subspace["pivots"]), len(p) - 1)
-        sends = [j for j, S in enumerate(rows) if any(not (S @ layer).is_zero() for layer in U)]
-        broken = {v for v, (j, i) in enumerate(ends) if j in sends and i not in T}
-        found.append((broken, 1))
-    value: Fraction | None = None
-    if boolean(verdict, "claim.feasible"):
-        value = rational(total, "claim.cost")
-        chosen = [_arc(entry, "claim.added", system) for entry in items(added, "claim.added")]
-        if chosen != sorted(set(chosen)) or not set(chosen) <= set(ends):
-            malformed("claim.added", "expected candidates, sorted, none twice")
-        right = value == sum((c for j, i, c in candidates if (j, i) in chosen), Fraction(0))
-        require(right, "claim", "claim.cost", "not the cost of the added arcs")
+        width = len(subspace["pivots"])
+        U = reading.polynomial_matrix(subspace["U"], place, subject.n, width, len(p) - 1)
+        carried = [_carried(system, share, sizes, j) for j in range(system.m)]
+        sends = [j for j, S in enumerate(carried) if any(not (S @ part).is_zero() for part in U)]
+        found.append(({v for v, (j, i) in enumerate(ends) if j in sends and i not in T}, 1))
+    value = covering.claimed_cost(claim, "added", absence)
+    if value is not None:
+        chosen = [_arc(e, "claim.added", system) for e in items(added, "claim.added")]
+        right = chosen == sorted(set(chosen)) and set(chosen) <= set(ends)
+        total = sum((c for j, i, c in candidates if (j, i) in chosen), Fraction(0))
+        require(right and value == total, "claim", "claim.cost", "not the cost of such candidates")
         final = wired(arcs(system, {"added": added}, "claim.added"))
-        require_absence(absence, final, bound)
-    else:
-        nothing = added is None and total is None and absence is None
-        require(nothing, "claim", "claim", "expected null where nothing suffices")
+        covering.require_absence(absence, final, bound)
     labels = [[system.names[j], system.names[i]] for j, i in ends]
-    Program(costs, found, "arc", labels, value).require_bound(tree, [1] * len(ends))
-    return _theorem(claim, system, candidates, value)
+    covering.Program(costs, found, "arc", labels, value).require_bound(tree, [1] * len(ends))
+    modes = "no mode" if limit is None else f"no mode beyond {limit}"
+    extent = "" if sizes is None else f" with dimensions {sizes}"
+    start = f"so that {modes} of {described(system)}, sharing {share}{extent}, is fixed,"
+    end = f"(candidates, with their costs: {json.dumps(listed)})"
+    if value is None:
+        return f"{start} no set of the candidate arcs suffices {end}"
+    return f"{start} adding {json.dumps(added)} suffices and nothing below cost {value} does {end}"
 
 
 def _arc(value: Any, place: str, system: System) -> tuple[int, int]:
-    j, i = (names([end], place, system.names)[0] for end in items(value, place, 2))
+    j, i = (reading.names([end], place, system.names)[0] for end in items(value, place, 2))
     return j, i
 
 
-def _candidates(value: Any, system: System) -> list[tuple[int, int, Fraction]]:
+def _candidates(value: Any, system: System) -> Candidates:
     """Arcs that the graph lacks, with their costs."""
-    place, N = "claim.candidates", neighbors_of(system, "claim")
-    found = []
-    for entry in items(value, place):
-        *ends, price = items(entry, place, 3)
-        found.append((*_arc(ends, place, system), rational(price, place)))
+    place, N, found = "claim.candidates", neighbors_of(system, "claim"), []
+    for *ends, price in (items(entry, place, 3) for entry in items(value, place)):
+        found.append((*_arc(ends, place, system), reading.rational(price, place)))
     keys = [(j, i) for j, i, _ in found]
     if keys != sorted(set(keys)) or any(j in N[i] for j, i in keys):
-        malformed(place, "expected arcs that are missing, sorted, none twice")
+        reading.malformed(place, "expected arcs that are missing, sorted, none twice")
     require(all(c > 0 for *_, c in found), "claim", place, "expected positive costs")
     return found
 
 
-def _carried(system: System, share: str, sizes: Any) -> list[Matrix]:
+def _carried(system: System, share: str, sizes: Any, j: int) -> Matrix:
     """S_j: C_j, diag(C_j, E_j') or [0, E_j'], what an arc from j adds to the outputs."""
+    C = Matrix.zeros(0, system.n) if share == "states" else system.C[j]
     if sizes is None:
-        return system.C
-    widths = [integer(size, "claim.dimensions") for size in sizes]
-    starts = [sum(widths[:j]) for j in range(system.m)]
-    E = [Matrix.unit_rows(sum(widths), s, w) for s, w in zip(starts, widths, strict=True)]
-    C = system.C if share == "outputs+states" else [Matrix.zeros(0, system.n)] * system.m
-    return [diagonal(C_j, E_j) for C_j, E_j in zip(C, E, strict=True)]
-
-
-def _theorem(
-    claim: dict[str, Any],
-    system: System,
-    candidates: list[tuple[int, int, Fraction]],
-    value: Fraction | None,
-) -> str:
-    def arrow(j: int, i: int) -> str:
-        return f"{channel(system, j)} -> {channel(system, i)}"
-
-    sizes = "" if claim["dimensions"] is None else f" with dimensions {claim['dimensions']}"
-    modes = "no mode" if claim["bound"] is None else f"no mode beyond {claim['bound']}"
-    priced = ", ".join(f"{arrow(j, i)} at {c}" for j, i, c in candidates) or "none"
-    start = f"so that {modes} of {described(system)}, sharing {claim['share']}{sizes}, is fixed,"
-    if value is None:
-        return f"{start} no set of the candidate arcs suffices (candidates: {priced})"
-    pairs = [_arc(entry, "claim.added", system) for entry in claim["added"]]
-    shown = ", ".join(arrow(j, i) for j, i in pairs) or "no arc"
-    return (
-        f"{start} adding {shown} suffices, and nothing of cost below {value} does "
-        f"(candidates: {priced})"
-    )
+        return C
+    return diagonal(C, Matrix.unit_rows(sum(sizes), sum(sizes[:j]), sizes[j]))

@@ -17,7 +17,7 @@ from .arithmetic import (
     poly_modulo,
 )
 from .location import in_region
-from .reading import fields, integer, items, malformed, polynomial, rational, require
+from .reading import boolean, fields, integer, items, malformed, polynomial, rational, require
 from .system import System
 from .transfer_graph import read_arcs, require_arcs
 
@@ -139,3 +139,12 @@ def require_outside(p: Polynomial, system: System, bound: Fraction | None, place
     """Stop if every root of p is where a fixed mode may stay."""
     inside = in_region(p, system.time, bound)
     require(not inside, "region", place, "every root lies inside the region")
+
+
+def claimed_cost(claim: dict[str, Any], answer: str, absence: Any) -> Fraction | None:
+    """The cost of the claimed answer; None where nothing suffices, and then there is no answer."""
+    if boolean(claim["feasible"], "claim.feasible"):
+        return rational(claim["cost"], "claim.cost")
+    nothing = claim[answer] is None and claim["cost"] is None and absence is None
+    require(nothing, "claim", "claim", "expected null where nothing suffices")
+    return None

@@ -27,25 +27,21 @@ def check(claim: Any, witness: Any, system: System) -> str:
     elif method == "lyapunov":
         require(stable, "claim", "claim.stable", "this evidence is for a stable loop")
         _, change, listed = fields(witness, "witness", "method", "transformation", "blocks")
-        entries = items(listed, "witness.blocks")
-        sizes = [
-            integer(fields(entry, f"witness.blocks[{k}]", "size", "P", "R", "R2")[0], "size")
-            for k, entry in enumerate(entries)
-        ]
-        require(sum(sizes) == M.nrows, "size", "witness.blocks", f"expected {M.nrows} states")
-        start = 0
-        Delta = M if change is None else _transformed(change, M)
-        for k, (entry, size) in enumerate(zip(entries, sizes, strict=True)):
-            block, place = range(start, start + size), f"witness.blocks[{k}]"
-            below = Delta.take(range(start + size, M.nrows), block)
+        start, Delta = 0, M if change is None else _transformed(change, M)
+        for place, entry in ((f"witness.blocks[{k}]", e) for k, e in enumerate(items(listed, ""))):
+            size = integer(fields(entry, place, "size", "P", "R", "R2")[0], f"{place}.size")
+            block, rest = range(start, start + size), range(start + size, M.nrows)
+            require(block.stop <= M.nrows, "size", place, f"expected {M.nrows} states in all")
+            below = Delta.take(rest, block)
             require(below.is_zero(), "blocks", place, "not block upper triangular")
             P = _decreasing(entry, place, Delta.take(block, block), system.time, bound)
             R = matrix(entry["R"], f"{place}.R", size, size)
             _require_dominant(R.T @ (P @ R), f"{place}.R")
             start += size
+        require(start == M.nrows, "size", "witness.blocks", f"expected {M.nrows} states in all")
     else:
         require(not stable, "claim", "claim.stable", "this evidence is for an unstable loop")
-        _, _, _, direction = fields(witness, "witness", "method", "P", "R2", "v")
+        *_, direction = fields(witness, "witness", "method", "P", "R2", "v")
         P = _decreasing(witness, "witness", M, system.time, bound)
         v = matrix(direction, "witness.v", M.nrows, 1)
         falls = not v.is_zero() and (v.T @ (P @ v)).rows[0][0] <= 0
