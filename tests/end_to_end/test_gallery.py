@@ -93,7 +93,9 @@ def checked_theorems(
     answer: dict[str, Any], file: Path, copied_checker: Path, folder: Path
 ) -> dict[str, str]:
     """The theorem behind each answer, from the checker that was copied out."""
-    named_files = answer["certificate"]
+    named_files = dict(answer["certificate"])
+    for rank in answer.get("pencil_ranks", ()):
+        named_files[f"pencil_rank {rank['polynomial']}"] = rank["certificate"]
     answers = {
         "jointly_controllable",
         "jointly_observable",
@@ -176,12 +178,35 @@ def theorems_state_the_answer(answer: dict[str, Any], theorems: dict[str, str]) 
     assert (" is not complete" in theorems["complete"]) != answer["complete"]
 
 
-def test_the_example_with_outputs_of_neighbors_is_the_augmented_example(tmp_path: Path) -> None:
+@pytest.fixture
+def ring(tmp_path: Path) -> Path:
+    """The paper's example, its three agents on a ring."""
     document = json.loads(gallery.text("liu2020-3ch-no-communication"))
     document["neighbors"] = {"1": ["2"], "2": ["3"], "3": ["1"]}
     file = tmp_path / "example.json"
     file.write_text(json.dumps(document), encoding="utf-8")
-    heard = run("analyze", str(file), "--json", "--information", "outputs")
+    return file
+
+
+@pytest.mark.parametrize("information", ["own", "outputs"])
+def test_every_answer_about_agents_with_neighbors_has_a_valid_certificate(
+    information: str, ring: Path, copied_checker: Path, tmp_path: Path
+) -> None:
+    folder = tmp_path / "certificates"
+    options = ("--json", "--minimal", "--information", information, "--subset", "2")
+    done = run("analyze", str(ring), *options, "--certificates", str(folder))
+    assert (done.status, done.stderr) == (0, "")
+    answer = json.loads(done.stdout)
+    assert answer["minimal_shared_dimensions"]["outputs+states"]["total"] == 1
+    assert answer["minimal_shared_dimensions"]["states"]["total"] == 2
+    theorems = checked_theorems(answer, ring, copied_checker, folder)
+    about = "outputs shared" if information == "outputs" else "the plant ("
+    assert about in theorems["fixed_spectrum"]
+    assert "strongly connected" in theorems["neighbor_graph"]
+
+
+def test_the_example_with_outputs_of_neighbors_is_the_augmented_example(ring: Path) -> None:
+    heard = run("analyze", str(ring), "--json", "--information", "outputs")
     augmented = run("analyze", str(GALLERY / "liu2020-3ch-augmented-outputs.json"), "--json")
     answers = [json.loads(done.stdout) for done in (heard, augmented)]
     factors = [
@@ -193,7 +218,7 @@ def test_the_example_with_outputs_of_neighbors_is_the_augmented_example(tmp_path
     ]
     assert factors[0] == factors[1] == [(["-1", "1"], ["2"], 2)]
     assert answers[0]["neighbor_graph"] == {"strongly_connected": True}
-    own = json.loads(run("analyze", str(file), "--json").stdout)
+    own = json.loads(run("analyze", str(ring), "--json").stdout)
     assert [
         (factor["polynomial"], factor["channels"]) for factor in own["fixed_spectrum"]["factors"]
     ] == [(["-1", "1"], ["2", "3"])]
