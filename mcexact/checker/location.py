@@ -31,9 +31,8 @@ def in_region(p: Polynomial, time: str, bound: Fraction | None) -> bool:
 def is_hurwitz(p: Polynomial) -> bool:
     """Routh's array of p_d, p_{d−2}, … and p_{d−1}, p_{d−3}, …: every first entry is positive.
 
-    The rows are kept in integers: with Δ_k the first entry of row k ≥ 1, row k+1 is
-    (Δ_k · row k−1 − its first entry · row k) without the first place, over Δ_{k−2} (1 for k ≤ 2):
-    an exact division, Δ_k being a Hurwitz determinant; Routh's own row k is this one over Δ_{k−1}.
+    Each row is kept as a positive multiple of Routh's: what two rows give is divided by the first
+    entry of the row before them, which leaves integers (minors of the Hurwitz matrix).
     """
     d = len(p) - 1
     # x/2^e in place of x shortens the numbers where the denominators are powers of 2
@@ -46,10 +45,11 @@ def is_hurwitz(p: Polynomial) -> bool:
     while lower:
         if lower[0] <= 0:
             return False
-        below = [*lower[1:], 0]
-        rows = zip(upper[1:], below, strict=False)
-        following = [(lower[0] * a - upper[0] * b) // divisors[0] for a, b in rows]
-        upper, lower, divisors = lower, following, (divisors[1], lower[0])
+        rows = zip(upper[1:], [*lower[1:], 0], strict=False)
+        pairs = [divmod(lower[0] * a - upper[0] * b, divisors[0]) for a, b in rows]
+        if any(rest for _, rest in pairs):
+            raise ArithmeticError("a division in Routh's array is not exact")
+        upper, lower, divisors = lower, [entry for entry, _ in pairs], (divisors[1], lower[0])
     return True
 
 
