@@ -22,6 +22,11 @@ class Run:
     cpu_seconds: float
     mebibytes: float
 
+    @property
+    def messages(self) -> list[str]:
+        """The lines on standard error, without those that say what takes long."""
+        return [line for line in self.stderr.splitlines() if not line.endswith(" …")]
+
 
 def run(
     *arguments: str,

@@ -52,7 +52,7 @@ def test_the_answers_are_the_known_ones_and_the_certificates_say_the_same(
 ) -> None:
     file = GALLERY / f"{name}.json"
     done = run("analyze", str(file), "--json", "--certificates", str(tmp_path))
-    assert (done.status, done.stderr) == (0, "")
+    assert (done.status, done.messages) == (0, [])
     answer = json.loads(done.stdout)
     agrees_with_what_is_known(answer, name)
     theorems = checked_theorems(answer, file, copied_checker, tmp_path)
@@ -195,7 +195,7 @@ def test_every_answer_about_agents_with_neighbors_has_a_valid_certificate(
     folder = tmp_path / "certificates"
     options = ("--json", "--minimal", "--information", information, "--subset", "2")
     done = run("analyze", str(ring), *options, "--certificates", str(folder))
-    assert (done.status, done.stderr) == (0, "")
+    assert (done.status, done.messages) == (0, [])
     answer = json.loads(done.stdout)
     assert answer["minimal_shared_dimensions"]["outputs+states"]["total"] == 1
     assert answer["minimal_shared_dimensions"]["states"]["total"] == 2
