@@ -5,7 +5,7 @@ BIN := .venv/bin
 STAMP := .venv/.installed
 GALLERY := mcexact/model/gallery
 
-.PHONY: demo test lint types tests agreement
+.PHONY: demo test lint types tests agreement bench
 
 demo: $(STAMP)
 	$(BIN)/mcexact demo
@@ -25,6 +25,10 @@ tests: $(STAMP)
 	HYPOTHESIS_PROFILE=ci $(BIN)/python -m pytest --quiet --numprocesses 2 --dist loadscope
 
 # Every decision beside exhaustive enumeration, on 10,000 drawn systems: minutes.
+# Ratios to peers, measured in one run; the figures also go to bench.json.
+bench: $(STAMP)
+	$(BIN)/python -m benchmarks bench.json
+
 agreement: $(STAMP)
 	$(BIN)/python -m tests.oracle.agreement 10000
 

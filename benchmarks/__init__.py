@@ -1,0 +1,1 @@
+"""Measurements; each file says which question it answers, ``python -m benchmarks`` asks all."""

@@ -1,0 +1,240 @@
+"""How long does a certified fixed spectrum take, beside its peers and its floor?"""
+
+from __future__ import annotations
+
+import math
+import random
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from benchmarks import peers
+from benchmarks.measure import Timing, interleaved
+from mcexact import checker
+from mcexact.analysis.completeness import completeness
+from mcexact.analysis.fixed_spectrum import FixedSpectrum, fixed_spectrum
+from mcexact.certificate import encode
+from mcexact.derived.choices import SeededChoices
+from mcexact.derived.drawn import system_with_fixed_mode
+from mcexact.exact.matrix import Matrix
+from mcexact.model.system import MultiChannelSystem
+
+
+@dataclass(frozen=True)
+class Row:
+    """One line of the table.
+
+    Attributes
+    ----------
+    question : str
+    ratio : float
+        The first median over the second, or a time in seconds where ``unit`` says so.
+    limit : str
+        What was asked for.
+    holds : bool
+    detail : str
+    unit : str
+    """
+
+    question: str
+    ratio: float
+    limit: str
+    holds: bool
+    detail: str
+    unit: str = "x"
+
+
+def dense(n: int, seed: int = 1) -> tuple[Matrix, list[Matrix], list[Matrix]]:
+    """Integer entries −9 … 9, n/2 channels of one input and one output."""
+    rng = random.Random(seed)
+
+    def matrix(rows: int, cols: int) -> Matrix:
+        return Matrix.from_integers(
+            [[rng.randint(-9, 9) for _ in range(cols)] for _ in range(rows)], ncols=cols
+        )
+
+    m = n // 2
+    return matrix(n, n), [matrix(n, 1) for _ in range(m)], [matrix(1, n) for _ in range(m)]
+
+
+def fresh(parts: tuple[Matrix, list[Matrix], list[Matrix]]) -> MultiChannelSystem:
+    """A system, with matrices, that nothing has been computed of yet."""
+    A, B, C = (
+        Matrix.from_integers(parts[0].numerators),
+        [Matrix.from_integers(b.numerators) for b in parts[1]],
+        [Matrix.from_integers(c.numerators) for c in parts[2]],
+    )
+    return MultiChannelSystem(A, B, C)
+
+
+def certified(system: MultiChannelSystem) -> FixedSpectrum:
+    """The fixed spectrum, its certificate written out."""
+    found = fixed_spectrum(system)
+    encode(found.certificate)
+    return found
+
+
+def absence_rows(sizes: tuple[int, ...] = (100, 200, 400, 800)) -> Iterator[Row]:
+    """Dense systems without fixed modes, against the heuristic and against the floor."""
+    own: dict[int, Timing] = {}
+    for n in sizes:
+        parts = dense(n)
+        A, B, C, widths = peers.arrays(fresh(parts))
+        left, right = peers.floor_matrices(fresh(parts), seed=n)
+        pool = iter([fresh(parts) for _ in range(8)])
+        times = interleaved(
+            {
+                "ours": lambda pool=pool: certified(next(pool)),  # type: ignore[misc]
+                "numpy": lambda a=(A, B, C, widths): peers.heuristic(*a, seed=1),  # type: ignore[misc]
+                "floor": lambda a=(left, right): peers.floor(*a),  # type: ignore[misc]
+            },
+            runs=5 if n <= 400 else 3,
+        )
+        own[n] = times["ours"]
+        for peer, limit in (("numpy", 3.0 if n == 200 else 4.0), ("floor", 4.0)):
+            if n == 100 or (peer == "floor" and n != 200):
+                continue
+            ratio = times["ours"].median / times[peer].median
+            yield Row(
+                f"no fixed mode, n={n}, m={n // 2}, against {peer}",
+                ratio,
+                f"<= {limit:g}",
+                ratio <= limit,
+                f"{times['ours'].median:.3f} s / {times[peer].median:.3f} s",
+            )
+    if 100 in own and 400 in own:
+        exponent = math.log(own[400].median / own[100].median, 4)
+        yield Row(
+            "growth of the time from n=100 to n=400",
+            exponent,
+            "<= 3.3",
+            exponent <= 3.3,
+            f"{own[100].median:.4f} s to {own[400].median:.3f} s",
+            unit="exponent",
+        )
+
+
+def planted_rows() -> Iterator[Row]:
+    """A planted mode at n=16, against two rigorous enumerations of all subsets."""
+    for m, limit in ((10, 10), (12, 40), (16, 800)):
+        drawn = system_with_fixed_mode(SeededChoices(m), states=16, channels=m)
+        system = drawn.system
+        parts = (system.A, [c.B for c in system.channels], [c.C for c in system.channels])
+        expected = {f.polynomial: f.rank for f in fixed_spectrum(fresh(parts)).factors}
+        for name, peer in (
+            ("the enumeration of pencils", peers.pencil_enumeration),
+            ("the enumeration after one elimination", peers.reduced_enumeration),
+        ):
+            pool = iter([fresh(parts) for _ in range(20)])
+            found: list[peers.Found] = []
+            times = interleaved(
+                {
+                    "ours": lambda pool=pool: certified(next(pool)),  # type: ignore[misc]
+                    "peer": lambda run=peer, s=system, found=found: found.append(run(s, 1)),  # type: ignore[misc]
+                },
+                runs=3 if m < 16 else 1,
+                warmup=1 if m < 16 else 0,
+            )
+            if any(each != expected for each in found):
+                raise ArithmeticError(f"{name} finds {found[0]}, not {expected}")
+            ratio = times["peer"].median / times["ours"].median
+            described = name == "the enumeration of pencils"
+            yield Row(
+                f"planted mode, n=16, m={m}: how many times faster than {name}",
+                ratio,
+                f">= {limit}" if described else "reported",
+                ratio >= limit if described else True,
+                f"{times['peer'].median:.3f} s / {times['ours'].median:.4f} s",
+            )
+
+
+def large_rows() -> Iterator[Row]:
+    """A planted mode at n=80, m=40: found and certified, and checked by the copied-out checker."""
+    for degree in (1, 3):
+        system = system_with_fixed_mode(
+            SeededChoices(degree), states=80, channels=40, degree=degree
+        ).system
+        start = time.perf_counter()
+        found = fixed_spectrum(system)
+        text = encode(found.certificate)
+        seconds = time.perf_counter() - start
+        yield Row(
+            f"planted mode of degree {degree}, n=80, m=40, found and certified",
+            seconds,
+            "<= 3 s",
+            seconds <= 3 and not found.empty,
+            f"certificate of {len(text)} bytes",
+            unit="s",
+        )
+        seconds, line = copied_out(text)
+        yield Row(
+            f"planted mode of degree {degree}, n=80, m=40, checked",
+            seconds,
+            "<= 30 s",
+            seconds <= 30 and line.startswith("VALID"),
+            line[:60],
+            unit="s",
+        )
+
+
+def copied_out(text: str) -> tuple[float, str]:
+    """Check a certificate with a copy of the checker's folder, in a process of its own."""
+    with tempfile.TemporaryDirectory() as folder:
+        shutil.copytree(Path(checker.__file__).parent, Path(folder) / "checker")
+        path = Path(folder) / "certificate.json"
+        path.write_text(text, encoding="ascii")
+        start = time.perf_counter()
+        done = subprocess.run(
+            [sys.executable, "-S", "-E", "-m", "checker", str(path)],
+            cwd=folder,
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        line = done.stdout[done.stdout.find("VALID") :] if done.returncode == 0 else done.stdout
+        return time.perf_counter() - start, line
+
+
+def completeness_rows() -> Iterator[Row]:
+    """Completeness with its certificate, against the fixed spectrum of the same system."""
+    rng = random.Random(5)
+    n, m = 100, 20
+
+    def matrix(rows: int, cols: int) -> Matrix:
+        return Matrix.from_integers(
+            [[rng.randint(-9, 9) for _ in range(cols)] for _ in range(rows)], ncols=cols
+        )
+
+    parts = (
+        matrix(n, n),
+        [matrix(n, 1) for _ in range(m)],
+        [matrix(1, n) for _ in range(m)],
+    )
+    pool = iter([fresh(parts) for _ in range(20)])
+    times = interleaved(
+        {
+            "completeness": lambda: encode(completeness(next(pool)).certificate),
+            "fixed spectrum": lambda: certified(next(pool)),
+        }
+    )
+    ratio = times["completeness"].median / times["fixed spectrum"].median
+    yield Row(
+        "completeness, n=100, m=20, against the fixed spectrum",
+        ratio,
+        "<= 5",
+        ratio <= 5,
+        f"{times['completeness'].median:.4f} s / {times['fixed spectrum'].median:.4f} s",
+    )
+
+
+def rows() -> Iterator[Row]:
+    """All questions of this file."""
+    yield from absence_rows()
+    yield from planted_rows()
+    yield from large_rows()
+    yield from completeness_rows()
