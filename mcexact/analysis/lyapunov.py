@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from mcexact.exact.floats import matrix_from_float, matrix_to_float
+from mcexact.exact.floats import dyadic_matrix, matrix_to_float
 from mcexact.exact.matrix import Matrix
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     Floats = npt.NDArray[np.float64]
 
-_FACTOR_BITS = 26
+_FACTOR_BITS = (26, 52)
 _REFINEMENTS = 4
 
 
@@ -92,13 +92,10 @@ def quadratic_form(D: Matrix, time: str, bound: Fraction) -> QuadraticForm | Non
         return None
     R2 = _diagonal(scales)
     inner = [1 / s for s in scales]
-    definite = _cholesky_factor(matrix_to_float(P))
+    R = _dominating_factor(P)
     outer = scaled(P, inner, inner)
-    if definite is not None:
-        R = scaled(definite, scales, [Fraction(1)] * k)
-        if is_dominant(R.T @ (outer @ R)):
-            return QuadraticForm(outer, R, R2, None)
-        return None
+    if R is not None:
+        return QuadraticForm(outer, scaled(R, scales, [Fraction(1)] * k), R2, None)
     v = _negative_direction(P)
     if v is None:
         return None
@@ -139,7 +136,7 @@ def _approximate(D: Matrix, time: str, bound: Fraction) -> Matrix | None:
         step = _solve(D_float, matrix_to_float(residual), time, float(bound))
         if step is None:
             return None
-        P = P + _dyadic(step)
+        P = P + dyadic_matrix(step)
         S = decrease(D, P, time, bound)
         if is_dominant(S):
             return P
@@ -169,18 +166,23 @@ def _solve(D: Floats, Q: Floats, time: str, bound: float) -> Floats | None:
     return np.asarray((P + P.T) / 2, dtype=np.float64)
 
 
-def _dyadic(M: Floats, bits: int = 52) -> Matrix:
-    """M rounded to multiples of 2^−bits of its largest entry; symmetric if M is."""
-    import numpy as np
+def _dominating_factor(P: Matrix) -> Matrix | None:
+    """R with RᵀPR dominant: few bits if they do, else more, else a product of two factors."""
+    few, many = _FACTOR_BITS
+    R = _cholesky_factor(matrix_to_float(P), few)
+    if R is None or is_dominant(R.T @ (P @ R)):
+        return R
+    R = _cholesky_factor(matrix_to_float(P), many)
+    if R is None or is_dominant(near := R.T @ (P @ R)):
+        return R
+    correction = _cholesky_factor(matrix_to_float(near), few)
+    if correction is None:
+        return None
+    R = R @ correction
+    return R if is_dominant(R.T @ (P @ R)) else None
 
-    largest = float(np.max(np.abs(M), initial=0.0))
-    if largest == 0.0:
-        return Matrix.zeros(*M.shape)
-    exponent = bits - int(np.frexp(largest)[1])
-    return matrix_from_float(np.round(np.ldexp(M, exponent)), "dyadic") * (Fraction(2) ** -exponent)
 
-
-def _cholesky_factor(P: Floats) -> Matrix | None:
+def _cholesky_factor(P: Floats, bits: int) -> Matrix | None:
     """An upper triangular R, RᵀPR near a diagonal matrix; None if P is not definite."""
     import numpy as np
     from scipy.linalg import solve_triangular
@@ -191,7 +193,7 @@ def _cholesky_factor(P: Floats) -> Matrix | None:
         return None
     R = solve_triangular(L, np.eye(len(P)), lower=True).T
     columns = np.exp2(np.round(np.log2(np.max(np.abs(R), axis=0))))
-    return _dyadic(R / columns, _FACTOR_BITS)
+    return dyadic_matrix(R / columns, bits)
 
 
 def _negative_direction(P: Matrix) -> Matrix | None:
@@ -201,5 +203,5 @@ def _negative_direction(P: Matrix) -> Matrix | None:
     values, vectors = np.linalg.eigh(matrix_to_float(P))
     if values[0] >= 0:
         return None
-    v = _dyadic(vectors[:, :1], _FACTOR_BITS)
+    v = dyadic_matrix(vectors[:, :1], _FACTOR_BITS[0])
     return v if (v.T @ (P @ v))[0, 0] <= 0 else None

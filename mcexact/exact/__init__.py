@@ -23,7 +23,7 @@ No other stage imports flint: sizes and moduli that it would abort on are refuse
 """
 
 from mcexact.exact.enclosures import Disc, real_root_intervals, root_discs
-from mcexact.exact.floats import matrix_from_float, matrix_to_float
+from mcexact.exact.floats import dyadic_matrix, matrix_from_float, matrix_to_float
 from mcexact.exact.linear_algebra import (
     characteristic_polynomial,
     column_echelon,
@@ -77,6 +77,7 @@ __all__ = [
     "characteristic_polynomial",
     "column_echelon",
     "determinant",
+    "dyadic_matrix",
     "from_float",
     "hstack",
     "in_region",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from mcexact.errors import InputError
@@ -61,6 +62,35 @@ def matrix_from_float(
         for i, row in enumerate(array.tolist())
     ]
     return Matrix.from_rows(rows, ncols=array.shape[1])
+
+
+def dyadic_matrix(M: Any, bits: int = 52) -> Matrix:
+    """M rounded to multiples of 2^−bits of its largest entry, up to a factor of 2.
+
+    Parameters
+    ----------
+    M : ndarray of float, r × c
+    bits : int
+
+    Returns
+    -------
+    Matrix
+        Its denominator is a power of 2; symmetric if M is.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> dyadic_matrix(np.array([[0.3, 1.0]]), bits=4).rows()
+    ((Fraction(1, 4), Fraction(1, 1)),)
+    """
+    import numpy as np
+
+    largest = float(np.max(np.abs(M), initial=0.0))
+    if largest == 0.0:
+        return Matrix.zeros(*M.shape)
+    exponent = bits - int(np.frexp(largest)[1])
+    whole = matrix_from_float(np.round(np.ldexp(M, exponent)), "dyadic")
+    return whole * (Fraction(2) ** -exponent)
 
 
 def _array(rows: Any, where: str | None) -> npt.NDArray[Any]:

@@ -27,15 +27,16 @@ class ChannelController:
     B : Matrix, k×q
     C : Matrix, p×k
     D : Matrix, p×q
-    polynomial : Polynomial
-        The closed-loop polynomial that it was made for, of degree n + k.
+    polynomial : Polynomial or None
+        The closed-loop polynomial that it was made for, of degree n + k; None if it was made for
+        a rate or a radius.
     """
 
     A: Matrix
     B: Matrix
     C: Matrix
     D: Matrix
-    polynomial: Polynomial
+    polynomial: Polynomial | None
 
     @property
     def order(self) -> int:

@@ -8,9 +8,10 @@ from math import lcm, prod
 from typing import Any
 
 from mcexact.analysis.modular_system import generator
+from mcexact.analysis.stability import Method, Separation, certify_stability
 from mcexact.certificate.closed_loop_spectrum import ClosedLoopSpectrumCertificate
 from mcexact.certificate.distributed_observer import DistributedObserverCertificate
-from mcexact.errors import InternalError
+from mcexact.errors import Impossible, InternalError
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import polynomial_residues, primes, residues
@@ -146,6 +147,51 @@ def certify_observer(
         canonical_document(loop.plant), loop.subject, feedback, error, bound, moduli
     )
     return CertifiedClosedLoop(loop, controller, feedback * error, certificate, _KEY)
+
+
+def certify_rate(
+    system: MultiChannelSystem,
+    controller: Controller,
+    *,
+    bound: Fraction | None = None,
+    graph: NeighborGraph | None = None,
+    separation: Separation | None = None,
+    method: Method | None = None,
+) -> CertifiedClosedLoop:
+    """Verify that every eigenvalue of a loop meets a rate or a radius.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        A plant.
+    controller : Controller
+        Any one, from anywhere.
+    bound : Fraction, optional
+        A rate (continuous time) or a radius (discrete time); by default stability alone.
+    graph : NeighborGraph, optional
+    separation : Separation, optional
+        To go block by block; see `observer_separation`.
+    method : {"polynomial", "lyapunov"}, optional
+        See `certify_stability`.
+
+    Raises
+    ------
+    Impossible
+        If an eigenvalue does not meet the bound; the certificate proves it.
+    UsageError
+        If the method asked for does not decide.
+
+    Notes
+    -----
+    Exact (`proofs/stability.md`), whatever arithmetic the controller was designed in.
+    """
+    loop = closed_loop(system, controller, graph)
+    verdict = certify_stability(loop, bound, method=method, separation=separation)
+    if not verdict.stable:
+        raise Impossible(
+            f"an eigenvalue of the loop is not in the region {verdict.region}", verdict.certificate
+        )
+    return CertifiedClosedLoop(loop, controller, None, verdict.certificate, _KEY)
 
 
 def separated(M: Matrix, n: int, private: list[int]) -> tuple[Matrix, Matrix]:

@@ -1,0 +1,70 @@
+"""Gains from shifted Riccati equations: floating-point design with a degree of stability."""
+
+from __future__ import annotations
+
+import warnings
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+    Floats = npt.NDArray[np.float64]
+
+
+def riccati_feedback(
+    A: Floats, B: Floats, time: str, bound: float, *, effort: float = 1.0
+) -> Floats | None:
+    """F that brings the spectrum of A + B F within a rate or a radius, in floating point.
+
+    Parameters
+    ----------
+    A : ndarray, n × n
+    B : ndarray, n × p
+    time : {"continuous", "discrete"}
+    bound : float
+        A rate α ≥ 0 or a radius ρ in (0, 1].
+    effort : float
+        The weight of the input against that of the state.
+
+    Returns
+    -------
+    ndarray, p × n, or None
+        None where the equation could not be solved, as when a mode outside is not controllable.
+
+    Notes
+    -----
+    Floating point: a proposal.  The regulator for A + αI, or for (A/ρ, B/ρ) in discrete time, with
+    its gain used as it is.  The gain of an observer is F' for (A', C').
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> A, B = np.array([[0.0, 1.0], [0.0, 0.0]]), np.array([[0.0], [1.0]])
+    >>> F = riccati_feedback(A, B, "continuous", 2.0)
+    >>> bool(np.linalg.eigvals(A + B @ F).real.max() < -2)
+    True
+    """
+    import numpy as np
+    from scipy.linalg import LinAlgError, solve_continuous_are, solve_discrete_are
+
+    n, p = B.shape
+    if n == 0 or p == 0:
+        return np.zeros((p, n))
+    Q, R = np.eye(n), effort * np.eye(p)
+    with warnings.catch_warnings():
+        # What comes out is certified exactly or thrown away.
+        warnings.simplefilter("ignore")
+        try:
+            if time == "continuous":
+                X = solve_continuous_are(A + bound * np.eye(n), B, Q, R)
+                F: Floats = np.asarray(-(B.T @ X) / effort, dtype=np.float64)
+            else:
+                scaled = B / bound
+                X = solve_discrete_are(A / bound, scaled, Q, R)
+                weighted = scaled.T @ X
+                gain = np.linalg.solve(R + weighted @ scaled, weighted @ (A / bound))
+                F = np.asarray(-gain, dtype=np.float64)
+        except (LinAlgError, ValueError):
+            return None
+    return F if np.all(np.isfinite(F)) else None
