@@ -30,6 +30,10 @@ Proof. ring. Qed.
 Lemma abs_weights (s t a d2 N2 x : T) : s * t * ((t + s) * (a * d2 + N2 * (t * x))) =
   (s + t) * (t * (s * a * d2) + s * (N2 * (t * t) * x)).
 Proof. ring. Qed.
+Lemma abs_last (c z z' G G' : T) :
+  c * z * G * (c * z' * G') - (c * z * G - (G + G)) * (c * z' * G' - (G' + G')) =
+  c * (z + z') * (G * G') + c * (z + z') * (G * G') - ((G * G' + G * G') + (G * G' + G * G')).
+Proof. ring. Qed.
 Lemma abs_disc (z z' r r' : T) :
   (z' - r) * (z - r') - (i - r * z) * (i - r' * z') = (z * z' - i) * (i - r * r').
 Proof. ring. Qed.
@@ -122,5 +126,282 @@ split; last by rewrite addr_ge0// ltW.
     exact: (abs_weights (ring_of_R _)).
   rewrite -/t e2 ler_pmul2l ?addr_gt0// ler_add2r ler_pmul2l// ler_wpmul2r//.
 by rewrite !normrM !exprMn; apply: ler_pmul.
+Qed.
+(* Hurwitz: every root has negative real part; Schur: modulus below 1. *)
+Definition hurwitz p := forall z, root p z -> 'Re z < 0.
+Definition schur p := forall z, root p z -> `|z| < 1.
+
+Lemma Re_lt0 z : ('Re z < 0) = (z + z^* < 0).
+Proof. by rewrite ReE pmulr_llt0 ?invr_gt0 ?ltr0n. Qed.
+
+Definition real_poly p := p \is a polyOver Num.real.
+
+Lemma conj_horner p z : real_poly p -> (p.[z])^* = p.[z^*].
+Proof.
+move=> /polyOverP rp; rewrite -horner_map; congr (_.[_]); apply/polyP=> i.
+by rewrite coef_map /= (CrealP (rp i)).
+Qed.
+
+Lemma roots_of p : {rs | p = lead_coef p *: \prod_(r <- rs) ('X - r%:P)}.
+Proof. exact: closed_field_poly_normal. Qed.
+
+Lemma root_in p rs r : p = lead_coef p *: \prod_(r <- rs) ('X - r%:P) -> r \in rs -> root p r.
+Proof. by move=> ->; rewrite -root_prod_XsubC => /rootP e; rewrite /root hornerZ e mulr0. Qed.
+
+Lemma horner_roots p rs z : p = lead_coef p *: \prod_(r <- rs) ('X - r%:P) ->
+  p.[z] = lead_coef p * \prod_(r <- rs) (z - r).
+Proof.
+move=> {1}->; rewrite hornerZ horner_prod; congr (_ * _).
+by apply: eq_bigr => r _; rewrite hornerXsubC.
+Qed.
+
+Lemma horner_roots_conj p rs z : real_poly p -> p = lead_coef p *: \prod_(r <- rs) ('X - r%:P) ->
+  p.[z] = lead_coef p * \prod_(r <- rs) (z - r^*).
+Proof.
+move=> rp e; rewrite -[z]conjCK -conj_horner// (horner_roots _ e) rmorphM rmorph_prod.
+rewrite /lead_coef (CrealP (polyOverP rp _)); congr (_ * _); apply: eq_bigr => r _.
+by rewrite rmorphB conjCK.
+Qed.
+
+Lemma horner_roots_opp p rs z : p = lead_coef p *: \prod_(r <- rs) ('X - r%:P) ->
+  (-1) ^+ size rs * p.[- z] = lead_coef p * \prod_(r <- rs) (z + r).
+Proof.
+move=> e; rewrite (horner_roots _ e) mulrCA; congr (_ * _).
+elim: rs {e} => [|r rs IH]; first by rewrite !big_nil mulr1.
+by rewrite !big_cons -IH /= exprS mulrACA mulN1r opprB opprK addrC.
+Qed.
+
+Lemma subleading rs :
+  ('X * \prod_(r <- rs) ('X - r%:P))`_(size rs) = - \sum_(r <- rs) r :> C.
+Proof.
+elim: rs => [|r rs IH]; first by rewrite !big_nil mulr1 coefX oppr0.
+rewrite !big_cons /= coefXM /= mulrBl coefB IH coefCM opprD addrC.
+have /monicP : \prod_(r <- rs) ('X - r%:P) \is @monic C by apply: monic_prod_XsubC.
+by rewrite lead_coefE size_prod_XsubC /= => ->; rewrite mulr1.
+Qed.
+
+Lemma last_gap (c z G : C) : c^* = c -> `|c * z * G| ^+ 2 - `|c * z * G - (G + G)| ^+ 2 =
+  c * (z + z^*) * `|G| ^+ 2 *+ 2 - `|G| ^+ 2 *+ 4.
+Proof.
+move=> cr; rewrite !sqr_norm rmorphB rmorphD (rmorphM _ (c * z)) (rmorphM _ c) cr.
+by rewrite (abs_last (ring_of_R C)) -!mulr2n -mulrnA.
+Qed.
+
+Section Routh.
+
+(* The next polynomial: every second coefficient, from x^(n-1) down, less a_n / a_(n-1) times the one
+   before it; that is p - (a_n / a_(n-1)) x g, with g the part of p of the parity of n - 1. *)
+Definition routh_step (F : fieldType) (p : {poly F}) : {poly F} := let n := (size p).-1 in
+  \poly_(i < n) (if (0 < i)%N && ~~ odd (n - i) then p`_i - p`_n / p`_n.-1 * p`_i.-1 else p`_i).
+
+Variables (p : {poly C}) (n : nat).
+Hypotheses (rp : real_poly p) (sp : size p = n.+2).
+Let c := p`_n.+1 / p`_n.
+Let s : C := (-1) ^+ n.
+Let g z := (p.[z] + s * p.[- z]) / 2%:R.
+Let q := routh_step p.
+
+Let gE z : g z = \sum_(i < n.+2) (if odd (n + i) then 0 else p`_i * z ^+ i).
+Proof.
+rewrite /g !horner_coef sp mulr_sumr -big_split mulr_suml; apply: eq_bigr => i _ /=.
+have -> : s * (p`_i * (- z) ^+ i) = (-1) ^+ (n + i) * (p`_i * z ^+ i).
+  by rewrite (exprNn z) exprD -/s -mulrA; congr (s * _); rewrite mulrCA.
+have n2 : (2%:R : C) != 0 by rewrite pnatr_eq0.
+rewrite -signr_odd; case: odd => /=.
+  by rewrite expr1 mulN1r subrr mul0r.
+by rewrite expr0 mul1r -mulr2n -mulr_natr mulfK.
+Qed.
+
+Lemma routh_coef : 0 < lead_coef p -> hurwitz p ->
+  exists rs, [/\ p = lead_coef p *: \prod_(r <- rs) ('X - r%:P),
+    all (fun r => r + r^* < 0) rs, size rs = n.+1 &
+    p`_n *+ 2 = lead_coef p * (\sum_(r <- rs) - (r + r^*)) /\ 0 < \sum_(r <- rs) - (r + r^*)].
+Proof.
+move=> lp hp; have [rs e] := roots_of p; exists rs.
+have ars : all (fun r => r + r^* < 0) rs.
+  by apply/allP=> r /(root_in e)/hp; rewrite Re_lt0.
+have srs : size rs = n.+1.
+  by have := congr1 (fun f : {poly C} => size f) e; rewrite size_scale ?gt_eqF// size_prod_XsubC sp => -[].
+pose sg := \sum_(r <- rs) - (r + r^*).
+have epn : p`_n *+ 2 = lead_coef p * sg.
+  have pnE : p`_n = - (lead_coef p * \sum_(r <- rs) r).
+    have := subleading rs; rewrite srs coefXM /= => e1.
+    by rewrite {1}e coefZ e1 mulrN.
+  rewrite mulr2n {2}pnE -[p`_n](CrealP (polyOverP rp n)) pnE rmorphN rmorphM rmorph_sum.
+  rewrite [(lead_coef p)^*](CrealP (polyOverP rp _)) -opprD -mulrDr addrC -big_split/= -mulrN.
+  by rewrite -sumrN.
+have sg0 : 0 < sg.
+  have [r [rs' ers]] : exists r rs', rs = r :: rs' by case: (rs) srs => // r rs' _; exists r, rs'.
+  move: ars; rewrite /sg ers big_cons /= => /andP[r0 ars].
+  rewrite ltr_paddr ?oppr_gt0// big_seq sumr_ge0// => t /(allP ars).
+  by rewrite oppr_ge0 => /ltW.
+by split.
+Qed.
+
+Hypothesis pn : p`_n != 0.
+
+Lemma routh_horner z : q.[z] = p.[z] - c * z * g z.
+Proof.
+rewrite gE /q /routh_step sp /= horner_poly horner_coef sp.
+have -> : \sum_(i < n.+2) (if odd (n + i) then 0 else p`_i * z ^+ i) =
+    \sum_(i < n) (if odd (n + i) then 0 else p`_i * z ^+ i) + p`_n * z ^+ n.
+  by rewrite !big_ord_recr /= addnS /= addnn odd_double /= addr0.
+have -> : \sum_(i < n.+2) p`_i * z ^+ i = \sum_(i < n.+1) p`_i * z ^+ i + p`_n.+1 * z ^+ n.+1.
+  by rewrite big_ord_recr.
+rewrite mulrDr; have -> : c * z * (p`_n * z ^+ n) = p`_n.+1 * z ^+ n.+1.
+  by rewrite mulrACA divfK// exprS.
+rewrite opprD addrACA subrr addr0 !big_ord_recl /= -addrA; congr (_ + _).
+rewrite mulr_sumr -sumrB; apply: eq_bigr => i _; rewrite /bump /= add1n subSS.
+have -> : odd (n - i) = odd (n + i) by rewrite oddB 1?ltnW// oddD.
+case: odd => /=; first by rewrite mulr0 subr0.
+by rewrite mulrBl exprS -/c; congr (_ - _); rewrite mulrACA.
+Qed.
+
+Lemma routh_opp z : q.[z] + s * q.[- z] = 2%:R * g z.
+Proof.
+have ss : s * s = 1 by rewrite /s -exprD addnn -mul2n exprM sqrrN !expr1n.
+have gN : s * g (- z) = g z.
+  by rewrite /g opprK mulrA mulrDr mulrA ss mul1r addrC.
+have n2 : (2%:R : C) != 0 by rewrite pnatr_eq0.
+rewrite !routh_horner mulrN mulNr opprK [s * (_ + _)]mulrDr [s * (c * z * _)]mulrCA gN.
+by rewrite addrACA addNr addr0 /g [RHS]mulrC divfK.
+Qed.
+
+Lemma routh_size : size q = n.+1 /\ q`_n = p`_n.
+Proof.
+have qn : q`_n = p`_n by rewrite /q /routh_step sp coef_poly ltnSn subSnn andbF.
+split=> //; apply/eqP; rewrite eqn_leq; apply/andP; split.
+  by rewrite /q /routh_step sp size_poly.
+by rewrite ltnNge; apply: contra pn => /leq_sizeP/(_ n (leqnn n)); rewrite qn => ->.
+Qed.
+
+Lemma routh_real : real_poly q.
+Proof.
+apply/polyOverP=> i; rewrite coef_poly; case: ifP => _; rewrite ?rpred0//.
+have r j : p`_j \is Num.real by apply: (polyOverP rp).
+by case: ifP => _ //; rewrite rpredB// rpredM// rpred_div.
+Qed.
+
+Lemma hurwitz_bound f z : real_poly f -> hurwitz f -> 0 <= z + z^* -> `|f.[- z]| <= `|f.[z]|.
+Proof.
+move=> rf hf z0; have [rs e] := roots_of f.
+have ars : all (fun r => r + r^* < 0) rs.
+  by apply/allP=> r /(root_in e)/hf; rewrite Re_lt0.
+have [_ h _] := julia ars z0.
+have -> : `|f.[- z]| = `|(-1) ^+ size rs * f.[- z]| by rewrite normrM normrX normrN1 expr1n mul1r.
+rewrite (horner_roots_opp _ e) (horner_roots_conj _ rf e) !normrM ler_wpmul2l//.
+by rewrite -(@ler_pexpn2r _ 2) ?nnegrE.
+Qed.
+
+Lemma routh_sufficient : 0 < c -> hurwitz q -> hurwitz p.
+Proof.
+move=> c0 hq z rz; rewrite Re_lt0 real_ltNge ?real0//; last first.
+  by rewrite CrealE rmorphD conjCK addrC.
+apply/negP=> z0.
+have nq : q.[z] != 0.
+  by apply: contraL z0 => /hq; rewrite Re_lt0 => /lt_geF->.
+have bq := hurwitz_bound routh_real hq z0.
+pose w := c * z / 2%:R.
+have e : q.[z] * (1 + w) = - (w * (s * q.[- z])).
+  have cg : c * z * g z = w * (q.[z] + s * q.[- z]) by rewrite routh_opp /w mulrA divfK// pnatr_eq0.
+  have e1 := routh_horner z; rewrite (rootP rz) sub0r cg mulrDr opprD in e1.
+  by rewrite mulrDr mulr1 {1}e1 [q.[z] * w]mulrC addrAC addNr add0r.
+have : `|1 + w| <= `|w|.
+  have e2 : `|q.[z]| * `|1 + w| = `|w| * `|q.[- z]|.
+    by rewrite -normrM e normrN (normrM w) (normrM s) /s normrX normrN1 expr1n mul1r.
+  rewrite -(ler_pmul2l (x := `|q.[z]|)) ?normr_gt0// e2 [X in _ <= X]mulrC.
+  by rewrite ler_wpmul2l.
+apply/negP; rewrite lt_geF//.
+rewrite -(@ltr_pexpn2r _ 2) ?nnegrE// !sqr_norm rmorphD rmorph1 mulrDl mul1r mulrDr mulr1.
+rewrite addrA -subr_gt0 addrK -addrA; apply: ltr_paddr; last exact: ltr01.
+have k0 : 0 <= c / 2%:R by apply: divr_ge0; [exact: ltW | exact: ler0n].
+have kr : (c / 2%:R)^* = c / 2%:R by apply: CrealP; apply: ger0_real.
+have -> : w^* + w = c / 2%:R * (z + z^*).
+  by rewrite /w mulrAC (rmorphM _ (c / 2%:R)) kr mulrDr addrC.
+by rewrite mulr_ge0.
+Qed.
+
+Lemma routh_necessary : 0 < lead_coef p -> hurwitz p -> hurwitz q.
+Proof.
+move=> lp hp; have [rs [e ars srs]] := routh_coef lp hp.
+set sg := \sum_(r <- rs) - (r + r^*) => -[epn sg0].
+have p0 : 0 < p`_n by rewrite -(@pmulrn_lgt0 _ _ 2)// epn mulr_gt0.
+move=> z rz; rewrite Re_lt0 real_ltNge ?real0//; last first.
+  by rewrite CrealE rmorphD conjCK addrC.
+apply/negP=> z0; have [J _ _] := julia ars z0.
+set D := \prod_(r <- rs) (z - r^*) in J; set N := \prod_(r <- rs) (z + r) in J.
+rewrite -/sg in J; pose G := g z.
+have eP : p.[z] = lead_coef p * D by apply: horner_roots_conj.
+have eN : lead_coef p * N = p.[z] - (G + G).
+  have := horner_roots_opp z e; rewrite srs exprS mulN1r mulNr -/s => <-.
+  have -> : G + G = p.[z] + s * p.[- z] by rewrite /G /g -mulr2n -mulr_natr divfK// pnatr_eq0.
+  by rewrite opprD addrA subrr add0r.
+have cE : c * sg = 2%:R.
+  have -> : c = lead_coef p / p`_n by rewrite lead_coefE sp.
+  by rewrite mulrAC -epn -mulr_natl mulfK.
+have eG : p.[z] = c * z * G by apply/eqP; rewrite -subr_eq0 -routh_horner; apply/eqP/rootP.
+have cr : c^* = c by apply: CrealP; rewrite rpred_div//; apply: (polyOverP rp).
+have lr : (lead_coef p)^* = lead_coef p by apply: CrealP; apply: (polyOverP rp).
+have l2 : 0 < `|lead_coef p| ^+ 2 by rewrite exprn_gt0// normr_gt0 gt_eqF.
+have nG : `|G| ^+ 2 <= 0.
+  have : `|lead_coef p| ^+ 2 * (`|D - N| ^+ 2 * (z + z^*)) <=
+         `|lead_coef p| ^+ 2 * (sg * (`|D| ^+ 2 - `|N| ^+ 2)) by rewrite ler_pmul2l.
+  rewrite mulrA -exprMn -normrM mulrBr -eP eN opprB addrC subrK.
+  rewrite mulrCA mulrBr -!exprMn -!normrM -eP eN eG.
+  rewrite (last_gap _ _ cr) -mulr2n normrMn exprMn_n mulrBr.
+  move: (`|G| ^+ 2) (z + z^*) => G2 x; rewrite -[(2 ^ 2)%N]/(4%N).
+  have -> : sg * (c * x * G2 *+ 2) = G2 *+ 4 * x.
+    by rewrite mulrnAr -(mulrA c x) (mulrA sg c) (mulrC sg c) cE mulr_natl -mulrnA [x * G2]mulrC mulrnAl.
+  by rewrite ler_addl oppr_ge0 pmulr_rle0// pmulrn_lle0.
+have G0 : G = 0.
+  have : `|G| ^+ 2 == 0 by rewrite eq_le nG exprn_ge0.
+  by rewrite expf_eq0 normr_eq0 => /eqP.
+have : root p z by rewrite /root eG G0 mulr0.
+by move/hp; rewrite Re_lt0 => /lt_geF; rewrite z0.
+Qed.
+End Routh.
+
+(* Rule "Routh": one step of the recursion, in both directions. *)
+Theorem routh p n : real_poly p -> size p = n.+2 -> 0 < lead_coef p ->
+  (hurwitz p <-> 0 < p`_n /\ hurwitz (routh_step p)).
+Proof.
+move=> rp sp lp; split=> [hp | [pn hq]].
+  have pn : 0 < p`_n.
+    have [rs [_ _ _ [e sg0]]] := routh_coef rp sp lp hp.
+    by rewrite -(@pmulrn_lgt0 _ _ 2)// e mulr_gt0.
+  by split=> //; apply: routh_necessary (lt0r_neq0 pn) lp hp.
+have pn' : p`_n != 0 by rewrite gt_eqF.
+apply: (routh_sufficient rp sp pn' _ hq).
+by rewrite divr_gt0//; move: lp; rewrite lead_coefE sp.
+Qed.
+
+(* The recursion, as the checker runs it. *)
+Fixpoint is_hurwitz (F : numFieldType) k (p : {poly F}) := if k is k'.+1 then
+  (size p <= 1)%N || (0 < p`_(size p).-2) && is_hurwitz k' (routh_step p) else true.
+
+Lemma no_root_const p (P : C -> Prop) : p != 0 -> (size p <= 1)%N -> forall z, root p z -> P z.
+Proof.
+move=> p0 sp z; rewrite [p]size1_polyC// rootC => /eqP c0.
+by move: p0; rewrite [p]size1_polyC// c0 polyC0 eqxx.
+Qed.
+
+Theorem is_hurwitzP k p : real_poly p -> 0 < lead_coef p -> (size p <= k.+1)%N ->
+  reflect (hurwitz p) (is_hurwitz k p).
+Proof.
+elim: k p => [|k IH] p rp lp sp; have p0 : p != 0 by rewrite -lead_coef_eq0 gt_eqF.
+  by apply: ReflectT; apply: no_root_const.
+rewrite /=; case: leqP => [s1|s1]; first by apply: ReflectT; apply: no_root_const.
+pose n := (size p).-2; have sn : size p = n.+2 by rewrite /n; case: (size p) s1 => [|[|]].
+apply: (iffP andP) => [[pn hk] | hp].
+  apply/(routh rp sn lp); rewrite sn /= in pn; split=> //.
+  have [s2 l2] := routh_size sn (lt0r_neq0 pn); apply/IH: hk.
+  - exact: routh_real.
+  - by rewrite lead_coefE s2 /= l2.
+  - by rewrite s2 -ltnS -sn.
+have [pn hq] := (routh rp sn lp).1 hp; rewrite sn /=; split=> //.
+have [s2 l2] := routh_size sn (lt0r_neq0 pn); apply/IH => //.
+- exact: routh_real.
+- by rewrite lead_coefE s2 /= l2.
+- by rewrite s2 -ltnS -sn.
 Qed.
 End Closed.
