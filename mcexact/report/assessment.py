@@ -135,6 +135,7 @@ def assess(
             "names no neighbors: add 'neighbors' to the file"
         )
     spectrum = fixed_spectrum(system)
+    spectrum = fixed_spectrum(system)
     return Assessment(
         system=system,
         information=information,
