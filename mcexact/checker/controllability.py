@@ -56,3 +56,10 @@ def krylov_ranks(system: System, T: list[int], ell: int, blocks: int) -> list[in
         fresh = list(zip(*images, strict=True)) if kept else []
         ranks.append(len(echelon.rows))
     return ranks
+
+
+def require_reached(system: System, channel: int, ell: int, blocks: int) -> None:
+    """Stop unless [B_q, …, A^{blocks−1}B_q] has rank n modulo ℓ."""
+    reached = krylov_ranks(system, [channel], ell, blocks)[-1]
+    message = f"only {reached} dimensions are reached modulo ℓ in {blocks} blocks"
+    require(reached == system.n, "rank", "witness", message)

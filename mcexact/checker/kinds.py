@@ -15,10 +15,12 @@ from . import (
     controllability_indices,
     deficiency,
     distributed_observer,
+    exceptional_gains,
     fixed_spectrum,
     neighbor_graph,
     pencil_rank,
     shared_dimensions,
+    single_channel_gains,
     stability,
     transfer_graph,
 )
@@ -39,11 +41,13 @@ KINDS: dict[str, Rule] = {
     "controllability_indices": controllability_indices.check,
     "deficiency": deficiency.check,
     "distributed_observer": distributed_observer.check,
+    "exceptional_gains": exceptional_gains.check,
     "fixed_spectrum": fixed_spectrum.check,
     "neighbor_graph": neighbor_graph.check,
     "pencil_rank": pencil_rank.check,
     "shared_dimensions": shared_dimensions.check,
     "stability": stability.check,
+    "single_channel_gains": single_channel_gains.check,
     "transfer_graph": transfer_graph.check,
 }
 

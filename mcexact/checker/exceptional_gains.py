@@ -1,0 +1,76 @@
+"""Kind ``exceptional_gains``: where [B, (M+gA)B, …] loses rank; ``proofs/exceptional_gains.md``."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from functools import reduce
+from typing import Any
+
+from . import arithmetic, evidence, reading
+from .arithmetic import Matrix, Polynomial, exponent, poly_product, stripped
+from .reading import fields, integer, items, matrix, require
+from .system import System
+from .words import described, polynomial_text
+
+
+def check(claim: Any, witness: Any, system: System) -> str:
+    """Check a row at every root of each factor, and two determinants that vanish nowhere else."""
+    rows, number, p, discs = fields(claim, "claim", "M", "blocks", "polynomial", "roots")
+    ell, listed, drawn = fields(witness, "witness", "modulus", "factors", "compressions")
+    n, blocks = system.n, integer(number, "claim.blocks", 1)
+    M, B = matrix(rows, "claim.M", n, n), evidence.inputs(system, range(system.m))
+    whole = reading.polynomial(p, "claim.polynomial")
+    found = evidence.root_discs(discs, "claim.roots", whole)
+    plain = all(im == 0 or abs(im) > radius for _, im, radius in found)
+    require(plain, "disc", "claim.roots", "a disc meets the real axis, but not in the middle")
+    listed = enumerate(items(listed, "witness.factors"))
+    parts = (system.A, M, B, blocks)
+    factors = [_lost_at(entry, f"witness.factors[{k}]", *parts) for k, entry in listed]
+    same = reduce(poly_product, factors, [Fraction(1)]) == whole
+    require(same, "product", "claim.polynomial", "not the product of the factors")
+    R = reading.matrices(drawn, "witness.compressions", [(blocks * B.ncols, n)] * 2)
+    first, second = (_determinant(system.A, M, B, part, blocks) for part in R)
+    require(any(first), "product", "witness.compressions", "the first determinant is zero")
+    for f in factors:
+        first = exponent(f, first)[1]
+    # monic: a coefficient that only ℓ makes vanish could hide a common root
+    first = [c / first[-1] for c in first]
+    ell = evidence.modulus(ell, "witness.modulus")
+    evidence.require_coprime(first, second, ell, "the rest of det(K R) and det(K R')")
+    real = sum(im == 0 for _, im, _ in found)
+    return (
+        f"with A and B of {described(system)} and the M given, {blocks} blocks [B, (M + gA)B, ...] "
+        f"lose rank {n} at the roots g of {polynomial_text(whole)} alone, of which {real} are real"
+    )
+
+
+def _lost_at(value: Any, place: str, A: Matrix, M: Matrix, B: Matrix, blocks: int) -> Polynomial:
+    """A factor f; a row with an entry 1 annihilates all blocks modulo f."""
+    p, row, pivot = fields(value, place, "polynomial", "row", "pivot")
+    f = reading.polynomial(p, f"{place}.polynomial", 1)
+    w = reading.polynomial_matrix(row, f"{place}.row", 1, A.nrows, len(f) - 1)
+    pivots = reading.positions([pivot], f"{place}.pivot", A.nrows)
+    evidence.require_identity([layer.T for layer in w], pivots, f"{place}.pivot")
+    for _ in range(blocks):
+        gone = all((layer @ B).is_zero() for layer in w)
+        require(gone, "identity", f"{place}.row", "it does not annihilate every block")
+        moved = [Matrix.zeros(1, A.nrows), *(layer @ A for layer in w)]
+        terms = zip(w, moved, f, strict=False)
+        w = [layer @ M + shifted - moved[-1].times(c) for layer, shifted, c in terms]
+    return f
+
+
+def _determinant(A: Matrix, M: Matrix, B: Matrix, R: Matrix, blocks: int) -> Polynomial:
+    """det([B, (M+gA)B, …] R), through its values at 0, 1, … (Newton)."""
+    result: Polynomial = []
+    basis: Polynomial = [Fraction(1)]
+    for g in range(A.nrows * (blocks - 1) + 1):
+        total = Matrix.zeros(A.nrows, A.nrows)
+        for k in reversed(range(0, R.nrows, B.ncols or 1)):
+            total = B @ R.take(range(k, k + B.ncols)) + (M + A.times(Fraction(g))) @ total
+        wanted = (-1) ** A.nrows * arithmetic.characteristic_polynomial(total)[0]
+        now, room = (sum(c * g**k for k, c in enumerate(p)) for p in (result, basis))
+        slope = (wanted - now) / room
+        result = [a + slope * b for a, b in zip([*result, Fraction(0)], basis, strict=True)]
+        basis = poly_product(basis, [Fraction(-g), Fraction(1)])
+    return stripped(result)
