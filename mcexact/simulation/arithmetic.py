@@ -74,6 +74,7 @@ class MultiprecisionArithmetic:
     Parameters
     ----------
     digits : int
+        Of the results; half as many more are carried.
     """
 
     name = "multiprecision"
@@ -82,7 +83,8 @@ class MultiprecisionArithmetic:
         from mpmath import MPContext  # type: ignore[import-untyped]
 
         self.context = MPContext()
-        self.context.dps = digits
+        # Taylor terms may be larger than their sum by some digits; these are spare ones.
+        self.context.dps = digits + digits // 2 + 10
 
     def convert(self, M: Matrix) -> Native:
         """An ``mpmath.matrix``, every entry rounded once."""

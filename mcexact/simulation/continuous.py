@@ -81,7 +81,7 @@ def _taylor_step(network: Network, step: Fraction, digits: int) -> bool:
     start = network.state, parts
     references = [agent.reference for agent in network.agents]
     total = term = start
-    size, scale = _size(numbers, start), _size(numbers, start)
+    limit = 10.0 ** (digits // 4) * max(_size(numbers, start), 1e-300)
     finished = False
     for k in range(1, 40 * digits):
         rate = network.evolution()
@@ -91,10 +91,10 @@ def _taylor_step(network: Network, step: Fraction, digits: int) -> bool:
         term = _scaled(rate, numbers.scalar(step / k))
         network.set_state(*term)
         total = _added(total, term)
-        size, scale = _size(numbers, term), max(scale, _size(numbers, total))
-        if size > 10.0 ** (digits // 4) * max(scale, 1e-300) or not size < 1e250:
+        size = _size(numbers, term)
+        if not size <= limit:
             break
-        if size <= scale * 10.0**-digits:
+        if size <= _size(numbers, total) * 10.0**-digits:
             finished = True
             break
     for agent, reference in zip(network.agents, references, strict=True):

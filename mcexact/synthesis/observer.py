@@ -8,7 +8,7 @@ from fractions import Fraction
 from itertools import islice
 from math import ceil
 from random import Random
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 from mcexact.analysis.completeness import completeness
 from mcexact.analysis.controllability import joint_observability
@@ -40,6 +40,9 @@ from mcexact.synthesis.state_feedback import (
     given_feedback,
     state_feedback,
 )
+
+if TYPE_CHECKING:
+    from mcexact.synthesis.observer_float import FloatObserverDesign
 
 _ROWS_PER_CANDIDATE = 2
 Progress = Callable[[str], None]
@@ -93,6 +96,7 @@ class ObserverDesign:
         )
 
 
+@overload
 def design_observer(
     system: MultiChannelSystem,
     graph: NeighborGraph | None = None,
@@ -103,9 +107,39 @@ def design_observer(
     radius: Any = None,
     gains: Sequence[Any] | None = None,
     order: Literal["least"] | None = None,
+    arithmetic: Literal["exact"] = "exact",
     progress: Progress | None = None,
-) -> ObserverDesign:
-    """Design a distributed observer-based controller with a prescribed spectrum, exactly.
+) -> ObserverDesign: ...
+
+
+@overload
+def design_observer(
+    system: MultiChannelSystem,
+    graph: NeighborGraph | None = None,
+    q: str | None = None,
+    *,
+    rate: Any = None,
+    radius: Any = None,
+    gains: Sequence[Any] | None = None,
+    arithmetic: Literal["float"],
+    progress: Progress | None = None,
+) -> FloatObserverDesign: ...
+
+
+def design_observer(
+    system: MultiChannelSystem,
+    graph: NeighborGraph | None = None,
+    q: str | None = None,
+    *,
+    spectrum: Mapping[str, Any] | None = None,
+    rate: Any = None,
+    radius: Any = None,
+    gains: Sequence[Any] | None = None,
+    order: Literal["least"] | None = None,
+    arithmetic: Literal["exact", "float"] = "exact",
+    progress: Progress | None = None,
+) -> ObserverDesign | FloatObserverDesign:
+    """Design a distributed observer-based controller, with a proof of its closed-loop spectrum.
 
     Parameters
     ----------
@@ -126,6 +160,9 @@ def design_observer(
     order : {"least"}, optional
         A channel controller of order one less than the smaller of the two indices; by default it
         has order m − 1.
+    arithmetic : {"exact", "float"}
+        Exact assigns every number, for small systems; float designs for a rate or a radius alone,
+        and the proof is exact as well (`design_observer_float`).
     progress : callable, optional
         Is told, in a few words, what is being done.
 
@@ -175,6 +212,10 @@ let one agent control and observe all estimation errors
     tell = progress or (lambda _: None)
     wanted = _checked_spectrum(spectrum, gains)
     agent = 0 if q is None else system.index(q)
+    if arithmetic == "float":
+        return _in_floating_point(
+            system, found, agent, bound, gains, tell, not wanted and not order
+        )
     tell("state feedback")
     feedback = _feedback(system, wanted.get("feedback"), bound, gains)
     tell("lists K, H for the error system")
@@ -182,6 +223,27 @@ let one agent control and observe all estimation errors
     least = order == "least"
     task = _Task(system, found, agent, feedback, error, wanted, bound, least, tell)
     return _best_design(task, _candidates(task))
+
+
+def _in_floating_point(
+    system: MultiChannelSystem,
+    graph: NeighborGraph,
+    agent: int,
+    bound: Fraction | None,
+    gains: Sequence[Any] | None,
+    tell: Progress,
+    rate_alone: bool,
+) -> FloatObserverDesign:
+    """The road of `design_observer_float`, which takes a rate or a radius and nothing else."""
+    from mcexact.synthesis.observer_float import design_observer_float
+
+    if bound is None or not rate_alone:
+        raise UsageError(
+            "a design in floating point takes a rate or a radius; a spectrum or an order needs "
+            'arithmetic "exact"'
+        )
+    given = None if gains is None else checked_gains(system, gains, [system.n] * system.m)
+    return design_observer_float(system, graph, agent, bound, gains=given, progress=tell)
 
 
 def _checked_spectrum(
@@ -298,7 +360,8 @@ def _best_design(task: _Task, candidates: list[ReachingGains]) -> ObserverDesign
             continue
         task.tell(f"channel controller {k + 1} of {len(candidates)}")
         for made in _channel_controllers(task, each, polynomial, index, rng):
-            size = made.height + 3 * ceil(made.largest).bit_length()
+            # Short numbers matter for the proof, small ones for whoever runs the controller.
+            size = made.height + 8 * ceil(made.largest).bit_length()
             if best is None or size < best[0]:
                 best = (size, each, made)
     if best is None:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from math import ceil
 from random import Random
 
@@ -118,28 +120,36 @@ def assigning_feedback(A: Matrix, B: Matrix, polynomial: Polynomial, *, seed: in
     Notes
     -----
     The denominators of F divide det X, X = [b, Mb, …, M^{n−1}b], with M = A + B F_0 and b = B g,
-    where A, B, F_0 and g are integral.  So many F_0 and g are drawn, and those with the least
-    determinant are kept.  Half of the F_0 are sparse; the others bring M close to a shift of the
-    coordinates in some order, as far as im B reaches, for which det X would be ±1.
+    where A, B, F_0 and g are integral; and F is close to F_0 where M has nearly the prescribed
+    spectrum.  So many F_0 and g are drawn: some sparse, the others such that M comes close, as far
+    as im B reaches, to a chain of companion blocks (of the prescribed polynomial, or of powers of
+    x) in drawn coordinates, for which det X would be ±1.
     """
     n, p = B.shape
     if n == 0:
         return Matrix.zeros(p, 0)
-    rng = Random(seed)
-    reach = _left_inverse(B)
-    drawn: list[tuple[int, int, _Direction]] = []
+    rng, reach = Random(seed), _left_inverse(B)
+    targets = [companions(polynomial), [Matrix.zeros(1, 1)] * n]
+    best: tuple[int, Matrix] | None = None
+    least, found = Fraction(0), 0
     for draw in range(_DRAWS):
-        if drawn and draw >= _DRAWS_IF_FOUND:
+        if found >= _CANDIDATES and draw >= _DRAWS_IF_FOUND:
             break
-        direction = _drawn_direction(A, B, reach, rng, draw)
-        size = determinant(direction.X)
-        if size:
-            drawn.append((abs(size.numerator) * size.denominator, draw, direction))
-    if not drawn:
+        direction = _drawn_direction(A, B, reach, targets, rng, draw)
+        size = abs(determinant(direction.X))
+        if not size:
+            continue
+        least = size if not found else min(least, size)
+        # Where the determinant is larger the denominators of F are longer: not worth the effort.
+        if size > 4 * least and found >= _CANDIDATES:
+            continue
+        found += 1
+        F = direction.feedback(polynomial)
+        if best is None or _cost(F) < best[0]:
+            best = _cost(F), F
+    if best is None:
         raise LimitReached("no input direction was found that controls the system by itself")
-    drawn.sort(key=lambda each: each[:2])
-    found = [direction.feedback(polynomial) for _, _, direction in drawn[:_CANDIDATES]]
-    return min(found, key=_cost)
+    return best[1]
 
 
 def _cost(F: Matrix) -> int:
@@ -169,18 +179,25 @@ class _Direction:
         return self.F0 - self.g @ result
 
 
-def _drawn_direction(A: Matrix, B: Matrix, reach: Matrix, rng: Random, draw: int) -> _Direction:
-    """The unit directions without feedback first, then draws of slowly growing range."""
+def _drawn_direction(
+    A: Matrix,
+    B: Matrix,
+    reach: Matrix,
+    targets: Sequence[Sequence[Matrix]],
+    rng: Random,
+    draw: int,
+) -> _Direction:
+    """The unit directions without feedback first, then sparse draws and targets by turns."""
     n, p = B.shape
-    bound = 1 + draw // 400
+    bound = 1 + draw // 1000
     if draw < p:
         F0, g = Matrix.zeros(p, n), Matrix.column([int(k == draw) for k in range(p)])
+    elif draw % 3 == 2:
+        F0, g = _drawn(rng, p, n, bound, 0.25), _drawn(rng, p, 1, bound, 0.5)
     else:
-        if draw % 2:
-            F0 = _drawn(rng, p, n, bound, 0.25)
-        else:
-            F0 = _rounded(reach @ (_drawn_shift(rng, n) - A))
-        g = _drawn(rng, p, 1, bound, 0.5)
+        target, first = _drawn_target(rng, targets[draw % 3])
+        F0 = _rounded(reach @ (target - A))
+        g = _rounded(reach.take(cols=[first])) if draw % 4 else _drawn(rng, p, 1, bound, 0.5)
     M = A + B @ F0
     columns = [B @ g]
     for _ in range(n - 1):
@@ -205,14 +222,35 @@ def _rounded(M: Matrix) -> Matrix:
     return Matrix.from_integers([[round(x) for x in row] for row in M.rows()], ncols=M.ncols)
 
 
-def _drawn_shift(rng: Random, n: int) -> Matrix:
-    """The nilpotent matrix that moves the unit vectors along in a drawn order."""
+def _drawn_target(rng: Random, blocks: Sequence[Matrix]) -> tuple[Matrix, int]:
+    """The blocks in a drawn order of the coordinates, each linked to the next, and the first."""
+    blocks = list(blocks)
+    rng.shuffle(blocks)
+    n = sum(block.nrows for block in blocks)
     order = list(range(n))
     rng.shuffle(order)
-    rows = [[0] * n for _ in range(n)]
-    for k in range(n - 1):
-        rows[order[k + 1]][order[k]] = rng.choice((1, -1))
-    return Matrix.from_integers(rows, ncols=n)
+    rows: list[list[Fraction | int]] = [[0] * n for _ in range(n)]
+    start = 0
+    for block in blocks:
+        size = block.nrows
+        for i in range(size):
+            for k in range(size):
+                rows[order[start + i]][order[start + k]] = block[i, k]
+        if start:
+            rows[order[start]][order[start - 1]] = rng.choice((1, -1))
+        start += size
+    return Matrix.from_rows(rows, ncols=n), order[0] if n else 0
+
+
+def companions(polynomial: Polynomial) -> list[Matrix]:
+    """One companion matrix for each irreducible factor over Q, as often as it divides."""
+    found = []
+    for factor, times in polynomial.factor():
+        d = factor.degree
+        last = [-c for c in factor.coefficients[:d]]
+        rows = [[int(i == k + 1) for k in range(d - 1)] + [last[i]] for i in range(d)]
+        found += [Matrix.from_rows(rows, ncols=d)] * times
+    return found
 
 
 def _split(system: MultiChannelSystem, F: Matrix) -> tuple[Matrix, ...]:

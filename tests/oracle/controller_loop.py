@@ -110,8 +110,8 @@ def loop_rows(system: Mapping[str, Any], text: str) -> Rows:
     plant = times(A, unit(("plant",)))
     for agent in agents:
         name = agent["name"]
-        width = len(B[name][0]) if B[name] else 0
-        plant = add(plant, times(B[name], computed(agent, "input", width)))
+        if B[name]:
+            plant = add(plant, times(B[name], computed(agent, "input", len(B[name][0]))))
     matrix = plant
     for agent in agents:
         matrix = matrix + computed(agent, "shared_update", agent["shared"])
