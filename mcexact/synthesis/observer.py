@@ -209,6 +209,8 @@ let one agent control and observe all estimation errors
     bound = convergence_bound(system.time, rate, radius, needed=spectrum is None)
     if order not in (None, "least"):
         raise UsageError(f'expected order "least" or none, found {order!r}', where="order")
+    if arithmetic not in ("exact", "float"):
+        raise UsageError(f'expected "exact" or "float", found {arithmetic!r}', where="arithmetic")
     tell = progress or (lambda _: None)
     wanted = _checked_spectrum(spectrum, gains)
     agent = 0 if q is None else system.index(q)
