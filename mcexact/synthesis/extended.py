@@ -1,0 +1,190 @@
+"""The second road: share sub-states, and control the extended system channel by channel."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from mcexact.analysis.allocation import (
+    SharedDimensionBound,
+    SharedDimensions,
+    minimal_shared_dimensions,
+    shared_dimension_bound,
+)
+from mcexact.derived.extended import Share, checked_dimensions
+from mcexact.errors import Impossible, InputError, UsageError
+from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem, with_graph
+from mcexact.synthesis.network_candidates import ArithmeticKind, Progress
+from mcexact.synthesis.network_design import NetworkDesign, design_network
+from mcexact.synthesis.networks import NetworkKind, shared_network
+from mcexact.synthesis.spectrum import convergence_bound
+
+Dimensions = str | Sequence[int]
+"""``"minimal"``, ``"bound"``, or n_1 … n_m."""
+
+
+@dataclass(frozen=True, eq=False)
+class ExtendedDesign:
+    """A distributed controller by way of the extended system.
+
+    Attributes
+    ----------
+    design : NetworkDesign
+        The controller, its loop and their certificates.
+    allocation : SharedDimensions or SharedDimensionBound or None
+        Where the n_i come from; None if they were given.
+    """
+
+    design: NetworkDesign
+    allocation: SharedDimensions | SharedDimensionBound | None
+
+    @property
+    def dimensions(self) -> tuple[int, ...]:
+        """n_1 … n_m."""
+        return self.design.network.dimensions
+
+    @property
+    def certificate(self) -> Any:
+        """The certificate of the closed-loop spectrum."""
+        return self.design.certificate
+
+    @property
+    def certificates(self) -> dict[str, Any]:
+        """All that was proved, by the name of a file."""
+        found = dict(self.design.certificates)
+        if self.allocation is not None:
+            found[self.allocation.certificate.kind] = self.allocation.certificate
+        return found
+
+
+def design_extended(
+    system: MultiChannelSystem,
+    graph: NeighborGraph | None = None,
+    q: str | None = None,
+    *,
+    dimensions: Dimensions = "minimal",
+    share: Share | None = None,
+    network: Literal["extended", "lifted", "held"] | None = None,
+    spectrum: Any = None,
+    rate: Any = None,
+    radius: Any = None,
+    free_assignability: bool = False,
+    arithmetic: ArithmeticKind = "exact",
+    progress: Progress | None = None,
+) -> ExtendedDesign:
+    """Design a distributed controller of least order on an extended system.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        A plant, n states, m channels.
+    graph : NeighborGraph, optional
+        With delays, in discrete time; overrides ``system.neighbors``.
+    q : str, optional
+        The agent that carries the channel controller; by default the one that needs the least
+        order.
+    dimensions : {"minimal", "bound"} or sequence of m int
+        n_1 … n_m: the least that suffice, Theorem 2's bound for every agent, or given ones.
+    share : {"outputs+states", "states"}, optional
+        What agents send; by default both, with holding sub-states alone.
+    network : {"extended", "lifted", "held"}, optional
+        With delays: the lifted system, in which only 0 stays fixed (the default), or the held one,
+        in which nothing does.
+    spectrum : polynomial, list of roots, or mapping, optional
+        n̄ + k_q numbers, freely; see `design_network`.
+    rate, radius : rational, optional
+        Instead of a spectrum, or besides it, to be certified.  Only modes that violate it need to
+        be freed; fixed modes that meet it stay, and are reported.
+    free_assignability : bool
+        With ``"minimal"``: share so much that the transfer graph of the extended system is
+        strongly connected, so that the spectrum does not split.
+    arithmetic : {"exact", "float"}
+    progress : callable, optional
+
+    Returns
+    -------
+    ExtendedDesign
+        Its order is k_q + Σ n_i; the distributed observer's is nm + m − 1.
+
+    Raises
+    ------
+    Impossible
+        If no dimensions free every mode that is not fast enough, or the given ones do not.
+
+    Notes
+    -----
+    Paper, sections IV-D, IV-E and V.  The design is on the derived system, the programs are for the
+    network itself: messages are late on the wires, and the agents hold.
+
+    Examples
+    --------
+    >>> from mcexact.model import gallery
+    >>> plant = gallery.load("liu2020-3ch-no-communication")
+    >>> ring = NeighborGraph.ring(plant.names)
+    >>> found = design_extended(plant, ring, spectrum=[-1, -1, -2, -2])
+    >>> found.dimensions, found.design.order, found.design.observer_order
+    ((0, 0, 1), 1, 11)
+    >>> design_extended(plant, NeighborGraph.empty(plant.names), rate=1)
+    Traceback (most recent call last):
+        ...
+    mcexact.errors.Impossible: no shared dimensions free the modes that are not fast enough: \
+the agents 2, 3 hear nobody besides themselves, and lack 1
+    """
+    system, found = with_graph(system, graph)
+    if system.subject:
+        raise UsageError("a controller is designed for a plant, not for a derived system")
+    kind: NetworkKind = network or ("lifted" if found.delays else "extended")
+    if kind not in ("extended", "lifted", "held"):
+        raise UsageError(f'expected "extended", "lifted" or "held", found {kind!r}')
+    sharing: Share = share or ("states" if kind == "held" else "outputs+states")
+    bound = convergence_bound(system.time, rate, radius, needed=spectrum is None)
+    tell = progress or (lambda _: None)
+    tell("shared dimensions")
+    allocation, sizes = _sizes(system, dimensions, sharing, kind, bound, free_assignability)
+    derived = shared_network(system, found, sizes, sharing, kind)
+    design = design_network(
+        derived,
+        q,
+        spectrum=spectrum,
+        rate=rate,
+        radius=radius,
+        arithmetic=arithmetic,
+        progress=progress,
+    )
+    return ExtendedDesign(design, allocation)
+
+
+def _sizes(
+    system: MultiChannelSystem,
+    dimensions: Dimensions,
+    share: Share,
+    kind: NetworkKind,
+    bound: Any,
+    free_assignability: bool,
+) -> tuple[SharedDimensions | SharedDimensionBound | None, tuple[int, ...]]:
+    """n_1 … n_m, and where they come from."""
+    if dimensions == "bound":
+        most = shared_dimension_bound(system, share=share)
+        return most, (most.per_agent,) * system.m
+    if not isinstance(dimensions, str):
+        return None, checked_dimensions(system, dimensions)
+    if dimensions != "minimal":
+        raise InputError(
+            f'expected "minimal", "bound" or {system.m} numbers, found {dimensions!r}',
+            where="dimensions",
+        )
+    least = minimal_shared_dimensions(
+        system, share=share, bound=bound, free_assignability=free_assignability
+    )
+    if least.dimensions is None:
+        worst = least.binding[0]
+        heard = ", ".join(worst.boundary) or "nobody"
+        raise Impossible(
+            "no shared dimensions free the modes that are not fast enough: the agents "
+            f"{', '.join(worst.subset) or 'of no subset'} hear {heard} besides themselves, and "
+            f"lack {worst.deficiency}",
+            least.certificate,
+        )
+    return least, least.dimensions

@@ -1,0 +1,167 @@
+"""Channel controllers for drawn gains, component by component, and the best of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import ceil
+from random import Random
+from typing import Any, Literal
+
+from mcexact.analysis.fixed_spectrum import FixedSpectrum
+from mcexact.analysis.modular_system import generator
+from mcexact.errors import InputError, InternalError
+from mcexact.exact.linear_algebra import characteristic_polynomial
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.polynomial import Polynomial, product
+from mcexact.synthesis.channel_controller import (
+    ChannelController,
+    channel_controller,
+    observing_rows,
+    transposed,
+)
+from mcexact.synthesis.channel_parts import (
+    ChannelPart,
+    ChannelReach,
+    DrawnGains,
+    channel_part,
+    closed,
+)
+from mcexact.synthesis.networks import DerivedNetwork
+from mcexact.synthesis.riccati_channel import riccati_channel_controller
+from mcexact.synthesis.spectrum import default_polynomial, spectrum_polynomial
+
+ArithmeticKind = Literal["exact", "float"]
+Progress = Callable[[str], None]
+
+_KEPT = 8
+
+
+@dataclass(frozen=True)
+class NetworkTask:
+    """What has been settled before gains are drawn."""
+
+    network: DerivedNetwork
+    components: tuple[tuple[int, ...], ...]
+    choices: tuple[tuple[int, ...], ...]
+    spectrum: FixedSpectrum
+    prescribed: Any
+    bound: Fraction | None
+    arithmetic: ArithmeticKind
+    tell: Progress
+
+    def component_of(self, channel: int) -> int:
+        return next(c for c, members in enumerate(self.components) if channel in members)
+
+    def polynomial(self, channel: int, degree: int, *, only: bool) -> Polynomial:
+        """The prescribed polynomial of the block with this channel."""
+        if self.prescribed is None:
+            return default_polynomial(self.network.plant.time, self.bound or Fraction(0), degree)
+        if only and not isinstance(self.prescribed, Mapping):
+            return spectrum_polynomial(self.prescribed, degree, where="spectrum.closed_loop")
+        names = self.network.plant.names
+        members = [names[i] for i in self.components[self.component_of(channel)]]
+        if isinstance(self.prescribed, Mapping):
+            given = [name for name in members if name in self.prescribed]
+            if len(given) == 1:
+                where = f"spectrum.closed_loop.{given[0]}"
+                return spectrum_polynomial(self.prescribed[given[0]], degree, where=where)
+        raise InputError(
+            "the spectrum splits into one set for each strong component of the transfer graph: "
+            f"expected {{agent: numbers, …}} with {degree} numbers for one agent of "
+            f"{', '.join(members)}",
+            where="spectrum.closed_loop",
+        )
+
+
+def best_candidate(task: NetworkTask, drawn: Sequence[DrawnGains]) -> NetworkCandidate | None:
+    """The best of the most promising draws, or None if none moves all that is not fixed."""
+    if not drawn:
+        return None
+    first = drawn[0]
+    alike = [d for d in drawn if (d.degree, d.order) == (first.degree, first.order)]
+    best: tuple[int, NetworkCandidate] | None = None
+    for k, each in enumerate(alike[:_KEPT]):
+        task.tell(f"channel controllers, candidate {k + 1}")
+        candidate = _candidate(task, each)
+        if candidate is not None and (best is None or candidate.cost < best[0]):
+            best = (candidate.cost, candidate)
+            if task.arithmetic == "float":
+                break
+    return None if best is None else best[1]
+
+
+@dataclass(frozen=True)
+class NetworkCandidate:
+    """Gains, channel controllers, the polynomials of the blocks and what is kept."""
+
+    gains: tuple[Matrix, ...]
+    channels: Mapping[int, ChannelController]
+    polynomials: Mapping[int, Polynomial]
+    kept: Polynomial
+
+    @property
+    def cost(self) -> int:
+        """Bits of the numbers, above all of the largest ones."""
+        return sum(
+            made.height + 3 * ceil(made.largest).bit_length() for made in self.channels.values()
+        )
+
+
+def _candidate(task: NetworkTask, drawn: DrawnGains) -> NetworkCandidate | None:
+    """Channel controllers for drawn gains; None if a mode that is not fixed would stay."""
+    system = task.network.system
+    rng = generator(system, "channel_controller")
+    M = closed(system, drawn.gains)
+    parts = {
+        reach.channel: channel_part(M, system.B(reach.channel), system.C(reach.channel), rng)
+        for reach in drawn.reaches
+    }
+    moved = product(characteristic_polynomial(part.A) for part in parts.values())
+    kept, remainder = divmod(characteristic_polynomial(M), moved)
+    if not remainder.is_zero():
+        raise InternalError("the parts of a loop have modes that the loop does not have")
+    if not _only(kept, task.spectrum.polynomial):
+        return None
+    made, wanted = {}, {}
+    for reach in drawn.reaches:
+        part = parts[reach.channel]
+        if task.arithmetic == "float":
+            bound = task.bound or Fraction(int(system.time == "discrete"))
+            found = riccati_channel_controller(part, system.time, bound)
+        else:
+            degree = part.A.nrows + reach.index - 1
+            polynomial = task.polynomial(reach.channel, degree, only=len(parts) == 1)
+            found = _exact_controller(part, reach, polynomial, rng)
+        if found is None or found.polynomial is None:
+            return None
+        made[reach.channel], wanted[reach.channel] = found, found.polynomial
+    return NetworkCandidate(drawn.gains, made, wanted, kept)
+
+
+def _only(p: Polynomial, allowed: Polynomial) -> bool:
+    """Whether every root of p is one of the other polynomial."""
+    while p.degree > 0:
+        common = p.gcd(allowed)
+        if common.degree < 1:
+            return False
+        p = p // common
+    return True
+
+
+def _exact_controller(
+    part: ChannelPart, reach: ChannelReach, polynomial: Polynomial, rng: Random
+) -> ChannelController | None:
+    """The Brasch–Pearson controller of a part, on the side of the smaller index."""
+    if reach.side == "controllable":
+        h = next(observing_rows(part.A, part.C, rng), None)
+        if h is None:
+            return None
+        return channel_controller(part.A, part.B, part.C, polynomial, index=reach.index, row=h)
+    h = next(observing_rows(part.A.T, part.B.T, rng), None)
+    if h is None:
+        return None
+    return transposed(
+        channel_controller(part.A.T, part.C.T, part.B.T, polynomial, index=reach.index, row=h)
+    )

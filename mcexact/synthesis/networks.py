@@ -1,0 +1,161 @@
+"""Decentralized gains of a derived network, written as programs that agents can run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+from mcexact.derived.extended import Share, extended_system
+from mcexact.derived.held import held_system
+from mcexact.derived.lifted import lifted_system
+from mcexact.errors import UsageError
+from mcexact.exact.matrix import Matrix
+from mcexact.model.controller import AgentProgram, Controller, LinearMap
+from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system_file import digest
+from mcexact.synthesis.channel_controller import ChannelController
+
+NetworkKind = Literal["decentralized", "extended", "lifted", "held"]
+
+Signal = tuple[Literal["y", "x"], int]
+
+
+@dataclass(frozen=True)
+class DerivedNetwork:
+    """A plant, what its agents share, and the multi-channel system that these make.
+
+    Attributes
+    ----------
+    kind : {"decentralized", "extended", "lifted", "held"}
+    plant : MultiChannelSystem
+    graph : NeighborGraph or None
+        None where nothing is sent.
+    dimensions : tuple of int
+        n_1 … n_m.
+    system : MultiChannelSystem
+        Whose decentralized controllers are the distributed ones of the plant.
+    signals : tuple
+        For each agent what it sees, in the order of its outputs: ("y", j) or ("x", j).
+    """
+
+    kind: NetworkKind
+    plant: MultiChannelSystem
+    graph: NeighborGraph | None
+    dimensions: tuple[int, ...]
+    system: MultiChannelSystem
+    signals: tuple[tuple[Signal, ...], ...]
+
+    def size(self, signal: Signal) -> int:
+        """How many numbers a signal has."""
+        what, j = signal
+        return self.plant.q(j) if what == "y" else self.dimensions[j]
+
+    def holds(self, j: int) -> dict[int, int]:
+        """How long agent j keeps x_j before each follower, and itself, may use it."""
+        if self.kind != "held" or self.graph is None or not self.dimensions[j]:
+            return {}
+        longest = self.graph.longest_delay(j)
+        held = {i: longest - (self.graph.delay(i, j) if i != j else 0) for i in self._hearers(j)}
+        return {i: steps for i, steps in held.items() if steps}
+
+    def _hearers(self, j: int) -> list[int]:
+        return [i for i, seen in enumerate(self.signals) if ("x", j) in seen]
+
+    def split(self, i: int, gains: Matrix) -> LinearMap:
+        """Gains that multiply ȳ_i, by the signals that they multiply."""
+        maps: dict[str, dict[int, Matrix]] = {"y": {}, "x": {}}
+        start = 0
+        for what, j in self.signals[i]:
+            stop = start + self.size((what, j))
+            maps[what][j] = gains.take(cols=range(start, stop))
+            start = stop
+        return LinearMap(maps["y"], maps["x"]).without_zeros()
+
+
+def decentralized_network(system: MultiChannelSystem) -> DerivedNetwork:
+    """The plant itself: agent i sees y_i."""
+    signals: tuple[tuple[Signal, ...], ...] = tuple((("y", i),) for i in range(system.m))
+    return DerivedNetwork("decentralized", system, None, (0,) * system.m, system, signals)
+
+
+def shared_network(
+    system: MultiChannelSystem,
+    graph: NeighborGraph,
+    dimensions: Sequence[int],
+    share: Share,
+    kind: NetworkKind,
+) -> DerivedNetwork:
+    """The extended, lifted or held system for these dimensions.
+
+    Raises
+    ------
+    UsageError
+        If the wires have delays and the kind has none, or outputs are to be sent and held.
+    """
+    own_only = kind == "held" or share == "states"
+    if kind == "held" and share != "states":
+        raise UsageError('with holding only sub-states are sent: share must be "states"')
+    if kind == "extended" and graph.delays:
+        raise UsageError('the wires have delays: choose the network "lifted" or "held"')
+    if kind == "held":
+        derived = held_system(system, dimensions, graph)
+    else:
+        builder: Callable[..., MultiChannelSystem]
+        builder = lifted_system if kind == "lifted" else extended_system
+        derived = builder(system, dimensions, share, graph)
+    signals = []
+    for i in range(system.m):
+        heard = graph.neighborhood(i)
+        measured = [i] if own_only else list(heard)
+        if kind == "lifted":
+            measured.sort(key=lambda j: (graph.delay(i, j) > 0, j))
+        seen: list[Signal] = [("y", j) for j in measured]
+        signals.append((*seen, *(("x", j) for j in heard)))
+    return DerivedNetwork(kind, system, graph, tuple(dimensions), derived, tuple(signals))
+
+
+def network_programs(
+    network: DerivedNetwork,
+    gains: Sequence[Matrix],
+    channels: Mapping[int, ChannelController],
+) -> Controller:
+    """The agents' programs for ū_i = F̄_i ȳ_i, with channel controllers at some agents.
+
+    Parameters
+    ----------
+    network : DerivedNetwork
+    gains : sequence of Matrix
+        F̄_i, (p_i + n_i) × the size of ȳ_i; ū_i = (u_i, v_i) and v_i updates x_i.
+    channels : mapping of int to ChannelController
+        ż = Az + Bȳ_q and what is added to ū_q: Cz + Dȳ_q.
+
+    Notes
+    -----
+    Paper, sections IV-C to IV-E and V.  Delays stay on the wires and holding in the agents: a
+    program never holds a matrix of the lifted system.
+    """
+    plant, programs = network.plant, []
+    for i in range(plant.m):
+        p_i, made = plant.p(i), channels.get(i)
+        F = gains[i] if made is None else gains[i] + made.D
+        k = 0 if made is None else made.order
+        upper, lower = range(p_i), range(p_i, F.nrows)
+        used = [network.split(i, F.take(rows=rows)) for rows in (upper, lower)]
+        own: list[Matrix | None] = [None, None]
+        update = LinearMap()
+        if made is not None and k:
+            own = [made.C.take(rows=upper), made.C.take(rows=lower)]
+            driven = network.split(i, made.B)
+            update = LinearMap(driven.outputs, driven.shared, made.A).without_zeros()
+        inputs, shared = (
+            LinearMap(each.outputs, each.shared, z).without_zeros()
+            for each, z in zip(used, own, strict=True)
+        )
+        programs.append(
+            AgentProgram(
+                plant.names[i], network.dimensions[i], k, shared, update, inputs, network.holds(i)
+            )
+        )
+    return Controller(plant.time, digest(plant), tuple(programs))

@@ -1,0 +1,70 @@
+"""A channel controller from two Riccati equations, in floating point, written exactly."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from mcexact.exact.floats import dyadic_matrix, matrix_to_float
+from mcexact.exact.linear_algebra import characteristic_polynomial
+from mcexact.exact.location import StabilityRegion
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.polynomial import Polynomial
+from mcexact.synthesis.channel_controller import ChannelController
+from mcexact.synthesis.channel_parts import ChannelPart
+from mcexact.synthesis.riccati import riccati_feedback
+
+_BITS = 26
+_EFFORTS = (1.0, 1e-2, 1e2, 1e-4, 1e4)
+_MARGINS = (Fraction(0), Fraction(1, 16), Fraction(1, 4))
+
+
+def riccati_channel_controller(
+    part: ChannelPart, time: str, bound: Fraction
+) -> ChannelController | None:
+    """An observer and a state feedback for a minimal triple, fast enough or nothing.
+
+    Parameters
+    ----------
+    part : ChannelPart
+        d states.
+    time : {"continuous", "discrete"}
+    bound : Fraction
+        A rate ≥ 0 or a radius.
+
+    Returns
+    -------
+    ChannelController or None
+        Of order d: ż = (A + BG + LC) z − L y, u = G z.  Its closed-loop polynomial
+        χ_{A+BG} χ_{A+LC} has every root in the region, decided exactly.
+
+    Notes
+    -----
+    Floating point proposes G and L, as dyadic rationals; the rest is exact.
+    """
+    G = _gain(part.A, part.B, time, bound)
+    L = None if G is None else _gain(part.A.T, part.C.T, time, bound)
+    if G is None or L is None:
+        return None
+    feedback, injection = part.A + part.B @ G[0], part.A + L[0].T @ part.C
+    return ChannelController(
+        feedback + injection - part.A, -L[0].T, G[0], Matrix.zeros(G[0].nrows, part.C.nrows),
+        G[1] * L[1],
+    )  # fmt: skip
+
+
+def _gain(A: Matrix, B: Matrix, time: str, bound: Fraction) -> tuple[Matrix, Polynomial] | None:
+    """A gain with which A + BG meets the bound, and the polynomial that proves it."""
+    region = StabilityRegion(time, bound or None)
+    for margin in _MARGINS:
+        faster = bound * (1 - margin) if time == "discrete" else bound + margin * (1 + bound)
+        for effort in _EFFORTS:
+            found = riccati_feedback(
+                matrix_to_float(A), matrix_to_float(B), time, float(faster), effort=effort
+            )
+            if found is None:
+                continue
+            G = dyadic_matrix(found, bits=_BITS)
+            polynomial = characteristic_polynomial(A + B @ G)
+            if region.contains_roots_of(polynomial):
+                return G, polynomial
+    return None
