@@ -27,6 +27,14 @@ from mcexact.cli import options
     help="The least order that one of the indices allows, instead of m - 1.",
 )
 @click.option(
+    "--arithmetic",
+    type=click.Choice(["exact", "float"]),
+    default="exact",
+    show_default=True,
+    help="Exact assigns every number, for small systems; float meets a rate or radius. "
+    "The proof is exact either way.",
+)
+@click.option(
     "-o",
     "--output",
     type=click.Path(path_type=Path),
@@ -44,6 +52,7 @@ def command(
     spectrum: str | None,
     agent: str | None,
     order: str | None,
+    arithmetic: str,
     output: Path | None,
     certificates: Path | None,
     as_json: bool,
@@ -67,7 +76,13 @@ def command(
     place = "standard input" if file == "-" else file
     moved = options.given(limits)
     prescribed = None if spectrum is None else (spectrum, read(spectrum, spectrum, moved))
-    wanted = {"q": agent, "rate": rate, "radius": radius, "order": order}
+    wanted = {
+        "q": agent,
+        "rate": rate,
+        "radius": radius,
+        "order": order,
+        "arithmetic": arithmetic,
+    }
     answer = supervised(
         _designed,
         place,
@@ -110,7 +125,6 @@ def _designed(
     from mcexact.model.controller_file import controller_text
     from mcexact.model.json_text import parse
     from mcexact.model.system_file import read_system
-    from mcexact.report.design_view import observer_tables, observer_view
     from mcexact.synthesis.observer import design_observer
 
     bounds = Limits(**limits)
@@ -129,9 +143,28 @@ def _designed(
         found = refused.certificate
         written = None if found is None else (f"{found.kind}.json", codec.encode(found))
         return {"impossible": str(refused), "certificate": written}
+    view, tables = _described(design)
     return {
         "controller": controller_text(design.controller),
         "certificate": (f"{design.certificate.kind}.json", codec.encode(design.certificate)),
-        "json": observer_view(design),
-        "tables": observer_tables(design),
+        "json": view,
+        "tables": tables,
     }
+
+
+def _described(design: Any) -> tuple[dict[str, Any], Any]:
+    """The design as plain data and as tables."""
+    from mcexact.synthesis.observer import ObserverDesign
+
+    if isinstance(design, ObserverDesign):
+        from mcexact.report.design_view import observer_tables, observer_view
+
+        return observer_view(design), observer_tables(design)
+    from mcexact.report.observer_float_view import (
+        design_margins,
+        observer_float_tables,
+        observer_float_view,
+    )
+
+    margins = design_margins(design)
+    return observer_float_view(design, margins), observer_float_tables(design, margins)

@@ -1,0 +1,64 @@
+"""A floating-point design as a table and as plain data: what is proved, and what is measured."""
+
+from __future__ import annotations
+
+from math import isfinite
+from typing import Any
+
+from mcexact.exact.floats import matrix_to_float
+from mcexact.exact.location import StabilityRegion
+from mcexact.floating.margins import LoopMargins, loop_margins
+from mcexact.report.text import Table
+from mcexact.synthesis.observer_float import FloatObserverDesign
+
+
+def observer_float_view(design: FloatObserverDesign, margins: LoopMargins) -> dict[str, Any]:
+    """The summary; what stands under ``floating_point`` is measured, not proved."""
+    return {
+        "design": "observer",
+        "arithmetic": "float",
+        "agent": design.agent,
+        "order": design.controller.order,
+        "certified_bound": str(design.bound),
+        "bits_of_longest_number": design.height,
+        "floating_point": {
+            "gain_norms": design.gain_norms(),
+            "spectral": finite(margins.spectral),
+            "numerical": finite(margins.numerical),
+            "distance_to_instability": finite(margins.distance_to_instability),
+        },
+        "controller": design.controller.document(),
+    }
+
+
+def observer_float_tables(design: FloatObserverDesign, margins: LoopMargins) -> tuple[Table, ...]:
+    """The summary: one table of what is certified, one of what is measured."""
+    time = design.loop.loop.time
+    proved = (
+        ("agent with the channel controller", f"{design.agent}, of order {design.G.ncols}"),
+        ("states of all agents together", str(design.controller.order)),
+        ("every eigenvalue of the loop", str(StabilityRegion(time, design.bound))),
+        ("longest number", f"{design.height} bits"),
+    )
+    what = "abscissa" if time == "continuous" else "radius"
+    norms = ", ".join(f"{name} {norm:.3g}" for name, norm in design.gain_norms().items())
+    measured = (
+        ("norms of the gains", norms),
+        (f"spectral {what}", f"{margins.spectral:.6g}"),
+        (f"numerical {what}", f"{margins.numerical:.6g}"),
+        ("distance to instability, at most", f"{margins.distance_to_instability:.3g}"),
+    )
+    return (
+        Table("distributed observer, designed in floating point, loop certified", (), proved),
+        Table("measured in floating point, not proved", (), measured),
+    )
+
+
+def finite(number: float) -> float | None:
+    """The number; None for an infinity, which JSON does not have."""
+    return number if isfinite(number) else None
+
+
+def design_margins(design: FloatObserverDesign) -> LoopMargins:
+    """The figures of the loop of a design."""
+    return loop_margins(matrix_to_float(design.loop.matrix), design.loop.loop.time)
