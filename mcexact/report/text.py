@@ -30,8 +30,8 @@ def assessment_tables(assessment: Assessment) -> tuple[Table, ...]:
     """The answers of `analyze`, as tables."""
     system = assessment.system
     heading = (
-        f"{system.name or 'system'}: {_count(system.n, 'state')}, "
-        f"{_count(system.m, 'channel')} {_set(system.names)}, {system.time} time"
+        f"{system.name or 'system'}: {count(system.n, 'state')}, "
+        f"{count(system.m, 'channel')} {_set(system.names)}, {system.time} time"
     )
     if assessment.information == "outputs":
         heading += "; each agent feeds back the outputs of all its neighbors"
@@ -119,7 +119,7 @@ def _fixed_modes(assessment: Assessment) -> Table:
 def _transfer_graph(graph: TransferGraph) -> str:
     """The arcs, where they are few, the components, and the channels without effect."""
     arcs = ", ".join(f"{start} -> {end}" for start, end in graph.arcs)
-    said = arcs if 0 < len(arcs) <= 60 else _count(len(graph.arcs), "arc")
+    said = arcs if 0 < len(arcs) <= 60 else count(len(graph.arcs), "arc")
     if graph.strongly_connected:
         said += "; strongly connected"
     else:
@@ -164,7 +164,8 @@ def _yes(value: bool) -> str:
     return "yes" if value else "no"
 
 
-def _count(number: int, noun: str) -> str:
+def count(number: int, noun: str) -> str:
+    """A number with its noun, such as 2 nodes."""
     return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
 
 

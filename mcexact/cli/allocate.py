@@ -1,0 +1,220 @@
+"""`mcexact allocate`: who has to share how much, or which wires have to be added."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import click
+
+from mcexact.cli import options
+from mcexact.cli.failures import DEFINITE_NO
+
+
+@click.command(name="allocate", short_help="Find the least that agents must share, and prove it.")
+@click.argument("file")
+@click.option(
+    "--share",
+    type=click.Choice(["outputs+states", "states"]),
+    default="outputs+states",
+    show_default=True,
+    help="What an agent tells those who hear it.",
+)
+@click.option(
+    "--arcs", is_flag=True, help="Find the cheapest wires to add instead, for given --dimensions."
+)
+@click.option(
+    "--dimensions",
+    metavar="N,N,…",
+    help="With --arcs: the sub-state that each agent shares; without it outputs alone are shared.",
+)
+@click.option(
+    "--cost",
+    "costs",
+    nargs=2,
+    multiple=True,
+    metavar="AGENT PRICE",
+    help="Price of one dimension of an agent; 1 by default. May be repeated.",
+)
+@click.option(
+    "--upper",
+    nargs=2,
+    multiple=True,
+    metavar="AGENT N",
+    help="Most that an agent may share. May be repeated.",
+)
+@click.option(
+    "--wire-cost",
+    "wire_costs",
+    nargs=3,
+    multiple=True,
+    metavar="FROM TO PRICE",
+    help="With --arcs: price of a wire; 1 by default. May be repeated.",
+)
+@click.option(
+    "--forbid",
+    nargs=2,
+    multiple=True,
+    metavar="FROM TO",
+    help="With --arcs: a wire that must not be added. May be repeated.",
+)
+@click.option("--rate", type=options.rational, help="Only modes slower than this rate count.")
+@click.option("--radius", type=options.rational, help="Only modes outside this radius count.")
+@click.option(
+    "--free", is_flag=True, help="Also make the whole closed-loop spectrum freely assignable."
+)
+@click.option(
+    "--node-limit",
+    type=click.IntRange(min=1),
+    default=10_000,
+    show_default=True,
+    help="Nodes of the proof's branch tree after which to give up (status 4).",
+)
+@options.certificates
+@options.as_json
+@options.work_limits
+@options.file_limits
+def command(
+    file: str,
+    certificates: Path | None,
+    as_json: bool,
+    timeout: float | None,
+    max_memory: int | None,
+    **rest: Any,
+) -> int:
+    """Find the least dimensions that the agents of the system in FILE must share.
+
+    The file needs a neighbor graph. The answer is the least total dimension of the shared
+    sub-states with which no mode is fixed, beside the uniform bound of the paper's Theorem 2, and
+    which subsets of agents force it; it comes with a proof that nothing smaller suffices. Ends
+    with status 1 if nothing suffices.
+    """
+    import sys
+
+    from mcexact.cli.files import directory, read
+    from mcexact.cli.output import emit, emit_json, on_terminal
+    from mcexact.cli.supervision import supervised
+    from mcexact.model.atomic import write_text
+    from mcexact.report.text import plain, show
+
+    place = "standard input" if file == "-" else file
+    names = ("bytes", "depth", "digits", "exponent")
+    moved = options.given({name: rest.pop(name) for name in names})
+    answer = supervised(
+        _answer,
+        place,
+        read(file, place, moved),
+        moved,
+        rest,
+        doing=f"allocating for {place}",
+        timeout=timeout,
+        max_memory=max_memory,
+    )
+    if certificates is not None:
+        folder = directory(certificates)
+        for name, text in answer["certificates"].items():
+            write_text(folder / f"{name}.json", text)
+        answer["json"]["certificate"] = {name: f"{name}.json" for name in answer["certificates"]}
+    if as_json:
+        emit_json(answer["json"])
+    elif on_terminal():
+        show(answer["tables"], sys.stdout)
+    else:
+        emit(plain(answer["tables"]))
+    return 0 if answer["feasible"] else DEFINITE_NO
+
+
+def _answer(
+    place: str, data: bytes, limits: dict[str, int], question: dict[str, Any]
+) -> dict[str, Any]:
+    """Read, decide, and put the answer into text: what the child process does."""
+    from mcexact.errors import InputError
+    from mcexact.exact.rational import Limits
+    from mcexact.model.system_file import read_system
+    from mcexact.report.allocation import arcs_report, dimensions_report
+
+    try:
+        system = read_system(data, limits=Limits(**limits))
+    except InputError as error:
+        raise error.within(place) from None
+    bound = _bound(system.time, question.pop("rate"), question.pop("radius"))
+    if question.pop("arcs"):
+        return arcs_report(system, _wires(question, bound))
+    return dimensions_report(system, _dimensions(system.names, question, bound))
+
+
+def _bound(time: str, rate: Fraction | None, radius: Fraction | None) -> Fraction | None:
+    """The rate or the radius; the one of the other time domain is wrong usage."""
+    from mcexact.errors import UsageError
+
+    wrong = radius if time == "continuous" else rate
+    if wrong is not None:
+        name = "--rate" if time == "continuous" else "--radius"
+        raise UsageError(f"the system is in {time} time: give {name}")
+    return rate if time == "continuous" else radius
+
+
+def _dimensions(
+    names: Sequence[str], question: dict[str, Any], bound: Fraction | None
+) -> dict[str, Any]:
+    """The keywords of `minimal_shared_dimensions`."""
+    from mcexact.errors import UsageError
+    from mcexact.exact.rational import parse_rational
+
+    if question["dimensions"] or question["wire_costs"] or question["forbid"]:
+        raise UsageError("--dimensions, --wire-cost and --forbid go with --arcs")
+    prices = _by_agent(names, question["costs"], "--cost", parse_rational)
+    most = _by_agent(names, question["upper"], "--upper", int)
+    return {
+        "share": question["share"],
+        "costs": [prices.get(name, 1) for name in names],
+        "upper": [most.get(name) for name in names],
+        "bound": bound,
+        "free_assignability": question["free"],
+        "node_limit": question["node_limit"],
+    }
+
+
+def _by_agent(
+    names: Sequence[str], pairs: Sequence[tuple[str, str]], option: str, read: Callable[[str], Any]
+) -> dict[str, Any]:
+    """The values that were given for agents."""
+    from mcexact.errors import UsageError
+
+    found = {}
+    for name, text in pairs:
+        if name not in names:
+            raise UsageError(f"{option}: there is no agent {name!r}")
+        try:
+            found[name] = read(text)
+        except ValueError:  # an InputError is one
+            raise UsageError(f"{option} {name}: expected a number, found {text!r}") from None
+    return found
+
+
+def _wires(question: dict[str, Any], bound: Fraction | None) -> dict[str, Any]:
+    """The keywords of `minimal_communication`."""
+    from mcexact.errors import UsageError
+    from mcexact.exact.rational import parse_rational
+
+    if question["costs"] or question["upper"] or question["free"]:
+        raise UsageError("--cost, --upper and --free do not go with --arcs")
+    sizes = None
+    costs: dict[tuple[str, str], Any] = {}
+    for j, i, price in question["wire_costs"]:
+        costs[j, i] = _by_agent([i], [(i, price)], f"--wire-cost {j}", parse_rational)[i]
+    if question["dimensions"] is not None:
+        try:
+            sizes = [int(size) for size in question["dimensions"].split(",")]
+        except ValueError:
+            raise UsageError("--dimensions: expected integers separated by commas") from None
+    return {
+        "dimensions": sizes,
+        "share": "outputs" if sizes is None else question["share"],
+        "costs": costs,
+        "forbidden": question["forbid"],
+        "bound": bound,
+        "node_limit": question["node_limit"],
+    }

@@ -1,0 +1,100 @@
+"""`mcexact allocate`: what it says, its status and its certificates."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from mcexact.model import gallery
+from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.system_file import save_system
+from tests.end_to_end.command_line import run
+
+PLANT = gallery.load("liu2020-3ch-no-communication")
+
+
+@pytest.fixture
+def ring(tmp_path: Path) -> str:
+    path = tmp_path / "ring.json"
+    save_system(PLANT.with_neighbors(NeighborGraph.ring(PLANT.names)), path)
+    return str(path)
+
+
+@pytest.fixture
+def chain(tmp_path: Path) -> str:
+    path = tmp_path / "chain.json"
+    graph = NeighborGraph.from_names(PLANT.names, {"1": ["2"], "3": ["1"]})
+    save_system(PLANT.with_neighbors(graph), path)
+    return str(path)
+
+
+def answer(*arguments: str, status: int = 0) -> Any:
+    done = run("allocate", *arguments, "--json")
+    assert done.status == status, done.stderr
+    return json.loads(done.stdout)
+
+
+def test_the_papers_example_is_answered_beside_its_bound(ring: str, tmp_path: Path) -> None:
+    found = answer(ring, "--certificates", str(tmp_path / "certificates"))
+    assert found["bound"] == {"per_agent": 1, "total": 3}
+    assert found["minimal"]["dimensions"] == {"1": 0, "2": 0, "3": 1}
+    assert found["binding"] == [
+        {"subset": ["2"], "boundary": ["3"], "mode": ["-1", "1"], "deficiency": 1}
+    ]
+    files = [str(tmp_path / "certificates" / name) for name in found["certificate"].values()]
+    checked = run("check", *files, "--system", ring)
+    assert checked.status == 0 and checked.stdout.count("VALID") == 2
+
+
+def test_the_table_says_who_shares_how_much_and_why(ring: str) -> None:
+    text = run("allocate", ring, "--share", "states").stdout
+    assert "total  2      3" in text and "must hear from" in text and "2 subsets" in text
+
+
+def test_a_price_an_upper_bound_and_a_rate_move_the_answer(ring: str) -> None:
+    assert answer(ring, "--share", "states", "--cost", "3", "1/2")["minimal"]["cost"] == "3/2"
+    assert answer(ring, "--upper", "3", "0", status=1)["minimal"] is None
+    assert answer(ring, "--rate", "1/2", "--free")["minimal"]["total"] == 1
+
+
+def test_a_missing_wire_is_named_and_ends_with_status_1(chain: str) -> None:
+    found = answer(chain, status=1)
+    assert found["minimal"] is None and found["binding"][0]["boundary"] == []
+
+
+def test_wires_are_added_where_they_help(chain: str, tmp_path: Path) -> None:
+    found = answer(chain, "--arcs", "--dimensions", "0,0,1")
+    assert found["added"] == [["3", "2"]]
+    forbidden = answer(chain, "--arcs", "--dimensions", "0,0,1", "--forbid", "3", "2")
+    assert forbidden["added"] != [["3", "2"]]
+    priced = answer(chain, "--arcs", "--wire-cost", "1", "2", "7", "--certificates", str(tmp_path))
+    assert priced["share"] == "outputs"
+    assert run("check", str(tmp_path / "minimal_communication.json")).status == 0
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["--radius", "1/2"], "continuous time: give --rate"),
+        (["--cost", "9", "1"], "there is no agent '9'"),
+        (["--cost", "1", "dear"], "expected a number, found 'dear'"),
+        (["--upper", "1", "1/2"], "expected a number"),
+        (["--dimensions", "1,1,1"], "go with --arcs"),
+        (["--arcs", "--dimensions", "1,x"], "integers separated by commas"),
+        (["--arcs", "--free"], "do not go with --arcs"),
+        (["--cost", "1", "0"], "positive"),
+    ],
+)
+def test_wrong_usage_ends_with_status_2(ring: str, options: list[str], message: str) -> None:
+    done = run("allocate", ring, *options)
+    assert done.status == 2 and message in done.stderr and done.stdout == ""
+
+
+def test_a_file_without_a_graph_is_told_how_to_get_one(tmp_path: Path) -> None:
+    path = tmp_path / "plant.json"
+    save_system(PLANT, path)
+    done = run("allocate", str(path))
+    assert done.status == 2 and "'neighbors'" in done.stderr
