@@ -404,4 +404,162 @@ have [s2 l2] := routh_size sn (lt0r_neq0 pn); apply/IH => //.
 - by rewrite lead_coefE s2 /= l2.
 - by rewrite s2 -ltnS -sn.
 Qed.
+
+Section SchurCohn.
+
+(* The next polynomial: (p - (p_0 / p_d) r) / x, r having the coefficients of p in reverse. *)
+Definition schur_step (F : fieldType) (p : {poly F}) : {poly F} := let d := (size p).-1 in
+  \poly_(i < d) (p`_i.+1 - p`_0 / p`_d * p`_(d - i.+1)).
+
+(* z^d p(1/z), the value of r at z. *)
+Let rev p z := z ^+ (size p).-1 * p.[z^-1].
+
+Lemma rev_sum p z : z != 0 -> rev p z = \sum_(i < size p) p`_((size p).-1 - i) * z ^+ i.
+Proof.
+move=> z0; rewrite /rev horner_coef mulr_sumr (reindex_inj rev_ord_inj) /=; apply: eq_bigr => i _.
+have il : (i <= (size p).-1)%N by rewrite -ltnS (leq_trans (ltn_ord i))// leqSpred.
+have -> : (size p - i.+1 = (size p).-1 - i)%N by rewrite subnS predn_sub.
+rewrite mulrCA; congr (_ * _); rewrite exprVn -{1}(subnK il) exprD mulrAC mulfV ?mul1r//.
+by rewrite expf_neq0.
+Qed.
+
+Variables (p : {poly C}) (d : nat).
+Hypotheses (rp : real_poly p) (sp : size p = d.+2).
+Let k := p`_0 / p`_d.+1.
+Let q := schur_step p.
+
+Let pd0 : p`_d.+1 != 0.
+Proof.
+have : lead_coef p != 0 by rewrite lead_coef_eq0 -size_poly_eq0 sp.
+by rewrite lead_coefE sp.
+Qed.
+
+Lemma schur_horner z : z != 0 -> z * q.[z] = p.[z] - k * rev p z.
+Proof.
+move=> z0; rewrite (rev_sum _ z0) (horner_coef p) mulr_sumr -sumrB sp big_ord_recl /=.
+rewrite subn0 expr0 !mulr1 {1}/k divfK// subrr add0r /q /schur_step sp /= horner_poly mulr_sumr.
+apply: eq_bigr => i _; rewrite /bump /= add1n mulrA -mulrBl exprS.
+by rewrite mulrCA.
+Qed.
+
+Lemma schur_size : `|k| < 1 -> size q = d.+1.
+Proof.
+move=> k1; apply/eqP; rewrite eqn_leq; apply/andP; split.
+  by rewrite /q /schur_step sp size_poly.
+rewrite ltnNge; apply/negP => /leq_sizeP/(_ d (leqnn d)).
+rewrite /q /schur_step sp coef_poly /= ltnSn subnn -/k => /eqP.
+have -> : p`_0 = k * p`_d.+1 by rewrite divfK.
+rewrite mulrA -{1}[p`_d.+1]mul1r -mulrBl mulf_eq0 (negPf pd0) orbF subr_eq0 => /eqP k2.
+have : `|k| * `|k| < 1 by rewrite mulr_ilt1.
+by rewrite -normrM -k2 normr1 ltxx.
+Qed.
+
+Lemma schur_real : real_poly q.
+Proof.
+apply/polyOverP=> i; rewrite coef_poly; case: ifP => _; rewrite ?rpred0//.
+have r j : p`_j \is Num.real by apply: (polyOverP rp).
+by rewrite rpredB// rpredM// rpred_div.
+Qed.
+
+Lemma schur_rev z : z != 0 -> `|k| < 1 -> rev q z = rev p z - k * p.[z].
+Proof.
+move=> z0 k1; rewrite {1}/rev (schur_size k1) /=.
+have := schur_horner (invr_neq0 z0); rewrite {1}/rev invrK sp /= => e.
+have -> : q.[z^-1] = z * (z^-1 * q.[z^-1]) by rewrite mulrA mulfV ?mul1r.
+rewrite e mulrA -exprSr mulrBr /rev sp; congr (_ - _).
+by rewrite mulrCA [z ^+ d.+1 * _]mulrA exprVn mulfV ?mul1r// expf_neq0.
+Qed.
+
+Lemma schur_bound f z : real_poly f -> schur f -> 1 <= `|z| -> `|rev f z| <= `|f.[z]|.
+Proof.
+move=> rf hf z1; have [rs e] := roots_of f.
+have [f0|nf] := eqVneq f 0; first by rewrite /rev f0 !horner0 mulr0.
+have z0 : z != 0 by rewrite -normr_gt0 (lt_le_trans ltr01).
+have srs : (size f).-1 = size rs.
+  by rewrite e size_scale ?lead_coef_eq0// size_prod_XsubC.
+have -> : rev f z = lead_coef f * \prod_(r <- rs) (1 - r * z).
+  rewrite /rev srs (horner_roots _ e) mulrCA; congr (_ * _).
+  elim: (rs) => [|r t IH]; first by rewrite !big_nil mulr1.
+  by rewrite !big_cons -IH /= exprS mulrACA mulrBr mulfV// [z * r]mulrC.
+rewrite (horner_roots_conj _ rf e) !normrM ler_wpmul2l// !normr_prod.
+rewrite big_seq [X in _ <= X]big_seq; apply: ler_prod => r rrs; rewrite normr_ge0 /=.
+rewrite -(@ler_pexpn2r _ 2) ?nnegrE// -subr_ge0 !sqr_norm !rmorphB rmorphM rmorph1 conjCK.
+have -> : (z - r^*) * (z^* - r) = (z^* - r) * (z - r^*) by rewrite mulrC.
+rewrite (id_disc z z^* r r^*) -!sqr_norm mulr_ge0// subr_ge0.
+  by rewrite exprn_ege1.
+by rewrite exprn_ile1// ltW//; apply: hf; apply: root_in rrs.
+Qed.
+
+Lemma schur_sufficient : `|k| < 1 -> schur q -> schur p.
+Proof.
+move=> k1 hq z rz; rewrite real_ltNge ?normr_real ?real1//; apply/negP => z1.
+have z0 : z != 0 by rewrite -normr_gt0 (lt_le_trans ltr01).
+have nq : q.[z] != 0 by apply: contraL z1 => /hq /lt_geF->.
+have b := schur_bound schur_real hq z1.
+have e1 := schur_rev z0 k1; have e2 := schur_horner z0.
+rewrite (rootP rz) mulr0 subr0 in e1; rewrite (rootP rz) sub0r -e1 in e2.
+have : `|z| * `|q.[z]| <= `|k| * `|q.[z]|.
+  by rewrite -normrM e2 normrN normrM ler_wpmul2l.
+rewrite ler_pmul2r ?normr_gt0// => zk.
+by have := le_lt_trans (le_trans z1 zk) k1; rewrite ltxx.
+Qed.
+
+Lemma schur_necessary : schur p -> `|k| < 1 /\ schur q.
+Proof.
+move=> hp; have [rs e] := roots_of p.
+have srs : size rs = d.+1.
+  have lp : lead_coef p != 0 by rewrite lead_coef_eq0 -size_poly_eq0 sp.
+  by have := congr1 (fun f : {poly C} => size f) e; rewrite size_scale// size_prod_XsubC sp => -[].
+have k1 : `|k| < 1.
+  have -> : k = \prod_(r <- rs) - r.
+    have := horner_roots 0 e; rewrite horner_coef0 /k => ->.
+    rewrite lead_coefE sp mulrAC mulfV// mul1r; apply: eq_bigr => r _; exact: sub0r.
+  have h r : r \in rs -> `|r| < 1 by move/(root_in e)/hp.
+  case: (rs) srs h => // r t _ h; rewrite big_cons normrM normrN normr_prod.
+  apply: (@le_lt_trans _ _ (`|r| * 1)); last by rewrite mulr1 h// mem_head.
+  rewrite ler_wpmul2l// big_seq; apply: (@le_trans _ _ (\prod_(i <- t | i \in t) 1)).
+    by apply: ler_prod => x xt; rewrite normr_ge0 normrN ltW// h// in_cons xt orbT.
+  by rewrite big1.
+split=> // z rz; rewrite real_ltNge ?normr_real ?real1//; apply/negP => z1.
+have z0 : z != 0 by rewrite -normr_gt0 (lt_le_trans ltr01).
+have np : p.[z] != 0 by apply: contraL z1 => /hp /lt_geF->.
+have := schur_horner z0; rewrite (rootP rz) mulr0 => /esym/eqP; rewrite subr_eq0 => /eqP e1.
+have : `|p.[z]| <= `|k| * `|p.[z]| by rewrite {1}e1 normrM ler_wpmul2l// schur_bound.
+by rewrite -{1}[`|p.[z]|]mul1r ler_pmul2r ?normr_gt0// => /le_lt_trans/(_ k1); rewrite ltxx.
+Qed.
+End SchurCohn.
+
+(* Rule "Schur-Cohn": one step of the recursion, in both directions. *)
+Theorem schur_cohn p d : real_poly p -> size p = d.+2 ->
+  (schur p <-> `|p`_0| < `|p`_d.+1| /\ schur (schur_step p)).
+Proof.
+move=> rp sp; have lp : 0 < `|p`_d.+1|.
+  by rewrite normr_gt0; have := size_poly_eq0 p; rewrite sp -lead_coef_eq0 lead_coefE sp => <-.
+have e : (`|p`_0 / p`_d.+1| < 1) = (`|p`_0| < `|p`_d.+1|).
+  by rewrite normrM normfV ltr_pdivr_mulr// mul1r.
+split=> [/(schur_necessary rp sp)|]; rewrite -e; first by [].
+by case=> k1; apply: (schur_sufficient rp sp k1).
+Qed.
+
+Fixpoint is_schur (F : numFieldType) k (p : {poly F}) := if k is k'.+1 then
+  (size p <= 1)%N || (`|p`_0| < `|p`_(size p).-1|) && is_schur k' (schur_step p) else true.
+
+Theorem is_schurP k p : real_poly p -> p != 0 -> (size p <= k.+1)%N ->
+  reflect (schur p) (is_schur k p).
+Proof.
+elim: k p => [|k IH] p rp p0 sp; first by apply: ReflectT; apply: no_root_const.
+rewrite /=; case: leqP => [s1|s1]; first by apply: ReflectT; apply: no_root_const.
+pose n := (size p).-2; have sn : size p = n.+2 by rewrite /n; case: (size p) s1 => [|[|]].
+have lp : 0 < `|p`_n.+1|.
+  by rewrite normr_gt0; have := size_poly_eq0 p; rewrite sn -lead_coef_eq0 lead_coefE sn => <-.
+have small : `|p`_0| < `|p`_n.+1| -> size (schur_step p) = n.+1.
+  by move=> h; apply: schur_size => //; rewrite normrM normfV ltr_pdivr_mulr// mul1r.
+have key : `|p`_0| < `|p`_n.+1| -> reflect (schur (schur_step p)) (is_schur k (schur_step p)).
+  move=> h; apply: IH; rewrite ?(small h)//; first exact: schur_real.
+    by rewrite -size_poly_eq0 (small h).
+  by rewrite -ltnS -sn.
+rewrite sn /=; apply: (iffP andP) => [[h hk] | hp].
+  by apply/(schur_cohn rp sn); split=> //; apply/(key h).
+by have [h hq] := (schur_cohn rp sn).1 hp; split=> //; apply/(key h).
+Qed.
 End Closed.
