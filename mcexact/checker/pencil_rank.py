@@ -6,21 +6,13 @@ from fractions import Fraction
 from itertools import zip_longest
 from typing import Any
 
-from . import evidence, reading
-from .arithmetic import (
-    Matrix,
-    NotAUnit,
-    Polynomial,
-    beside,
-    inverse,
-    poly_divide,
-    poly_modulo,
-    poly_product,
-    stack,
-)
+from . import evidence, reading, words
+from .arithmetic import Matrix, NotAUnit, Polynomial, beside, inverse, stack
+from .arithmetic import poly_divide as divide
+from .arithmetic import poly_modulo as modulo
+from .arithmetic import poly_product as times
 from .reading import fields, require
 from .system import System
-from .words import channel_set, described, polynomial_text
 
 
 def check(claim: Any, witness: Any, system: System) -> str:
@@ -38,21 +30,18 @@ def check(claim: Any, witness: Any, system: System) -> str:
     U = [layer.take(range(n)) for layer in kernel]
     V = [layer.take(range(n, c)).times(Fraction(-1)) for layer in kernel]
     evidence.require_pencil_kernel(system.A, B, U, V, p, "witness.kernel")
-    unseen = all((C @ layer).is_zero() for layer in U)
-    require(unseen, "identity", "witness.kernel", "C U is not zero")
+    require(all((C @ layer).is_zero() for layer in U), "identity", "witness.kernel", "C U is not 0")
     ell = evidence.modulus(ell, "witness.modulus")
     kept = sorted(set(range(c)) - set(pivots))
     top = beside([system.A.times(Fraction(-1)), B], n)
     constant = stack([top, beside([C, Matrix.zeros(C.nrows, B.ncols)], C.nrows)], c)
     residues = enumerate(constant.take(cols=kept).modulo(ell))
     pencil = [[[e, int(i == j < n)] for j, e in zip(kept, row, strict=True)] for i, row in residues]
-    independent = _are_independent(pencil, len(kept), poly_modulo(p, ell), ell)
+    independent = _are_independent(pencil, len(kept), modulo(p, ell), ell)
     require(independent, "rank", "witness", f"elimination modulo l and p does not reach {r}")
-    return (
-        f"the pencil [xI - A, B; C, 0] of {described(system)}, C the outputs of the channels "
-        f"{channel_set(system, s)} and B the inputs of the others, has rank exactly {r} at every "
-        f"root of {polynomial_text(p)}"
-    )
+    parts = f"C the outputs of the channels {words.channel_set(system, s)} and B the other inputs"
+    which = f"the pencil [xI - A, B; C, 0] of {words.described(system)}, {parts}"
+    return f"{which}, has rank exactly {r} at every root of {words.polynomial_text(p)}"
 
 
 def _are_independent(rows: list[list[Polynomial]], ncols: int, p: Polynomial, ell: int) -> bool:
@@ -64,23 +53,23 @@ def _are_independent(rows: list[list[Polynomial]], ncols: int, p: Polynomial, el
             return False
         pivot = rows.pop(k)
         for row in rows:
-            if g := poly_divide(poly_product(row[j], f), p, ell)[1]:
+            if g := divide(times(row[j], f), p, ell)[1]:
                 for c in range(j, ncols):
-                    row[c] = _less(row[c], poly_product(g, pivot[c]), p, ell)
+                    row[c] = _less(row[c], times(g, pivot[c]), p, ell)
     return True
 
 
 def _less(a: Polynomial, b: Polynomial, p: Polynomial, ell: int) -> Polynomial:
-    return poly_divide([x - y for x, y in zip_longest(a, b, fillvalue=0)], p, ell)[1]
+    return divide([x - y for x, y in zip_longest(a, b, fillvalue=0)], p, ell)[1]
 
 
 def _inverse(a: Polynomial, p: Polynomial, ell: int) -> Polynomial:
     """The inverse of a modulo p, or nothing if it is not a unit (or that cannot be told)."""
-    (r, t), (rest, u) = (p, []), (poly_divide(a, p, ell)[1], [1])
+    (r, t), (rest, u) = (p, []), (divide(a, p, ell)[1], [1])
     try:
         while rest:
-            q, left = poly_divide(r, rest, ell)
-            (r, t), (rest, u) = (rest, u), (left, _less(t, poly_product(q, u), p, ell))
+            q, left = divide(r, rest, ell)
+            (r, t), (rest, u) = (rest, u), (left, _less(t, times(q, u), p, ell))
         return [c * inverse(r[0], ell) % ell for c in t] if len(r) == 1 else []
     except NotAUnit:
         return []

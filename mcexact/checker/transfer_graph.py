@@ -15,26 +15,19 @@ def check(claim: Any, witness: Any, system: System) -> str:
     """Check a power for each arc, a zero transfer for each other pair, and the components."""
     listed, parts, verdict = fields(claim, "claim", "arcs", "components", "strongly_connected")
     number, exponents, zeros = fields(witness, "witness", "modulus", "powers", "zeros")
-    arcs = []
-    for k, entry in enumerate(items(listed, "claim.arcs")):
-        ends = items(entry, f"claim.arcs[{k}]", 2)
-        j, i = (names([end], f"claim.arcs[{k}]", system.names)[0] for end in ends)
-        arcs.append((j, i))
-    if arcs != sorted(set(arcs)):
-        malformed("claim.arcs", "expected them sorted, none twice")
-    powers = items(exponents, "witness.powers", len(arcs))
-    ell = modulus(number, "witness.modulus")
-    triples = [(j, i, integer(k, "witness.powers")) for (j, i), k in zip(arcs, powers, strict=True)]
-    require_arcs(system, triples, ell)
+    powers = items(exponents, "witness.powers", len(items(listed, "claim.arcs")))
+    ends = [items(arc, "claim.arcs", 2) for arc in listed]
+    joined = [[*arc, power] for arc, power in zip(ends, powers, strict=True)]
+    triples = read_arcs(joined, "claim.arcs", system)
+    require_arcs(system, triples, modulus(number, "witness.modulus"))
+    arcs = [(j, i) for j, i, _ in triples]
     missing = {(j, i) for j in range(system.m) for i in range(system.m)} - set(arcs)
     for k, entry in enumerate(items(zeros, "witness.zeros")):
         sources, X = zero_transfer(entry, f"witness.zeros[{k}]", system)
         unseen = [i for i, C in enumerate(system.C) if (C @ X).is_zero()]
         missing -= {(j, i) for j in sources for i in unseen}
-    uncovered = [(system.names[j], system.names[i]) for j, i in sorted(missing)][:1]
-    require(
-        not missing, "arc", "witness.zeros", f"{uncovered!a} is no arc, but nothing proves that"
-    )
+    pair = [(system.names[j], system.names[i]) for j, i in sorted(missing)][:1]
+    require(not missing, "arc", "witness.zeros", f"nothing proves that {pair!a} is no arc")
     claimed = [names(p, "claim.components", system.names) for p in items(parts, "claim.components")]
     found = components(system.m, arcs)
     require(claimed == found, "claim", "claim.components", "these are not the strong components")

@@ -6,10 +6,16 @@ import json
 import re
 from collections.abc import Iterable
 from fractions import Fraction
+from typing import Any
 
 from .arithmetic import Polynomial
 from .system import System
 
+RATE = {"continuous": "best decay rate", "discrete": "best spectral radius"}
+STABILIZABLE = {
+    True: "stabilizable by decentralized control",
+    False: "not stabilizable by decentralized control",
+}
 PLAIN_NAME = re.compile(r"[\w.+-]{1,256}")
 
 
@@ -36,13 +42,27 @@ def polynomial_text(p: Polynomial) -> str:
     return sign + " ".join(terms[1:]) if terms else "0"
 
 
-def disc_text(disc: tuple[Fraction, Fraction, Fraction]) -> str:
-    """A disc that holds one root, such as 1 + 2i +- 1/8."""
-    re, im, radius = disc
-    imaginary = f" {'-' if im < 0 else '+'} {abs(im)}i" if im else ""
-    return f"{re}{imaginary} +- {radius}"
+def factor_text(
+    p: Polynomial, a: int, e: int, r: int, s: str, stable: bool, discs: list[Any]
+) -> str:
+    """What is proved of one factor of a fixed spectrum."""
+    roots = []
+    for real, im, radius in discs:
+        imaginary = f" {'-' if im < 0 else '+'} {abs(im)}i" if im else ""
+        roots.append(f"{real}{imaginary} +- {radius}")
+    return (
+        f"{polynomial_text(p)} (exponent {a} in det(xI - A), at most {e} in the gcd of all "
+        f"det(xI - A_F); least pencil rank {r}, reached by the channels {s}; "
+        f"{'stable' if stable else 'not stable'}; roots {', '.join(roots)})"
+    )
 
 
 def described(system: System) -> str:
     """The system a claim is about: what it was made from, its size, its time."""
-    return f"{system.words} ({system.time} time, {system.n} states, {system.m} channels)"
+    sizes = f"{counted(system.n, 'state')}, {counted(system.m, 'channel')}"
+    return f"{system.words} ({system.time} time, {sizes})"
+
+
+def counted(number: int, noun: str) -> str:
+    """A number of things, such as 1 state or 2 states."""
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"

@@ -116,7 +116,7 @@ def test_a_change_of_one_place_is_rejected(
 def test_the_words_say_which_system_and_which_channels() -> None:
     observability = changed(UNCONTROLLABLE, ("subject", [{"construction": "dual"}]))
     assert checked(observability).theorem == (
-        "the channels {1} of the dual of the plant (continuous time, 2 states, 1 channels) control "
+        "the channels {1} of the dual of the plant (continuous time, 2 states, 1 channel) control "
         "a subspace of dimension exactly 1: not controllable through them together; "
         "uncontrollable polynomial x - 2"
     )
