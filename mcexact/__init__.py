@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     )
     from mcexact.analysis.fixed_spectrum import fixed_spectrum as fixed_spectrum
     from mcexact.analysis.pencil import pencil_rank as pencil_rank
+    from mcexact.analysis.stability import certify_stability as certify_stability
     from mcexact.analysis.transfer_graph import transfer_graph as transfer_graph
     from mcexact.derived.augmented_outputs import augmented_outputs as augmented_outputs
     from mcexact.derived.dual import dual as dual
@@ -30,16 +31,21 @@ if TYPE_CHECKING:
     from mcexact.derived.held import held_system as held_system
     from mcexact.derived.integrators import setpoint_system as setpoint_system
     from mcexact.derived.lifted import lifted_system as lifted_system
+    from mcexact.model.local_controllers import local_controllers as local_controllers
     from mcexact.model.neighbor_graph import NeighborGraph as NeighborGraph
+    from mcexact.model.statespace import loop_from_statespace as loop_from_statespace
     from mcexact.model.system import MultiChannelSystem as MultiChannelSystem
     from mcexact.model.system_file import load_system as load_system
     from mcexact.model.system_file import save_system as save_system
     from mcexact.report.verdict import check as check
+    from mcexact.synthesis.certify import certify_controller as certify_controller
 
 _HOME = {
     "MultiChannelSystem": "model.system",
     "NeighborGraph": "model.neighbor_graph",
     "augmented_outputs": "derived.augmented_outputs",
+    "certify_controller": "synthesis.certify",
+    "certify_stability": "analysis.stability",
     "check": "report.verdict",
     "completeness": "analysis.completeness",
     "controllability_indices": "analysis.controllability_indices",
@@ -52,6 +58,8 @@ _HOME = {
     "joint_observability": "analysis.controllability",
     "lifted_system": "derived.lifted",
     "load_system": "model.system_file",
+    "local_controllers": "model.local_controllers",
+    "loop_from_statespace": "model.statespace",
     "minimal_communication": "analysis.communication",
     "minimal_shared_dimensions": "analysis.allocation",
     "observability_indices": "analysis.controllability_indices",

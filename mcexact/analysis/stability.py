@@ -21,6 +21,7 @@ from mcexact.certificate.stability import (
 from mcexact.errors import UsageError
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.location import StabilityRegion
+from mcexact.exact.location import region as named_region
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import primes, residues
 from mcexact.exact.polynomial import Polynomial
@@ -98,6 +99,8 @@ def certify_stability(
     loop: MultiChannelSystem,
     bound: Entry | None = None,
     *,
+    rate: Entry | None = None,
+    radius: Entry | None = None,
     method: Method | None = None,
     separation: Separation | None = None,
 ) -> StabilityVerdict:
@@ -106,10 +109,13 @@ def certify_stability(
     Parameters
     ----------
     loop : MultiChannelSystem
-        A closed loop (`closed_loop`), or `matrix_system` of a matrix; what counts is its A.
+        A closed loop (`closed_loop`, `loop_from_statespace`), or `matrix_system` of a matrix; what
+        counts is its A.
     bound : rational, optional
         A rate R (continuous time: real parts below −R) or a radius R (discrete time: moduli below
         R); by default the stability region.
+    rate, radius : rational, optional
+        The same by name; the one of the other time domain is refused.
     method : {"polynomial", "lyapunov"}, optional
         By default the characteristic polynomial for small loops, Lyapunov matrices for large
         ones, and the polynomial again where these do not decide.
@@ -131,11 +137,10 @@ def certify_stability(
     >>> M = Matrix.from_rows([[0, 1], [-2, -3]])
     >>> certify_stability(matrix_system(M)).stable
     True
-    >>> certify_stability(matrix_system(M), bound=1).stable
+    >>> certify_stability(matrix_system(M), rate=1).stable
     False
     """
-    rate = None if bound is None else as_fraction(bound)
-    region = StabilityRegion(loop.time, rate or None)
+    region = _asked_region(loop.time, bound, rate, radius)
     if separation is not None:
         _require_separation(loop.A, separation)
     tried = (method,) if method is not None else _order(loop.n, separation)
@@ -157,6 +162,21 @@ def certify_stability(
             )
             return StabilityVerdict(stable, region, found.document()["method"], certificate)
     raise UsageError("Lyapunov matrices do not decide here: leave the method open", where="method")
+
+
+def _asked_region(
+    time: str, bound: Entry | None, rate: Entry | None, radius: Entry | None
+) -> StabilityRegion:
+    """The region that the arguments name, one of them at most."""
+    if bound is not None and (rate is not None or radius is not None):
+        raise UsageError("give a bound, or a rate or a radius, not both")
+    if bound is not None:
+        return StabilityRegion(time, as_fraction(bound, where="bound") or None)
+    return named_region(
+        time,
+        None if rate is None else as_fraction(rate, where="rate"),
+        None if radius is None else as_fraction(radius, where="radius"),
+    )
 
 
 def _order(n: int, separation: Separation | None) -> tuple[Method, ...]:

@@ -1,4 +1,4 @@
-"""The way in from python-control: a `StateSpace`, and which signals belong to which channel."""
+"""The way in from python-control: a plant, whose signals belong to channels, or a whole loop."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import Any
 
 from mcexact.errors import InputError
 from mcexact.exact.floats import matrix_from_float
+from mcexact.exact.matrix import Matrix
 from mcexact.exact.rational import Rounding, from_float
 from mcexact.model.names import nearest, quoted
 from mcexact.model.neighbor_graph import NeighborGraph
@@ -83,6 +84,52 @@ def from_statespace(
         time=time,
         names=names,
         neighbors=neighbors,
+        sample_time=sample_time,
+    )
+
+
+def loop_from_statespace(statespace: Any, *, rounding: Rounding) -> MultiChannelSystem:
+    """Read a closed loop made with python-control, such as ``control.feedback(P, K)``.
+
+    Parameters
+    ----------
+    statespace : control.StateSpace
+        What counts is its A; inputs, outputs and D may be anything.
+    rounding : {"decimal", "dyadic"}
+        How its floats are meant, as in `MultiChannelSystem.from_float`.
+
+    Returns
+    -------
+    MultiChannelSystem
+        One channel without inputs and outputs, for `certify_stability`.
+
+    Raises
+    ------
+    InputError
+        If it is not a state-space system, or an entry is not finite.
+
+    Examples
+    --------
+    >>> import control
+    >>> loop = control.feedback(control.ss([[1]], [[1]], [[1]], [[0]]), 3)
+    >>> loop_from_statespace(loop, rounding="decimal").A.rows()
+    ((Fraction(-2, 1),),)
+    """
+    if not (hasattr(statespace, "A") and hasattr(statespace, "dt")):
+        raise InputError(
+            f"expected a control.StateSpace, found {type(statespace).__name__}; "
+            "control.ss makes one of a transfer function",
+            where="statespace",
+        )
+    A = matrix_from_float(statespace.A, rounding, where="statespace.A")
+    time, sample_time = _sampling(statespace.dt, rounding)
+    N = A.nrows
+    return MultiChannelSystem(
+        A,
+        [Matrix.zeros(N, 0)],
+        [Matrix.zeros(0, N)],
+        time=time,
+        names=["loop"],
         sample_time=sample_time,
     )
 

@@ -1,0 +1,108 @@
+"""`mcexact certify`: whether a controller, from anywhere, makes a loop as fast as asked."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import click
+
+from mcexact.cli import options
+from mcexact.cli.failures import DEFINITE_NO
+
+
+@click.command(name="certify", short_help="Decide whether a controller stabilizes, with proof.")
+@click.argument("file")
+@click.argument("controller")
+@click.option("--rate", type=options.rational, help="Continuous time: every real part below -RATE.")
+@click.option("--radius", type=options.rational, help="Discrete time: every modulus below RADIUS.")
+@click.option(
+    "--largest", is_flag=True, help="Look for the largest rate (least radius) and certify that."
+)
+@click.option(
+    "--method",
+    type=click.Choice(["polynomial", "lyapunov"]),
+    help="The characteristic polynomial, or Lyapunov matrices; by default what suits the size.",
+)
+@options.certificates
+@options.as_json
+@options.work_limits
+@options.file_limits
+def command(
+    file: str,
+    controller: str,
+    rate: Fraction | None,
+    radius: Fraction | None,
+    largest: bool,
+    method: str | None,
+    certificates: Path | None,
+    as_json: bool,
+    timeout: float | None,
+    max_memory: int | None,
+    **limits: int | None,
+) -> int:
+    """Decide whether the loop of the system in FILE and the CONTROLLER is stable, or fast enough.
+
+    The decision is exact, whatever the controller was designed with. A no ends with status 1; with
+    --certificates it is proved as well.
+    """
+    from mcexact.cli.files import directory, read
+    from mcexact.cli.output import emit, emit_json
+    from mcexact.cli.supervision import supervised
+    from mcexact.model.atomic import write_text
+    from mcexact.report.text import plain
+
+    moved = options.given(limits)
+    answer = supervised(
+        _certified,
+        (file, read(file, file, moved)),
+        (controller, read(controller, controller, moved)),
+        moved,
+        {"rate": rate, "radius": radius, "largest": largest, "method": method},
+        doing=f"certifying {controller}",
+        timeout=timeout,
+        max_memory=max_memory,
+    )
+    if certificates is not None:
+        name, text = answer["certificate"]
+        write_text(directory(certificates) / name, text)
+        answer["json"]["certificate"] = name
+    if as_json:
+        emit_json(answer["json"])
+    else:
+        emit(plain(answer["tables"]))
+    return 0 if answer["json"]["certified"] else DEFINITE_NO
+
+
+def _certified(
+    plant: tuple[str, bytes],
+    program: tuple[str, bytes],
+    limits: dict[str, int],
+    wanted: dict[str, Any],
+) -> dict[str, Any]:
+    """Decide, and put the answer into text: what the child process does."""
+    from mcexact.certificate import codec
+    from mcexact.errors import InputError
+    from mcexact.exact.rational import Limits
+    from mcexact.model.controller_file import read_controller
+    from mcexact.model.system_file import read_system
+    from mcexact.report.certify_view import verdict_tables, verdict_view
+    from mcexact.synthesis.certify import certify_controller
+
+    bounds = Limits(**limits)
+    try:
+        system = read_system(plant[1], limits=bounds)
+    except InputError as error:
+        raise error.within(plant[0]) from None
+    try:
+        controller = read_controller(program[1], bounds)
+        found = certify_controller(system, controller, **wanted)
+    except InputError as error:
+        raise error.within(program[0]) from None
+    made = found.verdict.certificate
+    return {
+        "json": verdict_view(found),
+        "tables": verdict_tables(found),
+        "certificate": (f"{made.kind}.json", codec.encode(made)),
+    }

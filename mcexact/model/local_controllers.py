@@ -1,0 +1,94 @@
+"""A decentralized controller from matrices or python-control systems, one for each channel."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from mcexact.errors import InputError
+from mcexact.exact.floats import matrix_from_float
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.rational import Rounding
+from mcexact.model.controller import AgentProgram, Controller, LinearMap
+from mcexact.model.matrix_entry import as_matrix, require_shape, require_square
+from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system_file import digest
+
+
+def local_controllers(
+    system: MultiChannelSystem, parts: Sequence[Any], *, rounding: Rounding | None = None
+) -> Controller:
+    """Write local controllers, z_i' = A z_i + B y_i, u_i = C z_i + D y_i, as agent programs.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        m channels.
+    parts : sequence of m parts
+        Each four matrices (A, B, C, D), of shapes k×k, k×q_i, p_i×k and p_i×q_i; or a
+        `control.StateSpace`; or one matrix D, a static gain.  The sign is u_i = +K y_i: negate a
+        controller made for negative feedback.
+    rounding : {"decimal", "dyadic"}, optional
+        How floats are meant; needed where there are any.
+
+    Returns
+    -------
+    Controller
+
+    Raises
+    ------
+    InputError
+        If a shape or the number of parts is not as expected, or there are floats and no rounding.
+
+    Examples
+    --------
+    >>> from mcexact.model.closed_loop import closed_loop_matrix
+    >>> plant = MultiChannelSystem([[0]], [[[1]]], [[[1]]])
+    >>> controller = local_controllers(plant, [([[-5]], [[1]], [[-6]], [[0]])])
+    >>> closed_loop_matrix(plant, controller).numerators
+    ((0, -6), (1, -5))
+    """
+    if len(parts) != system.m:
+        raise InputError(f"expected {system.m} controllers, found {len(parts)}", where="parts")
+    agents = tuple(
+        _program(system, i, part, f"parts[{i}]", rounding) for i, part in enumerate(parts)
+    )
+    return Controller(system.time, digest(system), agents)
+
+
+def _program(
+    system: MultiChannelSystem, i: int, part: Any, where: str, rounding: Rounding | None
+) -> AgentProgram:
+    """The program of agent i, with all of its state private."""
+    p, q = system.p(i), system.q(i)
+    if all(hasattr(part, name) for name in ("A", "B", "C", "D", "dt")):
+        discrete = part.dt is True or (part.dt is not None and part.dt > 0)
+        time = "discrete" if discrete else "continuous"
+        if time != system.time:
+            raise InputError(f"the controller is in {time} time", where=where)
+        given: tuple[Any, ...] = (part.A, part.B, part.C, part.D)
+    elif isinstance(part, tuple) and len(part) == 4:
+        given = part
+    elif isinstance(part, tuple):
+        raise InputError(f"expected (A, B, C, D), found {len(part)} matrices", where=where)
+    else:
+        given = ((), Matrix.zeros(0, q), Matrix.zeros(p, 0), part)
+
+    def matrix(k: int, ncols: int | None = None) -> Matrix:
+        value, place = given[k], f"{where}.{'ABCD'[k]}"
+        if rounding is not None and not isinstance(value, Matrix) and len(value):
+            return matrix_from_float(value, rounding, where=place)
+        return as_matrix(value, place, ncols=ncols)
+
+    A = require_square(matrix(0), f"{where}.A")
+    k = A.nrows
+    B = require_shape(matrix(1, q), f"{where}.B", k, q)
+    C = require_shape(matrix(2, k), f"{where}.C", p, k)
+    D = require_shape(matrix(3, q), f"{where}.D", p, q)
+    return AgentProgram(
+        system.names[i],
+        0,
+        k,
+        private_update=LinearMap({i: B}, private=A).without_zeros(),
+        input=LinearMap({i: D}, private=C).without_zeros(),
+    )

@@ -1,0 +1,176 @@
+"""Certify a controller from anywhere: the loop is assembled, separated where it can be, decided."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+
+from mcexact.analysis.stability import (
+    POLYNOMIAL_LIMIT,
+    Method,
+    Separation,
+    StabilityVerdict,
+    certify_stability,
+    largest_certified_rate,
+)
+from mcexact.errors import LimitReached, UsageError
+from mcexact.exact.floats import matrix_to_float
+from mcexact.exact.location import region as named_region
+from mcexact.exact.rational import Entry, as_fraction
+from mcexact.floating.margins import spectral_bound
+from mcexact.model.closed_loop import closed_loop
+from mcexact.model.controller import Controller
+from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem
+from mcexact.synthesis.observer_separation import observer_separation
+
+_PARTS_TRIED = 32
+_POLYNOMIAL_UNASKED = 90
+Progress = Callable[[str], None]
+
+
+@dataclass(frozen=True)
+class ControllerVerdict:
+    """Whether the loop of a plant and a controller is as fast as asked.
+
+    Attributes
+    ----------
+    verdict : StabilityVerdict
+    loop : MultiChannelSystem
+        The whole loop.
+    blocks : tuple of int
+        The sizes of the diagonal blocks that were decided one by one; one number if the loop was
+        decided as a whole.
+    largest : Fraction or None
+        The largest rate (least radius) certified, where it was asked for and there is one.
+    """
+
+    verdict: StabilityVerdict
+    loop: MultiChannelSystem
+    blocks: tuple[int, ...]
+    largest: Fraction | None
+
+
+def certify_controller(
+    system: MultiChannelSystem,
+    controller: Controller,
+    graph: NeighborGraph | None = None,
+    *,
+    rate: Entry | None = None,
+    radius: Entry | None = None,
+    method: Method | None = None,
+    largest: bool = False,
+    progress: Progress | None = None,
+) -> ControllerVerdict:
+    """Decide whether every eigenvalue of the loop around a plant meets a rate or a radius.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        A plant.
+    controller : Controller
+        Any one that fits.
+    graph : NeighborGraph, optional
+        Overrides ``system.neighbors``.
+    rate, radius : rational, optional
+        The one of the time domain; by default stability alone.
+    method : {"polynomial", "lyapunov"}, optional
+        See `certify_stability`.
+    largest : bool
+        Look for the largest rate (least radius) that can be certified, and certify that.
+    progress : callable, optional
+        Is told, in a few words, what is being done.
+
+    Raises
+    ------
+    UsageError
+        If the bound is out of range or for the other time domain, or the method does not decide.
+    LimitReached
+        If the loop is too large for its characteristic polynomial, and Lyapunov matrices do not
+        decide.
+
+    Notes
+    -----
+    Exact, both ways.  The loop of a distributed observer is recognized and goes block by block
+    (`observer_separation`).
+
+    Examples
+    --------
+    >>> from mcexact.model.local_controllers import local_controllers
+    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    >>> certify_controller(plant, local_controllers(plant, [[[-3]]]), rate=1).verdict.stable
+    True
+    >>> certify_controller(plant, local_controllers(plant, [[[-3]]]), rate=2).verdict.stable
+    False
+    """
+    tell = progress or (lambda _: None)
+    asked = named_region(
+        system.time,
+        None if rate is None else as_fraction(rate, where="rate"),
+        None if radius is None else as_fraction(radius, where="radius"),
+    )
+    if largest and asked.bound is not None:
+        raise UsageError("either look for the largest rate or give one")
+    tell("the closed loop")
+    loop = closed_loop(system, controller, graph)
+    separation = None
+    if method != "polynomial" and (method is not None or loop.n > POLYNOMIAL_LIMIT):
+        separation = observer_separation(loop.A, system.n, controller)
+    best = None
+    if largest:
+        tell("the largest rate")
+        best = _largest(loop, separation)
+    tell("the decision")
+    bound = best if largest else asked.bound
+    verdict = _decided(loop, bound, method, separation)
+    used = separation.sizes if separation is not None and verdict.method == "lyapunov" else None
+    return ControllerVerdict(verdict, loop, used or (loop.n,), best)
+
+
+def _decided(
+    loop: MultiChannelSystem,
+    bound: Fraction | None,
+    method: Method | None,
+    separation: Separation | None,
+) -> StabilityVerdict:
+    """Decide by Lyapunov matrices if the loop is large, else by its characteristic polynomial."""
+    if method is not None or loop.n <= POLYNOMIAL_LIMIT:
+        return certify_stability(loop, bound, method=method, separation=separation)
+    try:
+        return certify_stability(loop, bound, method="lyapunov", separation=separation)
+    except UsageError:
+        if loop.n > _POLYNOMIAL_UNASKED:
+            raise LimitReached(
+                f"Lyapunov matrices do not decide this loop of {loop.n} states, and its "
+                "characteristic polynomial takes long: ask for the method polynomial, or for "
+                "another bound"
+            ) from None
+    return certify_stability(loop, bound, method="polynomial")
+
+
+def _largest(loop: MultiChannelSystem, separation: Separation | None) -> Fraction | None:
+    """By bisection over the polynomial, or over parts of the computed bound for large loops."""
+    if loop.n <= POLYNOMIAL_LIMIT:
+        return largest_certified_rate(loop)
+    discrete = loop.time == "discrete"
+    computed = spectral_bound(matrix_to_float(loop.A), loop.time)
+    spare = Fraction(1 - computed if discrete else -computed).limit_denominator(10**6)
+    if spare <= 0:
+        return None
+    holds, fails = 0, _PARTS_TRIED
+    while fails - holds > 1:
+        middle = (holds + fails) // 2
+        bound = _part(spare, middle, discrete=discrete)
+        try:
+            proved = certify_stability(loop, bound, method="lyapunov", separation=separation).stable
+        except UsageError:
+            proved = False
+        holds, fails = (middle, fails) if proved else (holds, middle)
+    return _part(spare, holds, discrete=discrete) if holds else None
+
+
+def _part(spare: Fraction, k: int, *, discrete: bool) -> Fraction:
+    """The bound that uses k of `_PARTS_TRIED` parts of what the computed eigenvalues leave."""
+    part = spare * k / _PARTS_TRIED
+    return 1 - part if discrete else part
