@@ -10,6 +10,7 @@ from typing import Any
 from . import (
     closed_loop_spectrum,
     communication,
+    complementary_subsystem,
     completeness,
     controllability,
     controllability_indices,
@@ -19,6 +20,7 @@ from . import (
     fixed_spectrum,
     neighbor_graph,
     pencil_rank,
+    setpoint,
     shared_dimensions,
     single_channel_gains,
     stability,
@@ -36,6 +38,7 @@ Rule = Callable[[Any, Any, System], str]
 KINDS: dict[str, Rule] = {
     "closed_loop_spectrum": closed_loop_spectrum.check,
     "communication": communication.check,
+    "complementary_subsystem": complementary_subsystem.check,
     "completeness": completeness.check,
     "controllability": controllability.check,
     "controllability_indices": controllability_indices.check,
@@ -45,6 +48,7 @@ KINDS: dict[str, Rule] = {
     "fixed_spectrum": fixed_spectrum.check,
     "neighbor_graph": neighbor_graph.check,
     "pencil_rank": pencil_rank.check,
+    "setpoint": setpoint.check,
     "shared_dimensions": shared_dimensions.check,
     "stability": stability.check,
     "single_channel_gains": single_channel_gains.check,

@@ -1,0 +1,150 @@
+"""Whether every output can be brought to any set-point: the paper's section III, decided."""
+
+from __future__ import annotations
+
+import random
+from dataclasses import dataclass
+
+from mcexact.analysis.modular_system import generator
+from mcexact.certificate.setpoint import SetpointCertificate
+from mcexact.errors import InternalError
+from mcexact.exact.linear_algebra import left_nullspace, row_echelon
+from mcexact.exact.matrix import Matrix, block, hstack, vstack
+from mcexact.exact.modular import primes, residues
+from mcexact.exact.number_field import PolynomialMatrix
+from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system_file import canonical_document
+
+_POINTS = 8
+
+
+@dataclass(frozen=True)
+class SetpointSolvability:
+    """Whether S = [A, B; C, 0] (discrete time: A − I) has full row rank n + Σ q_i.
+
+    Attributes
+    ----------
+    solvable : bool
+        Whether it has: then the plant with an integrator behind every output is jointly
+        controllable if the plant is.
+    rank : int
+    invariant_zero : bool or None
+        When it has not: whether [xI − A, B; C, 0] has full row rank for other x, so that 0
+        (discrete time: 1) is an invariant zero.  If not, the outputs are dependent at every
+        frequency.
+    combinations : Matrix
+        Rows w_2 ≠ 0, one entry for each output: w_2 · r = 0 for every vector r of set-points that
+        constant inputs can hold.  No rows when every set-point can be held.
+    certificate : SetpointCertificate
+    """
+
+    solvable: bool
+    rank: int
+    invariant_zero: bool | None
+    combinations: Matrix
+    certificate: SetpointCertificate
+
+
+def setpoint_solvability(system: MultiChannelSystem) -> SetpointSolvability:
+    """Decide whether set-point control of all outputs is possible.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+
+    Notes
+    -----
+    Exact; paper, section III, equation `gnd`.  Yes: a rank modulo a prime.  No: W with W S = 0.  A
+    row (w_1, w_2) of W gives w_2 r = 0 for every equilibrium Ax + Bu = 0, r = Cx; w_2 = 0 only if
+    the mode is not controllable to begin with.  An invariant zero is claimed only where the pencil
+    has full rank somewhere; else a polynomial row that annihilates it everywhere is shown.  The
+    paper's "no zero of the determinant at 0" is this condition unless 0 is an eigenvalue of A.
+
+    Examples
+    --------
+    >>> from mcexact import MultiChannelSystem
+    >>> plant = MultiChannelSystem([[-1, 0], [0, -2]], [[[1], [0]], [[0], [1]]], [[[1, 1]]] * 2)
+    >>> found = setpoint_solvability(plant)
+    >>> found.solvable, found.invariant_zero, found.combinations.numerators
+    (False, False, ((-1, 1),))
+    >>> wash = MultiChannelSystem([[0, 1], [-2, -3]], [[[0], [1]]], [[[0, 1]]])
+    >>> setpoint_solvability(wash).invariant_zero
+    True
+    """
+    n, B, C = system.n, system.input_matrix(), system.output_matrix()
+    place, unit, none = int(system.time == "discrete"), Matrix.identity(n), Matrix.zeros
+    lower = none(C.nrows, B.ncols)
+    S = block([[system.A - unit * place, B], [C, lower]])
+    M0 = block([[-system.A, B], [C, lower]])
+    M1 = block([[unit, none(n, B.ncols)], [none(C.nrows, n), lower]])
+    rng = generator(system, "setpoint")
+    W, pivots = row_echelon(left_nullspace(S))
+    rank = S.nrows - W.nrows
+    modulus = _modulus(S, rank, rng)
+    point, normal = None, None
+    if W.nrows:
+        point = _full_rank_point(M0, M1, modulus, rng)
+        normal = None if point is not None else _annihilating_row(M0, M1)
+    zero = None if not W.nrows else point is not None
+    certificate = SetpointCertificate(
+        canonical_document(system.plant),
+        system.subject,
+        W.nrows == 0,
+        rank,
+        zero,
+        modulus,
+        W,
+        pivots,
+        point,
+        normal,
+    )
+    combinations, _ = row_echelon(W.take(cols=range(n, S.nrows)))
+    return SetpointSolvability(W.nrows == 0, rank, zero, _scaled(combinations), certificate)
+
+
+def _scaled(rows: Matrix) -> Matrix:
+    """Nonzero rows without denominators, the last nonzero entry positive."""
+    kept = []
+    for row in rows.numerators:
+        last = next((x for x in reversed(row) if x), 0)
+        if last:
+            kept.append([x if last > 0 else -x for x in row])
+    return Matrix.from_integers(kept, ncols=rows.ncols)
+
+
+def _modulus(S: Matrix, rank: int, rng: random.Random) -> int:
+    """A prime modulo which S keeps its rank."""
+    for ell in primes(rng.getrandbits(64), bits=61):
+        if S.denominator % ell and residues(S, ell).rank() == rank:
+            return ell
+    raise InternalError("the stream of primes is endless")
+
+
+def _full_rank_point(M0: Matrix, M1: Matrix, modulus: int, rng: random.Random) -> int | None:
+    """A place where M0 + x M1 has full row rank modulo the prime, or None if a few had not."""
+    for _ in range(_POINTS):
+        x = rng.randrange(2, 10**6)
+        if residues(M0 + M1 * x, modulus).rank() == M0.nrows:
+            return x
+    return None
+
+
+def _annihilating_row(M0: Matrix, M1: Matrix) -> PolynomialMatrix:
+    """A nonzero polynomial row w(x), of least degree, with w(x) (M0 + x M1) = 0.
+
+    Σ w_k x^k annihilates iff w_0 M0 = 0, w_k M0 + w_{k−1} M1 = 0 and w_d M1 = 0.
+    """
+    rows, width = M0.shape
+    for degree in range(rows + 1):
+        blocks = []
+        for k in range(degree + 1):
+            parts = [Matrix.zeros(rows, width)] * (degree + 2)
+            parts[k], parts[k + 1] = M0, M1
+            blocks.append(hstack(parts))
+        found = left_nullspace(vstack(blocks))
+        if found.nrows:
+            row = found.take(rows=[0])
+            return PolynomialMatrix.from_matrices(
+                *(row.take(cols=range(k * rows, (k + 1) * rows)) for k in range(degree + 1))
+            )
+    raise InternalError("a pencil without full row rank anywhere has no annihilating row")

@@ -1,0 +1,63 @@
+"""Kind ``setpoint``: whether integrators keep all outputs at set-points; ``proofs/setpoint.md``."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any
+
+from .arithmetic import Echelon, Matrix, beside, stack
+from .evidence import inputs, modulus, outputs, require_identity
+from .reading import boolean, fields, integer, matrix, polynomial_matrix, positions, require
+from .system import System
+from .words import described
+
+
+def check(claim: Any, witness: Any, system: System) -> str:
+    """Check the rank of [A B; C 0], both ways, and whether a defect is an invariant zero."""
+    verdict, size, zero = fields(claim, "claim", "solvable", "rank", "invariant_zero")
+    number, left, columns, x0, row = fields(
+        witness, "witness", "modulus", "left", "pivots", "point", "normal"
+    )
+    A, n = system.A, system.n
+    B, C = inputs(system, range(system.m)), outputs(system, range(system.m))
+    rows, width, place = n + C.nrows, n + B.ncols, int(system.time == "discrete")
+    lower = beside([C, Matrix.zeros(C.nrows, B.ncols)], C.nrows)
+    unit = beside([Matrix.unit_rows(n, 0, n), Matrix.zeros(n, B.ncols)], n)
+    fixed = stack([beside([A.times(Fraction(-1)), B], n), lower], width)
+    moving = stack([unit, Matrix.zeros(C.nrows, width)], width)
+    S = stack([beside([A - Matrix.unit_rows(n, 0, n).times(Fraction(place)), B], n), lower], width)
+    r, ell = integer(size, "claim.rank"), modulus(number, "witness.modulus")
+    require(r <= rows and _rank(S, ell) >= r, "rank", "claim.rank", "not reached modulo l")
+    pivots = positions(columns, "witness.pivots", rows)
+    require(len(pivots) == rows - r, "rank", "witness.pivots", f"expected {rows} - {r} of them")
+    W = matrix(left, "witness.left", rows - r, rows)
+    require_identity([W.T], pivots, "witness.pivots")
+    require((W @ S).is_zero(), "identity", "witness.left", "W [A B; C 0] is not zero")
+    solvable = boolean(verdict, "claim.solvable")
+    require(solvable == (r == rows), "claim", "claim.solvable", f"the rank is {r} of {rows}")
+    shift = " - I" if place else ""
+    result = f"[A{shift}, B; C, 0] of {described(system)} has rank exactly {r} of {rows}: "
+    if solvable:
+        unused = zero is None and x0 is None and row is None
+        require(unused, "claim", "claim.invariant_zero", "expected null where it is solvable")
+        return result + "integrators behind all outputs add no mode that the inputs do not control"
+    if boolean(zero, "claim.invariant_zero"):
+        require(row is None, "claim", "witness.normal", "expected null for an invariant zero")
+        point = Fraction(integer(x0, "witness.point"))
+        full = _rank(fixed + moving.times(point), ell) == rows
+        require(full, "rank", "witness.point", "the rank there is not full modulo l")
+        return result + f"no set-point control of all outputs; {place} is an invariant zero"
+    require(x0 is None, "claim", "witness.point", "expected null where there is no such point")
+    layers = polynomial_matrix(row, "witness.normal", 1, rows, rows + 1)
+    require(not all(w.is_zero() for w in layers), "zero", "witness.normal", "the row is zero")
+    below = [Matrix.zeros(1, rows), *layers]
+    for w, before in zip([*layers, below[0]], below, strict=True):
+        same = (w @ fixed + before @ moving).is_zero()
+        require(same, "identity", "witness.normal", "the row does not annihilate the pencil")
+    return result + "no set-point control of all outputs; the pencil has rank below that everywhere"
+
+
+def _rank(S: Matrix, ell: int) -> int:
+    """The rank modulo ℓ, at most that over Q."""
+    basis = Echelon(ell)
+    return sum(basis.add(row) is not None for row in S.modulo(ell))
