@@ -1,0 +1,87 @@
+"""What is shown of a simulation: norms, values, pictures, pages."""
+
+import csv
+import io
+from fractions import Fraction
+
+import pytest
+
+from mcexact.exact.matrix import Matrix
+from mcexact.model.controller import AgentProgram, Controller, LinearMap
+from mcexact.model.system import MultiChannelSystem
+from mcexact.report.figures import simulation_png
+from mcexact.report.simulation import run_report
+from mcexact.report.simulation_page import simulation_page
+from mcexact.report.trajectory import error_norms, state_norms, trajectory_csv, trajectory_rows
+from mcexact.simulation.trajectory import simulate
+
+
+def halving(time="discrete", gain="-1/2"):
+    """x(t+1) = x + u, u = −x/2, without estimates."""
+    plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]], time=time)
+    program = LinearMap({0: Matrix.from_rows([[gain]])})
+    return plant, Controller(time, "", (AgentProgram("1", 0, 0, input=program),))
+
+
+def test_exact_values_are_written_exactly():
+    run = simulate(*halving(), horizon=2)
+    rows = list(csv.reader(io.StringIO(trajectory_csv(run))))
+    assert rows == [["t", "x[1]"], ["0", "1"], ["1", "1/2"], ["2", "1/4"]]
+
+
+def test_numbers_of_any_length_are_written():
+    run = simulate(*halving(gain="-1/3"), horizon=10_000)
+    last = trajectory_csv(run).splitlines()[-1].split(",")[1]
+    numerator, denominator = last.split("/")
+    assert len(denominator) > 4300 and set(numerator) <= set("0123456789")
+
+
+def test_floats_are_written_with_all_their_digits():
+    run = simulate(*halving("continuous"), horizon=1, points=2)
+    rows = list(csv.reader(io.StringIO(trajectory_csv(run))))
+    assert [float(row[0]) for row in rows[1:]] == [0.0, 0.5, 1.0]
+    assert float(rows[2][1]) == run.snapshots[1].plant[0]
+
+
+def test_norms_and_rows():
+    run = simulate(*halving(), horizon=30)
+    assert state_norms(run)[:3] == [1.0, 0.5, 0.25]
+    assert error_norms(run) == {}
+    rows = trajectory_rows(run, lines=5)
+    assert len(rows) == 5 and rows[0] == ("0", "1.000e+00") and rows[-1][0] == "30"
+
+
+def test_errors_are_those_of_agents_that_share_estimates():
+    estimate = AgentProgram("1", 1, 0, LinearMap(shared={0: Matrix.identity(1)}))
+    plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]], time="discrete")
+    run = simulate(plant, Controller("discrete", "", (estimate,)), horizon=1)
+    assert error_norms(run) == {"1": [1.0, 1.0]}
+
+
+@pytest.mark.parametrize("time", ["continuous", "discrete"])
+def test_a_picture_has_the_same_bytes_again(time):
+    report = run_report(*halving(time, "-3/2"), horizon=Fraction(4))
+    first, second = (simulation_png(report.run, report.spectrum, report.title) for _ in range(2))
+    assert first == second and first.startswith(b"\x89PNG")
+
+
+def test_a_run_that_stays_at_zero_can_be_drawn():
+    report = run_report(*halving(), initial=[Fraction(0)], horizon=Fraction(3))
+    assert report.file(".png").startswith(b"\x89PNG")
+
+
+def test_an_unstable_loop_is_called_so():
+    report = run_report(*halving(gain=1))
+    assert "not stable" in " ".join(report.facts())
+    assert report.as_json()["stable"] is False
+
+
+def test_the_default_horizon_follows_the_spectrum():
+    slow = run_report(*halving(gain="-1/10")).run
+    fast = run_report(*halving(gain="-9/10")).run
+    assert len(slow.times) > len(fast.times)
+
+
+def test_what_comes_from_outside_is_escaped():
+    page = simulation_page("<script>", ["a & b"], [], ("t",), (("0",),), b"")
+    assert "<script>" not in page and "&lt;script&gt;" in page and "a &amp; b" in page
