@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from . import (
+    assignability,
     closed_loop_spectrum,
     communication,
     complementary_subsystem,
@@ -36,6 +37,7 @@ FORMAT = "mcexact-certificate/1"
 Rule = Callable[[Any, Any, System], str]
 
 KINDS: dict[str, Rule] = {
+    "assignability": assignability.check,
     "closed_loop_spectrum": closed_loop_spectrum.check,
     "communication": communication.check,
     "complementary_subsystem": complementary_subsystem.check,

@@ -1,0 +1,295 @@
+"""The pencil of one complementary subsystem: normal rank, invariant zeros, remnant polynomial."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from random import Random
+
+from mcexact.analysis.invariant_form import companions, invariant_form
+from mcexact.analysis.invariant_subspace import controllable_subspace
+from mcexact.analysis.modular_system import generator, residue_systems
+from mcexact.certificate.complementary_subsystem import ComplementarySubsystemCertificate
+from mcexact.certificate.evidence import RootDisc
+from mcexact.errors import InternalError, UsageError
+from mcexact.exact.enclosures import root_discs
+from mcexact.exact.linear_algebra import inverse, kernel, left_nullspace, nullspace, solve
+from mcexact.exact.matrix import Matrix, hstack, vstack
+from mcexact.exact.modular import hstack as modular_hstack
+from mcexact.exact.modular import residues
+from mcexact.exact.polynomial import Polynomial, product
+from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system_file import canonical_document
+
+
+@dataclass(frozen=True)
+class InvariantZeros:
+    """An irreducible polynomial whose roots are invariant zeros, and where they are.
+
+    Attributes
+    ----------
+    polynomial : Polynomial
+        p, monic and irreducible over Q.
+    multiplicity : int
+        The exponent of p in the product of all invariant polynomials.
+    rank : int
+        The rank of P_s at every root of p, below the normal rank.
+    roots : tuple of RootDisc
+        Disjoint discs, each with exactly one root of p.
+    """
+
+    polynomial: Polynomial
+    multiplicity: int
+    rank: int
+    roots: tuple[RootDisc, ...]
+
+
+@dataclass(frozen=True)
+class ComplementarySubsystem:
+    """What the pencil P_s(x) = [xI − A, B_{m−s}; C_s, 0] says of the subsystem (C_s, A, B_{m−s}).
+
+    Attributes
+    ----------
+    subset : tuple of str
+        s.
+    normal_rank : int
+        The rank of P_s over Q(x), at least n.
+    invariant_polynomials : tuple of Polynomial
+        Those of degree at least 1, each dividing the next.
+    zeros : tuple of InvariantZeros
+    remnant : Polynomial
+        The product of the first n invariant polynomials: the greatest common divisor of the n × n
+        minors of P_s.
+    transfer_zero : bool
+        Whether C_s (xI − A)⁻¹ B_{m−s} = 0.
+    complete : bool
+        The transfer matrix is not 0 and rank P_s(λ) ≥ n for every λ.
+    reason : str
+        In words, why it is complete or not.
+    certificate : ComplementarySubsystemCertificate
+    """
+
+    subset: tuple[str, ...]
+    normal_rank: int
+    invariant_polynomials: tuple[Polynomial, ...]
+    zeros: tuple[InvariantZeros, ...]
+    remnant: Polynomial
+    transfer_zero: bool
+    complete: bool
+    reason: str
+    certificate: ComplementarySubsystemCertificate
+
+
+@dataclass(frozen=True)
+class _Outside:
+    """L, c × n, with L = G C + N L A and N L B = 0, N strictly lower triangular.
+
+    The kernel of L is the largest subspace V of the kernel of C with A V ⊂ V + im B.
+    """
+
+    L: Matrix
+    G: Matrix
+    N: Matrix
+
+
+def complementary_subsystem(system: MultiChannelSystem, s: Iterable[str]) -> ComplementarySubsystem:
+    """Analyze the complementary subsystem (C_s, A, B_{m−s}).
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    s : iterable of str
+        Names of channels, neither none nor all of them.
+
+    Raises
+    ------
+    UsageError
+        If there is no channel of that name, or s is empty or holds all channels.
+
+    Notes
+    -----
+    With V the largest (A, im B)-invariant subspace in ker C and R the controllable subspace in it,
+    bases adapted to R ⊂ V bring P_s to the block form ::
+
+        [ xI − A_1   B_1     *       *        *   ]
+        [    0        0    xI − K    *        *   ]
+        [    0        0      0    xI − A_3   B_3  ]
+        [    0        0      0      C_3       0   ]
+
+    where the first block has full row rank and the last full column rank for every x, so the Smith
+    form of P_s is that of xI − K and ones besides; K is brought to rational canonical form.  All
+    of this is rational matrices, which is what the certificate holds.  Exact.
+
+    Examples
+    --------
+    >>> from mcexact import MultiChannelSystem
+    >>> A = [[1, 0, 0], [0, 1, 0], [0, 1, 1]]
+    >>> B = [[[1], [0], [0]], [[0], [1], [0]], [[1], [0], [0]]]
+    >>> C = [[[1, 0, 0], [0, 0, 1]], [[0, 1, 0]], [[0, 1, 0]]]
+    >>> found = complementary_subsystem(MultiChannelSystem(A, B, C), ["2", "3"])
+    >>> found.complete, str(found.remnant)
+    (False, 'x - 1')
+    >>> print(found.reason)
+    the transfer matrix is zero, and the pencil has rank 2 < 3 at the roots of x - 1
+    """
+    inside = system.indices(s)
+    if not 0 < len(inside) < system.m:
+        raise UsageError("expected a nonempty proper subset of the channels")
+    rng = generator(system, "complementary_subsystem")
+    rest = [i for i in range(system.m) if i not in inside]
+    B, C = system.input_matrix(rest), system.output_matrix(inside)
+    for modular in residue_systems(system, rng, bits=61):
+        outside = _outside(system.A, B, C, modular.modulus)
+        found = None if outside is None else _decomposed(system.A, B, outside, rng)
+        if outside is None or found is None:
+            continue
+        parts, polynomials, reachable = found
+        evidence = {**parts, "L": outside.L, "G": outside.G, "N": outside.N}
+        if _full_ranks(evidence, B, reachable, modular.modulus):
+            names = system.named(inside)
+            k = system.n + B.ncols - parts["S"].ncols
+            return _result(system, names, k, polynomials, reachable, modular.modulus, evidence)
+    raise InternalError("the stream of primes is endless")
+
+
+def _outside(A: Matrix, B: Matrix, C: Matrix, ell: int) -> _Outside | None:
+    """L, level by level: the rows of C, then y L A for the y with y L B = 0."""
+    n = A.nrows
+    if C.denominator % ell == 0:
+        return None
+    first = list(residues(C.T, ell).rref()[1])
+    L = C.take(rows=first)
+    G = Matrix.identity(C.nrows).take(rows=first)
+    N = Matrix.zeros(L.nrows, L.nrows)
+    places = list(residues(L, ell).rref()[1]) if L.nrows else []
+    while 0 < L.nrows < n:
+        Y = left_nullspace(L @ B) if B.ncols else Matrix.identity(L.nrows)
+        moved = Y @ L @ A
+        stacked = vstack([L, moved], ncols=n)
+        if stacked.denominator % ell == 0:
+            return None
+        chosen = [j - L.nrows for j in residues(stacked.T, ell).rref()[1] if j >= L.nrows]
+        if not chosen:
+            break
+        Y, moved = Y.take(rows=chosen), moved.take(rows=chosen)
+        # Clear the places of the rows before, and make the new places an identity.
+        c = solve(L.take(cols=places).T, moved.take(cols=places).T)
+        if c is None:
+            return None
+        c = c.T
+        new = moved - c @ L
+        if new.denominator % ell == 0:
+            return None
+        fresh = list(residues(new, ell).rref()[1])
+        scale = inverse(new.take(cols=fresh)) if len(fresh) == len(chosen) else None
+        if scale is None:
+            return None
+        N = vstack(
+            [
+                hstack([N, Matrix.zeros(L.nrows, len(chosen))]),
+                hstack([scale @ (Y - c @ N), Matrix.zeros(len(chosen), len(chosen))]),
+            ]
+        )
+        G = vstack([G, -(scale @ c @ G)])
+        L = vstack([L, scale @ new])
+        places = [*places, *fresh]
+    return _Outside(L, G, N)
+
+
+def _decomposed(
+    A: Matrix, B: Matrix, outside: _Outside, rng: Random
+) -> tuple[dict[str, Matrix], tuple[Polynomial, ...], int] | None:
+    """X, F, A1, S, B1, the invariant polynomials, and the dimension of the controlled part."""
+    n, p = A.nrows, B.ncols
+    X, pivots = kernel(outside.L) if outside.L.nrows else (Matrix.identity(n), tuple(range(n)))
+    v = X.ncols
+    found = solve(hstack([X, -B], nrows=n), A @ X)
+    if found is None:
+        return None
+    inner, F = found.take(rows=range(v)), found.take(rows=range(v, v + p))
+    S = nullspace(outside.L @ B) if outside.L.nrows else Matrix.identity(p)
+    driven = (B @ S).take(rows=pivots)
+    space = controllable_subspace(inner, driven, rng)
+    Z = (space.annihilator() @ inner).take(cols=space.free)
+    T, polynomials = invariant_form(Z, rng)
+    units = Matrix.identity(v).take(cols=space.free)
+    coordinates = hstack([space.X, units @ T], nrows=v)
+    below = units @ T @ companions(polynomials)
+    a = space.dimension
+    upper = hstack([inner @ space.X, inner @ units @ T - below], nrows=v)
+    parts = {
+        "X": X @ coordinates,
+        "F": F @ coordinates,
+        "A1": upper.take(rows=space.pivots),
+        "S": S,
+        "B1": driven.take(rows=space.pivots),
+    }
+    return parts, polynomials, a
+
+
+def _full_ranks(evidence: dict[str, Matrix], B: Matrix, a: int, ell: int) -> bool:
+    """Whether every rank that the certificate needs is reached modulo ℓ."""
+    if any(M.denominator % ell == 0 for M in evidence.values()):
+        return False
+    X, L, S = (residues(evidence[name], ell) for name in ("X", "L", "S"))
+    LB = L @ residues(B, ell)
+    full = X.rank() == X.ncols and L.rank() == L.nrows and S.rank() == S.ncols
+    A1, B1 = evidence["A1"].take(cols=range(a)), evidence["B1"]
+    reached, block = [residues(B1, ell)], residues(B1, ell)
+    for _ in range(a - 1):
+        block = residues(A1, ell) @ block
+        reached.append(block)
+    return (
+        full and LB.rank() == B.ncols - S.ncols and (a == 0 or modular_hstack(reached).rank() == a)
+    )
+
+
+def _result(
+    system: MultiChannelSystem,
+    names: tuple[str, ...],
+    k: int,
+    polynomials: tuple[Polynomial, ...],
+    reachable: int,
+    modulus: int,
+    evidence: dict[str, Matrix],
+) -> ComplementarySubsystem:
+    extra = k - system.n
+    remnant = product(polynomials[: max(len(polynomials) - extra, 0)])
+    zeros = tuple(
+        InvariantZeros(
+            polynomial=p,
+            multiplicity=e,
+            rank=k - sum(p.divides(f) for f in polynomials),
+            roots=tuple(RootDisc(d.re, d.im, d.radius) for d in root_discs(p)),
+        )
+        for p, e in product(polynomials).factor()
+    )
+    complete = extra > 0 and remnant.degree == 0
+    certificate = ComplementarySubsystemCertificate(
+        system=canonical_document(system.plant),
+        subject=system.subject,
+        subset=names,
+        normal_rank=k,
+        invariant_polynomials=polynomials,
+        remnant=remnant,
+        transfer_zero=extra == 0,
+        complete=complete,
+        reachable=reachable,
+        modulus=modulus,
+        evidence=dict(evidence),
+    )
+    reason = _reason(system.n, extra == 0, [z for z in zeros if z.rank < system.n])
+    return ComplementarySubsystem(
+        names, k, polynomials, zeros, remnant, extra == 0, complete, reason, certificate
+    )
+
+
+def _reason(n: int, transfer_zero: bool, drops: list[InvariantZeros]) -> str:
+    """Why the subsystem is complete or not."""
+    listed = ", ".join(f"rank {z.rank} < {n} at the roots of {z.polynomial}" for z in drops)
+    reasons = ["the transfer matrix is zero"] if transfer_zero else []
+    if drops:
+        reasons.append(f"the pencil has {listed}")
+    if reasons:
+        return ", and ".join(reasons)
+    return f"the transfer matrix is not zero, and the pencil has rank at least {n} everywhere"

@@ -1,0 +1,66 @@
+"""Kind ``assignability``: how a spectrum splits; ``proofs/assignability.md``."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from . import evidence, transfer_graph
+from .controllability import require_reached
+from .reading import fields, integer, items, malformed, matrix, names, positions, require
+from .system import System
+from .words import channel_set, described
+
+
+def check(claim: Any, witness: Any, system: System) -> str:
+    """Check the components, and a minimal realization of the transfer within each."""
+    listed, left = fields(claim, "claim", "blocks", "fixed_degree")
+    number, graph, shown = fields(witness, "witness", "modulus", "transfer_graph", "realizations")
+    ell = evidence.modulus(number, "witness.modulus")
+    known, proof = fields(graph, "witness.transfer_graph", "claim", "witness")
+    transfer_graph.check(known, proof, system)
+    blocks = [
+        fields(block, "claim.blocks", "channels", "dimension")
+        for block in items(listed, "claim.blocks")
+    ]
+    components = [c for c, _ in blocks]
+    same = components == known["components"]
+    require(same, "component", "claim.blocks", "not the components of the transfer graph")
+    degrees = []
+    for (component, size), entry in zip(
+        blocks, items(shown, "witness.realizations", len(blocks)), strict=True
+    ):
+        c = names(component, "claim.blocks", system.names)
+        degrees.append(integer(size, "claim.blocks"))
+        _require_minimal(system, c, degrees[-1], entry, ell)
+    fixed = integer(left, "claim.fixed_degree")
+    require(fixed == system.n - sum(degrees), "degree", "claim.fixed_degree", "does not follow")
+    parts = ", ".join(
+        f"{d} for {channel_set(system, names(c, 'claim', system.names))}" for c, d in blocks
+    )
+    return (
+        f"for all gains, det(xI - A_F) of {described(system)} is a polynomial of degree {fixed}, the "
+        f"same for all of them, times one for each strong component, dependent on its gains alone, "
+        f"of degree {parts}"
+    )
+
+
+def _require_minimal(system: System, c: list[int], d: int, value: Any, ell: int) -> None:
+    """Stop unless C_c (xI − A)⁻¹ B_c has a minimal realization of dimension d."""
+    place = "witness.realizations"
+    rows, pivots, reduced, chosen = fields(value, place, "X", "pivots", "W", "columns")
+    listed = [system.names[i] for i in c]
+    space = {"from": listed, "X": rows, "pivots": pivots}
+    _, X = evidence.zero_transfer(space, place, system)
+    inner, C = (system.A @ X).take(pivots), evidence.outputs(system, c) @ X
+    columns = positions(chosen, place, X.ncols)
+    W = matrix(reduced, place, d, X.ncols)
+    if len(columns) != d:
+        malformed(place, f"expected {d} columns")
+    evidence.require_identity([W.T], columns, place)
+    A_d, C_d = (W @ inner).take(cols=columns), C.take(cols=columns)
+    invariant = (W @ inner).equals(A_d @ W) and C.equals(C_d @ W)
+    require(invariant, "identity", place, "expected W A_x = A_d W and C_x = C_d W")
+    B_d = W @ evidence.inputs(system, c).take(pivots)
+    require_reached(replace(system, A=A_d, B=[B_d]), 0, ell, d)
+    require_reached(replace(system, A=A_d.T, B=[C_d.T]), 0, ell, d)

@@ -1,0 +1,73 @@
+"""Kind ``complementary_subsystem``: a Smith form; ``proofs/complementary_subsystem.md``."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from fractions import Fraction
+from functools import reduce
+from itertools import pairwise
+from typing import Any
+
+from . import evidence, reading
+from .arithmetic import Echelon, Matrix, diagonal, poly_divide, poly_product, stack
+from .controllability import require_reached
+from .reading import boolean, fields, integer, items, polynomial, require
+from .system import System
+from .words import channel_set, described, polynomial_text
+
+CLAIM = ["subset", "normal_rank", "invariant_polynomials", "remnant", "transfer_zero", "complete"]
+WITNESS = ["modulus", "reachable", "X", "F", "A1", "S", "B1", "L", "G", "N"]
+
+
+def check(claim: Any, witness: Any, system: System) -> str:
+    """Check bases that bring the pencil to block triangular form, and read off its Smith form."""
+    listed, rank, invariants, rest, zero, verdict = fields(claim, "claim", *CLAIM)
+    number, size, *values = fields(witness, "witness", *WITNESS)
+    s, n = reading.names(listed, "claim.subset", system.names), system.n
+    others = evidence.complement(system, s)
+    require(bool(s and others), "claim", "claim.subset", "expected a nonempty proper subset")
+    B, C = evidence.inputs(system, others), evidence.outputs(system, s)
+    f = [polynomial(g, "claim.invariant_polynomials", 1) for g in items(invariants, CLAIM[2])]
+    chain = all(not poly_divide(g, h)[1] for h, g in pairwise(f))
+    require(chain, "divisor", "claim.invariant_polynomials", "expected each to divide the next")
+    b, k = sum(len(g) - 1 for g in f), integer(rank, "claim.normal_rank", n)
+    a, free = integer(size, "witness.reachable"), n + B.ncols - k
+    v, c = a + b, n - a - b
+    require(c >= 0 and free >= 0, "claim", "claim.normal_rank", "the dimensions do not fit")
+    shapes = [(n, v), (B.ncols, v), (a, v), (B.ncols, free), (a, free), (c, n), (c, C.nrows)]
+    X, F, A1, S, B1, L, G, N = reading.matrices(values, "witness", [*shapes, (c, c)])
+    K = reduce(diagonal, map(_companion, f), Matrix.zeros(0, a))
+    identities = {
+        "A X + B F = X [A1; 0 K]": (system.A @ X + B @ F).equals(X @ stack([A1, K], v)),
+        "B S = X1 B1": (B @ S).equals(X.take(cols=range(a)) @ B1),
+        "[C; L] X = 0": (stack([C, L], n) @ X).is_zero(),
+        "L = G C + N L A": L.equals(G @ C + N @ L @ system.A),
+        "N L B = 0": (N @ L @ B).is_zero(),
+        "N strictly lower triangular": not any(any(row[i:]) for i, row in enumerate(N.rows)),
+    }
+    for name, good in identities.items():
+        require(good, "identity", "witness", f"expected {name}")
+    ell = evidence.modulus(number, "witness.modulus")
+    for M, least in ((X.T, v), (L, c), (S.T, free), (L @ B, k - n)):
+        echelon = Echelon(ell)
+        reached = sum(echelon.add(row) is not None for row in M.modulo(ell))
+        require(reached == least, "rank", "witness", f"rank {reached} modulo ℓ, not {least}")
+    require_reached(replace(system, A=A1.take(cols=range(a)), B=[B1]), 0, ell, a)
+    remnant = reduce(poly_product, f[: max(len(f) - (k - n), 0)], [Fraction(1)])
+    given = polynomial(rest, "claim.remnant"), boolean(zero, "claim"), boolean(verdict, "claim")
+    implied = remnant, k == n, k > n and len(remnant) == 1
+    require(given == implied, "claim", "claim", "does not follow from the invariant polynomials")
+    polynomials = ", ".join(map(polynomial_text, f)) or "no other"
+    return (
+        f"the pencil [xI - A, B; C, 0] of {described(system)}, C of {channel_set(system, s)} and B "
+        f"of the others, has normal rank {k}, invariant polynomials 1 and {polynomials}, remnant "
+        f"polynomial {polynomial_text(remnant)}: {'complete' if implied[2] else 'not complete'}"
+    )
+
+
+def _companion(p: list[Fraction]) -> Matrix:
+    """Ones below the diagonal, −p in the last column."""
+    d = math.lcm(*(c.denominator for c in p))
+    rows = [[d * (i == j + 1) for j in range(len(p) - 2)] + [int(-c * d)] for i, c in enumerate(p)]
+    return Matrix(rows[:-1], len(p) - 1, d)
