@@ -1,0 +1,326 @@
+"""Set-point control: integrators in the agents, and a distributed controller around them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any, Literal
+
+from mcexact.analysis.controllability import joint_controllability, joint_observability
+from mcexact.analysis.setpoint import SetpointSolvability, setpoint_solvability
+from mcexact.analysis.stability import StabilityVerdict, certify_stability
+from mcexact.derived.extended import Share
+from mcexact.derived.integrators import setpoint_system
+from mcexact.errors import Impossible, InputError, InternalError, UsageError
+from mcexact.exact.linear_algebra import solve
+from mcexact.exact.location import StabilityRegion
+from mcexact.exact.matrix import Matrix, block, hstack, vstack
+from mcexact.exact.polynomial import Polynomial
+from mcexact.model.closed_loop import closed_loop_matrix, loop_layout, reference_matrix
+from mcexact.model.controller import AgentProgram, Controller, LinearMap
+from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem, with_graph
+from mcexact.model.system_file import digest
+from mcexact.synthesis.extended import Dimensions, design_extended
+from mcexact.synthesis.gate import CertifiedClosedLoop, certify_rate, certify_spectrum
+from mcexact.synthesis.network_candidates import ArithmeticKind, Progress
+from mcexact.synthesis.observer import design_observer
+from mcexact.synthesis.spectrum import convergence_bound
+
+Road = Literal["observer", "extended"]
+
+
+@dataclass(frozen=True, eq=False)
+class SetpointDesign:
+    """A certified controller that brings every output y_i to the set-point r_i of its agent.
+
+    Attributes
+    ----------
+    controller : Controller
+        Agent i integrates y_i − r_i as the first q_i entries of its private state.
+    loop : CertifiedClosedLoop
+        Proves the characteristic polynomial, or in floating point through an observer the rate.
+    stability : StabilityVerdict
+        Proves that the loop is stable, at the rate or radius asked for.  That makes the gain from r
+        to y at s = 0 (discrete time: z = 1) the identity.
+    solvability : SetpointSolvability
+    road : {"observer", "extended"}
+    arithmetic : {"exact", "float"}
+    """
+
+    controller: Controller
+    loop: CertifiedClosedLoop
+    stability: StabilityVerdict
+    solvability: SetpointSolvability
+    road: str
+    arithmetic: str
+
+    @property
+    def certificate(self) -> Any:
+        """The certificate of stability."""
+        return self.stability.certificate
+
+    @property
+    def certificates(self) -> dict[str, Any]:
+        """All that was proved, by the name of a file."""
+        found = {
+            "setpoint": self.solvability.certificate,
+            "stability": self.stability.certificate,
+        }
+        return {self.loop.certificate.kind: self.loop.certificate} | found
+
+    @property
+    def order(self) -> int:
+        """The dimension of all agents' states, integrators included."""
+        return self.controller.order
+
+    @property
+    def height(self) -> int:
+        """Bits of the longest numerator or denominator in the controller."""
+        return self.controller.height()
+
+
+def design_setpoint(
+    system: MultiChannelSystem,
+    graph: NeighborGraph | None = None,
+    q: str | None = None,
+    *,
+    spectrum: Any = None,
+    rate: Any = None,
+    radius: Any = None,
+    road: Road = "observer",
+    dimensions: Dimensions = "minimal",
+    arithmetic: ArithmeticKind = "exact",
+    progress: Progress | None = None,
+) -> SetpointDesign:
+    """Design a distributed controller that holds every output at its agent's set-point.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        A plant.
+    graph : NeighborGraph, optional
+        Overrides ``system.neighbors``.
+    q : str, optional
+        The agent that carries the channel controller.
+    spectrum : optional
+        For the plant with its integrators, of n + Σ q_i states: as in `design_observer`, or as in
+        `design_extended`.
+    rate, radius : rational, optional
+        Instead of a spectrum, or besides it, to be certified.
+    road : {"observer", "extended"}
+        A distributed observer of the plant and all integrators, or shared sub-states of the least
+        dimension; agents send no outputs in either.
+    dimensions : {"minimal", "bound"} or sequence of m int
+        For the extended road.
+    arithmetic : {"exact", "float"}
+    progress : callable, optional
+
+    Raises
+    ------
+    Impossible
+        If some set-points cannot be held (the certificate gives the combination), a mode cannot be
+        controlled or observed, or no feedback along this road can do it.
+
+    Notes
+    -----
+    Paper, section III.  The design is for the system of `setpoint_system`; its output w_i then
+    becomes a part of agent i's own state.  With a stable loop, constant r leads to an equilibrium,
+    where ẇ_i = y_i − r_i = 0.  That the gain at s = 0 is the identity is verified besides.
+
+    Examples
+    --------
+    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]], neighbors={"1": []})
+    >>> design = design_setpoint(plant, rate=1)
+    >>> design.stability.stable, design.controller.agents[0].private
+    (True, 1)
+    >>> wash = MultiChannelSystem([[0, 1], [-2, -3]], [[[0], [1]]], [[[0, 1]]],
+    ...                           neighbors={"1": []})
+    >>> design_setpoint(wash, rate=1)
+    Traceback (most recent call last):
+        ...
+    mcexact.errors.Impossible: no input holds set-points with (1) r != 0, r the set-points of \
+all outputs in order; 0 is an invariant zero of the plant
+    """
+    system, found = with_graph(system, graph)
+    if system.subject:
+        raise UsageError("a controller is designed for a plant, not for a derived system")
+    if road not in ("observer", "extended"):
+        raise UsageError(f'expected "observer" or "extended", found {road!r}', where="road")
+    bound = convergence_bound(system.time, rate, radius, needed=spectrum is None)
+    solvability = _required(system)
+    augmented = setpoint_system(system)
+    _require_reachable(augmented, bound)
+    alone = MultiChannelSystem(
+        augmented.A,
+        [channel.B for channel in augmented.channels],
+        [channel.C for channel in augmented.channels],
+        time=system.time,
+        names=system.names,
+        neighbors=found,
+    )
+    wanted = {"spectrum": spectrum, "rate": rate, "radius": radius, "progress": progress}
+    if road == "observer":
+        made, polynomial = _observed(alone, q, wanted, arithmetic)
+    else:
+        kind: Literal["held", "extended"] = "held" if found.delays else "extended"
+        share: Share = "states"
+        extended = design_extended(
+            alone,
+            None,
+            q,
+            dimensions=dimensions,
+            share=share,
+            network=kind,
+            arithmetic=arithmetic,
+            **wanted,
+        )
+        made, polynomial = extended.design.controller, extended.design.loop.polynomial
+    controller = with_integrators(system, made)
+    return _certified(system, controller, polynomial, bound, solvability, road, arithmetic)
+
+
+def _observed(
+    alone: MultiChannelSystem, q: str | None, wanted: dict[str, Any], arithmetic: ArithmeticKind
+) -> tuple[Controller, Polynomial | None]:
+    """A distributed observer for the plant with its integrators."""
+    if arithmetic == "float":
+        if wanted["spectrum"] is not None:
+            raise UsageError("in floating point give a rate or radius, not a spectrum")
+        given = {name: wanted[name] for name in ("rate", "radius", "progress")}
+        proposed = design_observer(alone, None, q, arithmetic="float", **given)
+        return proposed.controller, proposed.loop.polynomial
+    design = design_observer(alone, None, q, **wanted)
+    return design.controller, design.loop.polynomial
+
+
+def _required(system: MultiChannelSystem) -> SetpointSolvability:
+    """Refuse a plant some of whose set-points cannot be held."""
+    found = setpoint_solvability(system)
+    if found.solvable:
+        return found
+    if found.combinations.nrows:
+        rows = "; ".join(
+            "(" + ", ".join(map(str, row)) + ") r != 0" for row in found.combinations.numerators
+        )
+        message = f"no input holds set-points with {rows}, r the set-points of all outputs in order"
+    else:
+        message = "the integrators add a mode that no input controls"
+    if found.invariant_zero:
+        message += f"; {int(system.time == 'discrete')} is an invariant zero of the plant"
+    raise Impossible(message, found.certificate)
+
+
+def _require_reachable(augmented: MultiChannelSystem, bound: Fraction | None) -> None:
+    """Refuse modes that nobody controls or observes and that are not fast enough."""
+    region = StabilityRegion(augmented.time, bound)
+    for decide, verb in ((joint_controllability, "control"), (joint_observability, "observe")):
+        decision = decide(augmented)
+        if not region.contains_roots_of(decision.uncontrollable_polynomial):
+            raise Impossible(
+                f"the plant with its integrators has modes that the channels do not {verb} "
+                f"together, roots of {decision.uncontrollable_polynomial}",
+                decision.certificate,
+            )
+
+
+def with_integrators(system: MultiChannelSystem, controller: Controller) -> Controller:
+    """Make w_i a part of agent i's own state, for a controller of the plant with integrators.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        The plant.
+    controller : Controller
+        For `setpoint_system` of it; agents use their own w_i alone.
+
+    Returns
+    -------
+    Controller
+        Agent i has the private state (w_i, z_i) and takes its reference r_i.
+
+    Raises
+    ------
+    InputError
+        If an agent uses the integrators of another one: nobody sends them.
+    """
+    programs = []
+    for i, agent in enumerate(controller.agents):
+        q, k = system.q(i), agent.private
+        for each in agent.maps():
+            if any(j != i and not M.is_zero() for j, M in each.outputs.items()):
+                raise InputError("an agent uses the integrators of another one")
+        stay = Matrix.identity(q) * int(system.time == "discrete")
+        moved = [
+            _on_own_state(each, i, size, q, k)
+            for each, size in zip(agent.maps(), (agent.shared, k, system.p(i)), strict=True)
+        ]
+        own = moved[1].private or Matrix.zeros(k, q + k)
+        private = LinearMap(
+            {i: vstack([Matrix.identity(q), Matrix.zeros(k, q)])},
+            {j: vstack([Matrix.zeros(q, M.ncols), M]) for j, M in moved[1].shared.items()},
+            block([[hstack([stay, Matrix.zeros(q, k)])], [own]]),
+            vstack([-Matrix.identity(q), Matrix.zeros(k, q)]),
+        )
+        programs.append(
+            AgentProgram(
+                agent.name,
+                agent.shared,
+                q + k,
+                moved[0].without_zeros(),
+                private.without_zeros(),
+                moved[2].without_zeros(),
+                agent.hold,
+            )
+        )
+    return Controller(controller.time, digest(system), tuple(programs))
+
+
+def _on_own_state(each: LinearMap, i: int, nrows: int, q: int, k: int) -> LinearMap:
+    """A map with w_i read from the private state (w_i, z_i) instead of from the output."""
+    measured = each.outputs.get(i, Matrix.zeros(nrows, q))
+    private = each.private or Matrix.zeros(nrows, k)
+    return LinearMap({}, each.shared, hstack([measured, private]))
+
+
+def steady_gain(
+    system: MultiChannelSystem, controller: Controller, graph: NeighborGraph | None = None
+) -> Matrix | None:
+    """The gain from all set-points to all outputs at s = 0 (discrete time: z = 1), exactly.
+
+    Returns
+    -------
+    Matrix or None
+        Σ q_i × Σ q_i; None if the loop has that eigenvalue.
+    """
+    layout = loop_layout(system, controller, graph)
+    M, R = closed_loop_matrix(system, controller, graph), reference_matrix(layout)
+    place = int(system.time == "discrete")
+    steady = solve(Matrix.identity(M.nrows) * place - M, R)
+    if steady is None:
+        return None
+    return system.output_matrix() @ layout.pick("x") @ steady
+
+
+def _certified(
+    system: MultiChannelSystem,
+    controller: Controller,
+    polynomial: Polynomial | None,
+    bound: Fraction | None,
+    solvability: SetpointSolvability,
+    road: str,
+    arithmetic: str,
+) -> SetpointDesign:
+    """Prove the spectrum or the rate of the loop with the plant itself, and its steady gain."""
+    if polynomial is not None:
+        loop = certify_spectrum(system, controller, polynomial)
+        stability = certify_stability(loop.loop, bound)
+    else:
+        loop = certify_rate(system, controller, bound=bound)
+        stability = certify_stability(loop.loop, bound)
+    if not stability.stable:
+        raise InputError("the prescribed numbers do not make a stable loop", where="spectrum")
+    gain = steady_gain(system, controller)
+    if gain is None or gain != Matrix.identity(gain.nrows):
+        raise InternalError("a stable loop with integrators does not reach its set-points")
+    return SetpointDesign(controller, loop, stability, solvability, road, arithmetic)
