@@ -39,7 +39,7 @@ def check(claim: Any, witness: Any, system: System) -> str:
         f"{d} for {channel_set(system, names(c, 'claim', system.names))}" for c, d in blocks
     )
     return (
-        f"for all gains, det(xI - A_F) of {described(system)} is a polynomial of degree {fixed}, the "
+        f"for all gains, det(xI - A_F) of {described(system)} has a factor of degree {fixed}, the "
         f"same for all of them, times one for each strong component, dependent on its gains alone, "
         f"of degree {parts}"
     )
