@@ -2,39 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import islice
-from math import ceil
-from random import Random
 from typing import TYPE_CHECKING, Any, Literal, overload
 
-from mcexact.analysis.completeness import completeness
 from mcexact.analysis.controllability import joint_observability
-from mcexact.analysis.gains import ReachingGains, error_gain_draws, reaching_gains
-from mcexact.analysis.modular_system import generator
 from mcexact.derived.error_system import error_system
 from mcexact.derived.feedback import checked_gains
-from mcexact.errors import Impossible, InputError, LimitReached, UsageError
+from mcexact.errors import InputError, UsageError
+from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.controller import Controller
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_graph
-from mcexact.synthesis.channel_controller import (
-    ChannelController,
-    channel_controller,
-    observing_rows,
-    transposed,
-)
-from mcexact.synthesis.gate import CertifiedClosedLoop, certify_observer
+from mcexact.model.system_file import digest
+from mcexact.synthesis.channel_controller import ChannelController
+from mcexact.synthesis.fast_modes import feedback_for_region, observable_part
+from mcexact.synthesis.gate import CertifiedClosedLoop, certify_observer, certify_rate
 from mcexact.synthesis.observer_programs import observer_programs
-from mcexact.synthesis.spectrum import (
-    convergence_bound,
-    default_polynomial,
-    spectrum_polynomial,
-)
+from mcexact.synthesis.observer_search import ObserverTask, Progress, best_channel_controller
+from mcexact.synthesis.spectrum import convergence_bound, spectrum_polynomial
 from mcexact.synthesis.state_feedback import (
     StateFeedback,
     given_feedback,
@@ -43,9 +32,6 @@ from mcexact.synthesis.state_feedback import (
 
 if TYPE_CHECKING:
     from mcexact.synthesis.observer_float import FloatObserverDesign
-
-_ROWS_PER_CANDIDATE = 2
-Progress = Callable[[str], None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,6 +53,10 @@ class ObserverDesign:
         [K_i, H_ij …] of the open-loop observer, before the channel controller is added.
     channel : ChannelController
         Ā, [K̄, H̄_j …], C̄ and what is added to [K_q, H_qj …].
+    estimated : Matrix
+        L, d×n: the agents estimate L x.  The identity, but for designs for a rate where modes that
+        are fast enough are not seen by all channels together; ``feedback`` and ``error`` are then
+        about the part of the plant that is seen.
     """
 
     controller: Controller
@@ -76,6 +66,7 @@ class ObserverDesign:
     error: Polynomial
     lists: tuple[Matrix, ...]
     channel: ChannelController
+    estimated: Matrix
 
     @property
     def certificate(self) -> Any:
@@ -218,13 +209,40 @@ let one agent control and observe all estimation errors
         return _in_floating_point(
             system, found, agent, bound, gains, tell, not wanted and not order
         )
+    if spectrum is None and gains is None and bound is not None:
+        hidden = joint_observability(system).uncontrollable_polynomial
+        if hidden.degree > 0 and StabilityRegion(system.time, bound).contains_roots_of(hidden):
+            return _of_the_observable_part(system, found, agent, bound, order == "least", tell)
     tell("state feedback")
     feedback = _feedback(system, wanted.get("feedback"), bound, gains)
     tell("lists K, H for the error system")
     error = error_system(system, feedback.gains, found)
     least = order == "least"
-    task = _Task(system, found, agent, feedback, error, wanted, bound, least, tell)
-    return _best_design(task, _candidates(task))
+    return _certified(
+        ObserverTask(system, found, agent, feedback, error, wanted, bound, least, tell)
+    )
+
+
+def _certified(task: ObserverTask) -> ObserverDesign:
+    """Search, write the programs, and pass the gate."""
+    lists, made, polynomial = best_channel_controller(task)
+    task.tell("certificate")
+    controller = observer_programs(
+        task.system, task.graph, task.agent, task.feedback.gains, lists.gains, made
+    )
+    loop = certify_observer(
+        task.system,
+        controller,
+        task.feedback.polynomial,
+        polynomial,
+        bound=task.bound,
+        graph=task.graph,
+    )
+    agent = task.system.names[task.agent]
+    unit = Matrix.identity(task.system.n)
+    return ObserverDesign(
+        controller, loop, agent, task.feedback, polynomial, lists.gains, made, unit
+    )
 
 
 def _in_floating_point(
@@ -246,6 +264,24 @@ def _in_floating_point(
         )
     given = None if gains is None else checked_gains(system, gains, [system.n] * system.m)
     return design_observer_float(system, graph, agent, bound, gains=given, progress=tell)
+
+
+def _of_the_observable_part(
+    system: MultiChannelSystem,
+    graph: NeighborGraph,
+    agent: int,
+    bound: Fraction,
+    least: bool,
+    tell: Progress,
+) -> ObserverDesign:
+    """The design for what all channels together see; what they do not see is fast enough."""
+    part, L = observable_part(system)
+    feedback = feedback_for_region(part, StabilityRegion(system.time, bound))
+    error = error_system(part, feedback.gains, graph)
+    design = _certified(ObserverTask(part, graph, agent, feedback, error, {}, bound, least, tell))
+    controller = replace(design.controller, system=digest(system))
+    loop = certify_rate(system, controller, bound=bound, graph=graph, method="polynomial")
+    return replace(design, controller=controller, loop=loop, estimated=L)
 
 
 def _checked_spectrum(
@@ -279,130 +315,5 @@ def _feedback(
     if gains is not None:
         return given_feedback(system, tuple(checked_gains(system, gains, [system.n] * system.m)))
     if wanted is None and bound is not None:
-        polynomial = default_polynomial(system.time, bound, system.n)
-    else:
-        polynomial = spectrum_polynomial(wanted, system.n, where="spectrum.feedback")
-    return state_feedback(system, polynomial)
-
-
-@dataclass(frozen=True)
-class _Task:
-    """What has been settled before the lists and the channel controller are chosen."""
-
-    system: MultiChannelSystem
-    graph: NeighborGraph
-    agent: int
-    feedback: StateFeedback
-    error: MultiChannelSystem
-    wanted: Mapping[str, Any]
-    bound: Fraction | None
-    least: bool
-    tell: Progress
-
-    def polynomial(self, degree: int) -> Polynomial:
-        """The prescribed polynomial of the error system, of this degree."""
-        if "error" in self.wanted:
-            return spectrum_polynomial(self.wanted["error"], degree, where="spectrum.error")
-        return default_polynomial(self.system.time, self.bound or Fraction(0), degree)
-
-    def center(self) -> Fraction:
-        """The mean of the prescribed numbers; 0 where their number is not the usual one."""
-        degree = self.error.n + self.system.m - 1
-        try:
-            polynomial = self.polynomial(degree)
-        except InputError:
-            return Fraction(0)
-        return -polynomial.coefficients[degree - 1] / degree if degree else Fraction(0)
-
-
-def _candidates(task: _Task) -> list[ReachingGains]:
-    """Lists with which the agent reaches all errors, or the obstruction that no list overcomes."""
-    system, agent = task.system, [task.agent]
-    draw = error_gain_draws(system, task.graph, task.feedback.gains, task.center())
-    # More candidates give shorter numbers; each costs some n³ operations on longer ones.
-    count = max(32, min(240, 20_000 // max(1, task.error.n) ** 2))
-    quick = reaching_gains(task.error, agent, draw, index=system.m, attempts=4 * count)
-    found = list(islice(quick, count))
-    if found:
-        return found
-    observable = joint_observability(system)
-    if not observable.controllable:
-        raise Impossible(
-            f"the roots of {observable.uncontrollable_polynomial} are not observable by all "
-            "channels together: no distributed observer can see them",
-            observable.certificate,
-        )
-    decision = completeness(task.error)
-    if not decision.complete:
-        raise Impossible(
-            "the error system for these F_i is not complete: no lists K_i, H_ij let one agent "
-            "control and observe all estimation errors",
-            decision.certificate,
-        )
-    found = list(islice(reaching_gains(task.error, agent, draw, attempts=2000), count))
-    if not found:
-        raise LimitReached("lists K_i, H_ij exist, but 2000 draws did not find them")
-    return found
-
-
-def _best_design(task: _Task, candidates: list[ReachingGains]) -> ObserverDesign:
-    """Make channel controllers for each candidate, keep the best one, assemble and certify."""
-
-    def index_of(each: ReachingGains) -> int:
-        (seen,) = each.observability_indices
-        (reached,) = each.controllability_indices
-        return min(reached, seen) if task.least else reached
-
-    index = min(map(index_of, candidates))
-    polynomial = task.polynomial(task.error.n + index - 1)
-    rng = generator(task.error, "channel_controller")
-    best: tuple[int, ReachingGains, ChannelController] | None = None
-    for k, each in enumerate(candidates):
-        if index_of(each) != index:
-            continue
-        task.tell(f"channel controller {k + 1} of {len(candidates)}")
-        for made in _channel_controllers(task, each, polynomial, index, rng):
-            # Short numbers matter for the proof, small ones for whoever runs the controller.
-            size = made.height + 8 * ceil(made.largest).bit_length()
-            if best is None or size < best[0]:
-                best = (size, each, made)
-    if best is None:
-        raise LimitReached("no channel controller was found among the candidates")
-    _, each, made = best
-    task.tell("certificate")
-    controller = observer_programs(
-        task.system, task.graph, task.agent, task.feedback.gains, each.gains, made
-    )
-    loop = certify_observer(
-        task.system,
-        controller,
-        task.feedback.polynomial,
-        polynomial,
-        bound=task.bound,
-        graph=task.graph,
-    )
-    return ObserverDesign(
-        controller,
-        loop,
-        task.system.names[task.agent],
-        task.feedback,
-        polynomial,
-        each.gains,
-        made,
-    )
-
-
-def _channel_controllers(
-    task: _Task, each: ReachingGains, polynomial: Polynomial, index: int, rng: Random
-) -> list[ChannelController]:
-    """Channel controllers for one candidate, from a few rows h each."""
-    B, C = task.error.B(task.agent), task.error.C(task.agent)
-    made = []
-    if each.controllability_indices[0] <= index:
-        for h in islice(observing_rows(each.matrix, C, rng), _ROWS_PER_CANDIDATE):
-            made.append(channel_controller(each.matrix, B, C, polynomial, index=index, row=h))
-        return made
-    for h in islice(observing_rows(each.matrix.T, B.T, rng), _ROWS_PER_CANDIDATE):
-        turned = channel_controller(each.matrix.T, C.T, B.T, polynomial, index=index, row=h)
-        made.append(transposed(turned))
-    return made
+        return feedback_for_region(system, StabilityRegion(system.time, bound))
+    return state_feedback(system, spectrum_polynomial(wanted, system.n, where="spectrum.feedback"))

@@ -82,7 +82,7 @@ def state_feedback(system: MultiChannelSystem, polynomial: Polynomial) -> StateF
         )
     B = system.input_matrix()
     F = assigning_feedback(system.A, B, polynomial)
-    return given_feedback(system, _split(system, F))
+    return given_feedback(system, split_by_channel(system, F))
 
 
 def given_feedback(system: MultiChannelSystem, gains: tuple[Matrix, ...]) -> StateFeedback:
@@ -253,7 +253,7 @@ def companions(polynomial: Polynomial) -> list[Matrix]:
     return found
 
 
-def _split(system: MultiChannelSystem, F: Matrix) -> tuple[Matrix, ...]:
+def split_by_channel(system: MultiChannelSystem, F: Matrix) -> tuple[Matrix, ...]:
     """The rows of F that belong to each channel."""
     gains, start = [], 0
     for i in range(system.m):

@@ -1,0 +1,107 @@
+"""Modes that are fast enough already: designs for a rate leave them where they are."""
+
+from __future__ import annotations
+
+from mcexact.analysis.controllability import joint_controllability
+from mcexact.analysis.invariant_subspace import controllable_subspace
+from mcexact.analysis.modular_system import generator
+from mcexact.errors import Impossible, InternalError
+from mcexact.exact.location import StabilityRegion
+from mcexact.exact.matrix import Matrix
+from mcexact.model.system import MultiChannelSystem
+from mcexact.synthesis.spectrum import default_polynomial
+from mcexact.synthesis.state_feedback import (
+    StateFeedback,
+    assigning_feedback,
+    given_feedback,
+    split_by_channel,
+)
+
+
+def feedback_for_region(system: MultiChannelSystem, region: StabilityRegion) -> StateFeedback:
+    """F with every eigenvalue of A + Σ B_i F_i in a region; uncontrollable modes in it stay.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    region : StabilityRegion
+        With a bound.
+
+    Raises
+    ------
+    Impossible
+        If an uncontrollable mode is outside the region; the certificate is that of the joint
+        controllability.
+
+    Notes
+    -----
+    Exact.  With X a basis of the controllable subspace, its rows ``pivots`` the identity,
+    A X = X A_1, B = X B_1: F = F_1 L assigns A_1 + B_1 F_1, L the selection of these rows.
+
+    Examples
+    --------
+    >>> system = MultiChannelSystem([[1, 0], [0, -9]], [[[1], [0]]], [[[1, 1]]])
+    >>> from fractions import Fraction
+    >>> str(feedback_for_region(system, StabilityRegion("continuous", Fraction(1))).polynomial)
+    'x^2 + 11*x + 18'
+    """
+    if region.bound is None:
+        raise InternalError("a design for a region needs its bound")
+    decided = joint_controllability(system)
+    B = system.input_matrix()
+    if decided.controllable:
+        polynomial = default_polynomial(system.time, region.bound, system.n)
+        gains = split_by_channel(system, assigning_feedback(system.A, B, polynomial))
+        return given_feedback(system, gains)
+    rest = decided.uncontrollable_polynomial
+    if not region.contains_roots_of(rest):
+        raise Impossible(
+            f"no state feedback can move the modes that are the roots of {rest}, and not all of "
+            f"them satisfy {region}: the system is not jointly controllable",
+            decided.certificate,
+        )
+    found = controllable_subspace(system.A, B, generator(system, "controllability"))
+    pivots = list(found.pivots)
+    A1 = (system.A @ found.X).take(rows=pivots)
+    polynomial = default_polynomial(system.time, region.bound, len(pivots))
+    F1 = assigning_feedback(A1, B.take(rows=pivots), polynomial)
+    selection = Matrix.identity(system.n).take(rows=pivots)
+    return given_feedback(system, split_by_channel(system, F1 @ selection))
+
+
+def observable_part(system: MultiChannelSystem) -> tuple[MultiChannelSystem, Matrix]:
+    """The plant modulo what all channels together do not see.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        A plant.
+
+    Returns
+    -------
+    part : MultiChannelSystem
+        (A_o, L B_i, C_{o,i}), jointly observable, with the same channels and graph.
+    L : Matrix, d×n
+        Of full row rank: L A = A_o L and C_i = C_{o,i} L, so that L x moves as the part does.
+
+    Examples
+    --------
+    >>> system = MultiChannelSystem([[1, 0], [0, -9]], [[[1], [1]]], [[[2, 0]]])
+    >>> part, L = observable_part(system)
+    >>> part.A.numerators, L.numerators
+    (((1,),), ((1, 0),))
+    """
+    found = controllable_subspace(
+        system.A.T, system.output_matrix().T, generator(system, "observability")
+    )
+    L, pivots = found.X.T, list(found.pivots)
+    part = MultiChannelSystem(
+        (L @ system.A).take(cols=pivots),
+        [L @ channel.B for channel in system.channels],
+        [channel.C.take(cols=pivots) for channel in system.channels],
+        time=system.time,
+        names=system.names,
+        neighbors=system.neighbors,
+        name=system.name,
+    )
+    return part, L

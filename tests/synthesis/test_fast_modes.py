@@ -1,0 +1,80 @@
+"""Modes that are fast enough stay where they are; slow ones that nothing moves are refused."""
+
+from fractions import Fraction
+
+import pytest
+
+from mcexact.certificate import encode
+from mcexact.checker import check_document
+from mcexact.errors import Impossible
+from mcexact.exact.linear_algebra import characteristic_polynomial
+from mcexact.exact.location import StabilityRegion
+from mcexact.exact.polynomial import Polynomial
+from mcexact.model.system import MultiChannelSystem
+from mcexact.synthesis.fast_modes import feedback_for_region, observable_part
+from mcexact.synthesis.observer import design_observer
+
+FAST = {"continuous": -5, "discrete": Fraction(1, 10)}
+BOUND = {"continuous": {"rate": 2}, "discrete": {"radius": Fraction(1, 2)}}
+PAIR = {"1": ["2"], "2": ["1"]}
+
+
+def plant(time, B, C, last=None):
+    """A mode at 1, driven and seen, and a fast one at the end, coupled to it."""
+    slow = FAST[time] if last is None else last
+    return MultiChannelSystem([[1, 0], [0, slow]], [B, B], [C, C], time=time, neighbors=PAIR)
+
+
+UNSEEN = ([[1], [1]], [[1, 0]])
+UNMOVED = ([[1], [0]], [[1, 1]])
+NEITHER = ([[1], [0]], [[1, 0]])
+
+
+@pytest.mark.parametrize("time", ["continuous", "discrete"])
+@pytest.mark.parametrize("ports", [UNSEEN, UNMOVED, NEITHER])
+def test_a_fast_mode_that_is_not_seen_or_not_moved_is_left_alone(time, ports):
+    system = plant(time, *ports)
+    design = design_observer(system, **BOUND[time])
+    chi = characteristic_polynomial(design.loop.matrix)
+    assert Polynomial.of(-FAST[time], 1).divides(chi)
+    (bound,) = BOUND[time].values()
+    assert StabilityRegion(time, Fraction(bound)).contains_roots_of(chi)
+    verdict = check_document(encode(design.certificate).encode())
+    assert verdict.verdict == "VALID", verdict.line()
+    assert design.estimated.ncols == 2
+    assert {agent.shared for agent in design.controller.agents} == {design.estimated.nrows}
+
+
+@pytest.mark.parametrize("time", ["continuous", "discrete"])
+@pytest.mark.parametrize("ports", [UNSEEN, UNMOVED])
+def test_a_mode_that_is_too_slow_is_refused_with_its_certificate(time, ports):
+    system = plant(time, *ports, last=-2 if time == "continuous" else Fraction(1, 2))
+    with pytest.raises(Impossible) as caught:
+        design_observer(system, **BOUND[time])
+    verdict = check_document(encode(caught.value.certificate).encode())
+    assert verdict.verdict == "VALID" and "not controllable" in verdict.theorem
+
+
+@pytest.mark.parametrize("ports", [UNSEEN, UNMOVED])
+def test_a_prescribed_spectrum_needs_every_mode(ports):
+    system = plant("continuous", *ports)
+    with pytest.raises(Impossible):
+        design_observer(system, spectrum={"feedback": [-3, -5], "error": [-5] * 5})
+
+
+def test_the_observable_part_moves_like_what_is_seen_of_the_plant():
+    system = MultiChannelSystem(
+        [[1, 0, 0], [2, 3, 0], [1, 1, 4]], [[[1], [0], [2]]], [[[1, 1, 0], [0, 2, 0]]]
+    )
+    part, L = observable_part(system)
+    assert part.n == 2
+    assert L @ system.A == part.A @ L
+    assert part.C(0) @ L == system.C(0)
+    assert part.B(0) == L @ system.B(0)
+
+
+def test_the_feedback_for_a_region_assigns_what_can_be_moved():
+    found = feedback_for_region(
+        plant("continuous", *UNMOVED), StabilityRegion("continuous", Fraction(2))
+    )
+    assert found.polynomial == Polynomial.from_roots([-3, -5])
