@@ -233,3 +233,201 @@ by exists phi => o; apply: h; apply: mem_index_enum.
 Qed.
 
 End GraphScalars.
+
+Section Kronecker.
+Variables (K : fieldType) (n m : nat).
+Notation nm := (\sum_(i < m) n)%N.
+Notation unit_vector i := (delta_mx i 0 : 'cV[K]_m).
+
+(* D (x) I *)
+Definition kronecker1 (D : 'M[K]_m) : 'M[K]_nm := \mxblock_(i < m, j < m) ((D i j)%:M : 'M[K]_n).
+
+Lemma block_of_error_input (i j : 'I_m) : block_of K n i *m error_input K n j = (i == j)%:R%:M.
+Proof.
+rewrite block_ofE; apply/matrixP => a b; rewrite !mxE -val_eqE /= tagnat.eq_Rank.
+by case: (i == j) => /=; rewrite ?mul0rn.
+Qed.
+
+Lemma block_ofE_row (i : 'I_m) : block_of K n i = \mxrow_(j < m) (((i == j)%:R)%:M : 'M[K]_n).
+Proof.
+apply/mxrowP => j; rewrite mxrowK -block_of_error_input /error_input mul_submxrow mulmx1.
+by [].
+Qed.
+
+Lemma krylov_kronecker1 (D : 'M[K]_m) i k : krylov (kronecker1 D) (error_input K n i) k =
+  \mxcol_(j < m) ((krylov D (unit_vector i) k j 0)%:M : 'M[K]_n).
+Proof.
+elim: k => [|k IH].
+  apply/mxcolP => j; rewrite mxcolK -block_ofE block_of_error_input !mxE andbT.
+  by [].
+rewrite !krylovS IH mul_mxblock_mxrow; apply: eq_mxcol => j.
+rewrite [in RHS]mxE raddf_sum /=; apply: eq_bigr => t _.
+by rewrite -scalar_mxM.
+Qed.
+
+Lemma rank_reach_kronecker1 (D : 'M[K]_m) i k : \rank (reach D (unit_vector i) k) = m ->
+  \rank (reach (kronecker1 D) (error_input K n i) k) = nm.
+Proof.
+move/eqP/rank_reachP => h; apply/eqP/rank_reachP => w wz.
+apply/mxrowP => j; rewrite submxrow0; apply/matrixP => r c; rewrite (ord1 r) [RHS]mxE.
+pose u : 'rV[K]_m := \row_t submxrow w t 0 c.
+suff u0 : u = 0 by have /matrixP/(_ 0 j) := u0; rewrite !mxE.
+apply: h => t tk; have := wz t tk; rewrite krylov_kronecker1 -{1}[w]submxrowK mul_mxrow_mxcol.
+move/matrixP/(_ 0 c) => e; apply/matrixP => r' c'; rewrite (ord1 r') (ord1 c') mxE [RHS]mxE.
+rewrite [RHS]mxE in e; rewrite -[RHS]e summxE; apply: eq_bigr => s _.
+by rewrite mul_mx_scalar [in LHS]mxE [in RHS]mxE mulrC.
+Qed.
+
+Lemma index_of_rank (A : 'M[K]_nm) (B : 'M[K]_(nm, n)) : (0 < n)%N ->
+  \rank (reach A B m) = nm -> controllability_index A B m.
+Proof.
+move=> n0 r; split=> // j jm; apply: leq_ltn_trans (rank_leq_col _) _.
+by rewrite !sum_nat_const !card_ord ltn_pmul2r.
+Qed.
+
+End Kronecker.
+
+Section Propositions.
+Variables (K : fieldType) (L : closedFieldType) (f : {rmorphism K -> L}).
+Variables (n m : nat) (p q : 'I_m -> nat) (N : 'I_m -> {set 'I_m}).
+Hypothesis inf : infinite K.
+Hypothesis hears : forall i, i \in N i.
+Hypothesis sc : strongly_connected (neighbor_arc N).
+Hypothesis n0 : (0 < n)%N.
+Notation nm := (\sum_(i < m) n)%N.
+
+Lemma differences_kronecker1 (phi : 'I_m -> 'rV[K]_m) :
+  \sum_i error_input K n i *m (\mxrow_(j < m) ((phi i 0 j)%:M : 'M[K]_n)) *m differences K n N i =
+  kronecker1 n (closed_loop (graph_system N K) phi).
+Proof.
+apply: blocks_eq => r; rewrite mulmx_sumr [LHS](bigD1 r) //= [X in _ + X]big1 => [|i ir]; last first.
+  by rewrite !mulmxA block_of_error_input eq_sym (negPf ir) mulr0n raddf0 !mul0mx.
+rewrite addr0 !mulmxA block_of_error_input eqxx mul1mx /differences mul_mxrow_mxcol.
+rewrite block_ofE /kronecker1 mxblockEv mxcolK.
+rewrite (eq_bigr (fun j => \mxrow_(k < m)
+   ((if j \in N r then phi r 0 j * ((r == k)%:R - (j == k)%:R) else 0)%:M : 'M[K]_n))) => [|j _]; last first.
+  case: ifP => _; last first.
+    by rewrite mulmx0; apply/mxrowP => k; rewrite mxrowK submxrow0 raddf0.
+  rewrite mulmxBr !block_ofE_row !mul_mxrow -mxrowB; apply: eq_mxrow => k.
+  by rewrite -!scalar_mxM mulrBr raddfB.
+rewrite -mxrow_sum; apply: eq_mxrow => k; rewrite -raddf_sum /=; congr (_%:M).
+rewrite /closed_loop add0r summxE [RHS](bigD1 r) //= [X in _ = _ + X]big1 ?addr0 => [|i ir]; last first.
+  by rewrite -mulmxA mxE big_ord1 !mxE eq_sym (negPf ir) mul0r.
+rewrite -mulmxA mxE big_ord1 [delta_mx _ _ _ _]mxE !eqxx mul1r mxE; apply: eq_bigr => j _.
+by rewrite mxE; case: ifP => _; rewrite ?mulr0 // (eq_sym r) (eq_sym j).
+Qed.
+
+(* Lemma 2 *)
+Theorem lemma_2 : exists H : 'I_m -> 'M[K]_(n, nm), forall i : 'I_m,
+  controllability_index (\sum_j error_input K n j *m H j *m differences K n N j) (error_input K n i) m.
+Proof.
+have [phi h] := lemma_2_scalars f inf sc; exists (fun i => \mxrow_(j < m) ((phi i 0 j)%:M : 'M[K]_n)) => i.
+apply: index_of_rank => //; rewrite differences_kronecker1; apply: rank_reach_kronecker1.
+exact/eqP/h.
+Qed.
+
+Variables (S : multichannel K n p q) (F : forall i, 'M[K]_(p i, n)).
+Notation E := (error_system N S F).
+
+(* Lemma 4, the gain of agent i is [K_i H_i] *)
+Theorem lemma_4 (KK : forall i, 'M[K]_(n, q i)) : exists H : 'I_m -> 'M[K]_(n, nm),
+  forall i : 'I_m,
+    controllability_index (closed_loop E (fun j => row_mx (KK j) (H j))) (error_input K n i) m.
+Proof.
+have [Hhat hH] := lemma_2.
+pose D := \sum_j error_input K n j *m Hhat j *m differences K n N j.
+pose M := error_A S F + \sum_j error_input K n j *m KK j *m (mcC S j *m block_of K n j).
+have [i _|P P0 hP] := @lines_all K [eqType of 'I_m] (fun i h => h != 0 ->
+    \rank (reach (M + h^-1 *: D) (error_input K n i) m) = nm) (index_enum [finType of 'I_m]).
+  have [P P0 hP] := lemma_3_polynomial M (hH i).1.
+  exists P => [|h Ph h0]; first exact: nonzero_at P0.
+  by apply: hP; rewrite ?invr_eq0 ?invrK.
+have [|h] := infinite_nonroot [rmorphism of idfun] inf (_ : P * 'X != 0).
+  by rewrite mulf_neq0 // polyX_eq0.
+rewrite hornerM hornerX mulf_eq0 negb_or /= => /andP[/hP rk h0].
+exists (fun j => h^-1 *: Hhat j) => i; apply: index_of_rank => //.
+have -> : closed_loop E (fun j => row_mx (KK j) (h^-1 *: Hhat j)) = M + h^-1 *: D; last first.
+  by apply: rk; rewrite ?mem_index_enum.
+rewrite /closed_loop /M /D -addrA scaler_sumr -big_split /=; congr (_ + _); apply: eq_bigr => j _.
+rewrite mul_mx_row mul_row_col; congr (_ + _).
+by rewrite -scalemxAr -scalemxAl.
+Qed.
+
+(* a gain that lets channels outside s control keeps the rank of P_s *)
+Lemma rank_row_le_pencil (L' : fieldType) n' (p' q' : 'I_m -> nat) (T : multichannel L' n' p' q')
+    (G : gains L' p' q') s lambda :
+  (\rank (row_mx (lambda%:M - closed_loop T G) (inputs T (~: s))) <= \rank (pencil T s lambda))%N.
+Proof.
+have [Y eY] : exists Y, \sum_(i in s) mcB T i *m G i *m mcC T i = Y *m outputs T s.
+  apply/submxP; apply: summx_sub => i si; rewrite eqmx_outputs.
+  by apply: submx_trans (output_space_sup _ si); rewrite submxMl.
+have [X eX] : exists X, \sum_(i in ~: s) mcB T i *m G i *m mcC T i = inputs T (~: s) *m X.
+  have : ((\sum_(i in ~: s) mcB T i *m G i *m mcC T i)^T <= (inputs T (~: s))^T)%MS.
+    rewrite linear_sum /=; apply: summx_sub => i si; rewrite -mulmxA trmx_mul eqmx_inputs trmxK.
+    by apply: submx_trans (submxMl _ _) _; apply: (sumsmx_sup i) => //; rewrite genmxE.
+  by case/submxP=> D /(congr1 trmx); rewrite trmxK trmx_mul trmxK => ->; exists D^T.
+have -> : row_mx (lambda%:M - closed_loop T G) (inputs T (~: s)) =
+    row_mx 1%:M (- Y) *m pencil T s lambda *m block_mx 1%:M 0 (- X) 1%:M.
+  rewrite mul_row_block !mul1mx mulmx0 addr0 mul_row_block !mulmx1 mulmx0 add0r mulmxN mulNmx.
+  rewrite -eX -eY; congr row_mx; rewrite /closed_loop [in LHS](bigID [pred i | i \in s]) /=.
+  rewrite opprD addrA opprD !addrA; congr (_ - _); by apply: eq_bigl => i; rewrite inE.
+exact: leq_trans (mxrankM_maxl _ _) (mxrankM_maxr _ _).
+Qed.
+
+Lemma strongly_connected_feedback_back n' (p' q' : 'I_m -> nat) (T : multichannel K n' p' q')
+    (G : gains K p' q') : strongly_connected (transfer_arc (feedback T G)) ->
+  strongly_connected (transfer_arc T).
+Proof.
+move/(strongly_connected_feedback (fun i => - G i)); rewrite /transfer_arc /= closed_loop_feedback.
+have -> // : closed_loop T (fun i => G i + - G i) = mcA T.
+by rewrite /closed_loop big1 ?addr0 // => i _; rewrite subrr mulmx0 mul0mx.
+Qed.
+
+(* Proposition 1 *)
+Theorem proposition_1 : jointly_observable S -> exists KH : gains K (fun=> n) (fun i => q i + nm)%N,
+  forall i : 'I_m, controllability_index (closed_loop E KH) (mcB E i) m /\
+                   controllable (closed_loop E KH)^T (mcC E i)^T.
+Proof.
+move=> jo; have [H hH] := lemma_4 (fun i => 0); set G := fun j => row_mx _ (H j) in hH.
+have ctr i : controllable (closed_loop E G) (mcB E i).
+  by apply: (@controllable_blocks _ _ _ _ _ m); case: (hH i).
+have nofix (lambda : L) : ~ fixed_over f E lambda.
+  rewrite anderson_clements_over => -[s]; rewrite ltnNge => /negP; apply.
+  have [->|sT] := eqVneq s setT.
+    by rewrite jointly_observable_pencil //; apply: lemma_1_observable.
+  have [i si] : exists i, i \notin s.
+    by apply/existsP; rewrite -negb_forall; apply: contra sT => /forallP h; apply/eqP/setP => i; rewrite h inE.
+  apply: leq_trans (rank_row_le_pencil (map_system f E) (fun i => map_mx f (G i)) s lambda).
+  rewrite -closed_loop_map -{1}(controllable_hautus f lambda (ctr i)).
+  rewrite -mxrank_tr -[X in (_ <= X)%N]mxrank_tr !tr_row_mx; apply: mxrankS.
+  have sub : ((map_mx f (mcB E i))^T <= (inputs (map_system f E) (~: s))^T)%MS.
+    by rewrite eqmx_inputs trmxK; apply: (sumsmx_sup i); rewrite ?inE // genmxE.
+  rewrite -(addsmxE _ (map_mx f (mcB E i))^T) -(addsmxE _ (inputs _ _)^T).
+  by rewrite addsmxS.
+have sct : strongly_connected (transfer_arc E).
+  apply: (strongly_connected_feedback_back (G := G)); apply/strongly_connectedP => s s0 sT.
+  have /strongly_connectedP/(_ s s0 sT)[j [i [Nji sj si]]] := sc.
+  exists j, i; split=> //; apply: contraT => na.
+  have z t : mcC E i *m krylov (closed_loop E G) (mcB E j) t = 0.
+    by apply/eqP; apply: contraNT na => h; apply/transfer_arcP; exists t.
+  have C0 : mcC E i = 0.
+    apply/row_matrixP => a; rewrite row0; move/controllableP: (ctr j); apply=> t.
+    by rewrite -row_mul z row0.
+  have : mcC E i *m error_input K n j = 0 by rewrite C0 mul0mx.
+  rewrite /= mul_col_mx -[0]col_mx0 => /eq_col_mx[_ /differences_eq0/(_ j Nji)].
+  rewrite !block_of_error_input eqxx => /matrixP/(_ (Ordinal n0) (Ordinal n0)).
+  have -> : (i == j) = false by apply: contraNF sj => /eqP <-.
+  by rewrite raddf0 !mxE eqxx => /esym/eqP; rewrite oner_eq0.
+have [KH h] := corfmat_morse inf sct nofix.
+pose P (ob : 'I_m * bool) (X : 'M[K]_nm) : Prop := if ob.2
+  then \rank (reach X (mcB E ob.1) m) == nm else \rank (reach X^T (mcC E ob.1)^T nm) == nm.
+have oP ob : open_on_lines (P ob).
+  by case: ob => o [] /=; [apply: open_reach | apply: open_reach_tr].
+have [ob _|KH' h'] := gains_common inf (S := E) (js := index_enum [finType of 'I_m * bool]) oP.
+  case: ob => o []; rewrite /P /=; first by exists G; apply/eqP; case: (hH o).
+  by exists KH; case: (h o).
+exists KH' => o; split; last exact: (h' (o, false) (mem_index_enum _)).
+by apply: index_of_rank => //; apply/eqP; exact: (h' (o, true) (mem_index_enum _)).
+Qed.
+
+End Propositions.
