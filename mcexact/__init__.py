@@ -31,6 +31,8 @@ if TYPE_CHECKING:
     from mcexact.derived.held import held_system as held_system
     from mcexact.derived.integrators import setpoint_system as setpoint_system
     from mcexact.derived.lifted import lifted_system as lifted_system
+    from mcexact.model.controller_file import load_controller as load_controller
+    from mcexact.model.controller_file import save_controller as save_controller
     from mcexact.model.local_controllers import local_controllers as local_controllers
     from mcexact.model.neighbor_graph import NeighborGraph as NeighborGraph
     from mcexact.model.statespace import loop_from_statespace as loop_from_statespace
@@ -38,7 +40,12 @@ if TYPE_CHECKING:
     from mcexact.model.system_file import load_system as load_system
     from mcexact.model.system_file import save_system as save_system
     from mcexact.report.verdict import check as check
+    from mcexact.simulation.trajectory import simulate as simulate
     from mcexact.synthesis.certify import certify_controller as certify_controller
+    from mcexact.synthesis.decentralized import design_decentralized as design_decentralized
+    from mcexact.synthesis.extended import design_extended as design_extended
+    from mcexact.synthesis.observer import design_observer as design_observer
+    from mcexact.synthesis.setpoint import design_setpoint as design_setpoint
 
 _HOME = {
     "MultiChannelSystem": "model.system",
@@ -49,6 +56,10 @@ _HOME = {
     "check": "report.verdict",
     "completeness": "analysis.completeness",
     "controllability_indices": "analysis.controllability_indices",
+    "design_observer": "synthesis.observer",
+    "design_decentralized": "synthesis.decentralized",
+    "design_extended": "synthesis.extended",
+    "design_setpoint": "synthesis.setpoint",
     "dual": "derived.dual",
     "error_system": "derived.error_system",
     "extended_system": "derived.extended",
@@ -57,6 +68,7 @@ _HOME = {
     "joint_controllability": "analysis.controllability",
     "joint_observability": "analysis.controllability",
     "lifted_system": "derived.lifted",
+    "load_controller": "model.controller_file",
     "load_system": "model.system_file",
     "local_controllers": "model.local_controllers",
     "loop_from_statespace": "model.statespace",
@@ -64,9 +76,11 @@ _HOME = {
     "minimal_shared_dimensions": "analysis.allocation",
     "observability_indices": "analysis.controllability_indices",
     "pencil_rank": "analysis.pencil",
+    "save_controller": "model.controller_file",
     "save_system": "model.system_file",
     "setpoint_system": "derived.integrators",
     "shared_dimension_bound": "analysis.allocation",
+    "simulate": "simulation.trajectory",
     "transfer_graph": "analysis.transfer_graph",
 }
 

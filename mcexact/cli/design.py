@@ -10,7 +10,7 @@ from mcexact.cli.commands import Commands
 @click.group(
     name="design",
     cls=Commands,
-    names=("observer",),
+    names=("decentralized", "observer", "extended", "setpoint"),
     prefix="design_",
     short_help="Design a controller, with its proof.",
 )

@@ -14,8 +14,10 @@ from mcexact.analysis.allocation import (
 )
 from mcexact.derived.extended import Share, checked_dimensions
 from mcexact.errors import Impossible, InputError, UsageError
+from mcexact.model.controller import Controller
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_graph
+from mcexact.synthesis.gate import CertifiedClosedLoop
 from mcexact.synthesis.network_candidates import ArithmeticKind, Progress
 from mcexact.synthesis.network_design import NetworkDesign, design_network
 from mcexact.synthesis.networks import NetworkKind, shared_network
@@ -39,6 +41,31 @@ class ExtendedDesign:
 
     design: NetworkDesign
     allocation: SharedDimensions | SharedDimensionBound | None
+
+    @property
+    def controller(self) -> Controller:
+        """m agent programs."""
+        return self.design.controller
+
+    @property
+    def loop(self) -> CertifiedClosedLoop:
+        """The loop with the proof of its spectrum."""
+        return self.design.loop
+
+    @property
+    def order(self) -> int:
+        """Σ n_i + Σ k_q."""
+        return self.design.order
+
+    @property
+    def height(self) -> int:
+        """Bits of the longest numerator or denominator in the controller."""
+        return self.design.height
+
+    @property
+    def arithmetic(self) -> str:
+        """``"exact"`` or ``"float"``."""
+        return self.design.arithmetic
 
     @property
     def dimensions(self) -> tuple[int, ...]:

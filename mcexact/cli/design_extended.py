@@ -1,0 +1,68 @@
+"""`mcexact design extended`: shared sub-states of least dimension, and one channel controller."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import click
+
+from mcexact.cli import designing
+
+
+@click.command(name="extended", short_help="Least shared sub-states, and a channel controller.")
+@click.argument("file")
+@designing.design_options(
+    'JSON {"closed_loop": P}, P a list of coefficients or of roots and pairs, without constraint.'
+)
+@click.option(
+    "--dimensions",
+    default="minimal",
+    show_default=True,
+    metavar="WHICH",
+    help="minimal, bound (Theorem 2's), or n_1,n_2,… in the order of the channels.",
+)
+@click.option(
+    "--share",
+    type=click.Choice(["outputs+states", "states"]),
+    help="What agents send; both by default, sub-states alone where they hold.",
+)
+@click.option(
+    "--network",
+    type=click.Choice(["extended", "lifted", "held"]),
+    help="With delays: lifted (0 stays fixed, the default) or held (nothing does).",
+)
+@click.option(
+    "--free",
+    "free_assignability",
+    is_flag=True,
+    help="Share enough for the whole spectrum to be assigned without splitting it.",
+)
+def command(
+    file: str,
+    dimensions: str,
+    share: str | None,
+    network: str | None,
+    free_assignability: bool,
+    **given: Any,
+) -> None:
+    """Design a distributed controller through the extended system of FILE (- for standard input).
+
+    FILE needs a neighbor graph, and may have delays in discrete time. Agents share sub-states; the
+    controller file holds how long they hold them. If no sharing is enough the status is 1.
+    """
+    sizes: str | list[int] = dimensions
+    if dimensions not in ("minimal", "bound"):
+        try:
+            sizes = [int(part) for part in dimensions.split(",")]
+        except ValueError:
+            raise click.BadParameter(
+                f"expected minimal, bound or integers such as 0,0,1, found '{dimensions}'",
+                param_hint="--dimensions",
+            ) from None
+    wanted = {
+        "dimensions": sizes,
+        "share": share,
+        "network": network,
+        "free_assignability": free_assignability,
+    }
+    designing.answer("extended", file, given, wanted)

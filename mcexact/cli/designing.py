@@ -1,0 +1,157 @@
+"""What the commands that design have in common: their options, and the way to an answer."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any, TypeVar
+
+import click
+
+from mcexact.cli import options
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+HOW = ("rate", "radius", "arithmetic")
+"""The options that the functions of `mcexact.synthesis` take under the same names."""
+
+
+def design_options(spectrum_help: str) -> Callable[[F], F]:
+    """The options of every design, and the arguments of `answer`."""
+    given = (
+        click.option(
+            "--rate", type=options.rational, help="Continuous time: every real part below -RATE."
+        ),
+        click.option(
+            "--radius", type=options.rational, help="Discrete time: every modulus below RADIUS."
+        ),
+        click.option("--spectrum", metavar="FILE", help=spectrum_help),
+        click.option(
+            "--arithmetic",
+            type=click.Choice(["exact", "float"]),
+            default="exact",
+            show_default=True,
+            help="Exact assigns every number, for small systems; float meets a rate or radius. "
+            "The proof is exact either way.",
+        ),
+        click.option(
+            "--agent",
+            metavar="NAME",
+            help="Who carries the channel controller; else who needs the least order.",
+        ),
+        click.option(
+            "-o",
+            "--output",
+            type=click.Path(path_type=Path),
+            metavar="FILE",
+            help="Write the controller here; else it goes to standard output.",
+        ),
+        options.certificates,
+        options.as_json,
+        options.work_limits,
+        options.file_limits,
+    )
+
+    def decorate(function: F) -> F:
+        for option in reversed(given):
+            function = option(function)
+        return function
+
+    return decorate
+
+
+def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any]) -> None:
+    """Design in a child process, then write the controller, the certificates and the summary.
+
+    Parameters
+    ----------
+    name : str
+        The command: ``design_`` and this is the function of `mcexact.synthesis`.
+    file : str
+    given : dict
+        The values of `design_options`.
+    wanted : mapping
+        Further keywords of the function.
+    """
+    from mcexact.cli.files import directory, read
+    from mcexact.cli.output import emit, emit_json
+    from mcexact.cli.supervision import supervised
+    from mcexact.errors import Impossible
+    from mcexact.model.atomic import write_text
+    from mcexact.report.text import plain
+
+    place = "standard input" if file == "-" else file
+    moved = options.given({k: given[k] for k in ("bytes", "depth", "digits", "exponent")})
+    spectrum = given["spectrum"]
+    prescribed = None if spectrum is None else (spectrum, read(spectrum, spectrum, moved))
+    keywords = {**wanted, "q": given["agent"], **{key: given[key] for key in HOW}}
+    done = supervised(
+        _designed,
+        name,
+        (place, read(file, place, moved)),
+        prescribed,
+        moved,
+        keywords,
+        doing=f"designing for {place}",
+        timeout=given["timeout"],
+        max_memory=given["max_memory"],
+    )
+    if given["certificates"] is not None and done["certificates"]:
+        folder = directory(given["certificates"])
+        for written, text in done["certificates"].items():
+            write_text(folder / written, text)
+    if "impossible" in done:
+        raise Impossible(done["impossible"])
+    if given["output"] is not None:
+        write_text(given["output"], done["controller"])
+    if given["as_json"]:
+        if given["certificates"] is not None:
+            done["json"]["certificates"] = list(done["certificates"])
+        emit_json(done["json"])
+    elif given["output"] is not None:
+        emit(plain(done["tables"]))
+    else:
+        emit(done["controller"])
+
+
+def _designed(
+    name: str,
+    plant: tuple[str, bytes],
+    prescribed: tuple[str, bytes] | None,
+    limits: dict[str, int],
+    wanted: dict[str, Any],
+) -> dict[str, Any]:
+    """Design, and put the answer into text: what the child process does."""
+    import importlib
+
+    from mcexact.certificate import codec
+    from mcexact.errors import Impossible, InputError
+    from mcexact.exact.rational import Limits
+    from mcexact.model.controller_file import controller_text
+    from mcexact.model.json_text import parse
+    from mcexact.model.system_file import read_system
+    from mcexact.report.network_view import design_tables, design_view
+
+    bounds = Limits(**limits)
+    design = getattr(importlib.import_module(f"mcexact.synthesis.{name}"), f"design_{name}")
+    spectrum = None
+    try:
+        system = read_system(plant[1], limits=bounds)
+    except InputError as error:
+        raise error.within(plant[0]) from None
+    try:
+        if prescribed is not None:
+            spectrum = parse(prescribed[1], bounds)
+        found = design(system, spectrum=spectrum, **wanted)
+    except InputError as error:
+        raise error.within(prescribed[0] if prescribed is not None else plant[0]) from None
+    except Impossible as refused:
+        evidence = refused.certificate
+        written = {} if evidence is None else {f"{evidence.kind}.json": codec.encode(evidence)}
+        return {"impossible": str(refused), "certificates": written}
+    return {
+        "controller": controller_text(found.controller),
+        "certificates": {f"{k}.json": codec.encode(c) for k, c in found.certificates.items()},
+        "json": design_view(name, found),
+        "tables": design_tables(found),
+    }
