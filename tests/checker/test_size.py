@@ -77,3 +77,16 @@ def test_valid_is_said_in_one_place() -> None:
         and any(isinstance(arg, ast.Constant) and arg.value == "VALID" for arg in node.args)
     ]
     assert len(made) == 1
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
+def test_messages_are_ascii(path: Path) -> None:
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    strings = {
+        id(node.value)
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
+    }
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Constant) and isinstance(node.value, str):
+            assert id(node) in strings or node.value.isascii() or node.value == "\ufeff", node.value
