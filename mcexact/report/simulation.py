@@ -17,7 +17,6 @@ from mcexact.report.figures import simulation_png
 from mcexact.report.simulation_page import simulation_page
 from mcexact.report.text import Table
 from mcexact.report.trajectory import error_norms, trajectory_csv, trajectory_rows
-from mcexact.simulation.precision import double_precision_warning
 from mcexact.simulation.trajectory import InitialState, Trajectory, default_initial, simulate
 
 # Beyond this the numbers in the characteristic polynomial take longer than anybody waits.
@@ -140,11 +139,8 @@ def run_report(
         reference=_by_channel(system, reference),
         arithmetic=arithmetic,
     )
-    warnings = []
-    if run.arithmetic == "float":
-        found = double_precision_warning(system, controller)
-        warnings = [found] if found else []
-    return SimulationReport(system.name or "simulation", run, spectrum, tuple(warnings))
+    warnings = () if run.warning is None else (run.warning,)
+    return SimulationReport(system.name or "simulation", run, spectrum, warnings)
 
 
 def _horizon(time: str, spectrum: LoopSpectrum | None, states: int) -> Fraction:

@@ -16,6 +16,7 @@ from mcexact.model.system import MultiChannelSystem, with_graph
 from mcexact.simulation.arithmetic import Native, arithmetic_named
 from mcexact.simulation.continuous import integrated, taylor
 from mcexact.simulation.network import Network, Snapshot
+from mcexact.simulation.precision import double_precision_warning
 
 
 @dataclass(frozen=True)
@@ -47,6 +48,8 @@ class Trajectory:
     times : tuple of Fraction
     snapshots : tuple of Snapshot
         One for each time.
+    warning : str or None
+        In double precision: a sentence if the loop has entries too large for it.
     """
 
     time: str
@@ -54,6 +57,7 @@ class Trajectory:
     agents: tuple[str, ...]
     times: tuple[Fraction, ...]
     snapshots: tuple[Snapshot, ...]
+    warning: str | None = None
 
     def has_estimates(self) -> bool:
         """Whether every agent shares as many numbers as the plant has states."""
@@ -143,7 +147,12 @@ def simulate(
             snapshots = integrated(network, times)
         else:
             snapshots = taylor(network, times, digits)
-    return Trajectory(system.time, numbers.name, system.names, tuple(times), tuple(snapshots))
+    warning = None
+    if numbers.name == "float":
+        warning = double_precision_warning(system, controller, found)
+    return Trajectory(
+        system.time, numbers.name, system.names, tuple(times), tuple(snapshots), warning
+    )
 
 
 def default_initial(system: MultiChannelSystem, controller: Controller) -> InitialState:

@@ -147,7 +147,8 @@ def design_observer(
         Instead of a spectrum, or besides it, to be certified: every eigenvalue has real part below
         −rate (continuous time), or modulus below radius (discrete time).
     gains : sequence of m matrices, optional
-        F_i (p_i×n) from outside; then ``spectrum`` has no ``"feedback"``.
+        F_i (p_i×n) from outside; then ``spectrum`` has no ``"feedback"``.  With F_i = 0 this is the
+        open-loop observer of section II-B: the agents estimate and do not act.
     order : {"least"}, optional
         A channel controller of order one less than the smaller of the two indices; by default it
         has order m − 1.
@@ -225,7 +226,9 @@ let one agent control and observe all estimation errors
 
 def _certified(task: ObserverTask) -> ObserverDesign:
     """Search, write the programs, and pass the gate."""
+    _require_bound(task, task.feedback.polynomial, "A + sum B_i F_i")
     lists, made, polynomial = best_channel_controller(task)
+    _require_bound(task, polynomial, "the error system")
     task.tell("certificate")
     controller = observer_programs(
         task.system, task.graph, task.agent, task.feedback.gains, lists.gains, made
@@ -243,6 +246,18 @@ def _certified(task: ObserverTask) -> ObserverDesign:
     return ObserverDesign(
         controller, loop, agent, task.feedback, polynomial, lists.gains, made, unit
     )
+
+
+def _require_bound(task: ObserverTask, polynomial: Polynomial, what: str) -> None:
+    """Refuse gains or a spectrum from outside that do not meet a rate or radius given besides."""
+    if task.bound is None:
+        return
+    region = StabilityRegion(task.system.time, task.bound)
+    if not region.contains_roots_of(polynomial):
+        raise UsageError(
+            f"the spectrum of {what} that was asked for is not in the region {region} that was "
+            "asked for besides; give the one or the other"
+        )
 
 
 def _in_floating_point(

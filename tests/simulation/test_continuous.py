@@ -93,3 +93,7 @@ def test_large_entries_are_warned_of(design):
     controller = Controller("continuous", "", (AgentProgram("1", 0, 0),))
     warning = double_precision_warning(plant, controller)
     assert warning is not None and "up to 1e+06" in warning
+    run = simulate(plant, controller, horizon="1/100", points=1)
+    assert run.warning == warning
+    exact = simulate(plant, controller, horizon="1/100", points=1, arithmetic="multiprecision")
+    assert exact.warning is None

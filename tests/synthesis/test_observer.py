@@ -79,6 +79,28 @@ def test_gains_from_outside_are_used_as_they_are():
     assert verdict_on(design.certificate).verdict == "VALID"
 
 
+def test_without_feedback_it_is_the_open_loop_observer():
+    system = three_channels()
+    zero = [Matrix.zeros(1, 3)] * 3
+    design = design_observer(system, gains=zero, spectrum={"error": [-2] * 11})
+    assert design.feedback.polynomial == Polynomial.from_roots([1, 1, 1])
+    assert all(not agent.input.shared for agent in design.controller.agents)
+    assert verdict_on(design.certificate).verdict == "VALID"
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"gains": [[[0, 0, 0]]] * 3, "rate": 1},
+        {"spectrum": {"feedback": [-1] * 3, "error": [-3] * 11}, "rate": 2},
+        {"spectrum": {"feedback": [-3] * 3, "error": [-1] * 11}, "rate": 2},
+    ],
+)
+def test_a_spectrum_that_misses_the_rate_besides_it_is_wrong_usage(options):
+    with pytest.raises(UsageError, match="not in the region"):
+        design_observer(three_channels(), **options)
+
+
 def test_the_least_order_can_be_below_the_usual_one():
     graph = NeighborGraph.complete(("1", "2", "3"))
     system = three_channels().with_neighbors(graph)
