@@ -10,7 +10,11 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from mcexact.analysis.allocation import minimal_shared_dimensions as minimal_shared_dimensions
     from mcexact.analysis.allocation import shared_dimension_bound as shared_dimension_bound
+    from mcexact.analysis.assignability import assignability as assignability
     from mcexact.analysis.communication import minimal_communication as minimal_communication
+    from mcexact.analysis.complementary_subsystem import (
+        complementary_subsystem as complementary_subsystem,
+    )
     from mcexact.analysis.completeness import completeness as completeness
     from mcexact.analysis.controllability import joint_controllability as joint_controllability
     from mcexact.analysis.controllability import joint_observability as joint_observability
@@ -20,10 +24,16 @@ if TYPE_CHECKING:
     from mcexact.analysis.controllability_indices import (
         observability_indices as observability_indices,
     )
+    from mcexact.analysis.error_gains import error_gains as error_gains
+    from mcexact.analysis.exceptional_gains import exceptional_gains as exceptional_gains
     from mcexact.analysis.fixed_spectrum import fixed_spectrum as fixed_spectrum
     from mcexact.analysis.pencil import pencil_rank as pencil_rank
+    from mcexact.analysis.single_channel_gains import (
+        single_channel_gains as single_channel_gains,
+    )
     from mcexact.analysis.stability import certify_stability as certify_stability
     from mcexact.analysis.transfer_graph import transfer_graph as transfer_graph
+    from mcexact.crosscheck.table import crosscheck as crosscheck
     from mcexact.derived.augmented_outputs import augmented_outputs as augmented_outputs
     from mcexact.derived.dual import dual as dual
     from mcexact.derived.error_system import error_system as error_system
@@ -50,18 +60,23 @@ if TYPE_CHECKING:
 _HOME = {
     "MultiChannelSystem": "model.system",
     "NeighborGraph": "model.neighbor_graph",
+    "assignability": "analysis.assignability",
     "augmented_outputs": "derived.augmented_outputs",
     "certify_controller": "synthesis.certify",
     "certify_stability": "analysis.stability",
     "check": "report.verdict",
+    "complementary_subsystem": "analysis.complementary_subsystem",
     "completeness": "analysis.completeness",
     "controllability_indices": "analysis.controllability_indices",
-    "design_observer": "synthesis.observer",
+    "crosscheck": "crosscheck.table",
     "design_decentralized": "synthesis.decentralized",
     "design_extended": "synthesis.extended",
+    "design_observer": "synthesis.observer",
     "design_setpoint": "synthesis.setpoint",
     "dual": "derived.dual",
+    "error_gains": "analysis.error_gains",
     "error_system": "derived.error_system",
+    "exceptional_gains": "analysis.exceptional_gains",
     "extended_system": "derived.extended",
     "fixed_spectrum": "analysis.fixed_spectrum",
     "held_system": "derived.held",
@@ -81,6 +96,7 @@ _HOME = {
     "setpoint_system": "derived.integrators",
     "shared_dimension_bound": "analysis.allocation",
     "simulate": "simulation.trajectory",
+    "single_channel_gains": "analysis.single_channel_gains",
     "transfer_graph": "analysis.transfer_graph",
 }
 

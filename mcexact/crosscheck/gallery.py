@@ -1,0 +1,223 @@
+"""Systems on which floating point gives a wrong structural verdict, and why it does."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from mcexact.errors import InternalError, UsageError
+from mcexact.exact.linear_algebra import inverse
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.polynomial import Polynomial
+from mcexact.model import gallery as published
+from mcexact.model.names import nearest, quoted
+from mcexact.model.system import MultiChannelSystem
+
+
+@dataclass(frozen=True)
+class Exhibit:
+    """A system, a question that floating point answers wrongly, and the reason.
+
+    Attributes
+    ----------
+    name : str
+    question : str
+        As in a `CrossCheck`.
+    why : str
+    make : callable
+        Gives the system.
+    """
+
+    name: str
+    question: str
+    why: str
+    make: Callable[[], MultiChannelSystem]
+
+
+def exhibits() -> tuple[Exhibit, ...]:
+    """All of them, published plants first.
+
+    Examples
+    --------
+    >>> len(exhibits()) >= 10
+    True
+    """
+    return (*_PUBLISHED, *_MADE)
+
+
+def exhibit(name: str) -> Exhibit:
+    """The exhibit of this name.
+
+    Raises
+    ------
+    UsageError
+        If there is none.
+    """
+    found = {each.name: each for each in exhibits()}
+    if name not in found:
+        raise UsageError(f"there is no exhibit {quoted(name)}{nearest(name, list(found))}")
+    return found[name]
+
+
+def _from_gallery(name: str) -> Callable[[], MultiChannelSystem]:
+    """A published system, loaded when it is asked for."""
+    return lambda: published.load(name)
+
+
+def _published(name: str, question: str, why: str) -> Exhibit:
+    return Exhibit(name, question, why, _from_gallery(name))
+
+
+_PUBLISHED = (
+    _published(
+        "compleib-tg1",
+        "joint controllability",
+        "the powers of A grow apart by more than 16 digits, so that columns of the controllability "
+        "matrix that are small against the largest pass for zero",
+    ),
+    _published(
+        "compleib-rea3-m1",
+        "joint observability",
+        "time constants of a reactor spread over many decades: of the 10 observable directions "
+        "the tolerance, relative to the largest one, leaves 1",
+    ),
+    _published(
+        "compleib-cse1",
+        "stability of A",
+        "an eigenvalue lies exactly on the boundary; the computed one falls on the stable side",
+    ),
+    _published(
+        "siljak-two-subsystems-farina",
+        "stability of A",
+        "an eigenvalue is exactly 0; the computed one is a negative rounding error",
+    ),
+    _published(
+        "farina-three-rooms",
+        "transfer graph",
+        "heat flows so slowly that the numerators are below the absolute tolerance, although "
+        "every room warms every other one",
+    ),
+    _published(
+        "hidden-triple-mode",
+        "fixed modes, 8 digits",
+        "a fixed mode that is a triple eigenvalue is computed with an error of the order of the "
+        "cube root of the machine precision, other in every draw, so that no digits agree",
+    ),
+    _published(
+        "liu2020-unimodular",
+        "any fixed mode, pencils",
+        "the pencil loses rank at the eigenvalue 1 exactly, but the computed eigenvalue is off by "
+        "the square root of the machine precision, and there it has full rank",
+    ),
+    _published(
+        "slicot-ctdsx-2-2-arnold-laub-eps1e-6",
+        "fixed modes, 8 digits",
+        "a mode is controllable and observable to 1e-6 each, so gains move it by 1e-12: rounding "
+        "takes that for not at all",
+    ),
+)
+
+
+def _integers_to_twenty() -> MultiChannelSystem:
+    """diag(1, …, 20) with one input on every state."""
+    A = [[(i + 1) * (i == j) for j in range(20)] for i in range(20)]
+    return MultiChannelSystem(A, [[[1]] * 20], [[[1] * 20]], name="diag(1, ..., 20)")
+
+
+def _hidden_block() -> MultiChannelSystem:
+    """A Jordan block of size 6 at 2 whose first state no input reaches, in other coordinates."""
+    J = [[2 * (i == j) + (i == j + 1) for j in range(6)] for i in range(6)]
+    S = _unimodular(6)
+    back = inverse(S)
+    if back is None:
+        raise InternalError("a product of triangular matrices with unit diagonals is singular")
+    A = S @ Matrix.from_integers(J) @ back
+    B = S @ Matrix.column([0, 1, 0, 0, 0, 0])
+    C = Matrix.from_integers([[1, 0, 0, 0, 0, 0]])
+    return MultiChannelSystem(A, [B], [C], name="an unreachable state of a defective block")
+
+
+def _slow_and_fast() -> MultiChannelSystem:
+    """Two decoupled states, one of them reached by an input of 10⁻²⁰."""
+    return MultiChannelSystem([[1, 0], [0, 2]], [[[1], ["1e-20"]]], [[[1, 1]]], name="a weak input")
+
+
+def _beyond_doubles() -> MultiChannelSystem:
+    """Two inputs whose matrix of integers has determinant −1."""
+    large = 2**53
+    return MultiChannelSystem(
+        [[-1, 0], [0, -1]],
+        [[[large + 1], [large]], [[large], [large - 1]]],
+        [[[1, 0]], [[0, 1]]],
+        name="integers beyond 2^53",
+    )
+
+
+def _tenfold_pole() -> MultiChannelSystem:
+    """A stable discrete-time system whose one eigenvalue, 99/100, has multiplicity 10."""
+    p = Polynomial.of("-99/100", 1) ** 10
+    rows = [[int(j == i + 1) for j in range(10)] for i in range(9)]
+    A = Matrix.from_rows([*rows, [-c for c in p.coefficients[:10]]])
+    B, C = Matrix.column([0] * 9 + [1]), Matrix.from_rows([[1] + [0] * 9])
+    return MultiChannelSystem(A, [B], [C], time="discrete", name="a pole of multiplicity 10")
+
+
+def _stiff_chain() -> MultiChannelSystem:
+    """Six states in a row, each a thousand times faster than the one before."""
+    A = [[-(1000**i) * (i == j) + (i == j + 1) for j in range(6)] for i in range(6)]
+    return MultiChannelSystem(
+        A, [[[1], [0], [0], [0], [0], [0]]], [[[0, 0, 0, 0, 0, 1]]], name="a stiff chain"
+    )
+
+
+def _unimodular(n: int) -> Matrix:
+    """An integer matrix of determinant 1."""
+    lower = Matrix.from_integers(
+        [[1 if i == j else (i + 2 * j) % 5 - 2 if i > j else 0 for j in range(n)] for i in range(n)]
+    )
+    return lower @ lower.T
+
+
+_MADE = (
+    Exhibit(
+        "integers-to-twenty",
+        "joint controllability",
+        "the columns of the controllability matrix are powers of 1, …, 20, up to 20^19: numpy's "
+        "tolerance leaves 7 of the 20 directions",
+        _integers_to_twenty,
+    ),
+    Exhibit(
+        "unreachable-state",
+        "joint controllability, Hautus",
+        "the uncontrollable mode belongs to a defective eigenvalue; where it is computed to be, "
+        "the rank is full",
+        _hidden_block,
+    ),
+    Exhibit(
+        "weak-input",
+        "joint controllability",
+        "an input of 10^-20 is an input: the tolerance, relative to the other one, drops it",
+        _slow_and_fast,
+    ),
+    Exhibit(
+        "beyond-doubles",
+        "joint controllability, Hautus",
+        "2^53 + 1 is read as 2^53, and even unrounded the determinant, -1, would be far below the "
+        "tolerance: two inputs pass for one",
+        _beyond_doubles,
+    ),
+    Exhibit(
+        "tenfold-pole",
+        "stability of A",
+        "an eigenvalue 99/100 of multiplicity 10 is computed as a ring around it, whose radius is "
+        "about the tenth root of the machine precision; a part of it is outside the unit circle",
+        _tenfold_pole,
+    ),
+    Exhibit(
+        "stiff-chain",
+        "controllability index",
+        "each state is a thousand times faster than the one before: the ranks of the first blocks "
+        "never reach 6 in double precision",
+        _stiff_chain,
+    ),
+)

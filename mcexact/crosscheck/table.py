@@ -1,0 +1,323 @@
+"""Every floating-point verdict about a system beside the exact one, disagreements named."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from mcexact.analysis.completeness import completeness
+from mcexact.analysis.controllability import joint_controllability, joint_observability
+from mcexact.analysis.controllability_indices import (
+    controllability_indices,
+    observability_indices,
+)
+from mcexact.analysis.fixed_spectrum import FixedSpectrum, fixed_spectrum
+from mcexact.analysis.transfer_graph import transfer_graph
+from mcexact.exact.floats import matrix_to_float
+from mcexact.exact.linear_algebra import characteristic_polynomial
+from mcexact.exact.location import StabilityRegion
+from mcexact.floating import anderson_clements, controllability, fixed_modes, margins
+from mcexact.floating.fixed_mode_distance import FixedModeDistance, fixed_mode_distance
+from mcexact.floating.transfer_graph import transfer_arcs
+from mcexact.model.system import MultiChannelSystem
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+_SEED = 0
+_DIGITS = (6, 8, 10)
+
+
+@dataclass(frozen=True)
+class CrossCheck:
+    """One question, answered twice.
+
+    Attributes
+    ----------
+    question : str
+    call : str
+        What was called, with its default tolerance.
+    floating, exact : str
+        The two answers in words.
+    agree : bool or None
+        None if the floating-point call gave no answer.
+    """
+
+    question: str
+    call: str
+    floating: str
+    exact: str
+    agree: bool | None
+
+
+@dataclass(frozen=True)
+class CrossChecks:
+    """The table of a system.
+
+    Attributes
+    ----------
+    system : MultiChannelSystem
+    rows : tuple of CrossCheck
+    distance : FixedModeDistance or None
+        An upper bound, in floating point, on the distance to having a fixed mode.
+    """
+
+    system: MultiChannelSystem
+    rows: tuple[CrossCheck, ...]
+    distance: FixedModeDistance | None
+
+    @property
+    def disagreements(self) -> tuple[CrossCheck, ...]:
+        """The rows in which floating point answered, and wrongly."""
+        return tuple(row for row in self.rows if row.agree is False)
+
+
+@dataclass(frozen=True)
+class _Floats:
+    """The matrices of a system as arrays."""
+
+    A: Array
+    B: tuple[Array, ...]
+    C: tuple[Array, ...]
+
+    @property
+    def inputs(self) -> Array:
+        """All columns of all B_i."""
+        import numpy as np
+
+        return np.hstack([np.zeros((len(self.A), 0)), *self.B])
+
+    @property
+    def outputs(self) -> Array:
+        """All rows of all C_i."""
+        import numpy as np
+
+        return np.vstack([np.zeros((0, len(self.A))), *self.C])
+
+
+def crosscheck(system: MultiChannelSystem) -> CrossChecks:
+    """Answer structural questions in floating point, as practice does, and exactly.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+
+    Notes
+    -----
+    The floating-point functions are those of numpy, scipy and python-control at their default
+    tolerances, on the floats nearest to the entries.  Draws are seeded.
+
+    Examples
+    --------
+    Rank 7 in numpy, 20 in truth:
+
+    >>> A = [[(i + 1) * (i == j) for j in range(20)] for i in range(20)]
+    >>> plant = MultiChannelSystem(A, [[[1]] * 20], [[[1] * 20]])
+    >>> row = crosscheck(plant).disagreements[0]
+    >>> row.question, row.floating, row.exact
+    ('joint controllability', 'no, rank 7 of 20', 'yes, rank 20 of 20')
+    """
+    floats = _Floats(
+        matrix_to_float(system.A),
+        tuple(matrix_to_float(system.B(i)) for i in range(system.m)),
+        tuple(matrix_to_float(system.C(i)) for i in range(system.m)),
+    )
+    spectrum = fixed_spectrum(system)
+    rows = [
+        *_controllability(system, floats),
+        *_indices(system, floats),
+        *_fixed_modes(system, floats, spectrum),
+        *_graph(system, floats),
+        _stability(system, floats),
+    ]
+    distance = _answer(lambda: fixed_mode_distance(floats.A, floats.B, floats.C))
+    return CrossChecks(system, tuple(rows), None if isinstance(distance, _NoAnswer) else distance)
+
+
+@dataclass(frozen=True)
+class _NoAnswer:
+    """A call that raised."""
+
+    reason: str
+
+    def __str__(self) -> str:
+        return f"no answer ({self.reason})"
+
+
+def _answer(call: Callable[[], Any]) -> Any:
+    """What a call of a library returns, or that it does not."""
+    import warnings
+
+    import numpy as np
+
+    with warnings.catch_warnings():
+        # A default call may warn and answer all the same: the answer is what is compared.
+        warnings.simplefilter("ignore")
+        try:
+            return call()
+        except ImportError as error:
+            return _NoAnswer(f"{error.name} is not installed")
+        except (np.linalg.LinAlgError, ArithmeticError, ValueError) as error:
+            return _NoAnswer(type(error).__name__)
+
+
+def _row(
+    question: str, call: str, found: Any, truth: Any, words: Callable[[Any], str]
+) -> CrossCheck:
+    """Compare an answer with the truth."""
+    if isinstance(found, _NoAnswer):
+        return CrossCheck(question, call, str(found), words(truth), None)
+    return CrossCheck(question, call, words(found), words(truth), bool(found == truth))
+
+
+def _yes(answer: Any) -> str:
+    return "yes" if answer else "no"
+
+
+def _controllability(system: MultiChannelSystem, floats: _Floats) -> list[CrossCheck]:
+    """Ranks of python-control's matrices, and the Hautus test."""
+    n, A, rows = system.n, floats.A, []
+    for name, truth, letter, call, matrix in (
+        ("controllability", joint_controllability(system), "B", "ctrb", floats.inputs),
+        ("observability", joint_observability(system), "C", "obsv", floats.outputs),
+    ):
+        ranked = controllability.ctrb_rank if call == "ctrb" else controllability.obsv_rank
+        rows.append(
+            _row(
+                f"joint {name}",
+                f"numpy.linalg.matrix_rank(control.{call}(A, {letter}))",
+                _answer(partial(ranked, A, matrix)),
+                truth.dimension,
+                lambda rank: f"{_yes(rank == n)}, rank {rank} of {n}",
+            )
+        )
+        pair = (A, matrix) if call == "ctrb" else (A.T, matrix.T)
+        shown = "[x*I - A, B]" if call == "ctrb" else "[x*I - A; C]"
+        rows.append(
+            _row(
+                f"joint {name}, Hautus",
+                f"numpy.linalg.matrix_rank({shown}) for x in numpy.linalg.eigvals(A)",
+                _answer(partial(controllability.hautus_controllable, *pair)),
+                truth.controllable,
+                _yes,
+            )
+        )
+    return rows
+
+
+def _indices(system: MultiChannelSystem, floats: _Floats) -> list[CrossCheck]:
+    """Indices from the ranks of the first blocks."""
+    rows = []
+    for name, truth, blocks, pair in (
+        (
+            "controllability",
+            controllability_indices(system),
+            "[B, AB, ...]",
+            (floats.A, floats.inputs),
+        ),
+        (
+            "observability",
+            observability_indices(system),
+            "[C; CA; ...]",
+            (floats.A.T, floats.outputs.T),
+        ),
+    ):
+        rows.append(
+            _row(
+                f"{name} index",
+                f"least k with numpy.linalg.matrix_rank({blocks}) = n",
+                _answer(partial(controllability.controllability_index, *pair)),
+                truth.index,
+                lambda index: "none" if index is None else str(index),
+            )
+        )
+    return rows
+
+
+def _fixed_modes(
+    system: MultiChannelSystem, floats: _Floats, spectrum: FixedSpectrum
+) -> list[CrossCheck]:
+    """Rounding to several digits, and the numerical ranks of pencils."""
+    count, rows = spectrum.polynomial.degree, []
+
+    def words(number: int) -> str:
+        return "none" if not number else f"{number} distinct"
+
+    for digits in _DIGITS:
+        rounded = _answer(partial(_rounded, floats, digits))
+        found = rounded if isinstance(rounded, _NoAnswer) else len(rounded)
+        call = f"numpy.round(numpy.linalg.eigvals(A + sum B_i F_i C_i), {digits}) of 5 draws"
+        rows.append(_row(f"fixed modes, {digits} digits", call, found, count, words))
+    tried = anderson_clements.few_subsets(system.m)
+    named = {frozenset(system.index(c) for c in f.channels) for f in spectrum.factors}
+    modes = _answer(
+        lambda: bool(
+            anderson_clements.pencil_fixed_modes(floats.A, floats.B, floats.C, tried | named)
+        )
+    )
+    call = "numpy.linalg.matrix_rank([x*I - A, B; C, 0]) < n for x in numpy.linalg.eigvals(A)"
+    rows.append(_row("any fixed mode, pencils", call, modes, not spectrum.empty, _yes))
+    return rows
+
+
+def _rounded(floats: _Floats, digits: int) -> tuple[complex, ...]:
+    """The fixed modes of drawn gains, to so many digits."""
+    return fixed_modes.rounded_fixed_modes(floats.A, floats.B, floats.C, digits=digits, seed=_SEED)
+
+
+def _graph(system: MultiChannelSystem, floats: _Floats) -> list[CrossCheck]:
+    """The transfer graph, and completeness made of it and of the rounded fixed modes."""
+    exact = transfer_graph(system)
+    truth = frozenset((system.index(j), system.index(i)) for j, i in exact.arcs)
+    found = _answer(lambda: transfer_arcs(floats.A, floats.B, floats.C))
+    arcs = _row(
+        "transfer graph",
+        "numpy.allclose(scipy.signal.ss2tf(A, B_j, C_i, 0)[0], 0)",
+        found,
+        truth,
+        lambda arcs: f"{len(arcs)} arcs",
+    )
+    rounded = _answer(
+        lambda: not _rounded(floats, _DIGITS[1]) and _strongly_connected(system.m, found)
+    )
+    return [
+        arcs,
+        _row(
+            "completeness",
+            "networkx.is_strongly_connected(arcs) and no mode fixed to 8 digits",
+            found if isinstance(found, _NoAnswer) else rounded,
+            completeness(system).complete,
+            _yes,
+        ),
+    ]
+
+
+def _strongly_connected(m: int, arcs: frozenset[tuple[int, int]]) -> bool:
+    """Whether every channel reaches every other one."""
+    import networkx as nx
+
+    graph = nx.DiGraph()
+    graph.add_nodes_from(range(m))
+    graph.add_edges_from(arcs)
+    return bool(nx.is_strongly_connected(graph))
+
+
+def _stability(system: MultiChannelSystem, floats: _Floats) -> CrossCheck:
+    """Whether A itself is stable."""
+    region = StabilityRegion(system.time)
+    continuous = system.time == "continuous"
+    found = _answer(
+        lambda: margins.spectral_bound(floats.A, system.time) < (0.0 if continuous else 1.0)
+    )
+    call = (
+        "numpy.linalg.eigvals(A).real.max() < 0"
+        if continuous
+        else "abs(numpy.linalg.eigvals(A)).max() < 1"
+    )
+    truth = region.contains_roots_of(characteristic_polynomial(system.A))
+    return _row("stability of A", call, found, truth, _yes)
