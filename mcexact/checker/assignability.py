@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from . import evidence, transfer_graph
+from . import evidence, subspaces, transfer_graph
 from .controllability import require_reached
 from .reading import fields, integer, items, malformed, matrix, names, positions, require
 from .system import System
@@ -51,7 +51,7 @@ def _require_minimal(system: System, c: list[int], d: int, value: Any, ell: int)
     rows, pivots, reduced, chosen = fields(value, place, "X", "pivots", "W", "columns")
     listed = [system.names[i] for i in c]
     space = {"from": listed, "X": rows, "pivots": pivots}
-    _, X = evidence.zero_transfer(space, place, system)
+    _, X = subspaces.zero_transfer(space, place, system)
     inner, C = (system.A @ X).take(pivots), evidence.outputs(system, c) @ X
     columns = positions(chosen, place, X.ncols)
     W = matrix(reduced, place, d, X.ncols)

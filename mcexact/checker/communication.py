@@ -6,7 +6,7 @@ import json
 from fractions import Fraction
 from typing import Any
 
-from . import covering, evidence, reading
+from . import covering, reading, subspaces
 from .arithmetic import Matrix, diagonal
 from .exchange import arcs, augmented_outputs, extended, neighbors_of
 from .reading import fields, items, require
@@ -38,7 +38,7 @@ def check(claim: Any, witness: Any, system: System) -> str:
         factor, subspace = fields(entry, place, "polynomial", "subspace")
         p = reading.polynomial(factor, f"{place}.polynomial", 1)
         covering.require_outside(p, subject, bound, place)
-        T = evidence.shrunk_subspace(subspace, f"{place}.subspace", subject, p, 1)
+        T = subspaces.shrunk_subspace(subspace, f"{place}.subspace", subject, p, 1)
         width = len(subspace["pivots"])
         U = reading.polynomial_matrix(subspace["U"], place, subject.n, width, len(p) - 1)
         carried = [_carried(system, share, sizes, j) for j in range(system.m)]

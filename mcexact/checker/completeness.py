@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from . import evidence
+from . import evidence, subspaces
 from .arithmetic import characteristic_polynomial_modulo
 from .reading import boolean, fields, polynomial, require
 from .system import System
@@ -19,7 +19,7 @@ def check(claim: Any, witness: Any, system: System) -> str:
         return f"{described(system)} is complete: {_freedom(witness, system)}"
     if isinstance(witness, dict) and "zero" in witness:
         (zero,) = fields(witness, "witness", "zero")
-        sources, X = evidence.zero_transfer(zero, "witness.zero", system)
+        sources, X = subspaces.zero_transfer(zero, "witness.zero", system)
         rest = evidence.complement(system, sources)
         require(
             bool(sources and rest), "cut", "witness.zero.from", "expected a nonempty proper set"
@@ -31,7 +31,7 @@ def check(claim: Any, witness: Any, system: System) -> str:
         return f"{described(system)} is not complete: {reason}"
     coefficients, subspace = fields(witness, "witness", "polynomial", "subspace")
     p = polynomial(coefficients, "witness.polynomial", 1)
-    evidence.shrunk_subspace(subspace, "witness.subspace", system, p, 1)
+    subspaces.shrunk_subspace(subspace, "witness.subspace", system, p, 1)
     return f"{described(system)} is not complete: the roots of {polynomial_text(p)} are fixed modes"
 
 

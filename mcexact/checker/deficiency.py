@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from . import evidence
+from . import evidence, subspaces
 from .arithmetic import characteristic_polynomial_modulo
 from .reading import fields, integer, matrix, polynomial, require
 from .system import System
@@ -28,7 +28,7 @@ def check(claim: Any, witness: Any, system: System) -> str:
     where = ""
     if rho:
         p = polynomial(coefficients, "witness.polynomial", 1)
-        T = evidence.shrunk_subspace(subspace, "witness.subspace", system, p, rho)
+        T = subspaces.shrunk_subspace(subspace, "witness.subspace", system, p, rho)
         s = channel_set(system, evidence.complement(system, T))
         where = f", reached at the roots of {polynomial_text(p)} by the channels {s}"
     else:

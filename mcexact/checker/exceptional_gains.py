@@ -6,7 +6,7 @@ from fractions import Fraction
 from functools import reduce
 from typing import Any
 
-from . import arithmetic, evidence, reading
+from . import arithmetic, evidence, reading, root_discs
 from .arithmetic import Matrix, Polynomial, exponent, poly_product, stripped
 from .reading import fields, integer, items, matrix, require
 from .system import System
@@ -20,7 +20,7 @@ def check(claim: Any, witness: Any, system: System) -> str:
     n, blocks = system.n, integer(number, "claim.blocks", 1)
     M, B = matrix(rows, "claim.M", n, n), evidence.inputs(system, range(system.m))
     whole = reading.polynomial(p, "claim.polynomial")
-    found = evidence.root_discs(discs, "claim.roots", whole)
+    found = root_discs.root_discs(discs, "claim.roots", whole)
     plain = all(im == 0 or abs(im) > radius for _, im, radius in found)
     require(plain, "disc", "claim.roots", "a disc meets the real axis, but not in the middle")
     listed = enumerate(items(listed, "witness.factors"))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from . import arithmetic, evidence, location, reading, words
+from . import arithmetic, evidence, location, reading, root_discs, subspaces, words
 from .arithmetic import characteristic_polynomial_modulo as modulo
 from .reading import fields, require
 from .system import System
@@ -31,7 +31,7 @@ def check(claim: Any, witness: Any, system: System) -> str:
         p = reading.polynomial(listed, f"{place}.polynomial", 1)
         s = reading.names(names, f"{place}.channels", system.names)
         in_A, at_most, r = map(reading.integer, counts, [place] * 3, (1, 1, 0))
-        T = evidence.shrunk_subspace(spaces[k], space, system, p, n - r)
+        T = subspaces.shrunk_subspace(spaces[k], space, system, p, n - r)
         require(s == evidence.complement(system, T), "claim", place, "T is not what s leaves")
         evidence.require_coprime(product, p, ell, "two factors")
         (a, psi), product = arithmetic.exponent(p, psi), arithmetic.poly_product(product, p)
@@ -39,7 +39,7 @@ def check(claim: Any, witness: Any, system: System) -> str:
         require((in_A, at_most) == (a, e), "claim", place, f"the multiplicities are {a}, {e}")
         stable = location.in_stability_region(p, system.time)
         require(reading.boolean(flag, place) == stable, "claim", f"{place}.stable", "it is not so")
-        discs = evidence.root_discs(roots, f"{place}.roots", p)
+        discs = root_discs.root_discs(roots, f"{place}.roots", p)
         text = words.factor_text(p, a, e, r, words.channel_set(system, s), stable, discs)
         found.append((p, n - r, stable, discs, text))
     psi = psi or modulo(system.A.modulo(ell), ell)
@@ -53,7 +53,7 @@ def check(claim: Any, witness: Any, system: System) -> str:
         return f"{words.described(system)} has no fixed modes; {words.STABILIZABLE[True]}"
     _require_ranks(completion, [(p, loss) for p, loss, *_ in found], A_F, ell)
     centers = [disc for *_, discs, _ in found for disc in discs]
-    interval = evidence.rate_interval(rate, "claim.best_rate", centers, system.time)
+    interval = root_discs.rate_interval(rate, "claim.best_rate", centers, system.time)
     ends = [words.STABILIZABLE[stabilizable], f"{words.RATE[system.time]} {interval}"]
     spectrum = f"{words.described(system)} is that of {words.polynomial_text(product)}"
     return f"the fixed spectrum of {spectrum}: {'; '.join([text for *_, text in found] + ends)}"

@@ -6,7 +6,7 @@ from fractions import Fraction
 from itertools import zip_longest
 from typing import Any
 
-from . import evidence, reading, words
+from . import evidence, reading, subspaces, words
 from .arithmetic import Matrix, NotAUnit, Polynomial, beside, inverse, stack
 from .arithmetic import poly_divide as divide
 from .arithmetic import poly_modulo as modulo
@@ -29,7 +29,7 @@ def check(claim: Any, witness: Any, system: System) -> str:
     evidence.require_identity(kernel, pivots, "witness.pivots")
     U = [layer.take(range(n)) for layer in kernel]
     V = [layer.take(range(n, c)).times(Fraction(-1)) for layer in kernel]
-    evidence.require_pencil_kernel(system.A, B, U, V, p, "witness.kernel")
+    subspaces.require_pencil_kernel(system.A, B, U, V, p, "witness.kernel")
     require(all((C @ layer).is_zero() for layer in U), "identity", "witness.kernel", "C U is not 0")
     ell = evidence.modulus(ell, "witness.modulus")
     kept = sorted(set(range(c)) - set(pivots))

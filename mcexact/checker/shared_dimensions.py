@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
-from . import covering, evidence, reading
+from . import covering, evidence, reading, subspaces
 from .exchange import augmented_outputs, extended, neighbors_of
 from .reading import fields, items, require
 from .system import System
@@ -56,7 +56,7 @@ def _cut(
     if free and isinstance(entry, dict) and "zero" in entry:
         listed, zero = fields(entry, place, "subset", "zero")
         s, demand = reading.names(listed, f"{place}.subset", base.names), 1
-        T, X = evidence.zero_transfer(zero, f"{place}.zero", base)
+        T, X = subspaces.zero_transfer(zero, f"{place}.zero", base)
         unseen = 0 < len(s) < base.m and all((base.C[i] @ X).is_zero() for i in s)
         require(unseen, "identity", place, "something reaches the subset, or it is not proper")
     else:
@@ -65,6 +65,6 @@ def _cut(
         s = reading.names(listed, f"{place}.subset", base.names)
         p, demand = reading.polynomial(factor, place, 1), reading.integer(number, place, 1)
         covering.require_outside(p, base, bound, place)
-        T = evidence.shrunk_subspace(subspace, f"{place}.subspace", base, p, demand)
+        T = subspaces.shrunk_subspace(subspace, f"{place}.subspace", base, p, demand)
     require(evidence.complement(base, s) == T, "cut", place, "T is not the complement of s")
     return s, demand

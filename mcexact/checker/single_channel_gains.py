@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from . import evidence, reading
+from . import evidence, reading, subspaces
 from .controllability import require_reached
 from .feedback import dual
 from .reading import boolean, fields, integer, items, matrix, require
@@ -66,13 +66,13 @@ def _lost(witness: Any, system: System, Q: list[int], sides: tuple[str, ...]) ->
     q, target = system.place_of(name, "witness"), _seen(system, reading.string(side, "witness"))
     require(q in Q and side in sides, "claim", "witness", "about what is not asked")
     if cut:
-        T, X = evidence.zero_transfer(parts[0], "witness.zero", target)
+        T, X = subspaces.zero_transfer(parts[0], "witness.zero", target)
         C = evidence.outputs(target, evidence.complement(target, T))
         apart = (C @ X).is_zero() and not C.is_zero()
         require(apart, "cut", "witness.zero", "C X is not zero, or C is, outside T")
     else:
         p = reading.polynomial(parts[0], "witness.polynomial", 1)
-        T = evidence.shrunk_subspace(parts[1], "witness.subspace", target, p, 1)
+        T = subspaces.shrunk_subspace(parts[1], "witness.subspace", target, p, 1)
     reason = "its signals do not spread" if cut else f"{polynomial_text(p)} stays out of reach"
     require(q in T, "channel", "witness.channel", "not a member of the set T")
     return f"no gains make {described(system)} {side} through {channel(system, q)}: {reason}"

@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from .arithmetic import Rows, product
-from .evidence import components, modulus, zero_transfer
+from .evidence import components, modulus
 from .reading import boolean, fields, integer, items, malformed, names, require
+from .subspaces import zero_transfer
 from .system import System
 from .words import channel, channel_set, described
 

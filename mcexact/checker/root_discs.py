@@ -1,0 +1,51 @@
+"""Discs that hold one root each, and the rate that follows; ``proofs/evidence.md``."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any
+
+from .arithmetic import Polynomial
+from .reading import decimal, fields, items, require
+
+Disc = tuple[Fraction, Fraction, Fraction]
+"""Real part, imaginary part, radius."""
+
+
+def root_discs(value: Any, place: str, p: Polynomial) -> list[Disc]:
+    """Check discs with exactly one root of p each, all roots together."""
+    discs: list[Disc] = []
+    for k, entry in enumerate(items(value, place, len(p) - 1)):
+        where = f"{place}[{k}]"
+        parts = fields(entry, where, "re", "im", "radius")
+        re, im, radius = (decimal(part, where) for part in parts)
+        value_at, slope = horner(p, re, im)
+        enough = value_at * (len(p) - 1) ** 2 <= radius**2 * slope
+        require(slope > 0 and radius >= 0 and enough, "disc", where, "may hold no root")
+        for a, b, r in discs:
+            apart = (a - re) ** 2 + (b - im) ** 2 > (r + radius) ** 2
+            require(apart, "disc", where, "meets another disc")
+        discs.append((re, im, radius))
+    return discs
+
+
+def rate_interval(value: Any, place: str, discs: list[Disc], time: str) -> str:
+    """Check an interval for minus the largest real part, or the largest modulus, of the roots."""
+    low, high = (decimal(end, place) for end in fields(value, place, "lower", "upper"))
+    if time == "continuous":
+        lower = all(low <= -(re + radius) for re, _, radius in discs)
+        upper = any(high >= -(re - radius) for re, _, radius in discs)
+    else:
+        lower = any(low <= -r or (low + r) ** 2 <= re**2 + im**2 for re, im, r in discs)
+        upper = all(high >= r and (high - r) ** 2 >= re**2 + im**2 for re, im, r in discs)
+    require(lower and upper, "rate", place, "not wide enough for the root discs")
+    return f"between {value['lower']} and {value['upper']}"
+
+
+def horner(p: Polynomial, re: Fraction, im: Fraction) -> tuple[Fraction, Fraction]:
+    """|p(c)|² and |p'(c)|² at c = re + i·im."""
+    value, slope = (Fraction(0), Fraction(0)), (Fraction(0), Fraction(0))
+    for c in reversed(p):
+        slope = (slope[0] * re - slope[1] * im + value[0], slope[0] * im + slope[1] * re + value[1])
+        value = (value[0] * re - value[1] * im + c, value[0] * im + value[1] * re)
+    return value[0] ** 2 + value[1] ** 2, slope[0] ** 2 + slope[1] ** 2
