@@ -9,7 +9,17 @@ from typing import Any
 import click
 
 # In the order in which a user meets them; each is the module of that name in this package.
-COMMANDS = ("analyze", "check", "allocate", "design", "certify", "crosscheck", "simulate", "demo", "sample")
+COMMANDS = (
+    "analyze",
+    "check",
+    "allocate",
+    "design",
+    "certify",
+    "crosscheck",
+    "simulate",
+    "demo",
+    "sample",
+)
 
 
 class Commands(click.Group):

@@ -65,11 +65,11 @@ def crosscheck_tables(found: CrossChecks) -> tuple[Table, ...]:
             if distance.changed == "outputs"
             else "A and the inputs of these channels"
         )
-        rows = (
+        lines = (
             ("the mode", mode),
             ("channels that could act on it", names),
             ("distance, at most", f"{distance.distance:.3g}, by changing {changed}"),
         )
         title = "distance to having a fixed mode, in floating point, not proved"
-        tables.append(Table(title, (), rows))
+        tables.append(Table(title, (), lines))
     return tuple(tables)
