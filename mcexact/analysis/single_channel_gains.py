@@ -177,7 +177,7 @@ def _obstruction(
     name = system.names[q]
     for found in decide(full_output(target, q), rng).obstructions:
         subspace = evidence(target, found.subspace)
-        reason = f"channel {name} cannot be made {side}: {found.polynomial} stays out of its reach"
+        reason = f"channel {name} cannot be made {side} at the roots of {found.polynomial}"
         return StuckWitness(name, side, found.polynomial, subspace), reason
     modular = next(residue_systems(target, rng))
     arcs = suspected_arcs(modular, rng)

@@ -26,7 +26,18 @@ from mcexact.cli.failures import DEFINITE_NO
 @click.option(
     "--subset",
     metavar="NAMES",
-    help="Also the rank of the pencil for this set of channels, such as 1,3, at every mode of A.",
+    help="Also the rank of the pencil for this set of channels, such as 1,3, at every mode of A, "
+    "and its complementary subsystem.",
+)
+@click.option(
+    "--channel",
+    metavar="NAME",
+    help="Also what this channel controls and observes, alone and with gains.",
+)
+@click.option(
+    "--every-channel",
+    is_flag=True,
+    help="Also gains with which every channel controls and observes the whole plant.",
 )
 @click.option(
     "--assert",
@@ -43,6 +54,8 @@ def command(
     information: str,
     minimal: bool,
     subset: str | None,
+    channel: str | None,
+    every_channel: bool,
     asserted: str | None,
     certificates: Path | None,
     as_json: bool,
@@ -53,7 +66,8 @@ def command(
     """Decide everything about the system in FILE (- for standard input).
 
     Which modes are fixed under every decentralized control, which channels are to blame, whether
-    the rest can be stabilized, and joint controllability, the transfer graph and completeness.
+    the rest can be stabilized, joint controllability with its indices, the transfer graph,
+    completeness, and the parts into which the spectrum splits.
     """
     import sys
 
@@ -70,7 +84,13 @@ def command(
         place,
         read(file, place, moved),
         moved,
-        {"information": information, "minimal": minimal, "subset": _named(subset)},
+        {
+            "information": information,
+            "minimal": minimal,
+            "subset": _named(subset),
+            "channel": channel,
+            "every_channel": every_channel,
+        },
         certificates is not None,
         doing=f"analyzing {place}",
         timeout=timeout,

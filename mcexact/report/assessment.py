@@ -10,16 +10,47 @@ from mcexact.errors import LimitReached, UsageError
 
 if TYPE_CHECKING:
     from mcexact.analysis.allocation import SharedDimensionBound, SharedDimensions
+    from mcexact.analysis.assignability import Assignability
+    from mcexact.analysis.complementary_subsystem import ComplementarySubsystem
     from mcexact.analysis.completeness import Completeness
     from mcexact.analysis.controllability import JointControllability
+    from mcexact.analysis.controllability_indices import ControllabilityIndices
     from mcexact.analysis.fixed_spectrum import FixedSpectrum
     from mcexact.analysis.neighbor_graph import NeighborGraphVerdict
     from mcexact.analysis.pencil import PencilRank
+    from mcexact.analysis.single_channel_gains import SingleChannelGains
     from mcexact.analysis.transfer_graph import TransferGraph
     from mcexact.derived.extended import Share
     from mcexact.model.system import MultiChannelSystem
 
 SHARING: tuple[Share, ...] = ("outputs+states", "states")
+
+
+@dataclass(frozen=True)
+class ChannelAnswers:
+    """What one channel can do, by itself and with the help of gains in all channels.
+
+    Attributes
+    ----------
+    name : str
+    controllability, observability : JointControllability
+        Of this channel alone.
+    gains : mapping from ``"controllable"``, ``"observable"`` and ``"both"`` to SingleChannelGains
+        With decentralized gains.
+    """
+
+    name: str
+    controllability: JointControllability
+    observability: JointControllability
+    gains: Mapping[str, SingleChannelGains]
+
+    def answers(self) -> dict[str, Any]:
+        """The answers under the stems of their certificates' names."""
+        alone = {
+            "channel_controllability": self.controllability,
+            "channel_observability": self.observability,
+        }
+        return alone | {f"channel_gains_{want}": found for want, found in self.gains.items()}
 
 
 @dataclass(frozen=True)
@@ -36,6 +67,15 @@ class Assessment:
     transfer_graph : TransferGraph
     fixed_spectrum : FixedSpectrum
     completeness : Completeness
+    controllability_indices, observability_indices : ControllabilityIndices
+        Of all channels together.
+    assignability : Assignability
+    complementary_subsystem : ComplementarySubsystem or None
+        For the subset that was asked about, where it is nonempty and proper.
+    channel : ChannelAnswers or None
+        For the channel that was asked about.
+    every_channel : SingleChannelGains or None
+        Gains with which every channel controls and observes, if they were asked for.
     pencil_ranks : tuple of PencilRank
         For the subset that was asked about, at every mode of A.
     neighbor_graph : NeighborGraphVerdict or None
@@ -53,6 +93,12 @@ class Assessment:
     transfer_graph: TransferGraph
     fixed_spectrum: FixedSpectrum
     completeness: Completeness
+    controllability_indices: ControllabilityIndices
+    observability_indices: ControllabilityIndices
+    assignability: Assignability
+    complementary_subsystem: ComplementarySubsystem | None = None
+    channel: ChannelAnswers | None = None
+    every_channel: SingleChannelGains | None = None
     pencil_ranks: tuple[PencilRank, ...] = ()
     neighbor_graph: NeighborGraphVerdict | None = None
     shared_dimension_bounds: Mapping[Share, SharedDimensionBound] = field(default_factory=dict)
@@ -66,8 +112,15 @@ class Assessment:
             "transfer_graph": self.transfer_graph,
             "fixed_spectrum": self.fixed_spectrum,
             "completeness": self.completeness,
+            "controllability_indices": self.controllability_indices,
+            "observability_indices": self.observability_indices,
+            "assignability": self.assignability,
+            "complementary_subsystem": self.complementary_subsystem,
+            "every_channel": self.every_channel,
             "neighbor_graph": self.neighbor_graph,
         }
+        if self.channel is not None:
+            answers |= self.channel.answers()
         for number, rank in enumerate(self.pencil_ranks, start=1):
             answers[f"pencil_rank_{number}"] = rank
         for share, bound in self.shared_dimension_bounds.items():
@@ -91,6 +144,8 @@ def assess(
     *,
     information: str = "own",
     subset: Sequence[str] | None = None,
+    channel: str | None = None,
+    every_channel: bool = False,
     minimal: bool = False,
 ) -> Assessment:
     """Decide everything that applies to a plant.
@@ -101,7 +156,12 @@ def assess(
     information : {"own", "outputs"}
         What agent i feeds back: y_i, or the y_j of all j in N_i.
     subset : sequence of str, optional
-        Names of channels s: the rank of P_s at every mode of A is computed, too.
+        Names of channels s: the rank of P_s at every mode of A is computed, too, and what the
+        complementary subsystem is, where s is nonempty and proper.
+    channel : str, optional
+        The name of a channel: what it can control and observe is decided, too.
+    every_channel : bool
+        Look for gains with which every channel controls and observes, too.
     minimal : bool
         Solve for the least dimensions that agents must share, too.
 
@@ -114,8 +174,13 @@ def assess(
     UsageError
         If the question needs a neighbor graph and the plant has none.
     """
+    from mcexact.analysis.assignability import assignability
     from mcexact.analysis.completeness import completeness
     from mcexact.analysis.controllability import joint_controllability, joint_observability
+    from mcexact.analysis.controllability_indices import (
+        controllability_indices,
+        observability_indices,
+    )
     from mcexact.analysis.fixed_spectrum import fixed_spectrum
     from mcexact.analysis.transfer_graph import transfer_graph
 
@@ -135,16 +200,21 @@ def assess(
             "names no neighbors: add 'neighbors' to the file"
         )
     spectrum = fixed_spectrum(system)
-    spectrum = fixed_spectrum(system)
+    spectrum, graph = fixed_spectrum(system), transfer_graph(system)
     return Assessment(
         system=system,
         information=information,
         controllability=joint_controllability(system),
         observability=joint_observability(system),
-        transfer_graph=transfer_graph(system),
+        transfer_graph=graph,
         fixed_spectrum=spectrum,
         completeness=completeness(system, spectrum=spectrum),
-        pencil_ranks=() if subset is None else _pencil_ranks(system, subset),
+        controllability_indices=controllability_indices(system),
+        observability_indices=observability_indices(system),
+        assignability=assignability(system, spectrum=spectrum, graph=graph),
+        channel=None if channel is None else _of_the_channel(system, channel),
+        **({} if subset is None else _of_the_subset(system, subset)),
+        every_channel=_every_channel(system) if every_channel else None,
         **({} if plant.neighbors is None else _of_the_graph(plant, minimal)),
     )
 
@@ -169,6 +239,36 @@ def _of_the_graph(plant: MultiChannelSystem, minimal: bool) -> dict[str, Any]:
         if minimal
         else None,
     }
+
+
+def _of_the_channel(system: MultiChannelSystem, name: str) -> ChannelAnswers:
+    """What one channel can do."""
+    from mcexact.analysis.controllability import joint_controllability, joint_observability
+    from mcexact.analysis.single_channel_gains import SIDES, single_channel_gains
+
+    return ChannelAnswers(
+        name,
+        joint_controllability(system, [name]),
+        joint_observability(system, [name]),
+        {want: single_channel_gains(system, name, want=want) for want in SIDES},
+    )
+
+
+def _every_channel(system: MultiChannelSystem) -> SingleChannelGains:
+    """Gains with which every channel controls and observes."""
+    from mcexact.analysis.single_channel_gains import single_channel_gains
+
+    return single_channel_gains(system)
+
+
+def _of_the_subset(system: MultiChannelSystem, subset: Sequence[str]) -> dict[str, Any]:
+    """The pencil of a set of channels."""
+    from mcexact.analysis.complementary_subsystem import complementary_subsystem
+
+    answers: dict[str, Any] = {"pencil_ranks": _pencil_ranks(system, subset)}
+    if 0 < len(set(subset)) < system.m:
+        answers["complementary_subsystem"] = complementary_subsystem(system, subset)
+    return answers
 
 
 def _pencil_ranks(system: MultiChannelSystem, subset: Sequence[str]) -> tuple[PencilRank, ...]:

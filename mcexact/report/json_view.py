@@ -10,6 +10,8 @@ from mcexact.report.assessment import Assessment, stem
 
 if TYPE_CHECKING:
     from mcexact.analysis.allocation import SharedDimensions
+    from mcexact.analysis.complementary_subsystem import ComplementarySubsystem
+    from mcexact.analysis.single_channel_gains import SingleChannelGains
     from mcexact.model.system import MultiChannelSystem
 
 
@@ -60,6 +62,7 @@ def assessment_view(assessment: Assessment, *, with_certificates: bool = False) 
         "stabilizable": spectrum.stabilizable,
         "best_rate": None if spectrum.best_rate is None else spectrum.best_rate.document(),
         "complete": assessment.completeness.complete,
+        **structure_view(assessment),
     }
     if assessment.pencil_ranks:
         view["pencil_ranks"] = [
@@ -105,6 +108,75 @@ def transfer_graph_view(assessment: Assessment) -> dict[str, Any]:
         "arcs": [list(arc) for arc in graph.arcs],
         "strongly_connected": graph.strongly_connected,
         "components": [list(component) for component in graph.components],
+        "dead_channels": list(graph.dead),
+    }
+
+
+def structure_view(assessment: Assessment) -> dict[str, Any]:
+    """Indices, the parts of the spectrum, and what was asked about a subset or a channel."""
+    split = assessment.assignability
+    view: dict[str, Any] = {
+        name: {"index": found.index, "indices": list(found.indices)}
+        for name, found in (
+            ("controllability_indices", assessment.controllability_indices),
+            ("observability_indices", assessment.observability_indices),
+        )
+    }
+    view["assignability"] = {
+        "free": split.free,
+        "blocks": [
+            {"channels": list(block.channels), "dimension": block.dimension}
+            for block in split.blocks
+        ],
+        "fixed_degree": split.fixed_degree,
+    }
+    subsystem, channel = assessment.complementary_subsystem, assessment.channel
+    if subsystem is not None:
+        view["complementary_subsystem"] = complementary_subsystem_view(subsystem)
+    if channel is not None:
+        view["channel"] = {
+            "name": channel.name,
+            "controllable": channel.controllability.controllable,
+            "observable": channel.observability.controllable,
+            "with_gains": {want: gains_view(found) for want, found in channel.gains.items()},
+        }
+    if assessment.every_channel is not None:
+        view["every_channel"] = gains_view(assessment.every_channel)
+    return view
+
+
+def complementary_subsystem_view(found: ComplementarySubsystem) -> dict[str, Any]:
+    """Rank, zeros, remnant polynomial and completeness of one subsystem."""
+    return {
+        "subset": list(found.subset),
+        "normal_rank": found.normal_rank,
+        "invariant_polynomials": [polynomial_view(f) for f in found.invariant_polynomials],
+        "zeros": [
+            {
+                "polynomial": polynomial_view(zeros.polynomial),
+                "multiplicity": zeros.multiplicity,
+                "rank": zeros.rank,
+                "roots": [disc.document() for disc in zeros.roots],
+            }
+            for zeros in found.zeros
+        ],
+        "remnant": polynomial_view(found.remnant),
+        "transfer_zero": found.transfer_zero,
+        "complete": found.complete,
+        "reason": found.reason,
+    }
+
+
+def gains_view(found: SingleChannelGains) -> dict[str, Any]:
+    """The gains by channel and the indices they reach, or why there are none."""
+    if found.gains is None or found.indices is None:
+        return {"exists": False, "reason": found.reason}
+    names = [channel["name"] for channel in found.certificate.system["channels"]]
+    rows = [[[str(entry) for entry in row] for row in F.rows()] for F in found.gains]
+    return {
+        "exists": True,
+        "gains": dict(zip(names, rows, strict=True)),
+        "indices": dict(zip(found.channels, map(list, found.indices), strict=True)),
     }
 
 
@@ -116,6 +188,11 @@ _ANSWERS = {
     "stabilizable": "fixed_spectrum.json",
     "best_rate": "fixed_spectrum.json",
     "complete": "completeness.json",
+    "controllability_indices": "controllability_indices.json",
+    "observability_indices": "observability_indices.json",
+    "assignability": "assignability.json",
+    "complementary_subsystem": "complementary_subsystem.json",
+    "every_channel": "every_channel.json",
     "neighbor_graph": "neighbor_graph.json",
 }
 
@@ -129,6 +206,13 @@ def _name_certificates(view: dict[str, Any], files: Iterable[str]) -> None:
             view[answer]["certificate"] = file
     for number, rank in enumerate(view.get("pencil_ranks", ()), start=1):
         rank["certificate"] = f"pencil_rank_{number}.json"
+    if "channel" in view:
+        answers = {"controllable": "controllability", "observable": "observability"}
+        view["channel"]["certificate"] = {
+            name: f"channel_{kind}.json" for name, kind in answers.items()
+        }
+        for want, answer in view["channel"]["with_gains"].items():
+            answer["certificate"] = f"channel_gains_{want}.json"
     for question in ("shared_dimension_bound", "minimal_shared_dimensions"):
         for share, answer in (view.get(question) or {}).items():
             file = f"{question}_{stem(share)}.json"

@@ -7,12 +7,16 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, TextIO
 
 from mcexact.errors import LimitReached
-from mcexact.report.assessment import Assessment
+from mcexact.report.assessment import Assessment, ChannelAnswers
 
 if TYPE_CHECKING:
     from mcexact.analysis.allocation import SharedDimensions
+    from mcexact.analysis.assignability import Assignability
+    from mcexact.analysis.complementary_subsystem import ComplementarySubsystem
     from mcexact.analysis.controllability import JointControllability
+    from mcexact.analysis.controllability_indices import ControllabilityIndices
     from mcexact.analysis.fixed_spectrum import FixedFactor, FixedSpectrum
+    from mcexact.analysis.single_channel_gains import SingleChannelGains
     from mcexact.analysis.transfer_graph import TransferGraph
 
 
@@ -44,13 +48,22 @@ def assessment_tables(assessment: Assessment) -> tuple[Table, ...]:
         ("decentrally stabilizable", _yes(spectrum.stabilizable)),
         ("best decay rate" if system.time == "continuous" else "least radius", _rate(spectrum)),
         ("complete", _yes(assessment.completeness.complete)),
+        ("controllability indices", _indices(assessment.controllability_indices)),
+        ("observability indices", _indices(assessment.observability_indices)),
+        ("spectrum", _assignability(assessment.assignability)),
     ]
+    if assessment.every_channel is not None:
+        rows.append(("through every channel", _gains(assessment, assessment.every_channel)))
     rows += _of_the_graph(assessment)
     tables = [Table(heading, (), tuple(rows))]
     if not spectrum.empty:
         tables.append(_fixed_modes(assessment))
     if assessment.pencil_ranks:
         tables.append(_pencil_ranks(assessment))
+    if assessment.complementary_subsystem is not None:
+        tables.append(_complementary_subsystem(assessment.complementary_subsystem))
+    if assessment.channel is not None:
+        tables.append(_channel(assessment, assessment.channel))
     return tuple(tables)
 
 
@@ -91,6 +104,58 @@ def _pencil_ranks(assessment: Assessment) -> Table:
             for found in assessment.pencil_ranks
         ),
     )
+
+
+def _indices(found: ControllabilityIndices) -> str:
+    """The partition, and the index where there is one."""
+    listed = shorten(", ".join(map(str, found.indices)) or "none")
+    return listed if found.index is None else f"{listed}; index {found.index}"
+
+
+def _assignability(found: Assignability) -> str:
+    """Free, or the parts that belong to the strong components."""
+    if found.free:
+        return "freely assignable"
+    blocks = ", ".join(f"{block.dimension} by {_set(block.channels)}" for block in found.blocks)
+    fixed = f"; {found.fixed_degree} by no gain" if found.fixed_degree else ""
+    return f"moved in parts: {shorten(blocks, 120)}{fixed}"
+
+
+def _complementary_subsystem(found: ComplementarySubsystem) -> Table:
+    """One row for each answer about the subsystem."""
+    zeros = ", ".join(str(z.polynomial) for z in found.zeros)
+    rows = (
+        ("normal rank", str(found.normal_rank)),
+        ("invariant zeros", shorten(f"the roots of {zeros}") if zeros else "none"),
+        ("remnant polynomial", shorten(str(found.remnant))),
+        ("complete", f"{_yes(found.complete)}: {shorten(found.reason, 120)}"),
+    )
+    return Table(f"complementary subsystem of s = {_set(found.subset)}", (), rows)
+
+
+def _channel(assessment: Assessment, found: ChannelAnswers) -> Table:
+    """One row for each answer about the channel."""
+    rows = [
+        ("controllable alone", _controllable(found.controllability)),
+        ("observable alone", _controllable(found.observability)),
+    ]
+    rows += [
+        (f"{want} with gains", _gains(assessment, gains)) for want, gains in found.gains.items()
+    ]
+    return Table(f"channel {shorten(found.name)}", (), tuple(rows))
+
+
+def _gains(assessment: Assessment, found: SingleChannelGains) -> str:
+    """Gains, where they are short, and the indices they reach; or why there are none."""
+    if found.gains is None or found.indices is None:
+        return f"no: {shorten(found.reason, 120)}"
+    listed = [
+        f"F_{name} = {[[str(entry) for entry in row] for row in F.rows()]}".replace("'", "")
+        for name, F in zip(assessment.system.names, found.gains, strict=True)
+        if not F.is_zero()
+    ]
+    reached = ", ".join(" and ".join(map(str, pair)) for pair in found.indices)
+    return f"yes, indices {shorten(reached)}, {shorten(', '.join(listed) or 'no gains', 120)}"
 
 
 def _fixed_modes(assessment: Assessment) -> Table:

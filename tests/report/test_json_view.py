@@ -20,6 +20,9 @@ ALWAYS = {
     "stabilizable",
     "best_rate",
     "complete",
+    "controllability_indices",
+    "observability_indices",
+    "assignability",
 }
 
 
@@ -73,3 +76,26 @@ def test_with_neighbors_sharing_is_answered_and_least_sharing_only_when_asked() 
 def test_a_question_about_neighbors_needs_neighbors(question: dict[str, Any]) -> None:
     with pytest.raises(UsageError, match="add 'neighbors' to the file"):
         assess(MultiChannelSystem(**EXAMPLE), **question)
+
+
+def test_a_subset_and_a_channel_are_answered_when_they_are_asked_about() -> None:
+    plant = MultiChannelSystem(**EXAMPLE)
+    view = view_of(plant, subset=["2", "3"], channel="1", every_channel=True)
+    subsystem = view["complementary_subsystem"]
+    assert subsystem["normal_rank"] == 3
+    assert subsystem["remnant"] == ["-1", "1"]
+    assert subsystem["certificate"] == "complementary_subsystem.json"
+    assert view["channel"]["observable"] is True
+    assert view["channel"]["with_gains"]["observable"]["indices"] == {"1": [2]}
+    assert view["channel"]["with_gains"]["both"]["exists"] is False
+    assert "x - 1" in view["every_channel"]["reason"]
+    assert "complementary_subsystem" not in view_of(plant, subset=[])
+
+
+def test_the_spectrum_is_split_over_the_components_and_dead_channels_are_named() -> None:
+    dead = MultiChannelSystem([[0]], [[[1]], [[0]]], [[[1]], [[1]]])
+    view = view_of(dead)
+    assert view["transfer_graph"]["dead_channels"] == ["2"]
+    assert view["assignability"]["free"] is True
+    assert view["assignability"]["blocks"][1] == {"channels": ["2"], "dimension": 0}
+    assert view["complete"] is False

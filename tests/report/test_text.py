@@ -87,3 +87,22 @@ def test_markup_in_a_name_is_shown_and_not_obeyed(name: str) -> None:
 def test_plain_tables_are_aligned_and_have_no_trailing_blanks() -> None:
     table = Table("title", ("a", "long"), (("1", ""), ("100", "2")), note="why")
     assert plain([table]) == "title\n  a    long\n  1\n  100  2\n  (why)\n"
+
+
+def test_indices_and_the_parts_of_the_spectrum_are_said() -> None:
+    rows = rows_of(text_of(MultiChannelSystem(**EXAMPLE), subset=["2", "3"], channel="1"))
+    assert rows["controllability indices"] == "2, 1; index 2"
+    assert rows["spectrum"] == "moved in parts: 1 by {1}, 1 by {2}, 0 by {3}; 1 by no gain"
+    assert rows["remnant polynomial"] == "x - 1"
+    assert rows["complete"].startswith("no")
+    assert rows["observable with gains"].startswith("yes, indices 2")
+    assert "x - 1" in rows["both with gains"]
+
+
+def test_gains_through_every_channel_are_shown() -> None:
+    ring = MultiChannelSystem(
+        [[1, 0], [0, 1]], [[[1], [0]], [[0], [1]]], [[[0, 1]], [[1, 0]]], names=["a", "b"]
+    )
+    rows = rows_of(text_of(ring, every_channel=True))
+    assert rows["spectrum"] == "freely assignable"
+    assert rows["through every channel"].startswith("yes, indices 2 and 2, 2 and 2, F_a = [[")
