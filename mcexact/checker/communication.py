@@ -6,7 +6,7 @@ import json
 from fractions import Fraction
 from typing import Any
 
-from . import covering, reading, subspaces
+from . import covering, reading, region, subspaces
 from .arithmetic import Matrix, diagonal
 from .exchange import arcs, augmented_outputs, extended, neighbors_of
 from .reading import fields, items, require
@@ -24,7 +24,7 @@ def check(claim: Any, witness: Any, system: System) -> str:
     absence, cuts, tree = fields(witness, "witness", "absence", "cuts", "tree")
     reading.string(share, "claim.share", "outputs", "outputs+states", "states")
     require((sizes is None) == (share == "outputs"), "claim", "claim.dimensions", "do not fit")
-    bound, candidates = covering.read_bound(limit, system), _candidates(listed, system)
+    bound, candidates = region.read_bound(limit, system), _candidates(listed, system)
     costs, ends = [cost for *_, cost in candidates], [(j, i) for j, i, _ in candidates]
     step = {"share": share, "dimensions": sizes}
 
@@ -37,21 +37,21 @@ def check(claim: Any, witness: Any, system: System) -> str:
     for place, entry in ((f"witness.cuts[{k}]", e) for k, e in enumerate(items(cuts, "cuts"))):
         factor, subspace = fields(entry, place, "polynomial", "subspace")
         p = reading.polynomial(factor, f"{place}.polynomial", 1)
-        covering.require_outside(p, subject, bound, place)
+        region.require_outside(p, subject, bound, place)
         T = subspaces.shrunk_subspace(subspace, f"{place}.subspace", subject, p, 1)
         width = len(subspace["pivots"])
         U = reading.polynomial_matrix(subspace["U"], place, subject.n, width, len(p) - 1)
         carried = [_carried(system, share, sizes, j) for j in range(system.m)]
         sends = [j for j, S in enumerate(carried) if any(not (S @ part).is_zero() for part in U)]
         found.append(({v for v, (j, i) in enumerate(ends) if j in sends and i not in T}, 1))
-    value = covering.claimed_cost(claim, "added", absence)
+    value = region.claimed_cost(claim, "added", absence)
     if value is not None:
         chosen = [_arc(e, "claim.added", system) for e in items(added, "claim.added")]
         right = chosen == sorted(set(chosen)) and set(chosen) <= set(ends)
         total = sum((c for j, i, c in candidates if (j, i) in chosen), Fraction(0))
         require(right and value == total, "claim", "claim.cost", "not the cost of such candidates")
         final = wired(arcs(system, {"added": added}, "claim.added"))
-        covering.require_absence(absence, final, bound)
+        region.require_absence(absence, final, bound)
     labels = [[system.names[j], system.names[i]] for j, i in ends]
     covering.Program(costs, found, "arc", labels, value).require_bound(tree, [1] * len(ends))
     modes = "no mode" if limit is None else f"no mode beyond {limit}"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
-from . import covering, evidence, reading, subspaces
+from . import covering, evidence, reading, region, subspaces
 from .exchange import augmented_outputs, extended, neighbors_of
 from .reading import fields, items, require
 from .system import System
@@ -20,7 +20,7 @@ def check(claim: Any, witness: Any, system: System) -> str:
     share, limit, free, prices, most, _, sizes, _ = fields(claim, "claim", *keys, "cost")
     absence, listed, tree = fields(witness, "witness", "absence", "cuts", "tree")
     reading.string(share, "claim.share", *PAIRS)
-    bound = covering.read_bound(limit, system)
+    bound = region.read_bound(limit, system)
     connected = reading.boolean(free, "claim.free_assignability")
     costs = [reading.rational(c, "claim.costs") for c in items(prices, "claim.costs", system.m)]
     require(all(c > 0 for c in costs), "claim", "claim.costs", "expected positive costs")
@@ -31,10 +31,10 @@ def check(claim: Any, witness: Any, system: System) -> str:
     for k, entry in enumerate(items(listed, "witness.cuts")):
         s, demand = _cut(entry, f"witness.cuts[{k}]", base, bound, connected)
         cuts.append(({j for i in s for j in N[i]} - set(s), demand))
-    value = covering.claimed_cost(claim, "dimensions", absence)
+    value = region.claimed_cost(claim, "dimensions", absence)
     if value is not None:
         subject = extended(system, {"share": share, "dimensions": sizes}, "claim")
-        covering.require_absence(absence, subject, bound, connected=connected)
+        region.require_absence(absence, subject, bound, connected=connected)
         fits = all(u is None or n_i <= u for n_i, u in zip(sizes, upper, strict=True))
         total = sum((n_i * c for n_i, c in zip(sizes, costs, strict=True)), Fraction(0))
         right = fits and value == total
@@ -64,7 +64,7 @@ def _cut(
         listed, factor, number, subspace = fields(entry, place, *keys)
         s = reading.names(listed, f"{place}.subset", base.names)
         p, demand = reading.polynomial(factor, place, 1), reading.integer(number, place, 1)
-        covering.require_outside(p, base, bound, place)
+        region.require_outside(p, base, bound, place)
         T = subspaces.shrunk_subspace(subspace, f"{place}.subspace", base, p, demand)
     require(evidence.complement(base, s) == T, "cut", place, "T is not the complement of s")
     return s, demand

@@ -7,9 +7,9 @@ from typing import Any
 
 from . import evidence
 from .arithmetic import Echelon, Matrix, characteristic_polynomial
-from .covering import read_bound
 from .location import in_region
 from .reading import boolean, fields, integer, items, matrix, require, string
+from .region import read_bound
 from .system import System
 from .words import described
 

@@ -1,0 +1,73 @@
+"""Absence of fixed modes beyond a region; ``proofs/shared_dimensions.md``."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any
+
+from . import evidence
+from .arithmetic import (
+    Polynomial,
+    characteristic_polynomial,
+    characteristic_polynomial_modulo,
+    exponent,
+)
+from .location import in_region
+from .reading import boolean, fields, integer, items, polynomial, rational, require
+from .system import System
+from .transfer_graph import read_arcs, require_arcs
+
+
+def require_absence(
+    value: Any, system: System, bound: Fraction | None, *, connected: bool = False
+) -> None:
+    """Stop unless every fixed mode lies in the region; and the graph is connected, if asked."""
+    place = "witness.absence"
+    gains, number, listed, arcs = fields(value, place, "gains", "modulus", "allowed", "arcs")
+    ell = evidence.modulus(number, f"{place}.modulus")
+    A_F = evidence.closed_loop(system, evidence.read_gains(gains, f"{place}.gains", system))
+    after = characteristic_polynomial_modulo(A_F.modulo(ell), ell)
+    allowed = items(listed, f"{place}.allowed")
+    rest = characteristic_polynomial(system.A) if allowed else []
+    for k, entry in enumerate(allowed):
+        where = f"{place}.allowed[{k}]"
+        factor, power = items(entry, where, 2)
+        p = polynomial(factor, where, 1)
+        inside = in_region(p, system.time, bound)
+        require(inside, "region", where, "has a root outside the region")
+        times, rest = exponent(p, rest)
+        require(times == integer(power, where, 1), "exponent", where, f"divides {times} times")
+    before = rest or characteristic_polynomial_modulo(system.A.modulo(ell), ell)
+    what = "det(xI - A) without the allowed factors and det(xI - A_F)"
+    evidence.require_coprime(before, after, ell, what)
+    require((arcs is not None) == connected, "claim", f"{place}.arcs", "expected iff claimed")
+    if arcs is not None:
+        found = read_arcs(arcs, f"{place}.arcs", system)
+        require_arcs(system, found, ell)
+        parts = evidence.components(system.m, [(j, i) for j, i, _ in found])
+        require(len(parts) <= 1, "arc", f"{place}.arcs", "these arcs do not connect all channels")
+
+
+def read_bound(value: Any, system: System) -> Fraction | None:
+    """A rate ≥ 0 in continuous time, a radius in (0, 1] in discrete time, or null."""
+    if value is None:
+        return None
+    bound = rational(value, "claim.bound")
+    fits = bound >= 0 if system.time == "continuous" else 0 < bound <= 1
+    require(fits, "bound", "claim.bound", "expected a rate >= 0, or a radius in (0, 1]")
+    return bound
+
+
+def require_outside(p: Polynomial, system: System, bound: Fraction | None, place: str) -> None:
+    """Stop if every root of p is where a fixed mode may stay."""
+    inside = in_region(p, system.time, bound)
+    require(not inside, "region", place, "every root lies inside the region")
+
+
+def claimed_cost(claim: dict[str, Any], answer: str, absence: Any) -> Fraction | None:
+    """The cost of the claimed answer; None where nothing suffices, and then there is no answer."""
+    if boolean(claim["feasible"], "claim.feasible"):
+        return rational(claim["cost"], "claim.cost")
+    nothing = claim[answer] is None and claim["cost"] is None and absence is None
+    require(nothing, "claim", "claim", "expected null where nothing suffices")
+    return None
