@@ -29,14 +29,13 @@ def check(claim: Any, witness: Any, system: System) -> str:
     require(bool(s and others), "claim", "claim.subset", "expected a nonempty proper subset")
     B, C = evidence.inputs(system, others), evidence.outputs(system, s)
     f = [polynomial(g, "claim.invariant_polynomials", 1) for g in items(invariants, CLAIM[2])]
-    chain = all(not poly_divide(g, h)[1] for h, g in pairwise(f))
-    require(chain, "divisor", "claim.invariant_polynomials", "expected each to divide the next")
-    b, k = sum(len(g) - 1 for g in f), integer(rank, "claim.normal_rank", n)
-    a, free = integer(size, "witness.reachable"), n + B.ncols - k
-    v, c = a + b, n - a - b
-    require(c >= 0 and free >= 0, "claim", "claim.normal_rank", "the dimensions do not fit")
-    shapes = [(n, v), (B.ncols, v), (a, v), (B.ncols, free), (a, free), (c, n), (c, C.nrows)]
-    X, F, A1, S, B1, L, G, N = reading.matrices(values, "witness", [*shapes, (c, c)])
+    require(not any(poly_divide(g, h)[1] for h, g in pairwise(f)), "divisor", "claim", "no chain")
+    a, k = integer(size, "witness.reachable"), integer(rank, "claim.normal_rank", n)
+    v, free = a + sum(len(g) - 1 for g in f), n + B.ncols - k
+    require(v <= n and free >= 0, "claim", "claim.normal_rank", "the dimensions do not fit")
+    c, p, q = n - v, B.ncols, C.nrows
+    shapes = [(n, v), (p, v), (a, v), (p, free), (a, free), (c, n), (c, q), (c, c)]
+    X, F, A1, S, B1, L, G, N = reading.matrices(values, "witness", shapes)
     K = reduce(diagonal, map(_companion, f), Matrix.zeros(0, a))
     identities = {
         "A X + B F = X [A1; 0 K]": (system.A @ X + B @ F).equals(X @ stack([A1, K], v)),
@@ -52,17 +51,16 @@ def check(claim: Any, witness: Any, system: System) -> str:
     for M, least in ((X.T, v), (L, c), (S.T, free), (L @ B, k - n)):
         echelon = Echelon(ell)
         reached = sum(echelon.add(row) is not None for row in M.modulo(ell))
-        require(reached == least, "rank", "witness", f"rank {reached} modulo ℓ, not {least}")
+        require(reached == least, "rank", "witness", f"rank {reached} modulo l, not {least}")
     require_reached(replace(system, A=A1.take(cols=range(a)), B=[B1]), 0, ell, a)
     remnant = reduce(poly_product, f[: max(len(f) - (k - n), 0)], [Fraction(1)])
     given = polynomial(rest, "claim.remnant"), boolean(zero, "claim"), boolean(verdict, "claim")
     implied = remnant, k == n, k > n and len(remnant) == 1
     require(given == implied, "claim", "claim", "does not follow from the invariant polynomials")
-    polynomials = ", ".join(map(polynomial_text, f)) or "no other"
     return (
         f"the pencil [xI - A, B; C, 0] of {described(system)}, C of {channel_set(system, s)} and B "
-        f"of the others, has normal rank {k}, invariant polynomials 1 and {polynomials}, remnant "
-        f"polynomial {polynomial_text(remnant)}: {'complete' if implied[2] else 'not complete'}"
+        f"of the others, has normal rank {k} and invariant polynomials "
+        f"{', '.join(map(polynomial_text, [[1], *f]))}: {'' if implied[2] else 'not '}complete"
     )
 
 

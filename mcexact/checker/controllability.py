@@ -61,5 +61,5 @@ def krylov_ranks(system: System, T: list[int], ell: int, blocks: int) -> list[in
 def require_reached(system: System, channel: int, ell: int, blocks: int) -> None:
     """Stop unless [B_q, …, A^{blocks−1}B_q] has rank n modulo ℓ."""
     reached = krylov_ranks(system, [channel], ell, blocks)[-1]
-    message = f"only {reached} dimensions are reached modulo ℓ in {blocks} blocks"
+    message = f"only {reached} dimensions are reached modulo l in {blocks} blocks"
     require(reached == system.n, "rank", "witness", message)

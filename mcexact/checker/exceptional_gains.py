@@ -16,26 +16,25 @@ from .words import described, polynomial_text
 def check(claim: Any, witness: Any, system: System) -> str:
     """Check a row at every root of each factor, and two determinants that vanish nowhere else."""
     rows, number, p, discs = fields(claim, "claim", "M", "blocks", "polynomial", "roots")
-    ell, listed, drawn = fields(witness, "witness", "modulus", "factors", "compressions")
+    modulus, listed, drawn = fields(witness, "witness", "modulus", "factors", "compressions")
     n, blocks = system.n, integer(number, "claim.blocks", 1)
+    require(blocks <= max(n, 1), "blocks", "claim.blocks", f"expected at most {n}")
     M, B = matrix(rows, "claim.M", n, n), evidence.inputs(system, range(system.m))
+    ell, parts = evidence.modulus(modulus, "witness.modulus"), (system.A, M, B, blocks)
     whole = reading.polynomial(p, "claim.polynomial")
     found = root_discs.root_discs(discs, "claim.roots", whole)
     plain = all(im == 0 or abs(im) > radius for _, im, radius in found)
     require(plain, "disc", "claim.roots", "a disc meets the real axis, but not in the middle")
     listed = enumerate(items(listed, "witness.factors"))
-    parts = (system.A, M, B, blocks)
     factors = [_lost_at(entry, f"witness.factors[{k}]", *parts) for k, entry in listed]
-    same = reduce(poly_product, factors, [Fraction(1)]) == whole
-    require(same, "product", "claim.polynomial", "not the product of the factors")
+    product = reduce(poly_product, factors, [Fraction(1)])
+    require(product == whole, "product", "claim.polynomial", "not the product of the factors")
     R = reading.matrices(drawn, "witness.compressions", [(blocks * B.ncols, n)] * 2)
     first, second = (_determinant(system.A, M, B, part, blocks) for part in R)
     require(any(first), "product", "witness.compressions", "the first determinant is zero")
-    for f in factors:
-        first = exponent(f, first)[1]
+    first = reduce(lambda left, f: exponent(f, left)[1], factors, first)
     # monic: a coefficient that only ℓ makes vanish could hide a common root
     first = [c / first[-1] for c in first]
-    ell = evidence.modulus(ell, "witness.modulus")
     evidence.require_coprime(first, second, ell, "the rest of det(K R) and det(K R')")
     real = sum(im == 0 for _, im, _ in found)
     return (
@@ -62,8 +61,7 @@ def _lost_at(value: Any, place: str, A: Matrix, M: Matrix, B: Matrix, blocks: in
 
 def _determinant(A: Matrix, M: Matrix, B: Matrix, R: Matrix, blocks: int) -> Polynomial:
     """det([B, (M+gA)B, …] R), through its values at 0, 1, … (Newton)."""
-    result: Polynomial = []
-    basis: Polynomial = [Fraction(1)]
+    result, basis = Polynomial(), [Fraction(1)]
     for g in range(A.nrows * (blocks - 1) + 1):
         total = Matrix.zeros(A.nrows, A.nrows)
         for k in reversed(range(0, R.nrows, B.ncols or 1)):

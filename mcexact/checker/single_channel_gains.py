@@ -13,41 +13,36 @@ from .system import System
 from .words import channel, channel_set, described, polynomial_text
 
 SIDES = ("controllable", "observable")
+CLAIM = ("channels", "property", "exists", "cyclic", "indices")
+WITNESS = ("gains", "modulus", "annihilators", "generator")
 
 
 def check(claim: Any, witness: Any, system: System) -> str:
     """Check gains and their indices for yes; a stuck mode or a cut behind one channel for no."""
-    keys: tuple[str, ...] = ("channels", "property", "exists", "cyclic", "indices")
-    listed, wanted, verdict, spun, numbers = fields(claim, "claim", *keys)
+    listed, wanted, verdict, spun, numbers = fields(claim, "claim", *CLAIM)
     Q, cyclic = reading.names(listed, "claim.channels", system.names), boolean(spun, "claim.cyclic")
-    one = reading.string(wanted, "claim.property", *SIDES, "both")
-    sides = SIDES if one == "both" else (one,)
+    sides = SIDES if wanted == "both" else (reading.string(wanted, "claim.property", *SIDES),)
     if not boolean(verdict, "claim.exists"):
         require(numbers is None and not cyclic, "claim", "claim", "without gains, no index")
         return _lost(witness, system, Q, sides)
-    keys = ("gains", "modulus", "annihilators", "generator")
-    gains, ell, rows, b = fields(witness, "witness", *keys)
-    F, ell = evidence.read_gains(gains, "witness.gains", system), evidence.modulus(ell, "witness")
-    closed = replace(system, A=evidence.closed_loop(system, F))
+    gains, modulus, rows, b = fields(witness, "witness", *WITNESS)
+    A_F = evidence.closed_loop(system, evidence.read_gains(gains, "witness.gains", system))
+    closed, k, n = replace(system, A=A_F), len(sides), system.n
+    ell = evidence.modulus(modulus, "witness.modulus")
     require(cyclic or b is None, "claim", "witness.generator", "expected null unless cyclic")
     if cyclic:
-        b = matrix(b, "witness.generator", system.n, 1)
-        require_reached(replace(closed, B=[b]), 0, ell, system.n)
-    indices = [
-        items(found, "claim.indices", len(sides)) for found in items(numbers, "claim", len(Q))
-    ]
-    rows = [
-        items(part, "witness.annihilators", len(sides)) for part in items(rows, "witness", len(Q))
-    ]
+        require_reached(replace(closed, B=[matrix(b, "witness.generator", n, 1)]), 0, ell, n)
+    indices = [items(part, "claim.indices", k) for part in items(numbers, "claim", len(Q))]
+    rows = [items(part, "witness.annihilators", k) for part in items(rows, "witness", len(Q))]
     for q, found, part in zip(Q, indices, rows, strict=True):
         for side, number, row in zip(sides, found, part, strict=True):
             target, nu = _seen(closed, side), integer(number, "claim.indices")
             require_reached(target, q, ell, nu)
-            w = matrix(row, "witness.annihilators", 1, system.n)
-            require(nu == 0 or not w.is_zero(), "row", "witness.annihilators", "zero")
+            w = matrix(row, "witness.annihilators", 1, n)
+            require(nu == 0 or not w.is_zero(), "row", "witness.annihilators", "a row of zeros")
             for _ in range(nu - 1):
-                unseen = (w @ target.B[q]).is_zero()
-                require(unseen, "identity", "witness.annihilators", f"index below {nu} is open")
+                gone = (w @ target.B[q]).is_zero()
+                require(gone, "identity", "witness.annihilators", f"index below {nu} is open")
                 w = w @ target.A
     return (
         f"decentralized gains make {described(system)} {' and '.join(sides)} through each of "
@@ -63,16 +58,15 @@ def _lost(witness: Any, system: System, Q: list[int], sides: tuple[str, ...]) ->
     cut = isinstance(witness, dict) and "zero" in witness
     keys = ("zero",) if cut else ("polynomial", "subspace")
     name, side, *parts = fields(witness, "witness", "channel", "side", *keys)
-    q, target = system.place_of(name, "witness"), _seen(system, reading.string(side, "witness"))
-    require(q in Q and side in sides, "claim", "witness", "about what is not asked")
+    q, side = system.place_of(name, "witness.channel"), reading.string(side, "witness.side", *sides)
+    target = _seen(system, side)
     if cut:
         T, X = subspaces.zero_transfer(parts[0], "witness.zero", target)
         C = evidence.outputs(target, evidence.complement(target, T))
-        apart = (C @ X).is_zero() and not C.is_zero()
-        require(apart, "cut", "witness.zero", "C X is not zero, or C is, outside T")
+        require(not C.is_zero() and (C @ X).is_zero(), "cut", "witness.zero", "C = 0 or C X is not")
     else:
         p = reading.polynomial(parts[0], "witness.polynomial", 1)
         T = subspaces.shrunk_subspace(parts[1], "witness.subspace", target, p, 1)
     reason = "its signals do not spread" if cut else f"{polynomial_text(p)} stays out of reach"
-    require(q in T, "channel", "witness.channel", "not a member of the set T")
+    require(q in T and q in Q, "channel", "witness.channel", "not in the set T, or not asked about")
     return f"no gains make {described(system)} {side} through {channel(system, q)}: {reason}"
