@@ -10,6 +10,7 @@ import random
 import sys
 import time
 from collections import Counter
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import pairwise
 from typing import Any
@@ -22,6 +23,7 @@ from mcexact.derived.drawn_graph import drawn_graph
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
+from mcexact.model.controller import Controller
 from mcexact.model.controller_file import controller_text
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import canonical_document
@@ -96,13 +98,15 @@ def one_design(seed: int) -> tuple[MultiChannelSystem, ObserverDesign]:
     return system, design
 
 
-def loop_of(system: MultiChannelSystem, design: ObserverDesign) -> list[list[Fraction]]:
+def loop_of(system: MultiChannelSystem, design: ObserverDesign | Renamed) -> list[list[Fraction]]:
     """The matrix of the loop from the files alone."""
     plant = json.loads(json.dumps(canonical_document(system)))
     return loop_rows(plant, controller_text(design.controller))
 
 
-def drawn_initial(system: MultiChannelSystem, design: ObserverDesign, seed: int) -> InitialState:
+def drawn_initial(
+    system: MultiChannelSystem, design: ObserverDesign | Renamed, seed: int
+) -> InitialState:
     """Small rational numbers everywhere."""
     rng = random.Random(seed)
 
@@ -117,7 +121,9 @@ def drawn_initial(system: MultiChannelSystem, design: ObserverDesign, seed: int)
     )
 
 
-def compare_discrete(system: MultiChannelSystem, design: ObserverDesign, seed: int) -> None:
+def compare_discrete(
+    system: MultiChannelSystem, design: ObserverDesign | Renamed, seed: int
+) -> None:
     """The network's steps are powers of the loop matrix, exactly."""
     matrix = loop_of(system, design)
     run = simulate(
@@ -129,7 +135,9 @@ def compare_discrete(system: MultiChannelSystem, design: ObserverDesign, seed: i
         assert snapshot.flat() == state
 
 
-def compare_multiprecision(system: MultiChannelSystem, design: ObserverDesign, seed: int) -> float:
+def compare_multiprecision(
+    system: MultiChannelSystem, design: ObserverDesign | Renamed, seed: int
+) -> float:
     """The agents at 60 digits against mpmath's exponential; the relative difference."""
     from mpmath import mp
 
@@ -153,7 +161,9 @@ def compare_multiprecision(system: MultiChannelSystem, design: ObserverDesign, s
         return float(max(abs(a - b) for a, b in zip(found, expected, strict=True)) / scale)
 
 
-def compare_double(system: MultiChannelSystem, design: ObserverDesign, seed: int) -> float:
+def compare_double(
+    system: MultiChannelSystem, design: ObserverDesign | Renamed, seed: int
+) -> float:
     """The agents in double precision against scipy's exponential, interval by interval.
 
     The relative difference, the worst of 128 intervals.  The intervals are short because it is
@@ -187,48 +197,44 @@ def campaign(count: int, seed: int, multiprecision: int = 10) -> Counter[str]:
         slowest = max(slowest, time.perf_counter() - began)
         heights.append(design.height)
         seen[f"{system.time} time"] += 1
-        seen["large entries"] += design.largest_entry >= TOO_LARGE_FOR_DOUBLES
-        if system.time == "discrete":
-            compare_discrete(system, design, number)
-            continue
-        # What a network computes does not depend on what its steps are called.
-        compare_discrete(*as_discrete(system, design), number)
-        if design.largest_entry < TOO_LARGE_FOR_DOUBLES:
-            seen["compared in double precision"] += 1
-            worst = max(worst, compare_double(system, design, number))
-        if max(system.n, system.m) <= 3 and seen["compared at 60 digits"] < multiprecision:
+        small = design.largest_entry < TOO_LARGE_FOR_DOUBLES
+        # What a network computes does not depend on what its time is called.
+        compare_discrete(*renamed(system, design, "discrete"), number)
+        flowing = renamed(system, design, "continuous")
+        if small:
+            seen["entries below 1e5, compared in double precision"] += 1
+            worst = max(worst, compare_double(*flowing, number))
+        few = max(system.n, system.m) <= 3 and system.time == "continuous"
+        if few and seen["compared at 60 digits"] < multiprecision:
             seen["compared at 60 digits"] += 1
-            exponential = max(exponential, compare_multiprecision(system, design, number))
+            exponential = max(exponential, compare_multiprecision(*flowing, number))
     print(f"longest number in bits: median {sorted(heights)[count // 2]}, worst {max(heights)}")
     print(f"slowest design with check and comparison {slowest:.1f} s")
     print(f"worst relative difference: double precision {worst:.1e}, 60 digits {exponential:.1e}")
     return seen
 
 
-def as_discrete(
-    system: MultiChannelSystem, design: ObserverDesign
-) -> tuple[MultiChannelSystem, Any]:
-    """The same matrices read as discrete time, so that powers can be compared exactly."""
-    from dataclasses import replace
+@dataclass(frozen=True)
+class Renamed:
+    """As much of a design as the comparisons need."""
 
+    controller: Controller
+
+
+def renamed(
+    system: MultiChannelSystem, design: ObserverDesign, time: str
+) -> tuple[MultiChannelSystem, Renamed]:
+    """The same matrices read in another time domain."""
     channels = system.channels
     turned = MultiChannelSystem(
         system.A,
         [channel.B for channel in channels],
         [channel.C for channel in channels],
-        time="discrete",
+        time=time,
         names=system.names,
         neighbors=system.neighbors,
     )
-    controller = replace(design.controller, time="discrete")
-    return turned, _Turned(controller)
-
-
-class _Turned:
-    """As much of a design as the comparisons need."""
-
-    def __init__(self, controller: Any) -> None:
-        self.controller = controller
+    return turned, Renamed(replace(design.controller, time=time))
 
 
 if __name__ == "__main__":
