@@ -1,107 +1,105 @@
-(* checker/pencil_rank.py and deficiency.py: kinds `pencil_rank` and `deficiency`.
-
-   pencil_rank is stated for every polynomial matrix M(x), of which P_s(x) is one: the checker's
-   P_s(x) leaves out the zero rows and columns that `pencil` keeps. *)
+(* The rank of P_s(lambda) depends only on the row space of C_s and on the column space of B_{m-s}:
+   the stacks of multichannel.v and the spaces of rank_one_repair.v have the same rank. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From mcexact Require Import multichannel arithmetic evidence controllability fixed_spectrum.
-Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
+From mcexact Require Import multichannel rank_one_repair.
+
+Set Implicit Arguments.
+Unset Strict Implicit.
+Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
 
-Section Determinant.
-Variable R : comRingType.
+Section Block.
+Variable L : fieldType.
 
-Lemma det_1_plus n (c : R) (E : 'M[R]_n) : exists e, \det (1%:M + c *: E) = 1 + c * e.
+Lemma rank_block_le k n p p' q q' (N : 'M[L]_(k, n)) (B : 'M_(k, p)) (B' : 'M_(k, p'))
+    (C : 'M_(q, n)) (C' : 'M_(q', n)) : (B^T <= B'^T)%MS -> (C <= C')%MS ->
+  (\rank (block_mx N B C 0) <= \rank (block_mx N B' C' 0))%N.
 Proof.
-pose f := \det (1%:M + 'X *: map_mx polyC E : 'M[{poly R}]_n).
-have fE x : f.[x] = \det (1%:M + x *: E).
-  rewrite -[LHS]/(horner_eval x f) -det_map_mx map_mxD map_mx1; congr (\det (_ + _)).
-  by apply/matrixP=> i j; rewrite !mxE /= /horner_eval hornerM hornerX hornerC.
-have /factor_theorem[g eg] : root (f - 1) 0.
-  by rewrite /root hornerD hornerN fE scale0r addr0 det1 hornerC subrr.
-exists g.[c]; rewrite -fE -[f](subrK 1) eg subr0 hornerD hornerC hornerM hornerX.
-by rewrite addrC mulrC.
-Qed.
-End Determinant.
-
-Section Upper.
-Variables (K L : fieldType) (f : {rmorphism K -> L}) (P : {poly K}) (lambda : L).
-Hypothesis root_lambda : root (map_poly f P) lambda.
-
-(* Rule `pencil_rank`, upper half: k independent columns of the kernel modulo p. *)
-Theorem pencil_rank_upper a c k (M : 'M[{poly K}]_(a, c)) (N : 'M[{poly K}]_(c, k)) (piv : 'I_k -> 'I_c) :
-  zero_modulo P (M *m N) -> zero_modulo P (rowsub piv N - 1%:M) ->
-  (\rank (map_mx (value f lambda) M) <= c - k)%N.
-Proof.
-move=> z piv1; have eN := value_zero root_lambda z; rewrite map_mxM in eN.
-have rN : \rank (map_mx (value f lambda) N) = k.
-  have := value_zero root_lambda piv1; rewrite map_mxB map_mx1 => /eqP.
-  rewrite subr_eq0 => /eqP e; apply/eqP; rewrite eqn_leq rank_leq_col /=.
-  by rewrite -[X in (X <= _)%N](mxrank1 L) -e map_mxsub mxrankS// rowsub_sub.
-have := mulmx0_rank_max eN; rewrite rN => h.
-by rewrite -(leq_add2r k) subnK// (leq_trans _ h)// leq_addl.
-Qed.
-End Upper.
-
-Section Lower.
-Variables (l : modulus) (L : fieldType) (h : {rmorphism rat -> L}).
-Notation res := (map_poly (@residue l)).
-
-Lemma representative_poly (r : {poly 'Z_l}) : res (map_poly (@representative l) r) = r.
-Proof.
-apply/polyP=> i; by rewrite coef_map coef_map_id0 //= representativeK.
+case/submxP=> E /(congr1 trmx); rewrite trmx_mul !trmxK => ->; case/submxP=> D ->.
+have -> : block_mx N (B' *m E^T) (D *m C') 0 =
+    block_mx 1%:M 0 0 D *m block_mx N B' C' 0 *m block_mx 1%:M 0 0 E^T.
+  by rewrite !mulmx_block !(mul1mx, mul0mx, mulmx0, mulmx1, addr0, add0r).
+exact: leq_trans (mxrankM_maxl _ _) (mxrankM_maxr _ _).
 Qed.
 
-(* Rule `pencil_rank`, lower half: elimination over (Z/l)[x]/(p) with unit pivots. *)
-Theorem pencil_rank_lower a c r (M : 'M[{poly Zloc l}]_(a, c)) (P : {poly Zloc l})
-    (X : 'M[{poly 'Z_l}]_(r, a)) (Y : 'M_(c, r)) (E : 'M_r) lambda :
-  P \is monic -> X *m map_mx res M *m Y = 1%:M + res P *: E ->
-  root (map_poly (into h) P) lambda ->
-  (r <= \rank (map_mx (horner_eval lambda \o map_poly (into h)) M))%N.
+Lemma rank_block_eq k n p p' q q' (N : 'M[L]_(k, n)) (B : 'M_(k, p)) (B' : 'M_(k, p'))
+    (C : 'M_(q, n)) (C' : 'M_(q', n)) : (B^T :=: B'^T)%MS -> (C :=: C')%MS ->
+  \rank (block_mx N B C 0) = \rank (block_mx N B' C' 0).
 Proof.
-move=> mP e rP; pose X' := map_mx (map_poly (@representative l)) X.
-pose Y' := map_mx (map_poly (@representative l)) Y; pose D := \det (X' *m M *m Y').
-have resD : res D = \det (X *m map_mx res M *m Y).
-  have eX : map_mx res X' = X by apply/matrixP=> i j; rewrite !mxE representative_poly.
-  have eY : map_mx res Y' = Y by apply/matrixP=> i j; rewrite !mxE representative_poly.
-  by rewrite -det_map_mx !map_mxM /= eX eY.
-have [d ed] := det_1_plus (res P) E; rewrite e ed in resD.
-have : ~~ root (map_poly (into h) D) lambda.
-  by apply: (@no_common_root _ _ h P D (- d) 1 _ (monic_unit_lead mP)) => //; rewrite resD mulNr mul1r mulrC addrCA addNr addr0.
-pose ev : {rmorphism {poly Zloc l} -> L} := [rmorphism of horner_eval lambda \o map_poly (into h)].
-rewrite /root -[_.[_]]/(ev D) /D -det_map_mx -unitfE -unitmxE -row_full_unit.
-move=> /eqP <-; rewrite !map_mxM.
-by rewrite (leq_trans (mxrankM_maxl _ _))// mxrankM_maxr.
+move=> eB eC; apply/eqP; rewrite eqn_leq !rank_block_le //.
+- by rewrite eB.
+- by rewrite eC.
+- by rewrite -eB.
+- by rewrite -eC.
 Qed.
 
-Section Deficiency.
-Variables (n m : nat) (p q : 'I_m -> nat) (S : multichannel (Zloc l) n p q).
-Notation SQ := (map_system (@Zloc_rat l) S).
-
-(* Rule `deficiency`, upper half: no subset and no lambda loses more than rho. *)
-Theorem deficiency_bound rho (F : gains (Zloc l) p q) (B0 : 'M_(n, rho)) (C0 : 'M_(rho, n)) u v :
-  u * res (char_poly (mcA S)) + v * res (char_poly (closed_loop S F + B0 *m C0)) = 1 ->
-  forall (s : {set 'I_m}) (lambda : L), (n <= \rank (pencil (map_system h SQ) s lambda) + rho)%N.
+(* two uncoupled systems *)
+Lemma rank_block_diag k1 n1 p1 q1 k2 n2 p2 q2 (N1 : 'M[L]_(k1, n1)) (B1 : 'M_(k1, p1))
+    (C1 : 'M_(q1, n1)) (N2 : 'M_(k2, n2)) (B2 : 'M_(k2, p2)) (C2 : 'M_(q2, n2)) :
+  \rank (block_mx (block_mx N1 0 0 N2) (block_mx B1 0 0 B2) (block_mx C1 0 0 C2) 0) =
+  (\rank (block_mx N1 B1 C1 0) + \rank (block_mx N2 B2 C2 0))%N.
 Proof.
-move=> b s lambda.
-have [rA|nrA] := boolP (root (map_poly (into h) (char_poly (mcA S))) lambda).
-  have := completion (char_poly_monic _) b rA; rewrite map_loop_into.
-  by move=> /leq_trans; apply; rewrite leq_add2r loop_rank_pencil.
-have := loop_rank_pencil (map_system h SQ) s lambda (fun=> 0).
-rewrite /closed_loop big1 => [|i _]; last by rewrite mulmx0 mul0mx.
-rewrite addr0 => lo; rewrite (leq_trans _ (leq_addr _ _))// (leq_trans _ lo)//.
-by move: nrA; rewrite -eigenvalue_into /= map_mx_comp eigenvalue_rank -leqNgt.
+rewrite -rank_diag_block_mx.
+pose z a b c d : 'M[L]_(a + b, c + d) := block_mx 0 0 0 0.
+have zE a b c d : z a b c d = 0 by rewrite /z !block_mx_const.
+pose M := block_mx (block_mx N1 0 0 N2) (block_mx B1 0 0 B2) (block_mx C1 0 0 C2) (z q1 q2 p1 p2).
+pose D := block_mx (block_mx N1 B1 C1 0) (z k1 q1 n2 p2) (z k2 q2 n1 p1) (block_mx N2 B2 C2 0).
+pose X a b c d : 'M[L]_(a + b + (c + d), a + c + (b + d)) :=
+  block_mx (block_mx 1%:M 0 0 0) (block_mx 0 0 1%:M 0)
+           (block_mx 0 1%:M 0 0) (block_mx 0 0 0 1%:M).
+have simp := (mul1mx, mul0mx, mulmx0, mulmx1, addr0, add0r).
+have eD : D = X _ _ _ _ *m M *m X _ _ _ _.
+  by rewrite /X /M /D /z !(mulmx_block, add_block_mx, simp).
+have eM : M = X _ _ _ _ *m D *m X _ _ _ _.
+  by rewrite /X /M /D /z !(mulmx_block, add_block_mx, simp).
+rewrite -(zE q1 q2) -(zE k1) -(zE k2) -/M -/D.
+have le1 : (\rank M <= \rank D)%N.
+  by rewrite [M in (\rank M <= _)%N]eM (leq_trans (mxrankM_maxl _ _)) // mxrankM_maxr.
+have le2 : (\rank D <= \rank M)%N.
+  by rewrite [D in (\rank D <= _)%N]eD (leq_trans (mxrankM_maxl _ _)) // mxrankM_maxr.
+by apply/eqP; rewrite eqn_leq le1.
 Qed.
 
-(* Kind `deficiency`: rho is the largest n - rank P_s(lambda), and it is attained. *)
-Theorem deficiency_rule rho (F : gains (Zloc l) p q) (B0 : 'M_(n, rho)) (C0 : 'M_(rho, n)) u v
-    P T (E : shrunk_subspace SQ P T rho) (lambda : L) :
-  u * res (char_poly (mcA S)) + v * res (char_poly (closed_loop S F + B0 *m C0)) = 1 ->
-  root (map_poly h P) lambda ->
-  (\rank (pencil (map_system h SQ) (~: T) lambda) + rho = n)%N.
+End Block.
+
+Section Stacks.
+Variables (L : fieldType) (n m : nat) (p q : 'I_m -> nat).
+Implicit Types (S : multichannel L n p q) (s : {set 'I_m}) (lambda : L).
+
+Lemma mxcol_space k (d : 'I_m -> nat) (V : forall i, 'M[L]_(d i, k)) s :
+  (\mxcol_i (if i \in s then V i else 0) :=: (\sum_(i in s) <<V i>>)%MS)%MS.
 Proof.
-move=> b rP; apply/eqP; rewrite eqn_leq (deficiency_bound b) andbT.
-exact: (shrunk_subspace_pencil E (f := h) rP).
+apply: eqmx_trans (eqmx_col _) _; rewrite [X in (_ :=: X)%MS]big_mkcond /=.
+by rewrite (eq_bigr (fun i => if i \in s then <<V i>>%MS else 0)) // => i _; case: ifP; rewrite ?genmx0.
 Qed.
-End Deficiency.
-End Lower.
+
+Lemma eqmx_outputs S s : (outputs S s :=: output_space (mcC S) s)%MS.
+Proof. exact: mxcol_space. Qed.
+
+Lemma eqmx_inputs S s : ((inputs S s)^T :=: (input_space (mcB S) s)^T)%MS.
+Proof.
+rewrite trmxK /inputs tr_mxrow.
+have -> : \mxcol_i (if i \in s then mcB S i else 0)^T =
+          \mxcol_i (if i \in s then (mcB S i)^T else 0).
+  by apply: eq_mxcol => i; case: ifP => // _; rewrite trmx0.
+exact: mxcol_space.
+Qed.
+
+Lemma rank_pencilE S s lambda :
+  \rank (pencil S s lambda) =
+  \rank (wong_pencil (mcB S) (mcC S) (lambda%:M - mcA S) s).
+Proof. exact: rank_block_eq (eqmx_inputs _ _) (eqmx_outputs _ _). Qed.
+
+Lemma perturbed_closed_loop S (F : gains L p q) lambda :
+  perturbed (mcB S) (mcC S) (lambda%:M - mcA S) F = lambda%:M - closed_loop S F.
+Proof. by rewrite /perturbed /closed_loop opprD addrA. Qed.
+
+Lemma eigenvalue_rank k (M : 'M[L]_k) lambda :
+  eigenvalue M lambda = (\rank (lambda%:M - M)%R < k)%N.
+Proof.
+rewrite /eigenvalue /eigenspace -mxrank_eq0 mxrank_ker -mxrank_opp opprB subn_eq0 -ltnNge.
+by [].
+Qed.
+
+End Stacks.
