@@ -6,14 +6,11 @@ import json
 from fractions import Fraction
 from typing import Any
 
-from . import covering, reading, region, subspaces
-from .arithmetic import Matrix, diagonal
-from .exchange import arcs, augmented_outputs, extended, neighbors_of
+from . import covering, reading, region, subspaces, wires
+from .exchange import arcs, augmented_outputs, extended
 from .reading import fields, items, require
 from .system import System
 from .words import described
-
-Candidates = list[tuple[int, int, Fraction]]
 
 
 def check(claim: Any, witness: Any, system: System) -> str:
@@ -24,7 +21,7 @@ def check(claim: Any, witness: Any, system: System) -> str:
     absence, cuts, tree = fields(witness, "witness", "absence", "cuts", "tree")
     reading.string(share, "claim.share", "outputs", "outputs+states", "states")
     require((sizes is None) == (share == "outputs"), "claim", "claim.dimensions", "do not fit")
-    bound, candidates = region.read_bound(limit, system), _candidates(listed, system)
+    bound, candidates = region.read_bound(limit, system), wires.candidates(listed, system)
     costs, ends = [cost for *_, cost in candidates], [(j, i) for j, i, _ in candidates]
     step = {"share": share, "dimensions": sizes}
 
@@ -41,12 +38,12 @@ def check(claim: Any, witness: Any, system: System) -> str:
         T = subspaces.shrunk_subspace(subspace, f"{place}.subspace", subject, p, 1)
         width = len(subspace["pivots"])
         U = reading.polynomial_matrix(subspace["U"], place, subject.n, width, len(p) - 1)
-        carried = [_carried(system, share, sizes, j) for j in range(system.m)]
-        sends = [j for j, S in enumerate(carried) if any(not (S @ part).is_zero() for part in U)]
+        rows = [wires.carried(system, share, sizes, j) for j in range(system.m)]
+        sends = [j for j, S in enumerate(rows) if any(not (S @ part).is_zero() for part in U)]
         found.append(({v for v, (j, i) in enumerate(ends) if j in sends and i not in T}, 1))
     value = region.claimed_cost(claim, "added", absence)
     if value is not None:
-        chosen = [_arc(e, "claim.added", system) for e in items(added, "claim.added")]
+        chosen = [wires.arc(e, "claim.added", system) for e in items(added, "claim.added")]
         right = chosen == sorted(set(chosen)) and set(chosen) <= set(ends)
         total = sum((c for j, i, c in candidates if (j, i) in chosen), Fraction(0))
         require(right and value == total, "claim", "claim.cost", "not the cost of such candidates")
@@ -61,28 +58,3 @@ def check(claim: Any, witness: Any, system: System) -> str:
     if value is None:
         return f"{start} no set of the candidate arcs suffices {end}"
     return f"{start} adding {json.dumps(added)} suffices and nothing below cost {value} does {end}"
-
-
-def _arc(value: Any, place: str, system: System) -> tuple[int, int]:
-    j, i = (reading.names([end], place, system.names)[0] for end in items(value, place, 2))
-    return j, i
-
-
-def _candidates(value: Any, system: System) -> Candidates:
-    """Arcs that the graph lacks, with their costs."""
-    place, N, found = "claim.candidates", neighbors_of(system, "claim"), []
-    for *ends, price in (items(entry, place, 3) for entry in items(value, place)):
-        found.append((*_arc(ends, place, system), reading.rational(price, place)))
-    keys = [(j, i) for j, i, _ in found]
-    if keys != sorted(set(keys)) or any(j in N[i] for j, i in keys):
-        reading.malformed(place, "expected arcs that are missing, sorted, none twice")
-    require(all(c > 0 for *_, c in found), "claim", place, "expected positive costs")
-    return found
-
-
-def _carried(system: System, share: str, sizes: Any, j: int) -> Matrix:
-    """S_j: C_j, diag(C_j, E_j') or [0, E_j'], what an arc from j adds to the outputs."""
-    C = Matrix.zeros(0, system.n) if share == "states" else system.C[j]
-    if sizes is None:
-        return C
-    return diagonal(C, Matrix.unit_rows(sum(sizes), sum(sizes[:j]), sizes[j]))

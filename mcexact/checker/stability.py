@@ -5,9 +5,9 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
-from . import evidence
-from .arithmetic import Echelon, Matrix, characteristic_polynomial
+from .arithmetic import characteristic_polynomial
 from .location import in_region
+from .quadratic_forms import decreasing, require_dominant, transformed
 from .reading import boolean, fields, integer, items, matrix, require, string
 from .region import read_bound
 from .system import System
@@ -27,59 +27,25 @@ def check(claim: Any, witness: Any, system: System) -> str:
     elif method == "lyapunov":
         require(stable, "claim", "claim.stable", "this evidence is for a stable loop")
         _, change, listed = fields(witness, "witness", "method", "transformation", "blocks")
-        start, Delta = 0, M if change is None else _transformed(change, M)
+        start, Delta = 0, M if change is None else transformed(change, M)
         for place, entry in ((f"witness.blocks[{k}]", e) for k, e in enumerate(items(listed, ""))):
             size = integer(fields(entry, place, "size", "P", "R", "R2")[0], f"{place}.size")
             block, rest = range(start, start + size), range(start + size, M.nrows)
             require(block.stop <= M.nrows, "size", place, f"expected {M.nrows} states in all")
             below = Delta.take(rest, block)
             require(below.is_zero(), "blocks", place, "not block upper triangular")
-            P = _decreasing(entry, place, Delta.take(block, block), system.time, bound)
+            P = decreasing(entry, place, Delta.take(block, block), system.time, bound)
             R = matrix(entry["R"], f"{place}.R", size, size)
-            _require_dominant(R.T @ (P @ R), f"{place}.R")
+            require_dominant(R.T @ (P @ R), f"{place}.R")
             start += size
         require(start == M.nrows, "size", "witness.blocks", f"expected {M.nrows} states in all")
     else:
         require(not stable, "claim", "claim.stable", "this evidence is for an unstable loop")
         *_, direction = fields(witness, "witness", "method", "P", "R2", "v")
-        P = _decreasing(witness, "witness", M, system.time, bound)
+        P = decreasing(witness, "witness", M, system.time, bound)
         v = matrix(direction, "witness.v", M.nrows, 1)
         falls = not v.is_zero() and (v.T @ (P @ v)).rows[0][0] <= 0
         require(falls, "direction", "witness.v", "expected v not 0 with v'Pv <= 0")
     what = f"real part below {-bound}" if system.time == "continuous" else f"modulus below {bound}"
     every = "every eigenvalue has" if stable else "not every eigenvalue has"
     return f"{every} {what} in {described(system)}"
-
-
-def _transformed(value: Any, M: Matrix) -> Matrix:
-    """Δ with M T = T Δ for a T that is nonsingular modulo ℓ."""
-    place, N = "witness.transformation", M.nrows
-    left, right, number = fields(value, place, "T", "Delta", "modulus")
-    T, Delta = matrix(left, f"{place}.T", N, N), matrix(right, f"{place}.Delta", N, N)
-    basis = Echelon(evidence.modulus(number, f"{place}.modulus"))
-    independent = all(basis.add(row) is not None for row in T.modulo(basis.ell))
-    require(independent, "rank", f"{place}.T", "singular modulo ℓ")
-    require((M @ T).equals(T @ Delta), "identity", place, "M T differs from T Δ")
-    return Delta
-
-
-def _decreasing(value: Any, place: str, D: Matrix, time: str, bound: Fraction) -> Matrix:
-    """P, symmetric, with −(DᵀP + PD + 2·bound·P), or bound²P − DᵀPD, positive definite by R2."""
-    k = D.nrows
-    P, R2 = (matrix(value[key], f"{place}.{key}", k, k) for key in ("P", "R2"))
-    require(P.equals(P.T), "symmetry", f"{place}.P", "not symmetric")
-    half = P @ D
-    if time == "continuous":
-        S = (half + half.T + P.times(2 * bound)).times(Fraction(-1))
-    else:
-        S = P.times(bound**2) - D.T @ half
-    _require_dominant(R2.T @ (S @ R2), f"{place}.R2")
-    return P
-
-
-def _require_dominant(S: Matrix, place: str) -> None:
-    """Stop unless S is strictly diagonally dominant with positive diagonal."""
-    fits = all(
-        2 * row[i] > row[i] + sum(map(abs, row)) - abs(row[i]) for i, row in enumerate(S.rows)
-    )
-    require(fits, "dominance", place, "not strictly diagonally dominant")

@@ -1,0 +1,44 @@
+"""Quadratic forms that decrease along a loop; ``proofs/stability.md``."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any
+
+from . import evidence
+from .arithmetic import Echelon, Matrix
+from .reading import fields, matrix, require
+
+
+def transformed(value: Any, M: Matrix) -> Matrix:
+    """Δ with M T = T Δ for a T that is nonsingular modulo ℓ."""
+    place, N = "witness.transformation", M.nrows
+    left, right, number = fields(value, place, "T", "Delta", "modulus")
+    T, Delta = matrix(left, f"{place}.T", N, N), matrix(right, f"{place}.Delta", N, N)
+    basis = Echelon(evidence.modulus(number, f"{place}.modulus"))
+    independent = all(basis.add(row) is not None for row in T.modulo(basis.ell))
+    require(independent, "rank", f"{place}.T", "singular modulo l")
+    require((M @ T).equals(T @ Delta), "identity", place, "M T differs from T Delta")
+    return Delta
+
+
+def decreasing(value: Any, place: str, D: Matrix, time: str, bound: Fraction) -> Matrix:
+    """P, symmetric, with −(DᵀP + PD + 2·bound·P), or bound²P − DᵀPD, positive definite by R2."""
+    k = D.nrows
+    P, R2 = (matrix(value[key], f"{place}.{key}", k, k) for key in ("P", "R2"))
+    require(P.equals(P.T), "symmetry", f"{place}.P", "not symmetric")
+    half = P @ D
+    if time == "continuous":
+        S = (half + half.T + P.times(2 * bound)).times(Fraction(-1))
+    else:
+        S = P.times(bound**2) - D.T @ half
+    require_dominant(R2.T @ (S @ R2), f"{place}.R2")
+    return P
+
+
+def require_dominant(S: Matrix, place: str) -> None:
+    """Stop unless S is strictly diagonally dominant with positive diagonal."""
+    fits = all(
+        2 * row[i] > row[i] + sum(map(abs, row)) - abs(row[i]) for i, row in enumerate(S.rows)
+    )
+    require(fits, "dominance", place, "not strictly diagonally dominant")
