@@ -9,7 +9,6 @@ from typing import Any, Literal
 from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.analysis.setpoint import SetpointSolvability, setpoint_solvability
 from mcexact.analysis.stability import StabilityVerdict, certify_stability
-from mcexact.derived.extended import Share
 from mcexact.derived.integrators import setpoint_system
 from mcexact.errors import Impossible, InputError, InternalError, UsageError
 from mcexact.exact.linear_algebra import solve
@@ -107,7 +106,8 @@ def design_setpoint(
         For the plant with its integrators, of n + Σ q_i states: as in `design_observer`, or as in
         `design_extended`.
     rate, radius : rational, optional
-        Instead of a spectrum, or besides it, to be certified.
+        Instead of a spectrum, or besides it, to be certified.  In exact arithmetic and continuous
+        time the numbers are then placed beyond three times the rate, where no fixed mode forbids.
     road : {"observer", "extended"}
         A distributed observer of the plant and all integrators, or shared sub-states of the least
         dimension; agents send no outputs in either.
@@ -159,39 +159,60 @@ all outputs in order; 0 is an invariant zero of the plant
         names=system.names,
         neighbors=found,
     )
-    wanted = {"spectrum": spectrum, "rate": rate, "radius": radius, "progress": progress}
-    if road == "observer":
-        made, polynomial = _observed(alone, q, wanted, arithmetic)
-    else:
-        kind: Literal["held", "extended"] = "held" if found.delays else "extended"
-        share: Share = "states"
-        extended = design_extended(
-            alone,
-            None,
-            q,
-            dimensions=dimensions,
-            share=share,
-            network=kind,
-            arithmetic=arithmetic,
-            **wanted,
-        )
-        made, polynomial = extended.design.controller, extended.design.loop.polynomial
+    task = _Task(alone, q, spectrum, road, dimensions, arithmetic, progress)
+    try:
+        made, polynomial = task.designed(_aim(system.time, bound, task))
+    except Impossible:
+        made, polynomial = task.designed(bound)
     controller = with_integrators(system, made)
     return _certified(system, controller, polynomial, bound, solvability, road, arithmetic)
 
 
-def _observed(
-    alone: MultiChannelSystem, q: str | None, wanted: dict[str, Any], arithmetic: ArithmeticKind
-) -> tuple[Controller, Polynomial | None]:
-    """A distributed observer for the plant with its integrators."""
-    if arithmetic == "float":
-        if wanted["spectrum"] is not None:
+@dataclass(frozen=True)
+class _Task:
+    """A design for the plant with its integrators, taken for a plant itself."""
+
+    alone: MultiChannelSystem
+    agent: str | None
+    spectrum: Any
+    road: Road
+    dimensions: Dimensions
+    arithmetic: ArithmeticKind
+    progress: Progress | None
+
+    def designed(self, bound: Fraction | None) -> tuple[Controller, Polynomial | None]:
+        """A controller, and the polynomial of the loop where the design proves it."""
+        alone, name = self.alone, "rate" if self.alone.time == "continuous" else "radius"
+        given: dict[str, Any] = {name: bound, "progress": self.progress}
+        if self.road == "extended":
+            found = design_extended(
+                alone,
+                None,
+                self.agent,
+                dimensions=self.dimensions,
+                share="states",
+                network="held" if alone.neighbors and alone.neighbors.delays else "extended",
+                spectrum=self.spectrum,
+                arithmetic=self.arithmetic,
+                **given,
+            )
+            return found.controller, found.loop.polynomial
+        if self.arithmetic == "exact":
+            design = design_observer(alone, None, self.agent, spectrum=self.spectrum, **given)
+            return design.controller, design.loop.polynomial
+        if self.spectrum is not None:
             raise UsageError("in floating point give a rate or radius, not a spectrum")
-        given = {name: wanted[name] for name in ("rate", "radius", "progress")}
-        proposed = design_observer(alone, None, q, arithmetic="float", **given)
+        proposed = design_observer(alone, None, self.agent, arithmetic="float", **given)
         return proposed.controller, proposed.loop.polynomial
-    design = design_observer(alone, None, q, **wanted)
-    return design.controller, design.loop.polynomial
+
+
+def _aim(time: str, bound: Fraction | None, task: _Task) -> Fraction | None:
+    """Where to place the numbers that nobody prescribed: beyond the rate that is certified.
+
+    Roots that repeat, behind large gains, take many time constants to fade.
+    """
+    free = task.spectrum is None and task.arithmetic == "exact" and time == "continuous"
+    return bound if bound is None or not free else 3 * bound
 
 
 def _required(system: MultiChannelSystem) -> SetpointSolvability:

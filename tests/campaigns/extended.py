@@ -31,7 +31,8 @@ from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.simulation.trajectory import simulate
 from mcexact.synthesis.extended import design_extended
-from mcexact.synthesis.setpoint import design_setpoint
+from mcexact.synthesis.network_candidates import ArithmeticKind
+from mcexact.synthesis.setpoint import Road, design_setpoint
 
 RADIUS = Fraction(1, 2)
 
@@ -206,14 +207,15 @@ def setpoints(count: int, seed: int) -> Counter[str]:
         if not found.solvable:
             _refused(system, where, seen)
             continue
-        road = "extended" if number % 3 == 0 else "observer"
-        wanted = {"rate": 1} if system.time == "continuous" else {"radius": RADIUS}
-        design = design_setpoint(system, road=road, **wanted)  # type: ignore[arg-type]
+        road: Road = "extended" if number % 4 < 2 else "observer"
+        arithmetic: ArithmeticKind = "float" if number % 2 else "exact"
+        wanted: dict[str, Any] = {"radius": RADIUS} if system.time == "discrete" else {"rate": 1}
+        design = design_setpoint(system, road=road, arithmetic=arithmetic, **wanted)
         required(design.stability.stable, "stable", where)
         error = tracking_error(system, design.controller, random.Random(number))
         required(error <= 1e-6, f"an output misses its reference by {error}", where)
         seen["plants that satisfy the condition"] += 1
-        seen[f"{system.time}, through the {road} road"] += 1
+        seen[f"{system.time} time, {road} road, {arithmetic} arithmetic"] += 1
         seen["certificates VALID"] += valid(design.certificates.values(), where)
     return seen
 
