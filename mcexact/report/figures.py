@@ -37,18 +37,20 @@ def simulation_png(run: Trajectory, spectrum: LoopSpectrum | None, title: str = 
     axes = list(figure.subplots(1, panels, squeeze=False)[0])
     if title:
         figure.suptitle(title)
-    _decay(axes.pop(0), run, {"state": state_norms(run)}, spectrum, "largest entry of the state")
+    draw_decay(
+        axes.pop(0), run, {"state": state_norms(run)}, spectrum, "largest entry of the state"
+    )
     if errors:
         named = {f"agent {name}": values for name, values in errors.items()}
-        _decay(axes.pop(0), run, named, spectrum, "largest entry of the estimation errors")
+        draw_decay(axes.pop(0), run, named, spectrum, "largest entry of the estimation errors")
     if spectrum is not None:
-        _eigenvalues(axes.pop(0), run.time, spectrum)
+        draw_eigenvalues(axes.pop(0), run.time, spectrum)
     image = io.BytesIO()
     figure.savefig(image, format="png", dpi=120, metadata={"Software": None})
     return image.getvalue()
 
 
-def _decay(
+def draw_decay(
     axis: Any,
     run: Trajectory,
     curves: dict[str, list[float]],
@@ -67,7 +69,7 @@ def _decay(
         floor = min(shown) / 10
         visible = [value if value >= floor else float("nan") for value in line]
         if line:
-            label_of_line = f"slope of the certified {_rate_text(run, spectrum)}"
+            label_of_line = f"slope of the certified {rate_text(run.time, spectrum)}"
             axis.plot(times, visible, "k--", linewidth=1, label=label_of_line)
     if shown:
         axis.set_yscale("log")
@@ -102,16 +104,16 @@ def _slope(
     ]
 
 
-def _rate_text(run: Trajectory, spectrum: LoopSpectrum) -> str:
+def rate_text(time: str, spectrum: LoopSpectrum) -> str:
     """The certified end of the enclosure of the rate."""
     if spectrum.rate is None:
         return ""
-    if run.time == "continuous":
+    if time == "continuous":
         return f"rate {float(Fraction(spectrum.rate.lower)):.4g}"
     return f"radius {float(Fraction(spectrum.rate.upper)):.4g}"
 
 
-def _eigenvalues(axis: Any, time: str, spectrum: LoopSpectrum) -> None:
+def draw_eigenvalues(axis: Any, time: str, spectrum: LoopSpectrum) -> None:
     """The eigenvalues, and the stability region in gray."""
     from matplotlib.patches import Circle
 
@@ -128,6 +130,8 @@ def _eigenvalues(axis: Any, time: str, spectrum: LoopSpectrum) -> None:
         reach = 1.1 * max([1.0, *map(abs, re), *map(abs, im)])
         axis.set_xlim(-reach, reach)
         axis.set_ylim(-reach, reach)
+    for x, y, disc in zip(re, im, spectrum.discs, strict=True):
+        axis.add_patch(Circle((x, y), float(Fraction(disc.radius)), color="C3", alpha=0.4))
     axis.plot(re, im, "x", color="C3")
     axis.axhline(0, color="0.6", linewidth=0.8)
     axis.set_title("eigenvalues of the closed loop", fontsize="medium")

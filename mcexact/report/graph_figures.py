@@ -1,0 +1,169 @@
+"""Neighbor and transfer graphs with the channels of an obstruction colored; shared dimensions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from mcexact.analysis.fixed_spectrum import FixedSpectrum, fixed_spectrum
+from mcexact.analysis.transfer_graph import TransferGraph, transfer_graph
+from mcexact.report.picture import Picture, empty_figure
+
+if TYPE_CHECKING:
+    from mcexact.analysis.allocation import SharedDimensionBound, SharedDimensions
+    from mcexact.model.system import MultiChannelSystem
+
+MARKED, SENDERS, PLAIN = "#d95f02", "#7570b3", "#e8e8e8"
+LARGEST = 24
+"""Channels beyond which circles and arrows say nothing any more."""
+
+Arc = tuple[str, str]
+
+
+def graph_picture(
+    system: MultiChannelSystem,
+    *,
+    fixed: FixedSpectrum | None = None,
+    transfer: TransferGraph | None = None,
+    information: str = "own",
+) -> Picture:
+    """Draw the neighbor graph, where there is one, beside the transfer graph.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    fixed : FixedSpectrum, optional
+        Its first factor's channels s are colored, and so is N_s∖s, whom s hears; decided here if it
+        is not given.
+    transfer : TransferGraph, optional
+    information : {"own", "outputs"}
+        What the fixed spectrum is about; for the caption.
+    """
+    fixed = fixed_spectrum(system) if fixed is None else fixed
+    transfer = transfer_graph(system) if transfer is None else transfer
+    names, graph = system.names, system.neighbors
+    subset = set() if fixed.empty else set(fixed.factors[0].channels)
+    boundary: set[str] = set()
+    panels: list[tuple[str, list[Arc]]] = []
+    if graph is not None:
+        inside = [names.index(name) for name in subset]
+        boundary = set(system.named(graph.union(inside))) - subset if subset else set()
+        arcs = [(names[j], names[i]) for j, i in graph.arcs()]
+        panels.append(("neighbor graph", arcs))
+    panels.append(("transfer graph", [arc for arc in transfer.arcs if arc[0] != arc[1]]))
+    figure = empty_figure(4.2 * len(panels), 3.9)
+    for axis, (title, arcs) in zip(
+        figure.subplots(1, len(panels), squeeze=False)[0], panels, strict=True
+    ):
+        _draw(axis, title, names, arcs, subset, boundary)
+    shared = " (agents share outputs)" if information == "outputs" else ""
+    words = [f"{title}: {_listed(arcs)}" for title, arcs in panels]
+    if subset:
+        words.append(
+            f"the obstruction to {fixed.factors[0].polynomial}{shared}: channels "
+            f"{', '.join(sorted(subset, key=names.index))}, colored orange"
+        )
+    if boundary:
+        heard = ", ".join(sorted(boundary, key=names.index))
+        words.append(f"they hear {heard}, colored purple")
+    return Picture(figure, "Graphs" + shared, "; ".join(words) + ".")
+
+
+def _listed(arcs: Iterable[Arc]) -> str:
+    """The arcs in words."""
+    told = [f"{start} → {end}" for start, end in arcs]
+    more = f" and {len(told) - 40} more" if len(told) > 40 else ""
+    return ", ".join(told[:40]) + more if told else "no arcs"
+
+
+def _draw(
+    axis: Any,
+    title: str,
+    names: Sequence[str],
+    arcs: Sequence[Arc],
+    subset: set[str],
+    boundary: set[str],
+) -> None:
+    """Channels on a circle, arcs bent so that both directions are seen."""
+    from matplotlib.patches import Circle, FancyArrowPatch
+
+    axis.set_title(title, fontsize="medium")
+    axis.set_aspect("equal")
+    axis.set_xlim(-1.4, 1.4)
+    axis.set_ylim(-1.4, 1.4)
+    axis.set_axis_off()
+    m = len(names)
+    if m > LARGEST:
+        axis.text(0, 0, f"{m} channels, {len(arcs)} arcs", ha="center", parse_math=False)
+        return
+    size = 0.2 if m <= 8 else 0.12
+    turn = [math.pi / 2 - 2 * math.pi * k / m for k in range(m)]
+    radius = 1.0 if m > 1 else 0.0
+    place = {
+        name: (radius * math.cos(a), radius * math.sin(a))
+        for name, a in zip(names, turn, strict=True)
+    }
+    for start, end in arcs:
+        axis.add_patch(
+            FancyArrowPatch(
+                place[start],
+                place[end],
+                connectionstyle="arc3,rad=0.14",
+                arrowstyle="-|>",
+                mutation_scale=12,
+                shrinkA=72 * size,
+                shrinkB=72 * size,
+                color=SENDERS if start in boundary and end in subset else "#555555",
+                linewidth=1.1,
+            )
+        )
+    for name, (x, y) in place.items():
+        color = MARKED if name in subset else SENDERS if name in boundary else PLAIN
+        axis.add_patch(Circle((x, y), size, facecolor=color, edgecolor="#333333", zorder=3))
+        text = name if len(name) <= 6 else name[:5] + "…"
+        ink = "white" if color != PLAIN else "black"
+        axis.text(
+            x, y, text, ha="center", va="center", color=ink, zorder=4, fontsize=9, parse_math=False
+        )
+
+
+def dimensions_picture(
+    system: MultiChannelSystem,
+    bounds: Mapping[str, SharedDimensionBound],
+    least: Mapping[str, SharedDimensions],
+) -> Picture:
+    """Bars for every agent: the bound beside the least, for each way of sharing.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    bounds, least : mapping from the way of sharing to the answer
+    """
+    names = system.names
+    figure = empty_figure(4.4 * len(bounds), 3.2)
+    words = []
+    for axis, (share, bound) in zip(
+        figure.subplots(1, len(bounds), squeeze=False)[0], bounds.items(), strict=True
+    ):
+        found = least[share].dimensions
+        sizes = (0,) * len(names) if found is None else found
+        places = range(len(names))
+        axis.bar(
+            [k - 0.2 for k in places],
+            [bound.per_agent] * len(names),
+            0.4,
+            color="#bbbbbb",
+            label="bound of the paper",
+        )
+        axis.bar([k + 0.2 for k in places], sizes, 0.4, color=MARKED, label="least")
+        axis.set_xticks(list(places), names, parse_math=False)
+        axis.set_yticks(range(max(bound.per_agent, *sizes, 1) + 1))
+        axis.set_xlabel("agent")
+        axis.set_ylabel("shared dimension")
+        axis.set_title(share, fontsize="medium")
+        axis.legend(fontsize="small", loc="upper center")
+        axis.margins(y=0.35)
+        told = "nothing suffices" if found is None else f"least {list(found)}"
+        words.append(f"{share}: bound {bound.per_agent} for each agent, {told}")
+    return Picture(figure, "Shared dimensions by agent", "; ".join(words) + ".")

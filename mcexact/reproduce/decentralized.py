@@ -1,0 +1,234 @@
+"""Section IV-A and IV-B: fixed spectra, transfer graphs, and the example of three channels."""
+
+from __future__ import annotations
+
+from functools import reduce
+
+from mcexact.analysis.completeness import completeness
+from mcexact.analysis.controllability import joint_controllability, joint_observability
+from mcexact.analysis.fixed_spectrum import fixed_spectrum
+from mcexact.analysis.pencil import pencil_rank
+from mcexact.analysis.single_channel_gains import single_channel_gains
+from mcexact.analysis.transfer_graph import transfer_graph
+from mcexact.derived.augmented_outputs import augmented_outputs
+from mcexact.derived.feedback import closed_by
+from mcexact.errors import Impossible
+from mcexact.exact.linear_algebra import characteristic_polynomial
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.polynomial import Polynomial
+from mcexact.model.system import MultiChannelSystem
+from mcexact.report.graph_figures import graph_picture
+from mcexact.reproduce.equations import outputs, stacked
+from mcexact.reproduce.material import (
+    PAPER,
+    SUBSETS_OF_THREE,
+    Numbers,
+    drawn_plants,
+    plants,
+    three_channels,
+)
+from mcexact.reproduce.notebook import Notebook, Procedure
+from mcexact.synthesis.decentralized import design_decentralized
+
+
+def definition(note: Notebook) -> None:
+    """Λ_fixed is what no F moves: it divides every loop's polynomial, and drawn loops share it."""
+    numbers = Numbers(11)
+    for name, plant in [*drawn_plants(3, states=4), *drawn_plants(3, states=4, fixed=True)]:
+        note.on(name)
+        found = fixed_spectrum(plant)
+        loops = [characteristic_polynomial(closed_by(plant, numbers.gains(plant))) for _ in "1234"]
+        note.check(
+            "the fixed polynomial divides the polynomial of every loop",
+            all(found.polynomial.divides(each) for each in loops),
+        )
+        shared = reduce(Polynomial.gcd, loops, characteristic_polynomial(plant.A))
+        note.check(
+            "four drawn loops share nothing else",
+            shared.squarefree_part() == found.polynomial.squarefree_part(),
+        )
+        note.certify(found)
+
+
+def proposition_2(note: Notebook) -> None:
+    """Proposition 2: every fixed mode has its subset; for the example all six subsets are tried."""
+    for name, plant in drawn_plants(4, states=4, fixed=True, first=11):
+        note.on(name)
+        found = fixed_spectrum(plant)
+        note.check("a planted fixed mode is found", not found.empty)
+        for factor in found.factors:
+            rank = pencil_rank(plant, factor.channels, factor.polynomial)
+            note.check("its pencil has rank below n", rank.rank < plant.n)
+            note.check("for a proper nonempty subset", 0 < len(factor.channels) < plant.m)
+            note.certify(rank)
+        note.certify(found)
+    example = three_channels()
+    for name, system in (
+        (PAPER, example),
+        (f"{PAPER}, sharing outputs", augmented_outputs(example)),
+    ):
+        note.on(name)
+        ranks = [pencil_rank(system, s, 1) for s in SUBSETS_OF_THREE]
+        found = fixed_spectrum(system)
+        note.check(
+            "1 is fixed just when one of the six pencils has rank below 3",
+            any(each.rank < 3 for each in ranks) != found.empty,
+        )
+        note.certify(found, *ranks)
+
+
+def empty_and_all(note: Notebook) -> None:
+    """The footnote: rank n for s = ∅ and s = m, by joint controllability and observability."""
+    for name, plant in plants(3):
+        note.on(name)
+        for mode, _ in characteristic_polynomial(plant.A).factor():
+            for s in ((), plant.names):
+                found = pencil_rank(plant, s, mode)
+                note.check(
+                    "the pencil of ∅ or of all channels has rank at least n", found.rank >= plant.n
+                )
+                note.certify(found)
+
+
+def transfer(note: Notebook) -> None:
+    """The transfer graph: an arc j → i iff some C_i A^k B_j is not 0, k < n."""
+    for name, plant in plants(5):
+        note.on(name)
+        found = transfer_graph(plant)
+        powers = [Matrix.identity(plant.n)]
+        for _ in range(plant.n - 1):
+            powers.append(powers[-1] @ plant.A)
+        arcs = {
+            (plant.names[j], plant.names[i])
+            for j in range(plant.m)
+            for i in range(plant.m)
+            if i != j and any(not (plant.C(i) @ P @ plant.B(j)).is_zero() for P in powers)
+        }
+        note.check(
+            "its arcs are the nonzero blocks",
+            set(found.arcs) - {(c, c) for c in plant.names} == arcs,
+        )
+        note.certify(found)
+
+
+def corfmat_morse(note: Notebook) -> None:
+    """Strongly connected and nothing fixed: some F serves every single channel."""
+    for name, plant in plants(5):
+        note.on(name)
+        whole = completeness(plant)
+        found = single_channel_gains(plant)
+        note.check(
+            "gains for every channel exist just when it is complete", found.exists == whole.complete
+        )
+        note.certify(whole, found)
+
+
+def free_assignment(note: Notebook) -> None:
+    """Complete: any symmetric spectrum, through one channel controller."""
+    for name, plant in plants(6, states=2, channels=2):
+        if not completeness(plant).complete:
+            continue
+        note.on(name)
+        order = design_decentralized(plant, rate=1).order
+        wanted = [-3 - k for k in range(plant.n + order)]
+        design = design_decentralized(plant, spectrum=wanted)
+        note.check(
+            "the loop has the prescribed spectrum",
+            design.loop.polynomial == Polynomial.from_roots(wanted),
+        )
+        note.certify(design)
+
+
+def partition(note: Notebook) -> None:
+    """Not strongly connected: one symmetric set for each strong component."""
+    A = [[0, 1, 0], [0, 0, 0], [1, 0, 2]]
+    B = [[[0], [1], [0]], [[0], [0], [1]]]
+    C = [[[1, 0, 0]], [[0, 0, 1]]]
+    plant = MultiChannelSystem(A, B, C)
+    note.on("two subsystems in series, n=3, m=2")
+    found = transfer_graph(plant)
+    note.check("there are two strong components", len(found.components) == 2)
+    note.check("nothing is fixed", fixed_spectrum(plant).empty)
+    design = design_decentralized(plant, rate=2)
+    note.check("one set for each component", len(design.blocks) == 2)
+    sizes = [each.polynomial.degree - each.order for each in design.blocks]
+    note.check("of the dimensions of the components, 2 and 1", sorted(sizes) == [1, 2])
+    note.certify(found, fixed_spectrum(plant), design)
+
+
+def wang_davison(note: Notebook) -> None:
+    """Any rate iff nothing is fixed."""
+    for name, plant in [
+        *drawn_plants(3, states=3, channels=2, first=21),
+        *drawn_plants(2, states=3, channels=2, fixed=True, first=21),
+    ]:
+        note.on(name)
+        found = fixed_spectrum(plant)
+        note.certify(found)
+        fast = 1000
+        try:
+            design = design_decentralized(plant, rate=fast)
+        except Impossible as refused:
+            note.check("refused because something is fixed", not found.empty)
+            note.certify(refused.certificate)
+        else:
+            note.check("a rate of 1000 is reached because nothing is fixed", found.empty)
+            note.certify(design)
+
+
+def example(note: Notebook) -> None:
+    """IV-B: sharing outputs alone leaves the mode 1 where it is."""
+    plant = three_channels()
+    system = augmented_outputs(plant)
+    note.on(PAPER)
+    for verdict in (joint_controllability(plant), joint_observability(plant)):
+        note.check("jointly controllable and observable", verdict.controllable)
+        note.certify(verdict)
+    rank = pencil_rank(system, ["2"], 1)
+    note.check("rank [I − A, B_1, B_3; C_{N_2}, 0] is 2", rank.rank == 2)
+    found = fixed_spectrum(system)
+    note.check("the fixed polynomial is x − 1", found.polynomial == Polynomial.from_roots([1]))
+    note.check("no distributed control with outputs alone stabilizes it", not found.stabilizable)
+    note.certify(rank, found)
+    alone = MultiChannelSystem(
+        system.A, [c.B for c in system.channels], [c.C for c in system.channels]
+    )
+    try:
+        design_decentralized(alone, rate="1/100")
+    except Impossible as refused:
+        note.check("a design is refused, with the fixed mode as the reason", True)
+        note.certify(refused.certificate)
+    else:
+        note.check("a design is refused", False)
+    note.show(graph_picture(plant, fixed=found, information="outputs"))
+
+
+def shared_outputs(note: Notebook) -> None:
+    """`mss`: agent i sees the y_j of its neighbors."""
+    numbers = Numbers(12)
+    for name, plant in plants(4, connected=None):
+        note.on(name)
+        made = augmented_outputs(plant)
+        x = numbers.column(plant.n)
+        y = outputs(plant, x)
+        graph = plant.neighbors
+        right = graph is not None and all(
+            made.C(i) @ x == stacked([y[j] for j in graph.neighborhood(i)]) for i in range(plant.m)
+        )
+        note.check("ȳ_i is column{y_j, j ∈ N_i}", right)
+        note.check("A and B_i are the plant's", made.A == plant.A)
+        note.certify(fixed_spectrum(made))
+
+
+PROCEDURES: dict[str, Procedure] = {
+    "fixed-spectrum": definition,
+    "prp:mtrx-pencil": proposition_2,
+    "footnote": empty_and_all,
+    "transfer-graph": transfer,
+    "corfmat-morse": corfmat_morse,
+    "free-assignment": free_assignment,
+    "partition": partition,
+    "wang-davison": wang_davison,
+    "mss": shared_outputs,
+    "example": example,
+}

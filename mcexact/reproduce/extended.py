@@ -1,0 +1,295 @@
+"""Section IV-C to IV-E: extended systems, least sharing, free assignment."""
+
+from __future__ import annotations
+
+from mcexact.analysis.allocation import minimal_shared_dimensions, shared_dimension_bound
+from mcexact.analysis.completeness import completeness
+from mcexact.analysis.controllability import joint_controllability, joint_observability
+from mcexact.analysis.extended import bound_attained, graph_inclusion
+from mcexact.analysis.fixed_spectrum import fixed_spectrum
+from mcexact.analysis.neighbor_graph import neighbor_graph
+from mcexact.analysis.pencil import pencil_rank
+from mcexact.analysis.single_channel_gains import single_channel_gains
+from mcexact.analysis.transfer_graph import transfer_graph
+from mcexact.derived.augmented_outputs import augmented_outputs
+from mcexact.derived.extended import Share, extended_system
+from mcexact.exact.polynomial import Polynomial
+from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem
+from mcexact.report.graph_figures import dimensions_picture
+from mcexact.report.loop_figures import spectrum_picture
+from mcexact.reproduce.equations import extended_agrees
+from mcexact.reproduce.material import (
+    PAPER,
+    SUBSETS_OF_THREE,
+    Instance,
+    Numbers,
+    drawn_plants,
+    plants,
+    three_channels,
+)
+from mcexact.reproduce.notebook import Notebook, Procedure
+from mcexact.reproduce.observer import graph_of
+from mcexact.synthesis.extended import design_extended
+
+SHARING: tuple[Share, ...] = ("outputs+states", "states")
+
+
+def still_pair() -> Instance:
+    """Two agents that hear each other, one state that either controls and sees."""
+    one = [[1]]
+    plant = MultiChannelSystem([[0]], [one] * 2, [one] * 2)
+    return "A = 0, two equal agents", plant.with_neighbors(NeighborGraph.complete(plant.names))
+
+
+def split_spectrum() -> Instance:
+    """The instance of the erratum: nothing is fixed, and the spectrum splits."""
+    e1, e2 = [[1], [0]], [[0], [1]]
+    plant = MultiChannelSystem(
+        [[0, 0], [0, 0]],
+        [e1, e2, e2],
+        [[[1, 0]], [[1, 0]], [[0, 1]]],
+        neighbors={"1": ["2"], "2": ["3"], "3": ["1"]},
+    )
+    return "A = 0 on a cycle, nothing shared", plant
+
+
+def construction(note: Notebook) -> None:
+    """`bun` and `emcs`."""
+    numbers = Numbers(14)
+    for name, plant in plants(4, connected=None):
+        sizes = [k % 3 for k in range(1, plant.m + 1)]
+        for share in SHARING:
+            note.on(f"{name}, n_i = {sizes}, {share}")
+            made = extended_system(plant, sizes, share)
+            note.check(
+                "ẋ_i = v_i, and agents see what `emcs` says",
+                extended_agrees(plant, made, sizes, share, numbers),
+            )
+            note.certify(fixed_spectrum(made))
+
+
+def any_graph(note: Notebook) -> None:
+    """Jointly controllable and observable, whatever the graph."""
+    for name, plant in (*plants(2, connected=None), *plants(1, connected=False)):
+        for share in SHARING:
+            note.on(f"{name}, {share}")
+            made = extended_system(plant, [1] * plant.m, share)
+            for found in (joint_controllability(made), joint_observability(made)):
+                note.check("jointly controllable and observable", found.controllable)
+                note.certify(found)
+
+
+def rank_identity(note: Notebook) -> None:
+    """`funch`, `dear`, and `pppp` as corrected: a neighbor of several members counts once."""
+    plant = three_channels()
+    graph = graph_of(plant)
+    sizes = [1, 2, 1]
+    chosen: list[tuple[str, MultiChannelSystem, list[int]]] = [(PAPER, plant, sizes)]
+    complete = plant.with_neighbors(NeighborGraph.complete(plant.names))
+    chosen.append((f"{PAPER}, over the complete graph", complete, [1, 1, 1]))
+    for name, system, n_i in chosen:
+        note.on(name)
+        graph = graph_of(system)
+        extended = extended_system(system, n_i)
+        before = augmented_outputs(system)
+        for s in SUBSETS_OF_THREE:
+            inside = system.indices(s)
+            outside = sum(n_i[i] for i in range(3) if i not in inside)
+            heard = sum(n_i[j] for j in graph.union(inside))
+            after, own = pencil_rank(extended, s, 1), pencil_rank(before, s, 1)
+            note.check(
+                f"s = {{{', '.join(s)}}}: rank M̄ is rank M plus n_i outside s plus n_j over N_s",
+                after.rank == own.rank + outside + heard,
+            )
+            note.certify(after, own)
+
+
+def theorem_2(note: Notebook) -> None:
+    """Theorem 2, with every n_i at the bound."""
+    for name, plant in (*plants(3), *drawn_plants(3, fixed=True, states=4, first=41)):
+        note.on(name)
+        bound = shared_dimension_bound(plant)
+        found = fixed_spectrum(extended_system(plant, [bound.per_agent] * plant.m))
+        note.check(f"nothing is fixed with n_i = {bound.per_agent}", found.empty)
+        note.certify(neighbor_graph(plant), bound, found)
+
+
+def bound_zero(note: Notebook) -> None:
+    """Without fixed modes the bound is 0."""
+    for name, plant in (*drawn_plants(8, channels=2, first=51), still_pair()):
+        found = fixed_spectrum(plant)
+        if not found.empty:
+            continue
+        note.on(name)
+        for share in SHARING:
+            bound = shared_dimension_bound(plant, share=share)
+            note.check(f"nothing is fixed, and the bound is 0 ({share})", bound.per_agent == 0)
+            note.certify(bound)
+        note.certify(found)
+
+
+def bound_reached(note: Notebook) -> None:
+    """The bound is reached for agent i iff some s has N_s∖s = {i} and the least rank."""
+    plant = three_channels()
+    graph, before = graph_of(plant), augmented_outputs(plant)
+    note.on(PAPER)
+    ranks = {s: pencil_rank(before, s, 1) for s in SUBSETS_OF_THREE}
+    least = min(each.rank for each in ranks.values())
+    for verdict in bound_attained(plant):
+        i = plant.index(verdict.agent)
+        some = any(
+            ranks[s].rank == least
+            and set(graph.union(plant.indices(s))) - set(plant.indices(s)) == {i}
+            for s in SUBSETS_OF_THREE
+        )
+        note.check(f"agent {verdict.agent}: the criterion decides", verdict.attained == some)
+        note.certify(verdict)
+    note.certify(*ranks.values())
+    name, pair = still_pair()
+    note.on(name)
+    note.check("a bound below 1 is attained by nobody", bound_attained(pair) == ())
+    note.certify(shared_dimension_bound(pair))
+
+
+def tightness(note: Notebook) -> None:
+    """Whether the bound is tight, which the paper leaves open: on its own example it is not."""
+    plant = three_channels()
+    note.on(PAPER)
+    bounds, least = {}, {}
+    for share, total in (("outputs+states", 1), ("states", 2)):
+        way: Share = "states" if share == "states" else "outputs+states"
+        bounds[share] = shared_dimension_bound(plant, share=way)
+        least[share] = minimal_shared_dimensions(plant, share=way)
+        note.check(f"{total} shared in all is the least ({share})", least[share].total == total)
+        note.check("the bound asks for more", bounds[share].total > total)
+        note.certify(bounds[share], least[share])
+    note.show(dimensions_picture(plant, bounds, least))
+
+
+def remark_2(note: Notebook) -> None:
+    """Remark 2: sub-states alone, with its own bound."""
+    for name, plant in (*plants(3), *drawn_plants(2, fixed=True, states=4, first=41)):
+        note.on(name)
+        bound = shared_dimension_bound(plant, share="states")
+        made = extended_system(plant, [bound.per_agent] * plant.m, "states")
+        found, sight = fixed_spectrum(made), joint_observability(made)
+        note.check("nothing is fixed at the bound of the remark", found.empty)
+        note.check("it is jointly observable", sight.controllable)
+        weaker = shared_dimension_bound(plant)
+        note.check("which is at least that of Theorem 2", bound.per_agent >= weaker.per_agent)
+        note.certify(bound, weaker, found, sight)
+
+
+def every_subset_hears(note: Notebook) -> None:
+    """Strongly connected iff N_s∖s is never empty."""
+    chosen: list[NeighborGraph] = [graph_of(three_channels())]
+    chosen += [graph_of(plant) for _, plant in drawn_plants(8, connected=None, first=60)]
+    for number, graph in enumerate(chosen):
+        if graph.m != 3:
+            continue
+        note.on("the cyclic graph" if not number else f"drawn graph, seed {59 + number}")
+        names = graph.names
+        hears = all(
+            {names[j] for j in graph.union([names.index(i) for i in s])} - set(s)
+            for s in (tuple(names[int(k) - 1] for k in each) for each in SUBSETS_OF_THREE)
+        )
+        note.check(
+            "strongly connected just when every subset hears somebody",
+            graph.is_strongly_connected() == hears,
+        )
+        plant = three_channels()
+        found = neighbor_graph(plant.with_neighbors(NeighborGraph(plant.names, graph.neighbors)))
+        note.certify(found)
+
+
+def sub_states_needed(note: Notebook) -> None:
+    """Sub-states have to be shared iff sharing outputs leaves something fixed."""
+    for name, plant in (*plants(3), *drawn_plants(3, fixed=True, states=4, first=44)):
+        note.on(name)
+        alone, least = fixed_spectrum(augmented_outputs(plant)), minimal_shared_dimensions(plant)
+        note.check("some dimensions suffice", least.feasible)
+        note.check("none are needed just when nothing is fixed", (least.total == 0) == alone.empty)
+        note.certify(alone, least)
+
+
+def proposition_3(note: Notebook) -> None:
+    """Proposition 3, and strong connectivity that follows."""
+    for name, plant in (*plants(3), *drawn_plants(2, connected=False)):
+        note.on(name)
+        found = graph_inclusion(plant, [1] * plant.m)
+        note.check("the extended transfer graph contains both graphs", found.holds)
+        note.certify(found.plant, found.extended)
+        if graph_of(plant).is_strongly_connected():
+            note.check(
+                "and is strongly connected with the neighbor graph",
+                found.extended.strongly_connected,
+            )
+
+
+def corollary_1(note: Notebook) -> None:
+    """Corollary 1, for n_i ≥ 1; with n_i = 0 the instance of the erratum splits."""
+    for name, plant in plants(3):
+        note.on(name)
+        size = max(1, shared_dimension_bound(plant).per_agent)
+        found = completeness(extended_system(plant, [size] * plant.m))
+        note.check("the extended system is complete", found.complete)
+        note.certify(found)
+    note.on(PAPER)
+    plant, wanted = three_channels(), [-1, -1, -2, -2]
+    design = design_extended(plant, spectrum=wanted)
+    note.check(
+        "a spectrum without a partition is assigned",
+        design.design.loop.polynomial == Polynomial.from_roots(wanted),
+    )
+    note.certify(*design.certificates.values())
+    from mcexact.analysis.closed_loop_spectrum import closed_loop_spectrum
+
+    spectrum = closed_loop_spectrum(design.design.loop.matrix, plant.time)
+    note.show(spectrum_picture(spectrum, plant.time, "one shared scalar, spectrum −1, −1, −2, −2"))
+    name, plant = split_spectrum()
+    note.on(name)
+    alone = extended_system(plant, [0, 0, 0])
+    graph = transfer_graph(alone)
+    note.check("nothing is fixed", fixed_spectrum(alone).empty)
+    note.check("but the spectrum splits in two", len(graph.components) == 2)
+    note.certify(fixed_spectrum(alone), graph)
+
+
+def through_any_channel(note: Notebook) -> None:
+    """`sys:contr-obs-thru-q`: one list F̄ serves every channel of the extended system."""
+    for name, plant in plants(2):
+        note.on(name)
+        size = max(1, shared_dimension_bound(plant).per_agent)
+        found = single_channel_gains(extended_system(plant, [size] * plant.m))
+        note.check("controllable and observable through every channel", found.exists)
+        note.certify(found)
+
+
+def total_dimension(note: Notebook) -> None:
+    """The total dimension is k_q + Σ n_i, beside nm + m − 1 of the observer."""
+    for name, plant in plants(1, states=2, channels=2):
+        note.on(name)
+        found = design_extended(plant, rate=1)
+        orders = sum(each.order for each in found.design.blocks)
+        note.check("the order is k_q + Σ n_i", found.design.order == orders + sum(found.dimensions))
+        note.check("less than the observer's", found.design.order < found.design.observer_order)
+        note.certify(*found.certificates.values())
+
+
+PROCEDURES: dict[str, Procedure] = {
+    "emcs": construction,
+    "emcs-joint": any_graph,
+    "funch": rank_identity,
+    "thm:strg-graph": theorem_2,
+    "bound-zero": bound_zero,
+    "bound-reached": bound_reached,
+    "tight": tightness,
+    "rmk:no-yi": remark_2,
+    "every-subset": every_subset_hears,
+    "necessary": sub_states_needed,
+    "prp:transfer-matrix-graph": proposition_3,
+    "cor:free-assign": corollary_1,
+    "sys:contr-obs-thru-q": through_any_channel,
+    "order": total_dimension,
+}

@@ -1,0 +1,126 @@
+"""The ledger: every statement of the paper, where it is in the code, and what is proved of it."""
+
+from __future__ import annotations
+
+import tomllib
+from dataclasses import dataclass
+from functools import cache
+from importlib import resources
+from typing import Any
+
+KINDS = ("definition", "claim", "example", "numbered")
+
+
+@dataclass(frozen=True)
+class Statement:
+    """One statement of the paper.
+
+    Attributes
+    ----------
+    key : str
+        Its label in the paper's LaTeX source, or a word where it has none.
+    title, section : str
+    kind : {"definition", "claim", "example", "numbered"}
+        An equation that defines something, a claim in the text, the example of IV-B, or a numbered
+        theorem, proposition, lemma, corollary or remark.
+    says : str
+        What it says, in short.
+    code : tuple of str
+        What in this package builds or decides it.
+    certificates : tuple of str
+        The kinds of certificate that are written for it.
+    proofs : tuple of str
+        Machine-checked theorems, as file.theorem in ``proofs/``.
+    covers : {"all", "part", ""}
+        How much of the statement these theorems prove.
+    part : str
+        Which part.
+    erratum : str
+        Empty, or what had to be mended.
+    """
+
+    key: str
+    title: str
+    section: str
+    kind: str
+    says: str
+    code: tuple[str, ...]
+    certificates: tuple[str, ...] = ()
+    proofs: tuple[str, ...] = ()
+    covers: str = ""
+    part: str = ""
+    erratum: str = ""
+
+    @property
+    def proved(self) -> bool:
+        """Whether a machine-checked theorem covers the whole statement."""
+        return self.covers == "all" and bool(self.proofs)
+
+    def standing(self, instances: int) -> str:
+        """What is known in general, in words; never more than the ledger says.
+
+        Examples
+        --------
+        >>> statement("thm:strg-graph").standing(7)
+        'proved in general, checked on 7 instances'
+        >>> statement("thm:obs-main").standing(1)
+        'checked on 1 instance'
+        """
+        checked = f"checked on {instances} instance" + ("" if instances == 1 else "s")
+        if self.kind == "example":
+            return "computed exactly on the paper's data"
+        if self.proved:
+            return f"proved in general, {checked}"
+        if self.proofs:
+            return f"{checked}; proved in general: {self.part}"
+        return checked
+
+
+@cache
+def statements() -> tuple[Statement, ...]:
+    """The ledger, in the order of the paper.
+
+    Examples
+    --------
+    >>> [each.title for each in statements() if each.kind == "numbered"][:3]
+    ['Proposition 1', 'Theorem 1', 'Remark 1']
+    """
+    text = resources.files("mcexact.reproduce").joinpath("ledger.toml").read_text("utf-8")
+    return tuple(_read(row) for row in tomllib.loads(text)["statement"])
+
+
+def _read(row: dict[str, Any]) -> Statement:
+    """One entry of the file, its lists as tuples."""
+    return Statement(
+        **{name: tuple(value) if isinstance(value, list) else value for name, value in row.items()}
+    )
+
+
+def statement(key: str) -> Statement:
+    """The statement of this key.
+
+    Raises
+    ------
+    KeyError
+        If there is none.
+    """
+    return {each.key: each for each in statements()}[key]
+
+
+def table() -> str:
+    """The ledger as the table of ``proofs/README.md``."""
+    lines = [
+        "| statement | section | in the code | certificates | formal proof, or instances |",
+        "|---|---|---|---|---|",
+    ]
+    for each in statements():
+        code = ", ".join(f"`{name.removeprefix('mcexact.')}`" for name in each.code)
+        kinds = ", ".join(f"`{kind}`" for kind in each.certificates) or "named checks"
+        if each.proofs:
+            proofs = ", ".join(f"`{name}`" for name in each.proofs)
+            proof = proofs if each.proved else f"{proofs} ({each.part}); instances"
+        else:
+            proof = "instances"
+        title = f"{each.title} (corrected)" if each.erratum else each.title
+        lines.append(f"| {title} | {each.section} | {code} | {kinds} | {proof} |")
+    return "\n".join(lines) + "\n"

@@ -1,0 +1,124 @@
+"""What statements are checked on: the paper's own data, named plants, drawn plants with a seed."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator
+
+from mcexact.derived.choices import SeededChoices
+from mcexact.derived.drawn import jointly_controllable_system, system_with_fixed_mode
+from mcexact.derived.drawn_graph import drawn_graph
+from mcexact.exact.matrix import Matrix
+from mcexact.model import gallery
+from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem
+
+PAPER = "the example of section IV-B"
+Instance = tuple[str, MultiChannelSystem]
+
+# The nonempty proper subsets of three channels, written out.
+SUBSETS_OF_THREE = (("1",), ("2",), ("3",), ("1", "2"), ("1", "3"), ("2", "3"))
+
+
+def three_channels(time: str = "continuous", delay: int = 0) -> MultiChannelSystem:
+    """A, B_i, C_i of section IV-B over the cyclic graph N_1 = {1, 2}, N_2 = {2, 3}, N_3 = {3, 1}.
+
+    Parameters
+    ----------
+    time : {"continuous", "discrete"}
+    delay : int
+        On every wire.
+
+    Examples
+    --------
+    >>> three_channels().neighbors.neighborhood(2)
+    (0, 2)
+    """
+    found = gallery.load("liu2020-3ch-no-communication")
+    ring = NeighborGraph.from_names(found.names, {"1": ["2"], "2": ["3"], "3": ["1"]})
+    delays = [(i, j, delay) for j, i in ring.arcs()]
+    return MultiChannelSystem(
+        found.A,
+        [channel.B for channel in found.channels],
+        [channel.C for channel in found.channels],
+        time=time,
+        neighbors=NeighborGraph(found.names, ring.neighbors, delays),
+        name="three channels",
+    )
+
+
+def drawn_plants(
+    count: int,
+    *,
+    states: int = 3,
+    channels: int = 3,
+    time: str = "continuous",
+    fixed: bool = False,
+    longest_delay: int = 0,
+    connected: bool | None = True,
+    first: int = 1,
+) -> Iterator[Instance]:
+    """Jointly controllable and observable plants over drawn graphs, with the seed in their names.
+
+    Parameters
+    ----------
+    count : int
+    states, channels : int
+        The largest; every second plant has one less of each.
+    time : {"continuous", "discrete"}
+    fixed : bool
+        Whether a fixed mode is planted.
+    longest_delay : int
+        On the wires.
+    connected : bool or None
+        Whether the neighbor graph is strongly connected; None for any.
+    first : int
+        The first seed.
+    """
+    for seed in range(first, first + count):
+        choices = SeededChoices(seed)
+        n, m = max(1, states - seed % 2), max(2, channels - seed % 2)
+        if fixed:
+            drawn = system_with_fixed_mode(choices, n, m, 1, time=time)
+        else:
+            drawn = jointly_controllable_system(choices, n, m, time=time)
+        graph = drawn_graph(choices, drawn.system.names, connected, longest_delay)
+        kind = "planted fixed mode, " if fixed else ""
+        yield f"drawn, {kind}seed {seed}: n={n}, m={m}", drawn.system.with_neighbors(graph)
+
+
+def plants(count: int, **options: object) -> Iterator[Instance]:
+    """The paper's example, then drawn plants in the same time domain."""
+    time = str(options.get("time", "continuous"))
+    delay = 1 if options.get("longest_delay") else 0
+    yield PAPER, three_channels(time, delay)
+    yield from drawn_plants(count, **options)  # type: ignore[arg-type]
+
+
+class Numbers:
+    """Small integers from a seed: vectors and gains to evaluate equations at.
+
+    Parameters
+    ----------
+    seed : int
+    """
+
+    def __init__(self, seed: int = 0) -> None:
+        self._random = random.Random(seed)
+
+    def matrix(self, nrows: int, ncols: int) -> Matrix:
+        """A matrix of integers from −4 to 4."""
+        rows = [[self._random.randint(-4, 4) for _ in range(ncols)] for _ in range(nrows)]
+        return Matrix.from_integers(rows, ncols=ncols)
+
+    def column(self, size: int) -> Matrix:
+        """A vector."""
+        return self.matrix(size, 1)
+
+    def gains(self, system: MultiChannelSystem) -> list[Matrix]:
+        """F_i, p_i × q_i."""
+        return [self.matrix(system.p(i), system.q(i)) for i in range(system.m)]
+
+    def feedbacks(self, system: MultiChannelSystem) -> list[Matrix]:
+        """F_i, p_i × n."""
+        return [self.matrix(system.p(i), system.n) for i in range(system.m)]

@@ -1,0 +1,93 @@
+"""Section I: multi-channel systems, neighbor graphs, and what the paper assumes."""
+
+from __future__ import annotations
+
+from mcexact.analysis.controllability import joint_controllability, joint_observability
+from mcexact.derived.feedback import feedback
+from mcexact.exact.matrix import Matrix
+from mcexact.model.controller import AgentProgram, Controller, LinearMap
+from mcexact.model.system_file import digest
+from mcexact.reproduce.equations import driven, outputs, stacked
+from mcexact.reproduce.material import Numbers, plants
+from mcexact.reproduce.notebook import Notebook, Procedure
+from mcexact.simulation.trajectory import InitialState, simulate
+
+
+def continuous(note: Notebook) -> None:
+    """Equation (1): u_i = F_i y_i gives the matrix A + Σ B_i F_i C_i."""
+    numbers = Numbers(1)
+    for name, plant in plants(4):
+        note.on(name)
+        gains = numbers.gains(plant)
+        x = numbers.column(plant.n)
+        y = outputs(plant, x)
+        u = [F @ y_i for F, y_i in zip(gains, y, strict=True)]
+        closed = feedback(plant, gains)
+        note.check("A + Σ B_i F_i C_i is the closed loop", driven(plant, x, u) == closed.A @ x)
+
+
+def discrete(note: Notebook) -> None:
+    """Equation (2): the same, run by one agent for each channel."""
+    numbers = Numbers(2)
+    for name, plant in plants(4, time="discrete"):
+        note.on(name)
+        gains = numbers.gains(plant)
+        agents = tuple(
+            AgentProgram(agent, 0, 0, input=LinearMap({i: gains[i]}))
+            for i, agent in enumerate(plant.names)
+        )
+        x = numbers.column(plant.n)
+        start = tuple(row[0] for row in x.rows())
+        empty: tuple[tuple[()], ...] = ((),) * plant.m
+        run = simulate(
+            plant,
+            Controller("discrete", digest(plant), agents),
+            initial=InitialState(start, empty, empty),
+            horizon=5,
+        )
+        last = Matrix.column(run.snapshots[-1].plant)
+        note.check(
+            "five steps of the agents are five powers of A + Σ B_i F_i C_i",
+            last == feedback(plant, gains).A.power(5) @ x,
+        )
+
+
+def assumptions(note: Notebook) -> None:
+    """Joint controllability and observability; B_i ≠ 0 and C_i ≠ 0."""
+    for name, plant in plants(4):
+        note.on(name)
+        reach, sight = joint_controllability(plant), joint_observability(plant)
+        note.check("all channels together control the state", reach.controllable)
+        note.check("all channels together observe the state", sight.controllable)
+        live = all(not c.B.is_zero() and not c.C.is_zero() for c in plant.channels)
+        note.check("B_i and C_i are not zero", live)
+        note.certify(reach, sight)
+
+
+def neighbor_sets(note: Notebook) -> None:
+    """Agent i hears j on an arc j → i, and itself."""
+    for name, plant in plants(4, connected=None):
+        note.on(name)
+        graph = plant.neighbors
+        if graph is None:
+            raise ValueError("the instance has a neighbor graph")
+        own = all(i in graph.neighborhood(i) for i in range(plant.m))
+        note.check("every agent is its own neighbor", own)
+        arcs = {(j, i) for i in range(plant.m) for j in graph.neighborhood(i) if j != i}
+        note.check("the arcs are the neighbors", set(graph.arcs()) == arcs)
+        x = Numbers(3).column(plant.n)
+        y = outputs(plant, x)
+        for i in range(plant.m):
+            heard = graph.neighborhood(i)
+            note.check(
+                f"C of the neighbors of {plant.names[i]} stacks their outputs",
+                plant.output_matrix(heard) @ x == stacked([y[j] for j in heard]),
+            )
+
+
+PROCEDURES: dict[str, Procedure] = {
+    "mcs": continuous,
+    "mcsd": discrete,
+    "jointly": assumptions,
+    "neighbor-graph": neighbor_sets,
+}

@@ -1,0 +1,141 @@
+"""Section III: distributed set-point control."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from mcexact.analysis.controllability import joint_controllability, joint_observability
+from mcexact.analysis.setpoint import setpoint_solvability
+from mcexact.derived.integrators import setpoint_system
+from mcexact.exact.linear_algebra import characteristic_polynomial, determinant, rank, solve
+from mcexact.exact.matrix import Matrix, block, vstack
+from mcexact.exact.polynomial import Polynomial
+from mcexact.model.system import MultiChannelSystem
+from mcexact.reproduce.equations import integrators_agree
+from mcexact.reproduce.material import Instance, Numbers, drawn_plants, plants
+from mcexact.reproduce.notebook import Notebook, Procedure
+from mcexact.synthesis.spectrum import default_polynomial
+from mcexact.synthesis.state_feedback import state_feedback
+
+
+def washed_out() -> Instance:
+    """A plant with an invariant zero at 0."""
+    plant = MultiChannelSystem([[0, 1], [-2, -3]], [[[0], [1]]], [[[0, 1]]])
+    return "a zero at 0: y = s/(s² + 3s + 2) u", plant
+
+
+def two_channels() -> Instance:
+    """Two scalar outputs; set-points can be held."""
+    plant = MultiChannelSystem(
+        [[0, 1], [2, -1]],
+        [[[1], [0]], [[0], [1]]],
+        [[[1, 0]], [[0, 1]]],
+        neighbors={"1": ["2"], "2": ["1"]},
+        name="two tanks",
+    )
+    return "two states, two agents with one output each", plant
+
+
+def hidden_zero() -> Instance:
+    """The instance of the erratum: det G has no zero at 0, and yet set-points cannot be held."""
+    A = [[0, 0, 0], [0, -2, -1], [0, 1, 0]]
+    B = [[[1], [0], [0]], [[0], [1], [0]]]
+    plant = MultiChannelSystem(A, B, [[[1, 0, 0]], [[0, 1, 0]]])
+    return "diag(1/s, s/(s+1)²)", plant
+
+
+def integrators(note: Notebook) -> None:
+    """`int` and `b1`, in both time domains."""
+    numbers = Numbers(13)
+    for name, plant in [*plants(2), *drawn_plants(2, time="discrete")]:
+        note.on(f"{name}, {plant.time} time")
+        made = setpoint_system(plant)
+        note.check("the states w_i integrate y_i", integrators_agree(plant, made, numbers))
+        note.certify(joint_observability(made))
+
+
+def any_stabilizing_control(note: Notebook) -> None:
+    """A stabilizing control holds y at r: at the equilibrium ẇ = y − r = 0."""
+    for name, plant in (two_channels(), *drawn_plants(4, states=3, channels=2, first=31)):
+        made = setpoint_system(plant)
+        if not joint_controllability(made).controllable:
+            continue
+        note.on(name)
+        F = state_feedback(made, default_polynomial("continuous", Fraction(1), made.n))
+        loop = made.A + made.input_matrix() @ vstack(list(F.gains), ncols=made.n)
+        q = made.n - plant.n
+        R = vstack([Matrix.zeros(plant.n, q), Matrix.identity(q)])
+        rest = solve(loop, R)
+        C = plant.output_matrix()
+        note.check(
+            "at rest y = r, for every r",
+            rest is not None and C @ rest.take(rows=range(plant.n)) == Matrix.identity(q),
+        )
+
+
+def always_observable(note: Notebook) -> None:
+    """`ober`: joint observability through the w_i needs nothing but that of the plant."""
+    for name, plant in (*plants(3), washed_out(), hidden_zero()):
+        note.on(name)
+        found = joint_observability(setpoint_system(plant))
+        note.check("jointly observable through the w_i", found.controllable)
+        note.certify(found)
+
+
+def only_zero_matters(note: Notebook) -> None:
+    """`thy` holds at every s ≠ 0."""
+    for name, plant in (*plants(3), washed_out(), hidden_zero()):
+        note.on(name)
+        found = joint_controllability(setpoint_system(plant))
+        lost = found.uncontrollable_polynomial
+        note.check("what is out of reach is at 0", not any(lost.coefficients[:-1]))
+        note.certify(found)
+
+
+def condition(note: Notebook) -> None:
+    """`gnd` is joint controllability of `b1`."""
+    for name, plant in (*plants(4), two_channels(), washed_out(), hidden_zero()):
+        note.on(name)
+        found = setpoint_solvability(plant)
+        B, C = plant.input_matrix(), plant.output_matrix()
+        S = block([[plant.A, B], [C, Matrix.zeros(C.nrows, B.ncols)]])
+        note.check("the rank of [A B; C 0] is as reported", rank(S) == found.rank)
+        augmented = joint_controllability(setpoint_system(plant))
+        note.check(
+            "full rank just when `b1` is jointly controllable",
+            found.solvable == augmented.controllable,
+        )
+        note.certify(found, augmented)
+
+
+def determinant_at_zero(note: Notebook) -> None:
+    """Square, 0 ∉ σ(A): `gnd` iff det C A⁻¹ B ≠ 0.  With a pole at 0 the instance refutes it."""
+    for name, plant in (two_channels(), washed_out()):
+        note.on(name)
+        B, C = plant.input_matrix(), plant.output_matrix()
+        inside = solve(plant.A, B)
+        nonzero = inside is not None and determinant(C @ inside) != 0
+        found = setpoint_solvability(plant)
+        note.check("no pole at 0: solvable just when det C A⁻¹ B ≠ 0", found.solvable == nonzero)
+        note.certify(found)
+    name, plant = hidden_zero()
+    note.on(name)
+    found = setpoint_solvability(plant)
+    note.check("0 is a pole", characteristic_polynomial(plant.A)(0) == 0)
+    # det [sI − A, B; −C, 0] = det(sI − A) det G(s) = s here: det G = 1/(s + 1)² hides the zero.
+    note.check(
+        "det(sI − A) / s is (s + 1)²",
+        characteristic_polynomial(plant.A) == Polynomial.from_roots([0, -1, -1]),
+    )
+    note.check("and yet set-points cannot be held", not found.solvable)
+    note.certify(found)
+
+
+PROCEDURES: dict[str, Procedure] = {
+    "b1": integrators,
+    "attained": any_stabilizing_control,
+    "ober": always_observable,
+    "thy": only_zero_matters,
+    "gnd": condition,
+    "det": determinant_at_zero,
+}
