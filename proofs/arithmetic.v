@@ -162,6 +162,9 @@ Proof. by move=> x y /eqP; rewrite -subr_eq0 -rmorphB into_eq0 subr_eq0 => /eqP.
 Lemma Zloc_neq0 (x : Zloc l) : residue x \is a GRing.unit -> into x != 0.
 Proof. by move=> u; rewrite into_eq0; apply: contraTneq u => ->; rewrite rmorph0 unitr0. Qed.
 
+Lemma map_poly_into (r : {poly Zloc l}) : map_poly into r = map_poly h (map_poly (@Zloc_rat l) r).
+Proof. by rewrite -map_poly_comp. Qed.
+
 (* A rank is reached from below: elimination with unit pivots gives X and Y, a minor that is a
    unit gives a selection of rows and its inverse times a selection of columns. *)
 Theorem rank_from_below a b r (M : 'M[Zloc l]_(a, b)) (X : 'M['Z_l]_(r, a)) (Y : 'M['Z_l]_(b, r)) :

@@ -27,9 +27,6 @@ Qed.
 Lemma map_loop_into F : map_mx up (closed_loop S F) = closed_loop SL (fun i => map_mx up (F i)).
 Proof. by rewrite map_closed_loop loop_into. Qed.
 
-Lemma map_poly_into (r : {poly Zloc l}) : map_poly up r = map_poly h (map_poly (@Zloc_rat l) r).
-Proof. by rewrite -map_poly_comp. Qed.
-
 Lemma eigenvalue_into a (M : 'M[Zloc l]_a) lambda :
   eigenvalue (map_mx up M) lambda = root (map_poly up (char_poly M)) lambda.
 Proof. by rewrite eigenvalue_root_char -map_char_poly. Qed.
