@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
 
 from mcexact.analysis.covering import (
     DEFAULT_NODE_LIMIT,
@@ -264,7 +263,7 @@ def minimal_shared_dimensions(
             lower=error.lower,
             upper=cost,
         ) from None
-    used = sorted(_cuts_used(tree.root))
+    used = sorted(tree.cuts())
     binding = tuple(_binding(problem, cuts[k], dimensions) for k in used)
     evidence = None
     if dimensions is not None:
@@ -283,7 +282,7 @@ def minimal_shared_dimensions(
         cost=cost,
         absence=evidence,
         cuts=tuple(cuts[k].evidence for k in used),
-        tree=_named(tree.root, problem.system.names, {k: place for place, k in enumerate(used)}),
+        tree=tree.written("agent", problem.system.names, {k: i for i, k in enumerate(used)}),
     )
     return SharedDimensions(
         share=share,
@@ -293,7 +292,7 @@ def minimal_shared_dimensions(
         cost=cost,
         binding=tuple(b for b in binding if b is not None),
         cuts=len(used),
-        nodes=tree.nodes,
+        nodes=len(tree.nodes),
         certificate=certificate,
     )
 
@@ -397,26 +396,3 @@ def _binding(
         mode=evidence.polynomial if isinstance(evidence, DeficiencyCut) else None,  # type: ignore[arg-type]
         deficiency=demand,
     )
-
-
-def _cuts_used(node: dict[str, Any]) -> set[int]:
-    """The numbers of the cuts that the leaves of a branch tree name."""
-    if "violated" in node:
-        return {node["violated"]}
-    if "multipliers" in node:
-        return {k for k, _ in node["multipliers"]}
-    return _cuts_used(node["below"]) | _cuts_used(node["above"])
-
-
-def _named(node: dict[str, Any], names: Sequence[str], place: dict[int, int]) -> dict[str, Any]:
-    """A branch tree in the shape of the certificate: agents by name, cuts by new numbers."""
-    if "violated" in node:
-        return {"violated": place[node["violated"]]}
-    if "multipliers" in node:
-        return {"multipliers": [[place[k], y] for k, y in node["multipliers"]]}
-    return {
-        "agent": names[node["variable"]],
-        "at_most": node["at_most"],
-        "below": _named(node["below"], names, place),
-        "above": _named(node["above"], names, place),
-    }

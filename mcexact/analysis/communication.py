@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Any, Literal
+from typing import Literal
 
 from mcexact.analysis.covering import (
     DEFAULT_NODE_LIMIT,
@@ -170,14 +170,14 @@ def minimal_communication(
         cost=cost,
         absence=found,
         cuts=tuple(cut for _, cut in cuts),
-        tree=_named(tree.root, arcs),
+        tree=tree.written("arc", arcs, {k: k for k in range(len(cuts))}),
     )
     return MinimalCommunication(
         feasible=chosen is not None,
         added=added,
         cost=cost,
         cuts=len(cuts),
-        nodes=tree.nodes,
+        nodes=len(tree.nodes),
         certificate=certificate,
     )
 
@@ -277,15 +277,3 @@ def _trimmed(subspace: ExactSubspace) -> ExactSubspace:
         pivots=tuple(subspace.pivots[k] for k in keep),
         deficiency=1,
     )
-
-
-def _named(node: dict[str, Any], arcs: Sequence[tuple[str, str]]) -> dict[str, Any]:
-    """A branch tree in the shape of the certificate: arcs by the names of their ends."""
-    if "variable" not in node:
-        return node
-    return {
-        "arc": arcs[node["variable"]],
-        "at_most": node["at_most"],
-        "below": _named(node["below"], arcs),
-        "above": _named(node["above"], arcs),
-    }

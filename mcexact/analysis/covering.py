@@ -12,7 +12,7 @@ again by the checker.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -81,20 +81,41 @@ class CoveringProgram:
         return CoveringProgram(self.costs, self.upper, (*self.cuts, cut))
 
 
-Leaf = dict[str, Any]
-"""``{"violated": k}`` or ``{"multipliers": [[k, y], …]}``."""
+Node = dict[str, Any]
+"""``{"variable": i, "at_most": k}``, ``{"violated": k}`` or ``{"multipliers": [[k, y], …]}``."""
 
 
 @dataclass(frozen=True)
 class BranchTree:
     """A proof that no integer point of a covering program costs less than a value.
 
-    ``root`` is nested plain data as in the certificate format, with the variable's position under
-    ``"variable"``; ``nodes`` counts inner nodes and leaves.
+    Attributes
+    ----------
+    nodes : tuple of Node
+        In preorder: an inner node splits its box into x_i ≤ k, whose tree follows, and
+        x_i ≥ k + 1, whose tree follows that.
     """
 
-    root: dict[str, Any]
-    nodes: int
+    nodes: tuple[Node, ...]
+
+    def cuts(self) -> set[int]:
+        """The numbers of the cuts that the leaves name."""
+        violated = {node["violated"] for node in self.nodes if "violated" in node}
+        return violated | {k for node in self.nodes for k, _ in node.get("multipliers", ())}
+
+    def written(
+        self, key: str, labels: Sequence[Any], place: Mapping[int, int]
+    ) -> tuple[Node, ...]:
+        """The nodes as a certificate has them: variables by name, cuts by new numbers."""
+
+        def node(here: Node) -> Node:
+            if "violated" in here:
+                return {"violated": place[here["violated"]]}
+            if "multipliers" in here:
+                return {"multipliers": [[place[k], y] for k, y in here["multipliers"]]}
+            return {key: labels[here["variable"]], "at_most": here["at_most"]}
+
+        return tuple(map(node, self.nodes))
 
 
 def minimize(program: CoveringProgram, *, canonical: bool = True) -> tuple[int, ...] | None:
@@ -209,44 +230,48 @@ def branch_tree(
     ``value``.
     A point cheaper than ``value`` has x_i ≤ value / c_i, so every leaf is bounded from above.
     """
-    count = 0
-
-    def grow(lower: tuple[int, ...], upper: tuple[int | None, ...]) -> dict[str, Any]:
-        nonlocal count
-        count += 1
-        if count > node_limit:
+    first = tuple(_tighter(u, value, c) for u, c in zip(program.upper, program.costs, strict=True))
+    nodes: list[Node] = []
+    boxes: list[tuple[tuple[int, ...], tuple[int | None, ...]]] = [((0,) * len(first), first)]
+    while boxes:
+        lower, upper = boxes.pop()
+        if len(nodes) == node_limit:
             raise LimitReached(
                 f"the branch tree reached its limit of {node_limit} nodes (--node-limit)",
-                lower=proved,
+                lower=_relaxation_bound(program, first),
                 upper=value,
             )
+        node = _node(program, value, lower, upper)
+        nodes.append(node)
         if progress is not None:
-            progress(count)
-        violated = program.violated_cut(upper)
-        if violated is not None:
-            return {"violated": violated}
-        if value is None:
-            raise InternalError("a covering program without a violated cut has a point")
-        relaxed, duals = _relaxation(program, lower, upper)
-        multipliers = _proving_multipliers(program, lower, upper, duals, value)
-        if multipliers is not None:
-            return {"multipliers": [[k, y] for k, y in multipliers]}
-        split = _most_fractional(relaxed)
-        if split is None:
-            raise InternalError("the relaxation is integral but cheaper than the optimum")
-        at_most = math.floor(relaxed[split])
-        below = (*upper[:split], at_most, *upper[split + 1 :])
-        above = (*lower[:split], at_most + 1, *lower[split + 1 :])
-        return {
-            "variable": split,
-            "at_most": at_most,
-            "below": grow(lower, below),
-            "above": grow(above, upper),
-        }
+            progress(len(nodes))
+        if "variable" in node:
+            i, k = node["variable"], node["at_most"]
+            boxes.append(((*lower[:i], k + 1, *lower[i + 1 :]), upper))
+            boxes.append((lower, (*upper[:i], k, *upper[i + 1 :])))
+    return BranchTree(tuple(nodes))
 
-    start = tuple(_tighter(u, value, c) for u, c in zip(program.upper, program.costs, strict=True))
-    proved = _relaxation_bound(program, start)
-    return BranchTree(grow((0,) * len(program.costs), start), count)
+
+def _node(
+    program: CoveringProgram,
+    value: Fraction | None,
+    lower: tuple[int, ...],
+    upper: tuple[int | None, ...],
+) -> Node:
+    """A leaf if this box is done with, else the split of its most fractional variable."""
+    violated = program.violated_cut(upper)
+    if violated is not None:
+        return {"violated": violated}
+    if value is None:
+        raise InternalError("a covering program without a violated cut has a point")
+    relaxed, duals = _relaxation(program, lower, upper)
+    multipliers = _proving_multipliers(program, lower, upper, duals, value)
+    if multipliers is not None:
+        return {"multipliers": [[k, y] for k, y in multipliers]}
+    split = _most_fractional(relaxed)
+    if split is None:
+        raise InternalError("the relaxation is integral but cheaper than the optimum")
+    return {"variable": split, "at_most": math.floor(relaxed[split])}
 
 
 def _relaxation_bound(program: CoveringProgram, upper: Sequence[int | None]) -> Fraction:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from .evidence import MatrixLike, PolynomialLike, ShrunkSubspace, ZeroTransfer
 
-Tree = Mapping[str, Any]
-"""A node of a branch tree, as nested plain data and Fractions in the shape of ``FORMAT.md``."""
+Tree = Sequence[Mapping[str, Any]]
+"""The nodes of a branch tree in preorder, as plain data and Fractions, as in ``FORMAT.md``."""
 
 
 @dataclass(frozen=True)

@@ -10,8 +10,6 @@ from typing import Any
 
 from .reading import fields, integer, items, malformed, rational, require
 
-INNER = ("at_most", "below", "above")
-
 
 @dataclass(frozen=True)
 class Program:
@@ -27,30 +25,36 @@ class Program:
     labels: Sequence[Any]
     value: Fraction | None
 
-    def require_bound(self, node: Any, upper: Sequence[int | None]) -> None:
-        """Stop unless the tree proves that every point below ``upper`` costs at least ``value``."""
+    def require_bound(self, nodes: Any, upper: Sequence[int | None]) -> None:
+        """Stop unless the tree proves that every point below ``upper`` costs at least ``value``.
+
+        The nodes come in preorder: an inner node, then its tree below, then its tree above.
+        """
         if self.value is not None:
             # a cheaper point has x_i ≤ value / c_i, all costs being positive
             implied = [math.floor(self.value / c) for c in self.costs]
             upper = [b if u is None else min(u, b) for u, b in zip(upper, implied, strict=True)]
-        stack: list[Any] = [(node, "witness.tree", [0] * len(self.costs), list(upper))]
-        while stack:
-            here, place, low, high = stack.pop()
-            if isinstance(here, dict) and "violated" in here:
-                (number,) = fields(here, place, "violated")
-                support, demand = self._cut(number, place)
+        boxes: list[Any] = [([0] * len(self.costs), list(upper))]
+        for number, node in enumerate(items(nodes, "witness.tree")):
+            place = f"witness.tree[{number}]"
+            require(bool(boxes), "tree", place, "more nodes than the tree has places")
+            low, high = boxes.pop()
+            if isinstance(node, dict) and "violated" in node:
+                (cut,) = fields(node, place, "violated")
+                support, demand = self._cut(cut, place)
                 known = [high[i] for i in support if high[i] is not None]
                 enough = len(known) == len(support) and sum(known) < demand
                 require(enough, "leaf", place, "the upper bounds do not violate that cut")
-            elif isinstance(here, dict) and "multipliers" in here:
-                self._require_multipliers(here, place, low, high)
+            elif isinstance(node, dict) and "multipliers" in node:
+                self._require_multipliers(node, place, low, high)
             else:
-                label, split, below, above = fields(here, place, self.key, *INNER)
+                label, split = fields(node, place, self.key, "at_most")
                 if label not in self.labels:
                     malformed(f"{place}.{self.key}", "expected a variable of the claim")
                 i, k = self.labels.index(label), integer(split, f"{place}.at_most")
-                stack.append((below, f"{place}.below", low, [*high[:i], k, *high[i + 1 :]]))
-                stack.append((above, f"{place}.above", [*low[:i], k + 1, *low[i + 1 :]], high))
+                boxes.append(([*low[:i], k + 1, *low[i + 1 :]], high))
+                boxes.append((low, [*high[:i], k, *high[i + 1 :]]))
+        require(not boxes, "tree", "witness.tree", "a branch of the tree is missing")
 
     def _cut(self, number: Any, place: str) -> tuple[set[int], int]:
         if integer(number, place) >= len(self.cuts):

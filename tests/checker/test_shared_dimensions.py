@@ -29,12 +29,7 @@ FREE = document(
 STABLE = document(
     minimal_shared_dimensions(PLANT, RING, "states", bound=1, costs=[2, 1, "1/3"]).certificate
 )
-SPLIT: Document = {
-    "agent": "1",
-    "at_most": 0,
-    "below": {"violated": 0},
-    "above": {"violated": 0},
-}
+SPLIT: list[Document] = [{"agent": "1", "at_most": 0}, {"violated": 0}, {"violated": 0}]
 
 ACCEPTED = [
     ("the paper's example, outputs and sub-states", BOTH),
@@ -44,10 +39,14 @@ ACCEPTED = [
     ("only modes beyond a rate, at other prices", STABLE),
     ("more split than needed", changed(
         STATES,
-        ("witness.tree", {
-            "agent": "2", "at_most": 5,
-            "below": STATES["witness"]["tree"], "above": STATES["witness"]["tree"],
-        }),
+        ("witness.tree", [{"agent": "2", "at_most": 5}, *2 * STATES["witness"]["tree"]]),
+    )),
+    ("a tree deeper than a document may be", changed(
+        STATES,
+        ("witness.tree", [
+            *({"agent": "2", "at_most": k} for k in range(100, 0, -1)),
+            *101 * STATES["witness"]["tree"],
+        ]),
     )),
     ("an upper bound that does not bind", changed(BOTH, ("claim.upper", [0, 0, 1]))),
 ]  # fmt: skip
@@ -65,14 +64,17 @@ REJECTED = [
     ("a cut that demands too much", STATES, ("witness.cuts.0.deficiency", 2)),
     ("deg p = 0", STATES, ("witness.cuts.0.polynomial", [1])),
     ("no cut at all", STATES, ("witness.cuts", [])),
-    ("a tree without proof", STATES, ("witness.tree", {"multipliers": []})),
-    ("a violated cut that is not violated", STATES, ("witness.tree", {"violated": 0})),
-    ("a negative multiplier", STATES, ("witness.tree.multipliers.0.1", -1)),
-    ("the number of a cut that is not there", STATES, ("witness.tree.multipliers.0.0", 2)),
-    ("a negative number", STATES, ("witness.tree.multipliers.0.0", -1)),
-    ("a split without leaves", STATES, ("witness.tree", {"agent": "1", "at_most": 0})),
+    ("a tree without proof", STATES, ("witness.tree", [{"multipliers": []}])),
+    ("no tree", STATES, ("witness.tree", [])),
+    ("a leaf too many", STATES, ("witness.tree", 2 * STATES["witness"]["tree"])),
+    ("a violated cut that is not violated", STATES, ("witness.tree", [{"violated": 0}])),
+    ("a negative multiplier", STATES, ("witness.tree.0.multipliers.0.1", -1)),
+    ("the number of a cut that is not there", STATES, ("witness.tree.0.multipliers.0.0", 2)),
+    ("a negative number", STATES, ("witness.tree.0.multipliers.0.0", -1)),
+    ("a split without leaves", STATES, ("witness.tree", SPLIT[:1])),
+    ("a split without its second leaf", STATES, ("witness.tree", SPLIT[:2])),
     ("leaves that prove nothing", STATES, ("witness.tree", SPLIT)),
-    ("a split on nobody", NOTHING, ("witness.tree", {**SPLIT, "agent": "7"})),
+    ("a split on nobody", NOTHING, ("witness.tree", [{"agent": "7", "at_most": 0}, *SPLIT[1:]])),
     ("the other way of sharing", STATES, ("claim.share", "outputs+states")),
     ("an unknown way of sharing", STATES, ("claim.share", "wishes")),
     ("a rate that the mode does not violate", STABLE, ("claim.bound", -2)),
