@@ -19,8 +19,22 @@ Polynomial = list[Any]
 Rows = list[list[int]]
 
 
+LARGEST = 2**22
+"""Entries of the largest matrix that is built without its entries being in the document."""
+
+
 class NotAUnit(Exception):
     """A number that had to be inverted is not invertible modulo ℓ."""
+
+
+class TooLarge(Exception):
+    """A matrix of more than ``LARGEST`` entries is asked for."""
+
+
+def require_size(entries: int) -> None:
+    """Stop before a matrix is built that a few numbers in a document make huge."""
+    if entries > LARGEST:
+        raise TooLarge
 
 
 @dataclass(frozen=True)
@@ -34,11 +48,13 @@ class Matrix:
     @staticmethod
     def zeros(nrows: int, ncols: int) -> Matrix:
         """The zero matrix."""
+        require_size(nrows * ncols)
         return Matrix([[0] * ncols for _ in range(nrows)], ncols)
 
     @staticmethod
     def unit_rows(n: int, start: int, size: int) -> Matrix:
         """[0 I 0]: ``size`` rows of the n × n identity from row ``start`` on."""
+        require_size(size * n)
         return Matrix([[int(j == start + i) for j in range(n)] for i in range(size)], n)
 
     @property

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from .arithmetic import Matrix, beside, stack
+from .arithmetic import Matrix, beside, require_size, stack
 from .exchange import SHARED, neighbors_of, read_dimensions, read_shares
 from .reading import fields, require
 from .system import System
@@ -35,6 +35,7 @@ def _delayed(
     d = [max([system.delays.get((i, j), 0) for i in range(m)]) for j in range(m)]
     q = [C_j.nrows if with_outputs else 0 for C_j in system.C]
     widths = [(d[j] + 1) * sizes[j] + d[j] * q[j] for j in range(m)]
+    require_size((n + sum(widths) + sum(d)) ** 2)
     total, starts = n + sum(widths), [n + sum(widths[:j]) for j in range(m)]
     plant = Matrix.unit_rows(total, 0, n)
 

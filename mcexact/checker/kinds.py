@@ -27,7 +27,7 @@ from . import (
     stability,
     transfer_graph,
 )
-from .arithmetic import NotAUnit
+from .arithmetic import NotAUnit, TooLarge
 from .reading import Limits, Refused, fields, incomplete, malformed, parse, require, shown, string
 from .subject import read_subject
 from .system import System, digest, read_plant
@@ -126,6 +126,8 @@ def check_document(
         return Verdict("VALID", theorem, known)
     except Refused as found:
         return Verdict(found.verdict, "", known, found.code, found.place, found.message)
+    except TooLarge:
+        return Verdict("INCOMPLETE", "", known, "size", "subject", "matrices too large to build")
     except NotAUnit:
         message = "a number that has to be inverted is not a unit modulo l"
         return Verdict("INVALID", "", known, "unit", "witness.modulus", message)

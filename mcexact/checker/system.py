@@ -12,11 +12,10 @@ from fractions import Fraction
 from typing import Any
 
 from . import reading
-from .arithmetic import Matrix
+from .arithmetic import LARGEST, Matrix
 from .reading import Limits, fields, integer, items, malformed, shown, string
 
 NUMBER = re.compile(r"-?[0-9]++(?:/0*+[1-9][0-9]*+|(?:\.[0-9]++)?(?:[eE][+-]?[0-9]++)?)")
-LARGEST_SHAPE = 2**24
 
 
 @dataclass(frozen=True)
@@ -68,7 +67,7 @@ def read_matrix(value: Any, place: str, nrows: int | None, ncols: int | None) ->
     if isinstance(value, dict):
         shape, entries = fields(value, place, "shape", "entries")
         r, c = (integer(size, f"{place}.shape") for size in items(shape, f"{place}.shape", 2))
-        if max(r, 1) * max(c, 1) > LARGEST_SHAPE:
+        if max(r, 1) * max(c, 1) > LARGEST:
             reading.incomplete("size", f"{place}.shape", f"{r} by {c} is too large")
         rows: list[list[Any]] = [[Fraction(0)] * c for _ in range(r)]
         seen = set()

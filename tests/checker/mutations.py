@@ -97,14 +97,9 @@ def other_values(value: Any, document: Document, path: Path) -> list[Any]:
         return [0, []][choice % 2 :][:1]
     if isinstance(value, int):
         ell = document["witness"].get("modulus")
-        attacks = [
-            -value,
-            0,
-            2 * value,
-            value - 1,
-            value + ell if isinstance(ell, int) else value + 2,
-        ]
-        return [v for v in (value + 1, attacks[choice % 5]) if v != value]
+        congruent = value + ell if isinstance(ell, int) else value + 2
+        attacks = [-value, 0, 2 * value, value - 1, congruent, 10**9, 10**40]
+        return [v for v in (value + 1, attacks[choice % len(attacks)]) if v != value]
     if value in names:
         return [names[(names.index(value) + 1) % len(names)], value + "'"][: 1 + (choice % 2)]
     try:

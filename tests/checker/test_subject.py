@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+import time
 from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
@@ -126,8 +127,8 @@ def test_every_construction_is_built_as_the_finder_builds_it(name: str) -> None:
     delayed = name in ("held", "lifted")
     for _ in range(25):
         for build in BUILDS[name]:
-            time = "discrete" if delayed else rng.choice(["continuous", "discrete"])
-            derived = build(rng, drawn_plant(rng, time))
+            domain = "discrete" if delayed else rng.choice(["continuous", "discrete"])
+            derived = build(rng, drawn_plant(rng, domain))
             document = system_file.canonical_document(derived)
             assert_same(read_subject(plain(derived.subject), read_plant(document)), derived)
 
@@ -171,6 +172,39 @@ def test_the_digest_is_recomputed_independently() -> None:
 )
 def test_a_construction_that_cannot_be_applied_proves_nothing(step: Any, verdict: str) -> None:
     assert checked(changed(FREE, ("subject", [step]))).verdict == verdict
+
+
+@pytest.mark.parametrize("huge", [10**5, 10**9, 10**30])
+def test_a_subject_that_a_number_makes_huge_is_incomplete(huge: int) -> None:
+    graphed = changed(
+        FREE,
+        ("system.time", "discrete"),
+        ("system.channels", [{**FREE["system"]["channels"][0], "name": name} for name in "ab"]),
+        ("system.neighbors", {"a": ["b"], "b": ["a"]}),
+    )
+    late = changed(graphed, ("system.delays", {"a": {"b": huge}}))
+    shared = {"construction": "extended", "share": "states", "dimensions": [huge, 0]}
+    program = {
+        "private": 0,
+        "shared": 1,
+        "shared_update": {},
+        "private_update": {},
+        "input": {"outputs": {"b": [[1]]}},
+    }
+    agents = [{"name": "a", **program}, {"name": "b", **program, "input": {}}]
+    loop = {"construction": "closed_loop", "controller": {"time": "discrete", "agents": agents}}
+    for document, step in (
+        (graphed, shared),
+        (graphed, {**shared, "construction": "lifted"}),
+        (graphed, {"construction": "held", "dimensions": [0, huge]}),
+        (late, {"construction": "held", "dimensions": [0, 0]}),
+        (late, {**shared, "construction": "lifted", "dimensions": [0, 0]}),
+        (late, loop),
+    ):
+        start = time.perf_counter()
+        verdict = checked(changed(document, ("subject", [step])))
+        assert verdict.verdict == "INCOMPLETE", (step, verdict.line())
+        assert time.perf_counter() - start < 1
 
 
 def test_delays_need_discrete_time() -> None:
