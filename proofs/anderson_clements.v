@@ -2,7 +2,7 @@
    has rank < n.  Over every field, lambda in any extension field of the field of the data; gains
    with natural-number entries already move every eigenvalue that any gain moves. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From mcexact Require Import multichannel rank_one_repair pencil_rank.
+From mcexact Require Import multichannel rank_one_repair pencil_space.
 
 Set Implicit Arguments.
 Unset Strict Implicit.

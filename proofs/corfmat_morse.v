@@ -3,7 +3,7 @@
    an algebraically closed L that contains it (the paper's K is R, its L is C). *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From mcexact Require Import multichannel arithmetic evidence controllability rank_one_repair.
-From mcexact Require Import pencil_rank anderson_clements joint_controllability gain_lines.
+From mcexact Require Import pencil_space anderson_clements joint_controllability gain_lines.
 From mcexact Require Import transfer_graph extended neighbor_graph extended_bound.
 
 Set Implicit Arguments.

@@ -2,7 +2,7 @@
    matrices; Theorems 3 and 4 and the exact conditions behind them (DESIGN 2.9).
    d i j is the paper's d_ij, k i its n_i. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From mcexact Require Import multichannel evidence controllability rank_one_repair pencil_rank.
+From mcexact Require Import multichannel evidence controllability rank_one_repair pencil_space.
 From mcexact Require Import anderson_clements extended joint_controllability neighbor_graph.
 From mcexact Require Import extended_bound.
 

@@ -2,7 +2,7 @@
    Proposition 1, with Corfmat and Morse's theorem proved, not assumed. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From mcexact Require Import multichannel arithmetic evidence controllability rank_one_repair.
-From mcexact Require Import pencil_rank anderson_clements joint_controllability gain_lines.
+From mcexact Require Import pencil_space anderson_clements joint_controllability gain_lines.
 From mcexact Require Import transfer_graph extended neighbor_graph extended_bound corfmat_morse.
 
 Set Implicit Arguments.

@@ -1,7 +1,7 @@
 (* The extended systems (emcs) and of Remark 2: the rank identity, the exact condition on the shared
    dimensions (DESIGN 2.5), Theorem 2 and Remark 2.  k i is the paper's n_i. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From mcexact Require Import multichannel rank_one_repair pencil_rank anderson_clements.
+From mcexact Require Import multichannel rank_one_repair pencil_space anderson_clements.
 
 Set Implicit Arguments.
 Unset Strict Implicit.

@@ -1,7 +1,7 @@
 (* Theorem 2, Remark 2, the exact condition over every extension field, Proposition 3 and the
    joint controllability and observability of the extended systems. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From mcexact Require Import multichannel evidence controllability rank_one_repair pencil_rank.
+From mcexact Require Import multichannel evidence controllability rank_one_repair pencil_space.
 From mcexact Require Import anderson_clements extended joint_controllability neighbor_graph.
 
 Set Implicit Arguments.

@@ -1,7 +1,7 @@
 (* Controllability and observability by Kalman's rank, what they say of every row vector and of
    P_s(lambda) at s empty and s = m, over every extension field. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From mcexact Require Import multichannel arithmetic evidence controllability pencil_rank anderson_clements.
+From mcexact Require Import multichannel arithmetic evidence controllability pencil_space anderson_clements.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
