@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
+from mcexact.analysis.smith_doubling import doubled_lyapunov
 from mcexact.exact.floats import dyadic_matrix, matrix_to_float
 from mcexact.exact.matrix import Matrix
 
@@ -25,6 +26,9 @@ if TYPE_CHECKING:
 
 _FACTOR_BITS = (26, 52)
 _REFINEMENTS = 4
+_DOUBLING_LIMIT = 150
+_FACTORS = 4
+_SHIFT = 2.0**-44
 
 
 @dataclass(frozen=True)
@@ -87,7 +91,7 @@ def quadratic_form(D: Matrix, time: str, bound: Fraction) -> QuadraticForm | Non
         return QuadraticForm(empty, empty, empty, None)
     scales = _balancing(D)
     balanced = scaled(D, [1 / s for s in scales], scales)
-    P = _approximate(balanced, time, bound)
+    P = _approximate(balanced, time, bound) or _precise(balanced, time, bound)
     if P is None:
         return None
     R2 = _diagonal(scales)
@@ -144,6 +148,14 @@ def _approximate(D: Matrix, time: str, bound: Fraction) -> Matrix | None:
     return None
 
 
+def _precise(D: Matrix, time: str, bound: Fraction) -> Matrix | None:
+    """A P with S dominant from Smith's doubling: for blocks that are far from normal."""
+    if D.nrows > _DOUBLING_LIMIT or (bound == 0 and time == "discrete"):
+        return None
+    P = doubled_lyapunov(D, time, bound)
+    return P if P is not None and is_dominant(decrease(D, P, time, bound)) else None
+
+
 def _solve(D: Floats, Q: Floats, time: str, bound: float) -> Floats | None:
     """The symmetric solution of DᵀP + PD + 2bP = −Q, or of r²P − DᵀPD = Q, in floating point."""
     import warnings
@@ -167,33 +179,48 @@ def _solve(D: Floats, Q: Floats, time: str, bound: float) -> Floats | None:
 
 
 def _dominating_factor(P: Matrix) -> Matrix | None:
-    """R with RᵀPR dominant: few bits if they do, else more, else a product of two factors."""
+    """R with RᵀPR dominant: a factor of few bits, or a product if P is nearly singular.
+
+    A factor of a nearly singular P, shifted a little, leaves RᵀPR much better conditioned, and so
+    on (Rump's preconditioning by approximate inverses).
+    """
     few, many = _FACTOR_BITS
     R = _cholesky_factor(matrix_to_float(P), few)
-    if R is None or is_dominant(R.T @ (P @ R)):
+    if R is not None and is_dominant(R.T @ (P @ R)):
         return R
-    R = _cholesky_factor(matrix_to_float(P), many)
-    if R is None or is_dominant(near := R.T @ (P @ R)):
-        return R
-    correction = _cholesky_factor(matrix_to_float(near), few)
-    if correction is None:
-        return None
-    R = R @ correction
-    return R if is_dominant(R.T @ (P @ R)) else None
+    product, near = Matrix.identity(P.nrows), P
+    for _ in range(_FACTORS):
+        R = _cholesky_factor(matrix_to_float(near), many)
+        if R is None:
+            return None
+        product = product @ R
+        near = product.T @ (P @ product)
+        if is_dominant(near):
+            return product
+    return None
 
 
 def _cholesky_factor(P: Floats, bits: int) -> Matrix | None:
-    """An upper triangular R, RᵀPR near a diagonal matrix; None if P is not definite."""
+    """An upper triangular R, RᵀPR near a diagonal matrix; None if P is not definite at all."""
     import numpy as np
     from scipy.linalg import solve_triangular
 
-    try:
-        L = np.linalg.cholesky(P)
-    except np.linalg.LinAlgError:
+    diagonal = np.diag(P)
+    if not np.all(diagonal > 0):
         return None
-    R = solve_triangular(L, np.eye(len(P)), lower=True).T
-    columns = np.exp2(np.round(np.log2(np.max(np.abs(R), axis=0))))
-    return dyadic_matrix(R / columns, bits)
+    units = np.exp2(-np.round(np.log2(diagonal) / 2))
+    even = P * np.outer(units, units)
+    for shift in (0.0, _SHIFT):
+        try:
+            L = np.linalg.cholesky(even + shift * np.eye(len(P)))
+        except np.linalg.LinAlgError:
+            continue
+        R = solve_triangular(L, np.eye(len(P)), lower=True).T
+        columns = np.exp2(np.round(np.log2(np.max(np.abs(R), axis=0))))
+        return _diagonal([Fraction(unit) for unit in units.tolist()]) @ dyadic_matrix(
+            R / columns, bits
+        )
+    return None
 
 
 def _negative_direction(P: Matrix) -> Matrix | None:

@@ -16,6 +16,7 @@ from mcexact.errors import Impossible, LimitReached, UsageError
 from mcexact.exact.floats import dyadic_matrix, matrix_to_float
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
+from mcexact.floating.margins import spectral_bound
 from mcexact.model.closed_loop import closed_loop_matrix
 from mcexact.model.controller import Controller
 from mcexact.model.neighbor_graph import NeighborGraph
@@ -32,8 +33,9 @@ if TYPE_CHECKING:
 
     Floats = npt.NDArray[np.float64]
 
-_BITS = 36
+_BITS = (36, 52)
 _MARGINS = (Fraction(1, 4), Fraction(1, 16), Fraction(1, 256))
+_EFFORTS = (1.0, 1e2, 1e4, 1e-2)
 _LIST_GRID = 8
 Progress = Callable[[str], None]
 
@@ -191,10 +193,10 @@ def _target(time: str, bound: Fraction, margin: Fraction) -> float:
 def _state_feedback(system: MultiChannelSystem, target: float) -> tuple[Matrix, ...] | None:
     """Dyadic F_i by a Riccati equation; None if there is no solution."""
     A, B = matrix_to_float(system.A), matrix_to_float(system.input_matrix())
-    F = riccati_feedback(A, B, system.time, target)
+    F = _first_feedback(A, B, system.time, target)
     if F is None:
         return None
-    rounded, gains, start = dyadic_matrix(F, _BITS), [], 0
+    rounded, gains, start = _rounded(A, B, F, system.time, target), [], 0
     for i in range(system.m):
         gains.append(rounded.take(rows=range(start, start + system.p(i))))
         start += system.p(i)
@@ -243,16 +245,39 @@ def _solved(
     E = closed_by(error, lists)
     E_float = matrix_to_float(E)
     B, C = matrix_to_float(error.B(agent)), matrix_to_float(error.C(agent))
-    minus_G = riccati_feedback(E_float, B, error.time, target)
+    minus_G = _first_feedback(E_float, B, error.time, target)
     if minus_G is None:
         return None
-    minus_L = riccati_feedback(E_float.T, C.T, error.time, target)
+    minus_L = _first_feedback(E_float.T, C.T, error.time, target)
     if minus_L is None:
         return None
     size = float(np.linalg.norm(minus_G) * np.linalg.norm(minus_L))
-    return _Candidate(
-        lists, E, dyadic_matrix(-minus_G, _BITS), dyadic_matrix(-minus_L.T, _BITS), size
-    )
+    G = -_rounded(E_float, B, minus_G, error.time, target)
+    L = -_rounded(E_float.T, C.T, minus_L, error.time, target).T
+    return _Candidate(lists, E, G, L, size)
+
+
+def _first_feedback(A: Floats, B: Floats, time: str, target: float) -> Floats | None:
+    """A gain with the least effort that leads to a solution that computes as fast enough."""
+    for effort in _EFFORTS:
+        F = riccati_feedback(A, B, time, target, effort=effort)
+        if F is not None and _is_reached(A + B @ F, time, target):
+            return F
+    return None
+
+
+def _is_reached(M: Floats, time: str, target: float) -> bool:
+    """Whether the computed eigenvalues meet the target."""
+    computed = spectral_bound(M, time)
+    return computed < (-target if time == "continuous" else target)
+
+
+def _rounded(A: Floats, B: Floats, F: Floats, time: str, target: float) -> Matrix:
+    """A gain in few bits if these are enough, else in as many as a double has."""
+    few, many = _BITS
+    found = dyadic_matrix(F, few)
+    reached = _is_reached(A + B @ matrix_to_float(found), time, target)
+    return found if reached else dyadic_matrix(F, many)
 
 
 def _programs(
