@@ -40,11 +40,21 @@ from mcexact.cli.failures import DEFINITE_NO
     help="Also gains with which every channel controls and observes the whole plant.",
 )
 @click.option(
+    "--delayed", is_flag=True, help="Also what is fixed with the delays in FILE, lifted and held."
+)
+@click.option(
     "--assert",
     "asserted",
     type=click.Choice(["no-fixed-modes"]),
     help="End with status 1 if this is false.",
 )
+@click.option(
+    "--html",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Write a report for a browser: the answer in plain words, graphs, and all evidence.",
+)
+@click.option("--latex", is_flag=True, help="Print the results in LaTeX (with --html: add them).")
 @options.certificates
 @options.as_json
 @options.work_limits
@@ -53,10 +63,13 @@ def command(
     file: str,
     information: str,
     minimal: bool,
+    delayed: bool,
     subset: str | None,
     channel: str | None,
     every_channel: bool,
     asserted: str | None,
+    html: Path | None,
+    latex: bool,
     certificates: Path | None,
     as_json: bool,
     timeout: float | None,
@@ -87,11 +100,13 @@ def command(
         {
             "information": information,
             "minimal": minimal,
+            "delayed": delayed,
             "subset": _named(subset),
             "channel": channel,
             "every_channel": every_channel,
         },
         certificates is not None,
+        {"html": html is not None, "latex": latex},
         doing=f"analyzing {place}",
         timeout=timeout,
         max_memory=max_memory,
@@ -100,8 +115,12 @@ def command(
         folder = directory(certificates)
         for name, text in answer["certificates"].items():
             write_text(folder / name, text)
+    if html is not None:
+        write_text(html, answer["html"])
     if as_json:
         emit_json(answer["json"])
+    elif latex and html is None:
+        emit(answer["latex"])
     elif on_terminal():
         show(answer["tables"], sys.stdout)
     else:
@@ -124,6 +143,7 @@ def _answer(
     limits: dict[str, int],
     question: dict[str, Any],
     with_certificates: bool,
+    views: dict[str, bool],
 ) -> dict[str, Any]:
     """Decide, and put the answer into text: what the child process does."""
     from mcexact.certificate import codec
@@ -140,7 +160,16 @@ def _answer(
         raise error.within(place) from None
     assessment = assess(system, **question)
     certificates = assessment.certificates() if with_certificates else {}
-    return {
+    pages = {}
+    if views["html"]:
+        from mcexact.report.assessment_page import assessment_page
+
+        pages["html"] = assessment_page(assessment, latex=views["latex"])
+    if views["latex"]:
+        from mcexact.report.latex import assessment_latex
+
+        pages["latex"] = assessment_latex(assessment)
+    return pages | {
         "json": assessment_view(assessment, with_certificates=with_certificates),
         "tables": assessment_tables(assessment),
         "certificates": {name: codec.encode(made) for name, made in certificates.items()},

@@ -15,9 +15,11 @@ if TYPE_CHECKING:
     from mcexact.analysis.completeness import Completeness
     from mcexact.analysis.controllability import JointControllability
     from mcexact.analysis.controllability_indices import ControllabilityIndices
+    from mcexact.analysis.delays import NetworkVerdict
     from mcexact.analysis.fixed_spectrum import FixedSpectrum
     from mcexact.analysis.neighbor_graph import NeighborGraphVerdict
     from mcexact.analysis.pencil import PencilRank
+    from mcexact.analysis.setpoint import SetpointSolvability
     from mcexact.analysis.single_channel_gains import SingleChannelGains
     from mcexact.analysis.transfer_graph import TransferGraph
     from mcexact.derived.extended import Share
@@ -54,6 +56,33 @@ class ChannelAnswers:
 
 
 @dataclass(frozen=True)
+class DelayedNetworks:
+    """What is fixed when sub-states are shared over wires with delays.
+
+    Attributes
+    ----------
+    lifted, held : NetworkVerdict
+        Without holding, where outputs are sent too, and with holding.
+    lifted_dimensions, held_dimensions : tuple of int
+        What is shared: the bound of Theorem 2 (Remark 2) by every agent.
+    """
+
+    lifted: NetworkVerdict
+    held: NetworkVerdict
+    lifted_dimensions: tuple[int, ...]
+    held_dimensions: tuple[int, ...]
+
+    def answers(self) -> dict[str, Any]:
+        """The answers under the stems of their certificates' names."""
+        found: dict[str, Any] = {}
+        for name, verdict in (("lifted", self.lifted), ("held", self.held)):
+            found[f"{name}_fixed_spectrum"] = verdict.spectrum
+            found[f"{name}_joint_controllability"] = verdict.controllability
+            found[f"{name}_joint_observability"] = verdict.observability
+        return found
+
+
+@dataclass(frozen=True)
 class Assessment:
     """The answers of `mcexact analyze`.
 
@@ -70,6 +99,10 @@ class Assessment:
     controllability_indices, observability_indices : ControllabilityIndices
         Of all channels together.
     assignability : Assignability
+    setpoint : SetpointSolvability
+        Whether integrators can hold all outputs of the plant at set-points.
+    delayed : DelayedNetworks or None
+        If it was asked for.
     complementary_subsystem : ComplementarySubsystem or None
         For the subset that was asked about, where it is nonempty and proper.
     channel : ChannelAnswers or None
@@ -96,6 +129,8 @@ class Assessment:
     controllability_indices: ControllabilityIndices
     observability_indices: ControllabilityIndices
     assignability: Assignability
+    setpoint: SetpointSolvability
+    delayed: DelayedNetworks | None = None
     complementary_subsystem: ComplementarySubsystem | None = None
     channel: ChannelAnswers | None = None
     every_channel: SingleChannelGains | None = None
@@ -116,11 +151,14 @@ class Assessment:
             "observability_indices": self.observability_indices,
             "assignability": self.assignability,
             "complementary_subsystem": self.complementary_subsystem,
+            "setpoint": self.setpoint,
             "every_channel": self.every_channel,
             "neighbor_graph": self.neighbor_graph,
         }
         if self.channel is not None:
             answers |= self.channel.answers()
+        if self.delayed is not None:
+            answers |= self.delayed.answers()
         for number, rank in enumerate(self.pencil_ranks, start=1):
             answers[f"pencil_rank_{number}"] = rank
         for share, bound in self.shared_dimension_bounds.items():
@@ -147,6 +185,7 @@ def assess(
     channel: str | None = None,
     every_channel: bool = False,
     minimal: bool = False,
+    delayed: bool = False,
 ) -> Assessment:
     """Decide everything that applies to a plant.
 
@@ -164,6 +203,8 @@ def assess(
         Look for gains with which every channel controls and observes, too.
     minimal : bool
         Solve for the least dimensions that agents must share, too.
+    delayed : bool
+        Decide the networks with the plant's delays, too.
 
     Returns
     -------
@@ -182,6 +223,7 @@ def assess(
         observability_indices,
     )
     from mcexact.analysis.fixed_spectrum import fixed_spectrum
+    from mcexact.analysis.setpoint import setpoint_solvability
     from mcexact.analysis.transfer_graph import transfer_graph
 
     system = plant
@@ -199,7 +241,6 @@ def assess(
             "--minimal asks what the agents must share with their neighbors, and this system "
             "names no neighbors: add 'neighbors' to the file"
         )
-    spectrum = fixed_spectrum(system)
     spectrum, graph = fixed_spectrum(system), transfer_graph(system)
     return Assessment(
         system=system,
@@ -212,6 +253,8 @@ def assess(
         controllability_indices=controllability_indices(system),
         observability_indices=observability_indices(system),
         assignability=assignability(system, spectrum=spectrum, graph=graph),
+        setpoint=setpoint_solvability(plant),
+        delayed=_delayed(plant) if delayed else None,
         channel=None if channel is None else _of_the_channel(system, channel),
         **({} if subset is None else _of_the_subset(system, subset)),
         every_channel=_every_channel(system) if every_channel else None,
@@ -239,6 +282,22 @@ def _of_the_graph(plant: MultiChannelSystem, minimal: bool) -> dict[str, Any]:
         if minimal
         else None,
     }
+
+
+def _delayed(plant: MultiChannelSystem) -> DelayedNetworks:
+    """Both networks over the plant's wires, with the bounds on what is shared."""
+    from mcexact.analysis.allocation import shared_dimension_bound
+    from mcexact.analysis.delays import held_verdict, lifted_verdict
+
+    if plant.neighbors is None:
+        raise UsageError(
+            "--delayed asks about messages between neighbors, and this system names no neighbors: "
+            "add 'neighbors' to the file"
+        )
+    both, alone = (
+        (shared_dimension_bound(plant, share=share).per_agent,) * plant.m for share in SHARING
+    )
+    return DelayedNetworks(lifted_verdict(plant, both), held_verdict(plant, alone), both, alone)
 
 
 def _of_the_channel(system: MultiChannelSystem, name: str) -> ChannelAnswers:

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from mcexact.errors import LimitReached
-from mcexact.report.assessment import Assessment, stem
+from mcexact.report.assessment import Assessment, DelayedNetworks, stem
 
 if TYPE_CHECKING:
     from mcexact.analysis.allocation import SharedDimensions
@@ -130,6 +130,14 @@ def structure_view(assessment: Assessment) -> dict[str, Any]:
         ],
         "fixed_degree": split.fixed_degree,
     }
+    view["setpoint"] = {
+        "solvable": assessment.setpoint.solvable,
+        "rank": assessment.setpoint.rank,
+        "invariant_zero": assessment.setpoint.invariant_zero,
+        "combinations": [list(map(str, row)) for row in assessment.setpoint.combinations.rows()],
+    }
+    if assessment.delayed is not None:
+        view["delayed"] = delayed_view(assessment.delayed, assessment.system)
     subsystem, channel = assessment.complementary_subsystem, assessment.channel
     if subsystem is not None:
         view["complementary_subsystem"] = complementary_subsystem_view(subsystem)
@@ -142,6 +150,23 @@ def structure_view(assessment: Assessment) -> dict[str, Any]:
         }
     if assessment.every_channel is not None:
         view["every_channel"] = gains_view(assessment.every_channel)
+    return view
+
+
+def delayed_view(found: DelayedNetworks, system: MultiChannelSystem) -> dict[str, Any]:
+    """The lifted and the held network, by what they share and what stays fixed."""
+    view = {}
+    for name, verdict, dimensions in (
+        ("lifted", found.lifted, found.lifted_dimensions),
+        ("held", found.held, found.held_dimensions),
+    ):
+        view[name] = {
+            "states": verdict.system.n,
+            "dimensions": dict(zip(system.names, dimensions, strict=True)),
+            "fixed_polynomial": polynomial_view(verdict.spectrum.polynomial),
+            "jointly_controllable": verdict.controllability.controllable,
+            "jointly_observable": verdict.observability.controllable,
+        }
     return view
 
 
@@ -192,6 +217,7 @@ _ANSWERS = {
     "observability_indices": "observability_indices.json",
     "assignability": "assignability.json",
     "complementary_subsystem": "complementary_subsystem.json",
+    "setpoint": "setpoint.json",
     "every_channel": "every_channel.json",
     "neighbor_graph": "neighbor_graph.json",
 }
@@ -206,6 +232,8 @@ def _name_certificates(view: dict[str, Any], files: Iterable[str]) -> None:
             view[answer]["certificate"] = file
     for number, rank in enumerate(view.get("pencil_ranks", ()), start=1):
         rank["certificate"] = f"pencil_rank_{number}.json"
+    for name, network in view.get("delayed", {}).items():
+        network["certificate"] = f"{name}_fixed_spectrum.json"
     if "channel" in view:
         answers = {"controllable": "controllability", "observable": "observability"}
         view["channel"]["certificate"] = {

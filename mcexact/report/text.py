@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from mcexact.analysis.controllability import JointControllability
     from mcexact.analysis.controllability_indices import ControllabilityIndices
     from mcexact.analysis.fixed_spectrum import FixedFactor, FixedSpectrum
+    from mcexact.analysis.setpoint import SetpointSolvability
     from mcexact.analysis.single_channel_gains import SingleChannelGains
     from mcexact.analysis.transfer_graph import TransferGraph
 
@@ -51,6 +52,7 @@ def assessment_tables(assessment: Assessment) -> tuple[Table, ...]:
         ("controllability indices", _indices(assessment.controllability_indices)),
         ("observability indices", _indices(assessment.observability_indices)),
         ("spectrum", _assignability(assessment.assignability)),
+        ("set-points", _setpoint(assessment.setpoint)),
     ]
     if assessment.every_channel is not None:
         rows.append(("through every channel", _gains(assessment, assessment.every_channel)))
@@ -78,7 +80,27 @@ def _of_the_graph(assessment: Assessment) -> list[tuple[str, str]]:
         rows.append((f"enough to share ({share})", enough))
     for share, least in (assessment.minimal_shared_dimensions or {}).items():
         rows.append((f"least to share ({share})", _least(assessment, least)))
+    delayed = assessment.delayed
+    if delayed is not None:
+        for name, verdict, sizes in (
+            ("lifted", delayed.lifted, delayed.lifted_dimensions),
+            ("held", delayed.held, delayed.held_dimensions),
+        ):
+            fixed = "nothing"
+            if not verdict.nothing_fixed:
+                fixed = f"the roots of {shorten(str(verdict.spectrum.polynomial))}"
+            said = f"{fixed}, of {verdict.system.n} states, {sizes[0]} shared by each agent"
+            rows.append((f"fixed with delays, {name}", said))
     return rows
+
+
+def _setpoint(found: SetpointSolvability) -> str:
+    """Whether every output can be held, or what stands against it."""
+    if found.solvable:
+        return "every output can be held at any set-point"
+    if found.invariant_zero:
+        return "not all can be held: an invariant zero"
+    return "not all can be held: the outputs are dependent"
 
 
 def _least(assessment: Assessment, least: SharedDimensions | LimitReached) -> str:

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from typing import Any
 
 from mcexact.analysis.fixed_spectrum import FixedSpectrum, fixed_spectrum
+from mcexact.analysis.single_channel_gains import SingleChannelGains, single_channel_gains
 from mcexact.analysis.stability import StabilityVerdict, certify_stability
 from mcexact.analysis.transfer_graph import transfer_graph
 from mcexact.errors import Impossible, InputError, InternalError, LimitReached, UsageError
@@ -96,11 +98,25 @@ class NetworkDesign:
     @property
     def certificates(self) -> dict[str, Any]:
         """All that was proved, by the name of a file."""
-        found = {"closed_loop_spectrum": self.loop.certificate}
+        found: dict[str, Any] = {"closed_loop_spectrum": self.loop.certificate}
+        if self.reach is not None:
+            found["single_channel_gains"] = self.reach.certificate
         if self.stability is not None:
             found["stability"] = self.stability.certificate
         found["fixed_spectrum"] = self.spectrum.certificate
         return found
+
+    @cached_property
+    def reach(self) -> SingleChannelGains | None:
+        """The proof that with F̄_i the agent with the channel controller reaches everything.
+
+        None where it does not: modes are kept, or there are several strong components.
+        """
+        if len(self.blocks) != 1 or self.kept.degree > 0:
+            return None
+        system, gains = self.network.system, self.gains
+        agent = self.blocks[0].agent
+        return single_channel_gains(system, agent, cyclic=True, draw=lambda *_: gains)
 
     @property
     def order(self) -> int:
@@ -172,6 +188,8 @@ def design_network(
         raise UsageError(
             "in floating point give a rate or radius; a spectrum needs --arithmetic exact"
         )
+    if q is not None:
+        network.plant.index(q)
     tell = progress or (lambda _: None)
     tell("fixed modes")
     fixed = fixed_spectrum(network.system)

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any, Literal
 
 from mcexact.analysis.controllability import joint_controllability, joint_observability
+from mcexact.analysis.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.setpoint import SetpointSolvability, setpoint_solvability
 from mcexact.analysis.stability import StabilityVerdict, certify_stability
+from mcexact.derived.extended import extended_system
 from mcexact.derived.integrators import setpoint_system
 from mcexact.errors import Impossible, InputError, InternalError, UsageError
 from mcexact.exact.linear_algebra import solve
@@ -19,7 +21,7 @@ from mcexact.model.closed_loop import closed_loop_matrix, loop_layout, reference
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_graph
-from mcexact.model.system_file import digest
+from mcexact.model.system_file import canonical_document, digest
 from mcexact.synthesis.extended import Dimensions, design_extended
 from mcexact.synthesis.gate import CertifiedClosedLoop, certify_rate, certify_spectrum
 from mcexact.synthesis.network_candidates import ArithmeticKind, Progress
@@ -163,7 +165,10 @@ all outputs in order; 0 is an invariant zero of the plant
     try:
         made, polynomial = task.designed(_aim(system.time, bound, task))
     except Impossible:
-        made, polynomial = task.designed(bound)
+        try:
+            made, polynomial = task.designed(bound)
+        except Impossible as refused:
+            raise Impossible(str(refused), _about_the_plant(refused, augmented)) from None
     controller = with_integrators(system, made)
     return _certified(system, controller, polynomial, bound, solvability, road, arithmetic)
 
@@ -213,6 +218,19 @@ def _aim(time: str, bound: Fraction | None, task: _Task) -> Fraction | None:
     """
     free = task.spectrum is None and task.arithmetic == "exact" and time == "continuous"
     return bound if bound is None or not free else 3 * bound
+
+
+def _about_the_plant(refused: Impossible, augmented: MultiChannelSystem) -> Any:
+    """The evidence of a refusal, for the plant and its integrators instead of one plant of both."""
+    found = refused.certificate
+    if found is None:
+        return None
+    if found.kind == "shared_dimensions":
+        # No dimensions are enough: then neither are as many as there are states.
+        sizes = (augmented.n,) * augmented.m
+        return fixed_spectrum(extended_system(augmented, sizes, "states")).certificate
+    plant = canonical_document(augmented.plant)
+    return replace(found, system=plant, subject=(*augmented.subject, *found.subject))
 
 
 def _required(system: MultiChannelSystem) -> SetpointSolvability:

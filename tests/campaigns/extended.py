@@ -26,6 +26,7 @@ from mcexact.derived.drawn import jointly_controllable_system, system_with_fixed
 from mcexact.derived.drawn_graph import drawn_graph
 from mcexact.derived.extended import extended_system
 from mcexact.errors import Impossible
+from mcexact.exact.linear_algebra import left_nullspace
 from mcexact.exact.matrix import Matrix
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
@@ -184,10 +185,24 @@ def drawn_square_plant(seed: int) -> MultiChannelSystem:
             [Matrix.from_rows(entries(p, n), ncols=n) for p in ports],
             time=time_domain,
         )
+        if n > sum(ports) > 0 and rng.random() < 0.4:
+            system = with_zero(system)
         reachable = joint_controllability(system).controllable
         if reachable and joint_observability(system).controllable:
             graph = drawn_graph(choices, system.names, strongly_connected=True)
             return system.with_neighbors(graph)
+
+
+def with_zero(system: MultiChannelSystem) -> MultiChannelSystem:
+    """The same plant with an output replaced, so that it has a zero where integrators are.
+
+    With w B = 0 the output w (A − e I) x is 0 in every equilibrium (e = 1 in discrete time).
+    """
+    w = left_nullspace(system.input_matrix()).take(rows=[0])
+    row = w @ system.A - w * int(system.time == "discrete")
+    seen = next(i for i in range(system.m) if system.q(i))
+    C = [row if i == seen else system.C(i) for i in range(system.m)]
+    return MultiChannelSystem(system.A, [system.B(i) for i in range(system.m)], C, time=system.time)
 
 
 def setpoints(count: int, seed: int) -> Counter[str]:

@@ -23,6 +23,7 @@ ALWAYS = {
     "controllability_indices",
     "observability_indices",
     "assignability",
+    "setpoint",
 }
 
 

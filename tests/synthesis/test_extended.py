@@ -48,6 +48,7 @@ def test_the_papers_example_needs_less_than_the_observer() -> None:
     design = design_extended(plant, spectrum=["-1", "-2", {"re": "-1", "im": "3"}])
     assert design.dimensions == (0, 0, 1)
     assert (design.order, design.design.observer_order) == (1, 11)
+    assert "single_channel_gains" in design.certificates, "that agent 3 reaches everything"
     loop = closed_loop_matrix(plant, design.controller)
     wanted = Polynomial.from_roots([-1, -2]) * Polynomial.of(10, 2, 1)
     assert characteristic_polynomial(loop) == wanted

@@ -19,6 +19,7 @@ from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.controller_file import controller_text, read_controller
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system_file import digest
 from mcexact.simulation.trajectory import simulate
 from mcexact.synthesis.setpoint import (
     SetpointDesign,
@@ -124,6 +125,20 @@ def test_a_mode_that_nobody_controls_is_refused() -> None:
         design_setpoint(plant, rate=1)
     assert refusal.value.certificate.kind == "controllability"
     assert check_document(encode(refusal.value.certificate).encode()).verdict == "VALID"
+
+
+@pytest.mark.parametrize("road", ["observer", "extended"])
+def test_a_cut_of_the_graph_is_refused_with_evidence_about_the_plant(road: str) -> None:
+    plant = MultiChannelSystem(
+        [[1]],
+        [[[1]], Matrix.zeros(1, 0)],
+        [Matrix.zeros(0, 1), [[1]]],
+        neighbors={"1": [], "2": []},
+    )
+    with pytest.raises(Impossible) as refusal:
+        design_setpoint(plant, rate=1, road=road)  # type: ignore[arg-type]
+    verdict = check_document(encode(refusal.value.certificate).encode(), digest(plant))
+    assert verdict.verdict == "VALID", verdict.line()
 
 
 def test_delays_are_held_on_the_extended_road() -> None:
