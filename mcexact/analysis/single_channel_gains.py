@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from random import Random
 
 from mcexact.analysis.fixed_spectrum import evidence
@@ -102,7 +102,7 @@ def single_channel_gains(
     cyclic : bool
         Whether A_F has to be cyclic, too: its minimal polynomial of degree n.
     index : int, optional
-        A controllability index that is preferred not to be exceeded.
+        A controllability index that is not exceeded, if any gains reach it for all channels.
     draw : callable, optional
         Proposes gains from the number of a trial and a source of choices; small integers that
         grow, by default.
@@ -143,7 +143,7 @@ def single_channel_gains(
         closed = closed_loop(modular, drawn_gains(modular, rng))
         failing = list(_failing(question, modular, closed))
         if not failing:
-            return _with_gains(question, modular, draw, rng)
+            return _with_gains(_attainable(question, modular, closed), modular, draw, rng)
         for channel, side in failing:
             found = _obstruction(system, channel, side, rng)
             if found is not None:
@@ -238,21 +238,26 @@ def growing_draws(system: MultiChannelSystem) -> Draw:
     return draw
 
 
+def _attainable(question: _Question, modular: ModularSystem, closed: ModularMatrix) -> _Question:
+    """The question with an index that almost all gains reach, those of A_F modulo ℓ among them."""
+    if question.index is None or question.wanted == "observable":
+        return replace(question, index=None)
+    parts = (_part(modular, q, "controllable") for q in question.channels)
+    least = [_index(closed, part, closed.nrows) or 0 for part in parts]
+    return replace(question, index=max(question.index, *least))
+
+
 def _with_gains(
-    question: _Question, modular: ModularSystem, draw: Draw | None, rng: Random, attempts: int = 60
+    question: _Question, modular: ModularSystem, draw: Draw | None, rng: Random
 ) -> SingleChannelGains:
-    """Try gains until some serve; they exist outside a proper algebraic set."""
+    """Try gains until some serve; all outside a proper algebraic set do."""
     grown = growing_draws(question.system)
+    given = 0 if draw is None else 400
     for trial in range(10**6):
-        given = draw is not None and trial < attempts
-        if given and draw is not None:
-            gains = draw(trial, rng)
-        else:
-            gains = grown(trial - (attempts if draw is not None else 0), rng)
+        gains = draw(trial, rng) if draw and trial < given else grown(trial - given, rng)
         if any(F.denominator % modular.modulus == 0 for F in gains):
             continue
-        limit = question.index if trial < attempts else None
-        found = _served(question, modular, gains, limit, rng)
+        found = _served(question, modular, gains, rng)
         if found is not None:
             return found
     raise InternalError("gains that exist were not found")
@@ -262,7 +267,6 @@ def _served(
     question: _Question,
     modular: ModularSystem,
     gains: Sequence[Matrix],
-    limit: int | None,
     rng: Random,
 ) -> SingleChannelGains | None:
     """The answer with these gains, if they serve modulo ℓ within the index."""
@@ -274,7 +278,8 @@ def _served(
         found = []
         for side in SIDES[question.wanted]:
             control = side == "controllable"
-            bound = min(limit, system.n) if limit is not None and control else system.n
+            limited = control and question.index is not None
+            bound = min(question.index or 0, system.n) if limited else system.n
             nu = _index(closed if control else closed.T, _part(modular, q, side), bound)
             if nu is None:
                 return None
