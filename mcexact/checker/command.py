@@ -8,7 +8,6 @@ import json
 import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict
-from typing import TextIO
 
 from .kinds import Verdict, check_document
 from .reading import Limits, Refused
@@ -49,49 +48,12 @@ def verdicts(paths: Sequence[str], system: str | None, limits: Limits) -> Iterat
             yield check_document(data, wanted, limits)
 
 
-def report(
-    paths: Sequence[str],
-    system: str | None = None,
-    as_json: bool = False,
-    limits: Limits | None = None,
-    out: TextIO | None = None,
-) -> int:
-    """Check the files, print one line for each (or one JSON document), return the exit status.
-
-    Parameters
-    ----------
-    paths : sequence of str
-        ``-`` is standard input.
-    system : str, optional
-        A system file that every certificate must be about.
-    as_json : bool, optional
-    limits : Limits, optional
-    out : text stream, optional
-        Standard output by default.
-
-    Returns
-    -------
-    int
-        The first that applies of 70, 3, 1, 5, 0.
-    """
-    stream, found = out or sys.stdout, []
-    try:
-        for verdict in verdicts(paths, system, limits or Limits()):
-            found.append(verdict)
-            if not as_json:
-                print(verdict.line(), file=stream, flush=True)
-    except Refused as error:
-        print(f"mcexact check: {system}: {error.place}: {error.message}", file=sys.stderr)
-        return 3
-    if as_json:
-        rows = [{"file": path, **asdict(v)} for path, v in zip(paths, found, strict=True)]
-        print(json.dumps({"verdicts": rows}, indent=1), file=stream)
-    return next(status for status in PRECEDENCE if status in {0, *(v.status for v in found)})
-
-
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command line; wrong usage ends with status 2, an interruption with 130."""
-    limits = Limits()
+    """Check files, print one line for each (or one JSON document), and return the exit status.
+
+    The status is the first that applies of 70, 3, 1, 5, 0; wrong usage ends with 2, an interruption
+    with 130.
+    """
     parser = argparse.ArgumentParser(prog="checker", description=__doc__, allow_abbrev=False)
     parser.add_argument(
         "files", nargs="+", metavar="FILE", help="certificates; - is standard input"
@@ -99,14 +61,26 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--system", metavar="FILE", help="insist on certificates about its system")
     parser.add_argument("--json", action="store_true", help="print one JSON document")
     for name in ("bytes", "digits", "depth"):
-        parser.add_argument(f"--max-{name}", type=int, default=getattr(limits, name), metavar="N")
+        default = getattr(Limits, name)
+        parser.add_argument(f"--max-{name}", type=int, default=default, metavar="N")
     options = parser.parse_args(arguments)
+    limits = Limits(options.max_bytes, options.max_depth, options.max_digits)
     sys.set_int_max_str_digits(0)
     # Never a traceback for a character that the terminal's encoding lacks.
     if isinstance(sys.stdout, io.TextIOWrapper):
         sys.stdout.reconfigure(errors="backslashreplace")
-    limits = Limits(options.max_bytes, options.max_depth, options.max_digits)
+    found = []
     try:
-        return report(options.files, options.system, options.json, limits)
+        for verdict in verdicts(options.files, options.system, limits):
+            found.append(verdict)
+            if not options.json:
+                print(verdict.line(), flush=True)
+    except Refused as error:
+        print(f"checker: {options.system}: {error.place}: {error.message}", file=sys.stderr)
+        return 3
     except KeyboardInterrupt:
         return 130
+    if options.json:
+        rows = zip(options.files, found, strict=True)
+        print(json.dumps({"verdicts": [{"file": file, **asdict(v)} for file, v in rows]}, indent=1))
+    return next(status for status in PRECEDENCE if status in {0, *(v.status for v in found)})

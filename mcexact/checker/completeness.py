@@ -6,6 +6,7 @@ from typing import Any
 
 from . import evidence, subspaces
 from .arithmetic import characteristic_polynomial_modulo
+from .neighbor_graph import components
 from .reading import boolean, fields, polynomial, require
 from .system import System
 from .transfer_graph import read_arcs, require_arcs
@@ -44,6 +45,6 @@ def _freedom(witness: Any, system: System) -> str:
     evidence.require_coprime(before, after, ell, "det(xI - A) and det(xI - A_F)")
     arcs = read_arcs(listed, "witness.arcs", system)
     require_arcs(system, arcs, ell)
-    connected = len(evidence.components(system.m, [(j, i) for j, i, _ in arcs])) <= 1
+    connected = len(components(system.m, [(j, i) for j, i, _ in arcs])) <= 1
     require(connected, "arc", "witness.arcs", "these arcs do not connect all channels")
     return "its transfer graph is strongly connected and no mode is fixed"

@@ -66,16 +66,3 @@ def require_coprime(a: Polynomial, b: Polynomial, ell: int, what: str) -> None:
     """Stop unless two monic polynomials are coprime modulo ℓ, and therefore over Q."""
     parts = poly_modulo(a, ell), poly_modulo(b, ell)
     require(coprime(*parts, ell), "common_factor", "witness", f"{what} are not coprime modulo l")
-
-
-def components(m: int, arcs: Iterable[tuple[int, int]]) -> list[list[int]]:
-    """The strong components of the graph on m nodes with arcs j → i, sorted by first member."""
-    reached = [{j} for j in range(m)]
-    for j, i in arcs:
-        reached[j].add(i)
-    for k in range(m):
-        for j in range(m):
-            if k in reached[j]:
-                reached[j] |= reached[k]
-    parts = {tuple(i for i in range(m) if i in reached[j] and j in reached[i]) for j in range(m)}
-    return sorted(map(list, parts))

@@ -40,7 +40,7 @@ def check(claim: Any, witness: Any, system: System) -> str:
         stable = location.in_stability_region(p, system.time)
         require(reading.boolean(flag, place) == stable, "claim", f"{place}.stable", "it is not so")
         discs = root_discs.root_discs(roots, f"{place}.roots", p)
-        text = words.factor_text(p, a, e, r, words.channel_set(system, s), stable, discs)
+        text = root_discs.factor_text(p, a, e, r, words.channel_set(system, s), stable, discs)
         found.append((p, n - r, stable, discs, text))
     psi = psi or modulo(system.A.modulo(ell), ell)
     evidence.require_coprime(psi, chi_F, ell, "what is left of det(xI - A), and det(xI - A_F),")

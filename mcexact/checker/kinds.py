@@ -5,28 +5,9 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from importlib import import_module
 from typing import Any
 
-from . import (
-    assignability,
-    closed_loop_spectrum,
-    communication,
-    complementary_subsystem,
-    completeness,
-    controllability,
-    controllability_indices,
-    deficiency,
-    distributed_observer,
-    exceptional_gains,
-    fixed_spectrum,
-    neighbor_graph,
-    pencil_rank,
-    setpoint,
-    shared_dimensions,
-    single_channel_gains,
-    stability,
-    transfer_graph,
-)
 from .arithmetic import NotAUnit, TooLarge
 from .reading import Limits, Refused, fields, incomplete, malformed, parse, require, shown, string
 from .subject import read_subject
@@ -36,26 +17,16 @@ FORMAT = "mcexact-certificate/1"
 
 Rule = Callable[[Any, Any, System], str]
 
-KINDS: dict[str, Rule] = {
-    "assignability": assignability.check,
-    "closed_loop_spectrum": closed_loop_spectrum.check,
-    "communication": communication.check,
-    "complementary_subsystem": complementary_subsystem.check,
-    "completeness": completeness.check,
-    "controllability": controllability.check,
-    "controllability_indices": controllability_indices.check,
-    "deficiency": deficiency.check,
-    "distributed_observer": distributed_observer.check,
-    "exceptional_gains": exceptional_gains.check,
-    "fixed_spectrum": fixed_spectrum.check,
-    "neighbor_graph": neighbor_graph.check,
-    "pencil_rank": pencil_rank.check,
-    "setpoint": setpoint.check,
-    "shared_dimensions": shared_dimensions.check,
-    "stability": stability.check,
-    "single_channel_gains": single_channel_gains.check,
-    "transfer_graph": transfer_graph.check,
-}
+# fmt: off
+STEMS = (
+    "assignability", "closed_loop_spectrum", "communication", "complementary_subsystem",
+    "completeness", "controllability", "controllability_indices", "deficiency",
+    "distributed_observer", "exceptional_gains", "fixed_spectrum", "neighbor_graph", "pencil_rank",
+    "setpoint", "shared_dimensions", "single_channel_gains", "stability", "transfer_graph",
+)
+# fmt: on
+KINDS: dict[str, Rule] = {stem: import_module(f".{stem}", __package__).check for stem in STEMS}
+"""The rule of each kind, from the file of the same name."""
 
 
 @dataclass(frozen=True)

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
-from .evidence import components
 from .exchange import neighbors_of
 from .reading import boolean, fields, require
 from .system import System
@@ -21,3 +21,16 @@ def check(claim: Any, witness: Any, system: System) -> str:
     same = boolean(verdict, "claim.strongly_connected") == connected
     require(same, "claim", "claim.strongly_connected", f"the graph is {answer}")
     return f"the neighbor graph of {described(system)} is {answer}"
+
+
+def components(m: int, arcs: Iterable[tuple[int, int]]) -> list[list[int]]:
+    """The strong components of the graph on m nodes with arcs j → i, sorted by first member."""
+    reached = [{j} for j in range(m)]
+    for j, i in arcs:
+        reached[j].add(i)
+    for k in range(m):
+        for j in range(m):
+            if k in reached[j]:
+                reached[j] |= reached[k]
+    parts = {tuple(i for i in range(m) if i in reached[j] and j in reached[i]) for j in range(m)}
+    return sorted(map(list, parts))

@@ -67,8 +67,6 @@ def parse(data: bytes, limits: Limits, decimal_of: Callable[[str], Any] | None =
         text = data.decode("utf-8")
     except UnicodeDecodeError as error:
         malformed(f"byte {error.start}", "expected UTF-8 text")
-    if text.startswith("\ufeff"):
-        malformed("byte 0", "remove the byte order mark")
     depth = 0
     for token in TOKEN.finditer(text):
         depth += (token[0] in "[{") - (token[0] in "]}")

@@ -13,6 +13,7 @@ from .arithmetic import (
     exponent,
 )
 from .location import in_region
+from .neighbor_graph import components
 from .reading import boolean, fields, integer, items, polynomial, rational, require
 from .system import System
 from .transfer_graph import read_arcs, require_arcs
@@ -44,7 +45,7 @@ def require_absence(
     if arcs is not None:
         found = read_arcs(arcs, f"{place}.arcs", system)
         require_arcs(system, found, ell)
-        parts = evidence.components(system.m, [(j, i) for j, i, _ in found])
+        parts = components(system.m, [(j, i) for j, i, _ in found])
         require(len(parts) <= 1, "arc", f"{place}.arcs", "these arcs do not connect all channels")
 
 

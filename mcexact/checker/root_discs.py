@@ -7,6 +7,7 @@ from typing import Any
 
 from .arithmetic import Polynomial
 from .reading import decimal, fields, items, require
+from .words import polynomial_text
 
 Disc = tuple[Fraction, Fraction, Fraction]
 """Real part, imaginary part, radius."""
@@ -49,3 +50,18 @@ def horner(p: Polynomial, re: Fraction, im: Fraction) -> tuple[Fraction, Fractio
         slope = (slope[0] * re - slope[1] * im + value[0], slope[0] * im + slope[1] * re + value[1])
         value = (value[0] * re - value[1] * im + c, value[0] * im + value[1] * re)
     return value[0] ** 2 + value[1] ** 2, slope[0] ** 2 + slope[1] ** 2
+
+
+def factor_text(
+    p: Polynomial, a: int, e: int, r: int, s: str, stable: bool, discs: list[Disc]
+) -> str:
+    """What is proved of one factor of a fixed spectrum."""
+    roots = []
+    for real, im, radius in discs:
+        imaginary = f" {'-' if im < 0 else '+'} {abs(im)}i" if im else ""
+        roots.append(f"{real}{imaginary} +- {radius}")
+    return (
+        f"{polynomial_text(p)} (exponent {a} in det(xI - A), at most {e} in the gcd of all "
+        f"det(xI - A_F); least pencil rank {r}, reached by the channels {s}; "
+        f"{'stable' if stable else 'not stable'}; roots {', '.join(roots)})"
+    )

@@ -6,7 +6,6 @@ import hashlib
 import json
 import math
 import re
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
@@ -82,13 +81,8 @@ def read_matrix(value: Any, place: str, nrows: int | None, ncols: int | None) ->
         rows = [[number(entry, place) for entry in items(row, place, c)] for row in listed]
     if nrows not in (None, r) or ncols not in (None, c):
         malformed(place, f"expected another shape, found {r} by {c}")
-    return of_rationals(rows, c)
-
-
-def of_rationals(rows: Sequence[Sequence[Fraction]], ncols: int) -> Matrix:
-    """The matrix of these rationals, over their least common denominator."""
     d = math.lcm(*(entry.denominator for row in rows for entry in row))
-    return Matrix([[e.numerator * (d // e.denominator) for e in row] for row in rows], ncols, d)
+    return Matrix([[e.numerator * (d // e.denominator) for e in row] for row in rows], c, d)
 
 
 def read_system(value: Any, *ignored: str) -> System:
@@ -139,7 +133,8 @@ def canonical(system: System) -> dict[str, Any]:
     def rows(M: Matrix) -> Any:
         if not M.nrows and M.ncols:
             return {"shape": [0, M.ncols], "entries": []}
-        return [[plain(Fraction(entry, M.denominator)) for entry in row] for row in M.rows]
+        values = [[Fraction(entry, M.denominator) for entry in row] for row in M.rows]
+        return [[v.numerator if v.denominator == 1 else str(v) for v in row] for row in values]
 
     known, channels = system.names, zip(system.names, system.B, system.C, strict=True)
     result: dict[str, Any] = {"time": system.time, "A": rows(system.A)}
@@ -150,11 +145,6 @@ def canonical(system: System) -> dict[str, Any]:
     for (i, j), steps in system.delays.items():
         result.setdefault("delays", {}).setdefault(known[i], {})[known[j]] = steps
     return result
-
-
-def plain(value: Fraction) -> int | str:
-    """A rational as JSON: an integer, or "p/q" in lowest terms."""
-    return value.numerator if value.denominator == 1 else str(value)
 
 
 def digest(system: System) -> str:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from .arithmetic import Rows, product
-from .evidence import components, modulus
+from .evidence import modulus
+from .neighbor_graph import components
 from .reading import boolean, fields, integer, items, malformed, names, require
 from .subspaces import zero_transfer
 from .system import System

@@ -6,7 +6,6 @@ import json
 import re
 from collections.abc import Iterable
 from fractions import Fraction
-from typing import Any
 
 from .arithmetic import Polynomial
 from .system import System
@@ -40,21 +39,6 @@ def polynomial_text(p: Polynomial) -> str:
             terms += ["-" if c < 0 else "+", size + ("*" if size and power else "") + power]
     sign = "-" if terms and terms[0] == "-" else ""
     return sign + " ".join(terms[1:]) if terms else "0"
-
-
-def factor_text(
-    p: Polynomial, a: int, e: int, r: int, s: str, stable: bool, discs: list[Any]
-) -> str:
-    """What is proved of one factor of a fixed spectrum."""
-    roots = []
-    for real, im, radius in discs:
-        imaginary = f" {'-' if im < 0 else '+'} {abs(im)}i" if im else ""
-        roots.append(f"{real}{imaginary} +- {radius}")
-    return (
-        f"{polynomial_text(p)} (exponent {a} in det(xI - A), at most {e} in the gcd of all "
-        f"det(xI - A_F); least pencil rank {r}, reached by the channels {s}; "
-        f"{'stable' if stable else 'not stable'}; roots {', '.join(roots)})"
-    )
 
 
 def described(system: System) -> str:
