@@ -17,6 +17,7 @@ COMMANDS = (
     "certify",
     "crosscheck",
     "simulate",
+    "reproduce",
     "demo",
     "sample",
 )

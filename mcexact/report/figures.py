@@ -130,6 +130,8 @@ def draw_eigenvalues(axis: Any, time: str, spectrum: LoopSpectrum) -> None:
         reach = 1.1 * max([1.0, *map(abs, re), *map(abs, im)])
         axis.set_xlim(-reach, reach)
         axis.set_ylim(-reach, reach)
+    reach = max([1.0, *map(abs, im)]) * 1.15
+    axis.set_ylim(-reach, reach)
     for x, y, disc in zip(re, im, spectrum.discs, strict=True):
         axis.add_patch(Circle((x, y), float(Fraction(disc.radius)), color="C3", alpha=0.4))
     axis.plot(re, im, "x", color="C3")

@@ -12,6 +12,7 @@ from mcexact.report.picture import Picture, empty_figure
 
 if TYPE_CHECKING:
     from mcexact.analysis.allocation import SharedDimensionBound, SharedDimensions
+    from mcexact.derived.extended import Share
     from mcexact.model.system import MultiChannelSystem
 
 MARKED, SENDERS, PLAIN = "#d95f02", "#7570b3", "#e8e8e8"
@@ -90,11 +91,11 @@ def _draw(
 
     axis.set_title(title, fontsize="medium")
     axis.set_aspect("equal")
-    axis.set_xlim(-1.4, 1.4)
-    axis.set_ylim(-1.4, 1.4)
     axis.set_axis_off()
     m = len(names)
     if m > LARGEST:
+        axis.set_xlim(-1, 1)
+        axis.set_ylim(-1, 1)
         axis.text(0, 0, f"{m} channels, {len(arcs)} arcs", ha="center", parse_math=False)
         return
     size = 0.2 if m <= 8 else 0.12
@@ -104,6 +105,8 @@ def _draw(
         name: (radius * math.cos(a), radius * math.sin(a))
         for name, a in zip(names, turn, strict=True)
     }
+    axis.set_xlim(min(x for x, _ in place.values()) - 0.4, max(x for x, _ in place.values()) + 0.4)
+    axis.set_ylim(min(y for _, y in place.values()) - 0.4, max(y for _, y in place.values()) + 0.4)
     for start, end in arcs:
         axis.add_patch(
             FancyArrowPatch(
@@ -130,8 +133,8 @@ def _draw(
 
 def dimensions_picture(
     system: MultiChannelSystem,
-    bounds: Mapping[str, SharedDimensionBound],
-    least: Mapping[str, SharedDimensions],
+    bounds: Mapping[Share, SharedDimensionBound],
+    least: Mapping[Share, SharedDimensions],
 ) -> Picture:
     """Bars for every agent: the bound beside the least, for each way of sharing.
 

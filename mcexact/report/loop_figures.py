@@ -28,9 +28,9 @@ def spectrum_picture(spectrum: LoopSpectrum, time: str, title: str) -> Picture:
     told = ", ".join(_point(disc.re, disc.im) for disc in spectrum.discs[:20])
     largest = max((float(Fraction(disc.radius)) for disc in spectrum.discs), default=0.0)
     verdict = "all in the stability region" if spectrum.stable else "not all stable"
+    sure = f"in a certified disc of radius at most {largest:.1e}" if largest else "exactly there"
     words = (
-        f"{len(spectrum.discs)} distinct eigenvalues, {verdict} (gray): {told}; each lies in a "
-        f"certified disc of radius at most {largest:.1e}."
+        f"{len(spectrum.discs)} distinct eigenvalues, {verdict} (gray): {told}; each lies {sure}."
     )
     return Picture(figure, title, words)
 

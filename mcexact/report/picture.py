@@ -33,7 +33,9 @@ class Picture:
         with matplotlib.rc_context({"svg.hashsalt": "mcexact", "svg.fonttype": "path"}):
             self.figure.savefig(image, format="svg", metadata={"Date": None, "Creator": None})
         text = base64.b64encode(image.getvalue()).decode("ascii")
-        return EmbeddedPicture(self.title, self.alternative, f"data:image/svg+xml;base64,{text}")
+        width = float(self.figure.get_figwidth())
+        uri = f"data:image/svg+xml;base64,{text}"
+        return EmbeddedPicture(self.title, self.alternative, uri, width)
 
 
 @dataclass(frozen=True)
@@ -45,11 +47,14 @@ class EmbeddedPicture:
     title, alternative : str
     uri : str
         A ``data:`` address that holds the whole image.
+    width : float
+        In inches, as it was drawn.
     """
 
     title: str
     alternative: str
     uri: str
+    width: float
 
 
 def empty_figure(width: float, height: float) -> Any:

@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
-from mcexact.analysis.allocation import minimal_shared_dimensions, shared_dimension_bound
+from mcexact.analysis.allocation import (
+    SharedDimensionBound,
+    SharedDimensions,
+    minimal_shared_dimensions,
+    shared_dimension_bound,
+)
 from mcexact.analysis.completeness import completeness
 from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.analysis.extended import bound_attained, graph_inclusion
@@ -156,11 +161,11 @@ def tightness(note: Notebook) -> None:
     """Whether the bound is tight, which the paper leaves open: on its own example it is not."""
     plant = three_channels()
     note.on(PAPER)
-    bounds, least = {}, {}
-    for share, total in (("outputs+states", 1), ("states", 2)):
-        way: Share = "states" if share == "states" else "outputs+states"
-        bounds[share] = shared_dimension_bound(plant, share=way)
-        least[share] = minimal_shared_dimensions(plant, share=way)
+    bounds: dict[Share, SharedDimensionBound] = {}
+    least: dict[Share, SharedDimensions] = {}
+    for share, total in zip(SHARING, (1, 2), strict=True):
+        bounds[share] = shared_dimension_bound(plant, share=share)
+        least[share] = minimal_shared_dimensions(plant, share=share)
         note.check(f"{total} shared in all is the least ({share})", least[share].total == total)
         note.check("the bound asks for more", bounds[share].total > total)
         note.certify(bounds[share], least[share])

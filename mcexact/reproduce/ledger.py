@@ -91,9 +91,10 @@ def statements() -> tuple[Statement, ...]:
 
 def _read(row: dict[str, Any]) -> Statement:
     """One entry of the file, its lists as tuples."""
-    return Statement(
-        **{name: tuple(value) if isinstance(value, list) else value for name, value in row.items()}
-    )
+    fields: dict[str, Any] = {
+        name: tuple(value) if isinstance(value, list) else value for name, value in row.items()
+    }
+    return Statement(**fields)
 
 
 def statement(key: str) -> Statement:

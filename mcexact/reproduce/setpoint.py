@@ -7,15 +7,21 @@ from fractions import Fraction
 from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.analysis.setpoint import setpoint_solvability
 from mcexact.derived.integrators import setpoint_system
+from mcexact.errors import Impossible
 from mcexact.exact.linear_algebra import characteristic_polynomial, determinant, rank, solve
 from mcexact.exact.matrix import Matrix, block, vstack
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.system import MultiChannelSystem
+from mcexact.report.loop_figures import setpoint_picture
 from mcexact.reproduce.equations import integrators_agree
 from mcexact.reproduce.material import Instance, Numbers, drawn_plants, plants
 from mcexact.reproduce.notebook import Notebook, Procedure
+from mcexact.simulation.trajectory import simulate
+from mcexact.synthesis.setpoint import Road, design_setpoint
 from mcexact.synthesis.spectrum import default_polynomial
 from mcexact.synthesis.state_feedback import state_feedback
+
+ROADS: tuple[Road, ...] = ("observer", "extended")
 
 
 def washed_out() -> Instance:
@@ -131,6 +137,41 @@ def determinant_at_zero(note: Notebook) -> None:
     note.certify(found)
 
 
+def distributed_setpoints(note: Notebook) -> None:
+    """Both roads lead every output to the set-point of its agent; run on the network."""
+    name, plant = two_channels()
+    note.on(name)
+    for road in ROADS:
+        design = design_setpoint(plant, rate=1, road=road)
+        note.check(f"a stable loop by the road of the {road}", design.stability.stable)
+        note.certify(*design.certificates.values())
+    wanted = [Fraction(1), Fraction(-2)]
+    design = design_setpoint(plant, rate=1)
+    run = simulate(plant, design.controller, horizon=16, reference=[[r] for r in wanted])
+    C = plant.output_matrix().rows()
+    outputs = [
+        [
+            sum(float(c) * float(x) for c, x in zip(row, shot.plant, strict=True))
+            for shot in run.snapshots
+        ]
+        for row in C
+    ]
+    near = all(abs(y[-1] - float(r)) < 1e-3 for y, r in zip(outputs, wanted, strict=True))
+    note.check("the run ends at the set-points 1 and −2", near)
+    note.show(
+        setpoint_picture(run, outputs, [float(r) for r in wanted], ["y of agent 1", "y of agent 2"])
+    )
+    name, plant = washed_out()
+    note.on(name)
+    try:
+        design_setpoint(plant.with_neighbors({plant.names[0]: []}), rate=1)
+    except Impossible as refused:
+        note.check("refused where a set-point cannot be held", True)
+        note.certify(refused.certificate)
+    else:
+        note.check("refused where a set-point cannot be held", False)
+
+
 PROCEDURES: dict[str, Procedure] = {
     "b1": integrators,
     "attained": any_stabilizing_control,
@@ -138,4 +179,5 @@ PROCEDURES: dict[str, Procedure] = {
     "thy": only_zero_matters,
     "gnd": condition,
     "det": determinant_at_zero,
+    "setpoints": distributed_setpoints,
 }

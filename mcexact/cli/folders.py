@@ -1,0 +1,69 @@
+"""Writing a folder of files whole or not at all."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+
+from mcexact.errors import InputError
+
+
+def require_replaceable(folder: Path, mark: str) -> None:
+    """Refuse a folder that holds something else than an earlier result.
+
+    Parameters
+    ----------
+    folder : Path
+        Missing, empty, or with the mark in it.
+    mark : str
+        The file by which an earlier result is known.
+
+    Raises
+    ------
+    InputError
+        If it is something else.
+    """
+    if not folder.exists():
+        return
+    if not folder.is_dir():
+        raise InputError("expected a folder, found a file", where=str(folder))
+    if any(folder.iterdir()) and not (folder / mark).is_file():
+        raise InputError(
+            f"holds other files and no {mark}; name a new or empty folder", where=str(folder)
+        )
+
+
+def write_folder(folder: Path, files: Mapping[str, str]) -> None:
+    """Write the files beside the folder, then put them in its place.
+
+    Parameters
+    ----------
+    folder : Path
+        What stands there is replaced.
+    files : mapping from relative paths to texts
+
+    Raises
+    ------
+    InputError
+        If it cannot be written.
+    """
+    target = Path(os.path.realpath(folder))
+    try:
+        target.parent.mkdir(parents=True, exist_ok=True)
+        made = Path(tempfile.mkdtemp(prefix=f".{target.name[:100]}.", dir=target.parent))
+        try:
+            made.chmod(0o755)
+            for name, text in files.items():
+                path = made / "new" / name
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_text(text, encoding="utf-8")
+            if target.exists():
+                target.rename(made / "old")
+            (made / "new").rename(target)
+        finally:
+            shutil.rmtree(made, ignore_errors=True)
+    except OSError as error:
+        raise InputError(f"cannot write: {error.strerror or error}", where=str(folder)) from error

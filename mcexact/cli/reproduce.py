@@ -1,0 +1,95 @@
+"""`mcexact reproduce`: every statement of the paper, checked exactly."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from mcexact.cli import options
+from mcexact.cli.failures import DEFINITE_NO
+
+
+@click.command(name="reproduce", short_help="Check every statement of the paper exactly.")
+@click.option(
+    "-o",
+    "--output",
+    type=options.FOLDER,
+    metavar="DIR",
+    help="Write report.html and the certificates into this folder, whole or not at all.",
+)
+@click.option(
+    "--statement",
+    "wanted",
+    multiple=True,
+    metavar="NAME",
+    help="Only this one, such as 'Theorem 2'. May be repeated.",
+)
+@click.option("--latex", is_flag=True, help="Print the table in LaTeX.")
+@options.as_json
+@options.work_limits
+def command(
+    output: Path | None,
+    wanted: tuple[str, ...],
+    latex: bool,
+    as_json: bool,
+    timeout: float | None,
+    max_memory: int | None,
+) -> int:
+    """Check the paper's statements on its own example and on drawn systems, with certificates.
+
+    Ends with status 1 if a statement does not hold, and says which.
+    """
+    import sys
+
+    from mcexact.cli.folders import require_replaceable, write_folder
+    from mcexact.cli.output import emit, emit_json, on_terminal
+    from mcexact.cli.supervision import supervised
+    from mcexact.report.text import plain, show
+    from mcexact.reproduce import pages, reproduction
+
+    keys = reproduction.chosen(wanted)
+    if output is not None:
+        require_replaceable(output, "report.html")
+    findings: list[Any] = []
+    for k, (name, procedures) in enumerate(reproduction.SECTIONS):
+        if not any(key in procedures for key in keys):
+            continue
+        found = supervised(
+            reproduction.examine,
+            k,
+            keys,
+            doing=f"checking section {name}",
+            timeout=timeout,
+            max_memory=max_memory,
+        )
+        findings += found
+        _tell(name, found)
+    result = reproduction.assembled(findings)
+    if output is not None:
+        files = {f"certificates/{name}": text for name, text in result.certificates().items()}
+        files["report.html"] = pages.reproduction_page(result)
+        if latex:
+            files["table.tex"] = pages.reproduction_latex(result)
+        write_folder(output, files)
+    if as_json:
+        emit_json(pages.reproduction_view(result))
+    elif latex:
+        emit(pages.reproduction_latex(result))
+    elif on_terminal():
+        show([pages.reproduction_table(result)], sys.stdout)
+    else:
+        emit(plain([pages.reproduction_table(result)]))
+    for row in result.failures:
+        click.echo(f"mcexact: {row.statement.title}: {row.finding.failure}", err=True)
+    return 0 if result.holds else DEFINITE_NO
+
+
+def _tell(name: str, findings: tuple[Any, ...]) -> None:
+    """One line of progress for a section that is done."""
+    held = sum(finding.holds for finding in findings)
+    made = sum(len(finding.certificates) for finding in findings)
+    click.echo(
+        f"mcexact: section {name}: {held} of {len(findings)} hold, {made} certificates", err=True
+    )
