@@ -122,6 +122,8 @@ def smallest_singular_value(M: Array, z: complex) -> float:
         # A singular matrix is an answer here: the distance is 0.
         warnings.simplefilter("ignore")
         factored = lu_factor(z * np.eye(N) - M)
+        if not np.all(np.diag(factored[0])):
+            return 0.0
         v = np.ones(N, dtype=np.complex128) / np.sqrt(N)
         growth = 0.0
         for _ in range(8):

@@ -1,0 +1,55 @@
+"""The table of verdicts, on systems where everything is known."""
+
+import mcexact
+from mcexact.crosscheck import table
+from mcexact.crosscheck.table import crosscheck
+from mcexact.model.system import MultiChannelSystem
+from tests.synthesis.three_channels import three_channels
+
+PLAIN = MultiChannelSystem([[0, 1], [0, 0]], [[[0], [1]]], [[[1, 0]]])
+
+
+def test_floating_point_is_right_about_a_double_integrator():
+    found = crosscheck(PLAIN)
+    assert not found.disagreements
+    answers = {row.question: row.exact for row in found.rows}
+    assert answers["joint controllability"] == "yes, rank 2 of 2"
+    assert answers["controllability index"] == "2"
+    assert answers["any fixed mode, pencils"] == "no"
+    assert answers["completeness"] == "yes"
+    assert answers["stability of A"] == "no"
+
+
+def test_every_call_is_quoted():
+    quoted = "numpy.", "control.", "scipy.", "networkx."
+    for row in crosscheck(three_channels()).rows:
+        assert any(name in row.call for name in quoted), row.call
+
+
+def test_a_fixed_mode_is_at_distance_zero():
+    distance = crosscheck(three_channels()).distance
+    assert distance.distance < 1e-12 and abs(distance.mode - 1) < 1e-6
+
+
+def test_no_states_have_answers_too():
+    found = crosscheck(MultiChannelSystem([], [[]], [[]]))
+    assert found.distance is None
+    assert all(row.agree is not False for row in found.rows if row.question != "stability of A")
+
+
+def test_a_library_that_raises_gives_no_answer(monkeypatch):
+    def missing(*_):
+        raise ImportError("No module named 'control'", name="control")
+
+    monkeypatch.setattr(table.controllability, "ctrb_rank", missing)
+    [row] = [row for row in crosscheck(PLAIN).rows if row.question == "joint controllability"]
+    assert row.agree is None and row.floating == "no answer (control is not installed)"
+
+
+def test_numbers_beyond_doubles_are_no_error():
+    found = crosscheck(MultiChannelSystem([[10**400]], [[[1]]], [[[1]]]))
+    assert any(row.agree is None for row in found.rows)
+
+
+def test_the_package_is_called_by_the_name_that_it_exports():
+    assert len(mcexact.crosscheck(PLAIN).rows) == len(crosscheck(PLAIN).rows)

@@ -1,0 +1,147 @@
+"""Designing in floating point, certifying and cross-checking, as a user does."""
+
+import json
+from fractions import Fraction
+
+import pytest
+
+from mcexact.certificate import encode
+from mcexact.model import gallery
+from mcexact.model.controller_file import save_controller
+from mcexact.model.local_controllers import local_controllers
+from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system_file import save_system
+from tests.campaigns.floating import (
+    both_roads,
+    near_the_boundary,
+    ring_plant,
+    timed_design,
+    valid_by_copied_checker,
+)
+from tests.end_to_end.command_line import run
+from tests.synthesis.three_channels import three_channels
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """Both plants, a floating-point controller for each, and the certificates."""
+    place = tmp_path_factory.mktemp("floating")
+    for time, bound in (("continuous", "--rate=1"), ("discrete", "--radius=4/5")):
+        save_system(three_channels(time), place / f"{time}.json")
+        done = run(
+            *("design", "observer", str(place / f"{time}.json"), bound, "--arithmetic=float"),
+            *("-o", str(place / f"{time}-controller.json")),
+            *("--certificates", str(place / time)),
+        )
+        assert done.status == 0, done.stderr
+        assert "designed in floating point, loop certified" in done.stdout
+        assert "distance to instability" in done.stdout
+    return place
+
+
+def certified(folder, time, *options):
+    """Certify the controller that was written."""
+    return run(
+        "certify", str(folder / f"{time}.json"), str(folder / f"{time}-controller.json"), *options
+    )
+
+
+@pytest.mark.parametrize(
+    ("time", "bound"), [("continuous", "--rate=1"), ("discrete", "--radius=4/5")]
+)
+def test_the_written_controller_is_certified_again(folder, time, bound):
+    done = certified(folder, time, bound, "--certificates", str(folder / "again"))
+    assert done.status == 0 and "yes, every one, exactly" in done.stdout
+    for written in (folder / time / "stability.json", folder / "again" / "stability.json"):
+        checked = run("check", str(written), "--system", str(folder / f"{time}.json"))
+        assert checked.status == 0 and checked.stdout.startswith("VALID every eigenvalue has")
+
+
+@pytest.mark.parametrize("method", ["polynomial", "lyapunov"])
+def test_a_no_ends_with_status_1_and_is_proved(folder, tmp_path, method):
+    done = certified(
+        *(folder, "continuous", "--rate=50", "--method", method, "--json"),
+        *("--certificates", str(tmp_path)),
+    )
+    assert done.status == 1
+    answer = json.loads(done.stdout)
+    assert answer["certified"] is False and answer["bound"] == "50"
+    checked = run("check", str(tmp_path / answer["certificate"]))
+    assert checked.stdout.startswith("VALID not every eigenvalue has")
+
+
+def test_the_largest_rate_is_found(folder):
+    answer = json.loads(certified(folder, "continuous", "--largest", "--json").stdout)
+    assert answer["certified"] and Fraction(answer["largest"]) > 1
+
+
+def test_the_design_as_json_tells_proof_from_measurement(folder):
+    done = run(
+        *("design", "observer", str(folder / "continuous.json"), "--rate=1"),
+        *("--arithmetic=float", "--json"),
+    )
+    answer = json.loads(done.stdout)
+    assert answer["certified_bound"] == "1" and answer["order"] == 18
+    assert set(answer["floating_point"]) == {
+        "gain_norms",
+        "spectral",
+        "numerical",
+        "distance_to_instability",
+    }
+
+
+@pytest.mark.parametrize(
+    ("options", "status", "message"),
+    [
+        (["--radius=1/2"], 2, "a radius is for discrete time"),
+        (["--rate=0"], 2, "expected a rate above 0"),
+        (["--rate=1", "--largest"], 2, "either look for the largest rate or give one"),
+        (["--method=guess"], 2, "guess"),
+    ],
+)
+def test_wrong_usage_of_certify_gets_one_message(folder, options, status, message):
+    done = certified(folder, "continuous", *options)
+    assert done.status == status and message in done.stderr
+    assert len(done.messages) == 1
+
+
+def test_a_controller_of_another_plant_is_malformed_input(folder, tmp_path):
+    other = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    save_controller(local_controllers(other, [[[-3]]]), tmp_path / "other.json")
+    done = run("certify", str(folder / "continuous.json"), str(tmp_path / "other.json"))
+    assert done.status == 2 and "expected the agents" in done.stderr
+    missing = run("certify", str(folder / "continuous.json"), str(tmp_path / "none.json"))
+    assert missing.status == 3
+
+
+def test_the_cross_check_names_the_disagreement(tmp_path):
+    save_system(gallery.load("hidden-triple-mode"), tmp_path / "plant.json")
+    done = run("crosscheck", str(tmp_path / "plant.json"))
+    assert done.status == 0 and "3 wrong in floating point" in done.stdout
+    assert "numpy.linalg.matrix_rank(control.ctrb(A, B))" in done.stdout
+    assert "in floating point, not proved" in done.stdout
+    answer = json.loads(run("crosscheck", str(tmp_path / "plant.json"), "--json").stdout)
+    assert "fixed modes, 8 digits" in answer["disagreements"]
+    assert answer["floating_point"]["distance_to_fixed_mode"]["at_most"] < 1e-12
+
+
+def test_the_cross_check_of_nonsense_is_malformed_input():
+    done = run("crosscheck", "-", stdin=b"{}")
+    assert done.status == 3 and len(done.messages) == 1
+
+
+def test_a_ring_is_certified_by_blocks_and_checked_by_a_copy():
+    timed = timed_design(ring_plant(0, 5, 4))
+    assert timed.design.loop.loop.n == 45
+    assert timed.design.certificate.evidence.transformation is not None
+    assert min(timed.ratios) > 0
+    valid_by_copied_checker(encode(timed.design.certificate))
+
+
+@pytest.mark.parametrize("n", [4, 8])
+def test_loops_are_certified_by_both_roads(n):
+    both_roads(n)
+
+
+def test_an_abscissa_near_the_boundary_is_told_apart():
+    near_the_boundary(20)

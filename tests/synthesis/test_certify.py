@@ -1,0 +1,85 @@
+"""Other people's controllers: from matrices, from python-control, from files."""
+
+from fractions import Fraction
+
+import pytest
+
+from mcexact.certificate import encode
+from mcexact.checker import check_document
+from mcexact.errors import Impossible, LimitReached, UsageError
+from mcexact.model.local_controllers import local_controllers
+from mcexact.model.system import MultiChannelSystem
+from mcexact.synthesis import certify
+from mcexact.synthesis.certify import certify_controller
+from mcexact.synthesis.gate import certify_rate
+from mcexact.synthesis.observer import design_observer
+from tests.synthesis.three_channels import three_channels
+
+PLANT = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+STATIC = local_controllers(PLANT, [[[-3]]])
+
+
+def assert_valid(certificate):
+    verdict = check_document(encode(certificate).encode())
+    assert verdict.verdict == "VALID", verdict.line()
+
+
+@pytest.mark.parametrize(("rate", "stable"), [(None, True), (1, True), (2, False), (3, False)])
+@pytest.mark.parametrize("method", ["polynomial", "lyapunov"])
+def test_the_eigenvalue_minus_two_is_faster_than_one(rate, stable, method):
+    if (rate, method) == (2, "lyapunov"):
+        with pytest.raises(UsageError, match="do not decide"):
+            certify_controller(PLANT, STATIC, rate=rate, method=method)
+        return
+    found = certify_controller(PLANT, STATIC, rate=rate, method=method)
+    assert found.verdict.stable is stable
+    assert_valid(found.verdict.certificate)
+
+
+def test_a_large_loop_is_recognized_and_goes_block_by_block():
+    plant = three_channels()
+    design = design_observer(plant, rate=1, arithmetic="float")
+    found = certify_controller(plant, design.controller, rate=1, method="lyapunov")
+    assert found.verdict.stable and found.blocks == (3, 9, 9)
+    assert_valid(found.verdict.certificate)
+
+
+def test_the_largest_rate_is_certified(monkeypatch):
+    plant = three_channels()
+    design = design_observer(plant, rate=1, arithmetic="float")
+    small = certify_controller(plant, design.controller, largest=True)
+    assert small.verdict.stable and small.verdict.region.bound == small.largest > 1
+    assert_valid(small.verdict.certificate)
+    monkeypatch.setattr(certify, "POLYNOMIAL_LIMIT", 10)
+    large = certify_controller(plant, design.controller, largest=True)
+    assert large.verdict.stable and large.verdict.method == "lyapunov"
+    assert 0 < large.largest <= small.largest + Fraction(1, 10**5)
+    assert_valid(large.verdict.certificate)
+
+
+def test_there_is_no_largest_rate_of_an_unstable_loop():
+    for gain in ([[-3]], [[1]]):
+        found = certify_controller(PLANT, local_controllers(PLANT, [gain]), largest=True)
+        assert (found.largest is None) is not found.verdict.stable
+
+
+def test_a_loop_too_large_for_its_polynomial_says_so(monkeypatch):
+    monkeypatch.setattr(certify, "POLYNOMIAL_LIMIT", 0)
+    assert not certify_controller(PLANT, STATIC, rate=2).verdict.stable
+    monkeypatch.setattr(certify, "_POLYNOMIAL_UNASKED", 0)
+    with pytest.raises(LimitReached, match="ask for the method polynomial"):
+        certify_controller(PLANT, STATIC, rate=2)
+
+
+def test_a_bound_of_the_other_time_domain_is_wrong_usage():
+    with pytest.raises(UsageError, match="radius is for discrete time"):
+        certify_controller(PLANT, STATIC, radius=1)
+    with pytest.raises(UsageError, match="either look for"):
+        certify_controller(PLANT, STATIC, rate=1, largest=True)
+
+
+def test_the_gate_lets_no_slow_loop_through():
+    assert_valid(certify_rate(PLANT, STATIC, bound=Fraction(1)).certificate)
+    with pytest.raises(Impossible, match="not in the region Re λ < -2") as refusal:
+        certify_rate(PLANT, STATIC, bound=Fraction(2))
+    assert_valid(refusal.value.certificate)

@@ -1,0 +1,115 @@
+"""The observer in floating point: what comes out is certified, or nothing does."""
+
+from fractions import Fraction
+
+import pytest
+
+from mcexact.certificate import encode
+from mcexact.checker import check_document
+from mcexact.errors import Impossible, InputError, LimitReached, UsageError
+from mcexact.exact.linear_algebra import characteristic_polynomial
+from mcexact.exact.location import StabilityRegion
+from mcexact.model.closed_loop import closed_loop_matrix
+from mcexact.model.system import MultiChannelSystem
+from mcexact.synthesis import observer_float
+from mcexact.synthesis.observer import design_observer
+from tests.campaigns.floating import drawn_designs
+from tests.synthesis.three_channels import three_channels
+
+BOTH = {"1": ["2"], "2": ["1"]}
+
+
+def assert_meets(design, system, bound):
+    verdict = check_document(encode(design.certificate).encode())
+    assert verdict.verdict == "VALID", verdict.line()
+    loop = closed_loop_matrix(system, design.controller)
+    assert loop == design.loop.matrix
+    region = StabilityRegion(system.time, Fraction(bound))
+    assert region.contains_roots_of(characteristic_polynomial(loop))
+
+
+@pytest.mark.parametrize("q", ["1", "2", "3"])
+def test_the_example_is_designed_through_every_agent(q):
+    plant = three_channels()
+    design = design_observer(plant, q=q, rate=1, arithmetic="float")
+    assert_meets(design, plant, 1)
+    assert design.agent == q and design.controller.order == 18
+    assert set(design.gain_norms()) == {"F", "K, H", "G", "L"}
+
+
+def test_discrete_time_takes_a_radius():
+    plant = three_channels("discrete")
+    assert_meets(design_observer(plant, radius="1/2", arithmetic="float"), plant, "1/2")
+
+
+def test_only_the_gains_are_rounded_and_all_of_them_are_dyadic():
+    design = design_observer(three_channels(), rate=1, arithmetic="float")
+    for M in (*design.feedback, *design.lists, design.G, design.L):
+        assert M.denominator & (M.denominator - 1) == 0
+
+
+def test_gains_from_outside_are_kept():
+    plant = MultiChannelSystem([[1]], [[[1]], [[0]]], [[[0]], [[1]]], neighbors=BOTH)
+    design = design_observer(plant, gains=[[[-4]], [[0]]], rate=2, arithmetic="float")
+    assert_meets(design, plant, 2)
+    assert design.feedback[0].numerators == ((-4,),)
+
+
+def test_a_fast_mode_may_be_out_of_reach():
+    plant = MultiChannelSystem(
+        [[1, 0], [0, -5]], [[[1], [0]], [[0], [0]]], [[[0, 0]], [[1, 0]]], neighbors=BOTH
+    )
+    assert_meets(design_observer(plant, rate=1, arithmetic="float"), plant, 1)
+
+
+@pytest.mark.parametrize(
+    ("B", "C", "word"),
+    [([[1], [0]], [[1, 1]], "controllable"), ([[1], [1]], [[1, 0]], "observable")],
+)
+def test_a_slow_mode_out_of_reach_is_a_refusal_with_a_certificate(B, C, word):
+    plant = MultiChannelSystem([[2, 0], [0, 3]], [B], [C], neighbors={"1": []})
+    with pytest.raises(Impossible, match=f"not {word} by all channels") as refusal:
+        design_observer(plant, rate=1, arithmetic="float")
+    assert check_document(encode(refusal.value.certificate).encode()).verdict == "VALID"
+
+
+def test_agents_that_cannot_hear_of_each_other_are_a_refusal_for_these_gains():
+    plant = MultiChannelSystem([[1]], [[[1]], [[0]]], [[[0]], [[1]]], neighbors={"1": [], "2": []})
+    with pytest.raises(Impossible, match="fixed modes x") as refusal:
+        design_observer(plant, gains=[[[-4]], [[0]]], rate=1, arithmetic="float")
+    assert check_document(encode(refusal.value.certificate).encode()).verdict == "VALID"
+    with pytest.raises(LimitReached, match="try another agent"):
+        design_observer(plant, rate=1, arithmetic="float")
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"spectrum": {"feedback": [-1] * 3, "error": [-1] * 11}},
+        {"rate": 1, "order": "least"},
+    ],
+)
+def test_what_only_exact_arithmetic_can_promise_is_wrong_usage(options):
+    with pytest.raises(UsageError, match=r"takes a rate or a radius"):
+        design_observer(three_channels(), arithmetic="float", **options)
+
+
+def test_a_bound_is_needed_and_the_arithmetic_has_two_names():
+    with pytest.raises(UsageError, match="nothing says how fast"):
+        design_observer(three_channels(), arithmetic="float")
+    with pytest.raises(UsageError, match='expected "exact" or "float"'):
+        design_observer(three_channels(), rate=1, arithmetic="decimal")
+    with pytest.raises(InputError, match="expected 3 gains"):
+        design_observer(three_channels(), rate=1, gains=[], arithmetic="float")
+
+
+def test_what_cannot_be_certified_is_not_returned(monkeypatch):
+    monkeypatch.setattr(observer_float, "_certified", lambda *_: None)
+    with pytest.raises(LimitReached, match="could be certified"):
+        design_observer(three_channels(), rate=1, arithmetic="float")
+
+
+def test_drawn_plants_are_designed_and_certified():
+    seen = drawn_designs(8, 0)
+    assert seen["VALID"] == 8
+    assert seen["ring"] and seen["drawn graph"] and seen["discrete time"]
