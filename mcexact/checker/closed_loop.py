@@ -17,8 +17,7 @@ Signal = tuple[str, int, int]
 
 def closed_loop(system: System, step: dict[str, Any], place: str) -> System:
     """State (x, x_1, z_1, x_2, …), then for each j the x_j(t−1), …, y_j(t−1), … that are in use."""
-    (document,) = fields(step, place, "controller")
-    time, listed = fields(document, place, "time", "agents")
+    time, listed = fields(*fields(step, place, "controller"), place, "time", "agents")
     agents, m = items(listed, place, system.m), system.m
     width = {"X": [system.n], "x": [0] * m, "y": [C_j.nrows for C_j in system.C], "z": [0] * m}
     for j, agent in enumerate(agents):
@@ -47,11 +46,8 @@ def closed_loop(system: System, step: dict[str, Any], place: str) -> System:
         rows[0] += B_i @ computed(i, 2, B_i.ncols)
         rows += [computed(i, 0, width["x"][i]), computed(i, 1, width["z"][i])]
     rows += [reads[what, j, age - 1] for what, j, age in order if age]
-    words, blocks = (
-        f"the closed loop of {system.words} and the controller given",
-        widths[: 2 * m + 1],
-    )
-    return System(time, [], stack(rows, total), [], [], words=words, blocks=tuple(blocks))
+    words, A = f"the closed loop of {system.words} and the controller given", stack(rows, total)
+    return System(time, [], A, [], [], words=words, blocks=tuple(widths[: 2 * m + 1]))
 
 
 def _terms(
@@ -76,5 +72,5 @@ def _terms(
 
 
 def _by_agent(value: Any, place: str, system: System) -> list[tuple[int, Any]]:
-    given = fields(value or {}, place, optional=tuple(system.names))
+    given = fields({} if value is None else value, place, optional=tuple(system.names))
     return [(j, entry) for j, entry in enumerate(given) if entry is not None]

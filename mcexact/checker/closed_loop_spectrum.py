@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from .arithmetic import Matrix, Polynomial, characteristic_polynomial_modulo, poly_modulo
+from .arithmetic import Matrix, Polynomial, poly_modulo
+from .characteristic_polynomial import characteristic_polynomial_modulo
 from .reading import fields, integer, items, polynomial, require
 from .system import System
 from .words import described, polynomial_text

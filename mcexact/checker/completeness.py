@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from . import evidence, subspaces
-from .arithmetic import characteristic_polynomial_modulo
+from .characteristic_polynomial import characteristic_polynomial_modulo
 from .neighbor_graph import components
 from .reading import boolean, fields, polynomial, require
 from .system import System

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from .arithmetic import Echelon, characteristic_polynomial, product
+from .arithmetic import Echelon, product
+from .characteristic_polynomial import characteristic_polynomial
 from .evidence import inputs, modulus, require_identity
 from .reading import boolean, fields, integer, matrix, names, polynomial, positions, require
 from .system import System

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from . import evidence, subspaces
-from .arithmetic import characteristic_polynomial_modulo
+from .characteristic_polynomial import characteristic_polynomial_modulo
 from .reading import fields, integer, matrix, polynomial, require
 from .system import System
 from .words import channel_set, described, polynomial_text

@@ -6,8 +6,9 @@ from fractions import Fraction
 from functools import reduce
 from typing import Any
 
-from . import arithmetic, evidence, reading, root_discs
+from . import evidence, reading, root_discs
 from .arithmetic import Matrix, Polynomial, exponent, poly_product, stripped
+from .characteristic_polynomial import characteristic_polynomial
 from .reading import fields, integer, items, matrix, require
 from .system import System
 from .words import described, polynomial_text
@@ -25,10 +26,9 @@ def check(claim: Any, witness: Any, system: System) -> str:
     found = root_discs.root_discs(discs, "claim.roots", whole)
     plain = all(im == 0 or abs(im) > radius for _, im, radius in found)
     require(plain, "disc", "claim.roots", "a disc meets the real axis, but not in the middle")
-    listed = enumerate(items(listed, "witness.factors"))
-    factors = [_lost_at(entry, f"witness.factors[{k}]", *parts) for k, entry in listed]
-    product = reduce(poly_product, factors, [Fraction(1)])
-    require(product == whole, "product", "claim.polynomial", "not the product of the factors")
+    place = "witness.factors"
+    factors = [_lost_at(entry, place, *parts) for entry in items(listed, place)]
+    require(reduce(poly_product, factors, [Fraction(1)]) == whole, "product", "claim", "no product")
     R = reading.matrices(drawn, "witness.compressions", [(blocks * B.ncols, n)] * 2)
     first, second = (_determinant(system.A, M, B, part, blocks) for part in R)
     require(any(first), "product", "witness.compressions", "the first determinant is zero")
@@ -66,7 +66,7 @@ def _determinant(A: Matrix, M: Matrix, B: Matrix, R: Matrix, blocks: int) -> Pol
         total = Matrix.zeros(A.nrows, A.nrows)
         for k in reversed(range(0, R.nrows, B.ncols or 1)):
             total = B @ R.take(range(k, k + B.ncols)) + (M + A.times(Fraction(g))) @ total
-        wanted = (-1) ** A.nrows * arithmetic.characteristic_polynomial(total)[0]
+        wanted = (-1) ** A.nrows * characteristic_polynomial(total)[0]
         now, room = (sum(c * g**k for k, c in enumerate(p)) for p in (result, basis))
         slope = (wanted - now) / room
         result = [a + slope * b for a, b in zip([*result, Fraction(0)], basis, strict=True)]

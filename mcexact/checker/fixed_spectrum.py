@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from . import arithmetic, evidence, location, reading, root_discs, subspaces, words
-from .arithmetic import characteristic_polynomial_modulo as modulo
+from .characteristic_polynomial import characteristic_polynomial
+from .characteristic_polynomial import characteristic_polynomial_modulo as modulo
 from .reading import fields, require
 from .system import System
 
@@ -23,7 +24,7 @@ def check(claim: Any, witness: Any, system: System) -> str:
     reading.items(spaces, "witness.subspaces", len(reading.items(entries, "claim.factors")))
     A_F = evidence.closed_loop(system, evidence.read_gains(gains, "witness.gains", system))
     chi_F, product = modulo(A_F.modulo(ell), ell), [1]
-    psi = arithmetic.characteristic_polynomial(system.A) if entries else []
+    psi = characteristic_polynomial(system.A) if entries else []
     found: list[Any] = []
     for k, entry in enumerate(entries):
         place, space = f"claim.factors[{k}]", f"witness.subspaces[{k}]"
@@ -66,6 +67,5 @@ def _require_ranks(completion: Any, losses: list[Any], A_F: arithmetic.Matrix, e
     B0 = reading.matrix(left, "witness.completion.B0", A_F.nrows, rho)
     C0 = reading.matrix(right, "witness.completion.C0", rho, A_F.nrows)
     for p, d in losses:
-        completed = A_F + B0.take(cols=range(d)) @ C0.take(range(d))
-        chi = modulo(completed.modulo(ell), ell)
+        chi = modulo((A_F + B0.take(cols=range(d)) @ C0.take(range(d))).modulo(ell), ell)
         evidence.require_coprime(p, chi, ell, "a factor, and det(xI - A_F - B0 C0),")

@@ -6,12 +6,8 @@ from fractions import Fraction
 from typing import Any
 
 from . import evidence
-from .arithmetic import (
-    Polynomial,
-    characteristic_polynomial,
-    characteristic_polynomial_modulo,
-    exponent,
-)
+from .arithmetic import Polynomial, exponent
+from .characteristic_polynomial import characteristic_polynomial, characteristic_polynomial_modulo
 from .location import in_region
 from .neighbor_graph import components
 from .reading import boolean, fields, integer, items, polynomial, rational, require

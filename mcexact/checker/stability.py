@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
-from .arithmetic import characteristic_polynomial
+from .characteristic_polynomial import characteristic_polynomial
 from .location import in_region
 from .quadratic_forms import decreasing, require_dominant, transformed
 from .reading import boolean, fields, integer, items, matrix, require, string

@@ -13,13 +13,15 @@ from mcexact.checker.arithmetic import (
     Echelon,
     Matrix,
     NotAUnit,
-    characteristic_polynomial,
-    characteristic_polynomial_modulo,
     coprime,
     exponent,
     poly_divide,
     poly_product,
     rank,
+)
+from mcexact.checker.characteristic_polynomial import (
+    characteristic_polynomial,
+    characteristic_polynomial_modulo,
 )
 
 
