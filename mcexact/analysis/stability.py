@@ -8,8 +8,9 @@ from fractions import Fraction
 from itertools import accumulate, pairwise
 from typing import Literal
 
-from mcexact.analysis.lyapunov import quadratic_form
+from mcexact.analysis.lyapunov import QuadraticForm, quadratic_form
 from mcexact.analysis.modular_system import generator
+from mcexact.analysis.separated_instability import separated_instability
 from mcexact.certificate.stability import (
     InstabilityMethod,
     LyapunovBlock,
@@ -47,11 +48,14 @@ class Separation:
         N × N, block upper triangular.
     sizes : tuple of int
         The sizes of its diagonal blocks.
+    inverse : Matrix or None
+        T⁻¹, where it is at hand: with it a "no" goes block by block as well.
     """
 
     T: Matrix
     Delta: Matrix
     sizes: tuple[int, ...]
+    inverse: Matrix | None = None
 
     def blocks(self) -> tuple[Matrix, ...]:
         """The diagonal blocks of Δ."""
@@ -195,6 +199,8 @@ def _require_separation(M: Matrix, separation: Separation) -> None:
         if not below.is_zero():
             raise UsageError("Δ is not block upper triangular", where="separation")
         start += size
+    if separation.inverse is not None and T @ separation.inverse != Matrix.identity(N):
+        raise UsageError("what is given as the inverse of T is not", where="separation")
     if T @ Delta != M @ T:
         raise UsageError("M T differs from T Δ", where="separation")
 
@@ -205,14 +211,15 @@ def _lyapunov(
     """Quadratic forms of the blocks, or of the whole loop if unstable; None if undecided."""
     bound = region.bound if region.bound is not None else Fraction(loop.time == "discrete")
     parts: Sequence[Matrix] = (loop.A,) if separation is None else separation.blocks()
-    blocks = []
+    forms = []
     for D in parts:
         form = quadratic_form(D, loop.time, bound)
         if form is None:
             return None
-        if form.R is None:
-            return _instability(loop, bound)
-        blocks.append(LyapunovBlock(form.P, form.R, form.R2))
+        forms.append(form)
+    if any(form.R is None for form in forms):
+        return _instability(loop, bound, separation, forms)
+    blocks = [LyapunovBlock(f.P, f.R, f.R2) for f in forms if f.R is not None]
     transformation = None
     if separation is not None:
         modulus = _nonsingular_modulus(loop, separation.T)
@@ -220,11 +227,25 @@ def _lyapunov(
     return LyapunovMethod(transformation, tuple(blocks))
 
 
-def _instability(loop: MultiChannelSystem, bound: Fraction) -> InstabilityMethod | None:
-    form = quadratic_form(loop.A, loop.time, bound)
-    if form is None or form.v is None:
-        return None
-    return InstabilityMethod(form.P, form.R2, form.v)
+def _instability(
+    loop: MultiChannelSystem,
+    bound: Fraction,
+    separation: Separation | None,
+    forms: Sequence[QuadraticForm],
+) -> InstabilityMethod | None:
+    """A form for the whole loop: its only block's, that made of the blocks', or a new one."""
+    if separation is None:
+        [form] = forms
+    elif separation.inverse is not None:
+        return separated_instability(
+            loop.A, separation.T, separation.inverse, forms, loop.time, bound
+        )
+    else:
+        whole = quadratic_form(loop.A, loop.time, bound)
+        if whole is None:
+            return None
+        form = whole
+    return None if form.v is None else InstabilityMethod(form.P, form.R2, form.v)
 
 
 def _nonsingular_modulus(loop: MultiChannelSystem, T: Matrix) -> int:

@@ -48,7 +48,7 @@ def observer_separation(M: Matrix, n: int, controller: Controller) -> Separation
         Delta = inverse @ (M @ T)
         sizes = (n, n * m, order) if observed else (n, n * m + order)
         if _is_block_triangular(Delta, sizes):
-            return Separation(T, Delta, tuple(size for size in sizes if size))
+            return Separation(T, Delta, tuple(size for size in sizes if size), inverse)
     return None
 
 

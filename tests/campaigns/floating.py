@@ -33,6 +33,7 @@ from mcexact.exact.matrix import Matrix
 from mcexact.floating.margins import spectral_bound
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
+from mcexact.synthesis.certify import certify_controller
 from mcexact.synthesis.observer import design_observer
 from mcexact.synthesis.observer_float import FloatObserverDesign
 
@@ -164,13 +165,16 @@ def ring_designs(seeds: range, n: int = 20, m: int = 15) -> None:
 
 def both_roads(n: int, seed: int = 1, *, check: bool = True) -> None:
     """A loop of 5n states (m = 2) by both roads, for a bound that holds and for one that fails."""
-    design = timed_design(ring_plant(seed, n, 2)).design
+    system = ring_plant(seed, n, 2)
+    design = timed_design(system).design
     M = design.loop.matrix
     abscissa = spectral_bound(matrix_to_float(M), "continuous")
     for bound, stable in ((RATE, True), (Fraction(round(-abscissa * 1.5) + 1), False)):
         for method in ("polynomial", "lyapunov"):
             began = time.perf_counter()
-            verdict = certify_stability(design.loop.loop, bound, method=method)
+            verdict = certify_controller(
+                system, design.controller, rate=bound, method=method
+            ).verdict
             took = time.perf_counter() - began
             if verdict.stable != stable:
                 raise AssertionError(f"{M.nrows} states, {bound}, {method}: {verdict.stable}")
