@@ -98,7 +98,7 @@ def _draw(
         axis.set_ylim(-1, 1)
         axis.text(0, 0, f"{m} channels, {len(arcs)} arcs", ha="center", parse_math=False)
         return
-    size = 0.2 if m <= 8 else 0.12
+    size = 0.2 if m <= 8 else 0.1
     turn = [math.pi / 2 - 2 * math.pi * k / m for k in range(m)]
     radius = 1.0 if m > 1 else 0.0
     place = {
@@ -107,27 +107,29 @@ def _draw(
     }
     axis.set_xlim(min(x for x, _ in place.values()) - 0.4, max(x for x, _ in place.values()) + 0.4)
     axis.set_ylim(min(y for _, y in place.values()) - 0.4, max(y for _, y in place.values()) + 0.4)
+    circle = {}
+    for name, at in place.items():
+        color = MARKED if name in subset else SENDERS if name in boundary else PLAIN
+        circle[name] = Circle(at, size, facecolor=color, edgecolor="#333333", zorder=3)
+        axis.add_patch(circle[name])
+        text = name if len(name) <= 6 else name[:5] + "…"
+        ink = "white" if color != PLAIN else "black"
+        axis.text(*at, text, ha="center", va="center", color=ink, zorder=4, parse_math=False)
     for start, end in arcs:
         axis.add_patch(
             FancyArrowPatch(
                 place[start],
                 place[end],
+                patchA=circle[start],
+                patchB=circle[end],
+                shrinkA=1,
+                shrinkB=1,
                 connectionstyle="arc3,rad=0.14",
                 arrowstyle="-|>",
-                mutation_scale=12,
-                shrinkA=72 * size,
-                shrinkB=72 * size,
+                mutation_scale=14,
                 color=SENDERS if start in boundary and end in subset else "#555555",
-                linewidth=1.1,
+                linewidth=1.2,
             )
-        )
-    for name, (x, y) in place.items():
-        color = MARKED if name in subset else SENDERS if name in boundary else PLAIN
-        axis.add_patch(Circle((x, y), size, facecolor=color, edgecolor="#333333", zorder=3))
-        text = name if len(name) <= 6 else name[:5] + "…"
-        ink = "white" if color != PLAIN else "black"
-        axis.text(
-            x, y, text, ha="center", va="center", color=ink, zorder=4, fontsize=9, parse_math=False
         )
 
 

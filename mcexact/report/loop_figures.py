@@ -29,9 +29,7 @@ def spectrum_picture(spectrum: LoopSpectrum, time: str, title: str) -> Picture:
     largest = max((float(Fraction(disc.radius)) for disc in spectrum.discs), default=0.0)
     verdict = "all in the stability region" if spectrum.stable else "not all stable"
     sure = f"in a certified disc of radius at most {largest:.1e}" if largest else "exactly there"
-    words = (
-        f"{len(spectrum.discs)} distinct eigenvalues, {verdict} (gray): {told}; each lies {sure}."
-    )
+    words = f"{len(spectrum.discs)} distinct eigenvalues, {verdict} (gray): {told}; each is {sure}."
     return Picture(figure, title, words)
 
 

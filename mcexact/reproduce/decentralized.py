@@ -34,7 +34,7 @@ from mcexact.synthesis.decentralized import design_decentralized
 def definition(note: Notebook) -> None:
     """Λ_fixed is what no F moves: it divides every loop's polynomial, and drawn loops share it."""
     numbers = Numbers(11)
-    for name, plant in [*drawn_plants(3, states=4), *drawn_plants(3, states=4, fixed=True)]:
+    for name, plant in [*drawn_plants(8, states=4), *drawn_plants(3, states=4, fixed=True)]:
         note.on(name)
         found = fixed_spectrum(plant)
         loops = [characteristic_polynomial(closed_by(plant, numbers.gains(plant))) for _ in "1234"]
@@ -52,7 +52,7 @@ def definition(note: Notebook) -> None:
 
 def proposition_2(note: Notebook) -> None:
     """Proposition 2: every fixed mode has its subset; for the example all six subsets are tried."""
-    for name, plant in drawn_plants(4, states=4, fixed=True, first=11):
+    for name, plant in drawn_plants(10, states=4, fixed=True, first=11):
         note.on(name)
         found = fixed_spectrum(plant)
         note.check("a planted fixed mode is found", not found.empty)
@@ -79,7 +79,7 @@ def proposition_2(note: Notebook) -> None:
 
 def empty_and_all(note: Notebook) -> None:
     """The footnote: rank n for s = ∅ and s = m, by joint controllability and observability."""
-    for name, plant in plants(3):
+    for name, plant in plants(8):
         note.on(name)
         for mode, _ in characteristic_polynomial(plant.A).factor():
             for s in ((), plant.names):
@@ -92,7 +92,7 @@ def empty_and_all(note: Notebook) -> None:
 
 def transfer(note: Notebook) -> None:
     """The transfer graph: an arc j → i iff some C_i A^k B_j is not 0, k < n."""
-    for name, plant in plants(5):
+    for name, plant in plants(14):
         note.on(name)
         found = transfer_graph(plant)
         powers = [Matrix.identity(plant.n)]
@@ -113,7 +113,7 @@ def transfer(note: Notebook) -> None:
 
 def corfmat_morse(note: Notebook) -> None:
     """Strongly connected and nothing fixed: some F serves every single channel."""
-    for name, plant in plants(5):
+    for name, plant in plants(14):
         note.on(name)
         whole = completeness(plant)
         found = single_channel_gains(plant)
@@ -159,8 +159,8 @@ def partition(note: Notebook) -> None:
 def wang_davison(note: Notebook) -> None:
     """Any rate iff nothing is fixed."""
     for name, plant in [
-        *drawn_plants(3, states=3, channels=2, first=21),
-        *drawn_plants(2, states=3, channels=2, fixed=True, first=21),
+        *drawn_plants(8, states=3, channels=2, first=21),
+        *drawn_plants(5, states=3, channels=2, fixed=True, first=21),
     ]:
         note.on(name)
         found = fixed_spectrum(plant)
@@ -206,7 +206,7 @@ def example(note: Notebook) -> None:
 def shared_outputs(note: Notebook) -> None:
     """`mss`: agent i sees the y_j of its neighbors."""
     numbers = Numbers(12)
-    for name, plant in plants(4, connected=None):
+    for name, plant in plants(10, connected=None):
         note.on(name)
         made = augmented_outputs(plant)
         x = numbers.column(plant.n)

@@ -41,7 +41,7 @@ def shifts(note: Notebook) -> None:
 def lifted(note: Notebook) -> None:
     """`emcsdd`: the lifted system is what wires with delays bring."""
     numbers = Numbers(15)
-    for name, plant in plants(5, time="discrete", longest_delay=3, connected=None):
+    for name, plant in plants(14, time="discrete", longest_delay=3, connected=None):
         sizes = [k % 3 for k in range(1, plant.m + 1)]
         note.on(f"{name}, n_i = {sizes}")
         made = lifted_system(plant, sizes)
@@ -59,7 +59,7 @@ def lifted(note: Notebook) -> None:
 def held(note: Notebook) -> None:
     """`emcsdd-hold`: everybody sees x_i(t − d_i) at the same time."""
     numbers = Numbers(16)
-    for name, plant in plants(5, time="discrete", longest_delay=3, connected=None):
+    for name, plant in plants(14, time="discrete", longest_delay=3, connected=None):
         sizes = [k % 3 for k in range(1, plant.m + 1)]
         note.on(f"{name}, n_i = {sizes}")
         made = held_system(plant, sizes)
@@ -80,7 +80,7 @@ def _union(plant_arcs: Sequence[tuple[str, str]], graph: NeighborGraph) -> set[t
 
 def transfer_of_the_lift(note: Notebook) -> None:
     """n_i > 0: both graphs lie in the transfer graph of the lifted system."""
-    for name, plant in plants(3, time="discrete", longest_delay=2):
+    for name, plant in plants(8, time="discrete", longest_delay=2):
         note.on(name)
         before, after = transfer_graph(plant), transfer_graph(lifted_system(plant, [1] * plant.m))
         note.check(
@@ -108,7 +108,7 @@ def block_ranks(note: Notebook) -> None:
 
 def only_zero_is_lost(note: Notebook) -> None:
     """The lifted system is jointly observable; what is out of reach is at 0."""
-    for name, plant in plants(4, time="discrete", longest_delay=2):
+    for name, plant in plants(10, time="discrete", longest_delay=2):
         note.on(name)
         made = lifted_system(plant, [1] * plant.m)
         sight, reach = joint_observability(made), joint_controllability(made)
@@ -123,8 +123,8 @@ def only_zero_is_lost(note: Notebook) -> None:
 def theorem_3(note: Notebook) -> None:
     """Theorem 3: at Theorem 2's bound nothing but 0 is fixed."""
     for name, plant in (
-        *plants(3, time="discrete", longest_delay=2),
-        *drawn_plants(2, time="discrete", longest_delay=2, fixed=True, first=71),
+        *plants(8, time="discrete", longest_delay=2),
+        *drawn_plants(5, time="discrete", longest_delay=2, fixed=True, first=71),
     ):
         note.on(name)
         bound = shared_dimension_bound(plant)
@@ -135,7 +135,7 @@ def theorem_3(note: Notebook) -> None:
 
 def theorem_3_states(note: Notebook) -> None:
     """The same for sub-states alone, with the bound of Remark 2."""
-    for name, plant in plants(3, time="discrete", longest_delay=2):
+    for name, plant in plants(8, time="discrete", longest_delay=2):
         note.on(name)
         bound = shared_dimension_bound(plant, share="states")
         made = lifted_system(plant, [bound.per_agent] * plant.m, "states")
@@ -162,7 +162,7 @@ def corollary_2(note: Notebook) -> None:
 
 def held_joint(note: Notebook) -> None:
     """The held system is jointly controllable and observable."""
-    for name, plant in plants(4, time="discrete", longest_delay=2):
+    for name, plant in plants(10, time="discrete", longest_delay=2):
         note.on(name)
         made = held_system(plant, [1] * plant.m)
         for found in (joint_controllability(made), joint_observability(made)):
@@ -184,8 +184,8 @@ def outputs_lose_controllability(note: Notebook) -> None:
 def theorem_4(note: Notebook) -> None:
     """Theorem 4: at Remark 2's bound nothing is fixed in the held system."""
     for name, plant in (
-        *plants(3, time="discrete", longest_delay=2),
-        *drawn_plants(2, time="discrete", longest_delay=2, fixed=True, first=71),
+        *plants(8, time="discrete", longest_delay=2),
+        *drawn_plants(5, time="discrete", longest_delay=2, fixed=True, first=71),
     ):
         note.on(name)
         bound = shared_dimension_bound(plant, share="states")
@@ -197,8 +197,8 @@ def theorem_4(note: Notebook) -> None:
 def transfer_of_the_held(note: Notebook) -> None:
     """n_i > 0: strongly connected iff the union of neighbor and transfer graphs is."""
     for name, plant in (
-        *plants(2, time="discrete", longest_delay=2),
-        *drawn_plants(3, time="discrete", longest_delay=2, connected=False),
+        *plants(5, time="discrete", longest_delay=2),
+        *drawn_plants(8, time="discrete", longest_delay=2, connected=False),
     ):
         note.on(name)
         before, after = transfer_graph(plant), transfer_graph(held_system(plant, [1] * plant.m))

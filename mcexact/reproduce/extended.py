@@ -62,7 +62,7 @@ def split_spectrum() -> Instance:
 def construction(note: Notebook) -> None:
     """`bun` and `emcs`."""
     numbers = Numbers(14)
-    for name, plant in plants(4, connected=None):
+    for name, plant in plants(10, connected=None):
         sizes = [k % 3 for k in range(1, plant.m + 1)]
         for share in SHARING:
             note.on(f"{name}, n_i = {sizes}, {share}")
@@ -76,7 +76,7 @@ def construction(note: Notebook) -> None:
 
 def any_graph(note: Notebook) -> None:
     """Jointly controllable and observable, whatever the graph."""
-    for name, plant in (*plants(2, connected=None), *plants(1, connected=False)):
+    for name, plant in (*plants(5, connected=None), *plants(1, connected=False)):
         for share in SHARING:
             note.on(f"{name}, {share}")
             made = extended_system(plant, [1] * plant.m, share)
@@ -112,7 +112,7 @@ def rank_identity(note: Notebook) -> None:
 
 def theorem_2(note: Notebook) -> None:
     """Theorem 2, with every n_i at the bound."""
-    for name, plant in (*plants(3), *drawn_plants(3, fixed=True, states=4, first=41)):
+    for name, plant in (*plants(8), *drawn_plants(3, fixed=True, states=4, first=41)):
         note.on(name)
         bound = shared_dimension_bound(plant)
         found = fixed_spectrum(extended_system(plant, [bound.per_agent] * plant.m))
@@ -122,7 +122,7 @@ def theorem_2(note: Notebook) -> None:
 
 def bound_zero(note: Notebook) -> None:
     """Without fixed modes the bound is 0."""
-    for name, plant in (*drawn_plants(8, channels=2, first=51), still_pair()):
+    for name, plant in (*drawn_plants(16, channels=2, first=51), still_pair()):
         found = fixed_spectrum(plant)
         if not found.empty:
             continue
@@ -174,7 +174,7 @@ def tightness(note: Notebook) -> None:
 
 def remark_2(note: Notebook) -> None:
     """Remark 2: sub-states alone, with its own bound."""
-    for name, plant in (*plants(3), *drawn_plants(2, fixed=True, states=4, first=41)):
+    for name, plant in (*plants(8), *drawn_plants(2, fixed=True, states=4, first=41)):
         note.on(name)
         bound = shared_dimension_bound(plant, share="states")
         made = extended_system(plant, [bound.per_agent] * plant.m, "states")
@@ -189,7 +189,7 @@ def remark_2(note: Notebook) -> None:
 def every_subset_hears(note: Notebook) -> None:
     """Strongly connected iff N_s∖s is never empty."""
     chosen: list[NeighborGraph] = [graph_of(three_channels())]
-    chosen += [graph_of(plant) for _, plant in drawn_plants(8, connected=None, first=60)]
+    chosen += [graph_of(plant) for _, plant in drawn_plants(16, connected=None, first=60)]
     for number, graph in enumerate(chosen):
         if graph.m != 3:
             continue
@@ -210,7 +210,7 @@ def every_subset_hears(note: Notebook) -> None:
 
 def sub_states_needed(note: Notebook) -> None:
     """Sub-states have to be shared iff sharing outputs leaves something fixed."""
-    for name, plant in (*plants(3), *drawn_plants(3, fixed=True, states=4, first=44)):
+    for name, plant in (*plants(8), *drawn_plants(3, fixed=True, states=4, first=44)):
         note.on(name)
         alone, least = fixed_spectrum(augmented_outputs(plant)), minimal_shared_dimensions(plant)
         note.check("some dimensions suffice", least.feasible)
@@ -220,7 +220,7 @@ def sub_states_needed(note: Notebook) -> None:
 
 def proposition_3(note: Notebook) -> None:
     """Proposition 3, and strong connectivity that follows."""
-    for name, plant in (*plants(3), *drawn_plants(2, connected=False)):
+    for name, plant in (*plants(8), *drawn_plants(2, connected=False)):
         note.on(name)
         found = graph_inclusion(plant, [1] * plant.m)
         note.check("the extended transfer graph contains both graphs", found.holds)
@@ -234,7 +234,7 @@ def proposition_3(note: Notebook) -> None:
 
 def corollary_1(note: Notebook) -> None:
     """Corollary 1, for n_i ≥ 1; with n_i = 0 the instance of the erratum splits."""
-    for name, plant in plants(3):
+    for name, plant in plants(8):
         note.on(name)
         size = max(1, shared_dimension_bound(plant).per_agent)
         found = completeness(extended_system(plant, [size] * plant.m))
@@ -251,7 +251,7 @@ def corollary_1(note: Notebook) -> None:
     from mcexact.analysis.closed_loop_spectrum import closed_loop_spectrum
 
     spectrum = closed_loop_spectrum(design.design.loop.matrix, plant.time)
-    note.show(spectrum_picture(spectrum, plant.time, "one shared scalar, spectrum −1, −1, −2, −2"))
+    note.show(spectrum_picture(spectrum, plant.time, "One shared scalar, spectrum −1, −1, −2, −2"))
     name, plant = split_spectrum()
     note.on(name)
     alone = extended_system(plant, [0, 0, 0])
@@ -263,7 +263,7 @@ def corollary_1(note: Notebook) -> None:
 
 def through_any_channel(note: Notebook) -> None:
     """`sys:contr-obs-thru-q`: one list F̄ serves every channel of the extended system."""
-    for name, plant in plants(2):
+    for name, plant in plants(5):
         note.on(name)
         size = max(1, shared_dimension_bound(plant).per_agent)
         found = single_channel_gains(extended_system(plant, [size] * plant.m))

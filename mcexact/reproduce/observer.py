@@ -67,7 +67,7 @@ def designed(name: str) -> ObserverDesign:
 def cancellation(note: Notebook) -> None:
     """II-A: with one agent the spectrum is that of A + BF and that of A + KC."""
     numbers = Numbers(4)
-    for name, plant in plants(3):
+    for name, plant in plants(8):
         note.on(name)
         B, C = plant.input_matrix(), plant.output_matrix()
         F, K = numbers.matrix(B.ncols, plant.n), numbers.matrix(plant.n, C.nrows)
@@ -81,7 +81,7 @@ def cancellation(note: Notebook) -> None:
 def errors_without_feedback(note: Notebook) -> None:
     """II-B: `mm1` and `mm2` give the error system with F = 0."""
     numbers = Numbers(5)
-    for name, plant in plants(4):
+    for name, plant in plants(10):
         note.on(name)
         made = error_system(plant, zeros(plant))
         note.check(
@@ -92,7 +92,7 @@ def errors_without_feedback(note: Notebook) -> None:
 
 def almost_any_choice(note: Notebook) -> None:
     """II-B: some K̃_i, H̃_ij make `ppe1` controllable and observable through channel q."""
-    for name, plant in plants(2):
+    for name, plant in plants(5):
         note.on(name)
         found = single_channel_gains(error_system(plant, zeros(plant)))
         note.check("one list serves every q", found.exists)
@@ -101,7 +101,7 @@ def almost_any_choice(note: Notebook) -> None:
 
 def centralized_feedback(note: Notebook) -> None:
     """II-C: A + Σ B_i F_i gets any spectrum by one F split into the F_i."""
-    for name, plant in plants(4):
+    for name, plant in plants(10):
         note.on(name)
         wanted = default_polynomial("continuous", Fraction(1), plant.n)
         found = state_feedback(plant, wanted)
@@ -120,7 +120,7 @@ def centralized_feedback(note: Notebook) -> None:
 def errors_with_feedback(note: Notebook) -> None:
     """`eme1` and `auditt`, `com.o`, `anal`: the substitution rule makes the errors autonomous."""
     numbers = Numbers(6)
-    for name, plant in plants(5):
+    for name, plant in plants(14):
         note.on(name)
         F = numbers.feedbacks(plant)
         made = error_system(plant, F)
@@ -143,7 +143,7 @@ def whole_loop(note: Notebook) -> None:
 def proposition_1(note: Notebook) -> None:
     """Proposition 1, for drawn F_i."""
     numbers = Numbers(7)
-    for name, plant in plants(3):
+    for name, plant in plants(8):
         note.on(name)
         F = numbers.feedbacks(plant)
         found = single_channel_gains(error_system(plant, F), want="both", index=plant.m)
@@ -179,9 +179,11 @@ def _show_example(note: Notebook) -> None:
     design, plant = designed(PAPER), three_channels()
     spectrum = closed_loop_spectrum(design.loop.matrix, plant.time)
     note.check("the loop is stable", spectrum.stable)
-    note.show(spectrum_picture(spectrum, plant.time, "closed loop with the distributed observer"))
-    run = simulate(plant, design.controller, horizon=10)
-    note.show(decay_picture(run, spectrum, "the example under its distributed observer"))
+    note.show(
+        spectrum_picture(spectrum, plant.time, "The closed loop with the distributed observer")
+    )
+    run = simulate(plant, design.controller, horizon=25)
+    note.show(decay_picture(run, spectrum, "The example under its distributed observer"))
 
 
 def remark_1(note: Notebook) -> None:
@@ -201,7 +203,7 @@ def remark_1(note: Notebook) -> None:
 def lemma_1(note: Notebook) -> None:
     """Lemma 1: the error system is jointly controllable and observable."""
     numbers = Numbers(8)
-    for name, plant in plants(4):
+    for name, plant in plants(10):
         note.on(name)
         made = error_system(plant, numbers.feedbacks(plant))
         note.check(
@@ -245,7 +247,7 @@ def lifted_scalars(plant: MultiChannelSystem) -> tuple[list[Matrix], list[Matrix
 
 def lemma_2(note: Notebook) -> None:
     """Lemma 2: Σ B̃_i Ĥ_i C̃_i = D ⊗ I reaches everything from every B̃_q, with index m."""
-    for name, plant in plants(4):
+    for name, plant in plants(10):
         note.on(name)
         note.certify(single_channel_gains(graph_scalars(graph_of(plant)), want="controllable"))
         wide, _, D = lifted_scalars(plant)
@@ -289,7 +291,7 @@ def lemma_3(note: Notebook) -> None:
 def lemma_4(note: Notebook) -> None:
     """Lemma 4: for given K_i, H_i = g Ĥ_i with g outside finitely many values."""
     numbers = Numbers(10)
-    for name, plant in plants(2):
+    for name, plant in plants(5):
         note.on(name)
         made = error_system(plant, numbers.feedbacks(plant))
         wide, _, _ = lifted_scalars(plant)

@@ -16,7 +16,7 @@ from mcexact.simulation.trajectory import InitialState, simulate
 def continuous(note: Notebook) -> None:
     """Equation (1): u_i = F_i y_i gives the matrix A + Σ B_i F_i C_i."""
     numbers = Numbers(1)
-    for name, plant in plants(4):
+    for name, plant in plants(10):
         note.on(name)
         gains = numbers.gains(plant)
         x = numbers.column(plant.n)
@@ -29,7 +29,7 @@ def continuous(note: Notebook) -> None:
 def discrete(note: Notebook) -> None:
     """Equation (2): the same, run by one agent for each channel."""
     numbers = Numbers(2)
-    for name, plant in plants(4, time="discrete"):
+    for name, plant in plants(10, time="discrete"):
         note.on(name)
         gains = numbers.gains(plant)
         agents = tuple(
@@ -54,7 +54,7 @@ def discrete(note: Notebook) -> None:
 
 def assumptions(note: Notebook) -> None:
     """Joint controllability and observability; B_i ≠ 0 and C_i ≠ 0."""
-    for name, plant in plants(4):
+    for name, plant in plants(10):
         note.on(name)
         reach, sight = joint_controllability(plant), joint_observability(plant)
         note.check("all channels together control the state", reach.controllable)
@@ -66,7 +66,7 @@ def assumptions(note: Notebook) -> None:
 
 def neighbor_sets(note: Notebook) -> None:
     """Agent i hears j on an arc j → i, and itself."""
-    for name, plant in plants(4, connected=None):
+    for name, plant in plants(10, connected=None):
         note.on(name)
         graph = plant.neighbors
         if graph is None:

@@ -53,7 +53,7 @@ def hidden_zero() -> Instance:
 def integrators(note: Notebook) -> None:
     """`int` and `b1`, in both time domains."""
     numbers = Numbers(13)
-    for name, plant in [*plants(2), *drawn_plants(2, time="discrete")]:
+    for name, plant in [*plants(5), *drawn_plants(2, time="discrete")]:
         note.on(f"{name}, {plant.time} time")
         made = setpoint_system(plant)
         note.check("the states w_i integrate y_i", integrators_agree(plant, made, numbers))
@@ -62,7 +62,7 @@ def integrators(note: Notebook) -> None:
 
 def any_stabilizing_control(note: Notebook) -> None:
     """A stabilizing control holds y at r: at the equilibrium ẇ = y − r = 0."""
-    for name, plant in (two_channels(), *drawn_plants(4, states=3, channels=2, first=31)):
+    for name, plant in (two_channels(), *drawn_plants(10, states=3, channels=2, first=31)):
         made = setpoint_system(plant)
         if not joint_controllability(made).controllable:
             continue
@@ -81,7 +81,7 @@ def any_stabilizing_control(note: Notebook) -> None:
 
 def always_observable(note: Notebook) -> None:
     """`ober`: joint observability through the w_i needs nothing but that of the plant."""
-    for name, plant in (*plants(3), washed_out(), hidden_zero()):
+    for name, plant in (*plants(8), washed_out(), hidden_zero()):
         note.on(name)
         found = joint_observability(setpoint_system(plant))
         note.check("jointly observable through the w_i", found.controllable)
@@ -90,7 +90,7 @@ def always_observable(note: Notebook) -> None:
 
 def only_zero_matters(note: Notebook) -> None:
     """`thy` holds at every s ≠ 0."""
-    for name, plant in (*plants(3), washed_out(), hidden_zero()):
+    for name, plant in (*plants(8), washed_out(), hidden_zero()):
         note.on(name)
         found = joint_controllability(setpoint_system(plant))
         lost = found.uncontrollable_polynomial
@@ -100,7 +100,7 @@ def only_zero_matters(note: Notebook) -> None:
 
 def condition(note: Notebook) -> None:
     """`gnd` is joint controllability of `b1`."""
-    for name, plant in (*plants(4), two_channels(), washed_out(), hidden_zero()):
+    for name, plant in (*plants(10), two_channels(), washed_out(), hidden_zero()):
         note.on(name)
         found = setpoint_solvability(plant)
         B, C = plant.input_matrix(), plant.output_matrix()
