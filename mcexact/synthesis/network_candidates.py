@@ -36,6 +36,8 @@ ArithmeticKind = Literal["exact", "float"]
 Progress = Callable[[str], None]
 
 _KEPT = 8
+_KEPT_FLOAT = 6
+_SMALL_GAIN = 1000
 
 
 @dataclass(frozen=True)
@@ -76,20 +78,27 @@ class NetworkTask:
 
 
 def best_candidate(task: NetworkTask, drawn: Sequence[DrawnGains]) -> NetworkCandidate | None:
-    """The best of the most promising draws, or None if none moves all that is not fixed."""
+    """The best of the most promising draws, or None if none leads to a controller.
+
+    Exact designs want the least order, then short numbers; in floating point the order is given,
+    and what counts are small gains.
+    """
     if not drawn:
         return None
     first = drawn[0]
-    alike = [d for d in drawn if (d.degree, d.order) == (first.degree, first.order)]
-    best: tuple[int, NetworkCandidate] | None = None
-    for k, each in enumerate(alike[:_KEPT]):
+    if task.arithmetic == "float":
+        alike = [d for d in drawn if d.degree == first.degree][:_KEPT_FLOAT]
+    else:
+        alike = [d for d in drawn if (d.degree, d.order) == (first.degree, first.order)][:_KEPT]
+    best: NetworkCandidate | None = None
+    for k, each in enumerate(alike):
         task.tell(f"channel controllers, candidate {k + 1}")
         candidate = _candidate(task, each)
-        if candidate is not None and (best is None or candidate.cost < best[0]):
-            best = (candidate.cost, candidate)
-            if task.arithmetic == "float":
+        if candidate is not None and (best is None or candidate.cost < best.cost):
+            best = candidate
+            if task.arithmetic == "float" and best.largest <= _SMALL_GAIN:
                 break
-    return None if best is None else best[1]
+    return best
 
 
 @dataclass(frozen=True)
@@ -100,6 +109,11 @@ class NetworkCandidate:
     channels: Mapping[int, ChannelController]
     polynomials: Mapping[int, Polynomial]
     kept: Polynomial
+
+    @property
+    def largest(self) -> Fraction:
+        """The largest entry of a channel controller."""
+        return max((made.largest for made in self.channels.values()), default=Fraction(0))
 
     @property
     def cost(self) -> int:
@@ -126,18 +140,35 @@ def _candidate(task: NetworkTask, drawn: DrawnGains) -> NetworkCandidate | None:
         return None
     made, wanted = {}, {}
     for reach in drawn.reaches:
-        part = parts[reach.channel]
         if task.arithmetic == "float":
-            bound = task.bound or Fraction(int(system.time == "discrete"))
-            found = riccati_channel_controller(part, system.time, bound)
+            channel, found = _riccati_controller(task, M, reach)
         else:
+            part, channel = parts[reach.channel], reach.channel
             degree = part.A.nrows + reach.index - 1
-            polynomial = task.polynomial(reach.channel, degree, only=len(parts) == 1)
+            polynomial = task.polynomial(channel, degree, only=len(parts) == 1)
             found = _exact_controller(part, reach, polynomial, rng)
         if found is None or found.polynomial is None:
             return None
-        made[reach.channel], wanted[reach.channel] = found, found.polynomial
+        made[channel], wanted[channel] = found, found.polynomial
     return NetworkCandidate(drawn.gains, made, wanted, kept)
+
+
+def _riccati_controller(
+    task: NetworkTask, M: Matrix, reach: ChannelReach
+) -> tuple[int, ChannelController | None]:
+    """The controller with the smallest gains among the channels that move as much as this one."""
+    system = task.network.system
+    rng = generator(system, "channel_controller")
+    bound = task.bound or Fraction(int(system.time == "discrete"))
+    best: tuple[int, ChannelController | None] = (reach.channel, None)
+    for q in next(choice for choice in task.choices if reach.channel in choice):
+        part = channel_part(M, system.B(q), system.C(q), rng)
+        if part.A.nrows != reach.degree:
+            continue
+        found = riccati_channel_controller(part, system.time, bound)
+        if found is not None and (best[1] is None or found.largest < best[1].largest):
+            best = (q, found)
+    return best
 
 
 def _only(p: Polynomial, allowed: Polynomial) -> bool:

@@ -201,6 +201,11 @@ def design_network(
         found = best_candidate(task, drawn_gains(network.system, choices, attempts=attempts))
         if found is not None:
             return _certified(task, found)
+    if arithmetic == "float":
+        raise LimitReached(
+            "no Riccati equations of single channels led to a controller in double precision: "
+            "share more, ask for less, or design in exact arithmetic"
+        )
     raise LimitReached(
         f"gains exist, but {_MORE_ATTEMPTS} draws did not find ones that move every mode that is "
         "not fixed"

@@ -13,8 +13,8 @@ from mcexact.synthesis.channel_controller import ChannelController
 from mcexact.synthesis.channel_parts import ChannelPart
 from mcexact.synthesis.riccati import riccati_feedback
 
-_BITS = 26
-_EFFORTS = (1.0, 1e-2, 1e2, 1e-4, 1e4)
+_BITS = 36
+_EFFORTS = (1.0, 1e2, 1e-2)
 _MARGINS = (Fraction(0), Fraction(1, 16), Fraction(1, 4))
 
 
@@ -55,14 +55,13 @@ def riccati_channel_controller(
 def _gain(A: Matrix, B: Matrix, time: str, bound: Fraction) -> tuple[Matrix, Polynomial] | None:
     """A gain with which A + BG meets the bound, and the polynomial that proves it."""
     region = StabilityRegion(time, bound or None)
-    for margin in _MARGINS:
-        faster = bound * (1 - margin) if time == "discrete" else bound + margin * (1 + bound)
-        for effort in _EFFORTS:
-            found = riccati_feedback(
-                matrix_to_float(A), matrix_to_float(B), time, float(faster), effort=effort
-            )
+    states, inputs = matrix_to_float(A), matrix_to_float(B)
+    for effort in _EFFORTS:
+        for margin in _MARGINS:
+            faster = bound * (1 - margin) if time == "discrete" else bound + margin * (1 + bound)
+            found = riccati_feedback(states, inputs, time, float(faster), effort=effort)
             if found is None:
-                continue
+                break
             G = dyadic_matrix(found, bits=_BITS)
             polynomial = characteristic_polynomial(A + B @ G)
             if region.contains_roots_of(polynomial):
