@@ -5,7 +5,7 @@ BIN := .venv/bin
 STAMP := .venv/.installed
 GALLERY := mcexact/model/gallery
 
-.PHONY: demo test lint types tests agreement bench
+.PHONY: reproduce look ledger demo test lint types tests agreement bench
 
 demo: $(STAMP)
 	$(BIN)/mcexact demo
@@ -31,6 +31,22 @@ bench: $(STAMP)
 
 agreement: $(STAMP)
 	$(BIN)/python -m tests.oracle.agreement 10000
+
+# Every statement of the paper, with a report and certificates in reproduction/: a minute.
+reproduce: $(STAMP)
+	$(BIN)/mcexact reproduce -o reproduction
+
+# The reports in a browser, at two widths, light and dark; screenshots in look/.
+look: $(STAMP)
+	@command -v chromium >/dev/null || command -v google-chrome >/dev/null || \
+	  { apt-get update -qq && \
+	    DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends chromium >/dev/null; } || \
+	  { echo "look: Chromium is missing and cannot be installed" >&2; exit 1; }
+	$(BIN)/python -m tests.look look
+
+# The table of the paper's statements in proofs/README.md, from the ledger.
+ledger: $(STAMP)
+	$(BIN)/python proofs/ledger_table.py
 
 $(STAMP): pyproject.toml
 	$(PYTHON) -m venv .venv

@@ -1,0 +1,115 @@
+"""Pages parse strictly, need no other file, and are harmless whatever they are given."""
+
+from __future__ import annotations
+
+import base64
+from pathlib import Path
+
+import pytest
+
+from mcexact.cli import main
+from mcexact.exact.matrix import Matrix
+from mcexact.model import gallery
+from mcexact.model.system import MultiChannelSystem
+from mcexact.report.assessment import assess
+from mcexact.report.assessment_page import assessment_page
+from mcexact.report.graph_figures import graph_picture
+from mcexact.report.latex import assessment_latex, matrix
+from mcexact.report.words import answer
+from tests.report.strict_html import Page, external_addresses
+
+ATTACK = "<script>alert(1)</script>"
+GALLERY = Path(gallery.__file__).parent
+
+
+def hostile() -> MultiChannelSystem:
+    return MultiChannelSystem(
+        [[1, 0], [0, 2]],
+        [[[0], [0]], [[1], [1]]],
+        [[[1, 1]], [[0, 0]]],
+        names=('"><img src=x onerror=alert(1)>', "${{7*7}} $\\frac$ &amp;"),
+        neighbors={'"><img src=x onerror=alert(1)>': []},
+        name=ATTACK,
+    )
+
+
+@pytest.mark.parametrize("name", ["hidden-triple-mode", "farina-string-of-vehicles-4"])
+def test_the_page_of_an_analysis_parses_strictly_and_asks_nobody(name: str) -> None:
+    text = assessment_page(assess(gallery.load(name)), latex=True)
+    assert external_addresses(text) == []
+    assert 'http-equiv="Content-Security-Policy"' in text and "prefers-color-scheme" in text
+
+
+def test_names_that_look_like_html_are_harmless() -> None:
+    text = assessment_page(assess(hostile(), minimal=True), latex=True)
+    page = Page(text)
+    assert "script" not in {tag for tag, _ in page.tags}
+    assert {given["src"][:11] for tag, given in page.tags if tag == "img"} == {"data:image/"}
+    assert ATTACK not in text and "&lt;script&gt;alert(1)&lt;/script&gt;" in text
+    assert external_addresses(text) == []
+
+
+def test_pictures_carry_no_script_and_no_link() -> None:
+    uri = graph_picture(hostile()).embedded().uri
+    image = base64.b64decode(uri.partition(",")[2]).decode("utf-8")
+    assert "<script" not in image and "onerror" not in image and 'href="http' not in image
+
+
+def test_a_picture_is_the_same_bytes_every_time_and_says_what_it_shows() -> None:
+    plant = gallery.load("liu2020-3ch-augmented-outputs")
+    drawn = graph_picture(plant)
+    assert drawn.embedded() == graph_picture(plant).embedded()
+    assert "channels 2, colored orange" in drawn.alternative
+
+
+@pytest.mark.parametrize("bad", ["<p>", "<p></b>", "<p>a & b</p>", "<table></table>", "<p/>"])
+def test_the_strict_reader_refuses_what_a_browser_forgives(bad: str) -> None:
+    good = "<html><head><title>t</title></head><body><h1>h</h1>{}</body></html>"
+    Page(good.format("<p>a &amp; b</p>"))
+    with pytest.raises(ValueError):
+        Page(good.format(bad))
+
+
+def test_an_address_in_a_page_is_found() -> None:
+    good = "<html><head><title>t</title></head><body><h1>h</h1>{}</body></html>"
+    assert external_addresses(good.format('<a href="https://example.org">x</a>'))
+
+
+def test_the_answer_says_who_reaches_a_mode_and_who_sees_it() -> None:
+    plant = MultiChannelSystem(
+        [[1]], [[[1]], [[0]]], [[[0]], [[1]]], neighbors={"1": [], "2": ["1"]}
+    )
+    said = answer(assess(plant, minimal=True))
+    assert said[0] == (
+        "Mode 1 (once in A) cannot be moved by any controller with this information: channel 1 "
+        "reaches it but does not see it, channel 2 sees it but does not reach it."
+    )
+    assert said[1:] == [
+        "No controller with this information stabilizes the system.",
+        "No sharing over this neighbor graph removes them.",
+    ]
+
+
+def test_without_joint_controllability_nobody_is_said_to_reach_a_mode() -> None:
+    plant = MultiChannelSystem([[1]], [[[0]], [[0]]], [[[1]], [[1]]])
+    assert "no channel reaches it" in answer(assess(plant))[0]
+
+
+def test_latex_escapes_names_and_writes_fractions() -> None:
+    text = assessment_latex(assess(hostile()))
+    assert "\\textbackslash{}frac" in text and "\\&amp;" in text
+    assert "\\tfrac{1}{3}" in matrix(Matrix.from_rows([["-1/3"]]))
+
+
+def test_analyze_writes_the_page_and_latex(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    page = tmp_path / "page.html"
+    plant = str(GALLERY / "hidden-triple-mode.json")
+    with pytest.raises(SystemExit) as ended:
+        main(["analyze", plant, "--html", str(page)])
+    assert ended.value.code == 0
+    assert external_addresses(page.read_text(encoding="utf-8")) == []
+    with pytest.raises(SystemExit):
+        main(["analyze", plant, "--latex"])
+    assert "\\begin{bmatrix}" in capsys.readouterr().out
