@@ -5,7 +5,7 @@ BIN := .venv/bin
 STAMP := .venv/.installed
 GALLERY := mcexact/model/gallery
 
-.PHONY: reproduce look ledger demo test lint types tests agreement bench
+.PHONY: reproduce look ledger demo test lint types tests agreement mutations bench
 
 demo: $(STAMP)
 	$(BIN)/mcexact demo
@@ -24,13 +24,17 @@ types: $(STAMP)
 tests: $(STAMP)
 	HYPOTHESIS_PROFILE=ci $(BIN)/python -m pytest --quiet --numprocesses 2 --dist loadscope
 
-# Every decision beside exhaustive enumeration, on 10,000 drawn systems: minutes.
 # Ratios to peers, measured in one run; the figures also go to bench.json.
 bench: $(STAMP)
 	$(BIN)/python -m benchmarks bench.json
 
+# Every decision beside exhaustive enumeration, on 10,000 drawn systems: minutes.
 agreement: $(STAMP)
 	$(BIN)/python -m tests.oracle.agreement 10000
+
+# Every place of 200 certificates changed, one at a time, and judged by slow oracles: minutes.
+mutations: $(STAMP)
+	$(BIN)/python -m tests.checker.mutations 200
 
 # Every statement of the paper, with a report and certificates in reproduction/: a minute.
 reproduce: $(STAMP)
