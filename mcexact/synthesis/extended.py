@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any, Literal
 
 from mcexact.analysis.allocation import (
@@ -14,6 +15,8 @@ from mcexact.analysis.allocation import (
 )
 from mcexact.derived.extended import Share, checked_dimensions
 from mcexact.errors import Impossible, InputError, UsageError
+from mcexact.exact.linear_algebra import characteristic_polynomial
+from mcexact.exact.location import StabilityRegion
 from mcexact.model.controller import Controller
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_graph
@@ -120,7 +123,8 @@ def design_extended(
         With delays: the lifted system, in which only 0 stays fixed (the default), or the held one,
         in which nothing does.
     spectrum : polynomial, list of roots, or mapping, optional
-        n̄ + k_q numbers, freely; see `design_network`.
+        n̄ + k_q numbers, freely; see `design_network`.  Every mode is freed then, or where that is
+        impossible every mode that is not stable.
     rate, radius : rational, optional
         Instead of a spectrum, or besides it, to be certified.  Only modes that violate it need to
         be freed; fixed modes that meet it stay, and are reported.
@@ -205,6 +209,12 @@ def _sizes(
     least = minimal_shared_dimensions(
         system, share=share, bound=bound, free_assignability=free_assignability
     )
+    if least.dimensions is None and bound is None:
+        # Not every mode can be freed; the stable ones may stay.
+        stable = _rate_of_stable_modes(system)
+        least = minimal_shared_dimensions(
+            system, share=share, bound=stable, free_assignability=free_assignability
+        )
     if least.dimensions is None:
         worst = least.binding[0]
         heard = ", ".join(worst.boundary) or "nobody"
@@ -215,3 +225,15 @@ def _sizes(
             least.certificate,
         )
     return least, least.dimensions
+
+
+def _rate_of_stable_modes(system: MultiChannelSystem) -> Fraction:
+    """A rate that every stable mode of A meets; in discrete time the radius 1."""
+    if system.time == "discrete":
+        return Fraction(1)
+    modes = [p for p, _ in characteristic_polynomial(system.A).factor()]
+    stable = [p for p in modes if StabilityRegion(system.time).contains_roots_of(p)]
+    rate = Fraction(1)
+    while not all(StabilityRegion(system.time, rate).contains_roots_of(p) for p in stable):
+        rate /= 2
+    return rate

@@ -194,6 +194,10 @@ def test_fixed_modes_that_are_fast_enough_are_kept() -> None:
     require_valid(design)
     with pytest.raises(Impossible):
         design_extended(plant, rate=6)
+    alone = design_extended(plant, spectrum=[-2])
+    assert alone.design.kept == Polynomial.from_roots([-5])
+    assert characteristic_polynomial(alone.loop.matrix) == Polynomial.from_roots([-2, -5])
+    require_valid(alone)
 
 
 @pytest.mark.parametrize("seed", range(6))

@@ -168,5 +168,5 @@ def test_integrators_of_another_agent_are_not_at_hand() -> None:
 
 
 def test_drawn_square_plants_reach_their_set_points() -> None:
-    seen = campaign.setpoints(8, 1)
-    assert seen["plants that satisfy the condition"] == 8
+    seen = campaign.setpoints(4, 1)
+    assert seen["plants that satisfy the condition"] == 4
