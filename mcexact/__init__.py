@@ -32,6 +32,7 @@ if TYPE_CHECKING:
         single_channel_gains as single_channel_gains,
     )
     from mcexact.analysis.stability import certify_stability as certify_stability
+    from mcexact.analysis.stability import matrix_system as matrix_system
     from mcexact.analysis.transfer_graph import transfer_graph as transfer_graph
     from mcexact.crosscheck.table import crosscheck as crosscheck
     from mcexact.derived.augmented_outputs import augmented_outputs as augmented_outputs
@@ -87,6 +88,7 @@ _HOME = {
     "load_system": "model.system_file",
     "local_controllers": "model.local_controllers",
     "loop_from_statespace": "model.statespace",
+    "matrix_system": "analysis.stability",
     "minimal_communication": "analysis.communication",
     "minimal_shared_dimensions": "analysis.allocation",
     "observability_indices": "analysis.controllability_indices",

@@ -120,9 +120,20 @@ def _diagonal(entries: list[Fraction]) -> Matrix:
 
 def _balancing(D: Matrix) -> list[Fraction]:
     """Powers of 2 that bring the rows and columns of D to like size."""
+    import warnings
+
+    import numpy as np
     from scipy.linalg import matrix_balance
 
-    _, (factors, _) = matrix_balance(matrix_to_float(D), permute=False, separate=True)
+    floats = matrix_to_float(D)
+    if not np.all(np.isfinite(floats)):
+        return [Fraction(1)] * D.nrows
+    with warnings.catch_warnings():
+        # It casts the factors to positions, for permutations that were not asked for.
+        warnings.simplefilter("ignore")
+        _, (factors, _) = matrix_balance(floats, permute=False, separate=True)
+    if not np.all(np.isfinite(factors)):
+        return [Fraction(1)] * D.nrows
     return [Fraction(float(factor)) for factor in factors]
 
 
@@ -150,7 +161,9 @@ def _approximate(D: Matrix, time: str, bound: Fraction) -> Matrix | None:
 
 def _precise(D: Matrix, time: str, bound: Fraction) -> Matrix | None:
     """A P with S dominant from Smith's doubling: for blocks that are far from normal."""
-    if D.nrows > _DOUBLING_LIMIT or (bound == 0 and time == "discrete"):
+    import numpy as np
+
+    if D.nrows > _DOUBLING_LIMIT or not np.all(np.isfinite(matrix_to_float(D))):
         return None
     P = doubled_lyapunov(D, time, bound)
     return P if P is not None and is_dominant(decrease(D, P, time, bound)) else None

@@ -153,6 +153,7 @@ def design_observer_float(
 
     its first matrix exact, since the separation is.  O((nm)³) operations.
     """
+    _require_doubles(system)
     region = StabilityRegion(system.time, bound)
     tried = 0
     for margin in _MARGINS:
@@ -183,6 +184,22 @@ def design_observer_float(
         f"{tried} draws of lists K_i, H_ij and their Riccati equations led to no loop that could "
         f"be certified for {region}; try another agent, or a milder bound"
     )
+
+
+def _require_doubles(system: MultiChannelSystem) -> None:
+    """Refuse entries beyond the range of double precision.
+
+    Raises
+    ------
+    LimitReached
+    """
+    import numpy as np
+
+    for M in (system.A, system.input_matrix(), system.output_matrix()):
+        if not np.all(np.isfinite(matrix_to_float(M))):
+            raise LimitReached(
+                "the plant has entries beyond the range of double precision: use exact arithmetic"
+            )
 
 
 def _target(time: str, bound: Fraction, margin: Fraction) -> float:

@@ -109,6 +109,35 @@ def test_what_cannot_be_certified_is_not_returned(monkeypatch):
         design_observer(three_channels(), rate=1, arithmetic="float")
 
 
+@pytest.mark.parametrize("time", ["continuous", "discrete"])
+@pytest.mark.parametrize(
+    ("A", "B", "C", "neighbors"),
+    [
+        ([], [[]], [[]], {"1": []}),
+        ([["1/3"]], [[["2/7"]]], [[["1/9"]]], {"1": []}),
+        ([[3]], [[["1/100000000"]]], [[[1000000]]], {"1": []}),
+        (
+            [[0, 1], [0, 0]],
+            [[[0], [1]], [[], []], [[0], [0]]],
+            [[], [[1, 0]], [[0, 0]]],
+            {"1": ["2"], "2": ["3"], "3": ["1"]},
+        ),
+    ],
+    ids=["no states", "fractions", "scales apart", "channels without inputs or outputs"],
+)
+def test_plants_at_the_edge_are_designed_for(A, B, C, neighbors, time):
+    plant = MultiChannelSystem(A, B, C, time=time, neighbors=neighbors)
+    bound = {"rate": "3/2"} if time == "continuous" else {"radius": "1/1000"}
+    design = design_observer(plant, arithmetic="float", **bound)
+    assert_meets(design, plant, *bound.values())
+
+
+def test_numbers_beyond_doubles_are_for_exact_arithmetic():
+    plant = MultiChannelSystem([[10**400]], [[[1]]], [[[1]]], neighbors={"1": []})
+    with pytest.raises(LimitReached, match="beyond the range of double precision"):
+        design_observer(plant, rate=1, arithmetic="float")
+
+
 def test_drawn_plants_are_designed_and_certified():
     seen = drawn_designs(8, 0)
     assert seen["VALID"] == 8
