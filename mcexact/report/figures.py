@@ -134,7 +134,21 @@ def draw_eigenvalues(axis: Any, time: str, spectrum: LoopSpectrum) -> None:
     axis.set_ylim(-reach, reach)
     for x, y, disc in zip(re, im, spectrum.discs, strict=True):
         axis.add_patch(Circle((x, y), float(Fraction(disc.radius)), color="C3", alpha=0.4))
-    axis.plot(re, im, "x", color="C3")
+    axis.plot(re, im, "x", color="C3", label="eigenvalue")
+    enclosed = [
+        (x, y) for x, y, disc in zip(re, im, spectrum.discs, strict=True) if Fraction(disc.radius)
+    ]
+    if enclosed:
+        largest = max(float(Fraction(disc.radius)) for disc in spectrum.discs)
+        axis.plot(
+            *zip(*enclosed, strict=True),
+            "o",
+            markersize=11,
+            markerfacecolor="none",
+            color="C0",
+            label=f"certified disc, radius below {largest:.0e}, enlarged",
+        )
+        axis.legend(fontsize="small", loc="upper left")
     axis.axhline(0, color="0.6", linewidth=0.8)
     axis.set_title("eigenvalues of the closed loop", fontsize="medium")
     axis.set_xlabel("real part")

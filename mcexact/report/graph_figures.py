@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from mcexact.analysis.fixed_spectrum import FixedSpectrum, fixed_spectrum
 from mcexact.analysis.transfer_graph import TransferGraph, transfer_graph
 from mcexact.report.picture import Picture, empty_figure
+from mcexact.report.words import channels
 
 if TYPE_CHECKING:
     from mcexact.analysis.allocation import SharedDimensionBound, SharedDimensions
@@ -62,8 +63,8 @@ def graph_picture(
     words = [f"{title}: {_listed(arcs)}" for title, arcs in panels]
     if subset:
         words.append(
-            f"the obstruction to {fixed.factors[0].polynomial}{shared}: channels "
-            f"{', '.join(sorted(subset, key=names.index))}, colored orange"
+            f"the obstruction to {fixed.factors[0].polynomial}{shared}: "
+            f"{channels(sorted(subset, key=names.index))}, colored orange"
         )
     if boundary:
         heard = ", ".join(sorted(boundary, key=names.index))

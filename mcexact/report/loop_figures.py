@@ -26,9 +26,10 @@ def spectrum_picture(spectrum: LoopSpectrum, time: str, title: str) -> Picture:
     draw_eigenvalues(axis, time, spectrum)
     axis.set_title(title, fontsize="medium")
     told = ", ".join(_point(disc.re, disc.im) for disc in spectrum.discs[:20])
+    told += ", …" if len(spectrum.discs) > 20 else ""
     largest = max((float(Fraction(disc.radius)) for disc in spectrum.discs), default=0.0)
     verdict = "all in the stability region" if spectrum.stable else "not all stable"
-    sure = f"in a certified disc of radius at most {largest:.1e}" if largest else "exactly there"
+    sure = f"in a certified disc of radius at most {largest:.1e}" if largest else "known exactly"
     words = f"{len(spectrum.discs)} distinct eigenvalues, {verdict} (gray): {told}; each is {sure}."
     return Picture(figure, title, words)
 
@@ -79,12 +80,14 @@ def delays_picture(runs: Sequence[tuple[int, Trajectory]]) -> Picture:
     words = []
     for delay, run in runs:
         norms = state_norms(run)
-        shown = [value if value > 0 else float("nan") for value in norms]
-        axis.plot([float(t) for t in run.times], shown, marker=".", label=f"delay {delay}")
+        axis.plot([float(t) for t in run.times], norms, marker=".", label=f"delay {delay}")
         rest = next((k for k, value in enumerate(norms) if value == 0), None)
         ends = f"exactly 0 from step {rest}" if rest is not None else f"ends at {norms[-1]:.1e}"
         words.append(f"delay {delay}: largest {max(norms):.1e}, {ends}")
-    axis.set_yscale("log")
+    least = min(v for _, run in runs for v in state_norms(run) if v > 0)
+    # Linear around 0, so that a state that has come to rest is seen.
+    axis.set_yscale("symlog", linthresh=least, linscale=0.4)
+    axis.set_ylim(bottom=0)
     axis.set_xlabel("step")
     axis.set_title("largest entry of the state", fontsize="medium")
     axis.legend(fontsize="small")

@@ -336,6 +336,20 @@ def prescribed_rate(note: Notebook) -> None:
         )
         note.check("every eigenvalue meets the prescribed rate", fast)
         note.certify(design)
+    _in_floating_point(note)
+
+
+def _in_floating_point(note: Notebook) -> None:
+    """A design in floating point meets its rate, exactly certified; its spectrum in discs."""
+    plant = three_channels()
+    note.on(f"{PAPER}, designed in floating point")
+    design = design_observer(plant, rate=1, arithmetic="float")
+    spectrum = closed_loop_spectrum(design.loop.matrix, plant.time)
+    rate = spectrum.rate
+    note.check("every eigenvalue meets the rate 1", rate is not None and Fraction(rate.lower) > 1)
+    note.certify(design)
+    title = "A design in floating point, with its eigenvalues in certified discs"
+    note.show(spectrum_picture(spectrum, plant.time, title))
 
 
 PROCEDURES: dict[str, Procedure] = {
