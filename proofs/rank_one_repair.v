@@ -240,13 +240,13 @@ rewrite -{1}(subrK (b *m c) N) addmx_sub //.
 exact: submx_trans (submxMl b c) cN'.
 Qed.
 
-(* the shrunk subspace of s: what N0 maps into C_s and no channel outside s feels *)
-Definition shrunk (s : {set I}) : 'M[L]_n := (preimage N0 (output_space s) :&: kermx (input_space (~: s)))%MS.
+(* the shrunk_space subspace of s: what N0 maps into C_s and no channel outside s feels *)
+Definition shrunk_space (s : {set I}) : 'M[L]_n := (preimage N0 (output_space s) :&: kermx (input_space (~: s)))%MS.
 
 Definition wong_pencil (s : {set I}) : 'M[L]_(n + n) :=
   block_mx N0 (input_space (~: s)) (output_space s) 0.
 
-Lemma rank_pencil_shrunk s : (\rank (wong_pencil s) + \rank (shrunk s) = n + \rank (output_space s))%N.
+Lemma rank_pencil_shrunk_space s : (\rank (wong_pencil s) + \rank (shrunk_space s) = n + \rank (output_space s))%N.
 Proof. exact: rank_pencil. Qed.
 
 (* easy half: no gain exceeds any wong_pencil *)
@@ -282,7 +282,7 @@ have [k kn stop] : exists2 k, (k <= n)%N & (wong N k.+1 <= wong N k)%MS.
     by apply: rank_ltmx; rewrite ltmxE wongS (h (Ordinal kn)).
   by have := grow _ (leqnn _); rewrite leqNgt ltnS rank_leq_row.
 pose s := touched (wong N k); exists s.
-have fr : (wong N k.+1 <= shrunk s)%MS.
+have fr : (wong N k.+1 <= shrunk_space s)%MS.
   have W0 : [forall (i | i \in ~: s), wong N k.+1 *m B i == 0].
     apply/forallP => i; apply/implyP; rewrite inE; apply: contraNT => Wi.
     by apply: (subsetP (touchedS stop)); rewrite inE.
@@ -294,8 +294,8 @@ have fr : (wong N k.+1 <= shrunk s)%MS.
   have := forallP W0 i; rewrite inE si /= => /eqP Wi.
   by rewrite !mulmxA Wi !mul0mx sub0mx.
 have := rank_preimage (ok k kn); rewrite -/s -/(wong N k.+1) => e1.
-have := rank_pencil_shrunk s; have := mxrankS fr => h e2.
-by rewrite -(leq_add2r (\rank (shrunk s))) e2 -e1 [leqRHS]addnC leq_add2r.
+have := rank_pencil_shrunk_space s; have := mxrankS fr => h e2.
+by rewrite -(leq_add2r (\rank (shrunk_space s))) e2 -e1 [leqRHS]addnC leq_add2r.
 Qed.
 
 (* max over F of rank (N0 - sum B F C) = min over s of rank [N0, B_{m-s}; C_s, 0] *)
