@@ -52,6 +52,14 @@ look: $(STAMP)
 ledger: $(STAMP)
 	$(BIN)/python proofs/ledger_table.py
 
+# Installs Coq where it is missing and where it may, compiles every proof and checks it twice.
+proofs:
+	@$(MAKE) --no-print-directory -C proofs all
+
+# Every rule of the checker with one hypothesis weakened: each proof has to fail.
+weakened-proofs:
+	@$(MAKE) --no-print-directory -C proofs weakened
+
 $(STAMP): pyproject.toml
 	$(PYTHON) -m venv .venv
 	$(BIN)/python -m pip install --quiet --quiet --disable-pip-version-check --editable '.[dev]'
