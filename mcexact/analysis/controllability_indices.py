@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import pairwise
@@ -10,8 +11,8 @@ from mcexact.analysis.modular_system import generator, residue_systems
 from mcexact.certificate.controllability_indices import ControllabilityIndicesCertificate
 from mcexact.derived.dual import dual
 from mcexact.errors import InternalError
-from mcexact.exact.linear_algebra import solve
-from mcexact.exact.matrix import Matrix, hstack
+from mcexact.exact.linear_algebra import solve_nonsingular
+from mcexact.exact.matrix import Matrix, hstack, vstack
 from mcexact.exact.modular import ModularMatrix, residues
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import canonical_document
@@ -139,34 +140,36 @@ def _annihilator(A: Matrix, B: Matrix, profile: _Profile) -> Matrix | None:
     for _ in ranks:
         blocks.append(A @ blocks[-1])
     K = hstack(blocks, nrows=n)
-    parts: list[tuple[tuple[int, ...], Matrix]] = []
-    for k, (J, P) in enumerate(zip(profile.columns, profile.rows, strict=True)):
-        later = set(profile.rows[k + 1]) if k + 1 < len(ranks) else set(range(n))
-        parts.append((P, _rows_of(K.take(cols=J), P, sorted(later - set(P)))))
     W = Matrix.zeros(0, n)
-    for k, (_, part) in reversed(list(enumerate(parts))):
-        W = Matrix.from_rows([*W.rows(), *part.rows()], ncols=n)
+    for k in reversed(range(len(ranks))):
+        J, P = profile.columns[k], profile.rows[k]
+        later = set(profile.rows[k + 1]) if k + 1 < len(ranks) else set(range(n))
+        part = _rows_of(K.take(cols=J), P, sorted(later - set(P)))
+        W = vstack([W, part], ncols=n)
         last = blocks[: k + 2] if k + 1 == len(ranks) else blocks[: k + 1]
-        if not all((W @ block).is_zero() for block in last):
+        if not all((part @ block).is_zero() for block in last):
             return None
     return W
 
 
 def _rows_of(K: Matrix, P: tuple[int, ...], wanted: list[int]) -> Matrix:
-    """For each wanted f, the row with w_f = 1 and support P besides, wK = 0; K n × |P|."""
+    """For each wanted f, a primitive integer row with support in f and P, wK = 0; K n × |P|.
+
+    The rows have no denominators: one for all of W would be as long as all of theirs together.
+    """
     n = K.nrows
-    found = solve(K.take(rows=P).T, -K.take(rows=wanted).T)
+    found = solve_nonsingular(K.take(rows=P).T, -K.take(rows=wanted).T)
     if found is None:
         raise InternalError("independent rows and columns make a nonsingular matrix")
-    place = {row: k for k, row in enumerate(P)}
-    table = [
-        [
-            found.numerators[place[j]][i] if j in place else found.denominator * (j == f)
-            for j in range(n)
-        ]
-        for i, f in enumerate(wanted)
-    ]
-    return Matrix.from_integers(table, found.denominator, ncols=n)
+    table = []
+    for i, f in enumerate(wanted):
+        row = [0] * n
+        for j, entries in zip(P, found.numerators, strict=True):
+            row[j] = entries[i]
+        row[f] = found.denominator
+        content = math.gcd(*row)
+        table.append([entry // content for entry in row])
+    return Matrix.from_integers(table, ncols=n)
 
 
 def _result(

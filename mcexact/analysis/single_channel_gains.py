@@ -27,7 +27,7 @@ from mcexact.certificate.single_channel_gains import (
 from mcexact.derived.dual import dual
 from mcexact.derived.feedback import closed_by, full_output
 from mcexact.errors import InternalError, UsageError
-from mcexact.exact.linear_algebra import solve
+from mcexact.exact.linear_algebra import solve_nonsingular
 from mcexact.exact.matrix import Matrix, hstack
 from mcexact.exact.modular import ModularMatrix, residues
 from mcexact.model.system import MultiChannelSystem
@@ -370,7 +370,7 @@ def unreached_row(A: Matrix, B: Matrix, blocks: int, ell: int) -> Matrix | None:
     if free is None:
         return None
     chosen = whole.take(cols=columns)
-    part = solve(chosen.take(rows=rows).T, -chosen.take(rows=[free]).T)
+    part = solve_nonsingular(chosen.take(rows=rows).T, -chosen.take(rows=[free]).T)
     if part is None:
         return None
     entries = [0] * n

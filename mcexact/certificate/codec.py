@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import sys
 import tempfile
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
@@ -88,9 +89,15 @@ def _integers(rows: Sequence[Sequence[int]]) -> list[list[int]]:
 
 def canonical(value: Any) -> str:
     """The one JSON text of plain data: sorted keys, no blanks, non-ASCII characters escaped."""
-    return json.dumps(
-        value, sort_keys=True, separators=(",", ":"), ensure_ascii=True, check_circular=False
-    )
+    digits = sys.get_int_max_str_digits()
+    try:
+        # Exact evidence may have longer numbers than the interpreter prints by default.
+        sys.set_int_max_str_digits(0)
+        return json.dumps(
+            value, sort_keys=True, separators=(",", ":"), ensure_ascii=True, check_circular=False
+        )
+    finally:
+        sys.set_int_max_str_digits(digits)
 
 
 def digest(system: Document) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -96,8 +96,9 @@ class Assessment:
     transfer_graph : TransferGraph
     fixed_spectrum : FixedSpectrum
     completeness : Completeness
-    controllability_indices, observability_indices : ControllabilityIndices
-        Of all channels together.
+    controllability_indices, observability_indices : ControllabilityIndices or None
+        Of all channels together; None where the least possible index is so large that the evidence
+        would be out of proportion (n² > 10⁴ times the number of inputs, or outputs).
     assignability : Assignability
     setpoint : SetpointSolvability
         Whether integrators can hold all outputs of the plant at set-points.
@@ -126,8 +127,8 @@ class Assessment:
     transfer_graph: TransferGraph
     fixed_spectrum: FixedSpectrum
     completeness: Completeness
-    controllability_indices: ControllabilityIndices
-    observability_indices: ControllabilityIndices
+    controllability_indices: ControllabilityIndices | None
+    observability_indices: ControllabilityIndices | None
     assignability: Assignability
     setpoint: SetpointSolvability
     delayed: DelayedNetworks | None = None
@@ -250,8 +251,12 @@ def assess(
         transfer_graph=graph,
         fixed_spectrum=spectrum,
         completeness=completeness(system, spectrum=spectrum),
-        controllability_indices=controllability_indices(system),
-        observability_indices=observability_indices(system),
+        controllability_indices=_within_reason(
+            system, system.input_matrix().ncols, controllability_indices
+        ),
+        observability_indices=_within_reason(
+            system, system.output_matrix().nrows, observability_indices
+        ),
         assignability=assignability(system, spectrum=spectrum, graph=graph),
         setpoint=setpoint_solvability(plant),
         delayed=_delayed(plant) if delayed else None,
@@ -298,6 +303,15 @@ def _delayed(plant: MultiChannelSystem) -> DelayedNetworks:
         (shared_dimension_bound(plant, share=share).per_agent,) * plant.m for share in SHARING
     )
     return DelayedNetworks(lifted_verdict(plant, both), held_verdict(plant, alone), both, alone)
+
+
+def _within_reason(
+    system: MultiChannelSystem,
+    ports: int,
+    decide: Callable[[MultiChannelSystem], ControllabilityIndices],
+) -> ControllabilityIndices | None:
+    """The indices, unless the least possible one, n / ports, makes their evidence too long."""
+    return decide(system) if system.n**2 <= 10**4 * max(ports, 1) else None
 
 
 def _of_the_channel(system: MultiChannelSystem, name: str) -> ChannelAnswers:

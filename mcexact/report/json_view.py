@@ -116,7 +116,7 @@ def structure_view(assessment: Assessment) -> dict[str, Any]:
     """Indices, the parts of the spectrum, and what was asked about a subset or a channel."""
     split = assessment.assignability
     view: dict[str, Any] = {
-        name: {"index": found.index, "indices": list(found.indices)}
+        name: found and {"index": found.index, "indices": list(found.indices)}
         for name, found in (
             ("controllability_indices", assessment.controllability_indices),
             ("observability_indices", assessment.observability_indices),

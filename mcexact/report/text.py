@@ -128,8 +128,10 @@ def _pencil_ranks(assessment: Assessment) -> Table:
     )
 
 
-def _indices(found: ControllabilityIndices) -> str:
+def _indices(found: ControllabilityIndices | None) -> str:
     """The partition, and the index where there is one."""
+    if found is None:
+        return "left out: many states for few ports; ask for them from Python"
     listed = shorten(", ".join(map(str, found.indices)) or "none")
     return listed if found.index is None else f"{listed}; index {found.index}"
 

@@ -106,3 +106,12 @@ def test_gains_through_every_channel_are_shown() -> None:
     rows = rows_of(text_of(ring, every_channel=True))
     assert rows["spectrum"] == "freely assignable"
     assert rows["through every channel"].startswith("yes, indices 2 and 2, 2 and 2, F_a = [[")
+
+
+def test_indices_of_very_long_chains_are_left_out() -> None:
+    n = 101
+    chain = [[int(i == j + 1) for j in range(n)] for i in range(n)]
+    system = MultiChannelSystem(
+        chain, [[[int(i == 0)] for i in range(n)]], [[[int(i == 0) for i in range(n)]]]
+    )
+    assert rows_of(text_of(system))["controllability indices"].startswith("left out")
