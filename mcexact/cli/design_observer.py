@@ -24,7 +24,8 @@ from mcexact.cli import options
 @click.option(
     "--order",
     type=click.Choice(["least"]),
-    help="The least order that one of the indices allows, instead of m - 1.",
+    help="The least order that one of the indices allows, instead of m - 1; in floating point "
+    "an observer of reduced order.",
 )
 @click.option(
     "--arithmetic",

@@ -35,7 +35,7 @@ def observer_float_tables(design: FloatObserverDesign, margins: LoopMargins) -> 
     """The summary: one table of what is certified, one of what is measured."""
     time = design.loop.loop.time
     proved = (
-        ("agent with the channel controller", f"{design.agent}, of order {design.G.ncols}"),
+        ("agent with the channel controller", f"{design.agent}, of order {design.order}"),
         ("states of all agents together", str(design.controller.order)),
         ("every eigenvalue of the loop", str(StabilityRegion(time, design.bound))),
         ("longest number", f"{design.height} bits"),

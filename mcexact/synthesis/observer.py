@@ -112,6 +112,7 @@ def design_observer(
     rate: Any = None,
     radius: Any = None,
     gains: Sequence[Any] | None = None,
+    order: Literal["least"] | None = None,
     arithmetic: Literal["float"],
     progress: Progress | None = None,
 ) -> FloatObserverDesign: ...
@@ -151,7 +152,8 @@ def design_observer(
         open-loop observer of section II-B: the agents estimate and do not act.
     order : {"least"}, optional
         A channel controller of order one less than the smaller of the two indices; by default it
-        has order m − 1.
+        has order m − 1.  In floating point: nm less what the agent sees of the errors at once,
+        where that can be certified, instead of nm.
     arithmetic : {"exact", "float"}
         Exact assigns every number, for small systems; float designs for a rate or a radius alone,
         and the proof is exact as well (`design_observer_float`).
@@ -207,9 +209,12 @@ let one agent control and observe all estimation errors
     wanted = _checked_spectrum(spectrum, gains)
     agent = 0 if q is None else system.index(q)
     if arithmetic == "float":
-        return _in_floating_point(
-            system, found, agent, bound, gains, tell, not wanted and not order
-        )
+        if bound is None or wanted:
+            raise UsageError(
+                "a design in floating point takes a rate or a radius; a spectrum needs "
+                'arithmetic "exact"'
+            )
+        return _in_floating_point(system, found, agent, bound, gains, order == "least", tell)
     if spectrum is None and gains is None and bound is not None:
         hidden = joint_observability(system).uncontrollable_polynomial
         if hidden.degree > 0 and StabilityRegion(system.time, bound).contains_roots_of(hidden):
@@ -264,21 +269,18 @@ def _in_floating_point(
     system: MultiChannelSystem,
     graph: NeighborGraph,
     agent: int,
-    bound: Fraction | None,
+    bound: Fraction,
     gains: Sequence[Any] | None,
+    least: bool,
     tell: Progress,
-    rate_alone: bool,
 ) -> FloatObserverDesign:
-    """The road of `design_observer_float`, which takes a rate or a radius and nothing else."""
+    """The road of `design_observer_float`, loaded when it is taken."""
     from mcexact.synthesis.observer_float import design_observer_float
 
-    if bound is None or not rate_alone:
-        raise UsageError(
-            "a design in floating point takes a rate or a radius; a spectrum or an order needs "
-            'arithmetic "exact"'
-        )
     given = None if gains is None else checked_gains(system, gains, [system.n] * system.m)
-    return design_observer_float(system, graph, agent, bound, gains=given, progress=tell)
+    return design_observer_float(
+        system, graph, agent, bound, gains=given, reduced=least, progress=tell
+    )
 
 
 def _of_the_observable_part(

@@ -21,7 +21,11 @@ from mcexact.model.closed_loop import closed_loop_matrix
 from mcexact.model.controller import Controller
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.channel_controller import ChannelController
+from mcexact.synthesis.error_observer import (
+    ErrorObserver,
+    full_order_observer,
+    reduced_order_observer,
+)
 from mcexact.synthesis.gate import CertifiedClosedLoop, certify_rate
 from mcexact.synthesis.observer_programs import observer_programs
 from mcexact.synthesis.observer_separation import observer_separation
@@ -59,8 +63,10 @@ class FloatObserverDesign:
         [K_i, H_ij …] of the open-loop observer.
     G : Matrix, n×nm
         ũ = −G z, dyadic.
-    L : Matrix, nm×(q_q + n(|N_q| − 1))
-        The gain of the observer of the errors, dyadic.
+    L : Matrix
+        The gain of the observer of the errors, dyadic; nm×(q_q + n(|N_q| − 1)) at full order.
+    order : int
+        Of the channel controller.
     attempts : int
         How many lists were drawn.
     """
@@ -73,6 +79,7 @@ class FloatObserverDesign:
     lists: tuple[Matrix, ...]
     G: Matrix
     L: Matrix
+    order: int
     attempts: int
 
     @property
@@ -104,9 +111,8 @@ class _Candidate:
     """Lists, and gains for the error system that they lead to."""
 
     lists: tuple[Matrix, ...]
-    E: Matrix
     G: Matrix
-    L: Matrix
+    observer: ErrorObserver
     size: float
 
 
@@ -117,6 +123,7 @@ def design_observer_float(
     bound: Fraction,
     *,
     gains: Sequence[Matrix] | None = None,
+    reduced: bool = False,
     progress: Progress,
 ) -> FloatObserverDesign:
     """Design a distributed observer for a rate or a radius by Riccati equations; certify it.
@@ -133,6 +140,8 @@ def design_observer_float(
     bound : Fraction
     gains : sequence of m Matrix, optional
         F_i (p_i×n) from outside.
+    reduced : bool
+        Observe only the errors that channel q does not see at once, where that can be certified.
     progress : callable
 
     Raises
@@ -151,7 +160,8 @@ def design_observer_float(
 
         z' = (E − B̃G − LC̃) z + L ỹ,     ũ = −G z,
 
-    its first matrix exact, since the separation is.  O((nm)³) operations.
+    its first matrix exact, since the separation is; at reduced order nm − rank C̃ see
+    `reduced_order_observer`.  O((nm)³) operations.
     """
     _require_doubles(system)
     region = StabilityRegion(system.time, bound)
@@ -167,17 +177,26 @@ def design_observer_float(
         for lists in _drawn_lists(system, graph, error, F):
             tried += 1
             progress(f"lists K, H number {tried}")
-            found = _solved(error, agent, lists, target)
-            if found is not None:
-                candidates.append(found)
-        for each in sorted(candidates, key=lambda candidate: candidate.size):
+            candidates += _solved(error, agent, lists, target, reduced)
+        for each in sorted(
+            candidates, key=lambda found: (found.observer.channel.order, found.size)
+        ):
             progress("certificate")
-            controller = _programs(system, graph, agent, F, error, each)
-            loop = _certified(system, graph, controller, bound)
+            observer = each.observer
+            controller = observer_programs(system, graph, agent, F, each.lists, observer.channel)
+            loop = _certified(system, graph, controller, bound, observer.Y)
             if loop is not None:
-                name = system.names[agent]
                 return FloatObserverDesign(
-                    controller, loop, name, bound, F, each.lists, each.G, each.L, tried
+                    controller,
+                    loop,
+                    system.names[agent],
+                    bound,
+                    F,
+                    each.lists,
+                    each.G,
+                    observer.L,
+                    observer.channel.order,
+                    tried,
                 )
     _refuse_if_impossible(system, graph, region, gains)
     raise LimitReached(
@@ -209,11 +228,10 @@ def _target(time: str, bound: Fraction, margin: Fraction) -> float:
 
 def _state_feedback(system: MultiChannelSystem, target: float) -> tuple[Matrix, ...] | None:
     """Dyadic F_i by a Riccati equation; None if there is no solution."""
-    A, B = matrix_to_float(system.A), matrix_to_float(system.input_matrix())
-    F = _first_feedback(A, B, system.time, target)
-    if F is None:
+    rounded = _gain(system.A, system.input_matrix(), system.time, target)
+    if rounded is None:
         return None
-    rounded, gains, start = _rounded(A, B, F, system.time, target), [], 0
+    gains, start = [], 0
     for i in range(system.m):
         gains.append(rounded.take(rows=range(start, start + system.p(i))))
         start += system.p(i)
@@ -254,24 +272,39 @@ def _drawn_lists(
 
 
 def _solved(
-    error: MultiChannelSystem, agent: int, lists: tuple[Matrix, ...], target: float
-) -> _Candidate | None:
-    """G and L for the error system under these lists, rounded."""
+    error: MultiChannelSystem, agent: int, lists: tuple[Matrix, ...], target: float, reduced: bool
+) -> list[_Candidate]:
+    """Observers of the errors under these lists, of full order and, if asked for, of reduced."""
     import numpy as np
 
-    E = closed_by(error, lists)
-    E_float = matrix_to_float(E)
-    B, C = matrix_to_float(error.B(agent)), matrix_to_float(error.C(agent))
-    minus_G = _first_feedback(E_float, B, error.time, target)
-    if minus_G is None:
-        return None
-    minus_L = _first_feedback(E_float.T, C.T, error.time, target)
-    if minus_L is None:
-        return None
-    size = float(np.linalg.norm(minus_G) * np.linalg.norm(minus_L))
-    G = -_rounded(E_float, B, minus_G, error.time, target)
-    L = -_rounded(E_float.T, C.T, minus_L, error.time, target).T
-    return _Candidate(lists, E, G, L, size)
+    E, B, C = closed_by(error, lists), error.B(agent), error.C(agent)
+    G = _gain(E, B, error.time, target)
+    if G is None:
+        return []
+    made = []
+    L = _gain(E.T, C.T, error.time, target)
+    if L is not None:
+        made.append(full_order_observer(E, B, C, -G, -L.T))
+    if reduced:
+
+        def gain(E22: Matrix, E12: Matrix) -> Matrix | None:
+            found = _gain(E22.T, E12.T, error.time, target)
+            return None if found is None else -found.T
+
+        less = reduced_order_observer(E, B, C, -G, gain)
+        made += [] if less is None else [less]
+    size = float(np.linalg.norm(matrix_to_float(G)))
+    return [
+        _Candidate(lists, -G, each, size * float(np.linalg.norm(matrix_to_float(each.L))))
+        for each in made
+    ]
+
+
+def _gain(A: Matrix, B: Matrix, time: str, target: float) -> Matrix | None:
+    """A dyadic F for A + B F by a Riccati equation; None if there is no solution."""
+    floats, inputs = matrix_to_float(A), matrix_to_float(B)
+    F = _first_feedback(floats, inputs, time, target)
+    return None if F is None else _rounded(floats, inputs, F, time, target)
 
 
 def _first_feedback(A: Floats, B: Floats, time: str, target: float) -> Floats | None:
@@ -297,33 +330,16 @@ def _rounded(A: Floats, B: Floats, F: Floats, time: str, target: float) -> Matri
     return found if reached else dyadic_matrix(F, many)
 
 
-def _programs(
+def _certified(
     system: MultiChannelSystem,
     graph: NeighborGraph,
-    agent: int,
-    feedback: Sequence[Matrix],
-    error: MultiChannelSystem,
-    found: _Candidate,
-) -> Controller:
-    """The agents' programs with the observer-based channel controller."""
-    B, C = error.B(agent), error.C(agent)
-    channel = ChannelController(
-        A=found.E - B @ found.G - found.L @ C,
-        B=found.L,
-        C=-found.G,
-        D=Matrix.zeros(B.ncols, C.nrows),
-        polynomial=None,
-    )
-    return observer_programs(system, graph, agent, feedback, found.lists, channel)
-
-
-def _certified(
-    system: MultiChannelSystem, graph: NeighborGraph, controller: Controller, bound: Fraction
+    controller: Controller,
+    bound: Fraction,
+    Y: Matrix,
 ) -> CertifiedClosedLoop | None:
     """The loop through the gate, block by block; None if Lyapunov matrices do not prove it."""
-    separation = observer_separation(
-        closed_loop_matrix(system, controller, graph), system.n, controller
-    )
+    M = closed_loop_matrix(system, controller, graph)
+    separation = observer_separation(M, system.n, controller, Y)
     try:
         return certify_rate(
             system, controller, bound=bound, graph=graph, separation=separation, method="lyapunov"

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from mcexact.analysis.stability import Separation
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, block, vstack
 from mcexact.model.controller import Controller
 
 
-def observer_separation(M: Matrix, n: int, controller: Controller) -> Separation | None:
+def observer_separation(
+    M: Matrix, n: int, controller: Controller, Y: Matrix | None = None
+) -> Separation | None:
     """The separation of a loop made of a plant, m estimates of its state and a channel controller.
 
     Parameters
@@ -17,6 +19,8 @@ def observer_separation(M: Matrix, n: int, controller: Controller) -> Separation
     n : int
         States of the plant.
     controller : Controller
+    Y : Matrix, k × nm, optional
+        z, all z_i together, estimates Y e; by default the identity, where the dimensions fit.
 
     Returns
     -------
@@ -25,15 +29,14 @@ def observer_separation(M: Matrix, n: int, controller: Controller) -> Separation
 
     Notes
     -----
-    With e_i = x_i − x, and w = e − z if z, all z_i together, has the dimension of e::
+    With e_i = x_i − x, and w = Y e − z, Y = I for an observer of full order::
 
         (x, e, w):  ⎡ A + Σ B_i F_i     *       *   ⎤      (x, e, z):  ⎡ A + Σ B_i F_i   *  ⎤
-                    ⎢      0         E − B̃G    B̃G   ⎥                  ⎣      0         M_E ⎦
+                    ⎢      0         E − B̃G     *   ⎥                  ⎣      0         M_E ⎦
                     ⎣      0            0    E − LC̃ ⎦
 
-    The first where channel q has an observer of the errors, z' = (E − B̃G − LC̃) z + L ỹ and
-    ũ = −G z; the second for every distributed observer.  Whether the blocks below are 0 is
-    decided exactly.
+    The first where channel q has an observer of the errors; the second for every distributed
+    observer.  Whether the blocks below are 0 is decided exactly.
     """
     if any(agent.shared != n for agent in controller.agents):
         return None
@@ -41,44 +44,46 @@ def observer_separation(M: Matrix, n: int, controller: Controller) -> Separation
     m, order = len(private), sum(private)
     if M.nrows != n + n * m + order:
         return None
-    for observed in (True, False):
-        if observed and order != n * m:
-            continue
-        T, inverse = _coordinates(n, private, observed=observed)
+    if Y is None and order == n * m:
+        Y = Matrix.identity(order)
+    for estimated in (Y, None):
+        T, inverse = _coordinates(n, private, estimated)
         Delta = inverse @ (M @ T)
-        sizes = (n, n * m, order) if observed else (n, n * m + order)
+        sizes = (n, n * m + order) if estimated is None else (n, n * m, order)
         if _is_block_triangular(Delta, sizes):
             return Separation(T, Delta, tuple(size for size in sizes if size), inverse)
     return None
 
 
-def _coordinates(n: int, private: list[int], *, observed: bool) -> tuple[Matrix, Matrix]:
-    """T from (x, e, w) or (x, e, z) to (x, x_1, z_1, …), and its inverse."""
-    m, total = len(private), n + n * len(private) + sum(private)
-    rows: list[dict[int, int]] = [{i: 1} for i in range(n)]
-    back: list[dict[int, int]] = [{i: 1} for i in range(n)] + [{} for _ in range(total - n)]
-    first = hidden = n + n * m
+def _coordinates(n: int, private: list[int], Y: Matrix | None) -> tuple[Matrix, Matrix]:
+    """T from (x, e, w), or (x, e, z) without Y, to (x, x_1, z_1, …), and its inverse."""
+    m, order = len(private), sum(private)
+    same = vstack([Matrix.identity(n)] * m, ncols=n)
+    x, e, z = Matrix.identity(n), Matrix.identity(n * m), Matrix.identity(order)
+    if Y is None:
+        lower, sign, driven = Matrix.zeros(order, n * m), z, Matrix.zeros(order, n)
+    else:
+        lower, sign, driven = Y, -z, -(Y @ same)
+    right = [Matrix.zeros(rows, order) for rows in (n, n * m)]
+    T = block(
+        [
+            [x, Matrix.zeros(n, n * m), right[0]],
+            [same, e, right[1]],
+            [Matrix.zeros(order, n), lower, sign],
+        ]
+    )
+    inverse = block(
+        [
+            [x, Matrix.zeros(n, n * m), right[0]],
+            [-same, e, right[1]],
+            [driven, lower, sign],
+        ]
+    )
+    places, hidden = list(range(n)), n + n * m
     for i, k in enumerate(private):
-        for a in range(n):
-            back[n + n * i + a] = {len(rows): 1, a: -1}
-            rows.append({a: 1, n + n * i + a: 1})
-        for _ in range(k):
-            if observed:
-                back[hidden] = {len(rows): -1}
-                rows.append({hidden - first + n: 1, hidden: -1})
-            else:
-                back[hidden] = {len(rows): 1}
-                rows.append({hidden: 1})
-            hidden += 1
-    if observed:
-        for a in range(first, total):
-            back[a] |= back[n + a - first]
-    return _filled(rows, total), _filled(back, total)
-
-
-def _filled(rows: list[dict[int, int]], size: int) -> Matrix:
-    """The square matrix with these entries."""
-    return Matrix.from_integers([[row.get(j, 0) for j in range(size)] for row in rows], ncols=size)
+        places += [*range(n + n * i, n + n * (i + 1)), *range(hidden, hidden + k)]
+        hidden += k
+    return T.take(rows=places), inverse.take(cols=places)
 
 
 def _is_block_triangular(Delta: Matrix, sizes: tuple[int, ...]) -> bool:

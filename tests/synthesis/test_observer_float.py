@@ -82,16 +82,30 @@ def test_agents_that_cannot_hear_of_each_other_are_a_refusal_for_these_gains():
         design_observer(plant, rate=1, arithmetic="float")
 
 
-@pytest.mark.parametrize(
-    "options",
-    [
-        {"spectrum": {"feedback": [-1] * 3, "error": [-1] * 11}},
-        {"rate": 1, "order": "least"},
-    ],
-)
-def test_what_only_exact_arithmetic_can_promise_is_wrong_usage(options):
-    with pytest.raises(UsageError, match=r"takes a rate or a radius"):
-        design_observer(three_channels(), arithmetic="float", **options)
+def test_a_spectrum_is_for_exact_arithmetic():
+    with pytest.raises(UsageError, match="takes a rate or a radius"):
+        design_observer(
+            three_channels(),
+            arithmetic="float",
+            spectrum={"feedback": [-1] * 3, "error": [-1] * 11},
+        )
+
+
+@pytest.mark.parametrize("time", ["continuous", "discrete"])
+@pytest.mark.parametrize(("q", "seen"), [("1", 5), ("2", 4), ("3", 4)])
+def test_the_reduced_order_leaves_out_what_the_agent_sees(q, seen, time):
+    plant = three_channels(time)
+    bound = {"rate": 1} if time == "continuous" else {"radius": "1/2"}
+    design = design_observer(plant, q=q, order="least", arithmetic="float", **bound)
+    assert design.order == 9 - seen and design.controller.order == 18 - seen
+    assert_meets(design, plant, *bound.values())
+
+
+def test_an_agent_that_sees_every_error_needs_no_channel_controller():
+    plant = MultiChannelSystem([[2]], [[[1]]], [[[3]]], neighbors={"1": []})
+    design = design_observer(plant, rate=1, order="least", arithmetic="float")
+    assert design.order == 0
+    assert_meets(design, plant, 1)
 
 
 def test_a_bound_is_needed_and_the_arithmetic_has_two_names():
