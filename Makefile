@@ -5,7 +5,7 @@ BIN := .venv/bin
 STAMP := .venv/.installed
 GALLERY := mcexact/model/gallery
 
-.PHONY: reproduce look ledger demo test lint types tests agreement mutations bench
+.PHONY: reproduce look ledger demo test lint types tests agreement mutations bench proofs weakened-proofs
 
 demo: $(STAMP)
 	$(BIN)/mcexact demo
