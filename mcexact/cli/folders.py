@@ -62,7 +62,12 @@ def write_folder(folder: Path, files: Mapping[str, str]) -> None:
                 path.write_text(text, encoding="utf-8")
             if target.exists():
                 target.rename(made / "old")
-            (made / "new").rename(target)
+            try:
+                (made / "new").rename(target)
+            except BaseException:
+                if (made / "old").exists():
+                    (made / "old").rename(target)
+                raise
         finally:
             shutil.rmtree(made, ignore_errors=True)
     except OSError as error:

@@ -148,7 +148,7 @@ def draw_eigenvalues(axis: Any, time: str, spectrum: LoopSpectrum) -> None:
             color="C0",
             label=f"certified disc, radius below {largest:.0e}, enlarged",
         )
-        axis.legend(fontsize="small", loc="upper left")
+        axis.legend(fontsize="small", loc="best")
     axis.axhline(0, color="0.6", linewidth=0.8)
     axis.set_title("eigenvalues of the closed loop", fontsize="medium")
     axis.set_xlabel("real part")
