@@ -30,7 +30,7 @@ def closed_loop(system: System, step: dict[str, Any], place: str) -> System:
     order: list[Signal] = [("X", 0, 0), *((what, j, 0) for j in range(m) for what in "xz")]
     for what, j in ((what, j) for j in range(m) for what in "xy"):
         oldest = max((age for w, k, age in used if (w, k) == (what, j)), default=0)
-        require_size(oldest)
+        require_size((len(order) - 2 * m + oldest) ** 2)
         order += [(what, j, age + 1) for age in range(oldest)]
     widths = [width[what][j] for what, j, _ in order]
     total, starts = sum(widths), accumulate(widths, initial=0)
@@ -60,13 +60,13 @@ def _terms(
         shared, outputs, z, reference = fields(agents[i][label], where, optional=USED)
         for what, given in (("x", shared), ("y", outputs)):
             for j, M in _by_agent(given, where, system):
-                require(j in N_i, "subject", where, f"agent number {i + 1} does not hear {j + 1}")
                 steps = dict(_by_agent(agents[j].get("hold"), where, system)).get(i, 0)
                 age = system.delays.get((i, j), 0) + integer(steps, where) * (what == "x")
+                right = j in N_i and (not age or system.time == "discrete")
+                require(right, "subject", where, f"agent {i + 1} does not hear {j + 1} like that")
                 found.append(((what, j, age), read_matrix(M, where, nrows, width[what][j])))
-        for what, M in (("z", z), ("y", reference)):
-            if M is not None:
-                found.append(((what, i, 0), read_matrix(M, where, nrows, width[what][i])))
+        for what, M in (part for part in (("z", z), ("y", reference)) if part[1] is not None):
+            found.append(((what, i, 0), read_matrix(M, where, nrows, width[what][i])))
         result.append(found if reference is None else found[:-1])
     return result
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 from .arithmetic import Matrix, beside, require_size, stack
-from .exchange import SHARED, neighbors_of, read_dimensions, read_shares
+from .exchange import SHARED, neighbors_of, read_dimensions, read_shares, require_outputs
 from .reading import fields, require
 from .system import System
 
@@ -36,6 +36,7 @@ def _delayed(
     q = [C_j.nrows if with_outputs else 0 for C_j in system.C]
     widths = [(d[j] + 1) * sizes[j] + d[j] * q[j] for j in range(m)]
     require_size((n + sum(widths) + sum(d)) ** 2)
+    require_outputs(n + sum(widths), [system.C[j].nrows + sizes[j] for N_i in N for j in N_i])
     total, starts = n + sum(widths), [n + sum(widths[:j]) for j in range(m)]
     plant = Matrix.unit_rows(total, 0, n)
 

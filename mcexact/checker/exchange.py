@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 from . import reading
-from .arithmetic import Matrix, diagonal, stack
+from .arithmetic import Matrix, diagonal, require_size, stack
 from .evidence import outputs
 from .system import System
 
@@ -20,10 +20,17 @@ def neighbors_of(system: System, place: str) -> list[list[int]]:
     return system.neighbors or []
 
 
+def require_outputs(n: int, counts: list[int]) -> None:
+    """Stop before the outputs of all agents, n columns each, take more than 8 large matrices."""
+    require_size((n + 64) * sum(counts) // 8)  # a row costs something, however short
+
+
 def augmented_outputs(system: System, step: dict[str, Any], place: str) -> System:
     """C_i becomes C_{N_i}."""
     reading.fields(step, place)
-    C = [outputs(system, N_i) for N_i in neighbors_of(system, place)]
+    N = neighbors_of(system, place)
+    require_outputs(system.n, [system.C[j].nrows for N_i in N for j in N_i])
+    C = [outputs(system, N_i) for N_i in N]
     return replace(system, C=C, words=f"{system.words} with neighbors' outputs shared")
 
 
@@ -54,6 +61,8 @@ def extended(system: System, step: dict[str, Any], place: str) -> System:
     """Paper, section IV-C: state (x, x_1, …, x_m); x_i' or x_i(t+1) is an input of agent i."""
     (share, sizes), N = read_shares(system, step, place), neighbors_of(system, place)
     total = sum(sizes)
+    counts = [system.C[j].nrows + sizes[j] for N_i in N for j in N_i]
+    require_outputs(system.n + total, counts)
     E = [Matrix.unit_rows(total, sum(sizes[:i]), size) for i, size in enumerate(sizes)]
     B = [diagonal(B_i, E_i.T) for B_i, E_i in zip(system.B, E, strict=True)]
     own = [outputs(system, N_i if share == "outputs+states" else [i]) for i, N_i in enumerate(N)]

@@ -25,12 +25,14 @@ def check(claim: Any, witness: Any, system: System) -> str:
 
 def components(m: int, arcs: Iterable[tuple[int, int]]) -> list[list[int]]:
     """The strong components of the graph on m nodes with arcs j → i, sorted by first member."""
-    reached = [{j} for j in range(m)]
+    ahead, behind = ([1 << j for j in range(m)] for _ in range(2))  # sets of nodes, as bits
     for j, i in arcs:
-        reached[j].add(i)
-    for k in range(m):
-        for j in range(m):
-            if k in reached[j]:
-                reached[j] |= reached[k]
-    parts = {tuple(i for i in range(m) if i in reached[j] and j in reached[i]) for j in range(m)}
-    return sorted(map(list, parts))
+        ahead[j] |= 1 << i
+        behind[i] |= 1 << j
+    for reached in (ahead, behind):
+        for k in range(m):
+            for j in range(m):
+                if reached[j] >> k & 1:
+                    reached[j] |= reached[k]
+    parts = {a & b for a, b in zip(ahead, behind, strict=True)}
+    return sorted([i for i in range(m) if part >> i & 1] for part in parts)

@@ -16,8 +16,9 @@ from typing import Any, NoReturn
 
 from .arithmetic import Matrix, Polynomial
 
-# Strings are stepped over whole; possessive quantifiers keep the scans linear in time.
-TOKEN = re.compile(r'"(?:[^"\\]++|\\.)*+"|[\[{]|[\]}]', re.DOTALL)
+# Strings are stepped over whole, one without an end too; possessive quantifiers keep the scans
+# linear in time.
+TOKEN = re.compile(r'"(?:[^"\\]++|\\.)*+"?|[\[{]|[\]}]', re.DOTALL)
 QUOTIENT = re.compile(r"-?(?:0|[1-9][0-9]*+)/[1-9][0-9]*+")
 DECIMAL = re.compile(r"-?(?:0|[1-9][0-9]*+)(?:\.[0-9]++)?")
 
@@ -73,7 +74,8 @@ def parse(data: bytes, limits: Limits, decimal_of: Callable[[str], Any] | None =
         if depth > limits.depth:
             malformed("file", f"nested deeper than {limits.depth} levels (--max-depth)")
     long_number = re.compile(f"[0-9]{{{min(20, limits.digits + 1)}}}[0-9]*+")
-    if any(len(number[0]) > limits.digits for number in long_number.finditer(text)):
+    plain = re.sub(r"\\u003([0-9])", r"\1", text)  # digits may be written as escapes
+    if any(len(number[0]) > limits.digits for number in long_number.finditer(plain)):
         incomplete("size", "file", f"a number of more than {limits.digits} digits (--max-digits)")
 
     def refuse(number: str) -> NoReturn:
@@ -92,6 +94,8 @@ def parse(data: bytes, limits: Limits, decimal_of: Callable[[str], Any] | None =
         return json.loads(text, parse_float=floats, parse_constant=refuse, object_pairs_hook=pairs)
     except json.JSONDecodeError as error:
         malformed(f"line {error.lineno} column {error.colno}", f"not JSON: {error.msg}")
+    except RecursionError:
+        malformed("file", "nested deeper than any certificate")
 
 
 def shown(value: Any) -> str:
