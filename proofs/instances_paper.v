@@ -9,6 +9,7 @@ From mathcomp Require Import all_ssreflect all_algebra all_field.
 From mcexact Require Import multichannel evidence controllability rank_one_repair pencil_space.
 From mcexact Require Import transfer_graph anderson_clements extended joint_controllability.
 From mcexact Require Import neighbor_graph extended_bound gain_lines corfmat_morse error_system delays.
+From mcexact Require Import free_assignment verdict.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -411,3 +412,33 @@ apply: (sequential_gains (f := f) (Q := fun=> True) infinite_rat
 move=> lambda; rewrite /uncontrollable_mode controllable_hautus ?ltnn //.
 by apply/controllableP => w /(_ 0%N); rewrite /krylov /= mulmx1.
 Qed.
+
+(* free_assignment.v *)
+Example extended_jointly_controllable_open :=
+  @extended_jointly_controllable _ _ _ _ _ all_hear (share 1) opened (open_controllable Q).
+Example extended_jointly_observable_open :=
+  extended_jointly_observable (share 1) all_hear_self (open_observable Q).
+Example extended_states_jointly_observable_open :=
+  extended_states_jointly_observable (share 1) all_hear_self (open_observable Q).
+Example corollary_1_gains_open : exists F, forall o : 'I_2,
+  controllable (closed_loop (extended all_hear (share 1) opened) F)
+    (mcB (extended all_hear (share 1) opened) o) /\
+  controllable (closed_loop (extended all_hear (share 1) opened) F)^T
+    (mcC (extended all_hear (share 1) opened) o)^T.
+Proof.
+apply: (corollary_1_gains (f := f) infinite_rat all_hear_self all_strongly_connected
+  (open_controllable Q) (open_observable Q)) => // i s lambda _ _ _; exact: leq_subr.
+Qed.
+Example corfmat_morse_converse_free : strongly_connected (transfer_arc free) /\
+    (forall lambda : algC, ~ fixed_over f free lambda).
+Proof. by have [F h] := corfmat_morse_free; apply: corfmat_morse_converse h. Qed.
+Example corfmat_morse_iff_yes : exists F, forall o : 'I_2,
+    controllable (closed_loop free F) (mcB free o) /\ controllable (closed_loop free F)^T (mcC free o)^T :=
+  (corfmat_morse_iff f infinite_rat free isT isT).1 (conj (free_arcs Q) free_not_fixed_over).
+Example corfmat_morse_iff_no : ~ exists F, forall o : 'I_2,
+    controllable (closed_loop opened F) (mcB opened o) /\ controllable (closed_loop opened F)^T (mcC opened o)^T :=
+  fun h => ((corfmat_morse_iff f infinite_rat opened isT isT).2 h).2 0 open_fixed_over.
+
+(* verdict.v *)
+Example check_shrunk_fixed_example :=
+  @verdict.check_shrunk_fixed _ [fieldType of algC] verdict.example_verdict.
