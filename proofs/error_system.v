@@ -3,7 +3,8 @@
 From mathcomp Require Import all_ssreflect all_algebra.
 From mcexact Require Import multichannel arithmetic evidence controllability rank_one_repair.
 From mcexact Require Import pencil_space anderson_clements joint_controllability gain_lines.
-From mcexact Require Import transfer_graph extended neighbor_graph extended_bound corfmat_morse.
+From mcexact Require Import extended neighbor_graph extended_bound.
+From mcexact Require Import sequential_gains feedback corfmat_morse.
 
 Set Implicit Arguments.
 Unset Strict Implicit.

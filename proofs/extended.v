@@ -1,5 +1,5 @@
-(* The extended systems (emcs) and of Remark 2: the rank identity, the exact condition on the shared
-   dimensions (DESIGN 2.5), Theorem 2 and Remark 2.  k i is the paper's n_i. *)
+(* The extended systems (emcs) and of Remark 2: the rank identity, and for which shared dimensions an
+   eigenvalue is not fixed.  k i is the paper's n_i. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From mcexact Require Import multichannel rank_one_repair pencil_space anderson_clements.
 
@@ -231,7 +231,7 @@ apply/eqmxP/andP; split; apply: block_sub.
 - by rewrite span_bigcup span_shared.
 Qed.
 
-(* the exact condition of DESIGN 2.5, for one lambda and every graph *)
+(* the exact condition, for one lambda and every graph *)
 Theorem extended_not_fixed S lambda :
   ~ fixed (extended N k S) lambda <->
   forall s, (n - \rank (neighbor_pencil S s lambda) <= \sum_(i in neighborhood N s :\: s) k i)%N.

@@ -1,5 +1,4 @@
-(* Theorem 2, Remark 2, the exact condition over every extension field, Proposition 3 and the
-   joint controllability and observability of the extended systems. *)
+(* Theorem 2, Remark 2, the exact condition on the n_i over every extension field, Proposition 3. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From mcexact Require Import multichannel evidence controllability rank_one_repair pencil_space.
 From mcexact Require Import anderson_clements extended joint_controllability neighbor_graph.
@@ -62,7 +61,7 @@ Variables (N : 'I_m -> {set 'I_m}) (k : 'I_m -> nat).
 Hypothesis hears : forall i, i \in N i.
 Implicit Types (S : multichannel K n p q) (lambda : L).
 
-(* delta_s(lambda), the deficiency of DESIGN 2.5, and that of Remark 2 *)
+(* delta_s(lambda), what P_s lacks of rank n, and the same in Remark 2 *)
 Definition deficiency S s lambda := (n - \rank (neighbor_pencil N (map_system f S) s lambda))%N.
 Definition deficiency_states S s lambda := (n - \rank (pencil (map_system f S) s lambda))%N.
 
@@ -104,7 +103,7 @@ Lemma deficient_states0 S s lambda :
   ~~ eigenvalue (map_mx f (mcA S)) lambda -> deficiency_states S s lambda = 0%N.
 Proof. exact: deficient_block0. Qed.
 
-(* DESIGN 2.5: no fixed eigenvalue iff sum_{i in N_s \ s} n_i >= delta_s(lambda) for all s and all
+(* no fixed eigenvalue iff sum_{i in N_s \ s} n_i >= delta_s(lambda) for all s and all
    eigenvalues lambda of A *)
 Theorem extended_no_fixed S :
   (forall lambda : L, ~ fixed_over f (extended N k S) lambda) <->

@@ -7,8 +7,9 @@
    Neighbor graphs: everybody hears everybody, or nobody hears anybody else. *)
 From mathcomp Require Import all_ssreflect all_algebra all_field.
 From mcexact Require Import multichannel evidence controllability rank_one_repair pencil_space.
-From mcexact Require Import transfer_graph anderson_clements extended joint_controllability.
-From mcexact Require Import neighbor_graph extended_bound gain_lines corfmat_morse error_system delays.
+From mcexact Require Import anderson_clements extended joint_controllability.
+From mcexact Require Import neighbor_graph extended_bound gain_lines sequential_gains feedback.
+From mcexact Require Import corfmat_morse error_system delayed_systems held lifted delays.
 From mcexact Require Import free_assignment verdict.
 
 Set Implicit Arguments.

@@ -1,5 +1,5 @@
 (* max over F of rank(N0 - sum_i B_i F_i C_i) = min over s of rank [N0, B_{m-s}; C_s, 0],
-   over every field, with gains F whose entries are natural numbers.  DESIGN 2.1 (c).
+   over every field, with gains F whose entries are natural numbers.
    Rows act as vectors: U is a row space, U *m B i is what channel i feels of it. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 
