@@ -10,7 +10,7 @@ From mcexact Require Import multichannel evidence controllability rank_one_repai
 From mcexact Require Import anderson_clements extended joint_controllability.
 From mcexact Require Import neighbor_graph extended_bound gain_lines sequential_gains feedback.
 From mcexact Require Import corfmat_morse error_system delayed_systems held lifted delays.
-From mcexact Require Import free_assignment verdict.
+From mcexact Require Import delayed_transfer free_assignment verdict.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -443,3 +443,40 @@ Example corfmat_morse_iff_no : ~ exists F, forall o : 'I_2,
 (* verdict.v *)
 Example check_shrunk_fixed_example :=
   @verdict.check_shrunk_fixed _ [fieldType of algC] verdict.example_verdict.
+
+(* delayed_transfer.v *)
+Example lifted_arcs_open : transfer_arc (lifted all_hear (share 1) delay opened) (lift ord0 ord0) ord0.
+Proof. by apply: (lifted_arcs all_hear_self) => //; rewrite /neighbor_arc inE. Qed.
+Example lifted_strongly_connected_open :
+    strongly_connected (transfer_arc (lifted all_hear (share 1) delay opened)).
+Proof.
+apply: (lifted_strongly_connected opened all_hear_self) => //.
+  by move=> i; rewrite /delay eqxx.
+exact: all_strongly_connected.
+Qed.
+Example held_arcs_yes : transfer_arc (held all_hear (share 1) delay opened) (lift ord0 ord0) ord0.
+Proof. by apply/held_arcs => //; rewrite /neighbor_arc inE. Qed.
+Lemma nothing_to_first j : ~~ (neighbor_arc none_hear j ord0 || transfer_arc opened j ord0) || (j == ord0).
+Proof.
+have [->|j0] := eqVneq j ord0; first by rewrite orbT.
+rewrite orbF negb_or /neighbor_arc inE j0; apply/transfer_arcP => -[t].
+by rewrite /= raddf0 mul0mx eqxx.
+Qed.
+Example held_arcs_no : ~ transfer_arc (held none_hear (share 1) delay opened) (lift ord0 ord0) ord0.
+Proof.
+move/(held_arcs (k := share 1) none_hear delay opened ord0 isT).1.
+by have := nothing_to_first (lift ord0 ord0); rewrite orbF => /negP.
+Qed.
+Example held_strongly_connected_yes :
+    strongly_connected (transfer_arc (held all_hear (share 1) delay opened)).
+Proof.
+apply/held_strongly_connected => // j i; apply: connect1.
+by rewrite /neighbor_arc inE.
+Qed.
+Example held_strongly_connected_no :
+    ~ strongly_connected (transfer_arc (held none_hear (share 1) delay opened)).
+Proof.
+move/(held_strongly_connected (k := share 1) none_hear delay opened (fun=> isT)).1.
+move/strongly_connectedP/(_ _ proper0 properT) => [j [i [a]]]; rewrite !inE => j0 /eqP ei.
+by move: a (nothing_to_first j); rewrite ei => ->; rewrite (negPf j0).
+Qed.
