@@ -227,3 +227,146 @@ apply: (@deficiency_rule l6 _ h 1 1 one one stuck 1 (fun=> 0%:M) 1%:M 1%:M 1 (- 
   by rewrite completed char0 bezout.
 exact: root0.
 Qed.
+
+(* Two dead channels: a cut between them. *)
+Notation two := (fun _ : 'I_2 => 1%N).
+Definition dead : multichannel rat 1 two two := Multichannel 0 (fun=> 0) (fun=> 0).
+Lemma zero_dead T T' : zero_transfer dead T T'.
+Proof.
+apply: (@ZeroTransfer _ _ _ _ _ _ _ _ 0 0 (fun i : 'I_0 => ord0)) => [|j _|i _]; by rewrite ?mulmx0 ?mul0mx.
+Qed.
+Lemma proper0 : [set ord0 : 'I_2] != set0. Proof. by apply/set0Pn; exists ord0; rewrite inE. Qed.
+Lemma properT : [set ord0 : 'I_2] != setT.
+Proof. by apply/eqP => /setP/(_ (lift ord0 ord0)); rewrite !inE. Qed.
+Definition inst_cut := zero_transfer_cut (zero_dead _ _) proper0 properT.
+Definition inst_no_cut := completeness_no_cut (zero_dead _ _) proper0 properT.
+Lemma inst_strongly_connected : strongly_connected (map_system up free).
+Proof.
+apply: (@strongly_connected_arcs _ _ _ _ _ _ (fun _ _ => true)) => j i; rewrite !ord1.
+  by move=> _; apply: inst_arc.
+exact: connect0.
+Qed.
+
+(* Single channels. *)
+Lemma inst_single_yes : \rank (reach (map_mx up (closed_loop free (fun=> 1%:M))) (map_mx up (mcB free ord0)) 1) = 1%N.
+Proof.
+have res1 : map_mx (@residue l6) (reach (closed_loop free (fun=> 1%:M)) (mcB free ord0) 1) = \mxrow_(i < 1) 1%:M.
+  by rewrite map_reach /= map_mx1; apply: eq_mxrow => i; rewrite ord1.
+have [] // := @single_channel_yes l6 1 1 one one free _ h (fun=> 1%:M) ord0 1 1%:M (\mxcol_(i < 1) 1%:M) 1%:M.
+- by rewrite res1 mul1mx mxrow_mxcol1.
+- by apply/eqP=> /matrixP/(_ 0 0)/(congr1 (@residue l6))/eqP; rewrite !mxE rmorph1 rmorph0 oner_eq0.
+Qed.
+Lemma inst_single_no_mode : uncontrollable_mode (closed_loop (map_system h (Q stuck)) (fun=> 0)) (mcB (map_system h (Q stuck)) ord0) 0.
+Proof. by apply: (single_channel_no_mode E (f := h) _ isT root0); rewrite inE. Qed.
+
+(* Exceptional gains: K(g) = g loses rank exactly at 0. *)
+Lemma inst_exceptional_lost : (\rank (map_mx (value h 0) (map_mx (map_poly (@Zloc_rat l6)) ('X%:M : 'M_1))) < 1)%N.
+Proof.
+apply: (@exceptional_lost l6 _ h 1 1 'X%:M 'X 1%:M ord0 0 _ _ root0); last by rewrite mxE.
+by move=> i j; rewrite mul1mx !mxE !ord1 eqxx map_polyX dvdpp.
+Qed.
+Lemma inst_exceptional_kept : \rank (map_mx (value h 1) (map_mx (map_poly (@Zloc_rat l6)) ('X%:M : 'M_1))) = 1%N.
+Proof.
+apply: (@exceptional_kept l6 _ h 1 1 'X%:M 1%:M 1%:M 'X 1 1 1 0 1).
+- by rewrite map_mx1 mulmx1 det_scalar1 expr1 rmorph1 mulr1 map_polyX.
+- by rewrite /unit_lead lead_coef1 rmorph1 unitr1.
+- by rewrite rmorph1 mulr1 mul0r addr0.
+- by rewrite map_polyX rootX oner_eq0.
+Qed.
+
+(* Location: x + 1 is Hurwitz, x - 1 is not; x is Schur, x - 1 is not. *)
+Lemma real_XaddC (a : algC) : a \is Num.real -> real_poly ('X - a%:P).
+Proof. by move=> ra; rewrite /real_poly rpredB ?polyOverX ?polyOverC. Qed.
+Lemma inst_hurwitz : hurwitz ('X - (-1)%:P : {poly algC}).
+Proof.
+apply/(@is_hurwitzP _ 1); rewrite ?size_XsubC ?lead_coefXsubC ?ltr01//; first by apply: real_XaddC; rewrite rpredN1.
+by rewrite /= size_XsubC /= coefB coefX coefC /= sub0r opprK ltr01.
+Qed.
+Lemma inst_not_hurwitz : ~ hurwitz ('X - 1%:P : {poly algC}).
+Proof.
+apply/(@is_hurwitzP _ 1); rewrite ?size_XsubC ?lead_coefXsubC ?ltr01//; first by apply: real_XaddC; rewrite rpred1.
+by rewrite /= size_XsubC /= coefB coefX coefC /= sub0r oppr_gt0 ltr10.
+Qed.
+Lemma inst_schur : schur ('X - 0%:P : {poly algC}).
+Proof.
+apply/(@is_schurP _ 1); rewrite ?size_XsubC ?polyXsubC_eq0//; first by apply: real_XaddC; rewrite rpred0.
+by rewrite /= size_XsubC /= !coefB !coefX !coefC /= subrr subr0 normr0 normr1 ltr01.
+Qed.
+Lemma inst_not_schur : ~ schur ('X - 1%:P : {poly algC}).
+Proof.
+apply/(@is_schurP _ 1); rewrite ?size_XsubC ?polyXsubC_eq0//; first by apply: real_XaddC; rewrite rpred1.
+by rewrite /= size_XsubC /= !coefB !coefX !coefC /= sub0r subr0 normrN normr1 ltxx.
+Qed.
+
+(* A disc about the root of x. *)
+Lemma inst_root_discs : exists z : 'I_1 -> algC, forall x, root 'X x <-> exists i, x = z i.
+Proof.
+have [] := @root_discs [numClosedFieldType of algC] 'X 0 (fun=> 1) (fun=> 1).
+- by rewrite size_polyX.
+- by move=> _; apply: ler01.
+- by move=> _; rewrite hornerX derivX hornerC.
+- by move=> i j; rewrite !ord1 eqxx.
+by move=> z [_ zP _]; exists z.
+Qed.
+
+(* Lyapunov: M = -1 in continuous time, M = 0 in discrete time, P = R = R2 = 1. *)
+Lemma real1 : real_mx (1%:M : 'M[algC]_1). Proof. by move=> i j; rewrite !ord1 mxE eqxx rpred1. Qed.
+Lemma dominant1 (a : algC) : 0 < a -> dominant (a%:M : 'M_1).
+Proof. by move=> a0 i; rewrite big1 ?ord1 ?mxE ?eqxx// => j; rewrite !ord1 eqxx. Qed.
+Lemma inst_lyapunov_continuous lambda : eigenvalue (- 1%:M : 'M[algC]_1) lambda -> 'Re lambda < - 0.
+Proof.
+have rM : real_mx (- 1%:M : 'M[algC]_1) by move=> i j; rewrite mxE rpredN real1.
+apply: (stability_continuous rM real1 real1 real1 (rpred0 _) (trmx1 _ _)).
+  by rewrite trmx1 !mulmx1; apply: dominant1; apply: ltr01.
+have tN : (- 1%:M : 'M[algC]_1)^T = - 1%:M by apply/matrixP=> i j; rewrite !mxE !ord1.
+rewrite mul0rn scale0r addr0 tN trmx1 !mulmx1 !mul1mx opprD opprK.
+have -> : 1%:M + 1%:M = (1 + 1)%:M :> 'M[algC]_1 by rewrite raddfD.
+by apply: dominant1; rewrite addr_gt0 ?ltr01.
+Qed.
+Lemma inst_lyapunov_discrete lambda : eigenvalue (0 : 'M[algC]_1) lambda -> `|lambda| < 1.
+Proof.
+have rM : real_mx (0 : 'M[algC]_1) by move=> i j; rewrite mxE rpred0.
+apply: (stability_discrete rM real1 real1 real1 ler01 (trmx1 _ _)).
+  by rewrite trmx1 !mulmx1; apply: dominant1; apply: ltr01.
+rewrite trmx0 !mul0mx subr0 trmx1 mul1mx mulmx1 expr1n scale1r; apply: dominant1; exact: ltr01.
+Qed.
+Lemma inst_blocks lambda : eigenvalue (block_mx (0 : 'M[algC]_1) 1%:M 0 (0 : 'M_1)) lambda -> `|lambda| < 1.
+Proof.
+apply: (@stability_blocks _ 1 1 _ 1%:M 0 1%:M 0 (fun x => `|x| < 1)); first exact: unitmx1.
+- by rewrite mulmx1 mul1mx.
+- exact: inst_lyapunov_discrete.
+- exact: inst_lyapunov_discrete.
+Qed.
+
+(* One variable, one cut n >= 1: the tree is one leaf with multiplier 1. *)
+Lemma inst_branch_tree x : covers (fun _ : 'I_1 => setT) (fun=> 1%N) x -> 1 <= cost (fun _ : 'I_1 => 1) x.
+Proof.
+apply: (@branch_tree _ _ (fun _ : 'I_1 => setT) (fun=> 1%N) (fun=> 1) 1 1 (fun=> 0%N) (fun=> None)
+  (Multipliers _ (fun=> 1))) => //.
+- by move=> _; exists 1.
+- by exists 1.
+rewrite /= /leaf /bound /part /reduced; apply/andP; split.
+  by apply/andP; split; apply/forallP => i; rewrite ?ler01// big_ord1_cond inE subrr lexx.
+by rewrite !big_ord1 big_ord1_cond inE subrr lexx mul0r addr0 mulr1 invr1 ltr_addl ltr01.
+Qed.
+Lemma inst_infeasible (x : 'I_1 -> nat) : (x ord0 <= 0)%N -> ~ covers (fun _ : 'I_1 => setT) (fun=> 1%N) x.
+Proof.
+move=> x0; apply: (@branch_tree_infeasible _ _ (fun _ : 'I_1 => setT) (fun=> 1%N) (fun=> 0%N)
+  (fun=> Some 0%N) (Violated _ ord0)).
+  by rewrite /= /violated big1 // andbT; apply/forall_inP.
+by move=> i; split=> // u [<-]; rewrite ord1.
+Qed.
+
+(* Set-points. *)
+Lemma inst_setpoint_rank : \rank (map_mx up (1%:M : 'M_1)) = 1%N.
+Proof.
+apply: (@setpoint_rank l6 _ h 1 1 1 1%:M 1%:M 1%:M 0 (fun=> ord0)) => //.
+- by rewrite map_mx1 !mulmx1.
+- by rewrite mul0mx.
+- by apply/matrixP=> -[].
+Qed.
+Lemma inst_normal_rank : (\rank (map_mx (horner_eval 0%R) (0%R : 'M[{poly algC}]_1)) < 1)%N.
+Proof.
+apply: (@normal_rank_deficient _ 1 1 0 1%:M) => //; last by rewrite mulmx0.
+by apply/eqP=> /matrixP/(_ 0 0)/eqP; rewrite !mxE oner_eq0.
+Qed.
