@@ -6,7 +6,7 @@
 From mathcomp Require Import all_ssreflect all_algebra all_field.
 From mcexact Require Import multichannel arithmetic evidence controllability transfer_graph.
 From mcexact Require Import fixed_spectrum completeness deficiency single_channel_gains.
-From mcexact Require Import exceptional_gains location root_discs stability allocation setpoint.
+From mcexact Require Import exceptional_gains location mobius root_discs stability allocation setpoint.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.Theory GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -370,3 +370,10 @@ Proof.
 apply: (@normal_rank_deficient _ 1 1 0 1%:M) => //; last by rewrite mulmx0.
 by apply/eqP=> /matrixP/(_ 0 0)/eqP; rewrite !mxE oner_eq0.
 Qed.
+
+(* The Moebius transform of a Schur polynomial is Hurwitz; that of x - 1 is not. *)
+Lemma nonzero_XsubC (a : algC) : 'X - a%:P != 0. Proof. by rewrite polyXsubC_eq0. Qed.
+Definition inst_mobius := ((schur_mobius (nonzero_XsubC 0)).1 inst_schur).2.
+Lemma inst_not_mobius :
+  ~ (('X - 1%:P : {poly algC}).[-1] != 0 /\ hurwitz (transformed ('X - 1%:P : {poly algC}))).
+Proof. by move/(schur_mobius (nonzero_XsubC 1))/inst_not_schur. Qed.
