@@ -6,7 +6,7 @@
 From mathcomp Require Import all_ssreflect all_algebra all_field.
 From mcexact Require Import multichannel arithmetic evidence controllability transfer_graph.
 From mcexact Require Import fixed_spectrum completeness deficiency single_channel_gains.
-From mcexact Require Import exceptional_gains location mobius root_discs stability allocation setpoint.
+From mcexact Require Import exceptional_gains location mobius root_discs stability instability allocation setpoint.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.Theory GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -377,3 +377,34 @@ Definition inst_mobius := ((schur_mobius (nonzero_XsubC 0)).1 inst_schur).2.
 Lemma inst_not_mobius :
   ~ (('X - 1%:P : {poly algC}).[-1] != 0 /\ hurwitz (transformed ('X - 1%:P : {poly algC}))).
 Proof. by move/(schur_mobius (nonzero_XsubC 1))/inst_not_schur. Qed.
+
+(* Instability: M = 1, P = -1 in continuous time; M = 2, P = -1 in discrete time. *)
+Lemma form1 (a : algC) (x : 'cV_1) : form (a%:M : 'M_1) x = `|x 0 0| ^+ 2 * a.
+Proof. by rewrite formE !big_ord1 !mxE eqxx mulr1n sqr_norm mulrAC [_^* * _]mulrC. Qed.
+Lemma posdef1 (a : algC) : 0 < a -> posdef (a%:M : 'M_1).
+Proof.
+move=> a0 x nx; rewrite form1 mulr_gt0// exprn_gt0// normr_gt0.
+by apply: contra nx => /eqP x0; apply/eqP/matrixP=> i j; rewrite !ord1 x0 mxE.
+Qed.
+Lemma adjoint1 (a : algC) : a \is Num.real -> adjoint (a%:M : 'M_1) = a%:M.
+Proof. by move=> ra; rewrite /adjoint tr_scalar_mx map_scalar_mx /= (CrealP ra). Qed.
+Lemma one_neq0 : (1%:M : 'M[algC]_1) != 0.
+Proof. by apply/eqP=> /matrixP/(_ 0 0)/eqP; rewrite !mxE oner_eq0. Qed.
+Lemma inst_instability_continuous : ~ (forall lambda, eigenvalue (1%:M : 'M[algC]_1) lambda -> 'Re lambda < - 0).
+Proof.
+apply: (@instability_continuous _ 1 1%:M (-1)%:M 0 1%:M).
+- by rewrite adjoint1// rpredN1.
+- rewrite mul0rn scale0r addr0 adjoint1 ?rpred1// mul1mx mulmx1 -!raddfD -raddfN; apply: posdef1.
+  by rewrite ?opprD !opprK addr_gt0 ?ltr01.
+- exact: one_neq0.
+- by rewrite form1 mxE eqxx normr1 expr1n mul1r oppr_le0 ler01.
+Qed.
+Lemma inst_instability_discrete : ~ (forall lambda, eigenvalue (2%:R%:M : 'M[algC]_1) lambda -> `|lambda| < 1).
+Proof.
+apply: (@instability_discrete _ 1 2%:R%:M (-1)%:M 1 1%:M) => //.
+- by rewrite adjoint1// rpredN1.
+- rewrite expr1n scale1r adjoint1 ?realn// -!scalar_mxM -raddfB; apply: posdef1.
+  by rewrite mulrN1 mulNr opprK addrC subr_gt0 -natrM ltr1n.
+- exact: one_neq0.
+- by rewrite form1 mxE eqxx normr1 expr1n mul1r oppr_le0 ler01.
+Qed.
