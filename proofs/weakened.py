@@ -1,7 +1,7 @@
 """Weaken one hypothesis of each rule and show that its proof then fails, and where.
 
 `weakened.txt` has one line for each: file, rule, what is weakened, text, replacement, in which ⏎
-stands for the end of a line.  Only the first occurrence of the text is replaced, in a copy of the file.
+stands for the end of a line.  Only the first occurrence is replaced, in a copy of the file.
 """
 
 from __future__ import annotations
