@@ -9,8 +9,9 @@ from dataclasses import dataclass
 from mcexact.analysis.modular_system import (
     Gains,
     ModularSystem,
-    closed_loop,
     drawn_gains,
+    loop_polynomials,
+    quick_bits,
     residue_systems,
 )
 from mcexact.analysis.shrunk_subspace import ExactSubspace, shrunk_subspace
@@ -74,8 +75,9 @@ def decide(system: MultiChannelSystem, rng: random.Random) -> Decision:
 
     Notes
     -----
-    F is uniform modulo a word-size prime.  Where χ_A and χ_{A_F} are coprime modulo the prime, as
-    they nearly always are when nothing is fixed, that is all: two characteristic polynomials.
+    F is uniform modulo a prime.  Where χ_A and χ_{A_F} are coprime modulo the prime, as they nearly
+    always are when nothing is fixed, that is all: two characteristic polynomials, for many states
+    modulo a prime of some 22 bits (see `mcexact.exact.krylov`).
     Otherwise their common factors modulo one or more primes are lifted to a factor of χ_A over Q,
     which is factored; from then on primes have 61 bits, so that the exponents in χ_{A_F} are the
     least ones but for an accident.  Each irreducible factor has a shrunk subspace or falls away.
@@ -83,12 +85,11 @@ def decide(system: MultiChannelSystem, rng: random.Random) -> Decision:
     """
     lift: CommonFactor | None = None
     known: dict[Polynomial, ExactSubspace | None] = {}
-    for modular in itertools.chain(
-        itertools.islice(residue_systems(system, rng), 1), residue_systems(system, rng, bits=61)
-    ):
+    quick = itertools.islice(residue_systems(system, rng, quick_bits(system)), 1)
+    for modular in itertools.chain(quick, residue_systems(system, rng, bits=61)):
         gains = drawn_gains(modular, rng)
-        closed = closed_loop(modular, gains).characteristic_polynomial()
-        common = modular.A.characteristic_polynomial().gcd(closed)
+        opened, closed = loop_polynomials(modular, gains)
+        common = opened.gcd(closed)
         if common.degree == 0:
             return Decision(modular, gains, closed, ())
         if modular.modulus < 2**30:

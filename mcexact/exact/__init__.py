@@ -14,6 +14,7 @@ No other stage imports flint: sizes and moduli that it would abort on are refuse
 `linear_algebra`   ranks, kernels, solutions, characteristic polynomials over Q
 `polynomial`       rational polynomials
 `modular`          matrices and polynomials modulo word-size primes
+`krylov`           characteristic polynomials modulo smaller primes, by exact float products
 `reconstruction`   rational numbers from their residues
 `number_field`     matrices of polynomials; kernels and ranks over Q[x]/(p)
 `location`         Hurwitz and Schur tests, stability regions

@@ -1,0 +1,70 @@
+"""Loops closed modulo a prime: by floats and without them, the polynomials are the same."""
+
+import random
+
+import pytest
+
+from mcexact.analysis.fixed_spectrum import fixed_spectrum
+from mcexact.analysis.modular_system import (
+    closed_loop,
+    drawn_gains,
+    generator,
+    loop_polynomials,
+    quick_bits,
+    residue_systems,
+)
+from mcexact.certificate import codec
+from mcexact.checker import check_document
+from mcexact.derived.choices import SeededChoices
+from mcexact.derived.drawn import system_with_fixed_mode
+from mcexact.exact.matrix import Matrix
+from mcexact.model.system import MultiChannelSystem
+
+
+def drawn(n: int, widths: list[tuple[int, int]], seed: int) -> MultiChannelSystem:
+    """Dense integer matrices, with a denominator in A."""
+    rng = random.Random(seed)
+
+    def matrix(rows: int, cols: int, denominator: int = 1) -> Matrix:
+        table = [[rng.randint(-99, 99) for _ in range(cols)] for _ in range(rows)]
+        return Matrix.from_integers(table, denominator, ncols=cols)
+
+    B, C = [matrix(n, p) for p, _ in widths], [matrix(q, n) for _, q in widths]
+    return MultiChannelSystem(matrix(n, n, 6), B, C)
+
+
+def test_polynomials_of_large_loops_are_those_of_the_matrices() -> None:
+    system = drawn(140, [(1, 2), (3, 1), (2, 2)], seed=3)
+    modular = next(residue_systems(system, generator(system, "test"), quick_bits(system)))
+    assert modular.modulus < 2**24
+    gains = drawn_gains(modular, random.Random(4))
+    assert loop_polynomials(modular, gains) == (
+        modular.A.characteristic_polynomial(),
+        closed_loop(modular, gains).characteristic_polynomial(),
+    )
+
+
+def test_many_outputs_make_the_prime_smaller() -> None:
+    narrow = drawn(128, [(1, 1)], seed=1)
+    wide = drawn(128, [(1, 2000), (1, 1)], seed=1)
+    assert quick_bits(wide) < quick_bits(narrow)
+    modular = next(residue_systems(wide, generator(wide, "test"), quick_bits(wide)))
+    gains = drawn_gains(modular, random.Random(4))
+    closed = closed_loop(modular, gains).characteristic_polynomial()
+    assert loop_polynomials(modular, gains)[1] == closed
+
+
+def test_a_large_system_without_fixed_modes_is_certified() -> None:
+    spectrum = fixed_spectrum(drawn(128, [(1, 1)] * 8, seed=2))
+    assert spectrum.empty and spectrum.certificate.modulus < 2**24
+    verdict = check_document(codec.encode(spectrum.certificate).encode())
+    assert verdict.verdict == "VALID", verdict
+
+
+@pytest.mark.parametrize("degree", [1, 2])
+def test_a_planted_mode_is_found_among_128_states(degree: int) -> None:
+    planted = system_with_fixed_mode(SeededChoices(degree), states=128, channels=6, degree=degree)
+    spectrum = fixed_spectrum(planted.system)
+    assert planted.fixed_mode in [f.polynomial for f in spectrum.factors]
+    verdict = check_document(codec.encode(spectrum.certificate).encode())
+    assert verdict.verdict == "VALID", verdict
