@@ -1,0 +1,67 @@
+(* The rules for loops and for the places of their roots applied to concrete polynomials and matrices, with
+   every hypothesis discharged and every equivalence on either side; see instances.v for the other rules. *)
+From mathcomp Require Import all_ssreflect all_algebra all_field.
+From mcexact Require Import location mobius moved_roots.
+Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
+Import Order.Theory GRing.Theory Num.Theory.
+Local Open Scope ring_scope.
+Notation up := (map_poly (ratr : rat -> algC)).
+
+(* x + 2: every real part is below -1, but not below -3. *)
+Lemma shifted_XsubC (a b : rat) : shifted ('X - a%:P) b = 'X - (a + b)%:P.
+Proof. by rewrite shiftedE comp_polyB comp_polyX comp_polyC polyCD opprD addrA addrAC. Qed.
+Lemma hurwitz1 (a : rat) : is_hurwitz 1 ('X - a%:P) = (a < 0).
+Proof. by rewrite /= size_XsubC /= coefB coefX coefC /= sub0r oppr_gt0 andbT. Qed.
+Lemma inst_rate (z : algC) : root (up ('X - (-2%:~R)%:P)) z -> 'Re z < - ratr 1.
+Proof.
+move: z; apply/(region_continuous _ 1 (monicXsubC _)).
+by rewrite size_XsubC shifted_XsubC hurwitz1.
+Qed.
+Lemma inst_not_rate : ~ (forall z : algC, root (up ('X - (-2%:~R)%:P)) z -> 'Re z < - ratr 3%:~R).
+Proof.
+apply/(region_continuous _ _ (monicXsubC _)).
+by rewrite size_XsubC shifted_XsubC hurwitz1.
+Qed.
+
+(* x - 1/2: every modulus is below 1, but not below 1/4, and the root of x - 1 is not below 1. *)
+Lemma moebius1 (a b : rat) : b != 0 ->
+  moebius (scaled ('X - a%:P) b) = (b + a) *: 'X + (b - a)%:P.
+Proof.
+move=> b0; rewrite /moebius /scaled size_XsubC polyseq_poly; last by rewrite coefB coefX coefC subr0 mul1r expr1.
+rewrite /mkseq /= !coefB !coefX !coefC /= sub0r subr0 expr0 expr1 !mulr1 mul1r mulr0 add0r.
+rewrite -scalerAr mulr1 scalerDr scalerBr !alg_polyC polyCB scalerDl scaleNr opprK -polyCN.
+by rewrite addrACA addrC.
+Qed.
+Lemma hurwitz_moebius1 (a b : rat) : 0 < b ->
+  schur_by_moebius (scaled ('X - a%:P) b) = (b + a != 0) && (0 < (b + a)^-1 * (b - a)).
+Proof.
+move=> b0; have nb : b != 0 by rewrite gt_eqF.
+have s2 : size (scaled ('X - a%:P) b) = 2%N.
+  rewrite /scaled size_XsubC size_poly_eq// coefB coefX coefC subr0 mul1r expr1 //.
+rewrite /schur_by_moebius s2 moebius1//= coefD coefZ coefX coefC mulr1 addr0; case: eqP => //= /eqP n0.
+have -> : size ((b + a)^-1 *: ((b + a) *: 'X + (b - a)%:P)) = 2%N.
+  by rewrite size_scale ?invr_eq0// -mul_polyC size_MXaddC polyC_eq0 (negPf n0) /= size_polyC n0.
+by rewrite /= andbT coefZ coefD coefZ coefX coefC mulr0 add0r.
+Qed.
+Lemma inst_radius (z : algC) : root (up ('X - 2%:R^-1%:P)) z -> `|z| < ratr 1.
+Proof.
+move: z; apply/(region_discrete _ (monic_neq0 (monicXsubC _)) ltr01).
+by rewrite hurwitz_moebius1.
+Qed.
+Lemma inst_not_radius : ~ (forall z : algC, root (up ('X - 2%:R^-1%:P)) z -> `|z| < ratr 4%:R^-1).
+Proof.
+apply/(@region_discrete _ _ 4%:R^-1 (monic_neq0 (monicXsubC _))); first by [].
+by rewrite hurwitz_moebius1.
+Qed.
+Lemma scaled1 (p : {poly rat}) : scaled p 1 = p.
+Proof. by apply/polyP=> i; rewrite coef_poly expr1n mulr1; case: ltnP => // /leq_sizeP->. Qed.
+Lemma inst_schur_by_moebius : schur (up ('X - 2%:R^-1%:P)).
+Proof. by apply/(schur_by_moebiusP _ (monic_neq0 (monicXsubC _))); rewrite -[_ - _]scaled1 hurwitz_moebius1. Qed.
+Lemma inst_not_schur_by_moebius : ~ schur (up ('X - (-1)%:P)).
+Proof. by apply/(schur_by_moebiusP _ (monic_neq0 (monicXsubC _))); rewrite -['X - _]scaled1 hurwitz_moebius1. Qed.
+Lemma inst_shifted_roots : root (shifted ('X : {poly algC}) 3%:R) 3%:R.
+Proof. by rewrite shifted_roots subrr rootX. Qed.
+Lemma inst_scaled_roots : root (scaled ('X - 6%:R%:P : {poly algC}) 3%:R) 2%:R.
+Proof. by rewrite scaled_roots -natrM root_XsubC. Qed.
+Lemma inst_rate_rule : hurwitz (shifted (up ('X - (-2%:~R)%:P)) (ratr 1)).
+Proof. by apply/(rate_rule _ (ratr_real _ _)); apply: inst_rate. Qed.
