@@ -1,7 +1,7 @@
 (* The rules for loops and for the places of their roots applied to concrete polynomials and matrices, with
    every hypothesis discharged and every equivalence on either side; see instances.v for the other rules. *)
 From mathcomp Require Import all_ssreflect all_algebra all_field.
-From mcexact Require Import location mobius moved_roots.
+From mcexact Require Import arithmetic location mobius moved_roots closed_loop_spectrum.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.Theory GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -65,3 +65,29 @@ Lemma inst_scaled_roots : root (scaled ('X - 6%:R%:P : {poly algC}) 3%:R) 2%:R.
 Proof. by rewrite scaled_roots -natrM root_XsubC. Qed.
 Lemma inst_rate_rule : hurwitz (shifted (up ('X - (-2%:~R)%:P)) (ratr 1)).
 Proof. by apply/(rate_rule _ (ratr_real _ _)); apply: inst_rate. Qed.
+
+(* The spectrum of the matrix 1/2 by the moduli 3 and 5; their product is above 2 * 3. *)
+Definition moduli_3_5 (a : 'I_2) : modulus := if val a == 0%N then @Modulus 3 isT else @Modulus 5 isT.
+Definition matrix_half : 'M[rat]_1 := \matrix_(i, j) (1%:~R / 2%:R).
+Lemma inst_closed_loop_spectrum : char_poly matrix_half = 'X - 2%:R^-1%:P.
+Proof.
+have e : matrix_half = \matrix_(i, j) (((1%:M : 'M[int]_1) i j)%:~R / 2%:R).
+  by apply/matrixP=> i j; rewrite !mxE !ord1.
+have eD : D 2 (1%:M : 'M_1) = 2%N by rewrite /D /row_gcd !big_ord1 mxE eqxx.
+have eb : beta 2 (1%:M : 'M_1) = 3%N by rewrite /beta /row_gcd !big_ord1 mxE eqxx.
+rewrite e; apply: (@closed_loop_spectrum 1 2 moduli_3_5) => //; rewrite ?eD ?eb.
+- case=> [|[|k]]; rewrite coefB coefX coefC /=.
+  + by exists (-1).
+  + by exists 2%:Z.
+  + by exists 0; rewrite // subrr mulr0.
+- by move=> [[|[|a]] lt] //; rewrite big_mkcond /= !big_ord_recl big_ord0.
+- by rewrite !big_ord_recl big_ord0.
+- by case=> [[|[|a]]].
+move=> a; set l := moduli_3_5 a; have l2 : coprime l 2 by rewrite /l; case: a {l} => [[|[|]]].
+have u2 := unit_nat_modulus l2; rewrite /char_poly det_mx11 !mxE eqxx mulr1n.
+apply/polyP=> k; rewrite [RHS]coef_poly size_XsubC 2!coefB 2!coefX 2!coefC.
+case: k => [|[|k]] //=; last by rewrite !subr0.
+  apply: (mulIr u2); rewrite !sub0r mulNr divrK//.
+  by rewrite (@residue_ratE _ _ _ (-1))// rmorphN1.
+by rewrite !subr0; apply: (mulIr u2); rewrite (@residue_ratE _ _ _ 2%:Z)// mul1r -pmulrn.
+Qed.
