@@ -1,11 +1,12 @@
 """Print the assumptions of every theorem in this folder and fail unless there are none.
 
 `theorems.txt` names for every rule of the checker the theorem that justifies it; each name there
-must be a theorem here.
+must be a theorem here, and be applied to a concrete system in one of the files `instances*.v`.
 """
 
 from __future__ import annotations
 
+import hashlib
 import re
 import subprocess
 import sys
@@ -32,12 +33,28 @@ def listed() -> list[str]:
     return [line.split()[0] for line in lines if line.strip() and not line.startswith("#")]
 
 
+def applied() -> set[str]:
+    """What the files of instances refer to, by the record that Coq keeps of every reference."""
+    reference = re.compile(r"^R\d+:\d+ mcexact\.(\w+) \S+ (\w+) thm$", re.MULTILINE)
+    found = set()
+    for source in sorted(HERE.glob("instances*.v")):
+        record = source.with_suffix(".glob").read_text(encoding="utf-8")
+        if record.split()[:2] != ["DIGEST", hashlib.md5(source.read_bytes()).hexdigest()]:
+            raise SystemExit(f"{source.name} has changed since it was compiled")
+        found |= {".".join(names) for names in reference.findall(record)}
+    return found
+
+
 def main(flags: list[str]) -> int:
     """Compile one file of `Print Assumptions` and read the answers."""
     names = theorems()
     missing = sorted(set(listed()) - set(names))
     if missing:
         print("listed, but not a theorem:", ", ".join(missing))
+        return 1
+    vacuous = sorted(set(listed()) - applied())
+    if vacuous:
+        print("listed, but never applied in instances*.v:", ", ".join(vacuous))
         return 1
     files = " ".join(sorted({name.split(".")[0] for name in names}))
     prints = "".join(f"Print Assumptions {name}.\n" for name in names)
@@ -53,6 +70,7 @@ def main(flags: list[str]) -> int:
         print(run.stderr)
         return 1
     print(f"{len(names)} theorems, all: {CLOSED}")
+    print(f"{len(listed())} listed in theorems.txt, each applied to a concrete system")
     return 0
 
 

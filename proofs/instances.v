@@ -1,12 +1,13 @@
-(* Every rule of the checker applied to a concrete system, with every hypothesis discharged, so that no
-   theorem is vacuous; the paper's theorems have their own instances.
+(* The rules of the checker applied to concrete systems, with every hypothesis discharged, so that no
+   theorem is vacuous; every equivalence to one system on each side.  The other files instances_*.v do
+   the same for the rules and theorems that they are named for.
 
    One state, one channel, A = 0, C = 1, and B = 1 (free) or B = 0 (stuck: the mode 0 is fixed).
    The modulus is 6, which is not prime, and the field is that of the algebraic numbers. *)
 From mathcomp Require Import all_ssreflect all_algebra all_field.
 From mcexact Require Import multichannel arithmetic evidence controllability transfer_graph.
 From mcexact Require Import fixed_spectrum completeness deficiency single_channel_gains.
-From mcexact Require Import exceptional_gains location mobius root_discs stability instability allocation setpoint.
+From mcexact Require Import exceptional_gains.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.Theory GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -65,12 +66,31 @@ Definition inst_shrunk_fixed_dynamic (k : 'I_1 -> nat) (D : controllers algCfiel
   shrunk_subspace_fixed_dynamic E root0 D isT.
 Definition inst_loop_rank := loop_rank_pencil (map_system h (Q free)) setT 0 (fun=> 1%:M).
 
+(* The same at one point of the larger field. *)
+Definition inst_shrunk_point (F : gains algCfield one one) :=
+  shrunk_rank (certificate_shrunk E root0) (certificate_free E root0) F (certificate_count E h).
+Definition inst_shrunk_pencil_point :=
+  shrunk_pencil_rank (certificate_shrunk E root0) (certificate_free E root0) (certificate_count E h).
+Definition inst_shrunk_dynamic_point (k : 'I_1 -> nat) (D : controllers algCfield one one k) :=
+  shrunk_dynamic_rank D (certificate_shrunk E root0) (certificate_free E root0) (certificate_count E h).
+
 Lemma inst_fixed_spectrum (lambda : algC) :
   fixed (map_system h (Q stuck)) lambda <-> root (map_poly h (\prod_(i < 1) 'X)) lambda.
 Proof.
 apply: (@fixed_spectrum_rule l6 _ _ _ _ stuck 1 (fun=> 'X) (fun=> 1%N) (fun=> setT) (fun=> 1%N)
   (fun=> E) (fun=> 0) 1 1 0) => //; first exact: monic1.
   by rewrite big_ord1 expr1 rmorph1 mulr1 char0 map_polyX.
+by rewrite rmorph1 mulr1 mul0r addr0.
+Qed.
+
+Lemma inst_fixed_yes : fixed (map_system h (Q stuck)) 0.
+Proof. by apply/inst_fixed_spectrum; rewrite big_ord1 map_polyX rootX. Qed.
+Lemma inst_fixed_no : ~ fixed (map_system h (Q stuck)) 1.
+Proof. by move/inst_fixed_spectrum; rewrite big_ord1 map_polyX rootX oner_eq0. Qed.
+Lemma inst_absence : root (map_poly h 'X) 0.
+Proof.
+apply: (@absence l6 _ _ _ _ stuck _ h (fun=> 1) 1 'X 1 0 0); [exact: monic1| | |exact: inst_shrunk_fixed].
+  by rewrite rmorph1 mulr1 char0 map_polyX.
 by rewrite rmorph1 mulr1 mul0r addr0.
 Qed.
 
@@ -105,6 +125,8 @@ Qed.
 
 (* Both coprimality rules, and why a leading coefficient has to be a unit: 1 + 6x and 1 + 6x are
    coprime modulo 6, and share the root -1/6. *)
+Definition inst_coprime_modulo : coprimep (map_poly up 'X) (map_poly up ('X - 1)) :=
+  coprime_modulo h (monic_unit_lead (monicX _)) bezout.
 Lemma inst_no_common_root : ~~ root (map_poly (into h) ('X - 1 : {poly R})) 0.
 Proof. by apply: (no_common_root _ bezout root0'); apply: monic_unit_lead; apply: monicX. Qed.
 
@@ -181,11 +203,41 @@ apply: (@indices_rule l6 1 1 0 1%:M algCfield h 1 1 0 0 1%:M (\mxcol_(i < 1) 1%:
 - by rewrite res_reach1 mul1mx mxrow_mxcol1.
 Qed.
 
+(* Ranks from above, and ranks that stop: [B], [B, A B], ... for A = 0, B = 1. *)
+Lemma inst_rank_from_above : (\rank (0%R : 'M[algC]_1) <= 1 - 1)%N.
+Proof. by apply: (@rank_from_above _ 1 1 1 0 1%:M); rewrite ?mulmx0// /row_free mxrank1. Qed.
+Lemma reach_full k : (0 < k)%N -> \rank (reach (0 : 'M[algC]_1) 1%:M k) = 1%N.
+Proof.
+move=> k0; apply/eqP; rewrite -[_ == _]/(row_free _) -kermx_eq0.
+have /reach_annihilated/(_ 0%N k0) := mulmx_ker (reach (0 : 'M[algC]_1) 1%:M k).
+by rewrite /krylov /= mulmx1 => ->.
+Qed.
+Lemma inst_indices_stationary : \rank (reach (0 : 'M[algC]_1) 1%:M 5) = \rank (reach (0 : 'M[algC]_1) 1%:M 1).
+Proof. by apply: indices_stationary; rewrite ?reach_full. Qed.
+
+(* A = 0, B = 0, W = 1, Z = 0: the uncontrollable space is everything. *)
+Lemma row_free1 : row_free (1%:M : 'M[algC]_1). Proof. by rewrite /row_free mxrank1. Qed.
+Notation zero1 := (0 : 'M[algC]_1).
+Lemma annihilates : 1%:M *m zero1 = 0 *m 1%:M. Proof. by rewrite mulmx0 mul0mx. Qed.
+Definition inst_uncontrollable_space := uncontrollable_space 1 row_free1 annihilates (mulmx0 1 1%:M).
+Lemma inst_uncontrollable_modes lambda : uncontrollable_mode zero1 zero1 lambda = (lambda == 0).
+Proof.
+by rewrite (uncontrollable_modes lambda row_free1 annihilates (mulmx0 1 1%:M) (k := 1))// char0 rootX.
+Qed.
+Definition inst_uncontrollable_divides := uncontrollable_polynomial_divides row_free1 annihilates.
+
 (* Transfer graph: the one arc of free, none in stuck. *)
 Lemma res_markov1 : map_mx (@residue l6) (mcC free ord0 *m krylov (mcA free) (mcB free ord0) 0) != 0.
 Proof. by rewrite /= mulmx1 map_mx1; apply/eqP=> /matrixP/(_ 0 0)/eqP; rewrite !mxE oner_eq0. Qed.
 Lemma inst_arc : arc (map_system up free) ord0 ord0.
 Proof. exact: (@arc_rule l6 _ _ _ _ free _ h ord0 ord0 0%N isT res_markov1). Qed.
+Lemma inst_transfer_markov : transfer (0 : 'M[rat]_1) 1%:M 1%:M != 0.
+Proof.
+apply: transfer_markov; exists 0%N; rewrite /krylov /= mulmx1.
+by apply/eqP=> /matrixP/(_ 0 0)/eqP; rewrite !mxE oner_eq0.
+Qed.
+Lemma inst_transfer0_markov : transfer (0 : 'M[rat]_1) 0 1%:M = 0 :> 'M_1.
+Proof. by apply: transfer0_markov => k; rewrite (krylov_annihilated _ (Z := 0)) ?mulmx0 ?mul0mx. Qed.
 Lemma zero_stuck T T' : zero_transfer (map_system up stuck) T T'.
 Proof.
 apply: (@ZeroTransfer _ _ _ _ _ _ _ _ 0 0 (fun i : 'I_0 => ord0)).
@@ -197,6 +249,11 @@ Lemma inst_no_arc : ~~ arc (map_system up stuck) ord0 ord0.
 Proof. by apply: (zero_transfer_no_arc (zero_stuck setT setT)); rewrite inE. Qed.
 Lemma inst_transfer_graph : arc (map_system up free) =2 (fun _ _ => true).
 Proof. by apply: transfer_graph_rule => // j i _; exists 0%N; rewrite // !ord1 res_markov1. Qed.
+
+Lemma inst_transfer_graph_empty : arc (map_system up stuck) =2 (fun _ _ => false).
+Proof.
+apply: transfer_graph_rule => // j i _; exists setT, setT, (zero_stuck setT setT); by rewrite !inE.
+Qed.
 
 Lemma inst_complete : complete (Q free).
 Proof.
@@ -226,6 +283,13 @@ Proof.
 apply: (@deficiency_rule l6 _ h 1 1 one one stuck 1 (fun=> 0%:M) 1%:M 1%:M 1 (- 1) 'X setT E 0).
   by rewrite completed char0 bezout.
 exact: root0.
+Qed.
+
+Lemma inst_deficiency_bound (s : {set 'I_1}) (lambda : algC) :
+  (1 <= \rank (pencil (map_system h (Q stuck)) s lambda) + 1)%N.
+Proof.
+apply: (@deficiency_bound l6 _ h 1 1 one one stuck 1 (fun=> 0%:M) 1%:M 1%:M 1 (- 1)).
+by rewrite completed char0 bezout.
 Qed.
 
 (* Two dead channels: a cut between them. *)
@@ -259,6 +323,24 @@ Qed.
 Lemma inst_single_no_mode : uncontrollable_mode (closed_loop (map_system h (Q stuck)) (fun=> 0)) (mcB (map_system h (Q stuck)) ord0) 0.
 Proof. by apply: (single_channel_no_mode E (f := h) _ isT root0); rewrite inE. Qed.
 
+(* The input of the first channel moves one state, the second channel sees the other: a cut. *)
+Definition apart : multichannel rat 2 two two :=
+  Multichannel 0 (fun j => (j == ord0)%:R *: delta_mx ord0 0) (fun i => (i != ord0)%:R *: delta_mx 0 ord_max).
+Lemma zero_apart : zero_transfer apart [set ord0] (~: [set ord0]).
+Proof.
+apply: (@ZeroTransfer _ _ _ _ _ _ _ _ 1 (delta_mx ord0 0) (fun=> ord0)) => [|j|i]; rewrite ?mul0mx.
+- by apply/matrixP=> a b; rewrite !mxE big1// => c _; rewrite !mxE mulr0.
+- rewrite inE => /eqP -> /=; rewrite scale1r; apply/matrixP=> a b.
+  by rewrite !mxE big_ord1 !mxE !ord1 !eqxx mulr1.
+- by rewrite !inE => i0 /=; rewrite i0 scale1r mul_delta_mx_0.
+Qed.
+Lemma inst_single_no_cut (F : gains rat two two) :
+  (\rank (reach (closed_loop apart F) (mcB apart ord0) 2) < 2)%N.
+Proof.
+apply: (single_channel_no_cut zero_apart (i := lift ord0 ord0)); rewrite ?inE//= scale1r.
+by apply/eqP => /matrixP/(_ 0 ord_max)/eqP; rewrite !mxE oner_eq0.
+Qed.
+
 (* Exceptional gains: K(g) = g loses rank exactly at 0. *)
 Lemma inst_exceptional_lost : (\rank (map_mx (value h 0) (map_mx (map_poly (@Zloc_rat l6)) ('X%:M : 'M_1))) < 1)%N.
 Proof.
@@ -272,139 +354,4 @@ apply: (@exceptional_kept l6 _ h 1 1 'X%:M 1%:M 1%:M 'X 1 1 1 0 1).
 - by rewrite /unit_lead lead_coef1 rmorph1 unitr1.
 - by rewrite rmorph1 mulr1 mul0r addr0.
 - by rewrite map_polyX rootX oner_eq0.
-Qed.
-
-(* Location: x + 1 is Hurwitz, x - 1 is not; x is Schur, x - 1 is not. *)
-Lemma real_XaddC (a : algC) : a \is Num.real -> real_poly ('X - a%:P).
-Proof. by move=> ra; rewrite /real_poly rpredB ?polyOverX ?polyOverC. Qed.
-Lemma inst_hurwitz : hurwitz ('X - (-1)%:P : {poly algC}).
-Proof.
-apply/(@is_hurwitzP _ 1); rewrite ?size_XsubC ?lead_coefXsubC ?ltr01//; first by apply: real_XaddC; rewrite rpredN1.
-by rewrite /= size_XsubC /= coefB coefX coefC /= sub0r opprK ltr01.
-Qed.
-Lemma inst_not_hurwitz : ~ hurwitz ('X - 1%:P : {poly algC}).
-Proof.
-apply/(@is_hurwitzP _ 1); rewrite ?size_XsubC ?lead_coefXsubC ?ltr01//; first by apply: real_XaddC; rewrite rpred1.
-by rewrite /= size_XsubC /= coefB coefX coefC /= sub0r oppr_gt0 ltr10.
-Qed.
-Lemma inst_schur : schur ('X - 0%:P : {poly algC}).
-Proof.
-apply/(@is_schurP _ 1); rewrite ?size_XsubC ?polyXsubC_eq0//; first by apply: real_XaddC; rewrite rpred0.
-by rewrite /= size_XsubC /= !coefB !coefX !coefC /= subrr subr0 normr0 normr1 ltr01.
-Qed.
-Lemma inst_not_schur : ~ schur ('X - 1%:P : {poly algC}).
-Proof.
-apply/(@is_schurP _ 1); rewrite ?size_XsubC ?polyXsubC_eq0//; first by apply: real_XaddC; rewrite rpred1.
-by rewrite /= size_XsubC /= !coefB !coefX !coefC /= sub0r subr0 normrN normr1 ltxx.
-Qed.
-
-(* A disc about the root of x. *)
-Lemma inst_root_discs : exists z : 'I_1 -> algC, forall x, root 'X x <-> exists i, x = z i.
-Proof.
-have [] := @root_discs [numClosedFieldType of algC] 'X 0 (fun=> 1) (fun=> 1).
-- by rewrite size_polyX.
-- by move=> _; apply: ler01.
-- by move=> _; rewrite hornerX derivX hornerC.
-- by move=> i j; rewrite !ord1 eqxx.
-by move=> z [_ zP _]; exists z.
-Qed.
-
-(* Lyapunov: M = -1 in continuous time, M = 0 in discrete time, P = R = R2 = 1. *)
-Lemma real1 : real_mx (1%:M : 'M[algC]_1). Proof. by move=> i j; rewrite !ord1 mxE eqxx rpred1. Qed.
-Lemma dominant1 (a : algC) : 0 < a -> dominant (a%:M : 'M_1).
-Proof. by move=> a0 i; rewrite big1 ?ord1 ?mxE ?eqxx// => j; rewrite !ord1 eqxx. Qed.
-Lemma inst_lyapunov_continuous lambda : eigenvalue (- 1%:M : 'M[algC]_1) lambda -> 'Re lambda < - 0.
-Proof.
-have rM : real_mx (- 1%:M : 'M[algC]_1) by move=> i j; rewrite mxE rpredN real1.
-apply: (stability_continuous rM real1 real1 real1 (rpred0 _) (trmx1 _ _)).
-  by rewrite trmx1 !mulmx1; apply: dominant1; apply: ltr01.
-have tN : (- 1%:M : 'M[algC]_1)^T = - 1%:M by apply/matrixP=> i j; rewrite !mxE !ord1.
-rewrite mul0rn scale0r addr0 tN trmx1 !mulmx1 !mul1mx opprD opprK.
-have -> : 1%:M + 1%:M = (1 + 1)%:M :> 'M[algC]_1 by rewrite raddfD.
-by apply: dominant1; rewrite addr_gt0 ?ltr01.
-Qed.
-Lemma inst_lyapunov_discrete lambda : eigenvalue (0 : 'M[algC]_1) lambda -> `|lambda| < 1.
-Proof.
-have rM : real_mx (0 : 'M[algC]_1) by move=> i j; rewrite mxE rpred0.
-apply: (stability_discrete rM real1 real1 real1 ler01 (trmx1 _ _)).
-  by rewrite trmx1 !mulmx1; apply: dominant1; apply: ltr01.
-rewrite trmx0 !mul0mx subr0 trmx1 mul1mx mulmx1 expr1n scale1r; apply: dominant1; exact: ltr01.
-Qed.
-Lemma inst_blocks lambda : eigenvalue (block_mx (0 : 'M[algC]_1) 1%:M 0 (0 : 'M_1)) lambda -> `|lambda| < 1.
-Proof.
-apply: (@stability_blocks _ 1 1 _ 1%:M 0 1%:M 0 (fun x => `|x| < 1)); first exact: unitmx1.
-- by rewrite mulmx1 mul1mx.
-- exact: inst_lyapunov_discrete.
-- exact: inst_lyapunov_discrete.
-Qed.
-
-(* One variable, one cut n >= 1: the tree is one leaf with multiplier 1. *)
-Lemma inst_branch_tree x : covers (fun _ : 'I_1 => setT) (fun=> 1%N) x -> 1 <= cost (fun _ : 'I_1 => 1) x.
-Proof.
-apply: (@branch_tree _ _ (fun _ : 'I_1 => setT) (fun=> 1%N) (fun=> 1) 1 1 (fun=> 0%N) (fun=> None)
-  (Multipliers _ (fun=> 1))) => //.
-- by move=> _; exists 1.
-- by exists 1.
-rewrite /= /leaf /bound /part /reduced; apply/andP; split.
-  by apply/andP; split; apply/forallP => i; rewrite ?ler01// big_ord1_cond inE subrr lexx.
-by rewrite !big_ord1 big_ord1_cond inE subrr lexx mul0r addr0 mulr1 invr1 ltr_addl ltr01.
-Qed.
-Lemma inst_infeasible (x : 'I_1 -> nat) : (x ord0 <= 0)%N -> ~ covers (fun _ : 'I_1 => setT) (fun=> 1%N) x.
-Proof.
-move=> x0; apply: (@branch_tree_infeasible _ _ (fun _ : 'I_1 => setT) (fun=> 1%N) (fun=> 0%N)
-  (fun=> Some 0%N) (Violated _ ord0)).
-  by rewrite /= /violated big1 // andbT; apply/forall_inP.
-by move=> i; split=> // u [<-]; rewrite ord1.
-Qed.
-
-(* Set-points. *)
-Lemma inst_setpoint_rank : \rank (map_mx up (1%:M : 'M_1)) = 1%N.
-Proof.
-apply: (@setpoint_rank l6 _ h 1 1 1 1%:M 1%:M 1%:M 0 (fun=> ord0)) => //.
-- by rewrite map_mx1 !mulmx1.
-- by rewrite mul0mx.
-- by apply/matrixP=> -[].
-Qed.
-Lemma inst_normal_rank : (\rank (map_mx (horner_eval 0%R) (0%R : 'M[{poly algC}]_1)) < 1)%N.
-Proof.
-apply: (@normal_rank_deficient _ 1 1 0 1%:M) => //; last by rewrite mulmx0.
-by apply/eqP=> /matrixP/(_ 0 0)/eqP; rewrite !mxE oner_eq0.
-Qed.
-
-(* The Moebius transform of a Schur polynomial is Hurwitz; that of x - 1 is not. *)
-Lemma nonzero_XsubC (a : algC) : 'X - a%:P != 0. Proof. by rewrite polyXsubC_eq0. Qed.
-Definition inst_mobius := ((schur_mobius (nonzero_XsubC 0)).1 inst_schur).2.
-Lemma inst_not_mobius :
-  ~ (('X - 1%:P : {poly algC}).[-1] != 0 /\ hurwitz (transformed ('X - 1%:P : {poly algC}))).
-Proof. by move/(schur_mobius (nonzero_XsubC 1))/inst_not_schur. Qed.
-
-(* Instability: M = 1, P = -1 in continuous time; M = 2, P = -1 in discrete time. *)
-Lemma form1 (a : algC) (x : 'cV_1) : form (a%:M : 'M_1) x = `|x 0 0| ^+ 2 * a.
-Proof. by rewrite formE !big_ord1 !mxE eqxx mulr1n sqr_norm mulrAC [_^* * _]mulrC. Qed.
-Lemma posdef1 (a : algC) : 0 < a -> posdef (a%:M : 'M_1).
-Proof.
-move=> a0 x nx; rewrite form1 mulr_gt0// exprn_gt0// normr_gt0.
-by apply: contra nx => /eqP x0; apply/eqP/matrixP=> i j; rewrite !ord1 x0 mxE.
-Qed.
-Lemma adjoint1 (a : algC) : a \is Num.real -> adjoint (a%:M : 'M_1) = a%:M.
-Proof. by move=> ra; rewrite /adjoint tr_scalar_mx map_scalar_mx /= (CrealP ra). Qed.
-Lemma one_neq0 : (1%:M : 'M[algC]_1) != 0.
-Proof. by apply/eqP=> /matrixP/(_ 0 0)/eqP; rewrite !mxE oner_eq0. Qed.
-Lemma inst_instability_continuous : ~ (forall lambda, eigenvalue (1%:M : 'M[algC]_1) lambda -> 'Re lambda < - 0).
-Proof.
-apply: (@instability_continuous _ 1 1%:M (-1)%:M 0 1%:M).
-- by rewrite adjoint1// rpredN1.
-- rewrite mul0rn scale0r addr0 adjoint1 ?rpred1// mul1mx mulmx1 -!raddfD -raddfN; apply: posdef1.
-  by rewrite ?opprD !opprK addr_gt0 ?ltr01.
-- exact: one_neq0.
-- by rewrite form1 mxE eqxx normr1 expr1n mul1r oppr_le0 ler01.
-Qed.
-Lemma inst_instability_discrete : ~ (forall lambda, eigenvalue (2%:R%:M : 'M[algC]_1) lambda -> `|lambda| < 1).
-Proof.
-apply: (@instability_discrete _ 1 2%:R%:M (-1)%:M 1 1%:M) => //.
-- by rewrite adjoint1// rpredN1.
-- rewrite expr1n scale1r adjoint1 ?realn// -!scalar_mxM -raddfB; apply: posdef1.
-  by rewrite mulrN1 mulNr opprK addrC subr_gt0 -natrM ltr1n.
-- exact: one_neq0.
-- by rewrite form1 mxE eqxx normr1 expr1n mul1r oppr_le0 ler01.
 Qed.

@@ -1,0 +1,168 @@
+(* The rules that place the roots of a polynomial or the eigenvalues of a matrix, applied to concrete
+   ones with every hypothesis discharged. *)
+From mathcomp Require Import all_ssreflect all_algebra all_field.
+From mcexact Require Import location mobius moved_roots root_discs stability instability.
+Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
+Import Order.Theory GRing.Theory Num.Theory.
+Local Open Scope ring_scope.
+
+(* Location: x + 1 is Hurwitz, x - 1 is not; x is Schur, x - 1 is not. *)
+Lemma real_XaddC (a : algC) : a \is Num.real -> real_poly ('X - a%:P).
+Proof. by move=> ra; rewrite /real_poly rpredB ?polyOverX ?polyOverC. Qed.
+Lemma inst_hurwitz : hurwitz ('X - (-1)%:P : {poly algC}).
+Proof.
+apply/(@is_hurwitzP _ 1); rewrite ?size_XsubC ?lead_coefXsubC ?ltr01//; first by apply: real_XaddC; rewrite rpredN1.
+by rewrite /= size_XsubC /= coefB coefX coefC /= sub0r opprK ltr01.
+Qed.
+Lemma inst_not_hurwitz : ~ hurwitz ('X - 1%:P : {poly algC}).
+Proof.
+apply/(@is_hurwitzP _ 1); rewrite ?size_XsubC ?lead_coefXsubC ?ltr01//; first by apply: real_XaddC; rewrite rpred1.
+by rewrite /= size_XsubC /= coefB coefX coefC /= sub0r oppr_gt0 ltr10.
+Qed.
+Lemma inst_schur : schur ('X - 0%:P : {poly algC}).
+Proof.
+apply/(@is_schurP _ 1); rewrite ?size_XsubC ?polyXsubC_eq0//; first by apply: real_XaddC; rewrite rpred0.
+by rewrite /= size_XsubC /= !coefB !coefX !coefC /= subrr subr0 normr0 normr1 ltr01.
+Qed.
+Lemma inst_not_schur : ~ schur ('X - 1%:P : {poly algC}).
+Proof.
+apply/(@is_schurP _ 1); rewrite ?size_XsubC ?polyXsubC_eq0//; first by apply: real_XaddC; rewrite rpred1.
+by rewrite /= size_XsubC /= !coefB !coefX !coefC /= sub0r subr0 normrN normr1 ltxx.
+Qed.
+
+(* One step of Routh's and of Schur and Cohn's recursions. *)
+Section Steps.
+Variable a : algC.
+Hypothesis ra : a \is Num.real.
+Notation p := ('X - a%:P).
+Lemma one_routh_step : hurwitz p <-> 0 < p`_0 /\ hurwitz (routh_step p).
+Proof. by apply: routh; rewrite ?size_XsubC ?lead_coefXsubC ?ltr01//; apply: real_XaddC. Qed.
+Lemma one_schur_step : schur p <-> `|p`_0| < `|p`_1| /\ schur (schur_step p).
+Proof. by apply: schur_cohn; rewrite ?size_XsubC//; apply: real_XaddC. Qed.
+End Steps.
+Definition inst_routh := (one_routh_step (rpredN1 _)).1 inst_hurwitz.
+Lemma inst_not_routh : ~ (0 < ('X - 1%:P : {poly algC})`_0 /\ hurwitz (routh_step ('X - 1%:P : {poly algC}))).
+Proof. by move/(one_routh_step (rpred1 _))/inst_not_hurwitz. Qed.
+Definition inst_schur_cohn := (one_schur_step (rpred0 _)).1 inst_schur.
+Lemma inst_not_schur_cohn :
+  ~ (`|('X - 1%:P : {poly algC})`_0| < `|('X - 1%:P)`_1| /\ schur (schur_step ('X - 1%:P : {poly algC}))).
+Proof. by move/(one_schur_step (rpred1 _))/inst_not_schur. Qed.
+
+(* A disc about the root of x. *)
+Lemma inst_root_discs : exists z : 'I_1 -> algC, forall x, root 'X x <-> exists i, x = z i.
+Proof.
+have [] := @root_discs [numClosedFieldType of algC] 'X 0 (fun=> 1) (fun=> 1).
+- by rewrite size_polyX.
+- by move=> _; apply: ler01.
+- by move=> _; rewrite hornerX derivX hornerC.
+- by move=> i j; rewrite !ord1 eqxx.
+by move=> z [_ zP _]; exists z.
+Qed.
+
+Lemma inst_root_disc : exists2 z : algC, root 'X z & `|0 - z| <= 0.
+Proof.
+apply: (@root_disc _ 'X 0); rewrite ?size_polyX ?lexx//.
+by rewrite hornerX normr0 expr0n mulr0 mul0r.
+Qed.
+
+(* Lyapunov: M = -1 in continuous time, M = 0 in discrete time, P = R = R2 = 1. *)
+Lemma real1 : real_mx (1%:M : 'M[algC]_1). Proof. by move=> i j; rewrite !ord1 mxE eqxx rpred1. Qed.
+Lemma dominant1 (a : algC) : 0 < a -> dominant (a%:M : 'M_1).
+Proof. by move=> a0 i; rewrite big1 ?ord1 ?mxE ?eqxx// => j; rewrite !ord1 eqxx. Qed.
+Lemma inst_dominant_congruence : posdef (1%:M : 'M[algC]_1).
+Proof.
+apply: (dominant_congruence real1 real1 (trmx1 _ _)).
+by rewrite trmx1 !mulmx1; apply: dominant1; apply: ltr01.
+Qed.
+Lemma inst_lyapunov_continuous lambda : eigenvalue (- 1%:M : 'M[algC]_1) lambda -> 'Re lambda < - 0.
+Proof.
+have rM : real_mx (- 1%:M : 'M[algC]_1) by move=> i j; rewrite mxE rpredN real1.
+apply: (stability_continuous rM real1 real1 real1 (rpred0 _) (trmx1 _ _)).
+  by rewrite trmx1 !mulmx1; apply: dominant1; apply: ltr01.
+have tN : (- 1%:M : 'M[algC]_1)^T = - 1%:M by apply/matrixP=> i j; rewrite !mxE !ord1.
+rewrite mul0rn scale0r addr0 tN trmx1 !mulmx1 !mul1mx opprD opprK.
+have -> : 1%:M + 1%:M = (1 + 1)%:M :> 'M[algC]_1 by rewrite raddfD.
+by apply: dominant1; rewrite addr_gt0 ?ltr01.
+Qed.
+Lemma inst_lyapunov_discrete lambda : eigenvalue (0 : 'M[algC]_1) lambda -> `|lambda| < 1.
+Proof.
+have rM : real_mx (0 : 'M[algC]_1) by move=> i j; rewrite mxE rpred0.
+apply: (stability_discrete rM real1 real1 real1 ler01 (trmx1 _ _)).
+  by rewrite trmx1 !mulmx1; apply: dominant1; apply: ltr01.
+rewrite trmx0 !mul0mx subr0 trmx1 mul1mx mulmx1 expr1n scale1r; apply: dominant1; exact: ltr01.
+Qed.
+Lemma inst_blocks lambda : eigenvalue (block_mx (0 : 'M[algC]_1) 1%:M 0 (0 : 'M_1)) lambda -> `|lambda| < 1.
+Proof.
+apply: (@stability_blocks _ 1 1 _ 1%:M 0 1%:M 0 (fun x => `|x| < 1)); first exact: unitmx1.
+- by rewrite mulmx1 mul1mx.
+- exact: inst_lyapunov_discrete.
+- exact: inst_lyapunov_discrete.
+Qed.
+
+(* The Moebius transform of a Schur polynomial is Hurwitz; that of x - 1 is not. *)
+Lemma nonzero_XsubC (a : algC) : 'X - a%:P != 0. Proof. by rewrite polyXsubC_eq0. Qed.
+Definition inst_mobius := ((schur_mobius (nonzero_XsubC 0)).1 inst_schur).2.
+Lemma inst_not_mobius :
+  ~ (('X - 1%:P : {poly algC}).[-1] != 0 /\ hurwitz (transformed ('X - 1%:P : {poly algC}))).
+Proof. by move/(schur_mobius (nonzero_XsubC 1))/inst_not_schur. Qed.
+
+(* The root of x - 3: its modulus is below 4, not below 2; its real part is not below -1. *)
+Lemma below4 (z : algC) : root ('X - 3%:R%:P) z -> `|z| < 4%:R.
+Proof. by rewrite root_XsubC => /eqP->; rewrite normr_nat ltr_nat. Qed.
+Lemma inst_radius_rule : schur (scaled ('X - 3%:R%:P : {poly algC}) 4%:R).
+Proof. by apply/(radius_rule _ (ltr0Sn _ 3)); apply: below4. Qed.
+Lemma inst_not_radius_rule : ~ schur (scaled ('X - 3%:R%:P : {poly algC}) 2%:R).
+Proof.
+move/(radius_rule _ (ltr0Sn _ 1))/(_ 3%:R).
+by rewrite root_XsubC eqxx normr_nat ltr_nat => /(_ isT).
+Qed.
+Lemma inst_not_rate_rule : ~ hurwitz (shifted ('X - 3%:R%:P : {poly algC}) 1).
+Proof.
+move/(rate_rule _ (rpred1 _))/(_ 3%:R); rewrite root_XsubC eqxx => /(_ isT).
+rewrite (Creal_ReP _ (realn _ _)) => /lt_le_trans/(_ (le_trans (lerN10 _) (ler0n _ 3))).
+by rewrite ltxx.
+Qed.
+
+(* Instability: M = 1, P = -1 in continuous time; M = 2, P = -1 in discrete time. *)
+Lemma form1 (a : algC) (x : 'cV_1) : form (a%:M : 'M_1) x = `|x 0 0| ^+ 2 * a.
+Proof. by rewrite formE !big_ord1 !mxE eqxx mulr1n sqr_norm mulrAC [_^* * _]mulrC. Qed.
+Lemma posdef1 (a : algC) : 0 < a -> posdef (a%:M : 'M_1).
+Proof.
+move=> a0 x nx; rewrite form1 mulr_gt0// exprn_gt0// normr_gt0.
+by apply: contra nx => /eqP x0; apply/eqP/matrixP=> i j; rewrite !ord1 x0 mxE.
+Qed.
+Lemma adjoint1 (a : algC) : a \is Num.real -> adjoint (a%:M : 'M_1) = a%:M.
+Proof. by move=> ra; rewrite /adjoint tr_scalar_mx map_scalar_mx /= (CrealP ra). Qed.
+Lemma one_neq0 : (1%:M : 'M[algC]_1) != 0.
+Proof. by apply/eqP=> /matrixP/(_ 0 0)/eqP; rewrite !mxE oner_eq0. Qed.
+Lemma inst_instability_continuous : ~ (forall lambda, eigenvalue (1%:M : 'M[algC]_1) lambda -> 'Re lambda < - 0).
+Proof.
+apply: (@instability_continuous _ 1 1%:M (-1)%:M 0 1%:M).
+- by rewrite adjoint1// rpredN1.
+- rewrite mul0rn scale0r addr0 adjoint1 ?rpred1// mul1mx mulmx1 -!raddfD -raddfN; apply: posdef1.
+  by rewrite ?opprD !opprK addr_gt0 ?ltr01.
+- exact: one_neq0.
+- by rewrite form1 mxE eqxx normr1 expr1n mul1r oppr_le0 ler01.
+Qed.
+Lemma inst_instability_discrete : ~ (forall lambda, eigenvalue (2%:R%:M : 'M[algC]_1) lambda -> `|lambda| < 1).
+Proof.
+apply: (@instability_discrete _ 1 2%:R%:M (-1)%:M 1 1%:M) => //.
+- by rewrite adjoint1// rpredN1.
+- rewrite expr1n scale1r adjoint1 ?realn// -!scalar_mxM -raddfB; apply: posdef1.
+  by rewrite mulrN1 mulNr opprK addrC subr_gt0 -natrM ltr1n.
+- exact: one_neq0.
+- by rewrite form1 mxE eqxx normr1 expr1n mul1r oppr_le0 ler01.
+Qed.
+
+(* The same rules for complex matrices: P = 1 and M = -1, or M = 0. *)
+Lemma inst_lyapunov_posdef lambda : eigenvalue ((-1)%:M : 'M[algC]_1) lambda -> 'Re lambda < - 0.
+Proof.
+apply: (@lyapunov_continuous _ 1 _ 1%:M); rewrite ?rpred0//; first exact/posdef1/ltr01.
+rewrite mul0rn scale0r addr0 adjoint1 ?rpredN1// mul1mx mulmx1 -raddfD -raddfN; apply: posdef1.
+by rewrite ?opprD !opprK addr_gt0 ?ltr01.
+Qed.
+Lemma inst_lyapunov_posdef_discrete lambda : eigenvalue (0%:M : 'M[algC]_1) lambda -> `|lambda| < 1.
+Proof.
+apply: (@lyapunov_discrete _ 1 _ 1%:M); rewrite ?ler01//; first exact/posdef1/ltr01.
+by rewrite raddf0 mulmx0 subr0 expr1n scale1r; apply/posdef1/ltr01.
+Qed.
