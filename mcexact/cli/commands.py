@@ -20,6 +20,7 @@ COMMANDS = (
     "reproduce",
     "demo",
     "sample",
+    "sweep",
 )
 
 

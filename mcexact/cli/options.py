@@ -97,3 +97,32 @@ def work_limits(function: F) -> F:
     ):
         function = option(function)
     return function
+
+
+def draws(function: F) -> F:
+    """Add the options that say what systems are drawn: the fields of a `Draw` but its seed."""
+    for option in (
+        click.option(
+            "--neighbors", is_flag=True, help="Draw a strongly connected neighbor graph as well."
+        ),
+        click.option(
+            "--time",
+            type=click.Choice(["continuous", "discrete"]),
+            default="continuous",
+            show_default=True,
+        ),
+        click.option(
+            "--plant-fixed-mode",
+            "fixed_degree",
+            type=click.IntRange(min=1),
+            is_flag=False,
+            flag_value=1,
+            metavar="[DEGREE]",
+            help="Hide a fixed mode in it: the roots of an irreducible factor of this degree, "
+            "or of 1.",
+        ),
+        click.option("--channels", type=click.IntRange(min=1), default=2, show_default=True),
+        click.option("--states", type=click.IntRange(min=0), default=4, show_default=True),
+    ):
+        function = option(function)
+    return function

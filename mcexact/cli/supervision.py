@@ -21,6 +21,7 @@ from multiprocessing.connection import Connection
 from typing import Any, TypeVar
 
 from mcexact.errors import InternalError, LimitReached, McexactError
+from mcexact.sweep.workers import end_with_parent
 
 T = TypeVar("T")
 
@@ -34,6 +35,7 @@ def supervised(
     doing: str,
     timeout: float | None = None,
     max_memory: int | None = None,
+    quiet: bool = False,
 ) -> T:
     """Call a function in a child process and return what it returns.
 
@@ -49,6 +51,8 @@ def supervised(
         Seconds.
     max_memory : int, optional
         MiB that the child may add to what the program occupies when it starts.
+    quiet : bool
+        Show no progress.
 
     Returns
     -------
@@ -72,7 +76,7 @@ def supervised(
     child.start()
     sender.close()
     try:
-        outcome = _await(receiver, doing, timeout)
+        outcome = _await(receiver, doing, timeout, quiet)
     except EOFError:
         child.join()
         raise _lost(child.exitcode, doing, max_memory) from None
@@ -88,7 +92,7 @@ def supervised(
     return result
 
 
-def _await(receiver: Connection, doing: str, timeout: float | None) -> Any:
+def _await(receiver: Connection, doing: str, timeout: float | None, quiet: bool) -> Any:
     """Wait for the child's message, and show what it is doing if that takes long."""
     start = time.monotonic()
     with _terminable(), _progress(doing) as show:
@@ -99,7 +103,8 @@ def _await(receiver: Connection, doing: str, timeout: float | None) -> Any:
                     f"the time limit of {timeout:g} s was reached while {doing}; "
                     "nothing has been decided (--timeout allows more)"
                 )
-            show(elapsed)
+            if not quiet:
+                show(elapsed)
         return pickle.loads(receiver.recv_bytes())
 
 
@@ -109,7 +114,7 @@ def _child(
     """Do the work and send its result, or the error that it ended with."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
-    _end_with_parent()
+    end_with_parent()
     # What compiled code says before it aborts is not for the user, who gets one message.
     faulthandler.disable()
     silence = os.open(os.devnull, os.O_WRONLY)
@@ -143,16 +148,6 @@ def _limit_memory(mebibytes: int) -> None:
     resource.setrlimit(
         resource.RLIMIT_AS, (limit if hard == resource.RLIM_INFINITY else min(limit, hard), hard)
     )
-
-
-def _end_with_parent() -> None:
-    """Ask the kernel, where it can, to end this process when its parent is gone."""
-    if sys.platform == "linux":
-        import ctypes
-
-        parent_death_signal = 1
-        with contextlib.suppress(OSError, AttributeError):
-            ctypes.CDLL(None).prctl(parent_death_signal, signal.SIGKILL)
 
 
 def _lost(exit_code: int | None, doing: str, max_memory: int | None) -> McexactError:

@@ -71,7 +71,7 @@ def may_import(importer: str, imported: str) -> bool:
         return importer in STAGE
     if imported == "checker":
         # The independent checker is called, never built upon.
-        return importer in {"report", "reproduce"}
+        return importer in {"report", "sweep", "reproduce"}
     if imported not in STAGE:
         return False
     if importer == "testing":

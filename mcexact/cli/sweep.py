@@ -1,0 +1,216 @@
+"""`mcexact sweep`: the same questions about many systems."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import re
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from mcexact.cli import options
+from mcexact.cli.failures import INTERRUPTED
+
+if TYPE_CHECKING:
+    from mcexact.sweep.jobs import Job, Source
+    from mcexact.sweep.records import Record
+
+# What a sweep ends with: the first of these that some system ended with.
+_PRECEDENCE = (70, 3, 2, 4, 0)
+_SAY_EVERY = 10.0  # seconds
+_QUESTIONS = (
+    "fixed_spectrum",
+    "completeness",
+    "joint_controllability",
+    "joint_observability",
+    "controllability_indices",
+    "observability_indices",
+    "transfer_graph",
+    "assignability",
+)
+
+
+@click.command(name="sweep", short_help="The same questions about many files or draws.")
+@click.argument("files", nargs=-1, metavar="[FILE|DIRECTORY]...")
+@click.option(
+    "--question",
+    "questions",
+    type=click.Choice(_QUESTIONS),
+    multiple=True,
+    metavar="NAME",
+    help=f"What to decide, again for more: {', '.join(_QUESTIONS)}; the first if there is none.",
+)
+@click.option(
+    "--draws",
+    type=click.IntRange(min=1),
+    metavar="N",
+    help="Also N drawn systems, as `mcexact sample` draws them.",
+)
+@click.option("--seed", type=int, default=0, show_default=True, help="The seed of the first one.")
+@options.draws
+@click.option(
+    "-o",
+    "--output",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Keep every answer in this file, a line of JSON each. What is in it is not done again: "
+    "after an interruption the same command goes on.",
+)
+@click.option(
+    "--workers",
+    type=click.IntRange(1, 256),
+    metavar="N",
+    help="How many processes; by default as many as there are processors.",
+)
+@options.certificates
+@options.as_json
+@options.work_limits
+@options.file_limits
+def command(
+    files: tuple[str, ...],
+    questions: tuple[str, ...],
+    draws: int | None,
+    seed: int,
+    output: Path | None,
+    workers: int | None,
+    certificates: Path | None,
+    as_json: bool,
+    timeout: float | None,
+    max_memory: int | None,
+    **rest: Any,
+) -> int:
+    """Ask the same questions about every system in the FILEs (all *.json of a DIRECTORY).
+
+    Every certificate is checked by the independent checker before it counts. What cannot be read
+    or decided is named and stops nothing; the limits on time and memory are for each system. With
+    --output, certificates are written of what is decided in this run.
+    """
+    import sys
+    from functools import partial
+
+    from mcexact.cli.files import directory
+    from mcexact.cli.output import emit, emit_json, on_terminal
+    from mcexact.derived.draw import Draw
+    from mcexact.exact.rational import Limits
+    from mcexact.report.sweep_view import sweep_tables, sweep_view
+    from mcexact.report.text import plain, show
+    from mcexact.sweep.jobs import decide
+    from mcexact.sweep.run import sweep
+
+    limits = {name: rest.pop(name) for name in ("bytes", "depth", "digits", "exponent")}
+    sources: list[Source] = list(_paths(files))
+    sources += [Draw(number, **rest) for number in range(seed, seed + (draws or 0))]
+    if not sources:
+        raise click.UsageError("there is nothing to sweep over: name files, or --draws N")
+    asked = tuple(name for name in _QUESTIONS if name in (questions or _QUESTIONS[:1]))
+    folder = None if certificates is None else directory(certificates)
+    limited = timeout is not None or max_memory is not None
+    records = sweep(
+        sources,
+        asked,
+        results=output,
+        workers=workers or _processors(),
+        limits=Limits(**options.given(limits)),
+        work=partial(_limited, timeout=timeout, max_memory=max_memory) if limited else decide,
+    )
+    documents: list[dict[str, Any]] = []
+    try:
+        with contextlib.closing(records), _progress(len(sources)) as tell:  # type: ignore[type-var]
+            for record in records:
+                documents.append(record.document())
+                tell(documents)
+                if folder is not None:
+                    _write(folder, record, len(sources))
+    except KeyboardInterrupt:
+        kept = f"; the same command goes on from {output}" if output is not None else ""
+        said = f"interrupted after {len(documents)} of {len(sources)} systems{kept}"
+        click.echo(f"mcexact: {said}", err=True)
+        return INTERRUPTED
+    documents.sort(key=lambda document: int(document["number"]))
+    if as_json:
+        emit_json(sweep_view(documents))
+    elif on_terminal():
+        show(sweep_tables(documents, asked), sys.stdout)
+    else:
+        emit(plain(sweep_tables(documents, asked)))
+    ended = {document["error"]["status"] for document in documents if "error" in document}
+    return next(status for status in _PRECEDENCE if status in {0, *ended})
+
+
+def _paths(files: tuple[str, ...]) -> Iterator[str]:
+    """The files, and those in the directories."""
+    from mcexact.errors import InputError
+
+    for file in files:
+        if not os.path.isdir(file):
+            yield file
+            continue
+        found = sorted(str(path) for path in Path(file).glob("*.json"))
+        if not found:
+            raise InputError("there are no *.json files in this directory", where=file)
+        yield from found
+
+
+def _processors() -> int:
+    """How many processes can run at once."""
+    if hasattr(os, "sched_getaffinity"):
+        return min(256, len(os.sched_getaffinity(0)))
+    return min(256, os.cpu_count() or 1)
+
+
+def _limited(job: Job, timeout: float | None, max_memory: int | None) -> dict[str, Any]:
+    """Decide in a process of its own, which is ended at a limit."""
+    from mcexact.cli.supervision import supervised
+    from mcexact.errors import McexactError
+    from mcexact.sweep.jobs import decide, failure
+
+    try:
+        return supervised(
+            decide,
+            job,
+            doing=f"deciding {job.name}",
+            timeout=timeout,
+            max_memory=max_memory,
+            quiet=True,
+        )
+    except McexactError as error:
+        return failure(error)
+
+
+def _write(folder: Path, record: Record, total: int) -> None:
+    """Write the certificates of one system, under its number, its name and the question."""
+    from mcexact.model.atomic import write_text
+
+    number = str(record.number + 1).zfill(len(str(total)))
+    stem = re.sub(r"[^A-Za-z0-9_.-]+", "-", Path(record.name).stem)[:60]
+    for question, text in record.certificates.items():
+        write_text(folder / f"{number}-{stem}-{question}.json", text)
+
+
+@contextlib.contextmanager
+def _progress(total: int) -> Iterator[Any]:
+    """Say on standard error how far it is: a bar on a terminal, else a line now and then."""
+    import sys
+
+    if sys.stderr.isatty():
+        from rich.console import Console
+        from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
+
+        columns = (BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+        with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+            task = bar.add_task("", total=total)
+            yield lambda documents: bar.update(task, completed=len(documents))
+        return
+    last = time.monotonic()
+
+    def say(documents: list[dict[str, Any]]) -> None:
+        nonlocal last
+        if time.monotonic() - last >= _SAY_EVERY:
+            last = time.monotonic()
+            print(f"mcexact: {len(documents)} of {total} systems …", file=sys.stderr, flush=True)
+
+    yield say

@@ -1,0 +1,56 @@
+"""A system named by its seed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from mcexact.derived.choices import SeededChoices
+from mcexact.derived.drawn import jointly_controllable_system, system_with_fixed_mode
+from mcexact.derived.drawn_graph import drawn_graph
+from mcexact.exact.location import Time
+from mcexact.model.system import MultiChannelSystem
+
+
+@dataclass(frozen=True)
+class Draw:
+    """What to draw: equal draws give equal systems, on every machine.
+
+    Attributes
+    ----------
+    seed : int
+    states, channels : int
+        n and m.
+    fixed_degree : int or None
+        Hide a fixed mode: the roots of an irreducible factor of this degree.
+    time : str
+        ``"continuous"`` or ``"discrete"``.
+    neighbors : bool
+        Whether it has a strongly connected neighbor graph.
+    """
+
+    seed: int
+    states: int = 4
+    channels: int = 2
+    fixed_degree: int | None = None
+    time: Time = "continuous"
+    neighbors: bool = False
+
+
+def drawn_system(draw: Draw) -> MultiChannelSystem:
+    """Draw a system that is jointly controllable and observable.
+
+    Examples
+    --------
+    >>> drawn_system(Draw(seed=7, states=3)).n
+    3
+    """
+    choices = SeededChoices(draw.seed)
+    n, m, degree, time = draw.states, draw.channels, draw.fixed_degree, draw.time
+    if degree is None:
+        system = jointly_controllable_system(choices, n, m, time=time).system
+    else:
+        system = system_with_fixed_mode(choices, n, m, degree, time=time).system
+    if not draw.neighbors:
+        return system
+    graph = drawn_graph(choices, system.names, strongly_connected=True)
+    return system.with_neighbors(graph)

@@ -1,0 +1,108 @@
+"""A sweep for people and programs: one row for each system, and how many are how."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from typing import Any
+
+from mcexact.exact.polynomial import Polynomial
+from mcexact.report.text import Table, count, shorten
+
+_MOST_ROWS = 60
+
+Document = Mapping[str, Any]
+
+
+def sweep_view(documents: Sequence[Document]) -> dict[str, Any]:
+    """The counts and every record."""
+    return {"counts": counts(documents), "records": list(documents)}
+
+
+def counts(documents: Sequence[Document]) -> dict[str, int]:
+    """How many systems there are, how many were decided, and of how many each thing is true."""
+    decided = [document["answers"] for document in documents if "answers" in document]
+    found = {"systems": len(documents), "decided": len(decided)}
+    for question, key in (
+        ("fixed_spectrum", "with_fixed_modes"),
+        ("fixed_spectrum", "not_stabilizable"),
+        ("completeness", "complete"),
+        ("joint_controllability", "jointly_controllable"),
+        ("joint_observability", "jointly_observable"),
+        ("transfer_graph", "strongly_connected"),
+    ):
+        claims = [answers[question]["claim"] for answers in decided if question in answers]
+        if claims:
+            found[key] = sum(map(_COUNTED[key], claims))
+    return found
+
+
+_COUNTED = {
+    "with_fixed_modes": lambda claim: bool(claim["factors"]),
+    "not_stabilizable": lambda claim: not claim["stabilizable"],
+    "complete": lambda claim: claim["complete"],
+    "jointly_controllable": lambda claim: claim["controllable"],
+    "jointly_observable": lambda claim: claim["controllable"],
+    "strongly_connected": lambda claim: claim["strongly_connected"],
+}
+
+
+def sweep_tables(documents: Sequence[Document], questions: Sequence[str]) -> tuple[Table, ...]:
+    """A row for each system, the most telling ones if there are many, and the counts."""
+    shown = list(documents)
+    note = ""
+    if len(shown) > _MOST_ROWS:
+        shown = sorted(shown, key=_tells)[:_MOST_ROWS]
+        shown.sort(key=lambda document: int(document["number"]))
+        note = f"{_MOST_ROWS} of {count(len(documents), 'system')}; --json has all of them"
+    columns = ("system", "n", "m", *(name.replace("_", " ") for name in questions), "seconds")
+    short = _short_names(documents)
+    rows = tuple(_row(short[document["name"]], document, questions) for document in shown)
+    named = counts(documents)
+    said = tuple((key.replace("_", " "), str(number)) for key, number in named.items())
+    return (Table("", columns, rows, note), Table("of all systems", (), said))
+
+
+def _tells(document: Document) -> int:
+    """Errors first, then what has fixed modes, then the rest."""
+    if "error" in document:
+        return 0
+    claim = document["answers"].get("fixed_spectrum", {"claim": {}})["claim"]
+    return 1 if claim.get("factors") else 2
+
+
+def _short_names(documents: Sequence[Document]) -> dict[str, str]:
+    """Paths without the folder that all of them are in."""
+    names = {document["name"] for document in documents}
+    folders = {os.path.dirname(name) for name in names if os.sep in name}
+    try:
+        common = os.path.commonpath(folders) + os.sep if folders else ""
+    except ValueError:  # absolute ones and others
+        common = ""
+    return {name: shorten(name.removeprefix(common), 40) for name in names}
+
+
+def _row(name: str, document: Document, questions: Sequence[str]) -> tuple[str, ...]:
+    if "error" in document:
+        return (name, "", "", shorten(document["error"]["message"], 70), *[""] * len(questions))
+    system, answers = document["system"], document["answers"]
+    said = [_said(question, answers[question]["claim"]) for question in questions]
+    seconds = f"{document['seconds']:.3g}"
+    return (name, str(system["n"]), str(system["m"]), *said, seconds)
+
+
+def _said(question: str, claim: Mapping[str, Any]) -> str:
+    """A claim in a few words."""
+    if question == "fixed_spectrum":
+        if not claim["factors"]:
+            return "empty"
+        coefficients = tuple(Fraction(coefficient) for coefficient in claim["polynomial"])
+        stable = "" if claim["stabilizable"] else ", not stabilizable"
+        return shorten(str(Polynomial(coefficients)), 40) + stable
+    if question in {"controllability_indices", "observability_indices"}:
+        return shorten(", ".join(map(str, claim["indices"])), 30)
+    if question == "assignability":
+        return f"{count(len(claim['blocks']), 'block')}, {claim['fixed_degree']} fixed"
+    key = {"completeness": "complete", "transfer_graph": "strongly_connected"}
+    return "yes" if claim[key.get(question, "controllable")] else "no"

@@ -1,0 +1,131 @@
+"""One system and what is asked about it: plain data in, plain data out, in any process."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import time
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from mcexact.certificate import codec
+from mcexact.derived.draw import Draw, drawn_system
+from mcexact.errors import InputError, McexactError, UsageError
+from mcexact.exact.rational import DEFAULT_LIMITS, Limits
+from mcexact.model.json_text import read_bytes
+from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system_file import digest, read_system, system_text
+from mcexact.sweep.questions import QUESTIONS
+
+Source = str | os.PathLike[str] | MultiChannelSystem | Draw
+Outcome = dict[str, Any]
+"""Plain data that `decide` returns: what was decided, or why nothing was."""
+
+
+@dataclass(frozen=True)
+class Job:
+    """A system and what is asked about it.
+
+    Attributes
+    ----------
+    name : str
+        What the record calls it: the path, the system's name, or its seed.
+    source : bytes or Draw
+        The text of a system file, or what to draw.
+    questions : tuple of str
+    limits : Limits
+        What the file may ask for.
+    """
+
+    name: str
+    source: bytes | Draw
+    questions: tuple[str, ...]
+    limits: Limits = DEFAULT_LIMITS
+
+    def key(self) -> str:
+        """A hash of the source and the questions: equal jobs have equal answers."""
+        source = asdict(self.source) if isinstance(self.source, Draw) else _hash(self.source)
+        return _hash(codec.canonical([source, list(self.questions)]).encode("ascii"))
+
+    def system(self) -> MultiChannelSystem:
+        """Read it, or draw it.
+
+        Raises
+        ------
+        InputError
+            If the text is malformed.
+        """
+        if isinstance(self.source, Draw):
+            return drawn_system(self.source)
+        return read_system(self.source, limits=self.limits)
+
+
+def _hash(data: bytes) -> str:
+    return hashlib.sha256(data).hexdigest()
+
+
+def job(source: Source, number: int, questions: tuple[str, ...], limits: Limits) -> Job:
+    """The job for one entry of a sweep.
+
+    Raises
+    ------
+    InputError
+        If a file cannot be read.
+    UsageError
+        If the entry is nothing that names a system.
+    """
+    if isinstance(source, Draw):
+        return Job(f"seed {source.seed}", source, questions, limits)
+    if isinstance(source, MultiChannelSystem):
+        name = source.name or f"system {number + 1}"
+        return Job(name, system_text(source).encode(), questions, limits)
+    if isinstance(source, str | os.PathLike):
+        return Job(os.fspath(source), read_bytes(source, limits), questions, limits)
+    raise UsageError(
+        f"expected paths, systems or draws to sweep over, found {type(source).__name__}"
+    )
+
+
+def decide(job: Job) -> Outcome:
+    """Decide everything that is asked about one system.
+
+    Returns
+    -------
+    dict
+        ``system`` {n, m, time}, ``digest``, ``seconds`` and ``certificates``, the text for each
+        question; or the ``error`` that it ended with, of whatever kind.
+    """
+    start = time.perf_counter()
+    try:
+        system = job.system()
+        made = {name: codec.encode(QUESTIONS[name](system).certificate) for name in job.questions}
+    except Exception as error:
+        return failure(error)
+    return {
+        "system": {"n": system.n, "m": system.m, "time": system.time},
+        "digest": digest(system),
+        "seconds": round(time.perf_counter() - start, 6),
+        "certificates": made,
+    }
+
+
+def failure(error: BaseException) -> Outcome:
+    """What is kept of an error: the exit status that it stands for, and its message."""
+    if isinstance(error, McexactError):
+        return {"error": {"status": error.exit_status, "message": str(error)}}
+    status = 4 if isinstance(error, MemoryError) else 70
+    return {"error": {"status": status, "message": f"{type(error).__name__}: {error}"}}
+
+
+def entries(
+    sources: Iterable[Source], questions: tuple[str, ...], limits: Limits
+) -> Iterable[tuple[int, str, Job | InputError]]:
+    """Number, name and job of every entry, made when it is asked for; or why there is none."""
+    for number, source in enumerate(sources):
+        try:
+            made: Job | InputError = job(source, number, questions, limits)
+        except InputError as error:
+            made = error
+        name = made.name if isinstance(made, Job) else str(source)
+        yield number, name, made

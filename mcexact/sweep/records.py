@@ -1,0 +1,176 @@
+"""What was found about every system, and the file that keeps it, a line each."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from io import FileIO
+from typing import Any
+
+from mcexact.certificate import codec
+from mcexact.errors import InputError, UsageError
+
+FORMAT = "mcexact-sweep/1"
+_AGAIN = (4, 70)  # a limit, a failure: another run may end otherwise
+
+
+@dataclass(frozen=True)
+class Record:
+    """What was found about one system.
+
+    Attributes
+    ----------
+    number : int
+        The place of the system in the sweep, from 0.
+    name : str
+    key : str
+        The hash of the system's source and of the questions; empty if the source cannot be read.
+    system : mapping or None
+        ``n``, ``m`` and ``time``.
+    digest : str
+        Of the system; empty where there is an error.
+    answers : mapping from questions to mappings
+        ``claim``, as in the certificate, and ``theorem``, what the checker read there.
+    seconds : float or None
+        What deciding took, with the certificates.
+    error : mapping or None
+        ``status``, an exit status, and ``message``.
+    certificates : mapping from questions to texts
+        Checked; not kept in the file, and empty for a record that was read from one.
+    """
+
+    number: int
+    name: str
+    key: str
+    system: Mapping[str, Any] | None = None
+    digest: str = ""
+    answers: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    seconds: float | None = None
+    error: Mapping[str, Any] | None = None
+    certificates: Mapping[str, str] = field(default_factory=dict, compare=False, repr=False)
+
+    @property
+    def final(self) -> bool:
+        """Whether another run would find the same: no limit was reached, nothing failed."""
+        return self.error is None or self.error["status"] not in _AGAIN
+
+    def document(self) -> dict[str, Any]:
+        """Plain data: the line of the file."""
+        kept = {"format": FORMAT, "number": self.number, "name": self.name, "key": self.key}
+        if self.error is not None:
+            return kept | {"error": dict(self.error)}
+        return kept | {
+            "system": self.system,
+            "digest": self.digest,
+            "answers": self.answers,
+            "seconds": self.seconds,
+        }
+
+
+def read_records(path: str | os.PathLike[str]) -> dict[str, Record]:
+    """The records of a file by their keys, the last of each key; none if there is no such file.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read, or is no file of records.
+    """
+    try:
+        with open(path, "rb") as stream:
+            return dict(_records(stream.read(), os.fspath(path)))
+    except FileNotFoundError:
+        return {}
+    except OSError as error:
+        raise InputError(
+            f"cannot be read: {error.strerror or error}", where=os.fspath(path)
+        ) from error
+
+
+def _records(data: bytes, place: str) -> Iterator[tuple[str, Record]]:
+    """Every whole line; what follows the last line feed was being written when a sweep ended."""
+    for k, line in enumerate(data.split(b"\n")[:-1]):
+        try:
+            document = json.loads(line)
+            if document.pop("format") != FORMAT:
+                raise ValueError
+            record = Record(**document)
+            kept = record.error is not None or set(record.system or ()) == {"n", "m", "time"}
+            if not (isinstance(record.key, str) and kept):
+                raise ValueError
+        except (ValueError, TypeError, KeyError, AttributeError):
+            raise InputError(
+                f"expected a record of {FORMAT}; name a new file, or one that a sweep has written",
+                where=f"{place}: line {k + 1}",
+            ) from None
+        yield record.key, record
+
+
+class RecordFile:
+    """A file of records that is only ever added to, by one sweep at a time.
+
+    Parameters
+    ----------
+    path : path
+        Made if it is missing.  Half a line at its end, which an interrupted sweep leaves behind,
+        is taken off.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read or written, or is no file of records.
+    UsageError
+        If another sweep is writing it.
+    """
+
+    def __init__(self, path: str | os.PathLike[str]) -> None:
+        self.path = os.fspath(path)
+        self.known = read_records(path)
+        try:
+            self._stream = open(path, "ab", buffering=0)  # noqa: SIM115 (close closes it)
+        except OSError as error:
+            raise self._unwritable(error) from error
+        try:
+            _lock(self._stream, self.path)
+            if os.path.isfile(path):
+                self._stream.truncate(_whole_lines(self.path))
+        except OSError as error:
+            self.close()
+            raise self._unwritable(error) from error
+        except UsageError:
+            self.close()
+            raise
+
+    def add(self, record: Record) -> None:
+        """Append a record, whole."""
+        line = codec.canonical(record.document()).encode("ascii") + b"\n"
+        try:
+            self._stream.write(line)
+        except OSError as error:
+            raise self._unwritable(error) from error
+
+    def _unwritable(self, error: OSError) -> InputError:
+        return InputError(f"cannot be written: {error.strerror or error}", where=self.path)
+
+    def close(self) -> None:
+        """Let others have it."""
+        self._stream.close()
+
+
+def _whole_lines(path: str) -> int:
+    """The number of bytes up to the last line feed."""
+    with open(path, "rb") as stream:
+        return stream.read().rfind(b"\n") + 1
+
+
+def _lock(stream: FileIO, path: str) -> None:
+    """Refuse a file that another sweep is writing, where the system can tell."""
+    with contextlib.suppress(ImportError):
+        import fcntl
+
+        try:
+            fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise UsageError("another sweep is writing to it", where=path) from None
