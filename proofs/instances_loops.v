@@ -1,7 +1,8 @@
 (* The rules for loops and for the places of their roots applied to concrete polynomials and matrices, with
    every hypothesis discharged and every equivalence on either side; see instances.v for the other rules. *)
 From mathcomp Require Import all_ssreflect all_algebra all_field.
-From mcexact Require Import arithmetic location mobius moved_roots closed_loop_spectrum.
+From mcexact Require Import multichannel arithmetic location mobius moved_roots closed_loop_spectrum.
+From mcexact Require Import error_system distributed_observer.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.Theory GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -91,3 +92,54 @@ case: k => [|[|k]] //=; last by rewrite !subr0.
   by rewrite (@residue_ratE _ _ _ (-1))// rmorphN1.
 by rewrite !subr0; apply: (mulIr u2); rewrite (@residue_ratE _ _ _ 2%:Z)// mul1r -pmulrn.
 Qed.
+
+(* A loop of one agent, in the coordinates of the errors [a, 1; 0, c]. *)
+Notation one := (fun _ : 'I_1 => 1%N).
+Notation nothing := (fun _ : 'I_1 => 0%N).
+Notation estimate := (estimates rat_Ring 1 nothing).
+Definition loop (a c : rat) : 'M[rat]_(1 + \sum_(i < 1) (1 + 0)) :=
+  change estimate *m block_mx a%:M (const_mx 1) 0 c%:M *m change (- estimate).
+Lemma separated_loop a c : separated (loop a c) estimate = block_mx a%:M (const_mx 1) 0 c%:M.
+Proof. by rewrite /separated /loop !mulmxA changeN mul1mx -mulmxA changeN mulmx1. Qed.
+Lemma char_scalar n (c : rat) : char_poly (c%:M : 'M_n) = ('X - c%:P) ^+ n.
+Proof.
+rewrite char_poly_trig ?scalar_mx_is_trig// (eq_bigr (fun=> 'X - c%:P)) => [|i _]; last by rewrite mxE eqxx.
+by rewrite prodr_const card_ord.
+Qed.
+Lemma loop_error (c : rat) : char_poly (c%:M : 'M_(\sum_(i < 1) (1 + 0))) = 'X - c%:P.
+Proof. by rewrite char_scalar big_ord1. Qed.
+Lemma inst_observer_rate (lambda : algC) :
+  eigenvalue (map_mx ratr (loop (-2%:~R) (-3%:~R))) lambda -> 'Re lambda < - ratr 1.
+Proof.
+apply: (@observer_rate _ 1 1 nothing _ ('X - (-2%:~R)%:P) ('X - (-3%:~R)%:P));
+  rewrite ?separated_loop ?block_mxKdl ?block_mxKul ?block_mxKdr ?loop_error ?char_scalar//.
+- by rewrite size_XsubC shifted_XsubC hurwitz1.
+- by rewrite size_XsubC shifted_XsubC hurwitz1.
+Qed.
+Lemma inst_observer_radius (lambda : algC) :
+  eigenvalue (map_mx ratr (loop 2%:R^-1 3%:R^-1)) lambda -> `|lambda| < ratr 1.
+Proof.
+apply: (@observer_radius _ 1 1 nothing _ ('X - 2%:R^-1%:P) ('X - 3%:R^-1%:P));
+  rewrite ?separated_loop ?block_mxKdl ?block_mxKul ?block_mxKdr ?loop_error ?char_scalar//.
+- by rewrite hurwitz_moebius1.
+- by rewrite hurwitz_moebius1.
+Qed.
+Lemma inst_separation : char_poly (loop 1 2%:R) = ('X - 1%:P) * ('X - 2%:R%:P).
+Proof.
+have [_ ->] := @separation _ _ _ (loop 1 2%:R) estimate (etrans (congr1 _ (separated_loop _ _)) (block_mxKdl _ _ _ _)).
+by rewrite separated_loop block_mxKul block_mxKdr loop_error char_scalar.
+Qed.
+
+(* The paper's observer for one agent with A = B = C = 1 and F = -2, whose channel controller has one state. *)
+Definition plant : multichannel rat 1 one one := Multichannel 1%:M (fun=> 1%:M) (fun=> 1%:M).
+Definition channel_controller : controllers [ringType of rat] one (fun=> 1 + \sum_(i < 1) 1)%N one :=
+  Controllers (fun=> row_mx (-3%:~R)%:M 0) (fun=> 1%:M) (fun=> row_mx 1%:M 0) (fun=> (-1)%:M).
+Notation errors := (dynamic_loop (error_system (fun=> setT) plant (fun=> (-2%:~R)%:M)) channel_controller).
+Lemma inst_paper_spectrum :
+  char_poly (observer_loop (fun=> setT) plant (fun=> (-2%:~R)%:M) channel_controller) = ('X - (-1)%:P) * char_poly errors.
+Proof.
+by rewrite paper_spectrum /feedback_loop big_ord1 /= mul1mx -raddfD /= char_scalar.
+Qed.
+Lemma inst_paper_separation : drsubmx (separated
+  (observer_loop (fun=> setT) plant (fun=> (-2%:~R)%:M) channel_controller) (copied _ _ _)) = errors.
+Proof. by rewrite paper_separation block_mxKdr. Qed.
