@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 MARKED, SENDERS, PLAIN = "#d95f02", "#7570b3", "#e8e8e8"
 LARGEST = 24
-"""Channels beyond which circles and arrows say nothing any more."""
+"""Channels beyond which circles and arrows say nothing any more: a matrix is drawn instead."""
 
 Arc = tuple[str, str]
 
@@ -92,13 +92,11 @@ def _draw(
 
     axis.set_title(title, fontsize="medium")
     axis.set_aspect("equal")
-    axis.set_axis_off()
     m = len(names)
     if m > LARGEST:
-        axis.set_xlim(-1, 1)
-        axis.set_ylim(-1, 1)
-        axis.text(0, 0, f"{m} channels, {len(arcs)} arcs", ha="center", parse_math=False)
+        _draw_matrix(axis, names, arcs, subset, boundary)
         return
+    axis.set_axis_off()
     size = 0.2 if m <= 8 else 0.1
     turn = [math.pi / 2 - 2 * math.pi * k / m for k in range(m)]
     radius = 1.0 if m > 1 else 0.0
@@ -132,6 +130,31 @@ def _draw(
                 linewidth=1.2,
             )
         )
+
+
+def _draw_matrix(
+    axis: Any, names: Sequence[str], arcs: Sequence[Arc], subset: set[str], boundary: set[str]
+) -> None:
+    """A column for the channel where an arc starts, a row for the one where it ends.
+
+    The obstruction comes first, then whom it hears: what it does not hear is an empty block.
+    """
+    from matplotlib.colors import to_rgb
+
+    ordered = sorted(names, key=lambda name: (name not in subset, name not in boundary))
+    place = {name: k for k, name in enumerate(ordered)}
+    empty = {name: to_rgb("#fbe3cf" if name in subset else "#f4f4f4") for name in names}
+    cells = [[empty[row]] * len(names) for row in ordered]
+    for start, end in arcs:
+        color = "#555555"
+        if end in subset:
+            color = MARKED if start in subset else SENDERS if start in boundary else color
+        cells[place[end]][place[start]] = to_rgb(color)
+    axis.imshow(cells, interpolation="nearest")
+    axis.set_xticks([])
+    axis.set_yticks([])
+    axis.set_xlabel(f"from each of {len(names)} channels", fontsize="small")
+    axis.set_ylabel(f"to each: {len(arcs)} arcs", fontsize="small")
 
 
 def dimensions_picture(

@@ -1,0 +1,34 @@
+"""Graphs too large for circles and arrows are matrices with a cell for every arc."""
+
+from matplotlib.colors import to_hex
+
+from mcexact.analysis.fixed_spectrum import fixed_spectrum
+from mcexact.derived.draw import Draw, drawn_system
+from mcexact.report.graph_figures import LARGEST, MARKED, SENDERS, graph_picture
+
+
+def test_a_large_graph_is_a_matrix_with_the_obstruction_first() -> None:
+    m = LARGEST + 2
+    system = drawn_system(Draw(3, states=8, channels=m, fixed_degree=1, neighbors=True))
+    fixed = fixed_spectrum(system)
+    subset = fixed.factors[0].channels
+    picture = graph_picture(system, fixed=fixed)
+    neighbors, transfer = picture.figure.axes
+    [image] = neighbors.images
+    colors = [[to_hex(cell) for cell in row] for row in image.get_array()]
+    assert len(colors) == m and system.neighbors is not None
+    arcs = len(system.neighbors.arcs())
+    empty = {"#fbe3cf", "#f4f4f4"}
+    assert sum(cell not in empty for row in colors for cell in row) == arcs
+    k = len(subset)
+    assert {cell for row in colors[k:] for cell in row} <= {"#f4f4f4", "#555555"}
+    assert {cell for row in colors[:k] for cell in row[:k]} <= {"#fbe3cf", MARKED}
+    heard = {cell for row in colors[:k] for cell in row[k:]}
+    assert SENDERS in heard and MARKED not in heard
+    assert transfer.get_title() == "transfer graph" and len(transfer.images) == 1
+
+
+def test_a_small_graph_has_a_circle_for_every_channel() -> None:
+    system = drawn_system(Draw(3, states=4, channels=3))
+    [axis] = graph_picture(system).figure.axes
+    assert not axis.images and len(axis.texts) == 3
