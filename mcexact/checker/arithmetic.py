@@ -144,7 +144,10 @@ def inverse(number: int, ell: int) -> int:
 
 
 def rank(A: Matrix) -> int:
-    """The rank over Q, by fraction-free elimination (Bareiss): every quotient is exact."""
+    """The rank over Q, by fraction-free elimination (Bareiss): every quotient is exact.
+
+    Open: see ``proofs/OPEN.md``.
+    """
     rows, found, previous = [list(row) for row in A.rows], 0, 1
     for column in range(A.ncols):
         pivot = next((i for i in range(found, len(rows)) if rows[i][column]), None)
@@ -160,7 +163,10 @@ def rank(A: Matrix) -> int:
 
 
 class Echelon:
-    """Vectors modulo ℓ in echelon form, every pivot 1: their number bounds a rank from below."""
+    """Vectors modulo ℓ in echelon form, every pivot 1: their number bounds a rank from below.
+
+    Theorem ``arithmetic.rank_from_below``.
+    """
 
     def __init__(self, ell: int) -> None:
         self.ell = ell
@@ -225,7 +231,10 @@ def exponent(p: Polynomial, f: Polynomial, ell: int = 0) -> tuple[int, Polynomia
 
 
 def coprime(a: Polynomial, b: Polynomial, ell: int) -> bool:
-    """Whether Euclid's algorithm ends with a unit: then u·a + v·b = 1 modulo ℓ for some u, v."""
+    """Whether Euclid's algorithm ends with a unit: then u·a + v·b = 1 modulo ℓ for some u, v.
+
+    Theorems ``arithmetic.euclid_step``, ``arithmetic.euclid_end``.
+    """
     while b:
         a, b = b, poly_divide(a, b, ell)[1]
     return len(a) == 1 and inverse(a[0], ell) > 0

@@ -13,7 +13,10 @@ from .words import channel_set, described
 
 
 def check(claim: Any, witness: Any, system: System) -> str:
-    """Check the components, and a minimal realization of the transfer within each."""
+    """Check the components, and a minimal realization of the transfer within each.
+
+    Open: see ``proofs/OPEN.md``.
+    """
     listed, left = fields(claim, "claim", "blocks", "fixed_degree")
     number, graph, shown = fields(witness, "witness", "modulus", "transfer_graph", "realizations")
     ell = evidence.modulus(number, "witness.modulus")

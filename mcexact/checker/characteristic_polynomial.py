@@ -15,6 +15,8 @@ def characteristic_polynomial_modulo(A: Rows, ell: int) -> Polynomial:
 
     A L = L H with L unit lower triangular (up to a common permutation of rows and columns) and H
     upper Hessenberg, column by column: one reduction modulo ℓ for each inner product.
+
+    Open: see ``proofs/OPEN.md``.
     """
     n, A = len(A), [list(row) for row in A]
     L: Rows = [[int(i == 0)] for i in range(n)]
@@ -68,6 +70,8 @@ def characteristic_polynomial(A: Matrix) -> Polynomial:
 
     The coefficients of det(xI − N), N the integer numerators, are at most Π (1 + |row|) in absolute
     value (Hadamard, minor by minor), so they are read off modulo one larger power of an odd q.
+
+    Open: see ``proofs/OPEN.md``.
     """
     bound = math.prod(2 + math.isqrt(sum(entry * entry for entry in row)) for row in A.rows)
     for q in count(2**61 - 1, 2):

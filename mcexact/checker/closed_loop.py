@@ -16,7 +16,10 @@ Signal = tuple[str, int, int]
 
 
 def closed_loop(system: System, step: dict[str, Any], place: str) -> System:
-    """State (x, x_1, z_1, x_2, …), then for each j the x_j(t−1), …, y_j(t−1), … that are in use."""
+    """State (x, x_1, z_1, x_2, …), then for each j the x_j(t−1), …, y_j(t−1), … that are in use.
+
+    Open: see ``proofs/OPEN.md``.
+    """
     time, listed = fields(*fields(step, place, "controller"), place, "time", "agents")
     agents, m = items(listed, place, system.m), system.m
     width = {"X": [system.n], "x": [0] * m, "y": [C_j.nrows for C_j in system.C], "z": [0] * m}

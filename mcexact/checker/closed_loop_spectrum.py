@@ -13,7 +13,10 @@ from .words import described, polynomial_text
 
 
 def check(claim: Any, witness: Any, system: System) -> str:
-    """Compare with det(xI − A) modulo every ℓ; there are enough of them to make it equal."""
+    """Compare with det(xI − A) modulo every ℓ; there are enough of them to make it equal.
+
+    Theorem ``closed_loop_spectrum.closed_loop_spectrum``.
+    """
     (listed,) = fields(claim, "claim", "polynomial")
     (numbers,) = fields(witness, "witness", "moduli")
     p = polynomial(listed, "claim.polynomial")
@@ -37,6 +40,8 @@ def require_spectrum(A: Matrix, p: Polynomial, place: str, ells: list[int]) -> N
 
     D·det(xI − A) = det(diag(d)x − diag(d)A), d_i the denominator of row i and D = Π d_i, has
     integer coefficients of absolute value at most β = Π (d_i + Σ_j |d_i A_ij|).
+
+    Theorem ``closed_loop_spectrum.closed_loop_spectrum``.
     """
     D = beta = 1
     for row in A.rows:

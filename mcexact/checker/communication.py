@@ -14,7 +14,10 @@ from .words import described
 
 
 def check(claim: Any, witness: Any, system: System) -> str:
-    """Check that the added arcs suffice, every cut, and the tree that leaves nothing cheaper."""
+    """Check that the added arcs suffice, every cut, and the tree that leaves nothing cheaper.
+
+    Theorem ``allocation.communication_cut``.
+    """
     share, sizes, limit, listed, _, added, _ = fields(
         claim, "claim", "share", "dimensions", "bound", "candidates", "feasible", "added", "cost"
     )

@@ -21,7 +21,10 @@ WITNESS = ["modulus", "reachable", "X", "F", "A1", "S", "B1", "L", "G", "N"]
 
 
 def check(claim: Any, witness: Any, system: System) -> str:
-    """Check bases that bring the pencil to block triangular form, and read off its Smith form."""
+    """Check bases that bring the pencil to block triangular form, and read off its Smith form.
+
+    Open: see ``proofs/OPEN.md``.
+    """
     listed, rank, invariants, rest, zero, verdict = fields(claim, "claim", *CLAIM)
     number, size, *values = fields(witness, "witness", *WITNESS)
     s, n = reading.names(listed, "claim.subset", system.names), system.n

@@ -14,7 +14,11 @@ from .words import channel_set, described, polynomial_text
 
 
 def check(claim: Any, witness: Any, system: System) -> str:
-    """Check gains and arcs for yes; a fixed mode or a cut of the transfer graph for no."""
+    """Check gains and arcs for yes; a fixed mode or a cut of the transfer graph for no.
+
+    Theorems ``completeness.completeness_yes``, ``completeness.completeness_no_mode``,
+    ``completeness.completeness_no_cut``.
+    """
     (verdict,) = fields(claim, "claim", "complete")
     if boolean(verdict, "claim.complete"):
         return f"{described(system)} is complete: {_freedom(witness, system)}"
@@ -37,6 +41,10 @@ def check(claim: Any, witness: Any, system: System) -> str:
 
 
 def _freedom(witness: Any, system: System) -> str:
+    """Check that gains move every mode, and arcs that connect all channels; the answer in words.
+
+    Theorem ``transfer_graph.strongly_connected_arcs``.
+    """
     number, gains, listed = fields(witness, "witness", "modulus", "gains", "arcs")
     ell = evidence.modulus(number, "witness.modulus")
     A_F = evidence.closed_loop(system, evidence.read_gains(gains, "witness.gains", system))

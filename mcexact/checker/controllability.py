@@ -13,7 +13,10 @@ from .words import channel_set, described, polynomial_text
 
 
 def check(claim: Any, witness: Any, system: System) -> str:
-    """Check an annihilator W from above and a Krylov rank modulo ℓ from below."""
+    """Check an annihilator W from above and a Krylov rank modulo ℓ from below.
+
+    Theorem ``controllability.controllability_rule``.
+    """
     listed, size, verdict, factor = fields(
         claim, "claim", "channels", "dimension", "controllable", "uncontrollable_polynomial"
     )
@@ -47,6 +50,8 @@ def krylov_ranks(system: System, T: list[int], ell: int, blocks: int) -> list[in
     """Ranks modulo ℓ of [B_T], [B_T, A B_T], …, at most this many, until they stop growing.
 
     Each bounds the rank over Q from below: the block k + 1 adds A times what the block k added.
+
+    Theorem ``arithmetic.rank_from_below``.
     """
     A, fresh = system.A.modulo(ell), list(zip(*inputs(system, T).modulo(ell), strict=True))
     echelon, ranks = Echelon(ell), [0]

@@ -14,7 +14,11 @@ from .words import channel_set, described
 
 
 def check(claim: Any, witness: Any, system: System) -> str:
-    """Check rows that annihilate the first k blocks, and the ranks modulo ℓ from below."""
+    """Check rows that annihilate the first k blocks, and the ranks modulo ℓ from below.
+
+    Theorems ``controllability.indices_rule``, ``controllability.indices_stationary``,
+    ``controllability.rank_from_above``.
+    """
     listed, claimed, top, parts = fields(claim, "claim", "channels", "ranks", "index", "indices")
     number, rows = fields(witness, "witness", "modulus", "annihilator")
     T, n = names(listed, "claim.channels", system.names), system.n

@@ -29,6 +29,8 @@ class Program:
         """Stop unless the tree proves that every point below ``upper`` costs at least ``value``.
 
         The nodes come in preorder: an inner node, then its tree below, then its tree above.
+
+        Theorems ``allocation.branch_tree``, ``allocation.branch_tree_infeasible``.
         """
         if self.value is not None:
             # a cheaper point has x_i ≤ value / c_i, all costs being positive

@@ -12,7 +12,10 @@ from .words import channel_set, described, polynomial_text
 
 
 def check(claim: Any, witness: Any, system: System) -> str:
-    """Check a completed loop that moves every mode, and a shrunk subspace that loses as much."""
+    """Check a completed loop that moves every mode, and a shrunk subspace that loses as much.
+
+    Theorems ``deficiency.deficiency_rule``, ``deficiency.deficiency_bound``.
+    """
     (number,) = fields(claim, "claim", "deficiency")
     ell, gains, left, right, coefficients, subspace = fields(
         witness, "witness", "modulus", "gains", "B0", "C0", "polynomial", "subspace"

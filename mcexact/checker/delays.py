@@ -12,14 +12,20 @@ from .system import System
 
 
 def lifted(system: System, step: dict[str, Any], place: str) -> System:
-    """Paper, section V-A: x, then for each j the x_j(t), …, x_j(t−d_j), y_j(t−1), …, y_j(t−d_j)."""
+    """Paper, section V-A: x, then for each j the x_j(t), …, x_j(t−d_j), y_j(t−1), …, y_j(t−d_j).
+
+    Open: see ``proofs/OPEN.md``.
+    """
     share, sizes = read_shares(system, step, place)
     what = f"the lifted extended system of {system.words} sharing {SHARED[share]}"
     return _delayed(system, sizes, place, what, share == "outputs+states", hold=False)
 
 
 def held(system: System, step: dict[str, Any], place: str) -> System:
-    """Paper, section V-B: x, then for each j the x_j(t), …, x_j(t−d_j); all see x_j(t−d_j)."""
+    """Paper, section V-B: x, then for each j the x_j(t), …, x_j(t−d_j); all see x_j(t−d_j).
+
+    Open: see ``proofs/OPEN.md``.
+    """
     (listed,) = fields(step, place, "dimensions")
     sizes = read_dimensions(system, listed, place)
     what = f"the extended system of {system.words} sharing held sub-states"

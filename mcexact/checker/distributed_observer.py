@@ -14,7 +14,10 @@ from .words import polynomial_text
 
 
 def check(claim: Any, witness: Any, system: System) -> str:
-    """Check that the errors evolve by themselves, and the polynomials of both diagonal blocks."""
+    """Check that the errors evolve by themselves, and the polynomials of both diagonal blocks.
+
+    Theorems ``distributed_observer.observer_rate``, ``distributed_observer.observer_radius``.
+    """
     first, second, limit = fields(claim, "claim", "feedback", "error", "bound")
     (numbers,) = fields(witness, "witness", "moduli")
     M_F, M_E = separated(system)
@@ -30,7 +33,10 @@ def check(claim: Any, witness: Any, system: System) -> str:
 
 
 def separated(system: System) -> tuple[Matrix, Matrix]:
-    """The diagonal blocks in the coordinates (x, e_1, z_1, …), e_i = x_i − x."""
+    """The diagonal blocks in the coordinates (x, e_1, z_1, …), e_i = x_i − x.
+
+    Theorem ``distributed_observer.separation``.
+    """
     blocks = list(system.blocks)
     good = len(blocks) > 1 and sum(blocks) == system.n and set(blocks[1::2]) == {blocks[0]}
     require(good, "subject", "subject", "not a loop in which every agent estimates the state")

@@ -63,6 +63,9 @@ def modulus(value: Any, place: str) -> int:
 
 
 def require_coprime(a: Polynomial, b: Polynomial, ell: int, what: str) -> None:
-    """Stop unless two monic polynomials are coprime modulo ℓ, and therefore over Q."""
+    """Stop unless two monic polynomials are coprime modulo ℓ, and therefore over Q.
+
+    Theorems ``arithmetic.coprime_modulo``, ``arithmetic.no_common_root``.
+    """
     parts = poly_modulo(a, ell), poly_modulo(b, ell)
     require(coprime(*parts, ell), "common_factor", "witness", f"{what} are not coprime modulo l")

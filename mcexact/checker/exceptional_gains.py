@@ -15,7 +15,10 @@ from .words import described, polynomial_text
 
 
 def check(claim: Any, witness: Any, system: System) -> str:
-    """Check a row at every root of each factor, and two determinants that vanish nowhere else."""
+    """Check a row at every root of each factor, and two determinants that vanish nowhere else.
+
+    Theorems ``exceptional_gains.exceptional_lost``, ``exceptional_gains.exceptional_kept``.
+    """
     rows, number, p, discs = fields(claim, "claim", "M", "blocks", "polynomial", "roots")
     modulus, listed, drawn = fields(witness, "witness", "modulus", "factors", "compressions")
     n, blocks = system.n, integer(number, "claim.blocks", 1)

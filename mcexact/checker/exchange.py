@@ -26,7 +26,10 @@ def require_outputs(n: int, counts: list[int]) -> None:
 
 
 def augmented_outputs(system: System, step: dict[str, Any], place: str) -> System:
-    """C_i becomes C_{N_i}."""
+    """C_i becomes C_{N_i}.
+
+    Open: see ``proofs/OPEN.md``.
+    """
     reading.fields(step, place)
     N = neighbors_of(system, place)
     require_outputs(system.n, [system.C[j].nrows for N_i in N for j in N_i])
@@ -35,7 +38,10 @@ def augmented_outputs(system: System, step: dict[str, Any], place: str) -> Syste
 
 
 def arcs(system: System, step: dict[str, Any], place: str) -> System:
-    """j joins N_i for each added arc [j, i]."""
+    """j joins N_i for each added arc [j, i].
+
+    Open: see ``proofs/OPEN.md``.
+    """
     (listed,) = reading.fields(step, place, "added")
     sets = [set(N_i) for N_i in neighbors_of(system, place)]
     for arc in reading.items(listed, place):
@@ -58,7 +64,10 @@ def read_dimensions(system: System, value: Any, place: str) -> list[int]:
 
 
 def extended(system: System, step: dict[str, Any], place: str) -> System:
-    """Paper, section IV-C: state (x, x_1, …, x_m); x_i' or x_i(t+1) is an input of agent i."""
+    """Paper, section IV-C: state (x, x_1, …, x_m); x_i' or x_i(t+1) is an input of agent i.
+
+    Open: see ``proofs/OPEN.md``.
+    """
     (share, sizes), N = read_shares(system, step, place), neighbors_of(system, place)
     total = sum(sizes)
     counts = [system.C[j].nrows + sizes[j] for N_i in N for j in N_i]

@@ -13,21 +13,30 @@ from .system import System
 
 
 def dual(system: System, step: dict[str, Any], place: str) -> System:
-    """A', (C_i)', (B_i)'; no neighbor graph."""
+    """A', (C_i)', (B_i)'; no neighbor graph.
+
+    Open: see ``proofs/OPEN.md``.
+    """
     fields(step, place)
     B, C = [M.T for M in system.C], [M.T for M in system.B]
     return System(system.time, system.names, system.A.T, B, C, words=f"the dual of {system.words}")
 
 
 def feedback(system: System, step: dict[str, Any], place: str) -> System:
-    """A_F instead of A."""
+    """A_F instead of A.
+
+    Open: see ``proofs/OPEN.md``.
+    """
     (listed,) = fields(step, place, "gains")
     A_F = closed_loop(system, read_gains(listed, place, system))
     return replace(system, A=A_F, words=f"{system.words} under the decentralized gains given")
 
 
 def full_output(system: System, step: dict[str, Any], place: str) -> System:
-    """C_q becomes the identity."""
+    """C_q becomes the identity.
+
+    Open: see ``proofs/OPEN.md``.
+    """
     (name,) = fields(step, place, "channel")
     q = system.place_of(name, place)
     identity = Matrix.unit_rows(system.n, 0, system.n)
@@ -36,7 +45,10 @@ def full_output(system: System, step: dict[str, Any], place: str) -> System:
 
 
 def integrators(system: System, step: dict[str, Any], place: str) -> System:
-    """Paper, section III: w' = y or w(t+1) = w + y behind the outputs, and i sees its w_i."""
+    """Paper, section III: w' = y or w(t+1) = w + y behind the outputs, and i sees its w_i.
+
+    Open: see ``proofs/OPEN.md``.
+    """
     fields(step, place)
     n, q = system.n, [C_i.nrows for C_i in system.C]
     N = n + sum(q)
@@ -49,7 +61,10 @@ def integrators(system: System, step: dict[str, Any], place: str) -> System:
 
 
 def error(system: System, step: dict[str, Any], place: str) -> System:
-    """Paper, section II: the errors e_i of m estimates, I⊗(A + ΣB_jF_j) − Q with Q_ij = B_jF_j."""
+    """Paper, section II: the errors e_i of m estimates, I⊗(A + ΣB_jF_j) − Q with Q_ij = B_jF_j.
+
+    Open: see ``proofs/OPEN.md``.
+    """
     (listed,) = fields(step, place, "gains")
     n, N = system.n, neighbors_of(system, place)
     require_size((n * system.m) ** 2)

@@ -17,7 +17,11 @@ FACTOR = ("polynomial", "channels", "stable", "roots", *COUNTS)
 
 
 def check(claim: Any, witness: Any, system: System) -> str:
-    """Check a shrunk subspace for every factor, and that gains move everything else."""
+    """Check a shrunk subspace for every factor, and that gains move everything else.
+
+    Theorems ``fixed_spectrum.fixed_spectrum_rule``, ``fixed_spectrum.absence``,
+    ``fixed_spectrum.absence_all``, ``fixed_spectrum.multiplicity_at_most``.
+    """
     whole, entries, verdict, rate = fields(claim, "claim", *CLAIM)
     gains, number, spaces, completion = fields(witness, "witness", *WITNESS)
     ell, n = evidence.modulus(number, "witness.modulus"), system.n
@@ -61,7 +65,10 @@ def check(claim: Any, witness: Any, system: System) -> str:
 
 
 def _require_ranks(completion: Any, losses: list[Any], A_F: arithmetic.Matrix, ell: int) -> None:
-    """Stop unless A_F + B_0 C_0, with d columns and rows, has no root of a p that loses d."""
+    """Stop unless A_F + B_0 C_0, with d columns and rows, has no root of a p that loses d.
+
+    Theorems ``fixed_spectrum.completion``, ``fixed_spectrum.rank_exact``.
+    """
     left, right = fields(completion, "witness.completion", "B0", "C0")
     rho = max(loss for _, loss in losses)
     B0 = reading.matrix(left, "witness.completion.B0", A_F.nrows, rho)

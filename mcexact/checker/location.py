@@ -9,7 +9,10 @@ from .arithmetic import Polynomial
 
 
 def in_stability_region(p: Polynomial, time: str) -> bool:
-    """Whether all roots have negative real part (continuous) or modulus below 1 (discrete)."""
+    """Whether all roots have negative real part (continuous) or modulus below 1 (discrete).
+
+    Theorems ``location.is_hurwitzP``, ``mobius.schur_mobius``.
+    """
     return in_region(p, time, Fraction(int(time == "discrete")))
 
 
@@ -17,6 +20,9 @@ def in_region(p: Polynomial, time: str, bound: Fraction | None) -> bool:
     """Whether all roots have real part below −bound (continuous) or modulus below it (discrete).
 
     No bound: no root counts as inside, so that only a constant is.
+
+    Theorems ``moved_roots.rate_rule``, ``moved_roots.radius_rule``,
+    ``moved_roots.region_continuous``, ``moved_roots.region_discrete``.
     """
     if bound is None:
         return len(p) == 1
@@ -33,6 +39,8 @@ def is_hurwitz(p: Polynomial) -> bool:
 
     Each row is kept as a positive multiple of Routh's: what two rows give is divided by the first
     entry of the row before them, which leaves integers (minors of the Hurwitz matrix).
+
+    Theorem ``location.is_hurwitzP``. Open: see ``proofs/OPEN.md``.
     """
     d = len(p) - 1
     # x/2^e in place of x shortens the numbers where the denominators are powers of 2
@@ -58,6 +66,8 @@ def is_schur(p: Polynomial) -> bool:
 
     s ↦ (1 + s)/(1 − s) maps the left half-plane onto the unit disc; the coefficient of s^d is
     ±p(−1), so that no root is lost to infinity unless −1 is one.
+
+    Theorems ``mobius.schur_mobius``, ``moved_roots.schur_by_moebiusP``.
     """
     moved: Polynomial = []  # Σ p_k (1 + s)^k (1 − s)^(d−k), by Horner's rule
     power: Polynomial = [Fraction(1)]  # (1 − s)^k

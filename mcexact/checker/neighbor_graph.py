@@ -12,7 +12,10 @@ from .words import described
 
 
 def check(claim: Any, witness: Any, system: System) -> str:
-    """Recompute the answer from the sets of neighbors."""
+    """Recompute the answer from the sets of neighbors.
+
+    Theorem ``strong_components.strongly_connected_rule``.
+    """
     (verdict,) = fields(claim, "claim", "strongly_connected")
     fields(witness, "witness")
     arcs = [(j, i) for i, N_i in enumerate(neighbors_of(system, "subject")) for j in N_i]
@@ -24,7 +27,10 @@ def check(claim: Any, witness: Any, system: System) -> str:
 
 
 def components(m: int, arcs: Iterable[tuple[int, int]]) -> list[list[int]]:
-    """The strong components of the graph on m nodes with arcs j → i, sorted by first member."""
+    """The strong components of the graph on m nodes with arcs j → i, sorted by first member.
+
+    Theorems ``strong_components.closure_connect``, ``strong_components.component_rule``.
+    """
     ahead, behind = ([1 << j for j in range(m)] for _ in range(2))  # sets of nodes, as bits
     for j, i in arcs:
         ahead[j] |= 1 << i

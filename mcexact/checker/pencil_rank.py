@@ -16,7 +16,10 @@ from .system import System
 
 
 def check(claim: Any, witness: Any, system: System) -> str:
-    """Check a kernel from above, and elimination modulo (ℓ, p) from below."""
+    """Check a kernel from above, and elimination modulo (ℓ, p) from below.
+
+    Theorems ``deficiency.pencil_rank_upper``, ``deficiency.pencil_rank_lower``.
+    """
     listed, coefficients, number = fields(claim, "claim", "subset", "polynomial", "rank")
     ell, layers, rows = fields(witness, "witness", "modulus", "kernel", "pivots")
     s, n = reading.names(listed, "claim.subset", system.names), system.n

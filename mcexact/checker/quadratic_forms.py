@@ -11,7 +11,10 @@ from .reading import fields, matrix, require
 
 
 def transformed(value: Any, M: Matrix) -> Matrix:
-    """Δ with M T = T Δ for a T that is nonsingular modulo ℓ."""
+    """Δ with M T = T Δ for a T that is nonsingular modulo ℓ.
+
+    Theorem ``stability.stability_blocks``.
+    """
     place, N = "witness.transformation", M.nrows
     left, right, number = fields(value, place, "T", "Delta", "modulus")
     T, Delta = matrix(left, f"{place}.T", N, N), matrix(right, f"{place}.Delta", N, N)
@@ -23,7 +26,10 @@ def transformed(value: Any, M: Matrix) -> Matrix:
 
 
 def decreasing(value: Any, place: str, D: Matrix, time: str, bound: Fraction) -> Matrix:
-    """P, symmetric, with −(DᵀP + PD + 2·bound·P), or bound²P − DᵀPD, positive definite by R2."""
+    """P, symmetric, with −(DᵀP + PD + 2·bound·P), or bound²P − DᵀPD, positive definite by R2.
+
+    Theorems ``stability.stability_continuous``, ``stability.stability_discrete``.
+    """
     k = D.nrows
     P, R2 = (matrix(value[key], f"{place}.{key}", k, k) for key in ("P", "R2"))
     require(P.equals(P.T), "symmetry", f"{place}.P", "not symmetric")
@@ -37,7 +43,10 @@ def decreasing(value: Any, place: str, D: Matrix, time: str, bound: Fraction) ->
 
 
 def require_dominant(S: Matrix, place: str) -> None:
-    """Stop unless S is strictly diagonally dominant with positive diagonal."""
+    """Stop unless S is strictly diagonally dominant with positive diagonal.
+
+    Theorem ``stability.dominant_congruence``.
+    """
     fits = all(
         2 * row[i] > row[i] + sum(map(abs, row)) - abs(row[i]) for i, row in enumerate(S.rows)
     )

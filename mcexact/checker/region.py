@@ -18,7 +18,11 @@ from .transfer_graph import read_arcs, require_arcs
 def require_absence(
     value: Any, system: System, bound: Fraction | None, *, connected: bool = False
 ) -> None:
-    """Stop unless every fixed mode lies in the region; and the graph is connected, if asked."""
+    """Stop unless every fixed mode lies in the region; and the graph is connected, if asked.
+
+    Theorems ``fixed_spectrum.absence``, ``fixed_spectrum.absence_all``,
+    ``transfer_graph.strongly_connected_arcs``.
+    """
     place = "witness.absence"
     gains, number, listed, arcs = fields(value, place, "gains", "modulus", "allowed", "arcs")
     ell = evidence.modulus(number, f"{place}.modulus")

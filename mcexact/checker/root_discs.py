@@ -14,7 +14,10 @@ Disc = tuple[Fraction, Fraction, Fraction]
 
 
 def root_discs(value: Any, place: str, p: Polynomial) -> list[Disc]:
-    """Check discs with exactly one root of p each, all roots together."""
+    """Check discs with exactly one root of p each, all roots together.
+
+    Theorem ``root_discs.root_discs``.
+    """
     discs: list[Disc] = []
     for k, entry in enumerate(items(value, place, len(p) - 1)):
         where = f"{place}[{k}]"
@@ -31,7 +34,10 @@ def root_discs(value: Any, place: str, p: Polynomial) -> list[Disc]:
 
 
 def rate_interval(value: Any, place: str, discs: list[Disc], time: str) -> str:
-    """Check an interval for minus the largest real part, or the largest modulus, of the roots."""
+    """Check an interval for minus the largest real part, or the largest modulus, of the roots.
+
+    Open: see ``proofs/OPEN.md``.
+    """
     low, high = (decimal(end, place) for end in fields(value, place, "lower", "upper"))
     if time == "continuous":
         lower = all(low <= -(re + radius) for re, _, radius in discs)

@@ -13,7 +13,11 @@ from .words import described
 
 
 def check(claim: Any, witness: Any, system: System) -> str:
-    """Check the rank of [A B; C 0], both ways, and whether a defect is an invariant zero."""
+    """Check the rank of [A B; C 0], both ways, and whether a defect is an invariant zero.
+
+    Theorems ``setpoint.setpoint_rank``, ``setpoint.setpoint_unreachable``,
+    ``setpoint.setpoint_output_part``, ``setpoint.normal_rank_deficient``.
+    """
     verdict, size, zero = fields(claim, "claim", "solvable", "rank", "invariant_zero")
     number, left, columns, x0, row = fields(
         witness, "witness", "modulus", "left", "pivots", "point", "normal"

@@ -15,7 +15,10 @@ PAIRS = {"outputs+states": "outputs and sub-states", "states": "sub-states"}
 
 
 def check(claim: Any, witness: Any, system: System) -> str:
-    """Check that the dimensions suffice, every cut, and the tree that leaves nothing cheaper."""
+    """Check that the dimensions suffice, every cut, and the tree that leaves nothing cheaper.
+
+    Theorems ``allocation.branch_tree``, ``allocation.branch_tree_infeasible``.
+    """
     keys = ("share", "bound", "free_assignability", "costs", "upper", "feasible", "dimensions")
     share, limit, free, prices, most, _, sizes, _ = fields(claim, "claim", *keys, "cost")
     absence, listed, tree = fields(witness, "witness", "absence", "cuts", "tree")
@@ -52,7 +55,11 @@ def check(claim: Any, witness: Any, system: System) -> str:
 def _cut(
     entry: Any, place: str, base: System, bound: Fraction | None, free: bool
 ) -> tuple[list[int], int]:
-    """A subset s, and how much its boundary N_s∖s has to share at least."""
+    """A subset s, and how much its boundary N_s∖s has to share at least.
+
+    Theorems ``extended.rank_extended``, ``extended.rank_extended_states``,
+    ``transfer_graph.zero_transfer_cut``.
+    """
     if free and isinstance(entry, dict) and "zero" in entry:
         listed, zero = fields(entry, place, "subset", "zero")
         s, demand = reading.names(listed, f"{place}.subset", base.names), 1

@@ -18,7 +18,10 @@ WITNESS = ("gains", "modulus", "annihilators", "generator")
 
 
 def check(claim: Any, witness: Any, system: System) -> str:
-    """Check gains and their indices for yes; a stuck mode or a cut behind one channel for no."""
+    """Check gains and their indices for yes; a stuck mode or a cut behind one channel for no.
+
+    Theorem ``single_channel_gains.single_channel_yes``.
+    """
     listed, wanted, verdict, spun, numbers = fields(claim, "claim", *CLAIM)
     Q, cyclic = reading.names(listed, "claim.channels", system.names), boolean(spun, "claim.cyclic")
     sides = SIDES if wanted == "both" else (reading.string(wanted, "claim.property", *SIDES),)
@@ -55,6 +58,11 @@ def _seen(system: System, side: str) -> System:
 
 
 def _lost(witness: Any, system: System, Q: list[int], sides: tuple[str, ...]) -> str:
+    """Check a stuck mode or a cut behind one channel; the answer in words.
+
+    Theorems ``single_channel_gains.single_channel_no_mode``,
+    ``single_channel_gains.single_channel_no_cut``.
+    """
     cut = isinstance(witness, dict) and "zero" in witness
     keys = ("zero",) if cut else ("polynomial", "subspace")
     name, side, *parts = fields(witness, "witness", "channel", "side", *keys)

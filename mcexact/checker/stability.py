@@ -15,7 +15,12 @@ from .words import described
 
 
 def check(claim: Any, witness: Any, system: System) -> str:
-    """Place the characteristic polynomial, or check quadratic forms that grow or decrease."""
+    """Place the characteristic polynomial, or check quadratic forms that grow or decrease.
+
+    Theorems ``instability.instability_continuous``, ``instability.instability_discrete``,
+    ``stability.stability_continuous``, ``stability.stability_discrete``,
+    ``stability.stability_blocks``.
+    """
     limit, verdict = fields(claim, "claim", "bound", "stable")
     stable, given = boolean(verdict, "claim.stable"), read_bound(limit, system)
     bound = Fraction(int(system.time == "discrete")) if given is None else given

@@ -18,7 +18,10 @@ CONSTRUCTIONS = {
 
 
 def read_subject(value: Any, plant: System) -> System:
-    """Apply the constructions in order."""
+    """Apply the constructions in order.
+
+    Open: see ``proofs/OPEN.md``.
+    """
     system = plant
     for k, step in enumerate(items(value, "subject")):
         place = f"subject[{k}]"

@@ -13,7 +13,10 @@ from .system import System
 def require_pencil_kernel(
     A: Matrix, B: Matrix, U: list[Matrix], V: list[Matrix], p: Polynomial, place: str
 ) -> None:
-    """Stop unless (xI − A) U = B V modulo p, U and V reduced modulo the monic p of degree ≥ 1."""
+    """Stop unless (xI − A) U = B V modulo p, U and V reduced modulo the monic p of degree ≥ 1.
+
+    Theorem ``deficiency.pencil_rank_upper``.
+    """
     top = U[-1]  # (xI − A)U − BV has degree ≤ deg p, so it must be p·top exactly
     for t, (U_t, V_t) in enumerate(zip(U, V, strict=True)):
         left = A @ U_t + B @ V_t + top.times(p[t])
@@ -24,7 +27,12 @@ def require_pencil_kernel(
 def shrunk_subspace(
     value: Any, place: str, system: System, p: Polynomial, deficiency: int
 ) -> list[int]:
-    """Check a shrunk subspace of at least this deficiency ≥ 1 for p, and return its T."""
+    """Check a shrunk subspace of at least this deficiency ≥ 1 for p, and return its T.
+
+    Theorems ``evidence.shrunk_subspace_fixed``, ``evidence.shrunk_subspace_fixed_dynamic``,
+    ``evidence.shrunk_subspace_rank``, ``evidence.shrunk_subspace_dynamic``,
+    ``evidence.shrunk_subspace_pencil``.
+    """
     chosen, U_layers, V_layers, listed = fields(value, place, "channels_T", "U", "V", "pivots")
     T = names(chosen, f"{place}.channels_T", system.names)
     pivots = positions(listed, f"{place}.pivots", system.n)
@@ -44,7 +52,10 @@ def shrunk_subspace(
 
 
 def zero_transfer(value: Any, place: str, system: System) -> tuple[list[int], Matrix]:
-    """Check that im X is A-invariant and holds im B_j for the channels j, and return j's and X."""
+    """Check that im X is A-invariant and holds im B_j for the channels j, and return j's and X.
+
+    Theorems ``transfer_graph.zero_transfer_no_arc``, ``transfer_graph.zero_transfer_cut``.
+    """
     chosen, X_rows, listed = fields(value, place, "from", "X", "pivots")
     sources = names(chosen, f"{place}.from", system.names)
     pivots = positions(listed, f"{place}.pivots", system.n)

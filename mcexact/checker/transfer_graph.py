@@ -14,7 +14,10 @@ from .words import channel, channel_set, described
 
 
 def check(claim: Any, witness: Any, system: System) -> str:
-    """Check a power for each arc, a zero transfer for each other pair, and the components."""
+    """Check a power for each arc, a zero transfer for each other pair, and the components.
+
+    Theorems ``transfer_graph.transfer_graph_rule``, ``transfer_graph.zero_transfer_no_arc``.
+    """
     listed, parts, verdict = fields(claim, "claim", "arcs", "components", "strongly_connected")
     number, exponents, zeros = fields(witness, "witness", "modulus", "powers", "zeros")
     powers = items(exponents, "witness.powers", len(items(listed, "claim.arcs")))
@@ -56,7 +59,10 @@ def read_arcs(value: Any, where: str, system: System) -> list[tuple[int, int, in
 
 
 def require_arcs(system: System, triples: list[tuple[int, int, int]], ell: int) -> None:
-    """Stop unless k < n and C_i A^k B_j ≠ 0 modulo ℓ for every (j, i, k)."""
+    """Stop unless k < n and C_i A^k B_j ≠ 0 modulo ℓ for every (j, i, k).
+
+    Theorem ``transfer_graph.arc_rule``.
+    """
     A, C = system.A.modulo(ell), [M.modulo(ell) for M in system.C]
     wanted: dict[int, dict[int, list[int]]] = {}
     for j, i, k in triples:

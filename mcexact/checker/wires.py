@@ -30,7 +30,10 @@ def candidates(value: Any, system: System) -> list[tuple[int, int, Fraction]]:
 
 
 def carried(system: System, share: str, sizes: Any, j: int) -> Matrix:
-    """S_j: C_j, diag(C_j, E_j') or [0, E_j'], what an arc from j adds to the outputs."""
+    """S_j: C_j, diag(C_j, E_j') or [0, E_j'], what an arc from j adds to the outputs.
+
+    Theorem ``allocation.communication_cut``.
+    """
     C = Matrix.zeros(0, system.n) if share == "states" else system.C[j]
     if sizes is None:
         return C

@@ -1,0 +1,130 @@
+"""Each rule names the theorems that justify it, or says that it is open; each theorem its rule."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from mcexact import checker
+from mcexact.checker.kinds import KINDS
+
+FOLDER = Path(checker.__file__).parent
+PROOFS = FOLDER.parent.parent / "proofs"
+STEMS = sorted(path.stem for path in FOLDER.glob("*.py"))
+NO_RULE = {"__init__", "__main__", "command", "kinds", "reading", "system", "words"}
+"""What reads, starts and speaks; every other file holds a rule, or evidence of several."""
+SENTENCE = re.compile(r"Theorems? ((?:``\w+\.\w+``(?:,\s+)?)+)\.")
+OPEN = "Open: see ``proofs/OPEN.md``."
+ELSEWHERE = ("paper, ", "supporting: ")
+"""How a line of theorems.txt begins if it justifies no rule by itself."""
+
+
+def tree(stem: str) -> ast.Module:
+    """The parsed file of the checker."""
+    return ast.parse((FOLDER / f"{stem}.py").read_text(encoding="utf-8"))
+
+
+def docstrings(stem: str) -> Iterator[str]:
+    """What the functions and classes of a file say of themselves."""
+    for node in ast.walk(tree(stem)):
+        if isinstance(node, ast.FunctionDef | ast.ClassDef):
+            yield ast.get_docstring(node) or ""
+
+
+def named(stem: str) -> set[str]:
+    """The theorems that a file of the checker names."""
+    found = (listed for text in docstrings(stem) for listed in SENTENCE.findall(text))
+    return {name for listed in found for name in re.findall(r"[\w.]+", listed)}
+
+
+def is_open(stem: str) -> bool:
+    """Whether a function of this file says that a part of it is open."""
+    return any(OPEN in text for text in docstrings(stem))
+
+
+def rests_on(stem: str) -> set[str]:
+    """The files of the checker that one of them imports, itself and what they import included."""
+    found, new = set(), {stem}
+    while new:
+        found |= new
+        imported = set()
+        for node in (node for part in new for node in ast.walk(tree(part))):
+            if isinstance(node, ast.ImportFrom) and node.level == 1:
+                imported |= {node.module} if node.module else {alias.name for alias in node.names}
+        new = (imported & set(STEMS)) - found
+    return found
+
+
+def theorems() -> dict[str, str]:
+    """The lines of theorems.txt: a theorem, and the rule that it justifies."""
+    lines = (PROOFS / "theorems.txt").read_text(encoding="utf-8").splitlines()
+    pairs = (line.split(maxsplit=1) for line in lines if line.strip() and line[0] != "#")
+    return {name: rule.strip() for name, rule in pairs}
+
+
+def kinds_of(rule: str) -> set[str]:
+    """The kinds at the beginning of a line's second half, "kind k: …" or "kinds k, l: …"."""
+    if rule.startswith("kind "):
+        return {rule.split()[1].strip(",:;")}
+    if not rule.startswith("kinds "):
+        return set()
+    head = rule.removeprefix("kinds ").partition(":")[0]
+    return set(re.split(", | and ", head)) - {"others"}
+
+
+LISTED = theorems()
+RULES = {name: rule for name, rule in LISTED.items() if not rule.startswith(ELSEWHERE)}
+
+
+@pytest.mark.parametrize("stem", STEMS)
+def test_what_a_file_names_is_listed(stem: str) -> None:
+    assert named(stem) <= set(LISTED)
+
+
+@pytest.mark.parametrize("stem", STEMS)
+def test_every_mention_of_a_theorem_has_the_one_form(stem: str) -> None:
+    proved = {path.stem for path in PROOFS.glob("*.v")}
+    for text in docstrings(stem):
+        mentioned = set(re.findall(r"``(\w+\.\w+)``", text))
+        formed = {n for found in SENTENCE.findall(text) for n in re.findall(r"[\w.]+", found)}
+        assert {name for name in mentioned if name.partition(".")[0] in proved} <= formed
+        assert len(re.findall(r"\b[Tt]heorems? ``", text)) == len(SENTENCE.findall(text))
+        assert text.count("OPEN.md") == text.count(OPEN)
+
+
+@pytest.mark.parametrize("stem", sorted(set(STEMS) - NO_RULE))
+def test_every_rule_names_a_theorem_or_is_open(stem: str) -> None:
+    assert named(stem) or is_open(stem)
+
+
+@pytest.mark.parametrize("kind", sorted(KINDS))
+def test_the_rule_of_a_kind_names_a_theorem_or_is_open(kind: str) -> None:
+    (check,) = [node for node in tree(kind).body if getattr(node, "name", "") == "check"]
+    text = ast.get_docstring(check) or ""  # type: ignore[arg-type]
+    assert SENTENCE.search(text) or OPEN in text
+
+
+@pytest.mark.parametrize("name", sorted(RULES))
+def test_every_theorem_of_a_rule_is_named_by_a_file_that_the_rule_rests_on(name: str) -> None:
+    kinds = kinds_of(RULES[name])
+    assert kinds <= set(KINDS)
+    for places in [rests_on(kind) for kind in kinds] or [set(STEMS)]:
+        assert any(name in named(stem) for stem in places)
+
+
+@pytest.mark.parametrize("name", sorted(LISTED))
+def test_what_is_listed_is_a_theorem(name: str) -> None:
+    stem, _, theorem = name.partition(".")
+    text = (PROOFS / f"{stem}.v").read_text(encoding="utf-8")
+    assert re.search(rf"^(?:Theorem|Corollary|Proposition) {theorem}\b", text, re.MULTILINE)
+
+
+def test_what_says_that_it_is_open_is_what_the_page_lists() -> None:
+    page = (PROOFS / "OPEN.md").read_text(encoding="utf-8").partition("## Statements")[0]
+    rows = [line.split("|")[1] for line in page.splitlines() if line.startswith("| `")]
+    said = {stem for row in rows for stem in re.findall(r"`(\w+)(?:\.\w+)?`", row)}
+    assert said & set(STEMS) == {stem for stem in STEMS if is_open(stem)}
