@@ -128,3 +128,12 @@ def test_what_says_that_it_is_open_is_what_the_page_lists() -> None:
     rows = [line.split("|")[1] for line in page.splitlines() if line.startswith("| `")]
     said = {stem for row in rows for stem in re.findall(r"`(\w+)(?:\.\w+)?`", row)}
     assert said & set(STEMS) == {stem for stem in STEMS if is_open(stem)}
+
+
+def test_what_is_weakened_is_there_and_every_file_of_rules_has_such_a_line() -> None:
+    lines = (PROOFS / "weakened.txt").read_text(encoding="utf-8").splitlines()
+    entries = [line.split(" ;; ") for line in lines if line.strip() and line[0] != "#"]
+    for stem, _, _, text, _ in entries:
+        source = (PROOFS / f"{stem.strip()}.v").read_text(encoding="utf-8")
+        assert text.strip().replace("⏎", "\n") in source, (stem, text)
+    assert {name.partition(".")[0] for name in RULES} <= {entry[0].strip() for entry in entries}
