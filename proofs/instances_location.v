@@ -1,7 +1,7 @@
 (* The rules that place the roots of a polynomial or the eigenvalues of a matrix, applied to concrete
    ones with every hypothesis discharged. *)
 From mathcomp Require Import all_ssreflect all_algebra all_field.
-From mcexact Require Import location mobius moved_roots root_discs stability instability.
+From mcexact Require Import location mobius moved_roots root_discs rate_interval stability instability.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.Theory GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -63,6 +63,26 @@ Lemma inst_root_disc : exists2 z : algC, root 'X z & `|0 - z| <= 0.
 Proof.
 apply: (@root_disc _ 'X 0); rewrite ?size_polyX ?lexx//.
 by rewrite hornerX normr0 expr0n mulr0 mul0r.
+Qed.
+
+(* The root -3 in the disc of radius 1 about -2: the rate lies in [1, 3], and so does the modulus. *)
+Notation only := (fun x : algC => x = - 3%:R).
+Lemma inst_disc (i : 'I_1) : `|- 2%:R - - 3%:R| <= 1 :> algC.
+Proof. by rewrite opprK addrC -natrB// normr1. Qed.
+Lemma inst_only x : only x <-> exists i : 'I_1, x = - 3%:R.
+Proof. by split=> [->|[]//]; exists ord0. Qed.
+Lemma two_real : - 2%:R \is (Num.real : {pred algC}). Proof. by rewrite rpredN realn. Qed.
+Lemma inst_rate_continuous : (forall x, only x -> 1 <= - 'Re x) /\ (exists2 x, only x & - 'Re x <= 3%:R).
+Proof.
+apply: (rate_interval_continuous inst_disc inst_only) => [_|]; last exists ord0.
+  by rewrite (Creal_ReP _ two_real) opprD opprK addrC -[X in _ <= _ + X]/(1 *+ 2) mulrS addKr.
+by rewrite (Creal_ReP _ two_real) opprB opprK -mulrS.
+Qed.
+Lemma inst_rate_discrete : (exists2 x, only x & 1 <= `|x|) /\ (forall x, only x -> `|x| <= 3%:R).
+Proof.
+apply: (rate_interval_discrete inst_disc inst_only); rewrite ?rpred1//.
+  by exists ord0; right; rewrite normrN normr_nat.
+by move=> _; rewrite ler1n normrN normr_nat [in X in _ <= X]mulrS [1 + _ - 1]addrC addKr.
 Qed.
 
 (* Lyapunov: M = -1 in continuous time, M = 0 in discrete time, P = R = R2 = 1. *)

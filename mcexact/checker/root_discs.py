@@ -36,7 +36,7 @@ def root_discs(value: Any, place: str, p: Polynomial) -> list[Disc]:
 def rate_interval(value: Any, place: str, discs: list[Disc], time: str) -> str:
     """Check an interval for minus the largest real part, or the largest modulus, of the roots.
 
-    Open: see ``proofs/OPEN.md``.
+    Theorems ``rate_interval.rate_interval_continuous``, ``rate_interval.rate_interval_discrete``.
     """
     low, high = (decimal(end, place) for end in fields(value, place, "lower", "upper"))
     if time == "continuous":
