@@ -2,7 +2,7 @@
    every hypothesis discharged and every equivalence on either side; see instances.v for the other rules. *)
 From mathcomp Require Import all_ssreflect all_algebra all_field.
 From mcexact Require Import multichannel arithmetic location mobius moved_roots closed_loop_spectrum.
-From mcexact Require Import error_system distributed_observer.
+From mcexact Require Import error_system distributed_observer routh_integers.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.Theory GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -143,3 +143,22 @@ Qed.
 Lemma inst_paper_separation : drsubmx (separated
   (observer_loop (fun=> setT) plant (fun=> (-2%:~R)%:M) channel_controller) (copied _ _ _)) = errors.
 Proof. by rewrite paper_separation block_mxKdr. Qed.
+
+(* Routh's array: x^3 + 6 x^2 + 11 x + 6 is Hurwitz, x^3 + x^2 + x + 2 is not; the second with x/2 in place
+   of x and all coefficients doubled. *)
+Lemma size_Poly4 (a b c : rat) : size (Poly [:: a; b; c; 1]) = 4%N.
+Proof. by rewrite (@PolyK _ 0). Qed.
+Lemma inst_routh_integers : hurwitz (up (Poly [:: 6%:R; 11%:R; 6%:R; 1])).
+Proof.
+apply/(@is_hurwitz_integers _ _ 1 1 [:: 1%:Z; 6%:Z; 11%:Z; 6%:Z] true) => //.
+- by rewrite -size_poly_eq0 size_Poly4.
+- by rewrite size_Poly4.
+by rewrite /lead_coef size_Poly4 (@PolyK _ 0)//; case=> [|[|[|[|k]]]].
+Qed.
+Lemma inst_not_routh_integers : ~ hurwitz (up (Poly [:: 2%:R; 1; 1; 1])).
+Proof.
+apply/(@is_hurwitz_integers _ _ 2%:R 2%:R [:: 2%:Z; 4%:Z; 8%:Z; 32%:Z] false) => //.
+- by rewrite -size_poly_eq0 size_Poly4.
+- by rewrite size_Poly4.
+by rewrite /lead_coef size_Poly4 (@PolyK _ 0)//; case=> [|[|[|[|k]]]].
+Qed.
