@@ -40,7 +40,7 @@ def is_hurwitz(p: Polynomial) -> bool:
     Each row is kept as a positive multiple of Routh's: what two rows give is divided by the first
     entry of the row before them, which leaves integers (minors of the Hurwitz matrix).
 
-    Theorem ``location.is_hurwitzP``. Open: see ``proofs/OPEN.md``.
+    Theorems ``location.is_hurwitzP``, ``routh_integers.is_hurwitz_integers``.
     """
     d = len(p) - 1
     # x/2^e in place of x shortens the numbers where the denominators are powers of 2
