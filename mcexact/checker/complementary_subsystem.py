@@ -23,7 +23,9 @@ WITNESS = ["modulus", "reachable", "X", "F", "A1", "S", "B1", "L", "G", "N"]
 def check(claim: Any, witness: Any, system: System) -> str:
     """Check bases that bring the pencil to block triangular form, and read off its Smith form.
 
-    Open: see ``proofs/OPEN.md``.
+    Theorems ``complementary_subsystem.invariant_polynomials``,
+    ``complementary_subsystem.normal_rank``, ``complementary_subsystem.remnant_gcd``,
+    ``complementary_subsystem.transfer_zero``, ``complementary_subsystem.complete_rule``.
     """
     listed, rank, invariants, rest, zero, verdict = fields(claim, "claim", *CLAIM)
     number, size, *values = fields(witness, "witness", *WITNESS)
