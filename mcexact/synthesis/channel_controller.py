@@ -158,8 +158,8 @@ def channel_controller(
     h = Matrix.from_rows([list(row)], ncols=C.nrows)
     d = characteristic_polynomial(A)
     numerators = _numerators(A, B, h @ C, d)
-    own, columns = _assigned(d, numerators, polynomial, order)
-    return _realized(own, columns, h, polynomial)
+    own, n_c = _assigned(d, numerators, polynomial, order)
+    return _realized(own, n_c, h, polynomial)
 
 
 def transposed(controller: ChannelController) -> ChannelController:
@@ -192,8 +192,8 @@ def observing_rows(A: Matrix, C: Matrix, rng: Random) -> Iterator[tuple[int, ...
             yield h
 
 
-def _numerators(A: Matrix, B: Matrix, c: Matrix, d: Polynomial) -> list[list[Fraction]]:
-    """The polynomials of c adj(sI − A) B, one for each column of B, as n coefficients each.
+def _numerators(A: Matrix, B: Matrix, c: Matrix, d: Polynomial) -> Matrix:
+    """The polynomials of c adj(sI − A) B: for each column of B a row of n coefficients.
 
     adj(sI − A) = Σ_k s^k Σ_{l>k} d_l A^{l−k−1}.
     """
@@ -206,19 +206,26 @@ def _numerators(A: Matrix, B: Matrix, c: Matrix, d: Polynomial) -> list[list[Fra
         [[d.coefficients[k + 1 + i] if k + 1 + i <= n else 0 for i in range(n)] for k in range(n)],
         ncols=n,
     )
-    table = weights @ Matrix.from_rows(markov, ncols=B.ncols)
-    return [list(column) for column in table.T.rows()]
+    return (weights @ Matrix.from_rows(markov, ncols=B.ncols)).T
 
 
 def _assigned(
-    d: Polynomial, numerators: list[list[Fraction]], wanted: Polynomial, order: int
-) -> tuple[list[Fraction], list[list[Fraction]]]:
-    """Solve d p_c − Σ_j N_j n_j = wanted: p_c without its leading coefficient, and all n_j."""
+    d: Polynomial, numerators: Matrix, wanted: Polynomial, order: int
+) -> tuple[Matrix, Matrix]:
+    """Solve d p_c − Σ_j N_j n_j = wanted, deg p_c = k.
+
+    Returns
+    -------
+    own : Matrix, 1×k
+        p_c without its leading coefficient.
+    n_c : Matrix, p×(k+1)
+        All n_j.
+    """
     n = d.degree
     size = n + order
     shifts = [[Fraction(0)] * k + list(d.coefficients) for k in range(order)]
-    for column in numerators:
-        negative = [-entry for entry in column]
+    for row in (-numerators).rows():
+        negative = list(row)
         shifts += [[Fraction(0)] * k + negative for k in range(order + 1)]
     padded = [shift + [Fraction(0)] * (size - len(shift)) for shift in shifts]
     leading = [Fraction(0)] * order + list(d.coefficients)
@@ -228,12 +235,15 @@ def _assigned(
     solution = solve(S.take(cols=pivots), Matrix.column(rest))
     if solution is None:
         raise InternalError("the equations of the channel controller have no solution")
-    values = [Fraction(0)] * len(shifts)
-    for k, pivot in enumerate(pivots):
-        values[pivot] = solution[k, 0]
-    own, rest = values[:order], values[order:]
-    width = order + 1
-    return own, [rest[j * width : (j + 1) * width] for j in range(len(numerators))]
+    values = [0] * len(shifts)
+    for pivot, (numerator,) in zip(pivots, solution.numerators, strict=True):
+        values[pivot] = numerator
+    starts = range(order, len(values), order + 1)
+    table = [values[start : start + order + 1] for start in starts]
+    return (
+        Matrix.from_integers([values[:order]], solution.denominator),
+        Matrix.from_integers(table, solution.denominator, ncols=order + 1),
+    )
 
 
 def _pivot_columns(S: Matrix) -> list[int]:
@@ -254,22 +264,18 @@ def _pivot_columns(S: Matrix) -> list[int]:
     )
 
 
-def _realized(
-    own: list[Fraction], columns: list[list[Fraction]], h: Matrix, polynomial: Polynomial
-) -> ChannelController:
+def _realized(own: Matrix, n_c: Matrix, h: Matrix, polynomial: Polynomial) -> ChannelController:
     """u = (n_c / p_c) h y in controllable canonical form, with n_c of degree ≤ deg p_c = k:
 
     A = [0 1; ⋱ ; −p_0 … −p_{k−1}],  B = e_k h,  C = [n_c − D_0 p_c],  D = D_0 h.
     """
-    k = len(own)
-    direct = Matrix.column([column[k] for column in columns])
-    C = Matrix.from_rows(
-        [[column[i] - column[k] * own[i] for i in range(k)] for column in columns], ncols=k
-    )
+    k = own.ncols
+    direct = n_c.take(cols=[k])
+    C = n_c.take(cols=range(k)) - direct @ own
     if k == 0:
         A, input_row = Matrix.zeros(0, 0), Matrix.zeros(0, 1)
     else:
         upper = hstack([Matrix.zeros(k - 1, 1), Matrix.identity(k - 1)])
-        A = vstack([upper, Matrix.from_rows([[-entry for entry in own]])])
+        A = vstack([upper, -own])
         input_row = Matrix.column([0] * (k - 1) + [1])
     return ChannelController(A, input_row @ h, C, direct @ h, polynomial)
