@@ -1,8 +1,8 @@
 (* The rules for loops and for the places of their roots applied to concrete polynomials and matrices, with
    every hypothesis discharged and every equivalence on either side; see instances.v for the other rules. *)
-From mathcomp Require Import all_ssreflect all_algebra all_field.
+From mathcomp Require Import all_ssreflect fingroup perm all_algebra all_field.
 From mcexact Require Import multichannel arithmetic location mobius moved_roots closed_loop_spectrum.
-From mcexact Require Import error_system distributed_observer routh_integers.
+From mcexact Require Import error_system distributed_observer routh_integers hessenberg.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.Theory GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -161,4 +161,24 @@ apply/(@is_hurwitz_integers _ _ 2%:R 2%:R [:: 2%:Z; 4%:Z; 8%:Z; 32%:Z] false) =>
 - by rewrite -size_poly_eq0 size_Poly4.
 - by rewrite size_Poly4.
 by rewrite /lead_coef size_Poly4 (@PolyK _ 0)//; case=> [|[|[|[|k]]]].
+Qed.
+
+(* Hessenberg form modulo 6, L not the identity: x^3 - x. *)
+Definition rows3 (rows : seq (seq nat)) : 'M['Z_6]_3 := \matrix_(i, j) (nth 0%N (nth [::] rows i) j)%:R.
+Definition swaps := rows3 [:: [:: 0; 1; 0]; [:: 1; 0; 0]; [:: 1; 0; 0]]%N.
+Definition unit_lower := rows3 [:: [:: 1; 0; 0]; [:: 0; 1; 0]; [:: 0; 1; 1]]%N.
+Definition above (i j : nat) : 'Z_6 := ((i == 0%N) && (j == 1%N))%:R.
+Definition below (j : nat) : 'Z_6 := (j == 0%N)%:R.
+Lemma inst_hessenberg : char_poly swaps = hessenberg_poly above below 3.
+Proof.
+apply: (@characteristic_polynomial_modulo _ _ swaps unit_lower 1%g).
+- by apply/is_trig_mxP; move=> [[|[|[|?]]] ?] [[|[|[|?]]] ?] //= _; rewrite mxE.
+- by move=> [[|[|[|?]]] ?] //; rewrite mxE.
+apply/matrixP=> -[[|[|[|?]]] ?] [[|[|[|?]]] ?] //;
+  by rewrite !mxE !big_ord_recl !big_ord0 /swaps /unit_lower /rows3 !mxE ?perm1.
+Qed.
+Lemma inst_hessenberg_poly : hessenberg_poly above below 3 = 'X ^+ 3 - 'X.
+Proof.
+rewrite /hessenberg_poly /= !big_ord_recl !big_ord0 /= /above /below /=.
+by rewrite !mul0r !scale0r !addr0 !subr0 big_nat1 !mul1r scale1r !mulr1 mulrBr mulr1 -expr2 -exprS.
 Qed.

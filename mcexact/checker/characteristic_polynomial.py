@@ -16,7 +16,7 @@ def characteristic_polynomial_modulo(A: Rows, ell: int) -> Polynomial:
     A L = L H with L unit lower triangular (up to a common permutation of rows and columns) and H
     upper Hessenberg, column by column: one reduction modulo ℓ for each inner product.
 
-    Open: see ``proofs/OPEN.md``.
+    Theorem ``hessenberg.characteristic_polynomial_modulo``.
     """
     n, A = len(A), [list(row) for row in A]
     L: Rows = [[int(i == 0)] for i in range(n)]
@@ -50,6 +50,7 @@ def _hessenberg_polynomial(H: Rows, below: list[int], ell: int) -> Polynomial:
     """det(xI − H) modulo ℓ for H upper Hessenberg: column k holds H[k], then ``below[k]``.
 
     p_{k+1} = (x − h_kk) p_k − Σ_{i<k} h_ik (below_i … below_{k−1}) p_i, coefficient by coefficient.
+    Theorem ``hessenberg.hessenberg_polynomial``.
     """
     coefficients: Rows = [[1]]  # coefficients[c][k] is the coefficient of x^c in p_k
     for k, weights in enumerate(H):
