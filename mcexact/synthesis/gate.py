@@ -14,7 +14,7 @@ from mcexact.certificate.distributed_observer import DistributedObserverCertific
 from mcexact.errors import Impossible, InternalError
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
-from mcexact.exact.modular import polynomial_residues, primes, residues
+from mcexact.exact.modular import polynomial_residues, primes, residues_modulo_each
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.closed_loop import closed_loop
 from mcexact.model.controller import Controller
@@ -23,6 +23,7 @@ from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import canonical_document
 
 _MODULUS_BITS = 61
+_AT_ONCE = 16
 _KEY = object()
 
 
@@ -238,22 +239,24 @@ def agreeing_moduli(claims: list[tuple[Matrix, Polynomial]], seed: int) -> tuple
         if p.degree != M.nrows or any(c.denominator != 1 or abs(c) > beta for c in scaled):
             raise InternalError("the closed loop does not have the spectrum it was designed for")
     largest = max(2 * beta for _, beta in bounds)
-    moduli: list[int] = []
-    product = 1
     denominators = prod(D for D, _ in bounds)
+    chosen: dict[int, None] = {}
+    product = 1
     for ell in primes(seed, _MODULUS_BITS):
         if product > largest:
             break
-        if denominators % ell == 0 or ell in moduli:
-            continue
-        for M, p in claims:
-            if residues(M, ell).characteristic_polynomial() != polynomial_residues(p, ell):
-                raise InternalError(
-                    "the closed loop does not have the spectrum it was designed for"
-                )
-        moduli.append(ell)
-        product *= ell
-    return tuple(moduli)
+        if denominators % ell and ell not in chosen:
+            chosen[ell] = None
+            product *= ell
+    moduli = tuple(chosen)
+    for M, p in claims:
+        for start in range(0, len(moduli), _AT_ONCE):
+            for residue in residues_modulo_each(M, moduli[start : start + _AT_ONCE]):
+                if residue.characteristic_polynomial() != polynomial_residues(p, residue.modulus):
+                    raise InternalError(
+                        "the closed loop does not have the spectrum it was designed for"
+                    )
+    return moduli
 
 
 def coefficient_bound(M: Matrix) -> tuple[int, int]:

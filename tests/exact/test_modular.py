@@ -23,6 +23,7 @@ from mcexact.exact.modular import (
     random_matrix,
     residue,
     residues,
+    residues_modulo_each,
     vstack,
 )
 from mcexact.exact.polynomial import Polynomial
@@ -274,3 +275,14 @@ def test_operations_that_make_no_sense_for_polynomials():
         one.multiplicity_in(one)
     with pytest.raises(InputError, match="moduli do not match"):
         one + ModularPolynomial.from_coefficients([1], 5)
+
+
+@given(matrices(), st.integers(0, 50), st.integers(0, 20))
+def test_residues_modulo_several_primes_are_those_modulo_each(M, seed, count):
+    ells = [p for p in itertools.islice(primes(seed), count) if M.denominator % p]
+    assert residues_modulo_each(M, ells) == [residues(M, ell) for ell in ells]
+
+
+def test_a_prime_that_divides_the_denominator_is_refused_among_others_too():
+    with pytest.raises(InputError, match="divides a denominator"):
+        residues_modulo_each(Matrix.from_rows([["1/7"]]), [5, 7])
