@@ -72,7 +72,7 @@ def characteristic_polynomial(A: Matrix) -> Polynomial:
     The coefficients of det(xI − N), N the integer numerators, are at most Π (1 + |row|) in absolute
     value (Hadamard, minor by minor), so they are read off modulo one larger power of an odd q.
 
-    Open: see ``proofs/OPEN.md``.
+    Theorem ``characteristic_polynomial.characteristic_polynomial_rule``.
     """
     bound = math.prod(2 + math.isqrt(sum(entry * entry for entry in row)) for row in A.rows)
     for q in count(2**61 - 1, 2):

@@ -25,7 +25,8 @@ def check(claim: Any, witness: Any, system: System) -> str:
 
     Theorems ``complementary_subsystem.invariant_polynomials``,
     ``complementary_subsystem.normal_rank``, ``complementary_subsystem.remnant_gcd``,
-    ``complementary_subsystem.transfer_zero``, ``complementary_subsystem.complete_rule``.
+    ``complementary_subsystem.remnant_roots``, ``complementary_subsystem.transfer_zero``,
+    ``complementary_subsystem.complete_rule``.
     """
     listed, rank, invariants, rest, zero, verdict = fields(claim, "claim", *CLAIM)
     number, size, *values = fields(witness, "witness", *WITNESS)
