@@ -163,6 +163,48 @@ apply/(@is_hurwitz_integers _ _ 2%:R 2%:R [:: 2%:Z; 4%:Z; 8%:Z; 32%:Z] false) =>
 by rewrite /lead_coef size_Poly4 (@PolyK _ 0)//; case=> [|[|[|[|k]]]].
 Qed.
 
+(* The same two linear polynomials with their rates and radii, by integers; x + 1 has p(-1) = 0. *)
+Lemma integers_linear (l c : rat) (s w : int) : l != 0 -> 0 < s -> w%:~R = s%:~R * (c / l) ->
+  integers_of (l *: 'X + c%:P) [:: s; w].
+Proof.
+move=> l0 s0 e; have sz : size (l *: 'X + c%:P) = 2%N.
+  by rewrite -mul_polyC size_MXaddC polyC_eq0 (negPf l0) /= size_polyC l0.
+exists 1, s%:~R; split; rewrite ?sz ?ltr0z//.
+have lE : lead_coef (l *: 'X + c%:P) = l by rewrite lead_coefE sz coefD coefZ coefX coefC mulr1 addr0.
+by rewrite lE; case=> [|[|k]] //= _; rewrite coefD coefZ coefX coefC expr1n !mulr1 ?mulr0 ?addr0 ?add0r ?divff ?mulr1.
+Qed.
+Lemma integers_shifted (a b : rat) (w : int) : w%:~R = - (a + b) -> integers_of (shifted ('X - a%:P) b) [:: 1; w].
+Proof.
+move=> e; rewrite shifted_XsubC -['X]scale1r -polyCN; apply: integers_linear => //.
+by rewrite divr1 mul1r.
+Qed.
+Lemma inst_in_region_rate (z : algC) : root (up ('X - (-2%:~R)%:P)) z -> 'Re z < - ratr 1.
+Proof.
+move: z; apply/(@in_region_continuous _ _ _ [:: 1; 1] true) => //; first by rewrite polyXsubC_eq0.
+exact: integers_shifted.
+Qed.
+Lemma inst_not_in_region_rate : ~ (forall z : algC, root (up ('X - (-2%:~R)%:P)) z -> 'Re z < - ratr 3%:~R).
+Proof.
+apply/(@in_region_continuous _ _ _ [:: 1; -1] false) => //; first by rewrite polyXsubC_eq0.
+exact: integers_shifted.
+Qed.
+Lemma top_moebius1 (a b : rat) : b != 0 -> (moebius (scaled ('X - a%:P) b))`_(size ('X - a%:P)).-1 = b + a.
+Proof. by move=> b0; rewrite moebius1// size_XsubC coefD coefZ coefX coefC mulr1 addr0. Qed.
+Lemma inst_in_region_radius (z : algC) : root (up ('X - 2%:R^-1%:P)) z -> `|z| < ratr 1.
+Proof.
+have n0 : (1 + 2%:R^-1 : rat) != 0 by [].
+move: z; apply/(@in_region_discrete _ _ _ [:: 3%:Z; 1] true); rewrite ?polyXsubC_eq0 ?ltr01//.
+  by rewrite top_moebius1 ?oner_neq0// => e; rewrite e eqxx in n0.
+by move=> _; rewrite moebius1 ?oner_neq0//; split; first apply: integers_linear.
+Qed.
+Lemma inst_not_in_region_radius : ~ (forall z : algC, root (up ('X - 2%:R%:P)) z -> `|z| < ratr 1).
+Proof.
+apply/(@in_region_discrete _ _ _ [:: 3%:Z; -1] false); rewrite ?polyXsubC_eq0 ?ltr01//.
+by move=> _; rewrite moebius1 ?oner_neq0//; split; first apply: integers_linear.
+Qed.
+Lemma inst_root_at_minus_1 : ~ (forall z : algC, root (up ('X - (-1)%:P)) z -> `|z| < ratr 1).
+Proof. by apply/(@in_region_discrete _ _ _ [::] false); rewrite ?polyXsubC_eq0// top_moebius1. Qed.
+
 (* Hessenberg form modulo 6, L not the identity: x^3 - x. *)
 Definition rows3 (rows : seq (seq nat)) : 'M['Z_6]_3 := \matrix_(i, j) (nth 0%N (nth [::] rows i) j)%:R.
 Definition swaps := rows3 [:: [:: 0; 1; 0]; [:: 1; 0; 0]; [:: 1; 0; 0]]%N.
@@ -182,3 +224,5 @@ Proof.
 rewrite /hessenberg_poly /= !big_ord_recl !big_ord0 /= /above /below /=.
 by rewrite !mul0r !scale0r !addr0 !subr0 big_nat1 !mul1r scale1r !mulr1 mulrBr mulr1 -expr2 -exprS.
 Qed.
+Lemma inst_hessenberg_matrix : char_poly (hessenberg above below 3) = 'X ^+ 3 - 'X.
+Proof. by rewrite hessenberg_polynomial inst_hessenberg_poly. Qed.

@@ -2,7 +2,7 @@
    Each row is a positive multiple of Routh's, so the signs of the first entries decide as the recursion on
    rational polynomials does (location.is_hurwitzP).  A division that is not exact gives no answer. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From mcexact Require Import location moved_roots.
+From mcexact Require Import location mobius moved_roots.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.Theory GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -145,5 +145,37 @@ have e : hurwitz (up P) <-> hurwitz (up p).
   by have := h ((ratr t^-1)^-1 * z); rewrite rE -reE mulVKf ?gt_eqF.
 rewrite -e; split; first by move/routh_rational => ->//; rewrite lP.
 by move=> hk; apply/routh_rational => //; rewrite lP.
+Qed.
+
+(* in_region with Routh's array: w are the integer coefficients made from q, in descending order. *)
+Definition integers_of (q : {poly rat}) (w : seq int) := exists t s : rat, [/\ 0 < t, 0 < s, size w = size q &
+  forall k, (k < size q)%N -> (w`_k)%:~R = s * (q`_((size q).-1 - k) / lead_coef q * t ^+ k)].
+
+Theorem in_region_continuous (p : {poly rat}) b w answer : p != 0 -> integers_of (shifted p b) w ->
+  hurwitz_integers w = Some answer -> (forall z : C, root (up p) z -> 'Re z < - ratr b) <-> answer.
+Proof.
+move=> p0 [t [s [t0 s0 sw hw]]] h; have n0 : shifted p b != 0.
+  by rewrite shiftedE -size_poly_gt0 size_comp_poly2 ?size_XsubC// size_poly_gt0.
+by rewrite -(is_hurwitz_integers n0 t0 s0 sw hw h) map_shifted; apply: rate_rule; apply: ratr_real.
+Qed.
+
+Theorem in_region_discrete (p : {poly rat}) b (q := moebius (scaled p b)) w answer : p != 0 -> 0 < b ->
+  (q`_(size p).-1 = 0 -> answer = false) ->
+  (q`_(size p).-1 != 0 -> integers_of q w /\ hurwitz_integers w = Some answer) ->
+  (forall z : C, root (up p) z -> `|z| < ratr b) <-> answer.
+Proof.
+move=> p0 b0 zero other; have b0' : 0 < ratr b :> C by rewrite ltr0q.
+have ss : size (scaled p b) = size p.
+  by rewrite /scaled size_poly_eq// mulf_neq0 -?lead_coefE ?lead_coef_eq0// expf_neq0// gt_eqF.
+have s0 : up (scaled p b) != 0 by rewrite map_poly_eq0 -size_poly_gt0 ss size_poly_gt0.
+have eq : transformed (up (scaled p b)) = up q by rewrite map_moebius moebiusE.
+have el : (q`_(size p).-1 != 0) = ((up (scaled p b)).[-1] != 0).
+  have -> : -1 = ratr (-1) :> C by rewrite rmorphN1.
+  by rewrite /q -ss moebius_lead mulf_eq0 signr_eq0 horner_map fmorph_eq0.
+rewrite (radius_rule _ b0') -map_scaled (schur_mobius s0) eq -el.
+have [/zero ->|nq] := eqVneq; first by split=> // -[].
+have [[t [s [t0 s0' sw hw]]] h] := other nq.
+have q0 : q != 0 by apply: contraNneq nq => ->; rewrite coef0.
+by rewrite (is_hurwitz_integers q0 t0 s0' sw hw h); split=> // -[].
 Qed.
 End Rule.

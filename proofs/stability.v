@@ -1,6 +1,6 @@
 (* checker/stability.py: kind `stability`, by Lyapunov matrices, as a whole and by blocks, and the rule
-   for instability.  The rule by the characteristic polynomial is is_hurwitzP and is_schurP
-   in location.v (a rate or a radius by shift and scaling, which stands in words in location.md).
+   for instability.  The rule by the characteristic polynomial is in_region_continuous and
+   in_region_discrete in routh_integers.v.
 
    C is a closed field such as algC; M, P, R are real, seen in C; x^H is the conjugate transpose. *)
 From mathcomp Require Import all_ssreflect all_algebra.

@@ -22,7 +22,8 @@ def in_region(p: Polynomial, time: str, bound: Fraction | None) -> bool:
     No bound: no root counts as inside, so that only a constant is.
 
     Theorems ``moved_roots.rate_rule``, ``moved_roots.radius_rule``,
-    ``moved_roots.region_continuous``, ``moved_roots.region_discrete``.
+    ``moved_roots.region_continuous``, ``moved_roots.region_discrete``,
+    ``routh_integers.in_region_continuous``, ``routh_integers.in_region_discrete``.
     """
     if bound is None:
         return len(p) == 1
