@@ -1,6 +1,6 @@
-(* The characteristic polynomial of [3/2], read off modulo 11. *)
+(* The characteristic polynomial of [3/2], read off modulo 11, and that of [1, 1; 1, 1], by columns. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From mcexact Require Import arithmetic characteristic_polynomial.
+From mcexact Require Import arithmetic hessenberg characteristic_polynomial.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.Theory GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -23,3 +23,11 @@ Definition inst_integers : char_poly N = c := characteristic_polynomial_integers
 Lemma inst_rational :
   char_poly (\matrix_(i, j) ((N i j)%:~R / 2%:R) : 'M[rat]_1) = \poly_(k < 2) ((c`_k)%:~R / 2%:R ^+ (1 - k)).
 Proof. exact: (characteristic_polynomial_rule rows_N large_l11 least_c _ residues_c). Qed.
+
+Notation ones := (hessenberg (fun _ _ => 1) (fun=> 1) 2 : 'M[int]_2).
+Lemma inst_hessenberg_polynomial : char_poly ones = ('X - 1) ^+ 2 - 1.
+Proof.
+rewrite hessenberg_polynomial /hessenberg_poly /= !big_ord_recl !big_ord0 /=.
+rewrite !big_nat1 /bump /= !big_geq// !mulr1 !scale1r !addr0 opprD addrA addrAC.
+by rewrite expr2 mulrBl mul1r.
+Qed.
