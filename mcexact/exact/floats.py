@@ -39,29 +39,25 @@ def matrix_from_float(
     >>> matrix_from_float([[0.1, 2.0]]).rows()
     ((Fraction(1, 10), Fraction(2, 1)),)
     """
-    import numpy as np
 
     if hasattr(M, "toarray"):
         M = M.toarray()
-    array = np.asarray(M) if hasattr(M, "__array__") else _array(M, where)
-    if array.ndim != 2:
-        raise InputError(
-            f"expected a two-dimensional array, found {array.ndim} dimensions", where=where
-        )
-    if array.dtype.kind not in "fiu" and array.size:
-        raise InputError(
-            f"expected an array of real numbers, found dtype {array.dtype}", where=where
-        )
-    rows = [
-        [
-            entry
-            if isinstance(entry, int)
-            else from_float(entry, rounding, where=f"{where or ''}[{i}][{j}]")
-            for j, entry in enumerate(row)
-        ]
-        for i, row in enumerate(array.tolist())
+    rows, ncols = _from_array(M, where) if hasattr(M, "__array__") else _from_lists(M, where)
+    exact = [
+        [_exact(entry, rounding, f"{where or ''}[{i}][{j}]") for j, entry in enumerate(row)]
+        for i, row in enumerate(rows)
     ]
-    return Matrix.from_rows(rows, ncols=array.shape[1])
+    return Matrix.from_rows(exact, ncols=ncols)
+
+
+def _exact(entry: Any, rounding: Rounding, where: str) -> Fraction | int:
+    """One entry; an integer stays what it is, however long."""
+    kind = getattr(getattr(entry, "dtype", None), "kind", "")
+    if isinstance(entry, float) or kind == "f":
+        return from_float(entry, rounding, where=where)
+    if hasattr(entry, "__index__") and not isinstance(entry, bool) and kind != "b":
+        return int(entry.__index__())
+    raise InputError(f"expected a real number, found {type(entry).__name__}", where=where)
 
 
 def dyadic_matrix(M: Any, bits: int = 52) -> Matrix:
@@ -93,19 +89,36 @@ def dyadic_matrix(M: Any, bits: int = 52) -> Matrix:
     return whole * (Fraction(2) ** -exponent)
 
 
-def _array(rows: Any, where: str | None) -> npt.NDArray[Any]:
-    """A list of rows as an array; numpy would turn ragged rows or text into something else."""
+def _from_array(M: Any, where: str | None) -> tuple[list[list[Any]], int]:
+    """The rows of an array and their length."""
     import numpy as np
 
+    array = np.asarray(M)
+    if array.ndim != 2:
+        raise InputError(
+            f"expected a two-dimensional array, found {array.ndim} dimensions", where=where
+        )
+    if array.dtype.kind not in "fiuO" and array.size:
+        raise InputError(
+            f"expected an array of real numbers, found dtype {array.dtype}", where=where
+        )
+    rows: list[list[Any]] = array.tolist()
+    return rows, array.shape[1]
+
+
+def _from_lists(rows: Any, where: str | None) -> tuple[list[list[Any]], int]:
+    """A list of rows and their length; numpy would round long integers beside a float."""
     if isinstance(rows, (str, bytes, dict)) or not isinstance(rows, Iterable):
         raise InputError(
             f"expected a two-dimensional array, found {type(rows).__name__}", where=where
         )
     try:
-        array = np.array([list(row) for row in rows])
-    except (TypeError, ValueError):
+        table = [list(row) for row in rows]
+    except TypeError:
         raise InputError("expected rows of numbers, all of one length", where=where) from None
-    return array if array.ndim != 1 or array.size else array.reshape(0, 0)
+    if len(set(map(len, table))) > 1:
+        raise InputError("expected rows of numbers, all of one length", where=where)
+    return table, len(table[0]) if table else 0
 
 
 def matrix_to_float(M: Matrix) -> npt.NDArray[np.float64]:

@@ -177,7 +177,8 @@ MultiChannelSystem.from_float(..., rounding="decimal" | "dyadic")
     """
     if type(entry) is int:
         return Fraction(entry)
-    if type(entry) is Fraction:
+    # A Fraction made of numpy integers keeps them, and they overflow.
+    if type(entry) is Fraction and type(entry.numerator) is type(entry.denominator) is int:
         return entry
     if isinstance(entry, str):
         return parse_rational(entry, where=where)

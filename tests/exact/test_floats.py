@@ -44,6 +44,15 @@ def test_large_integers_are_not_rounded():
     assert M[0, 0] == 2**62 + 1
 
 
+@pytest.mark.parametrize("beside", [0.5, -1, np.float32(0.5), 2**63, 10**40])
+def test_integers_in_a_list_are_not_rounded_whatever_stands_beside_them(beside):
+    M = matrix_from_float([[2**60 + 1, beside], np.array([2**62 + 1, 1])])
+    assert M.rows() == (
+        (Fraction(2**60 + 1), Fraction(int(2 * beside), 2)),
+        (Fraction(2**62 + 1), Fraction(1)),
+    )
+
+
 def test_single_precision_is_read_as_the_number_it_is():
     assert matrix_from_float(np.array([[0.5]], dtype=np.float32))[0, 0] == Fraction(1, 2)
 
@@ -68,6 +77,9 @@ def test_lists_and_sparse_arrays():
         (np.zeros((1, 1), dtype=complex), "expected an array of real numbers, found dtype complex"),
         (np.array([[True]]), "expected an array of real numbers, found dtype bool"),
         (np.array([["1"]]), "expected an array of real numbers"),
+        ([[True, 0.5]], r"^B\[0\]\[0\]: expected a real number, found bool"),
+        ([[1.0, "2"]], r"^B\[0\]\[1\]: expected a real number, found str"),
+        ([[1j]], r"^B\[0\]\[0\]: expected a real number, found complex"),
         ([[1.0], [2.0, 3.0]], "expected rows of numbers, all of one length"),
         ([1.0, 2.0], "expected rows of numbers"),
         ("12", "expected a two-dimensional array, found str"),

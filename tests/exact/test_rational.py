@@ -120,6 +120,7 @@ def test_the_limit_on_exponents_can_be_raised():
         (sympy.Rational(2, 6), Fraction(1, 3)),
         (sympy.Integer(5), Fraction(5)),
         (np.int64(-4), Fraction(-4)),
+        (Fraction(np.int64(3), np.int64(2)), Fraction(3, 2)),
         (2**100, Fraction(2**100)),
     ],
 )
@@ -127,6 +128,7 @@ def test_every_exact_kind_of_entry_is_accepted(entry, value):
     found = as_fraction(entry)
     assert found == value
     assert type(found) is Fraction
+    assert type(found.numerator) is type(found.denominator) is int
 
 
 @pytest.mark.parametrize(
