@@ -223,7 +223,15 @@ class MultiChannelSystem:
         return self.names.index(name)
 
     def indices(self, names: Iterable[str]) -> tuple[int, ...]:
-        """The positions of some channels, in the order of the system."""
+        """The positions of some channels, in the order of the system.
+
+        Raises
+        ------
+        UsageError
+            If no channel has one of the names, or a single name stands in place of a list.
+        """
+        if isinstance(names, str):
+            raise UsageError(f"expected a list of names, found a string; write [{quoted(names)}]")
         return tuple(sorted({self.index(name) for name in names}))
 
     def named(self, channels: Iterable[int]) -> tuple[str, ...]:

@@ -168,6 +168,13 @@ def test_an_unknown_channel_is_named_with_the_known_ones():
         small(names=("u1", "x")).index("u12")
 
 
+def test_a_name_is_not_read_as_a_list_of_the_names_of_its_letters():
+    with pytest.raises(
+        UsageError, match=r"expected a list of names, found a string; write \['12'\]"
+    ):
+        small().indices("12")
+
+
 def test_decimal_and_dyadic_rounding_differ():
     arguments = ([[0.1]], [[[1.0]]], [[[1.0]]])
     decimal = MultiChannelSystem.from_float(*arguments, rounding="decimal")
