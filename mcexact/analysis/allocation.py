@@ -30,7 +30,7 @@ from mcexact.certificate.shared_dimensions import SharedDimensionsCertificate
 from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.derived.extended import Share, checked_share, extended_system
 from mcexact.errors import LimitReached, UsageError
-from mcexact.exact.location import StabilityRegion
+from mcexact.exact.location import StabilityRegion, bounded_region
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import Entry, as_fraction
 from mcexact.model.neighbor_graph import NeighborGraph
@@ -168,14 +168,9 @@ class _Problem:
     costs: tuple[Fraction, ...]
     upper: tuple[int | None, ...]
     bound: Fraction | None
+    region: StabilityRegion | None
+    """Where a mode may stay fixed."""
     free_assignability: bool
-
-    @property
-    def region(self) -> StabilityRegion | None:
-        """Where a mode may stay fixed."""
-        if self.bound is None:
-            return None
-        return StabilityRegion(self.system.time, self.bound or None)
 
 
 @dataclass(frozen=True)
@@ -225,9 +220,11 @@ def minimal_shared_dimensions(
     Raises
     ------
     UsageError
-        If there is no neighbor graph, the system is a derived one, or a price is not positive.
+        If there is no neighbor graph, the system is a derived one, or a price, an upper bound or
+        the bound is out of range.
     LimitReached
-        At the node limit; its ``lower`` and ``upper`` bound the least cost.
+        At the node limit, where its ``lower`` and ``upper`` bound the least cost; or if the prices
+        are too far apart.
 
     Notes
     -----
@@ -258,6 +255,8 @@ def minimal_shared_dimensions(
     try:
         tree = branch_tree(program, cost, node_limit=node_limit)
     except LimitReached as error:
+        if error.lower is None:
+            raise
         raise LimitReached(
             f"{error.message}; the least cost is between {error.lower} and {cost}",
             lower=error.lower,
@@ -311,19 +310,22 @@ def _checked(
     if system.subject:
         raise UsageError("give the plant, not a system derived from it", where="system")
     m = system.m
-    prices = tuple(as_fraction(c) for c in costs) if costs is not None else (Fraction(1),) * m
+    given = [1] * m if costs is None else costs
+    prices = tuple(as_fraction(c, where=f"costs[{i}]") for i, c in enumerate(given))
     if len(prices) != m or any(price <= 0 for price in prices):
         raise UsageError(f"expected {m} positive numbers, one for each agent", where="costs")
     limits = tuple(upper) if upper is not None else (None,) * m
-    if len(limits) != m or any(u is not None and u < 0 for u in limits):
+    if len(limits) != m or any(u is not None and (type(u) is not int or u < 0) for u in limits):
         raise UsageError(f"expected {m} integers >= 0 or None, one for each agent", where="upper")
+    exact = None if bound is None else as_fraction(bound, where="bound")
     return _Problem(
         system=system,
         graph=found,
         share=share,
         costs=prices,
         upper=limits,
-        bound=None if bound is None else as_fraction(bound),
+        bound=exact,
+        region=None if exact is None else bounded_region(system.time, exact),
         free_assignability=free_assignability,
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Literal
+from typing import Literal, get_args
 
 from mcexact.analysis.covering import (
     DEFAULT_NODE_LIMIT,
@@ -23,11 +23,12 @@ from mcexact.certificate.covering import ArcCut
 from mcexact.derived.arcs import add_arcs
 from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.derived.extended import Share, extended_system, selector
-from mcexact.errors import UsageError
-from mcexact.exact.location import StabilityRegion
+from mcexact.errors import InputError, UsageError
+from mcexact.exact.location import StabilityRegion, bounded_region
 from mcexact.exact.matrix import Matrix, block_diagonal
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import Entry, as_fraction
+from mcexact.model.names import quoted
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_graph
 from mcexact.model.system_file import canonical_document
@@ -195,6 +196,11 @@ def _checked(
     if plant.subject:
         raise UsageError("give the plant, not a system derived from it", where="system")
     carried: Carried = share or ("outputs" if dimensions is None else "outputs+states")
+    if carried not in get_args(Carried):
+        raise InputError(
+            f'expected "outputs", "outputs+states" or "states", found {quoted(carried)}',
+            where="share",
+        )
     if (carried == "outputs") != (dimensions is None):
         raise UsageError("sub-states are shared iff their dimensions are given", where="share")
     prices = {_arc(plant, arc): as_fraction(price) for arc, price in (costs or {}).items()}
@@ -212,7 +218,9 @@ def _checked(
         plant=plant,
         share=carried,
         dimensions=None if dimensions is None else tuple(dimensions),
-        region=None if bound is None else StabilityRegion(plant.time, as_fraction(bound) or None),
+        region=None
+        if bound is None
+        else bounded_region(plant.time, as_fraction(bound, where="bound")),
         candidates=candidates,
         costs=tuple(prices.get(arc, Fraction(1)) for arc in candidates),
     )

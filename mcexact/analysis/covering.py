@@ -12,13 +12,13 @@ again by the checker.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from mcexact.errors import InternalError, LimitReached
+from mcexact.errors import InternalError, LimitReached, McexactError
 
 if TYPE_CHECKING:
     import numpy as np
@@ -28,6 +28,8 @@ if TYPE_CHECKING:
 
 DEFAULT_NODE_LIMIT = 10_000
 """Branch nodes after which the search for a tree gives up."""
+
+_SAFE_RATIO = 10**6
 
 _MULTIPLIER_DENOMINATORS = (1, 2, 3, 4, 6, 12, 60, 1000, 10**6)
 
@@ -59,6 +61,31 @@ class CoveringProgram:
     cuts: tuple[CoveringCut, ...]
 
     @cached_property
+    def unit(self) -> Fraction:
+        """What costs are counted in where they become floats: whole numbers of it if they fit."""
+        content = math.gcd(*(int(cost * self.grid) for cost in self.costs))
+        return max(Fraction(content or 1, self.grid), max(self.costs, default=0) / 2**40)
+
+    @cached_property
+    def float_costs(self) -> list[float]:
+        """The costs in units, for the search in floating point."""
+        return [float(cost / self.unit) for cost in self.costs]
+
+    @cached_property
+    def largest_demand(self) -> int:
+        """More than this of one variable never helps."""
+        return max((cut.demand for cut in self.cuts), default=0)
+
+    def stuck(self, what: str) -> McexactError:
+        """What to raise where the floating-point search did not lead to a proof."""
+        if max(self.costs) > _SAFE_RATIO * min(self.costs):
+            return LimitReached(
+                f"the prices differ by a factor of more than {_SAFE_RATIO}, and the search in "
+                "floating point found no proof; bring them closer together"
+            )
+        return InternalError(what)
+
+    @cached_property
     def grid(self) -> int:
         """The common denominator of the costs: every objective value is a multiple of 1/grid."""
         return math.lcm(1, *(cost.denominator for cost in self.costs))
@@ -75,10 +102,6 @@ class CoveringProgram:
             if len(finite) == len(bounds) and sum(finite) < cut.demand:
                 return number
         return None
-
-    def with_cut(self, cut: CoveringCut) -> CoveringProgram:
-        """The program with one more cut."""
-        return CoveringProgram(self.costs, self.upper, (*self.cuts, cut))
 
 
 Node = dict[str, Any]
@@ -137,18 +160,17 @@ def minimize(program: CoveringProgram, *, canonical: bool = True) -> tuple[int, 
         return None
     if not program.costs:
         return ()
-    costs = [float(cost) for cost in program.costs]
-    values = _integer_optimum(program, costs, ())
+    values = _integer_optimum(program, program.float_costs, ())
     if not canonical or not any(values):
         return values
     best = program.cost(values)
     fixed: list[int] = []
-    for variable in range(len(costs)):
+    for variable in range(len(program.costs)):
         if values[variable] > 0:
-            objective = [1.0 if i == variable else 0.0 for i in range(len(costs))]
-            values = _integer_optimum(program, objective, fixed, at_most=float(best))
+            objective = [1.0 if i == variable else 0.0 for i in range(len(program.costs))]
+            values = _integer_optimum(program, objective, fixed, at_most=best)
             if program.cost(values) != best:
-                raise InternalError("a tie of a covering program was broken at another cost")
+                raise program.stuck("a tie of a covering program was broken at another cost")
         fixed.append(values[variable])
     return values
 
@@ -157,7 +179,7 @@ def _integer_optimum(
     program: CoveringProgram,
     objective: Sequence[float],
     fixed: Sequence[int],
-    at_most: float | None = None,
+    at_most: Fraction | None = None,
 ) -> tuple[int, ...]:
     """Minimize ``objective`` over the program, the first variables fixed, the cost bounded."""
     import numpy as np
@@ -168,11 +190,12 @@ def _integer_optimum(
     low = [float(cut.demand) for cut in program.cuts]
     high = [np.inf] * len(rows)
     if at_most is not None:
-        rows.append(np.array([float(cost) for cost in program.costs]))
+        rows.append(np.array(program.float_costs))
         low.append(-np.inf)
-        high.append(at_most + 1e-6)
+        high.append(float(at_most / program.unit) + 0.5)
     constraints = [LinearConstraint(np.array(rows), low, high)] if rows else []
-    upper = np.array([np.inf if u is None else float(u) for u in program.upper])
+    top = program.largest_demand
+    upper = np.array([np.inf if u is None else float(min(u, top)) for u in program.upper])
     lower = np.zeros(size)
     for i, value in enumerate(fixed):
         lower[i] = upper[i] = value
@@ -181,9 +204,10 @@ def _integer_optimum(
         integrality=np.ones(size, dtype=int),
         bounds=Bounds(lower, upper),
         constraints=constraints,
+        options={"mip_rel_gap": 0.0},
     )
     if found.x is None:
-        raise InternalError(f"the integer program could not be solved: {found.message}")
+        raise program.stuck(f"the integer program could not be solved: {found.message}")
     values = tuple(round(float(x)) for x in found.x)
     if not all(sum(values[i] for i in cut.support) >= cut.demand for cut in program.cuts):
         raise InternalError("the integer program's answer does not satisfy its own cuts")
@@ -203,7 +227,6 @@ def branch_tree(
     value: Fraction | None,
     *,
     node_limit: int = DEFAULT_NODE_LIMIT,
-    progress: Callable[[int], None] | None = None,
 ) -> BranchTree:
     """A tree that proves that no point of the program costs less than ``value``.
 
@@ -215,13 +238,11 @@ def branch_tree(
         The optimal cost, or None to prove that the program has no point at all.
     node_limit
         Number of nodes after which to give up.
-    progress
-        Called with the number of nodes so far.
 
     Raises
     ------
     LimitReached
-        After ``node_limit`` nodes.
+        After ``node_limit`` nodes, or where the prices are too far apart for floating point.
 
     Notes
     -----
@@ -243,8 +264,6 @@ def branch_tree(
             )
         node = _node(program, value, lower, upper)
         nodes.append(node)
-        if progress is not None:
-            progress(len(nodes))
         if "variable" in node:
             i, k = node["variable"], node["at_most"]
             boxes.append(((*lower[:i], k + 1, *lower[i + 1 :]), upper))
@@ -269,9 +288,14 @@ def _node(
     if multipliers is not None:
         return {"multipliers": [[k, y] for k, y in multipliers]}
     split = _most_fractional(relaxed)
-    if split is None:
-        raise InternalError("the relaxation is integral but cheaper than the optimum")
-    return {"variable": split, "at_most": math.floor(relaxed[split])}
+    if split is not None:
+        return {"variable": split, "at_most": math.floor(relaxed[split])}
+    # The multipliers are not accurate enough: a smaller box needs less of them, a point none.
+    widths = [0 if u is None else u - l for l, u in zip(lower, upper, strict=True)]
+    widest = max(range(len(widths)), key=widths.__getitem__)
+    if not widths[widest]:
+        raise program.stuck("the relaxation is integral but cheaper than the optimum")
+    return {"variable": widest, "at_most": lower[widest] + (widths[widest] - 1) // 2}
 
 
 def _relaxation_bound(program: CoveringProgram, upper: Sequence[int | None]) -> Fraction:
@@ -280,7 +304,7 @@ def _relaxation_bound(program: CoveringProgram, upper: Sequence[int | None]) -> 
     if program.violated_cut(upper) is not None:
         return Fraction(0)
     _, duals = _relaxation(program, lower, upper)
-    multipliers = _multipliers(duals, _MULTIPLIER_DENOMINATORS[-1])
+    multipliers = _multipliers(program, duals, _MULTIPLIER_DENOMINATORS[-1])
     bound = leaf_bound(program, lower, upper, multipliers) or Fraction(0)
     return Fraction(math.ceil(bound * program.grid), program.grid)
 
@@ -295,7 +319,7 @@ def _tighter(upper: int | None, value: Fraction | None, cost: Fraction) -> int |
 def _relaxation(
     program: CoveringProgram, lower: Sequence[int], upper: Sequence[int | None]
 ) -> tuple[Floats, Floats]:
-    """Primal point and cut multipliers of the linear relaxation over a box."""
+    """Primal point of the linear relaxation over a box, and cut multipliers in units of cost."""
     import numpy as np
     from scipy.optimize import linprog
 
@@ -303,14 +327,17 @@ def _relaxation(
     if not program.cuts:
         return np.array(lower, dtype=float), np.zeros(0)
     found = linprog(
-        [float(cost) for cost in program.costs],
+        program.float_costs,
         A_ub=-np.array([_row(cut, size) for cut in program.cuts]),
         b_ub=[-float(cut.demand) for cut in program.cuts],
-        bounds=list(zip(lower, upper, strict=True)),
+        bounds=[
+            (low, None if high is None else max(low, min(high, program.largest_demand)))
+            for low, high in zip(lower, upper, strict=True)
+        ],
         method="highs-ds",
     )
     if found.x is None:
-        raise InternalError(f"the linear relaxation could not be solved: {found.message}")
+        raise program.stuck(f"the linear relaxation could not be solved: {found.message}")
     return np.asarray(found.x), -np.asarray(found.ineqlin.marginals)
 
 
@@ -323,17 +350,19 @@ def _proving_multipliers(
 ) -> list[tuple[int, Fraction]] | None:
     """Multipliers of small denominator near ``duals`` that prove ``value`` exactly, or None."""
     for denominator in _MULTIPLIER_DENOMINATORS:
-        multipliers = _multipliers(duals, denominator)
+        multipliers = _multipliers(program, duals, denominator)
         bound = leaf_bound(program, lower, upper, multipliers)
         if bound is not None and Fraction(math.ceil(bound * program.grid), program.grid) >= value:
             return multipliers
     return None
 
 
-def _multipliers(duals: Floats, denominator: int) -> list[tuple[int, Fraction]]:
-    """The positive multipliers near ``duals`` of at most this denominator."""
+def _multipliers(
+    program: CoveringProgram, duals: Floats, denominator: int
+) -> list[tuple[int, Fraction]]:
+    """The positive multipliers near ``duals`` of at most this denominator, in units of cost."""
     rounded = (Fraction(float(dual)).limit_denominator(denominator) for dual in duals)
-    return [(k, y) for k, y in enumerate(rounded) if y > 0]
+    return [(k, y * program.unit) for k, y in enumerate(rounded) if y > 0]
 
 
 def leaf_bound(

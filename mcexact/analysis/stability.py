@@ -21,7 +21,7 @@ from mcexact.certificate.stability import (
 )
 from mcexact.errors import UsageError
 from mcexact.exact.linear_algebra import characteristic_polynomial
-from mcexact.exact.location import StabilityRegion
+from mcexact.exact.location import StabilityRegion, bounded_region
 from mcexact.exact.location import region as named_region
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import primes, residues
@@ -175,7 +175,7 @@ def _asked_region(
     if bound is not None and (rate is not None or radius is not None):
         raise UsageError("give a bound, or a rate or a radius, not both")
     if bound is not None:
-        return StabilityRegion(time, as_fraction(bound, where="bound") or None)
+        return bounded_region(time, as_fraction(bound, where="bound"))
     return named_region(
         time,
         None if rate is None else as_fraction(rate, where="rate"),

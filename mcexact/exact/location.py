@@ -142,6 +142,22 @@ class StabilityRegion:
         return f"|λ| < {written(self.bound) if self.bound else 1}"
 
 
+def bounded_region(time: str, bound: Fraction | None) -> StabilityRegion:
+    """The region of a bound as certificates write it: a rate ≥ 0, or a radius in (0, 1].
+
+    Raises
+    ------
+    UsageError
+        The bound is out of range.
+
+    Examples
+    --------
+    >>> str(bounded_region("continuous", Fraction(0))), str(bounded_region("discrete", Fraction(1)))
+    ('Re λ < 0', '|λ| < 1')
+    """
+    return StabilityRegion(time, None if time == "continuous" and bound == 0 else bound)
+
+
 def in_region(
     p: Polynomial, time: str, rate: Fraction | None = None, radius: Fraction | None = None
 ) -> bool:

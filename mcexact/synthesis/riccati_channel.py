@@ -6,9 +6,10 @@ from fractions import Fraction
 
 from mcexact.exact.floats import dyadic_matrix, matrix_to_float
 from mcexact.exact.linear_algebra import characteristic_polynomial
-from mcexact.exact.location import StabilityRegion
+from mcexact.exact.location import bounded_region
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.rational import to_float
 from mcexact.synthesis.channel_controller import ChannelController
 from mcexact.synthesis.channel_parts import ChannelPart
 from mcexact.synthesis.riccati import riccati_feedback
@@ -54,12 +55,12 @@ def riccati_channel_controller(
 
 def _gain(A: Matrix, B: Matrix, time: str, bound: Fraction) -> tuple[Matrix, Polynomial] | None:
     """A gain with which A + BG meets the bound, and the polynomial that proves it."""
-    region = StabilityRegion(time, bound or None)
+    region = bounded_region(time, bound)
     states, inputs = matrix_to_float(A), matrix_to_float(B)
     for effort in _EFFORTS:
         for margin in _MARGINS:
             faster = bound * (1 - margin) if time == "discrete" else bound + margin * (1 + bound)
-            found = riccati_feedback(states, inputs, time, float(faster), effort=effort)
+            found = riccati_feedback(states, inputs, time, to_float(faster), effort=effort)
             if found is None:
                 break
             G = dyadic_matrix(found, bits=_BITS)

@@ -13,11 +13,12 @@ from mcexact.analysis.allocation import (
     shared_dimension_bound,
 )
 from mcexact.analysis.communication import minimal_communication
+from mcexact.analysis.stability import certify_stability
 from mcexact.certificate import Certificate, encode
 from mcexact.checker.kinds import check_document
 from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.derived.extended import extended_system
-from mcexact.errors import LimitReached, UsageError
+from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.exact.matrix import Matrix
 from mcexact.model import gallery
 from mcexact.model.neighbor_graph import NeighborGraph
@@ -191,11 +192,25 @@ def test_the_node_limit_ends_with_what_is_proved() -> None:
     assert (stopped.value.lower, stopped.value.upper) == (3, 4)
 
 
+def test_a_radius_of_0_is_not_taken_for_the_unit_disc() -> None:
+    discrete = MultiChannelSystem([[0]], [[[1]]], [[[1]]], time="discrete", neighbors={})
+    for decide in (minimal_shared_dimensions, minimal_communication, certify_stability):
+        with pytest.raises(UsageError, match="a radius above 0"):
+            decide(discrete, bound=0)
+
+
+def test_what_an_arc_cannot_carry_is_refused() -> None:
+    with pytest.raises(InputError, match="found 'inputs'"):
+        minimal_communication(PLANT, RING, dimensions=[1, 1, 1], share="inputs")  # type: ignore[arg-type]
+
+
 @pytest.mark.parametrize(
     ("options", "message"),
     [
         ({"costs": [1, 0, 1]}, "positive"),
         ({"upper": [1, 2]}, "3 integers"),
+        ({"upper": [0.5, 1, 1]}, "3 integers"),
+        ({"bound": -1}, "a rate above 0, found -1"),
         ({"graph": None}, "neighbor graph is needed"),
     ],
 )
