@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 from mcexact.analysis.smith_doubling import doubled_lyapunov
 from mcexact.exact.floats import dyadic_matrix, matrix_to_float
 from mcexact.exact.matrix import Matrix
+from mcexact.exact.rational import to_float
 
 if TYPE_CHECKING:
     import numpy as np
@@ -148,7 +149,7 @@ def _approximate(D: Matrix, time: str, bound: Fraction) -> Matrix | None:
         return None
     P, residual = Matrix.zeros(k, k), identity
     for _ in range(_REFINEMENTS):
-        step = _solve(D_float, matrix_to_float(residual), time, float(bound))
+        step = _solve(D_float, matrix_to_float(residual), time, to_float(bound))
         if step is None:
             return None
         P = P + dyadic_matrix(step)

@@ -48,8 +48,8 @@ def doubled_lyapunov(D: Matrix, time: str, bound: Fraction) -> Matrix | None:
     else:
         shifted = D + identity * bound
         p = _center(shifted)
-        W = _inverse(identity * p - shifted)
-        if W is None:
+        W = None if p is None else _inverse(identity * p - shifted)
+        if p is None or W is None:
             return None
         N = rounded((identity * p + shifted) @ W)
         Q = W.T @ W * (2 * p)
@@ -80,11 +80,14 @@ def _is_small(M: Matrix, bits: int) -> bool:
     return largest < Fraction(2) ** -bits
 
 
-def _center(M: Matrix) -> Fraction:
-    """A power of 2 near the geometric mean of the computed eigenvalues' moduli."""
+def _center(M: Matrix) -> Fraction | None:
+    """A power of 2 near the geometric mean of the eigenvalues' moduli; None beyond floats."""
     import numpy as np
 
-    sizes = np.abs(np.linalg.eigvals(matrix_to_float(M)))
+    floats = matrix_to_float(M)
+    if not np.all(np.isfinite(floats)):
+        return None
+    sizes = np.abs(np.linalg.eigvals(floats))
     mean = float(np.mean(np.log2(np.maximum(sizes, 2.0**-30))))
     return Fraction(2) ** round(mean)
 

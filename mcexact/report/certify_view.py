@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from mcexact.exact.rational import to_float
 from mcexact.report.text import Table
 from mcexact.synthesis.certify import ControllerVerdict
 
@@ -40,7 +41,7 @@ def verdict_tables(found: ControllerVerdict) -> tuple[Table, ...]:
     ]
     if found.largest is not None:
         what = "largest rate" if region.time == "continuous" else "least radius"
-        rows.append((f"{what} found", f"{found.largest} (about {float(found.largest):.6g})"))
+        rows.append((f"{what} found", f"{found.largest} (about {to_float(found.largest):.6g})"))
     return (Table("closed loop", (), tuple(rows)),)
 
 

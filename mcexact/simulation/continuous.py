@@ -8,12 +8,19 @@ from itertools import pairwise
 from typing import Any
 
 from mcexact.errors import LimitReached
+from mcexact.exact.rational import to_float
 from mcexact.simulation.arithmetic import Arithmetic, Native
 from mcexact.simulation.network import Network, Snapshot
 
 
 def integrated(network: Network, times: Sequence[Fraction]) -> list[Snapshot]:
-    """Continuous time in double precision: scipy integrates what the agents compute."""
+    """Continuous time in double precision: scipy integrates what the agents compute.
+
+    Raises
+    ------
+    LimitReached
+        Where the numbers are beyond double precision, or scipy gives up.
+    """
     import numpy as np
     from scipy.integrate import solve_ivp
 
@@ -31,20 +38,29 @@ def integrated(network: Network, times: Sequence[Fraction]) -> list[Snapshot]:
 
     def derivative(_: float, flat: Any) -> Any:
         load(flat)
-        return gathered(*network.evolution())
+        return representable(gathered(*network.evolution()))
+
+    def representable(numbers: Any) -> Any:
+        if not np.all(np.isfinite(numbers)):
+            raise LimitReached(
+                "the trajectory has numbers beyond the range of double precision; "
+                "use multiprecision arithmetic or a shorter horizon"
+            )
+        return numbers
 
     start = gathered(network.state, [(agent.shared, agent.private) for agent in network.agents])
-    grid = np.array([float(t) for t in times])
+    grid = representable(np.array([to_float(t) for t in times]))
     scale = max(1.0, float(np.abs(start).max(initial=0.0)))
-    solved = solve_ivp(
-        derivative,
-        (grid[0], grid[-1]),
-        start,
-        method="DOP853",
-        t_eval=grid,
-        rtol=1e-11,
-        atol=1e-13 * scale,
-    )
+    with np.errstate(over="ignore", invalid="ignore"):
+        solved = solve_ivp(
+            derivative,
+            (grid[0], grid[-1]),
+            start,
+            method="DOP853",
+            t_eval=grid,
+            rtol=1e-11,
+            atol=1e-13 * scale,
+        )
     if not solved.success:
         raise LimitReached(f"the integration stopped: {solved.message}")
     snapshots = []

@@ -16,6 +16,7 @@ from mcexact.errors import Impossible, LimitReached, UsageError
 from mcexact.exact.floats import dyadic_matrix, matrix_to_float
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
+from mcexact.exact.rational import to_float
 from mcexact.floating.margins import spectral_bound
 from mcexact.model.closed_loop import closed_loop_matrix
 from mcexact.model.controller import Controller
@@ -223,7 +224,7 @@ def _require_doubles(system: MultiChannelSystem) -> None:
 
 def _target(time: str, bound: Fraction, margin: Fraction) -> float:
     """What to design for, so that the bound is met with something to spare."""
-    return float(bound * (1 + margin) if time == "continuous" else bound * (1 - margin))
+    return to_float(bound * (1 + margin) if time == "continuous" else bound * (1 - margin))
 
 
 def _state_feedback(system: MultiChannelSystem, target: float) -> tuple[Matrix, ...] | None:

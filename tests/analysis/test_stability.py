@@ -129,6 +129,14 @@ def test_lyapunov_matrices_do_not_decide_on_the_boundary() -> None:
         certify_stability(loop, method="lyapunov")
 
 
+@pytest.mark.parametrize("size", [1, 45])
+def test_a_bound_beyond_floats_is_decided_by_the_polynomial(size: int) -> None:
+    loop = matrix_system(Matrix.identity(size) * -1)
+    assert not certify_stability(loop, 10**400).stable
+    with pytest.raises(UsageError, match="leave the method open"):
+        certify_stability(loop, 10**400, method="lyapunov")
+
+
 def test_a_quadratic_form_means_what_it_says() -> None:
     D = with_eigenvalues(Fraction(-1), 8)
     form = quadratic_form(D, "continuous", Fraction(1, 2))

@@ -4,7 +4,7 @@ from fractions import Fraction
 
 import pytest
 
-from mcexact.errors import UsageError
+from mcexact.errors import LimitReached, UsageError
 from mcexact.exact.matrix import Matrix
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.neighbor_graph import NeighborGraph
@@ -77,6 +77,14 @@ def test_the_solution_is_not_rational():
         simulate(plant, controller, arithmetic="exact")
     with pytest.raises(UsageError, match="horizon above 0"):
         simulate(plant, controller, horizon=0)
+
+
+@pytest.mark.parametrize(("entry", "horizon"), [("1e400", None), (-1, 10**400), (1000, 10)])
+def test_what_double_precision_cannot_hold_is_a_limit(entry, horizon):
+    plant = MultiChannelSystem([[entry]], [[[1]]], [[[1]]])
+    controller = Controller("continuous", "", (AgentProgram("1", 0, 0),))
+    with pytest.raises(LimitReached, match="beyond the range of double precision"):
+        simulate(plant, controller, horizon=horizon)
 
 
 def test_wires_have_no_delay_in_continuous_time():

@@ -32,3 +32,9 @@ def test_a_mode_inside_may_be_unreachable():
 def test_no_states_and_no_inputs_have_gains_without_entries():
     assert riccati_feedback(np.zeros((0, 0)), np.zeros((0, 2)), "continuous", 1.0).shape == (2, 0)
     assert riccati_feedback(-np.eye(2), np.zeros((2, 0)), "continuous", 0.5).shape == (0, 2)
+
+
+@pytest.mark.parametrize("time", ["continuous", "discrete"])
+def test_a_bound_beyond_floats_has_no_gain(time):
+    bound = np.inf if time == "continuous" else 0.0
+    assert riccati_feedback(np.eye(2), np.eye(2), time, bound) is None
