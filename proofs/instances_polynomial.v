@@ -1,6 +1,7 @@
-(* The characteristic polynomial of [3/2], read off modulo 11, and that of [1, 1; 1, 1], by columns. *)
+(* The characteristic polynomial of [3/2], read off modulo 11, and that of [1, 1; 1, 1], by columns;
+   elimination without fractions with the pivots 2 and 6. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From mcexact Require Import arithmetic hessenberg characteristic_polynomial.
+From mcexact Require Import arithmetic hessenberg characteristic_polynomial elimination.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.Theory GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -30,4 +31,29 @@ Proof.
 rewrite hessenberg_polynomial /hessenberg_poly /= !big_ord_recl !big_ord0 /=.
 rewrite !big_nat1 /bump /= !big_geq// !mulr1 !scale1r !addr0 opprD addrA addrAC.
 by rewrite expr2 mulrBl mul1r.
+Qed.
+
+Section Elimination.
+Variable R : comRingType.
+Definition two : 'M[R]_1 := 2%:R%:M.
+Lemma second_pivot : bordered two 1 0 3%:R = 6%:R.
+Proof. by rewrite /bordered det_lblock !det_scalar1 -natrM. Qed.
+End Elimination.
+Lemma inst_bareiss_step r' c' m12 m21 m22 :
+  2%:R * bordered (block_mx (two _) 0 1 3%:R%:M) (row_mx r' m21%:M) (col_mx c' m12%:M) m22 =
+  6%:R * bordered (two _) r' c' m22 - bordered (two _) r' 0 m21 * bordered (two _) 1 c' m12 :> rat.
+Proof.
+by rewrite -second_pivot -bareiss_step ?second_pivot ?unitmxE ?det_scalar1.
+Qed.
+Lemma inst_bareiss_exact r' c' m12 m21 m22 :
+  6%:R * bordered (two _) r' c' m22 - bordered (two _) r' 0 m21 * bordered (two _) 1 c' m12 =
+  bordered (block_mx (two _) 0 1 3%:R%:M) (row_mx r' m21%:M) (col_mx c' m12%:M) m22 * 2%:R :> int.
+Proof.
+have d2 : \det (two int_comRing) = 2%:R by rewrite det_scalar1.
+by rewrite -second_pivot bareiss_exact ?second_pivot ?d2.
+Qed.
+Lemma inst_bareiss_rank : \rank (block_mx (two _) 0 1 0 : 'M[rat]_(1 + 1)) = 1%N.
+Proof.
+apply: bareiss_rank => [|i j]; first by rewrite unitmxE det_scalar1.
+by rewrite /bordered linear0 det_lblock [X in X%:M]mxE !det_scalar1 mulr0.
 Qed.

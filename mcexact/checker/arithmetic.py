@@ -146,7 +146,8 @@ def inverse(number: int, ell: int) -> int:
 def rank(A: Matrix) -> int:
     """The rank over Q, by fraction-free elimination (Bareiss): every quotient is exact.
 
-    Open: see ``proofs/OPEN.md``.
+    Theorems ``elimination.bareiss_exact``, ``elimination.bareiss_step``,
+    ``elimination.bareiss_rank``.
     """
     rows, found, previous = [list(row) for row in A.rows], 0, 1
     for column in range(A.ncols):
