@@ -1,7 +1,7 @@
 (* The rules that place the roots of a polynomial or the eigenvalues of a matrix, applied to concrete
    ones with every hypothesis discharged. *)
 From mathcomp Require Import all_ssreflect all_algebra all_field.
-From mcexact Require Import location mobius moved_roots root_discs rate_interval stability instability.
+From mcexact Require Import location mobius moved_roots root_discs rate_interval real_discs stability instability.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.Theory GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -83,6 +83,36 @@ Proof.
 apply: (rate_interval_discrete inst_disc inst_only); rewrite ?rpred1//.
   by exists ord0; right; rewrite normrN normr_nat.
 by move=> _; rewrite ler1n normrN normr_nat [in X in _ <= X]mulrS [1 + _ - 1]addrC addKr.
+Qed.
+
+(* x^2 + 1 in discs of radius 1/2 about i and -i: no root is real; that of x is. *)
+Definition turn (i : 'I_2) : algC := if i == ord0 then 'i else - 'i.
+Lemma size_turn : size ('X^2 + 1 : {poly algC}) = 3%N.
+Proof. by rewrite size_addl size_polyXn ?size_poly1. Qed.
+Lemma root_turn i : ('X^2 + 1 : {poly algC}).[turn i] = 0.
+Proof. by rewrite !hornerE /= /turn; case: ifP => _; rewrite ?mulrNN -expr2 sqrCi addNr. Qed.
+Lemma inst_not_real : exists z : 'I_2 -> algC, forall i, root ('X^2 + 1) (z i) /\ z i \isn't Num.real.
+Proof.
+have rp : real_poly ('X^2 + 1 : {poly algC}) by rewrite /real_poly rpredD ?rpredX ?polyOverX ?rpred1.
+have half : 0 < 2%:R^-1 :> algC by rewrite invr_gt0 ltr0n.
+have [|||z [_ zP _ nr]] := @real_discs _ ('X^2 + 1) 1 turn (fun=> 2%:R^-1) rp size_turn.
+- by move=> _; apply: ltW.
+- by move=> i; rewrite root_turn normr0 expr0n mulr0 mulr_ge0 ?exprn_ge0// ltW.
+- move=> i j ij; rewrite -mulr2n -[_ *+ 2]mulr_natr mulVf ?pnatr_eq0//.
+  have -> : `|turn i - turn j| = `|'i *+ 2|.
+    by case: i j ij => [[|[|]]] // ? [[|[|]]] // ? _; rewrite /turn /= ?opprK -?opprD ?normrN mulr2n.
+  by rewrite -mulr_natr normrM normCi mul1r normr_nat ltr1n.
+exists z => i; split; first by apply/zP; exists i.
+by apply: nr; rewrite /turn; case: ifP => _; rewrite ?raddfN /= ?normrN Im_i normr1 invf_lt1 ?ltr0n// ltr1n.
+Qed.
+Lemma inst_real : exists z : 'I_1 -> algC, forall i, root 'X (z i) /\ z i \is Num.real.
+Proof.
+have rp : real_poly ('X : {poly algC}) by rewrite /real_poly polyOverX.
+have [|||z [_ zP re _]] := @real_discs _ 'X 0 (fun=> 0) (fun=> 0) rp (size_polyX _).
+- by [].
+- by move=> _; rewrite hornerX normr0 expr0n mulr0 mul0r.
+- by move=> i j; rewrite !ord1 eqxx.
+by exists z => i; split; [apply/zP; exists i | apply/re/real0].
 Qed.
 
 (* Lyapunov: M = -1 in continuous time, M = 0 in discrete time, P = R = R2 = 1. *)

@@ -17,7 +17,8 @@ from .words import described, polynomial_text
 def check(claim: Any, witness: Any, system: System) -> str:
     """Check a row at every root of each factor, and two determinants that vanish nowhere else.
 
-    Theorems ``exceptional_gains.exceptional_lost``, ``exceptional_gains.exceptional_kept``.
+    Theorems ``exceptional_gains.exceptional_lost``, ``exceptional_gains.exceptional_kept``,
+    ``real_discs.real_discs``.
     """
     rows, number, p, discs = fields(claim, "claim", "M", "blocks", "polynomial", "roots")
     modulus, listed, drawn = fields(witness, "witness", "modulus", "factors", "compressions")
