@@ -64,7 +64,7 @@ class CoveringProgram:
     def unit(self) -> Fraction:
         """What costs are counted in where they become floats: whole numbers of it if they fit."""
         content = math.gcd(*(int(cost * self.grid) for cost in self.costs))
-        return max(Fraction(content or 1, self.grid), max(self.costs, default=0) / 2**40)
+        return max(Fraction(content or 1, self.grid), max(self.costs, default=Fraction(0)) / 2**40)
 
     @cached_property
     def float_costs(self) -> list[float]:
