@@ -166,7 +166,7 @@ def _dimensions(
     if question["dimensions"] or question["wire_costs"] or question["forbid"]:
         raise UsageError("--dimensions, --wire-cost and --forbid go with --arcs")
     prices = _by_agent(names, question["costs"], "--cost", parse_rational)
-    most = _by_agent(names, question["upper"], "--upper", int)
+    most = _by_agent(names, question["upper"], "--upper", options.count)
     return {
         "share": question["share"],
         "costs": [prices.get(name, 1) for name in names],
@@ -207,9 +207,9 @@ def _wires(question: dict[str, Any], bound: Fraction | None) -> dict[str, Any]:
         costs[j, i] = _by_agent([i], [(i, price)], f"--wire-cost {j}", parse_rational)[i]
     if question["dimensions"] is not None:
         try:
-            sizes = [int(size) for size in question["dimensions"].split(",")]
+            sizes = [options.count(size) for size in question["dimensions"].split(",")]
         except ValueError:
-            raise UsageError("--dimensions: expected integers separated by commas") from None
+            raise UsageError("--dimensions: expected integers >= 0 such as 0,0,1") from None
     return {
         "dimensions": sizes,
         "share": "outputs" if sizes is None else question["share"],

@@ -84,13 +84,14 @@ def command(
     """
     import sys
 
-    from mcexact.cli.files import directory, read
+    from mcexact.cli.files import directory, read, require_other
     from mcexact.cli.output import emit, emit_json, on_terminal
     from mcexact.cli.supervision import supervised
     from mcexact.model.atomic import write_text
     from mcexact.report.text import plain, show
 
     place = "standard input" if file == "-" else file
+    require_other(html, file)
     moved = options.given(limits)
     answer = supervised(
         _answer,

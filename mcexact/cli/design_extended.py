@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from mcexact.cli import designing
+from mcexact.cli import designing, options
 
 
 @click.command(name="extended", short_help="Least shared sub-states, and a channel controller.")
@@ -53,10 +53,10 @@ def command(
     sizes: str | list[int] = dimensions
     if dimensions not in ("minimal", "bound"):
         try:
-            sizes = [int(part) for part in dimensions.split(",")]
+            sizes = [options.count(part) for part in dimensions.split(",")]
         except ValueError:
             raise click.BadParameter(
-                f"expected minimal, bound or integers such as 0,0,1, found '{dimensions}'",
+                f"expected minimal, bound or integers >= 0 such as 0,0,1, found '{dimensions}'",
                 param_hint="--dimensions",
             ) from None
     wanted = {

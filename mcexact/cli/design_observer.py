@@ -67,7 +67,7 @@ def command(
     nm + m - 1 for the estimation errors. If it is impossible the status is 1, and the certificate
     says why.
     """
-    from mcexact.cli.files import directory, read
+    from mcexact.cli.files import directory, read, require_other
     from mcexact.cli.output import emit, emit_json
     from mcexact.cli.supervision import supervised
     from mcexact.errors import Impossible
@@ -76,6 +76,7 @@ def command(
 
     place = "standard input" if file == "-" else file
     moved = options.given(limits)
+    require_other(output, file, spectrum)
     prescribed = None if spectrum is None else (spectrum, read(spectrum, spectrum, moved))
     wanted = {
         "q": agent,

@@ -73,7 +73,7 @@ def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any
     wanted : mapping
         Further keywords of the function.
     """
-    from mcexact.cli.files import directory, read
+    from mcexact.cli.files import directory, read, require_other
     from mcexact.cli.output import emit, emit_json
     from mcexact.cli.supervision import supervised
     from mcexact.errors import Impossible
@@ -83,6 +83,7 @@ def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any
     place = "standard input" if file == "-" else file
     moved = options.given({k: given[k] for k in ("bytes", "depth", "digits", "exponent")})
     spectrum = given["spectrum"]
+    require_other(given["output"], file, spectrum)
     prescribed = None if spectrum is None else (spectrum, read(spectrum, spectrum, moved))
     keywords = {**wanted, "q": given["agent"], **{key: given[key] for key in HOW}}
     done = supervised(

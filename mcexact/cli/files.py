@@ -27,6 +27,26 @@ def read(file: str, place: str, limits: Mapping[str, int]) -> bytes:
         raise error.within(place) from None
 
 
+def require_other(output: Path | None, *inputs: str | None) -> None:
+    """Refuse to write a result over what it is made of, also by way of a link.
+
+    Raises
+    ------
+    InputError
+        If the output is one of the inputs.
+    """
+    for file in inputs:
+        if output is not None and file is not None and _is_same(output, file):
+            raise InputError("is read as well: write to another file", where=str(output))
+
+
+def _is_same(output: Path, file: str) -> bool:
+    try:
+        return output.is_file() and output.samefile(file)
+    except OSError:
+        return False
+
+
 def directory(path: Path) -> Path:
     """The directory at this path, made if it is missing.
 

@@ -29,6 +29,13 @@ def rational(text: str) -> Fraction:
         raise click.BadParameter(error.message) from None
 
 
+def count(text: str) -> int:
+    """An integer of at least 0, in digits and nothing else; what is not one is a ValueError."""
+    if not (text.isascii() and text.isdigit()):
+        raise ValueError(text)
+    return int(text)
+
+
 def seconds(text: str) -> float:
     """A time limit: a finite number of seconds above 0."""
     try:

@@ -58,7 +58,7 @@ def command(
     **limits: int | None,
 ) -> None:
     """Run the CONTROLLER for the system in FILE, one agent each, messages along arcs only."""
-    from mcexact.cli.files import read
+    from mcexact.cli.files import read, require_other
     from mcexact.cli.output import emit, emit_json
     from mcexact.cli.supervision import supervised
     from mcexact.model.atomic import write_bytes
@@ -67,6 +67,7 @@ def command(
     suffix = "" if output is None else output.suffix
     if suffix not in ("", ".csv", ".png", ".html") or (output is not None and not suffix):
         raise click.UsageError(f"expected a file that ends in .csv, .png or .html, found {output}")
+    require_other(output, file, controller)
     moved = options.given(limits)
     answer = supervised(
         _simulated,

@@ -83,7 +83,7 @@ def test_wires_are_added_where_they_help(chain: str, tmp_path: Path) -> None:
         (["--cost", "1", "dear"], "expected a number, found 'dear'"),
         (["--upper", "1", "1/2"], "expected a number"),
         (["--dimensions", "1,1,1"], "go with --arcs"),
-        (["--arcs", "--dimensions", "1,x"], "integers separated by commas"),
+        (["--arcs", "--dimensions", "1,x"], "integers >= 0 such as 0,0,1"),
         (["--arcs", "--free"], "do not go with --arcs"),
         (["--cost", "1", "0"], "positive"),
     ],

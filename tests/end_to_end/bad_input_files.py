@@ -17,7 +17,7 @@ def content(entry: Entry, documents: dict[str, Any]) -> bytes:
     ----------
     entry : dict
     documents : dict
-        ``system`` and ``certificate``, the documents that entries edit.
+        The documents that entries edit: ``system``, ``certificate`` and others.
     """
     if "text" in entry:
         return bytes(entry["text"], "utf-8")
@@ -93,9 +93,11 @@ def arguments(entry: Entry, folder: Path, documents: dict[str, Any]) -> list[str
     files = {
         "input": lambda: content(entry, documents),
         "system": lambda: _dumps(documents["system"]),
+        "plant": lambda: _dumps(documents["plant"]),
         "certificate": lambda: _dumps(documents["certificate"]),
         "swapped": lambda: _dumps(swapped),
     }
+    (folder / "link.json").symlink_to(folder / "system.json")
     found = []
     for argument in entry["argv"]:
         for name, make in files.items():

@@ -15,6 +15,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+import control
 import networkx
 import numpy as np
 import pytest
@@ -25,6 +26,7 @@ from mcexact.errors import FloatRefused, InputError, LimitReached, McexactError,
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model import gallery
+from mcexact.model.statespace import from_statespace
 from tests.end_to_end.command_line import MCEXACT
 
 ONE = [[[1]]]
@@ -72,6 +74,11 @@ CALLS: dict[str, tuple[Callable[[], Any], type[McexactError], tuple[str, ...]]] 
         lambda: system(np.array([[0.5]])),
         FloatRefused,
         ("A", "float64", "from_float", "decimal", "dyadic"),
+    ),
+    "B171 a python-control system, whose floats nobody says how to read": (
+        lambda: from_statespace(control.ss(0.5, 1, 1, 0), [[0]], [[0]], rounding=None),  # type: ignore[arg-type]
+        InputError,
+        ("statespace.A[0][0]", "decimal", "dyadic"),
     ),
     "B171 a float": (lambda: system([[0.5]]), FloatRefused, ("A[0][0]", "from_float")),
     "B171 a complex number": (lambda: system([[1j]]), InputError, ("A[0][0]",)),

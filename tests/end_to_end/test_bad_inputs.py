@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 
+from mcexact.model import gallery
 from tests.end_to_end.bad_input_files import arguments
 from tests.end_to_end.command_line import MCEXACT, Run, run
 
@@ -26,7 +27,28 @@ def documents(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
     assert done.status == 0, done.stderr
     made = folder / "certificates" / "fixed_spectrum.json"
     certificate = json.loads(made.read_text(encoding="utf-8"))
-    return {"system": TABLE["base_system"], "certificate": certificate}
+    return {"system": TABLE["base_system"], "certificate": certificate, **shared_loop(folder)}
+
+
+def shared_loop(folder: Path) -> dict[str, Any]:
+    """The paper's plant on a ring, with certificates for the least sharing and for a loop."""
+    document = json.loads(gallery.text("liu2020-3ch-no-communication"))
+    document["neighbors"] = {"1": ["2"], "2": ["3"], "3": ["1"]}
+    plant, controller, made = folder / "plant.json", folder / "controller.json", folder / "made"
+    plant.write_text(json.dumps(document), encoding="utf-8")
+    for argv in (
+        ("design", "extended", plant, "--rate", "1", "-o", controller),
+        ("certify", plant, controller, "--certificates", made),
+        ("allocate", plant, "--certificates", made),
+    ):
+        done = run(*map(str, argv))
+        assert done.status == 0, done.stderr
+    files = {"loop": "stability", "sharing": "minimal_shared_dimensions"}
+    read = {
+        name: json.loads((made / f"{stem}.json").read_text(encoding="utf-8"))
+        for name, stem in files.items()
+    }
+    return {"plant": document, **read}
 
 
 def run_entry(entry: dict[str, Any], found: list[str]) -> Run:
@@ -67,6 +89,25 @@ def test_no_bad_input_leaves_a_file_behind(documents: dict[str, Any], tmp_path: 
     done = run("analyze", str(file), "--certificates", str(tmp_path / "certificates"))
     assert done.status == 3
     assert [path.name for path in tmp_path.iterdir()] == ["bad.json"]
+
+
+@pytest.mark.skipif(not Path("/dev/stdout").exists(), reason="a file name of Unix")
+def test_a_report_can_go_to_a_stream(documents: dict[str, Any], tmp_path: Path) -> None:
+    file = tmp_path / "plant.json"
+    file.write_text(json.dumps(documents["plant"]), encoding="utf-8")
+    done = run("design", "extended", str(file), "--rate", "1", "-o", "/dev/stdout")
+    assert done.status == 0, done.stderr
+    assert '"format": "mcexact-controller/1"' in done.stdout
+
+
+def test_figures_need_no_display(tmp_path: Path) -> None:
+    """B221."""
+    file, page = tmp_path / "plant.json", tmp_path / "page.html"
+    file.write_text(gallery.text("hidden-triple-mode"), encoding="utf-8")
+    environment = {"DISPLAY": "", "MPLBACKEND": "TkAgg"}
+    done = run("analyze", str(file), "--html", str(page), environment=environment)
+    assert done.status == 0, done.stderr
+    assert "<svg" in page.read_text(encoding="utf-8") or "<img" in page.read_text(encoding="utf-8")
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="limits on memory are tested where they are")
