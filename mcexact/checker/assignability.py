@@ -15,7 +15,8 @@ from .words import channel_set, described
 def check(claim: Any, witness: Any, system: System) -> str:
     """Check the components, and a minimal realization of the transfer within each.
 
-    Open: see ``proofs/OPEN.md``.
+    Theorems ``assignability.assignability_rule``, ``assignability.component_own_gains``,
+    ``assignability.mcmillan_degree``.
     """
     listed, left = fields(claim, "claim", "blocks", "fixed_degree")
     number, graph, shown = fields(witness, "witness", "modulus", "transfer_graph", "realizations")
