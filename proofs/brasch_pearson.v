@@ -4,8 +4,8 @@
    field is any; with several it is infinite, with eigenvalues in an algebraically closed field. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From mcexact Require Import multichannel arithmetic evidence controllability transfer_graph.
-From mcexact Require Import resolvent pencil_space anderson_clements joint_controllability gain_lines.
-From mcexact Require Import neighbor_graph extended_bound sequential_gains feedback.
+From mcexact Require Import resolvent pencil_space anderson_clements joint_controllability.
+From mcexact Require Import gain_lines neighbor_graph extended_bound sequential_gains feedback.
 From mcexact Require Import corfmat_morse error_system free_assignment.
 
 Set Implicit Arguments.
