@@ -7,7 +7,7 @@ from fractions import Fraction
 from math import isqrt
 
 from mcexact.certificate.evidence import RateInterval, RootDisc
-from mcexact.exact.enclosures import decimal
+from mcexact.exact.enclosures import decimal, exact_decimal
 
 
 def best_rate(time: str, discs: Sequence[RootDisc]) -> RateInterval | None:
@@ -33,7 +33,7 @@ def best_rate(time: str, discs: Sequence[RootDisc]) -> RateInterval | None:
     """
     if not discs:
         return None
-    numbers = [(Fraction(d.re), Fraction(d.im), Fraction(d.radius)) for d in discs]
+    numbers = [(exact_decimal(d.re), exact_decimal(d.im), exact_decimal(d.radius)) for d in discs]
     digits = max(_digits(part) for d in discs for part in (d.re, d.im, d.radius))
     if time == "continuous":
         lower = -max(re + radius for re, _, radius in numbers)

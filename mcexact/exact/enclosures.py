@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import threading
 from dataclasses import dataclass
+from decimal import Decimal
 from fractions import Fraction
 from itertools import combinations
 from typing import Any
@@ -13,6 +14,7 @@ import flint
 
 from mcexact.errors import InputError, InternalError
 from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.rational import digits_of
 
 # Decimals of the first grid, counted from the first digit of the smallest root below 1.
 _DIGITS = 12
@@ -36,7 +38,7 @@ class Disc:
 
     def exact(self) -> tuple[Fraction, Fraction, Fraction]:
         """Real part, imaginary part and radius as rational numbers."""
-        return Fraction(self.re), Fraction(self.im), Fraction(self.radius)
+        return exact_decimal(self.re), exact_decimal(self.im), exact_decimal(self.radius)
 
 
 @dataclass(frozen=True)
@@ -111,7 +113,9 @@ def _first_digits(p: Polynomial) -> int:
     smallest = min(_moduli(p), default=1.0)
     if smallest >= 1:
         return _DIGITS
-    return _DIGITS + (-math.floor(math.log10(smallest)) if smallest > 0 else len(str(largest)))
+    return _DIGITS + (
+        -math.floor(math.log10(smallest)) if smallest > 0 else len(digits_of(largest))
+    )
 
 
 def _moduli(p: Polynomial) -> list[float]:
@@ -193,9 +197,14 @@ def decimal(value: int, digits: int) -> str:
     ('-1.25', '0', '7')
     """
     whole, rest = divmod(abs(value), 10**digits)
-    fraction = str(rest).zfill(digits).rstrip("0") if digits else ""
-    sign = "-" if value < 0 else ""
-    return f"{sign}{whole}.{fraction}" if fraction else f"{sign}{whole}"
+    fraction = digits_of(rest).zfill(digits).rstrip("0") if digits else ""
+    number = ("-" if value < 0 else "") + digits_of(whole)
+    return f"{number}.{fraction}" if fraction else number
+
+
+def exact_decimal(text: str) -> Fraction:
+    """The number that a decimal of any length is, as `decimal` writes it."""
+    return Fraction(Decimal(text))
 
 
 def real_root_intervals(p: Polynomial) -> tuple[tuple[Fraction, Fraction], ...]:

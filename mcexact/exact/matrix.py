@@ -12,7 +12,7 @@ from typing import Any
 import flint
 
 from mcexact.errors import InputError, LimitReached
-from mcexact.exact.rational import Entry, as_fraction, require_power
+from mcexact.exact.rational import Entry, as_fraction, rational_text, require_power
 
 Rows = tuple[tuple[int, ...], ...]
 
@@ -265,7 +265,7 @@ class Matrix:
         return {name: self.__dict__[name] for name in self.__dataclass_fields__}
 
     def __repr__(self) -> str:
-        rows = ", ".join("[" + ", ".join(map(str, row)) + "]" for row in self.rows())
+        rows = ", ".join("[" + ", ".join(map(rational_text, row)) + "]" for row in self.rows())
         shape = "" if self.nrows and self.ncols else f", shape={self.shape}"
         return f"Matrix([{rows}]{shape})"
 

@@ -12,7 +12,14 @@ from typing import Any
 import flint
 
 from mcexact.errors import InputError
-from mcexact.exact.rational import Entry, as_fraction, require_power, written
+from mcexact.exact.rational import (
+    Entry,
+    as_fraction,
+    digits_of,
+    rational_text,
+    require_power,
+    written,
+)
 
 
 @dataclass(frozen=True)
@@ -287,7 +294,7 @@ class Polynomial:
         return [written(c) for c in self.coefficients]
 
     def __str__(self) -> str:
-        return _rendered(self, "x^{}", lambda c: str(abs(c)), "*")
+        return _rendered(self, "x^{}", lambda c: rational_text(abs(c)), "*")
 
     def latex(self) -> str:
         """LaTeX source.
@@ -299,13 +306,14 @@ class Polynomial:
         """
 
         def coefficient(c: Fraction) -> str:
-            p, q = abs(c.numerator), c.denominator
-            return str(p) if q == 1 else f"\\frac{{{p}}}{{{q}}}"
+            p, q = digits_of(abs(c.numerator)), digits_of(c.denominator)
+            return p if q == "1" else f"\\frac{{{p}}}{{{q}}}"
 
         return _rendered(self, "x^{{{}}}", coefficient, " ")
 
     def __repr__(self) -> str:
-        return f"Polynomial.of({', '.join(map(repr, self.as_json()))})"
+        shown = (repr(c) if isinstance(c, str) else digits_of(c) for c in self.as_json())
+        return f"Polynomial.of({', '.join(shown)})"
 
 
 def product(polynomials: Iterable[Polynomial]) -> Polynomial:

@@ -306,6 +306,28 @@ def require_power(exponent: Any, bits: int) -> int:
     return exponent
 
 
+# CPython converts integers of up to 4300 digits to text at once; this many bits are fewer.
+PRINTABLE_BITS = 14_000
+
+
+def digits_of(value: int) -> str:
+    """The decimal digits of an integer of any length; `str` refuses more than 4300.
+
+    Examples
+    --------
+    >>> digits_of(-12), len(digits_of(10**5000))
+    ('-12', 5001)
+    """
+    return str(value) if value.bit_length() < PRINTABLE_BITS else str(Decimal(value))
+
+
+def rational_text(q: Fraction) -> str:
+    """A rational number in the written grammar, of any length."""
+    if q.denominator == 1:
+        return digits_of(q.numerator)
+    return f"{digits_of(q.numerator)}/{digits_of(q.denominator)}"
+
+
 def written(q: Fraction) -> int | str:
     """A rational number as certificates write it: an integer, or ``"p/q"`` in lowest terms.
 
@@ -314,4 +336,4 @@ def written(q: Fraction) -> int | str:
     >>> written(Fraction(3)), written(Fraction(-1, 2))
     (3, '-1/2')
     """
-    return q.numerator if q.denominator == 1 else f"{q.numerator}/{q.denominator}"
+    return q.numerator if q.denominator == 1 else rational_text(q)

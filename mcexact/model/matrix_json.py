@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import math
-from decimal import Decimal
 from fractions import Fraction
 from typing import Any
 
 from mcexact.errors import InputError
 from mcexact.exact.matrix import Matrix
-from mcexact.exact.rational import DEFAULT_LIMITS, Limits, parse_rational
+from mcexact.exact.rational import (
+    DEFAULT_LIMITS,
+    PRINTABLE_BITS,
+    Limits,
+    parse_rational,
+    rational_text,
+)
 from mcexact.model.json_text import (
     expect_integer,
     expect_list,
@@ -160,24 +165,14 @@ def _sparse(
     return Matrix.from_integers(rows, denominator, ncols=c)
 
 
-# CPython converts integers of up to 4300 digits to text at once; this many bits are fewer.
-_PRINTABLE = 14_000
-
-
 def number_json(value: Fraction) -> int | str:
     """Write a rational as a JSON integer, or as a string "p/q" in lowest terms.
 
     An integer of thousands of digits, which no default limit lets in again, becomes a string too.
     """
-    p, q = value.numerator, value.denominator
-    if q == 1:
-        return p if p.bit_length() < _PRINTABLE else _digits(p)
-    return f"{_digits(p)}/{_digits(q)}"
-
-
-def _digits(value: int) -> str:
-    """Decimal digits of an integer of any length (`str` refuses beyond 4300)."""
-    return str(value) if value.bit_length() < _PRINTABLE else str(Decimal(value))
+    if value.denominator == 1 and value.numerator.bit_length() < PRINTABLE_BITS:
+        return value.numerator
+    return rational_text(value)
 
 
 def matrix_json(M: Matrix) -> Any:
@@ -186,7 +181,7 @@ def matrix_json(M: Matrix) -> Any:
     if not r and c:
         return {"shape": [0, c], "entries": []}
     d = M.denominator
-    if d == 1 and all(entry.bit_length() < _PRINTABLE for row in M.numerators for entry in row):
+    if d == 1 and all(entry.bit_length() < PRINTABLE_BITS for row in M.numerators for entry in row):
         return [list(row) for row in M.numerators]
     return [[number_json(Fraction(entry, d)) for entry in row] for row in M.numerators]
 

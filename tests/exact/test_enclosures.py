@@ -131,3 +131,9 @@ def test_repeated_roots_are_refused():
 def test_intervals_of_the_zero_polynomial_are_refused():
     with pytest.raises(InputError, match="expected a polynomial of degree at least 1, found 0"):
         real_root_intervals(Polynomial(()))
+
+
+@pytest.mark.parametrize("root", [10**5000 + 1, Fraction(1, 10**5000)], ids=["long", "short"])
+def test_roots_may_be_longer_than_python_prints_by_default(root):
+    (disc,) = root_discs(Polynomial.from_roots([root]))
+    assert disc.exact() == (root, 0, 0)
