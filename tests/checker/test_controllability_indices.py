@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import pytest
-
 from tests.checker.handmade import (
     INDICES,
     NO_INDEX,
-    Document,
     certificate,
     changed,
     checked,
     matrix,
     plant,
 )
+from tests.checker.tables import accepts, rejects
 
 TWO_INPUTS = certificate(
     "controllability_indices",
@@ -66,19 +64,8 @@ REJECTED = [
 ]
 
 
-@pytest.mark.parametrize(("reason", "document"), ACCEPTED)
-def test_sound_evidence_is_accepted(reason: str, document: Document) -> None:
-    verdict = checked(document)
-    assert verdict.verdict == "VALID", verdict.line()
-
-
-@pytest.mark.parametrize(("reason", "document", "edit"), REJECTED)
-def test_a_change_of_one_place_is_rejected(
-    reason: str, document: Document, edit: tuple[str, object]
-) -> None:
-    assert checked(document).verdict == "VALID"
-    verdict = checked(changed(document, edit))
-    assert verdict.verdict in ("INVALID", "MALFORMED"), verdict.line()
+test_sound_evidence_is_accepted = accepts(ACCEPTED)
+test_a_change_of_one_place_is_rejected = rejects(REJECTED)
 
 
 def test_the_words_name_the_index() -> None:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import pytest
-
-from tests.checker.handmade import LOSS, NO_LOSS, Document, changed, checked, matrix
+from tests.checker.handmade import LOSS, NO_LOSS, changed, matrix
+from tests.checker.tables import accepts, rejects
 
 SHARED = changed(
     LOSS,
@@ -42,16 +41,5 @@ REJECTED = [
 ]
 
 
-@pytest.mark.parametrize(("reason", "document"), ACCEPTED)
-def test_sound_evidence_is_accepted(reason: str, document: Document) -> None:
-    verdict = checked(document)
-    assert verdict.verdict == "VALID", verdict.line()
-
-
-@pytest.mark.parametrize(("reason", "document", "edit"), REJECTED)
-def test_a_change_of_one_place_is_rejected(
-    reason: str, document: Document, edit: tuple[str, object]
-) -> None:
-    assert checked(document).verdict == "VALID"
-    verdict = checked(changed(document, edit))
-    assert verdict.verdict in ("INVALID", "MALFORMED"), verdict.line()
+test_sound_evidence_is_accepted = accepts(ACCEPTED)
+test_a_change_of_one_place_is_rejected = rejects(REJECTED)

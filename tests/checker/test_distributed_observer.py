@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import pytest
-
 from tests.checker.handmade import Document, certificate, changed, checked, plant
+from tests.checker.tables import accepts, rejects
 from tests.checker.test_closed_loop_spectrum import SCALAR, STEP
 
 ONE = certificate(
@@ -96,19 +93,8 @@ REJECTED = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("reason", "document"), ACCEPTED)
-def test_sound_evidence_is_accepted(reason: str, document: Document) -> None:
-    verdict = checked(document)
-    assert verdict.verdict == "VALID", verdict.line()
-
-
-@pytest.mark.parametrize(("reason", "document", "edit"), REJECTED)
-def test_a_change_of_one_place_is_rejected(
-    reason: str, document: Document, edit: tuple[str, Any]
-) -> None:
-    assert checked(document).verdict == "VALID"
-    verdict = checked(changed(document, edit))
-    assert verdict.verdict in ("INVALID", "MALFORMED"), verdict.line()
+test_sound_evidence_is_accepted = accepts(ACCEPTED)
+test_a_change_of_one_place_is_rejected = rejects(REJECTED)
 
 
 def test_a_loop_with_messages_under_way_is_refused() -> None:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import pytest
-
-from tests.checker.handmade import Document, certificate, changed, checked, layers, matrix, plant
+from tests.checker.handmade import certificate, changed, layers, matrix, plant
+from tests.checker.tables import accepts, rejects
 
 PLANT = plant([[0, 1], [0, 0]], ([[0], [1]], [[0, 0]]))
 UNIT = matrix([1, 0], [0, 1])
@@ -134,16 +133,5 @@ REJECTED = [
 ]
 
 
-@pytest.mark.parametrize(("reason", "document"), ACCEPTED)
-def test_sound_evidence_is_accepted(reason: str, document: Document) -> None:
-    verdict = checked(document)
-    assert verdict.verdict == "VALID", verdict.line()
-
-
-@pytest.mark.parametrize(("reason", "document", "edits"), REJECTED)
-def test_a_change_of_one_place_is_rejected(
-    reason: str, document: Document, edits: tuple[tuple[str, object], ...]
-) -> None:
-    assert checked(document).verdict == "VALID"
-    verdict = checked(changed(document, *edits))
-    assert verdict.verdict in ("INVALID", "MALFORMED"), verdict.line()
+test_sound_evidence_is_accepted = accepts(ACCEPTED)
+test_a_change_of_one_place_is_rejected = rejects(REJECTED)
