@@ -1,7 +1,8 @@
 (* The rules for the least to share, the arcs to add, and set-points, applied to concrete systems with
    every hypothesis discharged. *)
 From mathcomp Require Import all_ssreflect all_algebra all_field.
-From mcexact Require Import multichannel arithmetic evidence controllability allocation setpoint instances.
+From mcexact Require Import multichannel arithmetic evidence controllability transfer_graph allocation setpoint.
+From mcexact Require Import shared_dimensions instances.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.Theory GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -45,6 +46,63 @@ Proof.
 apply: (communication_cut shrunk_cut_off (mxrank1 _ 1)); first by rewrite inputs_cut_off mxrank0.
 by move=> i; rewrite inE /heard => /negPf ->; rewrite mul0mx.
 Qed.
+
+(* The same system, s = {2}: when nobody shares anything, or nobody hears anybody, 0 stays fixed and nothing
+   passes to the second channel. *)
+Notation b := (lift ord0 ord0 : 'I_2).
+Notation all_hear := (fun _ : 'I_2 => [set: 'I_2]).
+Notation none_hear := (fun i : 'I_2 => [set i]).
+Lemma all_hear_self (i : 'I_2) : i \in all_hear i. Proof. by rewrite inE. Qed.
+Lemma none_hear_self (i : 'I_2) : i \in none_hear i. Proof. by rewrite inE. Qed.
+Lemma not_b (i : 'I_2) : i != b -> i = ord0.
+Proof. by case: i => -[|[|]] //= ? _; apply: val_inj. Qed.
+Lemma inputs_other q (C : forall i : 'I_2, 'M_(q i, 1)) : inputs (Multichannel 0 (mcB cut_off) C) (~: [set b]) = 0.
+Proof.
+apply/mxrowP=> i; rewrite mxrowK submxrow0 !inE; case: eqVneq => // /not_b -> /=.
+by rewrite raddf0.
+Qed.
+Lemma shrunk_other q (C : forall i : 'I_2, 'M_(q i, 1)) : C b = 0 ->
+  shrunk_subspace (Multichannel 0 (mcB cut_off) C) 'X (~: [set b]) 1.
+Proof.
+move=> Cb; apply: (@ShrunkSubspace _ _ _ _ _ _ _ _ _ 1 1%:M 0 id).
+- rewrite mulmx0 subr0 mulmx1 => i j; rewrite !mxE rmorph0 subr0 !ord1 eqxx; exact: dvdpp.
+- by move=> i; rewrite !inE negbK => /eqP-> /= j l; rewrite Cb map_mx0 mul0mx mxE dvdp0.
+- move=> i j; rewrite !mxE subrr; exact: dvdp0.
+- by rewrite inputs_other mxrank0.
+Qed.
+Lemma outputs_b : outputs cut_off [set b] = 0.
+Proof.
+apply/mxcolP=> i; rewrite mxcolK submxcol0 !inE; case: eqVneq => // -> /=.
+by rewrite raddf0.
+Qed.
+Lemma few (k : 'I_2 -> nat) (N : 'I_2 -> {set 'I_2}) : (forall i, i \in neighborhood N [set b] :\: [set b] -> k i = 0%N) ->
+  (\sum_(i in neighborhood N [set b] :\: [set b]) k i < 1)%N.
+Proof. by move=> z; rewrite big1. Qed.
+Lemma none_boundary i : i \in neighborhood none_hear [set b] :\: [set b] -> 1%N = 0%N.
+Proof. by rewrite /neighborhood big_set1 setDv inE. Qed.
+Lemma inst_dimensions_cut_states :
+  fixed (extended_states all_hear (fun=> 0%N) (map_system h (Multichannel 0 (mcB cut_off) (mcC cut_off)))) 0.
+Proof.
+apply: (dimensions_cut_states all_hear_self root0 (few _) (shrunk_other _)) => //.
+by rewrite /= raddf0.
+Qed.
+Lemma inst_dimensions_cut_outputs : fixed (extended none_hear pair (map_system h cut_off)) 0.
+Proof.
+apply: (dimensions_cut_outputs none_hear_self root0 (few none_boundary)).
+exact: (shrunk_other outputs_b).
+Qed.
+Lemma zero_other q (C : forall i : 'I_2, 'M_(q i, 1)) :
+  zero_transfer (Multichannel 0 (mcB cut_off) C) (~: [set b]) [set b].
+Proof.
+apply: (@ZeroTransfer _ _ _ _ _ _ _ _ 0 0 (fun i : 'I_0 => ord0)) => [|j|i _]; rewrite ?mulmx0 ?mul0mx//.
+by rewrite !inE => /not_b -> /=; rewrite raddf0.
+Qed.
+Lemma b_not_empty : [set b] != set0. Proof. by apply/set0Pn; exists b; rewrite inE. Qed.
+Lemma b_not_all : [set b] != setT. Proof. by apply/eqP => /setP/(_ ord0); rewrite !inE. Qed.
+Lemma inst_connection_cut_states : ~ strongly_connected (extended_states all_hear (fun=> 0%N) cut_off).
+Proof. by apply: connection_cut_states b_not_empty b_not_all _ => //; apply: zero_other. Qed.
+Lemma inst_connection_cut_outputs : ~ strongly_connected (extended none_hear pair cut_off).
+Proof. by apply: connection_cut_outputs none_boundary b_not_empty b_not_all _; apply: zero_other. Qed.
 
 (* Set-points. *)
 Lemma inst_setpoint_rank : \rank (map_mx up (1%:M : 'M_1)) = 1%N.

@@ -57,8 +57,10 @@ def _cut(
 ) -> tuple[list[int], int]:
     """A subset s, and how much its boundary N_s∖s has to share at least.
 
-    Theorems ``extended.rank_extended``, ``extended.rank_extended_states``,
-    ``transfer_graph.zero_transfer_cut``.
+    Theorems ``shared_dimensions.dimensions_cut_outputs``,
+    ``shared_dimensions.dimensions_cut_states``, ``shared_dimensions.connection_cut_outputs``,
+    ``shared_dimensions.connection_cut_states``, ``extended.rank_extended``,
+    ``extended.rank_extended_states``, ``transfer_graph.zero_transfer_cut``.
     """
     if free and isinstance(entry, dict) and "zero" in entry:
         listed, zero = fields(entry, place, "subset", "zero")
