@@ -164,8 +164,8 @@ def error_gain_draws(
         if trial % 2:
             return _signed_permutation(rng, n)
         if trial % 8 == 6:
-            return _drawn(rng, n, n, 1 + trial // 80, 0.8)
-        return _drawn(rng, n, n, 1, 0.3)
+            return drawn_integers(rng, n, n, 1 + trial // 80, 0.8)
+        return drawn_integers(rng, n, n, 1, 0.3)
 
     def draw(trial: int, rng: Random) -> tuple[Matrix, ...]:
         shift = unit * (round(center) + (0, 1, -1, 0)[trial // 2 % 4])
@@ -173,7 +173,7 @@ def error_gain_draws(
         for i in range(system.m):
             others = [j for j in graph.neighborhood(i) if j != i]
             chosen = rng.choice(others) if others else i
-            blocks = [_drawn(rng, n, system.q(i), 2, 0.4)]
+            blocks = [drawn_integers(rng, n, system.q(i), 2, 0.4)]
             for j in others:
                 S = block_of(trial, rng) - (shift if j == chosen else Matrix.zeros(n, n))
                 blocks.append(-coupling[j] - S)
@@ -183,7 +183,7 @@ def error_gain_draws(
     return draw
 
 
-def _drawn(rng: Random, nrows: int, ncols: int, bound: int, density: float) -> Matrix:
+def drawn_integers(rng: Random, nrows: int, ncols: int, bound: int, density: float) -> Matrix:
     """A matrix of integers in −bound … bound, most of them 0 where the density is low."""
 
     def entry() -> int:

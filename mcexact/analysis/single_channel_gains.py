@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from random import Random
 
 from mcexact.analysis.fixed_spectrum import evidence
-from mcexact.analysis.gains import Draw, reach_index
+from mcexact.analysis.gains import Draw, drawn_integers, reach_index
 from mcexact.analysis.invariant_subspace import controllable_subspace
 from mcexact.analysis.modular_system import (
     ModularSystem,
@@ -223,16 +223,8 @@ def growing_draws(system: MultiChannelSystem) -> Draw:
     def draw(trial: int, rng: Random) -> tuple[Matrix, ...]:
         bound = 0 if trial == 0 else 2 ** (trial // 12)
         density = (0.3, 0.6, 1.0)[trial % 3]
-
-        def entry() -> int:
-            return rng.randint(-bound, bound) if rng.random() < density else 0
-
         return tuple(
-            Matrix.from_integers(
-                [[entry() for _ in range(system.q(i))] for _ in range(system.p(i))],
-                ncols=system.q(i),
-            )
-            for i in range(system.m)
+            drawn_integers(rng, system.p(i), system.q(i), bound, density) for i in range(system.m)
         )
 
     return draw

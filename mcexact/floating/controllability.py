@@ -134,12 +134,9 @@ def controllability_index(A: NDArray[np.float64], B: NDArray[np.float64]) -> int
     >>> controllability_index(np.array([[0.0, 1.0], [0.0, 0.0]]), np.array([[0.0], [1.0]]))
     2
     """
-    n = A.shape[0]
+    n, p = B.shape
     if n == 0:
         return 0
-    blocks = [B]
-    for index in range(1, n + 1):
-        if np.linalg.matrix_rank(np.hstack(blocks)) == n:
-            return index
-        blocks.append(A @ blocks[-1])
-    return None
+    K = controllability_matrix(A, B)
+    ranks = (np.linalg.matrix_rank(K[:, : index * p]) for index in range(1, n + 1))
+    return next((index for index, rank in enumerate(ranks, start=1) if rank == n), None)

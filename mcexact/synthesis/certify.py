@@ -151,10 +151,13 @@ def _decided(
 
 def _largest(loop: MultiChannelSystem, separation: Separation | None) -> Fraction | None:
     """By bisection over the polynomial, or over parts of the computed bound for large loops."""
-    if loop.n <= POLYNOMIAL_LIMIT:
+    import numpy as np
+
+    floats = matrix_to_float(loop.A)
+    if loop.n <= POLYNOMIAL_LIMIT or not np.all(np.isfinite(floats)):
         return largest_certified_rate(loop)
     discrete = loop.time == "discrete"
-    computed = spectral_bound(matrix_to_float(loop.A), loop.time)
+    computed = spectral_bound(floats, loop.time)
     spare = Fraction(1 - computed if discrete else -computed).limit_denominator(10**6)
     if spare <= 0:
         return None

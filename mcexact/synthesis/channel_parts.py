@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from random import Random
 
+from mcexact.analysis.gains import drawn_integers
 from mcexact.analysis.invariant_subspace import controllable_subspace
 from mcexact.analysis.modular_system import ModularSystem, generator, residue_systems
 from mcexact.exact.matrix import Matrix, block_diagonal
@@ -100,11 +101,6 @@ def channel_part(A: Matrix, B: Matrix, C: Matrix, rng: Random) -> ChannelPart:
     return ChannelPart((A1.T @ seen.X).take(seen.pivots).T, seen.X.T @ B1, C1.T.take(seen.pivots).T)
 
 
-def closed(system: MultiChannelSystem, gains: Sequence[Matrix]) -> Matrix:
-    """A + Σ B_i F_i C_i."""
-    return system.A + system.input_matrix() @ block_diagonal(gains) @ system.output_matrix()
-
-
 def drawn_gains(
     system: MultiChannelSystem,
     components: Sequence[Sequence[int]],
@@ -151,17 +147,7 @@ def _draws(system: MultiChannelSystem, rng: Random, attempts: int) -> Iterator[t
         bound = 1 + trial // 24
         density = 0.0 if trial == 0 else (0.25, 0.5, 1.0)[trial % 3]
         yield tuple(
-            Matrix.from_integers(
-                [
-                    [
-                        rng.randint(-bound, bound) if rng.random() < density else 0
-                        for _ in range(system.q(i))
-                    ]
-                    for _ in range(system.p(i))
-                ],
-                ncols=system.q(i),
-            )
-            for i in range(system.m)
+            drawn_integers(rng, system.p(i), system.q(i), bound, density) for i in range(system.m)
         )
 
 

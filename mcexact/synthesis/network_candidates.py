@@ -11,6 +11,7 @@ from typing import Any, Literal
 
 from mcexact.analysis.fixed_spectrum import FixedSpectrum
 from mcexact.analysis.modular_system import generator
+from mcexact.derived.feedback import closed_by
 from mcexact.errors import InputError, InternalError
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.matrix import Matrix
@@ -26,7 +27,6 @@ from mcexact.synthesis.channel_parts import (
     ChannelReach,
     DrawnGains,
     channel_part,
-    closed,
 )
 from mcexact.synthesis.networks import DerivedNetwork
 from mcexact.synthesis.riccati_channel import riccati_channel_controller
@@ -127,7 +127,7 @@ def _candidate(task: NetworkTask, drawn: DrawnGains) -> NetworkCandidate | None:
     """Channel controllers for drawn gains; None if a mode that is not fixed would stay."""
     system = task.network.system
     rng = generator(system, "channel_controller")
-    M = closed(system, drawn.gains)
+    M = closed_by(system, drawn.gains)
     parts = {
         reach.channel: channel_part(M, system.B(reach.channel), system.C(reach.channel), rng)
         for reach in drawn.reaches

@@ -18,7 +18,7 @@ from mcexact.model.controller import Controller
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_graph
 from mcexact.model.system_file import digest
-from mcexact.synthesis.channel_controller import ChannelController
+from mcexact.synthesis.channel_controller import ChannelController, largest
 from mcexact.synthesis.fast_modes import feedback_for_region, observable_part
 from mcexact.synthesis.gate import CertifiedClosedLoop, certify_observer, certify_rate
 from mcexact.synthesis.observer_programs import observer_programs
@@ -81,10 +81,7 @@ class ObserverDesign:
     @property
     def largest_entry(self) -> Fraction:
         """The largest absolute value of an entry of the closed loop."""
-        M = self.loop.matrix
-        return Fraction(
-            max((abs(x) for row in M.numerators for x in row), default=0), M.denominator
-        )
+        return largest(self.loop.matrix)
 
 
 @overload

@@ -9,6 +9,8 @@ from math import ceil
 from random import Random
 
 from mcexact.analysis.controllability import joint_controllability
+from mcexact.analysis.gains import drawn_integers
+from mcexact.analysis.invariant_form import companion
 from mcexact.errors import Impossible, InternalError, LimitReached
 from mcexact.exact.linear_algebra import (
     characteristic_polynomial,
@@ -193,11 +195,15 @@ def _drawn_direction(
     if draw < p:
         F0, g = Matrix.zeros(p, n), Matrix.column([int(k == draw) for k in range(p)])
     elif draw % 3 == 2:
-        F0, g = _drawn(rng, p, n, bound, 0.25), _drawn(rng, p, 1, bound, 0.5)
+        F0, g = drawn_integers(rng, p, n, bound, 0.25), drawn_integers(rng, p, 1, bound, 0.5)
     else:
         target, first = _drawn_target(rng, targets[draw % 3])
         F0 = _rounded(reach @ (target - A))
-        g = _rounded(reach.take(cols=[first])) if draw % 4 else _drawn(rng, p, 1, bound, 0.5)
+        g = (
+            _rounded(reach.take(cols=[first]))
+            if draw % 4
+            else drawn_integers(rng, p, 1, bound, 0.5)
+        )
     M = A + B @ F0
     columns = [B @ g]
     for _ in range(n - 1):
@@ -246,10 +252,7 @@ def companions(polynomial: Polynomial) -> list[Matrix]:
     """One companion matrix for each irreducible factor over Q, as often as it divides."""
     found = []
     for factor, times in polynomial.factor():
-        d = factor.degree
-        last = [-c for c in factor.coefficients[:d]]
-        rows = [[int(i == k + 1) for k in range(d - 1)] + [last[i]] for i in range(d)]
-        found += [Matrix.from_rows(rows, ncols=d)] * times
+        found += [companion(factor)] * times
     return found
 
 
@@ -261,14 +264,3 @@ def split_by_channel(system: MultiChannelSystem, F: Matrix) -> tuple[Matrix, ...
         gains.append(F.take(rows=range(start, stop)))
         start = stop
     return tuple(gains)
-
-
-def _drawn(rng: Random, nrows: int, ncols: int, bound: int, density: float) -> Matrix:
-    """A matrix of integers in −bound … bound, most of them 0 where the density is low."""
-
-    def entry() -> int:
-        return rng.randint(-bound, bound) if rng.random() < density else 0
-
-    return Matrix.from_integers(
-        [[entry() for _ in range(ncols)] for _ in range(nrows)], ncols=ncols
-    )

@@ -63,6 +63,13 @@ def test_there_is_no_largest_rate_of_an_unstable_loop():
         assert (found.largest is None) is not found.verdict.stable
 
 
+def test_the_largest_rate_is_found_beside_entries_beyond_floats():
+    far = [[-int(i == j) + 10**400 * int(j == i + 1) for j in range(41)] for i in range(41)]
+    plant = MultiChannelSystem(far, [[[0]] * 41], [[[0] * 41]])
+    found = certify_controller(plant, local_controllers(plant, [[[0]]]), largest=True)
+    assert found.largest is not None and Fraction(999, 1000) < found.largest < 1
+
+
 def test_a_loop_too_large_for_its_polynomial_says_so(monkeypatch):
     monkeypatch.setattr(certify, "POLYNOMIAL_LIMIT", 0)
     assert not certify_controller(PLANT, STATIC, rate=2).verdict.stable

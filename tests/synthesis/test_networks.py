@@ -10,12 +10,13 @@ from mcexact.analysis.delays import is_power_of_x
 from mcexact.derived.choices import SeededChoices
 from mcexact.derived.drawn import drawn_system, jointly_controllable_system
 from mcexact.derived.drawn_graph import drawn_graph
+from mcexact.derived.feedback import closed_by
 from mcexact.exact.linear_algebra import characteristic_polynomial, rank
 from mcexact.exact.matrix import Matrix, hstack, vstack
 from mcexact.model.closed_loop import closed_loop_matrix
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.channel_parts import channel_part, closed, drawn_gains
+from mcexact.synthesis.channel_parts import channel_part, drawn_gains
 from mcexact.synthesis.networks import NetworkKind, network_programs, shared_network
 
 
@@ -64,7 +65,7 @@ def test_programs_of_drawn_gains_close_the_derived_loop(seed: int, kind: Network
         for i in range(3)
     ]
     loop = closed_loop_matrix(system, network_programs(network, gains, {}), graph)
-    chi, whole = characteristic_polynomial(loop), characteristic_polynomial(closed(derived, gains))
+    chi, whole = characteristic_polynomial(loop), characteristic_polynomial(closed_by(derived, gains))
     quotient, remainder = divmod(whole, chi)
     assert remainder.is_zero()
     assert is_power_of_x(quotient), "only messages that nobody uses are left out"
