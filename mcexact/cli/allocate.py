@@ -93,19 +93,19 @@ def command(
     """
     import sys
 
-    from mcexact.cli.files import directory, read
+    from mcexact.cli.files import directory, place_of, read
     from mcexact.cli.output import emit, emit_json, on_terminal
     from mcexact.cli.supervision import supervised
     from mcexact.model.atomic import write_text
     from mcexact.report.text import plain, show
 
-    place = "standard input" if file == "-" else file
+    place = place_of(file)
     names = ("bytes", "depth", "digits", "exponent")
     moved = options.given({name: rest.pop(name) for name in names})
     answer = supervised(
         _answer,
         place,
-        read(file, place, moved),
+        read(file, moved),
         moved,
         rest,
         doing=f"allocating for {place}",
@@ -130,15 +130,10 @@ def _answer(
     place: str, data: bytes, limits: dict[str, int], question: dict[str, Any]
 ) -> dict[str, Any]:
     """Read, decide, and put the answer into text: what the child process does."""
-    from mcexact.errors import InputError
-    from mcexact.exact.rational import Limits
-    from mcexact.model.system_file import read_system
+    from mcexact.cli.files import system_in
     from mcexact.report.allocation import arcs_report, dimensions_report
 
-    try:
-        system = read_system(data, limits=Limits(**limits))
-    except InputError as error:
-        raise error.within(place) from None
+    system = system_in(place, data, limits)
     bound = _bound(system.time, question.pop("rate"), question.pop("radius"))
     if question.pop("arcs"):
         return arcs_report(system, _wires(question, bound))

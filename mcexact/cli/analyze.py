@@ -84,19 +84,19 @@ def command(
     """
     import sys
 
-    from mcexact.cli.files import directory, read, require_other
+    from mcexact.cli.files import directory, place_of, read, require_other
     from mcexact.cli.output import emit, emit_json, on_terminal
     from mcexact.cli.supervision import supervised
     from mcexact.model.atomic import write_text
     from mcexact.report.text import plain, show
 
-    place = "standard input" if file == "-" else file
+    place = place_of(file)
     require_other(html, file)
     moved = options.given(limits)
     answer = supervised(
         _answer,
         place,
-        read(file, place, moved),
+        read(file, moved),
         moved,
         {
             "information": information,
@@ -148,17 +148,12 @@ def _answer(
 ) -> dict[str, Any]:
     """Decide, and put the answer into text: what the child process does."""
     from mcexact.certificate import codec
-    from mcexact.errors import InputError
-    from mcexact.exact.rational import Limits
-    from mcexact.model.system_file import read_system
+    from mcexact.cli.files import system_in
     from mcexact.report.assessment import assess
     from mcexact.report.json_view import assessment_view
     from mcexact.report.text import assessment_tables
 
-    try:
-        system = read_system(data, limits=Limits(**limits))
-    except InputError as error:
-        raise error.within(place) from None
+    system = system_in(place, data, limits)
     assessment = assess(system, **question)
     certificates = assessment.certificates() if with_certificates else {}
     pages = {}

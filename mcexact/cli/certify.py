@@ -15,8 +15,8 @@ from mcexact.cli.failures import DEFINITE_NO
 @click.command(name="certify", short_help="Decide whether a controller stabilizes, with proof.")
 @click.argument("file")
 @click.argument("controller")
-@click.option("--rate", type=options.rational, help="Continuous time: every real part below -RATE.")
-@click.option("--radius", type=options.rational, help="Discrete time: every modulus below RADIUS.")
+@options.rate
+@options.radius
 @click.option(
     "--largest", is_flag=True, help="Look for the largest rate (least radius) and certify that."
 )
@@ -47,7 +47,7 @@ def command(
     The decision is exact, whatever the controller was designed with. A no ends with status 1; with
     --certificates it is proved as well.
     """
-    from mcexact.cli.files import directory, read
+    from mcexact.cli.files import directory, place_of, read
     from mcexact.cli.output import emit, emit_json
     from mcexact.cli.supervision import supervised
     from mcexact.model.atomic import write_text
@@ -56,11 +56,11 @@ def command(
     moved = options.given(limits)
     answer = supervised(
         _certified,
-        (file, read(file, file, moved)),
-        (controller, read(controller, controller, moved)),
+        (place_of(file), read(file, moved)),
+        (place_of(controller), read(controller, moved)),
         moved,
         {"rate": rate, "radius": radius, "largest": largest, "method": method},
-        doing=f"certifying {controller}",
+        doing=f"certifying {place_of(controller)}",
         timeout=timeout,
         max_memory=max_memory,
     )
@@ -83,20 +83,16 @@ def _certified(
 ) -> dict[str, Any]:
     """Decide, and put the answer into text: what the child process does."""
     from mcexact.certificate import codec
+    from mcexact.cli.files import system_in
     from mcexact.errors import InputError
     from mcexact.exact.rational import Limits
     from mcexact.model.controller_file import read_controller
-    from mcexact.model.system_file import read_system
     from mcexact.report.certify_view import verdict_tables, verdict_view
     from mcexact.synthesis.certify import certify_controller
 
-    bounds = Limits(**limits)
+    system = system_in(*plant, limits)
     try:
-        system = read_system(plant[1], limits=bounds)
-    except InputError as error:
-        raise error.within(plant[0]) from None
-    try:
-        controller = read_controller(program[1], bounds)
+        controller = read_controller(program[1], Limits(**limits))
         found = certify_controller(system, controller, **wanted)
     except InputError as error:
         raise error.within(program[0]) from None

@@ -26,17 +26,17 @@ def command(
     Each floating-point verdict is the library's own call with its default tolerance, and is quoted.
     At the end stands an upper bound on the distance to having a fixed mode, in floating point.
     """
-    from mcexact.cli.files import read
+    from mcexact.cli.files import place_of, read
     from mcexact.cli.output import emit, emit_json
     from mcexact.cli.supervision import supervised
     from mcexact.report.text import plain
 
-    place = "standard input" if file == "-" else file
+    place = place_of(file)
     moved = options.given(limits)
     answer = supervised(
         _crosschecked,
         place,
-        read(file, place, moved),
+        read(file, moved),
         moved,
         doing=f"cross-checking {place}",
         timeout=timeout,
@@ -50,15 +50,10 @@ def command(
 
 def _crosschecked(place: str, data: bytes, limits: dict[str, int]) -> dict[str, Any]:
     """Answer, and put the answers into text: what the child process does."""
+    from mcexact.cli.files import system_in
     from mcexact.crosscheck.table import crosscheck
-    from mcexact.errors import InputError
-    from mcexact.exact.rational import Limits
-    from mcexact.model.system_file import read_system
     from mcexact.report.crosscheck_view import crosscheck_tables, crosscheck_view
 
-    try:
-        system = read_system(data, limits=Limits(**limits))
-    except InputError as error:
-        raise error.within(place) from None
+    system = system_in(place, data, limits)
     found = crosscheck(system)
     return {"json": crosscheck_view(found), "tables": crosscheck_tables(found)}

@@ -13,8 +13,8 @@ from mcexact.cli import options
 
 @click.command(name="observer", short_help="A distributed observer with a prescribed spectrum.")
 @click.argument("file")
-@click.option("--rate", type=options.rational, help="Continuous time: every real part below -RATE.")
-@click.option("--radius", type=options.rational, help="Discrete time: every modulus below RADIUS.")
+@options.rate
+@options.radius
 @click.option(
     "--spectrum",
     metavar="FILE",
@@ -27,21 +27,8 @@ from mcexact.cli import options
     help="The least order that one of the indices allows, instead of m - 1; in floating point "
     "an observer of reduced order.",
 )
-@click.option(
-    "--arithmetic",
-    type=click.Choice(["exact", "float"]),
-    default="exact",
-    show_default=True,
-    help="Exact assigns every number, for small systems; float meets a rate or radius. "
-    "The proof is exact either way.",
-)
-@click.option(
-    "-o",
-    "--output",
-    type=click.Path(path_type=Path),
-    metavar="FILE",
-    help="Write the controller here; else it goes to standard output.",
-)
+@options.arithmetic
+@options.controller_output
 @options.certificates
 @options.as_json
 @options.work_limits
@@ -67,17 +54,17 @@ def command(
     nm + m - 1 for the estimation errors. If it is impossible the status is 1, and the certificate
     says why.
     """
-    from mcexact.cli.files import directory, read, require_other
+    from mcexact.cli.files import directory, place_of, read, require_other
     from mcexact.cli.output import emit, emit_json
     from mcexact.cli.supervision import supervised
     from mcexact.errors import Impossible
     from mcexact.model.atomic import write_text
     from mcexact.report.text import plain
 
-    place = "standard input" if file == "-" else file
+    place = place_of(file)
     moved = options.given(limits)
     require_other(output, file, spectrum)
-    prescribed = None if spectrum is None else (spectrum, read(spectrum, spectrum, moved))
+    prescribed = None if spectrum is None else (place_of(spectrum), read(spectrum, moved))
     wanted = {
         "q": agent,
         "rate": rate,
@@ -88,7 +75,7 @@ def command(
     answer = supervised(
         _designed,
         place,
-        read(file, place, moved),
+        read(file, moved),
         prescribed,
         moved,
         wanted,
@@ -122,22 +109,18 @@ def _designed(
 ) -> dict[str, Any]:
     """Design, and put the answer into text: what the child process does."""
     from mcexact.certificate import codec
+    from mcexact.cli.files import system_in
     from mcexact.errors import Impossible, InputError
     from mcexact.exact.rational import Limits
     from mcexact.model.controller_file import controller_text
     from mcexact.model.json_text import parse
-    from mcexact.model.system_file import read_system
     from mcexact.synthesis.observer import design_observer
 
-    bounds = Limits(**limits)
     spectrum = None
-    try:
-        system = read_system(data, limits=bounds)
-    except InputError as error:
-        raise error.within(place) from None
+    system = system_in(place, data, limits)
     try:
         if prescribed is not None:
-            spectrum = parse(prescribed[1], bounds)
+            spectrum = parse(prescribed[1], Limits(**limits))
         design = design_observer(system, spectrum=spectrum, **wanted)
     except InputError as error:
         raise error.within(prescribed[0] if prescribed is not None else place) from None

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from pathlib import Path
 from typing import Any, TypeVar
 
 import click
@@ -19,33 +18,16 @@ HOW = ("rate", "radius", "arithmetic")
 def design_options(spectrum_help: str) -> Callable[[F], F]:
     """The options of every design, and the arguments of `answer`."""
     given = (
-        click.option(
-            "--rate", type=options.rational, help="Continuous time: every real part below -RATE."
-        ),
-        click.option(
-            "--radius", type=options.rational, help="Discrete time: every modulus below RADIUS."
-        ),
+        options.rate,
+        options.radius,
         click.option("--spectrum", metavar="FILE", help=spectrum_help),
-        click.option(
-            "--arithmetic",
-            type=click.Choice(["exact", "float"]),
-            default="exact",
-            show_default=True,
-            help="Exact assigns every number, for small systems; float meets a rate or radius. "
-            "The proof is exact either way.",
-        ),
+        options.arithmetic,
         click.option(
             "--agent",
             metavar="NAME",
             help="Who carries the channel controller; else who needs the least order.",
         ),
-        click.option(
-            "-o",
-            "--output",
-            type=click.Path(path_type=Path),
-            metavar="FILE",
-            help="Write the controller here; else it goes to standard output.",
-        ),
+        options.controller_output,
         options.certificates,
         options.as_json,
         options.work_limits,
@@ -73,23 +55,23 @@ def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any
     wanted : mapping
         Further keywords of the function.
     """
-    from mcexact.cli.files import directory, read, require_other
+    from mcexact.cli.files import directory, place_of, read, require_other
     from mcexact.cli.output import emit, emit_json
     from mcexact.cli.supervision import supervised
     from mcexact.errors import Impossible
     from mcexact.model.atomic import write_text
     from mcexact.report.text import plain
 
-    place = "standard input" if file == "-" else file
+    place = place_of(file)
     moved = options.given({k: given[k] for k in ("bytes", "depth", "digits", "exponent")})
     spectrum = given["spectrum"]
     require_other(given["output"], file, spectrum)
-    prescribed = None if spectrum is None else (spectrum, read(spectrum, spectrum, moved))
+    prescribed = None if spectrum is None else (place_of(spectrum), read(spectrum, moved))
     keywords = {**wanted, "q": given["agent"], **{key: given[key] for key in HOW}}
     done = supervised(
         _designed,
         name,
-        (place, read(file, place, moved)),
+        (place, read(file, moved)),
         prescribed,
         moved,
         keywords,
@@ -126,23 +108,19 @@ def _designed(
     import importlib
 
     from mcexact.certificate import codec
+    from mcexact.cli.files import system_in
     from mcexact.errors import Impossible, InputError
     from mcexact.exact.rational import Limits
     from mcexact.model.controller_file import controller_text
     from mcexact.model.json_text import parse
-    from mcexact.model.system_file import read_system
     from mcexact.report.network_view import design_tables, design_view
 
-    bounds = Limits(**limits)
     design = getattr(importlib.import_module(f"mcexact.synthesis.{name}"), f"design_{name}")
     spectrum = None
-    try:
-        system = read_system(plant[1], limits=bounds)
-    except InputError as error:
-        raise error.within(plant[0]) from None
+    system = system_in(*plant, limits)
     try:
         if prescribed is not None:
-            spectrum = parse(prescribed[1], bounds)
+            spectrum = parse(prescribed[1], Limits(**limits))
         found = design(system, spectrum=spectrum, **wanted)
     except InputError as error:
         raise error.within(prescribed[0] if prescribed is not None else plant[0]) from None

@@ -4,11 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from mcexact.errors import InputError
 
+if TYPE_CHECKING:
+    from mcexact.model.system import MultiChannelSystem
 
-def read(file: str, place: str, limits: Mapping[str, int]) -> bytes:
+
+def place_of(file: str) -> str:
+    """What messages call a file."""
+    return "standard input" if file == "-" else file
+
+
+def read(file: str, limits: Mapping[str, int]) -> bytes:
     """The bytes of a file, or of the standard input for ``-``.
 
     This is done before a child process is started, which has no standard input.
@@ -23,6 +32,23 @@ def read(file: str, place: str, limits: Mapping[str, int]) -> bytes:
 
     try:
         return read_bytes(file, Limits(**limits))
+    except InputError as error:
+        raise error.within(place_of(file)) from None
+
+
+def system_in(place: str, data: bytes, limits: Mapping[str, int]) -> MultiChannelSystem:
+    """The system in the bytes of a file, the place named in whatever is wrong with it.
+
+    Raises
+    ------
+    InputError
+        If it is malformed.
+    """
+    from mcexact.exact.rational import Limits
+    from mcexact.model.system_file import read_system
+
+    try:
+        return read_system(data, limits=Limits(**limits))
     except InputError as error:
         raise error.within(place) from None
 

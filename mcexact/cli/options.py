@@ -49,6 +49,27 @@ def seconds(text: str) -> float:
 
 FOLDER = click.Path(path_type=Path)
 
+rate = click.option("--rate", type=rational, help="Continuous time: every real part below -RATE.")
+
+radius = click.option("--radius", type=rational, help="Discrete time: every modulus below RADIUS.")
+
+arithmetic = click.option(
+    "--arithmetic",
+    type=click.Choice(["exact", "float"]),
+    default="exact",
+    show_default=True,
+    help="Exact assigns every number, for small systems; float meets a rate or radius. "
+    "The proof is exact either way.",
+)
+
+controller_output = click.option(
+    "-o",
+    "--output",
+    type=FOLDER,
+    metavar="FILE",
+    help="Write the controller here; else it goes to standard output.",
+)
+
 as_json = click.option("--json", "as_json", is_flag=True, help="Print one JSON document.")
 
 certificates = click.option(

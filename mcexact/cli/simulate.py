@@ -58,7 +58,7 @@ def command(
     **limits: int | None,
 ) -> None:
     """Run the CONTROLLER for the system in FILE, one agent each, messages along arcs only."""
-    from mcexact.cli.files import read, require_other
+    from mcexact.cli.files import place_of, read, require_other
     from mcexact.cli.output import emit, emit_json
     from mcexact.cli.supervision import supervised
     from mcexact.model.atomic import write_bytes
@@ -71,8 +71,8 @@ def command(
     moved = options.given(limits)
     answer = supervised(
         _simulated,
-        (file, read(file, file, moved)),
-        (controller, read(controller, controller, moved)),
+        (place_of(file), read(file, moved)),
+        (place_of(controller), read(controller, moved)),
         moved,
         {
             "initial": _numbers(initial, "--initial"),
@@ -81,7 +81,7 @@ def command(
             "arithmetic": arithmetic,
         },
         suffix,
-        doing=f"simulating {file}",
+        doing=f"simulating {place_of(file)}",
         timeout=timeout,
         max_memory=max_memory,
     )
@@ -113,19 +113,15 @@ def _simulated(
     suffix: str,
 ) -> dict[str, Any]:
     """Run, and put the answer into text and bytes: what the child process does."""
+    from mcexact.cli.files import system_in
     from mcexact.errors import InputError
     from mcexact.exact.rational import Limits
     from mcexact.model.controller_file import read_controller
-    from mcexact.model.system_file import read_system
     from mcexact.report.simulation import run_report
 
-    bounds = Limits(**limits)
+    system = system_in(*plant, limits)
     try:
-        system = read_system(plant[1], limits=bounds)
-    except InputError as error:
-        raise error.within(plant[0]) from None
-    try:
-        controller = read_controller(program[1], bounds)
+        controller = read_controller(program[1], Limits(**limits))
     except InputError as error:
         raise error.within(program[0]) from None
     report = run_report(system, controller, **wanted)
