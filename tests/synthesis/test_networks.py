@@ -65,7 +65,10 @@ def test_programs_of_drawn_gains_close_the_derived_loop(seed: int, kind: Network
         for i in range(3)
     ]
     loop = closed_loop_matrix(system, network_programs(network, gains, {}), graph)
-    chi, whole = characteristic_polynomial(loop), characteristic_polynomial(closed_by(derived, gains))
+    chi, whole = (
+        characteristic_polynomial(loop),
+        characteristic_polynomial(closed_by(derived, gains)),
+    )
     quotient, remainder = divmod(whole, chi)
     assert remainder.is_zero()
     assert is_power_of_x(quotient), "only messages that nobody uses are left out"
