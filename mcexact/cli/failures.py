@@ -29,7 +29,12 @@ def exit_status(error: BaseException) -> int:
 
 
 def one_message(error: BaseException) -> str:
-    """What to tell the user about an error, in one line without control characters."""
+    """What to tell the user about an error, in one line without control characters.
+
+    A group of commands that is called without one is no error to explain: its help is the answer.
+    """
+    if type(error).__name__ == "NoArgsIsHelpError" and isinstance(error, click.UsageError):
+        return error.format_message()
     if isinstance(error, click.Abort | KeyboardInterrupt):
         text = "interrupted"
     elif isinstance(error, click.UsageError):

@@ -45,6 +45,14 @@ def test_every_command_has_help_with_a_sentence_and_its_options(name: str, call:
     assert call("--help")[1].count(f"  {name} ") == 1
 
 
+@pytest.mark.parametrize("group", [(), ("design",)])
+def test_a_group_without_a_command_shows_its_help(group: tuple[str, ...], call: Call) -> None:
+    status, out, err = call(*group)
+    assert (status, out) == (2, "")
+    assert err.startswith("Usage: mcexact ")
+    assert "\nCommands:\n" in err and "\\n" not in err
+
+
 @pytest.mark.parametrize(
     ("typed", "meant"),
     [("anlyze", "analyze"), ("analyse", "analyze"), ("chekc", "check"), ("sampel", "sample")],
