@@ -27,6 +27,7 @@ from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model import gallery
 from mcexact.model.statespace import from_statespace
+from mcexact.sweep.run import sweep
 from tests.end_to_end.command_line import MCEXACT
 
 ONE = [[[1]]]
@@ -79,6 +80,11 @@ CALLS: dict[str, tuple[Callable[[], Any], type[McexactError], tuple[str, ...]]] 
         lambda: from_statespace(control.ss(0.5, 1, 1, 0), [[0]], [[0]], rounding=None),  # type: ignore[arg-type]
         InputError,
         ("statespace.A[0][0]", "decimal", "dyadic"),
+    ),
+    "B189 a cluster's client in place of its executor": (
+        lambda: next(sweep([], executor=object())),  # type: ignore[arg-type]
+        UsageError,
+        ("concurrent.futures.Executor", "client.get_executor()"),
     ),
     "B171 a float": (lambda: system([[0.5]]), FloatRefused, ("A[0][0]", "from_float")),
     "B171 a complex number": (lambda: system([[1j]]), InputError, ("A[0][0]",)),
