@@ -4,7 +4,7 @@
 From mathcomp Require Import all_ssreflect all_algebra all_field.
 From mcexact Require Import multichannel controllability joint_controllability neighbor_graph.
 From mcexact Require Import gain_lines extended_bound error_system delayed_systems brasch_pearson.
-From mcexact Require Import theorem_1 corollary_1 instances_paper instances_delays.
+From mcexact Require Import theorem_1 corollary_1 construction instances_paper instances_delays.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -123,3 +123,14 @@ Proof.
 apply: (free_assignment_held (f := f) infinite_rat delay all_hear_self all_strongly_connected
   (open_controllable Q) (open_observable Q)) => // i s lambda _ _ _; exact: leq_subr.
 Qed.
+
+(* construction.v: the channel controller of order 1 belongs to agent 1 *)
+Definition carried (i : 'I_2) : nat := (i == ord0).
+Lemma carried_only i : i != ord0 -> carried i = 0%N. Proof. by rewrite /carried => /negPf ->. Qed.
+Example theorem_1_controllers_open := theorem_1_controllers f infinite_rat all_strongly_connected
+  carried_only erefl no_feedback (open_observable Q) (decaying_monic Q 3) (size_decaying Q 3).
+Example construction_open := construction f infinite_rat all_strongly_connected carried_only erefl
+  (open_controllable Q) (open_observable Q) (decaying_monic Q 1) (size_decaying Q 1)
+  (decaying_monic Q 3) (size_decaying Q 3).
+Example construction_rate_open := construction_rate f infinite_rat all_strongly_connected
+  carried_only erefl (-1) (open_controllable Q) (open_observable Q).
