@@ -8,6 +8,8 @@ from fractions import Fraction
 from typing import Any
 
 from mcexact.analysis.closed_loop_spectrum import LoopSpectrum
+from mcexact.exact.enclosures import exact_decimal
+from mcexact.exact.rational import to_float
 from mcexact.report.trajectory import error_norms, state_norms
 from mcexact.simulation.trajectory import Trajectory
 
@@ -19,7 +21,8 @@ def simulation_png(run: Trajectory, spectrum: LoopSpectrum | None, title: str = 
     ----------
     run : Trajectory
     spectrum : LoopSpectrum, optional
-        Of the whole loop; without it there is neither the line of the rate nor the third panel.
+        Of the whole loop; without it, or where it reaches beyond floats, there is neither the line
+        of the rate nor the third panel.
     title : str
 
     Returns
@@ -30,6 +33,7 @@ def simulation_png(run: Trajectory, spectrum: LoopSpectrum | None, title: str = 
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
+    spectrum = drawable(spectrum)
     errors = error_norms(run)
     panels = 1 + bool(errors) + (spectrum is not None)
     figure = Figure(figsize=(4.6 * panels, 4.0), layout="constrained")
@@ -48,6 +52,14 @@ def simulation_png(run: Trajectory, spectrum: LoopSpectrum | None, title: str = 
     image = io.BytesIO()
     figure.savefig(image, format="png", dpi=120, metadata={"Software": None})
     return image.getvalue()
+
+
+def drawable(spectrum: LoopSpectrum | None) -> LoopSpectrum | None:
+    """The spectrum, unless an eigenvalue is beyond the floats that pictures are made of."""
+    if spectrum is None:
+        return None
+    parts = (exact_decimal(part) for disc in spectrum.discs for part in (disc.re, disc.im))
+    return spectrum if all(math.isfinite(to_float(part)) for part in parts) else None
 
 
 def draw_decay(

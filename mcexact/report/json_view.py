@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from mcexact.errors import LimitReached
+from mcexact.exact.rational import written
 from mcexact.report.assessment import Assessment, DelayedNetworks, stem
 
 if TYPE_CHECKING:
@@ -94,7 +95,8 @@ def shared_dimensions_view(
 ) -> dict[str, Any]:
     """The least dimensions by agent; the bounds on their sum where the node limit was reached."""
     if isinstance(found, LimitReached):
-        return {name: getattr(found, name, None) for name in ("lower", "upper")}
+        ends = {"lower": found.lower, "upper": found.upper}
+        return {name: None if end is None else written(end) for name, end in ends.items()}
     dimensions = None
     if found.dimensions is not None:
         dimensions = dict(zip(system.names, found.dimensions, strict=True))

@@ -1,14 +1,15 @@
 """The JSON of `analyze` has the keys that programs rely on, and plain exact values."""
 
 import json
+from fractions import Fraction
 from typing import Any
 
 import pytest
 
 from mcexact import MultiChannelSystem, NeighborGraph
-from mcexact.errors import UsageError
+from mcexact.errors import LimitReached, UsageError
 from mcexact.report.assessment import assess
-from mcexact.report.json_view import assessment_view
+from mcexact.report.json_view import assessment_view, shared_dimensions_view
 from tests.report.test_text import EXAMPLE
 
 ALWAYS = {
@@ -71,6 +72,14 @@ def test_with_neighbors_sharing_is_answered_and_least_sharing_only_when_asked() 
     assert least["outputs+states"]["dimensions"] == {"1": 0, "2": 0, "3": 1}
     assert least["states"]["total"] == 2
     assert least["states"]["certificate"] == "minimal_shared_dimensions_states.json"
+
+
+def test_the_bounds_that_a_limit_leaves_are_numbers_of_json() -> None:
+    plant = MultiChannelSystem(**EXAMPLE)
+    reached = LimitReached("a limit", lower=Fraction(2), upper=Fraction(7, 2))
+    assert json.dumps(shared_dimensions_view(plant, reached)) == '{"lower": 2, "upper": "7/2"}'
+    nothing = shared_dimensions_view(plant, LimitReached("a limit"))
+    assert nothing == {"lower": None, "upper": None}
 
 
 @pytest.mark.parametrize("question", [{"information": "outputs"}, {"minimal": True}])

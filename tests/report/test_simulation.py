@@ -70,6 +70,13 @@ def test_a_run_that_stays_at_zero_can_be_drawn():
     assert report.file(".png").startswith(b"\x89PNG")
 
 
+def test_a_loop_beyond_floats_is_drawn_without_its_spectrum():
+    plant = MultiChannelSystem([["1e400"]], [[[1]]], [[[1]]], time="discrete")
+    controller = Controller("discrete", "", (AgentProgram("1", 0, 0),))
+    report = run_report(plant, controller, horizon=Fraction(3))
+    assert report.file(".png").startswith(b"\x89PNG")
+
+
 def test_an_unstable_loop_is_called_so():
     report = run_report(*halving(gain=1))
     assert "not stable" in " ".join(report.facts())
