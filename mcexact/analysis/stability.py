@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import accumulate, pairwise
-from typing import Literal
+from typing import Any, Literal
 
 from mcexact.analysis.lyapunov import QuadraticForm, quadratic_form
 from mcexact.analysis.modular_system import generator
@@ -27,6 +27,7 @@ from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import primes, residues
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import Entry, as_fraction
+from mcexact.model.matrix_entry import as_matrix
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import canonical_document
 
@@ -84,18 +85,19 @@ class StabilityVerdict:
     certificate: StabilityCertificate
 
 
-def matrix_system(M: Matrix, time: str = "continuous") -> MultiChannelSystem:
+def matrix_system(M: Any, time: str = "continuous") -> MultiChannelSystem:
     """A closed loop given as a matrix alone: a plant whose one channel has no input and no output.
 
     Parameters
     ----------
-    M : Matrix
-        N × N.
+    M : matrix, N × N
+        A list of rows or whatever else `MultiChannelSystem` takes for A.
     time : {"continuous", "discrete"}
     """
-    N = M.nrows
+    exact = as_matrix(M, "M")
+    N = exact.nrows
     return MultiChannelSystem(
-        M, [Matrix.zeros(N, 0)], [Matrix.zeros(0, N)], time=time, names=["loop"]
+        exact, [Matrix.zeros(N, 0)], [Matrix.zeros(0, N)], time=time, names=["loop"]
     )
 
 

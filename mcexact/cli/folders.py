@@ -53,7 +53,7 @@ def write_folder(folder: Path, files: Mapping[str, str]) -> None:
     target = Path(os.path.realpath(folder))
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
-        made = Path(tempfile.mkdtemp(prefix=f".{target.name[:100]}.", dir=target.parent))
+        made = Path(tempfile.mkdtemp(prefix=".mcexact-", dir=target.parent))
         try:
             made.chmod(0o755)
             for name, text in files.items():

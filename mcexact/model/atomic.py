@@ -35,8 +35,8 @@ def write_bytes(path: str | os.PathLike[str], data: bytes) -> None:
     InputError
         If the folder is missing or cannot be written.
     """
-    target = Path(os.path.realpath(path))
     try:
+        target = Path(os.path.realpath(path))
         # Where a stream stands, the target of the link is no name that could be opened.
         if os.path.exists(path) and not os.path.isfile(path):
             with open(path, "wb") as stream:
@@ -45,11 +45,13 @@ def write_bytes(path: str | os.PathLike[str], data: bytes) -> None:
         _replace(target, data)
     except OSError as error:
         raise InputError(f"cannot write: {error.strerror or error}", where=str(path)) from error
+    except ValueError as error:
+        raise InputError(f"is no file name: {error}", where=repr(path)) from error
 
 
 def _replace(target: Path, data: bytes) -> None:
     """Write beside the target, then rename."""
-    handle, temporary = tempfile.mkstemp(prefix=f".{target.name[:100]}.", dir=target.parent)
+    handle, temporary = tempfile.mkstemp(prefix=".mcexact-", dir=target.parent)
     try:
         with os.fdopen(handle, "wb") as stream:
             stream.write(data)

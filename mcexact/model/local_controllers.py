@@ -76,7 +76,8 @@ def _program(
 
     def matrix(k: int, ncols: int | None = None) -> Matrix:
         value, place = given[k], f"{where}.{'ABCD'[k]}"
-        if rounding is not None and not isinstance(value, Matrix) and len(value):
+        empty = hasattr(value, "__len__") and not len(value)
+        if rounding is not None and not empty and not isinstance(value, Matrix):
             return matrix_from_float(value, rounding, where=place)
         return as_matrix(value, place, ncols=ncols)
 

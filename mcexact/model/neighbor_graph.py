@@ -141,8 +141,9 @@ class NeighborGraph:
         for name, heard in neighbors.items():
             where = f"neighbors[{quoted(name)}]"
             i = at(name, "neighbors")
-            if isinstance(heard, str):
-                raise InputError("expected a list of names, found a string", where=where)
+            if isinstance(heard, str) or not isinstance(heard, Iterable):
+                kind = "a string" if isinstance(heard, str) else f"{heard!r}"
+                raise InputError(f"expected a list of names, found {kind}", where=where)
             for k, other in enumerate(heard):
                 j = at(other, f"{where}[{k}]")
                 if j in sets[i]:

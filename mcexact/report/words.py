@@ -67,22 +67,23 @@ def _blame(factor: FixedFactor, names: Sequence[str], both: bool) -> str:
         mode = f"Mode {shorten(str(-factor.polynomial.coefficients[0]), 30)}"
     else:
         mode = f"The modes that are the roots of {shorten(str(factor.polynomial), 60)}"
+    it = "it" if factor.polynomial.degree == 1 else "them"
     inside = factor.channels
     outside = [name for name in names if name not in set(inside)]
     if not inside:
-        why = "no channel reaches it"
+        why = f"no channel reaches {it}"
     elif not outside:
-        why = "no channel sees it"
+        why = f"no channel sees {it}"
     else:
-        seen = f"{channels(outside)} {_ends(outside, 'see')} it but {_do(outside)} not reach it"
-        why = f"{channels(inside)} {_ends(inside, 'reach')} it but {_do(inside)} not see it, {seen}"
+        why = (
+            f"{channels(inside)} {_ends(inside, 'reach')} {it} but {_do(inside)} not see {it}, "
+            f"{channels(outside)} {_ends(outside, 'see')} {it} but {_do(outside)} not reach {it}"
+        )
         if not both:
             why = (
-                f"{channels(outside)} {_do(outside)} not reach it, and {channels(inside)} "
-                f"{_do(inside)} not see it"
+                f"{channels(outside)} {_do(outside)} not reach {it}, and {channels(inside)} "
+                f"{_do(inside)} not see {it}"
             )
-    if factor.polynomial.degree > 1:
-        why = why.replace(" it", " them")
     return f"{mode} ({often}) cannot be moved by any controller with this information: {why}."
 
 

@@ -177,6 +177,12 @@ def _set_initial(
     network: Network, start: InitialState, system: MultiChannelSystem, controller: Controller
 ) -> None:
     """Convert and set the initial state, its sizes checked."""
+    if not len(start.shared) == len(start.private) == system.m:
+        raise InputError(
+            f"expected shared and private states of {system.m} agents, "
+            f"found {len(start.shared)} and {len(start.private)}",
+            where="initial",
+        )
     expected = [
         (system.n, start.plant, "x"),
         *(

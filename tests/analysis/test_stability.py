@@ -17,7 +17,7 @@ from mcexact.analysis.stability import (
 )
 from mcexact.certificate import encode
 from mcexact.checker.kinds import check_document
-from mcexact.errors import UsageError
+from mcexact.errors import FloatRefused, UsageError
 from mcexact.exact.matrix import Matrix, block_diagonal
 
 NEAR = Fraction(1, 10**9)
@@ -157,6 +157,12 @@ def test_the_largest_rate_is_found_by_bisection() -> None:
     assert largest_certified_rate(matrix_system(Matrix.from_rows([[1]]))) is None
     with pytest.raises(UsageError, match="positive"):
         largest_certified_rate(loop, accuracy=0)
+
+
+def test_a_loop_may_be_a_list_of_rows() -> None:
+    assert_valid(certify_stability(matrix_system([[-1, "1/2"], [0, -2]]), rate="1/2"))
+    with pytest.raises(FloatRefused, match=r"M\[0\]\[0\]"):
+        matrix_system([[-1.5]])
 
 
 def test_no_states_are_stable() -> None:

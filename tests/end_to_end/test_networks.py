@@ -117,7 +117,7 @@ def test_analyze_says_what_is_fixed_with_delays_and_what_can_be_held(folder, tmp
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (("extended", "--dimensions", "1,x,0", "--rate", "1"), "integers such as 0,0,1"),
+        (("extended", "--dimensions", "1,x,0", "--rate", "1"), "integers >= 0 such as 0,0,1"),
         (("extended", "--dimensions", "1,0", "--rate", "1"), "expected 3 dimensions"),
         (("extended", "--network", "held", "--rate", "1"), "discrete time"),
         (("decentralized",), "give a rate or a spectrum"),

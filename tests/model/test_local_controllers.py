@@ -36,6 +36,12 @@ def test_a_statespace_is_a_controller_and_a_loop():
     assert certify_stability(loop_from_statespace(sampled, rounding="decimal"), radius=1).stable
 
 
+def test_a_number_is_no_matrix_whatever_floats_mean():
+    for rounding, message in ((None, "a list of rows"), ("decimal", "a two-dimensional array")):
+        with pytest.raises(InputError, match=rf"parts\[0\]\.D: expected .*{message}, found int"):
+            local_controllers(PLANT, [-3, [[1]]], rounding=rounding)
+
+
 @pytest.mark.parametrize(
     ("parts", "message"),
     [

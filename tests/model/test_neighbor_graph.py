@@ -90,6 +90,7 @@ def test_a_wrong_graph_is_refused(arguments, message):
         ((NAMES, {"d": []}), "neighbors: there is no agent 'd'"),
         ((NAMES, {"a": ["d"]}), r"neighbors\['a'\]\[0\]: there is no agent 'd'"),
         ((NAMES, {"a": ["b", "b"]}), r"neighbors\['a'\]\[1\]: 'b' is listed twice"),
+        ((NAMES, {"a": None}), r"neighbors\['a'\]: expected a list of names, found None"),
         ((NAMES, {"a": "bc"}), r"neighbors\['a'\]: expected a list of names, found a string"),
         ((NAMES, {"a": [1]}), r"neighbors\['a'\]\[0\]: expected a name as a string"),
         ((NAMES, {}, {"x": {}}), None),

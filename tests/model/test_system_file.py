@@ -363,6 +363,17 @@ def test_writing_into_a_missing_folder_is_refused(tmp_path):
         write_text(tmp_path / "missing" / "plant.json", "{}")
 
 
+def test_a_name_as_long_as_the_file_system_allows_can_be_written(tmp_path):
+    path = tmp_path / ("界" * 83 + ".json")
+    write_text(path, "{}")
+    assert path.read_text() == "{}"
+
+
+def test_what_no_file_can_be_called_is_refused():
+    with pytest.raises(InputError, match="is no file name: embedded null byte"):
+        write_text("a\0b", "{}")
+
+
 def test_what_is_no_regular_file_is_written_to_as_it_is():
     write_text("/dev/null", "{}")
     assert not os.path.isfile("/dev/null")

@@ -90,6 +90,17 @@ def test_the_answer_says_who_reaches_a_mode_and_who_sees_it() -> None:
     ]
 
 
+def test_a_name_that_holds_a_pronoun_is_left_as_it_is() -> None:
+    plant = MultiChannelSystem(
+        [[0, 1], [2, 0]],
+        [[[1, 0], [0, 1]], [[0], [0]]],
+        [[[0, 0]], [[1, 0]]],
+        names=["it1", "it2"],
+    )
+    said = answer(assess(plant))[0]
+    assert "channel it1 reaches them but does not see them, channel it2 sees them" in said
+
+
 def test_without_joint_controllability_nobody_is_said_to_reach_a_mode() -> None:
     plant = MultiChannelSystem([[1]], [[[0]], [[0]]], [[[1]], [[1]]])
     assert "no channel reaches it" in answer(assess(plant))[0]

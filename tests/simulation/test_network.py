@@ -190,3 +190,11 @@ def test_what_does_not_fit_is_said(options, kind, message):
     plant = MultiChannelSystem([[2]], [[[0]]] * 2, [[[1]], [[0]]], time="discrete", neighbors=graph)
     with pytest.raises(kind, match=message):
         simulate(plant, relay(), **options)
+
+
+def test_a_start_without_all_agents_is_refused():
+    start = InitialState((Fraction(1),), (), ())
+    plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]], time="discrete")
+    agents = Controller("discrete", "", (AgentProgram("1", 0, 0),))
+    with pytest.raises(InputError, match="initial: expected shared and private states of 1 agents"):
+        simulate(plant, agents, initial=start)
