@@ -63,7 +63,8 @@ class Statement:
         --------
         >>> statement("thm:strg-graph").standing(7)
         'proved in general, checked on 7 instances'
-        >>> statement("thm:obs-main").standing(1)
+        >>> from dataclasses import replace
+        >>> replace(statement("thm:strg-graph"), proofs=()).standing(1)
         'checked on 1 instance'
         """
         checked = f"checked on {instances} instance" + ("" if instances == 1 else "s")
