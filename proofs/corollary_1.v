@@ -106,4 +106,12 @@ apply/held_strongly_connected => //; apply: strongly_connected_sub sc => j i a.
 by rewrite a.
 Qed.
 
+(* so finite delays never stand in the way: n_i = n is enough *)
+Theorem free_assignment_delays (N : 'I_m -> {set 'I_m}) d S : (0 < n)%N ->
+  (forall i, i \in N i) -> strongly_connected (neighbor_arc N) ->
+  jointly_controllable S -> jointly_observable S -> freely_assignable (held N (fun=> n) d S).
+Proof.
+move=> n0 hears sc jc jo; apply: free_assignment_held => // i s lambda _ _ _; exact: leq_subr.
+Qed.
+
 End Extended.

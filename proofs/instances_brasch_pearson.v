@@ -123,6 +123,8 @@ Proof.
 apply: (free_assignment_held (f := f) infinite_rat delay all_hear_self all_strongly_connected
   (open_controllable Q) (open_observable Q)) => // i s lambda _ _ _; exact: leq_subr.
 Qed.
+Example free_assignment_delays_open := free_assignment_delays f infinite_rat delay (ltn0Sn 0)
+  all_hear_self all_strongly_connected (open_controllable Q) (open_observable Q).
 
 (* construction.v: the channel controller of order 1 belongs to agent 1 *)
 Definition carried (i : 'I_2) : nat := (i == ord0).
