@@ -19,8 +19,9 @@ from typing import Any
 import flint
 import numpy as np
 
+from mcexact.exact.blocks import hstack, vstack
 from mcexact.exact.linear_algebra import characteristic_polynomial
-from mcexact.exact.matrix import Matrix, hstack, vstack
+from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import polynomial_residues, primes, residues
 from mcexact.exact.number_field import PolynomialMatrix
 from mcexact.exact.number_field import rank as rank_over_field

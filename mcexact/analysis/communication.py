@@ -24,8 +24,9 @@ from mcexact.derived.arcs import add_arcs
 from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.derived.extended import Share, extended_system, selector
 from mcexact.errors import InputError, UsageError
+from mcexact.exact.blocks import block_diagonal
 from mcexact.exact.location import StabilityRegion, bounded_region
-from mcexact.exact.matrix import Matrix, block_diagonal
+from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import Entry, as_fraction
 from mcexact.model.names import quoted

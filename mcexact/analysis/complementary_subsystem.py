@@ -12,9 +12,10 @@ from mcexact.analysis.modular_system import generator, residue_systems
 from mcexact.certificate.complementary_subsystem import ComplementarySubsystemCertificate
 from mcexact.certificate.evidence import RootDisc
 from mcexact.errors import InternalError, UsageError
+from mcexact.exact.blocks import hstack, vstack
 from mcexact.exact.enclosures import root_discs
 from mcexact.exact.linear_algebra import inverse, kernel, left_nullspace, nullspace, solve
-from mcexact.exact.matrix import Matrix, hstack, vstack
+from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import hstack as modular_hstack
 from mcexact.exact.modular import residues
 from mcexact.exact.polynomial import Polynomial, product

@@ -11,8 +11,9 @@ from mcexact.analysis.modular_system import generator, residue_systems
 from mcexact.certificate.controllability_indices import ControllabilityIndicesCertificate
 from mcexact.derived.dual import dual
 from mcexact.errors import InternalError
+from mcexact.exact.blocks import hstack, vstack
 from mcexact.exact.linear_algebra import solve_nonsingular
-from mcexact.exact.matrix import Matrix, hstack, vstack
+from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import ModularMatrix, residues
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import canonical_document

@@ -15,12 +15,14 @@ from mcexact.certificate.controllability_indices import ControllabilityIndicesCe
 from mcexact.certificate.evidence import RootDisc
 from mcexact.certificate.exceptional_gains import ExceptionalFactor, ExceptionalGainsCertificate
 from mcexact.errors import Impossible, InternalError
+from mcexact.exact.blocks import hstack
 from mcexact.exact.enclosures import real_root_intervals, root_discs
 from mcexact.exact.linear_algebra import determinant
-from mcexact.exact.matrix import Matrix, hstack
+from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import polynomial_residues, primes
-from mcexact.exact.number_field import PolynomialMatrix, kernel
+from mcexact.exact.number_field import kernel
 from mcexact.exact.polynomial import Polynomial, product
+from mcexact.exact.polynomial_matrix import PolynomialMatrix
 from mcexact.exact.rational import as_fraction
 from mcexact.model.matrix_entry import as_matrix, require_shape
 from mcexact.model.system import MultiChannelSystem

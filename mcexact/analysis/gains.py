@@ -12,7 +12,8 @@ from fractions import Fraction
 from random import Random
 
 from mcexact.analysis.modular_system import ModularSystem, generator, residue_systems
-from mcexact.exact.matrix import Matrix, block_diagonal, hstack
+from mcexact.exact.blocks import block_diagonal, hstack
+from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import ModularMatrix, residues
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem

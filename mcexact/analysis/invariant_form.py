@@ -5,8 +5,9 @@ from __future__ import annotations
 from random import Random
 
 from mcexact.errors import InternalError
+from mcexact.exact.blocks import block_diagonal, hstack, vstack
 from mcexact.exact.linear_algebra import kernel, minimal_polynomial, rank
-from mcexact.exact.matrix import Matrix, block_diagonal, hstack, vstack
+from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 
 

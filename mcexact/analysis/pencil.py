@@ -9,10 +9,12 @@ from typing import Any
 from mcexact.analysis.modular_system import generator
 from mcexact.certificate.pencil_rank import PencilRankCertificate
 from mcexact.errors import InputError, InternalError
-from mcexact.exact.matrix import Matrix, block
+from mcexact.exact.blocks import block
+from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import primes, residues
-from mcexact.exact.number_field import PolynomialMatrix, inflate, kernel_at
+from mcexact.exact.number_field import inflate, kernel_at
 from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.polynomial_matrix import PolynomialMatrix
 from mcexact.exact.rational import as_fraction
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import canonical_document

@@ -7,7 +7,8 @@ from fractions import Fraction
 
 from mcexact.analysis.lyapunov import QuadraticForm, decrease, is_dominant
 from mcexact.certificate.stability import InstabilityMethod
-from mcexact.exact.matrix import Matrix, block_diagonal, vstack
+from mcexact.exact.blocks import block_diagonal, vstack
+from mcexact.exact.matrix import Matrix
 
 _SCALES = (8, 24, 48, 96)
 

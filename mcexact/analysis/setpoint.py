@@ -8,10 +8,11 @@ from dataclasses import dataclass
 from mcexact.analysis.modular_system import generator
 from mcexact.certificate.setpoint import SetpointCertificate
 from mcexact.errors import InternalError
+from mcexact.exact.blocks import block, hstack, vstack
 from mcexact.exact.linear_algebra import left_nullspace, row_echelon
-from mcexact.exact.matrix import Matrix, block, hstack, vstack
+from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import primes, residues
-from mcexact.exact.number_field import PolynomialMatrix
+from mcexact.exact.polynomial_matrix import PolynomialMatrix
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import canonical_document
 

@@ -22,11 +22,13 @@ from mcexact.analysis.modular_system import (
     residue_systems,
 )
 from mcexact.errors import InternalError
+from mcexact.exact.blocks import block
 from mcexact.exact.linear_algebra import row_echelon
-from mcexact.exact.matrix import Matrix, block
+from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import ModularMatrix, hstack, polynomial_residues
-from mcexact.exact.number_field import PolynomialMatrix, kernel_at
+from mcexact.exact.number_field import kernel_at
 from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.polynomial_matrix import PolynomialMatrix
 from mcexact.model.system import MultiChannelSystem
 
 

@@ -27,8 +27,9 @@ from mcexact.certificate.single_channel_gains import (
 from mcexact.derived.dual import dual
 from mcexact.derived.feedback import closed_by, full_output
 from mcexact.errors import InternalError, UsageError
+from mcexact.exact.blocks import hstack
 from mcexact.exact.linear_algebra import solve_nonsingular
-from mcexact.exact.matrix import Matrix, hstack
+from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import ModularMatrix, residues
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import canonical_document

@@ -7,7 +7,7 @@ from typing import Any
 
 from mcexact.derived.extended import selector
 from mcexact.derived.feedback import checked_gains
-from mcexact.exact.matrix import block, block_diagonal, vstack
+from mcexact.exact.blocks import block, block_diagonal, vstack
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_graph
 

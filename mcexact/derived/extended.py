@@ -7,7 +7,8 @@ from itertools import accumulate
 from typing import Literal, get_args
 
 from mcexact.errors import InputError
-from mcexact.exact.matrix import Matrix, block_diagonal, hstack
+from mcexact.exact.blocks import block_diagonal, hstack
+from mcexact.exact.matrix import Matrix
 from mcexact.model.names import quoted
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_graph

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 
 from mcexact.derived.extended import checked_dimensions, selector
 from mcexact.derived.lifted import require_discrete, require_size, shift
-from mcexact.exact.matrix import Matrix, block_diagonal, hstack, kronecker
+from mcexact.exact.blocks import block_diagonal, hstack, kronecker
+from mcexact.exact.matrix import Matrix
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_graph
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from itertools import accumulate
 
 from mcexact.derived.extended import selector
-from mcexact.exact.matrix import Matrix, block, vstack
+from mcexact.exact.blocks import block, vstack
+from mcexact.exact.matrix import Matrix
 from mcexact.model.system import MultiChannelSystem
 
 

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 from mcexact.derived.extended import Share, checked_dimensions, checked_share, selector
 from mcexact.errors import LimitReached, UsageError
-from mcexact.exact.matrix import Matrix, block_diagonal, hstack, kronecker, vstack
+from mcexact.exact.blocks import block_diagonal, hstack, kronecker, vstack
+from mcexact.exact.matrix import Matrix
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_graph
 

@@ -8,21 +8,24 @@ polynomial's roots with respect to a stability region.  Refuses floats, except t
 
 No other stage imports flint: sizes and moduli that it would abort on are refused here.
 
-=================  ====================================================================
-`rational`         one number: entries, the written grammar, the way in from floats
-`matrix`           rational matrices and blocks of them
-`linear_algebra`   ranks, kernels, solutions, characteristic polynomials over Q
-`polynomial`       rational polynomials
-`modular`          matrices and polynomials modulo word-size primes
-`krylov`           characteristic polynomials modulo smaller primes, by exact float products
-`reconstruction`   rational numbers from their residues
-`number_field`     matrices of polynomials; kernels and ranks over Q[x]/(p)
-`location`         Hurwitz and Schur tests, stability regions
-`enclosures`       discs and intervals around roots
-`floats`           arrays of floats to rational matrices and back
-=================  ====================================================================
+===================  ==================================================================
+`rational`           one number: entries, the written grammar, the way in from floats
+`matrix`             rational matrices
+`blocks`             rational matrices put together from blocks
+`linear_algebra`     ranks, kernels, solutions, characteristic polynomials over Q
+`polynomial`         rational polynomials
+`modular`            matrices and polynomials modulo word-size primes
+`krylov`             characteristic polynomials modulo smaller primes, by exact float products
+`reconstruction`     rational numbers from their residues
+`polynomial_matrix`  matrices of polynomials
+`number_field`       kernels and ranks over Q[x]/(p)
+`location`           Hurwitz and Schur tests, stability regions
+`enclosures`         discs and intervals around roots
+`floats`             arrays of floats to rational matrices and back
+===================  ==================================================================
 """
 
+from mcexact.exact.blocks import block, block_diagonal, hstack, kronecker, vstack
 from mcexact.exact.enclosures import Disc, real_root_intervals, root_discs
 from mcexact.exact.floats import dyadic_matrix, matrix_from_float, matrix_to_float
 from mcexact.exact.linear_algebra import (
@@ -38,7 +41,7 @@ from mcexact.exact.linear_algebra import (
     solve,
 )
 from mcexact.exact.location import StabilityRegion, in_region, is_hurwitz, is_schur
-from mcexact.exact.matrix import Matrix, block, block_diagonal, hstack, kronecker, vstack
+from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import (
     ModularMatrix,
     ModularPolynomial,
@@ -48,8 +51,9 @@ from mcexact.exact.modular import (
     random_matrix,
     residues,
 )
-from mcexact.exact.number_field import PolynomialMatrix, kernel_at
+from mcexact.exact.number_field import kernel_at
 from mcexact.exact.polynomial import Polynomial, product
+from mcexact.exact.polynomial_matrix import PolynomialMatrix
 from mcexact.exact.rational import (
     DEFAULT_LIMITS,
     Entry,

@@ -8,7 +8,8 @@ from typing import Any
 import flint
 
 from mcexact.errors import InputError
-from mcexact.exact.matrix import Matrix, from_flint, hstack, lowest_terms, unchecked
+from mcexact.exact.blocks import hstack
+from mcexact.exact.matrix import Matrix, from_flint, lowest_terms, unchecked
 from mcexact.exact.polynomial import Polynomial
 
 # A prime for a first look at a rank: full rank modulo it is full rank over Q.

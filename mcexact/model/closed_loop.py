@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from mcexact.errors import UsageError
-from mcexact.exact.matrix import Matrix, hstack, vstack
+from mcexact.exact.blocks import hstack, vstack
+from mcexact.exact.matrix import Matrix
 from mcexact.model.controller import Controller, LinearMap
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_graph

@@ -8,7 +8,8 @@ from fractions import Fraction
 from typing import Any, Self
 
 from mcexact.errors import InputError, UsageError
-from mcexact.exact.matrix import Matrix, hstack, vstack
+from mcexact.exact.blocks import hstack, vstack
+from mcexact.exact.matrix import Matrix
 from mcexact.exact.rational import Rounding, as_fraction
 from mcexact.model.matrix_entry import as_matrix, require_shape, require_square
 from mcexact.model.names import checked_names, checked_text, nearest, quoted

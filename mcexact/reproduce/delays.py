@@ -13,8 +13,9 @@ from mcexact.analysis.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.transfer_graph import transfer_graph
 from mcexact.derived.held import held_system
 from mcexact.derived.lifted import lifted_system, shift
+from mcexact.exact.blocks import vstack
 from mcexact.exact.linear_algebra import rank
-from mcexact.exact.matrix import Matrix, vstack
+from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.report.loop_figures import delays_picture

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from mcexact.exact.matrix import Matrix, vstack
+from mcexact.exact.blocks import vstack
+from mcexact.exact.matrix import Matrix
 from mcexact.model.system import MultiChannelSystem
 from mcexact.reproduce.material import Numbers
 

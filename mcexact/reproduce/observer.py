@@ -12,8 +12,9 @@ from mcexact.analysis.exceptional_gains import exceptional_gains
 from mcexact.analysis.single_channel_gains import single_channel_gains
 from mcexact.derived.error_system import error_system
 from mcexact.derived.feedback import feedback
+from mcexact.exact.blocks import block, hstack, kronecker, vstack
 from mcexact.exact.linear_algebra import characteristic_polynomial
-from mcexact.exact.matrix import Matrix, block, hstack, kronecker, vstack
+from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem

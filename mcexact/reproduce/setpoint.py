@@ -8,8 +8,9 @@ from mcexact.analysis.controllability import joint_controllability, joint_observ
 from mcexact.analysis.setpoint import setpoint_solvability
 from mcexact.derived.integrators import setpoint_system
 from mcexact.errors import Impossible
+from mcexact.exact.blocks import block, vstack
 from mcexact.exact.linear_algebra import characteristic_polynomial, determinant, rank, solve
-from mcexact.exact.matrix import Matrix, block, vstack
+from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.system import MultiChannelSystem
 from mcexact.report.loop_figures import setpoint_picture

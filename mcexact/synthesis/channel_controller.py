@@ -8,8 +8,9 @@ from fractions import Fraction
 from random import Random
 
 from mcexact.errors import InputError, InternalError, LimitReached
+from mcexact.exact.blocks import block, hstack, vstack
 from mcexact.exact.linear_algebra import characteristic_polynomial, solve
-from mcexact.exact.matrix import Matrix, block, hstack, vstack
+from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import primes, residues
 from mcexact.exact.polynomial import Polynomial
 

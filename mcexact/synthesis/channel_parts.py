@@ -9,7 +9,8 @@ from random import Random
 from mcexact.analysis.gains import drawn_integers
 from mcexact.analysis.invariant_subspace import controllable_subspace
 from mcexact.analysis.modular_system import ModularSystem, generator, residue_systems
-from mcexact.exact.matrix import Matrix, block_diagonal
+from mcexact.exact.blocks import block_diagonal
+from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import ModularMatrix, hstack, random_matrix, residues, vstack
 from mcexact.model.system import MultiChannelSystem
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from mcexact.analysis.stability import Separation
-from mcexact.exact.matrix import Matrix, block, vstack
+from mcexact.exact.blocks import block, vstack
+from mcexact.exact.matrix import Matrix
 from mcexact.model.controller import Controller
 
 

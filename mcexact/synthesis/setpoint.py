@@ -13,9 +13,10 @@ from mcexact.analysis.stability import StabilityVerdict, certify_stability
 from mcexact.derived.extended import extended_system
 from mcexact.derived.integrators import setpoint_system
 from mcexact.errors import Impossible, InputError, InternalError, UsageError
+from mcexact.exact.blocks import block, hstack, vstack
 from mcexact.exact.linear_algebra import solve
 from mcexact.exact.location import StabilityRegion
-from mcexact.exact.matrix import Matrix, block, hstack, vstack
+from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.closed_loop import closed_loop_matrix, loop_layout, reference_matrix
 from mcexact.model.controller import AgentProgram, Controller, LinearMap

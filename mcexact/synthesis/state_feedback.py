@@ -12,13 +12,14 @@ from mcexact.analysis.controllability import joint_controllability
 from mcexact.analysis.gains import drawn_integers
 from mcexact.analysis.invariant_form import companion
 from mcexact.errors import Impossible, InternalError, LimitReached
+from mcexact.exact.blocks import hstack
 from mcexact.exact.linear_algebra import (
     characteristic_polynomial,
     determinant,
     row_echelon,
     solve,
 )
-from mcexact.exact.matrix import Matrix, hstack
+from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.channel_controller import height, largest

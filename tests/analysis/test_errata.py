@@ -12,8 +12,9 @@ from mcexact.certificate import Certificate, encode
 from mcexact.checker.kinds import check_document
 from mcexact.derived.extended import extended_system
 from mcexact.derived.integrators import setpoint_system
+from mcexact.exact.blocks import block
 from mcexact.exact.linear_algebra import rank
-from mcexact.exact.matrix import Matrix, block
+from mcexact.exact.matrix import Matrix
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from tests.oracle.enumeration import pencil_rank, plain

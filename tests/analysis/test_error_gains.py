@@ -8,8 +8,9 @@ from mcexact import MultiChannelSystem, error_gains
 from mcexact.certificate import encode
 from mcexact.checker import check_document
 from mcexact.errors import UsageError
+from mcexact.exact.blocks import block
 from mcexact.exact.linear_algebra import minimal_polynomial
-from mcexact.exact.matrix import Matrix, block
+from mcexact.exact.matrix import Matrix
 
 PLANT = MultiChannelSystem(
     [[1, 0, 0], [0, 1, 0], [0, 1, 1]],

@@ -11,8 +11,9 @@ from mcexact.derived.drawn import jointly_controllable_system
 from mcexact.derived.drawn_graph import drawn_graph
 from mcexact.derived.error_system import error_system
 from mcexact.derived.feedback import feedback
+from mcexact.exact.blocks import hstack
 from mcexact.exact.linear_algebra import minimal_polynomial, rank
-from mcexact.exact.matrix import Matrix, hstack
+from mcexact.exact.matrix import Matrix
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from tests.synthesis.three_channels import three_channels

@@ -10,8 +10,8 @@ from mcexact.analysis.modular_system import ModularSystem, closed_loop, drawn_ga
 from mcexact.analysis.shrunk_subspace import exact_subspace, obstruction_modulo, shrunk_subspace
 from mcexact.exact.linear_algebra import rank
 from mcexact.exact.matrix import Matrix
-from mcexact.exact.number_field import PolynomialMatrix
 from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.polynomial_matrix import PolynomialMatrix
 from mcexact.model.system import MultiChannelSystem
 
 Table = list[list[int]]

@@ -18,7 +18,8 @@ from mcexact.analysis.stability import (
 from mcexact.certificate import encode
 from mcexact.checker.kinds import check_document
 from mcexact.errors import FloatRefused, UsageError
-from mcexact.exact.matrix import Matrix, block_diagonal
+from mcexact.exact.blocks import block_diagonal
+from mcexact.exact.matrix import Matrix
 
 NEAR = Fraction(1, 10**9)
 

@@ -9,7 +9,8 @@ from mcexact.derived.extended import extended_system
 from mcexact.derived.held import held_system
 from mcexact.derived.lifted import lifted_system
 from mcexact.errors import LimitReached, UsageError
-from mcexact.exact.matrix import Matrix, vstack
+from mcexact.exact.blocks import vstack
+from mcexact.exact.matrix import Matrix
 from mcexact.model import gallery
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem

@@ -26,8 +26,8 @@ from mcexact.derived.drawn_structure import (
     system_with_remnant,
 )
 from mcexact.errors import UsageError
+from mcexact.exact.blocks import hstack
 from mcexact.exact.linear_algebra import characteristic_polynomial, rank
-from mcexact.exact.matrix import hstack
 from mcexact.exact.polynomial import Polynomial
 from tests.oracle import enumeration as oracle
 

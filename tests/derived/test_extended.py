@@ -10,8 +10,9 @@ from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.derived.dual import dual
 from mcexact.derived.extended import extended_system
 from mcexact.errors import InputError, UsageError
+from mcexact.exact.blocks import block
 from mcexact.exact.linear_algebra import rank
-from mcexact.exact.matrix import Matrix, block
+from mcexact.exact.matrix import Matrix
 from mcexact.model import gallery
 from mcexact.model.neighbor_graph import NeighborGraph
 

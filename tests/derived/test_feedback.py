@@ -11,7 +11,8 @@ from mcexact.derived.error_system import error_system
 from mcexact.derived.feedback import feedback, full_output
 from mcexact.derived.integrators import setpoint_system
 from mcexact.errors import InputError, UsageError
-from mcexact.exact.matrix import Matrix, hstack, vstack
+from mcexact.exact.blocks import hstack, vstack
+from mcexact.exact.matrix import Matrix
 from mcexact.model.system import MultiChannelSystem
 
 

@@ -10,20 +10,14 @@ from hypothesis import strategies as st
 
 from mcexact.errors import InputError
 from mcexact.exact import number_field
+from mcexact.exact.blocks import block_diagonal
 from mcexact.exact.linear_algebra import characteristic_polynomial, evaluate_at, nullspace
 from mcexact.exact.linear_algebra import rank as rational_rank
-from mcexact.exact.matrix import Matrix, block_diagonal
+from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import residues
-from mcexact.exact.number_field import (
-    PolynomialMatrix,
-    hstack,
-    inflate,
-    kernel,
-    kernel_at,
-    rank,
-    vstack,
-)
+from mcexact.exact.number_field import inflate, kernel, kernel_at, rank
 from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.polynomial_matrix import PolynomialMatrix, hstack, vstack
 from tests.exact.draws import matrices, polynomials, small, square_matrices
 
 GOLDEN = Polynomial.of(-1, -1, 1)

@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 from mcexact import testing
 from mcexact.derived.feedback import feedback
 from mcexact.errors import InputError, UsageError
-from mcexact.exact.matrix import Matrix, vstack
+from mcexact.exact.blocks import vstack
+from mcexact.exact.matrix import Matrix
 from mcexact.model.closed_loop import (
     closed_loop,
     closed_loop_matrix,

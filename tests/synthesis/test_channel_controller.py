@@ -6,8 +6,9 @@ from fractions import Fraction
 import pytest
 
 from mcexact.errors import InputError, LimitReached
+from mcexact.exact.blocks import hstack
 from mcexact.exact.linear_algebra import characteristic_polynomial, rank
-from mcexact.exact.matrix import Matrix, hstack
+from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.synthesis.channel_controller import channel_controller, observing_rows, transposed
 

@@ -11,8 +11,9 @@ from mcexact.derived.choices import SeededChoices
 from mcexact.derived.drawn import drawn_system, jointly_controllable_system
 from mcexact.derived.drawn_graph import drawn_graph
 from mcexact.derived.feedback import closed_by
+from mcexact.exact.blocks import hstack, vstack
 from mcexact.exact.linear_algebra import characteristic_polynomial, rank
-from mcexact.exact.matrix import Matrix, hstack, vstack
+from mcexact.exact.matrix import Matrix
 from mcexact.model.closed_loop import closed_loop_matrix
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem

@@ -1,0 +1,114 @@
+"""Rational matrices put together from blocks."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from mcexact.errors import InputError
+from mcexact.exact.matrix import Matrix, Rows, lowest_terms
+
+
+def hstack(matrices: Sequence[Matrix], nrows: int | None = None) -> Matrix:
+    """The matrices beside each other, [M1 M2 …].
+
+    Parameters
+    ----------
+    matrices : sequence of Matrix
+        All with the same number of rows.
+    nrows : int, optional
+        That number, needed where there may be no matrix at all.
+
+    Examples
+    --------
+    >>> hstack([Matrix.identity(2), Matrix.column([5, 6])]).numerators
+    ((1, 0, 5), (0, 1, 6))
+    >>> hstack([], nrows=2).shape
+    (2, 0)
+    """
+    height = _common(matrices, [M.nrows for M in matrices], nrows, "rows", "hstack")
+    tables, denominator = _over_one_denominator(matrices)
+    rows = tuple(tuple(entry for table in tables for entry in table[i]) for i in range(height))
+    return lowest_terms(height, sum(M.ncols for M in matrices), rows, denominator)
+
+
+def vstack(matrices: Sequence[Matrix], ncols: int | None = None) -> Matrix:
+    """The matrices below each other; all have the same number of columns (see `hstack`)."""
+    width = _common(matrices, [M.ncols for M in matrices], ncols, "columns", "vstack")
+    tables, denominator = _over_one_denominator(matrices)
+    rows = tuple(row for table in tables for row in table)
+    return lowest_terms(len(rows), width, rows, denominator)
+
+
+def block(rows: Sequence[Sequence[Matrix]]) -> Matrix:
+    """The matrix assembled from rows of blocks.
+
+    At least one row of blocks, each with at least one block.
+
+    Examples
+    --------
+    >>> I = Matrix.identity(1)
+    >>> block([[I, 2 * I], [3 * I, 4 * I]]).numerators
+    ((1, 2), (3, 4))
+    """
+    if not rows:
+        raise InputError("block: expected at least one row of blocks")
+    return vstack([hstack(row) for row in rows])
+
+
+def block_diagonal(matrices: Sequence[Matrix]) -> Matrix:
+    """The matrix diag(M1, M2, …); blocks without rows or columns keep their place.
+
+    Examples
+    --------
+    >>> block_diagonal([Matrix.identity(1), Matrix.zeros(0, 2), Matrix.identity(1)]).numerators
+    ((1, 0, 0, 0), (0, 0, 0, 1))
+    """
+    tables, denominator = _over_one_denominator(matrices)
+    width = sum(M.ncols for M in matrices)
+    rows: list[tuple[int, ...]] = []
+    left = 0
+    for M, table in zip(matrices, tables, strict=True):
+        right = width - left - M.ncols
+        rows += [(0,) * left + row + (0,) * right for row in table]
+        left += M.ncols
+    return lowest_terms(len(rows), width, tuple(rows), denominator)
+
+
+def kronecker(A: Matrix, B: Matrix) -> Matrix:
+    """The Kronecker product, the block matrix of all a_ij B.
+
+    Examples
+    --------
+    >>> kronecker(Matrix.from_rows([[1, 2]]), Matrix.identity(2)).numerators
+    ((1, 0, 2, 0), (0, 1, 0, 2))
+    """
+    rows = tuple(
+        tuple(a * b for a in upper for b in lower)
+        for upper in A.numerators
+        for lower in B.numerators
+    )
+    return lowest_terms(A.nrows * B.nrows, A.ncols * B.ncols, rows, A.denominator * B.denominator)
+
+
+def _common(
+    matrices: Sequence[Matrix], sizes: list[int], given: int | None, name: str, caller: str
+) -> int:
+    found = set(sizes) | (set() if given is None else {given})
+    if not found:
+        raise InputError(f"{caller}: expected at least one matrix, or the number of {name}")
+    if len(found) > 1:
+        raise InputError(f"{caller}: expected equal numbers of {name}, found {sorted(found)}")
+    return found.pop()
+
+
+def _over_one_denominator(matrices: Sequence[Matrix]) -> tuple[list[Rows], int]:
+    denominator = math.lcm(*(M.denominator for M in matrices))
+    tables = []
+    for M in matrices:
+        factor = denominator // M.denominator
+        if factor == 1:
+            tables.append(M.numerators)
+        else:
+            tables.append(tuple(tuple(factor * entry for entry in row) for row in M.numerators))
+    return tables, denominator
