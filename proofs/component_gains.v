@@ -189,7 +189,8 @@ have sum n' (S' : multichannel K n' p q) c :
   by rewrite mxrowK mxcolK; case: ifP => // _; rewrite mulmx0.
 under eq_bigr => c _ do rewrite sum.
 have -> : \prod_(c in components) part (fun c => mcA (T c)) (fun c => inputs (T c) c)
-    (fun c => outputs (T c) c) f (fun=> gain_matrix F) c = \prod_(c in components) char_poly (own_loop c (map_system f (T c)) F).
+    (fun c => outputs (T c) c) f (fun=> gain_matrix F) c =
+    \prod_(c in components) char_poly (own_loop c (map_system f (T c)) F).
   by apply: eq_bigr => c _; rewrite /part sum.
 move=> <-; congr (char_poly (_ + _)).
 under [RHS]eq_bigr => c _ do rewrite big_mkcond; rewrite exchange_big /=; apply: eq_bigr => i _.
@@ -262,8 +263,9 @@ Theorem component_gains : (forall lambda, ~ fixed_over f S lambda) ->
   [/\ (\sum_(c in components S) d c = n)%N,
       forall (R : fieldType) (g : {rmorphism K -> R}) (F' : gains R p q),
         char_poly (closed_loop (map_system g S) F') =
-        \prod_(c in components S) char_poly (own_loop c (map_system g (T c)) F') &
-      forall c, c \in components S -> minimal c S (T c) /\ forall o, o \in c ->
+        \prod_(c in components S) char_poly (own_loop c (map_system g (T c)) F'),
+      forall c, minimal c S (T c) &
+      forall c o, c \in components S -> o \in c ->
         controllable (own_loop c (T c) F) (mcB (T c) o) /\
         controllable (own_loop c (T c) F)^T (mcC (T c) o)^T].
 Proof.
@@ -296,9 +298,8 @@ have each c : exists G : gains K p q, c \in components S -> forall o, o \in c ->
     rewrite -own_channels_loop; congr (_ + _); apply: eq_bigr => t _; by rewrite GE.
   rewrite -eL; move: (enum_rank_in oc o) (enum_rankK_in oc oc) => t et; subst o; exact: hF.
 have [G GE] := fin_all_exists each; pose F i := G (component e i) i.
-exists d, T, F; split=> // [R g F'|c cC]; first by rewrite split phi1 rmorph1 mul1r.
-split; first exact: min.
-have -> : own_loop c (T c) F = own_loop c (T c) (G c); last exact: GE.
+exists d, T, F; split=> // [R g F'|c o cC oc]; first by rewrite split phi1 rmorph1 mul1r.
+have -> : own_loop c (T c) F = own_loop c (T c) (G c); last exact: GE oc.
 rewrite /own_loop; congr (_ + _); apply: eq_bigr => i ic; rewrite /F.
 by move: ic; rewrite (component_unique i cC) => /eqP <-.
 Qed.

@@ -4,6 +4,7 @@
 From mathcomp Require Import all_ssreflect all_algebra all_field.
 From mcexact Require Import multichannel controllability anderson_clements joint_controllability.
 From mcexact Require Import gain_lines neighbor_graph extended_bound strong_components component_gains.
+From mcexact Require Import component_assignment.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -51,3 +52,5 @@ Qed.
 
 Example component_gains_apart := component_gains apart_infinite apart_not_fixed.
 Example component_spectrum_apart d T h := @component_spectrum Q 2 2 one one apart d T h.
+Example component_assignment_apart := component_assignment apart_infinite apart_not_fixed.
+Example component_spectrum_dynamic_apart d T h := @component_spectrum_dynamic Q 2 2 one one apart d T h.
