@@ -1,7 +1,7 @@
 (* The characteristic polynomial of [3/2], read off modulo 11, and that of [1, 1; 1, 1], by columns;
    elimination without fractions with the pivots 2 and 6. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From mcexact Require Import arithmetic hessenberg characteristic_polynomial elimination.
+From mcexact Require Import arithmetic hessenberg characteristic_polynomial elimination interpolation.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.Theory GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -56,4 +56,12 @@ Lemma inst_bareiss_rank : \rank (block_mx (two _) 0 1 0 : 'M[rat]_(1 + 1)) = 1%N
 Proof.
 apply: bareiss_rank => [|i j]; first by rewrite unitmxE det_scalar1.
 by rewrite /bordered linear0 det_lblock [X in X%:M]mxE !det_scalar1 mulr0.
+Qed.
+
+(* det [x] = x from its values at 0 and 1. *)
+Lemma inst_values : \det ('X%:M : 'M[{poly rat}]_1) = 'X.
+Proof.
+apply: (@determinant_by_values _ 1 1); rewrite ?size_polyX//.
+  by move=> i j; rewrite !mxE !ord1 size_polyX.
+by move=> g _; rewrite det_mx11 !mxE /= /horner_eval !hornerX.
 Qed.

@@ -64,7 +64,10 @@ def _lost_at(value: Any, place: str, A: Matrix, M: Matrix, B: Matrix, blocks: in
 
 
 def _determinant(A: Matrix, M: Matrix, B: Matrix, R: Matrix, blocks: int) -> Polynomial:
-    """det([B, (M+gA)B, …] R), through its values at 0, 1, … (Newton)."""
+    """det([B, (M+gA)B, …] R), through its values at 0, 1, … (Newton).
+
+    Theorem ``interpolation.determinant_by_values``.
+    """
     result, basis = Polynomial(), [Fraction(1)]
     for g in range(A.nrows * (blocks - 1) + 1):
         total = Matrix.zeros(A.nrows, A.nrows)
