@@ -87,6 +87,8 @@ def command(
         name, text = answer["certificate"]
         write_text(directory(certificates) / name, text)
     if "impossible" in answer:
+        if as_json:
+            emit_json({"design": "observer", "possible": False, "reason": answer["impossible"]})
         raise Impossible(answer["impossible"])
     if output is not None:
         write_text(output, answer["controller"])

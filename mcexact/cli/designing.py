@@ -84,6 +84,8 @@ def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any
         for written, text in done["certificates"].items():
             write_text(folder / written, text)
     if "impossible" in done:
+        if given["as_json"]:
+            emit_json({"design": name, "possible": False, "reason": done["impossible"]})
         raise Impossible(done["impossible"])
     if given["output"] is not None:
         write_text(given["output"], done["controller"])

@@ -34,22 +34,25 @@ def answer(found: Reproduction) -> list[str]:
     rows = found.rows
     certificates = [made for row in rows for made in row.finding.certificates]
     valid = sum(made.verdict == "VALID" for made in certificates)
-    if found.holds:
-        sentences = [f"All {count(len(rows), 'statement')} examined hold."]
+    if found.holds and len(rows) == 1:
+        sentences = ["The statement examined holds."]
+    elif found.holds:
+        sentences = [f"All {len(rows)} statements examined hold."]
     else:
         named = ", ".join(row.statement.title for row in found.failures)
         sentences = [f"{len(found.failures)} of {len(rows)} statements do not hold: {named}."]
     numbered = [row for row in rows if row.statement.kind == "numbered"]
     proved = [row for row in rows if row.statement.proved]
-    if numbered:
+    if len(rows) > 1 and numbered:
         sentences.append(
             f"{len(numbered)} of them are numbered theorems, propositions, lemmas, corollaries and "
             "remarks of the paper."
         )
-    sentences.append(
-        f"{len(proved)} are proved in general by machine-checked proofs; the others are checked on "
-        "instances, as it says beside each."
-    )
+    if len(rows) > 1:
+        sentences.append(
+            f"{len(proved)} are proved in general by machine-checked proofs; the others are "
+            "checked on instances, as it says beside each."
+        )
     corrected = [row.statement.title for row in rows if row.statement.erratum]
     if corrected:
         sentences.append(

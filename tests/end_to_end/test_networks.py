@@ -86,6 +86,18 @@ def test_a_fixed_mode_is_status_1_and_leaves_the_certificate(folder, tmp_path):
     assert "x - 1" in checked.stdout
 
 
+@pytest.mark.parametrize("name", ["decentralized", "observer"])
+def test_what_is_impossible_is_an_answer_in_json_too(folder, tmp_path, name):
+    plant = tmp_path / "plant.json"
+    document = json.loads((folder / "example.json").read_text(encoding="utf-8"))
+    document["neighbors"] = {"1": [], "2": [], "3": []}
+    plant.write_text(json.dumps(document), encoding="utf-8")
+    done = designed(folder, name, str(plant), "--rate", "1", "--json", status=1)
+    told = json.loads(done.stdout)
+    assert (told["design"], told["possible"]) == (name, False)
+    assert told["reason"] in done.stderr
+
+
 def test_set_points_are_reached(folder, tmp_path):
     plant, controller = str(folder / "tanks.json"), tmp_path / "controller.json"
     proofs, run_file = tmp_path / "proofs", tmp_path / "run.csv"

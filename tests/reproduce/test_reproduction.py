@@ -50,6 +50,8 @@ def test_the_report_speaks_of_proofs_only_where_there_are_some(whole: Reproducti
     said = " ".join(answer(whole))
     proved = sum(row.statement.proved for row in whole.rows)
     assert f"All {len(whole.rows)} statements examined hold" in said
+    assert answer(Reproduction(whole.rows[:1]))[0] == "The statement examined holds."
+    assert "1 of them" not in " ".join(answer(Reproduction(whole.rows[:1])))
     assert f"{proved} are proved in general" in said
 
 
