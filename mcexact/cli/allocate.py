@@ -91,13 +91,11 @@ def command(
     which subsets of agents force it; it comes with a proof that nothing smaller suffices. Ends
     with status 1 if nothing suffices.
     """
-    import sys
 
     from mcexact.cli.files import directory, place_of, read
-    from mcexact.cli.output import emit, emit_json, on_terminal
+    from mcexact.cli.output import emit_json, emit_tables
     from mcexact.cli.supervision import supervised
     from mcexact.model.atomic import write_text
-    from mcexact.report.text import plain, show
 
     place = place_of(file)
     names = ("bytes", "depth", "digits", "exponent")
@@ -119,10 +117,8 @@ def command(
         answer["json"]["certificate"] = {name: f"{name}.json" for name in answer["certificates"]}
     if as_json:
         emit_json(answer["json"])
-    elif on_terminal():
-        show(answer["tables"], sys.stdout)
     else:
-        emit(plain(answer["tables"]))
+        emit_tables(answer["tables"])
     return 0 if answer["feasible"] else DEFINITE_NO
 
 

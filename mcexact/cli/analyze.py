@@ -82,13 +82,11 @@ def command(
     the rest can be stabilized, joint controllability with its indices, the transfer graph,
     completeness, and the parts into which the spectrum splits.
     """
-    import sys
 
     from mcexact.cli.files import directory, place_of, read, require_other
-    from mcexact.cli.output import emit, emit_json, on_terminal
+    from mcexact.cli.output import emit, emit_json, emit_tables
     from mcexact.cli.supervision import supervised
     from mcexact.model.atomic import write_text
-    from mcexact.report.text import plain, show
 
     place = place_of(file)
     require_other(html, file)
@@ -122,10 +120,8 @@ def command(
         emit_json(answer["json"])
     elif latex and html is None:
         emit(answer["latex"])
-    elif on_terminal():
-        show(answer["tables"], sys.stdout)
     else:
-        emit(plain(answer["tables"]))
+        emit_tables(answer["tables"])
     if asserted == "no-fixed-modes" and not answer["json"]["fixed_spectrum"]["empty"]:
         return DEFINITE_NO
     return 0

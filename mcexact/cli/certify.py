@@ -48,10 +48,9 @@ def command(
     --certificates it is proved as well.
     """
     from mcexact.cli.files import directory, place_of, read
-    from mcexact.cli.output import emit, emit_json
+    from mcexact.cli.output import emit_json, emit_tables
     from mcexact.cli.supervision import supervised
     from mcexact.model.atomic import write_text
-    from mcexact.report.text import plain
 
     moved = options.given(limits)
     answer = supervised(
@@ -71,7 +70,7 @@ def command(
     if as_json:
         emit_json(answer["json"])
     else:
-        emit(plain(answer["tables"]))
+        emit_tables(answer["tables"])
     return 0 if answer["json"]["certified"] else DEFINITE_NO
 
 

@@ -55,11 +55,10 @@ def command(
     says why.
     """
     from mcexact.cli.files import directory, place_of, read, require_other
-    from mcexact.cli.output import emit, emit_json
+    from mcexact.cli.output import emit, emit_json, emit_tables
     from mcexact.cli.supervision import supervised
     from mcexact.errors import Impossible
     from mcexact.model.atomic import write_text
-    from mcexact.report.text import plain
 
     place = place_of(file)
     moved = options.given(limits)
@@ -97,7 +96,7 @@ def command(
             answer["json"]["certificate"] = answer["certificate"][0]
         emit_json(answer["json"])
     elif output is not None:
-        emit(plain(answer["tables"]))
+        emit_tables(answer["tables"])
     else:
         emit(answer["controller"])
 

@@ -56,11 +56,10 @@ def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any
         Further keywords of the function.
     """
     from mcexact.cli.files import directory, place_of, read, require_other
-    from mcexact.cli.output import emit, emit_json
+    from mcexact.cli.output import emit, emit_json, emit_tables
     from mcexact.cli.supervision import supervised
     from mcexact.errors import Impossible
     from mcexact.model.atomic import write_text
-    from mcexact.report.text import plain
 
     place = place_of(file)
     moved = options.given({k: given[k] for k in ("bytes", "depth", "digits", "exponent")})
@@ -94,7 +93,7 @@ def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any
             done["json"]["certificates"] = list(done["certificates"])
         emit_json(done["json"])
     elif given["output"] is not None:
-        emit(plain(done["tables"]))
+        emit_tables(done["tables"])
     else:
         emit(done["controller"])
 

@@ -5,7 +5,11 @@ from __future__ import annotations
 import json
 import os
 import sys
-from typing import Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from mcexact.report.text import Table
 
 
 def emit(text: str) -> None:
@@ -31,6 +35,11 @@ def emit_json(document: Any) -> None:
     emit(json.dumps(document, indent=2, ensure_ascii=True) + "\n")
 
 
-def on_terminal() -> bool:
-    """Whether a person reads standard output as it comes."""
-    return sys.stdout.isatty()
+def emit_tables(tables: Sequence[Table]) -> None:
+    """Draw tables where a person reads standard output as it comes, else write plain lines."""
+    from mcexact.report.text import plain, show
+
+    if sys.stdout.isatty():
+        show(tables, sys.stdout)
+    else:
+        emit(plain(tables))

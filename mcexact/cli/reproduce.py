@@ -41,12 +41,10 @@ def command(
 
     Ends with status 1 if a statement does not hold, and says which.
     """
-    import sys
 
     from mcexact.cli.folders import require_replaceable, write_folder
-    from mcexact.cli.output import emit, emit_json, on_terminal
+    from mcexact.cli.output import emit, emit_json, emit_tables
     from mcexact.cli.supervision import supervised
-    from mcexact.report.text import plain, show
     from mcexact.reproduce import pages, reproduction
 
     keys = reproduction.chosen(wanted)
@@ -77,10 +75,8 @@ def command(
         emit_json(pages.reproduction_view(result))
     elif latex:
         emit(pages.reproduction_latex(result))
-    elif on_terminal():
-        show([pages.reproduction_table(result)], sys.stdout)
     else:
-        emit(plain([pages.reproduction_table(result)]))
+        emit_tables([pages.reproduction_table(result)])
     for row in result.failures:
         click.echo(f"mcexact: {row.statement.title}: {row.finding.failure}", err=True)
     return 0 if result.holds else DEFINITE_NO

@@ -59,10 +59,9 @@ def command(
 ) -> None:
     """Run the CONTROLLER for the system in FILE, one agent each, messages along arcs only."""
     from mcexact.cli.files import place_of, read, require_other
-    from mcexact.cli.output import emit, emit_json
+    from mcexact.cli.output import emit_json, emit_tables
     from mcexact.cli.supervision import supervised
     from mcexact.model.atomic import write_bytes
-    from mcexact.report.text import plain
 
     suffix = "" if output is None else output.suffix
     if suffix not in ("", ".csv", ".png", ".html") or (output is not None and not suffix):
@@ -92,7 +91,7 @@ def command(
     if as_json:
         emit_json(answer["json"])
     else:
-        emit(plain(answer["tables"]))
+        emit_tables(answer["tables"])
 
 
 def _numbers(text: str | None, name: str) -> list[Fraction] | None:

@@ -89,15 +89,13 @@ def command(
     or decided is named and stops nothing; the limits on time and memory are for each system. With
     --output, certificates are written of what is decided in this run.
     """
-    import sys
     from functools import partial
 
     from mcexact.cli.files import directory
-    from mcexact.cli.output import emit, emit_json, on_terminal
+    from mcexact.cli.output import emit_json, emit_tables
     from mcexact.derived.draw import Draw
     from mcexact.exact.rational import Limits
     from mcexact.report.sweep_view import sweep_tables, sweep_view
-    from mcexact.report.text import plain, show
     from mcexact.sweep.jobs import decide
     from mcexact.sweep.run import sweep
 
@@ -133,10 +131,8 @@ def command(
     documents.sort(key=lambda document: int(document["number"]))
     if as_json:
         emit_json(sweep_view(documents))
-    elif on_terminal():
-        show(sweep_tables(documents, asked), sys.stdout)
     else:
-        emit(plain(sweep_tables(documents, asked)))
+        emit_tables(sweep_tables(documents, asked))
     ended = {document["error"]["status"] for document in documents if "error" in document}
     return next(status for status in _PRECEDENCE if status in {0, *ended})
 
