@@ -4,19 +4,26 @@ from __future__ import annotations
 
 import random
 from dataclasses import dataclass
+from functools import reduce
 
 from mcexact.analysis.modular_system import generator
 from mcexact.certificate.setpoint import SetpointCertificate
 from mcexact.errors import InternalError
 from mcexact.exact.blocks import block, hstack, vstack
-from mcexact.exact.linear_algebra import left_nullspace, row_echelon
+from mcexact.exact.linear_algebra import (
+    characteristic_polynomial,
+    left_nullspace,
+    row_echelon,
+)
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import primes, residues
+from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.polynomial_matrix import PolynomialMatrix
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import canonical_document
 
 _POINTS = 8
+_MINORS = 3
 
 
 @dataclass(frozen=True)
@@ -85,7 +92,7 @@ def setpoint_solvability(system: MultiChannelSystem) -> SetpointSolvability:
     point, normal = None, None
     if W.nrows:
         point = _full_rank_point(M0, M1, modulus, rng)
-        normal = None if point is not None else _annihilating_row(M0, M1)
+        normal = None if point is not None else _annihilating_row(system, M0, M1, rng)
     zero = None if not W.nrows else point is not None
     certificate = SetpointCertificate(
         canonical_document(system.plant),
@@ -130,8 +137,69 @@ def _full_rank_point(M0: Matrix, M1: Matrix, modulus: int, rng: random.Random) -
     return None
 
 
-def _annihilating_row(M0: Matrix, M1: Matrix) -> PolynomialMatrix:
-    """A nonzero polynomial row w(x), of least degree, with w(x) (M0 + x M1) = 0.
+def _annihilating_row(
+    system: MultiChannelSystem, M0: Matrix, M1: Matrix, rng: random.Random
+) -> PolynomialMatrix:
+    """A nonzero polynomial row w(x) with w(x) (M0 + x M1) = 0.
+
+    Its degree is about n over the rank of the transfer matrix: where that rank is small the row
+    comes from minors, else degree after degree from linear equations.
+    """
+    for ell in primes(rng.getrandbits(64), bits=61):
+        if M0.denominator % ell:
+            x = rng.randrange(2, 10**6)
+            rank = residues(M0 + M1 * x, ell).rank() - system.n
+            if rank > _MINORS:
+                return _row_of_least_degree(M0, M1)
+            found = _row_of_minors(system, x, ell)
+            if found is not None and (found @ PolynomialMatrix.pencil(M0, M1)).is_zero():
+                return found
+    raise InternalError("the stream of primes is endless")
+
+
+def _row_of_minors(system: MultiChannelSystem, x: int, ell: int) -> PolynomialMatrix | None:
+    """(−w C adj(xI − A), w χ_A) without its common factor, w N = 0 for N = C adj(xI − A) B.
+
+    The entries of w are minors of N; None if the rows of N look independent modulo the prime.
+    """
+    A, B, C = system.A, system.input_matrix(), system.output_matrix()
+    chi = characteristic_polynomial(A)
+    parts: list[Matrix] = []
+    for c in reversed(chi.coefficients[1:]):
+        parts.append(parts[-1] @ A + C * c if parts else C)
+    adjugate = PolynomialMatrix.from_matrices(*(parts[::-1] or [C]))
+    N = adjugate @ B
+    if N.denominator % ell == 0:
+        return None
+    value = N.at_residue(x, ell)
+    columns, rows = list(value.rref()[1]), list(value.T.rref()[1])
+    extra = next((i for i in range(C.nrows) if i not in rows), None)
+    if extra is None:
+        return None
+    chosen = [*rows, extra]
+    table = [[N.entry(i, j) for j in columns] for i in chosen]
+    w = [Polynomial.of()] * C.nrows
+    for k, i in enumerate(chosen):
+        minor = _minor([row for other, row in enumerate(table) if other != k])
+        w[i] = -minor if k % 2 else minor
+    row = PolynomialMatrix.from_polynomials([w])
+    left = -(row @ adjugate)
+    entries = [left.entry(0, j) for j in range(system.n)] + [p * chi for p in w]
+    common = reduce(Polynomial.gcd, entries)
+    return PolynomialMatrix.from_polynomials([[p // common for p in entries]])
+
+
+def _minor(rows: list[list[Polynomial]]) -> Polynomial:
+    """The determinant of a small matrix of polynomials, along its first row."""
+    total = Polynomial.of() if rows else Polynomial.of(1)
+    for j, p in enumerate(rows[0] if rows else ()):
+        rest = [row[:j] + row[j + 1 :] for row in rows[1:]]
+        total = total + p * _minor(rest) * (-1) ** j
+    return total
+
+
+def _row_of_least_degree(M0: Matrix, M1: Matrix) -> PolynomialMatrix:
+    """The same of least degree, for pencils that have one of small degree.
 
     Σ w_k x^k annihilates iff w_0 M0 = 0, w_k M0 + w_{k−1} M1 = 0 and w_d M1 = 0.
     """

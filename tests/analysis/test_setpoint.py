@@ -77,3 +77,25 @@ def test_an_uncontrollable_integrator_leaves_every_combination_open() -> None:
     found = setpoint_solvability(plant)
     assert not found.solvable
     assert found.combinations.nrows == 0
+
+
+@pytest.mark.parametrize(
+    ("states", "inputs", "outputs"), [(0, 1, 2), (3, 0, 1), (12, 1, 2), (12, 3, 5), (6, 4, 6)]
+)
+def test_more_outputs_than_inputs_are_dependent_at_every_frequency(
+    states: int, inputs: int, outputs: int
+) -> None:
+    rng = random.Random(states)
+
+    def drawn(rows: int, columns: int) -> Matrix:
+        table = [[rng.randint(-3, 3) for _ in range(columns)] for _ in range(rows)]
+        return Matrix.from_integers(table, ncols=columns)
+
+    plant = MultiChannelSystem(
+        drawn(states, states), [drawn(states, inputs)], [drawn(outputs, states)]
+    )
+    found = setpoint_solvability(plant)
+    assert (found.solvable, found.invariant_zero) == (False, False)
+    assert check_document(encode(found.certificate).encode()).verdict == "VALID"
+    row = found.certificate.normal
+    assert row is not None and len(row.coefficients) <= max(1, states + 1)
