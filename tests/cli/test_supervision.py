@@ -10,6 +10,7 @@ import pytest
 
 from mcexact.cli.supervision import supervised
 from mcexact.errors import Impossible, InputError, InternalError, LimitReached
+from tests.end_to_end.command_line import interruptible
 
 
 def deaf(digits: int) -> int:
@@ -89,6 +90,7 @@ def test_an_interrupt_ends_compiled_code_within_two_seconds() -> None:
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         cwd=os.getcwd(),
+        preexec_fn=interruptible,
     ) as process:
         if process.stdout is None:
             raise RuntimeError("no standard output")

@@ -17,6 +17,7 @@ from mcexact.model import gallery
 from mcexact.model.system_file import save_system
 from mcexact.report.sweep_view import sweep_tables
 from mcexact.sweep.questions import QUESTIONS
+from tests.end_to_end.command_line import interruptible
 
 Call = Callable[..., tuple[int, str, str]]
 
@@ -142,6 +143,7 @@ def test_an_interrupted_sweep_says_so_and_goes_on(tmp_path: Path) -> None:
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         start_new_session=True,
+        preexec_fn=interruptible,
     )
     while not results.exists() or results.stat().st_size < 2000:
         assert begun.poll() is None

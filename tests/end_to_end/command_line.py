@@ -1,6 +1,7 @@
 """Running the program as a user does: another process, its status, its output, what it used."""
 
 import os
+import signal
 import subprocess
 import sys
 import tempfile
@@ -45,3 +46,11 @@ def run(
         )
         cpu_seconds, mebibytes = map(float, report.read().split())
     return Run(done.returncode, done.stdout.decode(), done.stderr.decode(), cpu_seconds, mebibytes)
+
+
+def interruptible() -> None:
+    """In a child before it starts: let it hear interrupts, which a job in the background may not.
+
+    Where a shell starts the tests with ``&``, they and their children are told to ignore SIGINT.
+    """
+    signal.signal(signal.SIGINT, signal.SIG_DFL)

@@ -28,7 +28,7 @@ from mcexact.exact.polynomial import Polynomial
 from mcexact.model import gallery
 from mcexact.model.statespace import from_statespace
 from mcexact.sweep.run import sweep
-from tests.end_to_end.command_line import MCEXACT
+from tests.end_to_end.command_line import MCEXACT, interruptible
 
 ONE = [[[1]]]
 X = Polynomial.of(0, 1)
@@ -212,6 +212,7 @@ def test_b187_an_interrupt_during_an_analysis_ends_it_with_130_within_two_second
         [*MCEXACT, "analyze", str(file), "--certificates", str(tmp_path)],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
+        preexec_fn=interruptible,
     ) as process:
         time.sleep(2)
         assert process.poll() is None, "too quick to be interrupted"
