@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 from mcexact.analysis.fixed_spectrum import FixedSpectrum, fixed_spectrum
 from mcexact.analysis.invariant_subspace import controllable_subspace
-from mcexact.analysis.modular_system import ModularSystem, generator
+from mcexact.analysis.modular_system import ModularSystem, generator, lifted_gains
+from mcexact.analysis.obstructions import decide
 from mcexact.analysis.transfer_graph import Arc, suspected_arcs, witnessed_powers, zero_transfer
 from mcexact.certificate.completeness import (
     CompletenessCertificate,
@@ -83,6 +84,7 @@ def _evidence(
     for factor in spectrum.factors:
         return FixedModeWitness(factor.polynomial, factor.subspace)
     modular = ModularSystem(system, spectrum.certificate.modulus)
+    gains = spectrum.certificate.gains
     while True:
         suspected = suspected_arcs(modular, rng)
         closed = _closed_set(system.m, suspected)
@@ -92,12 +94,15 @@ def _evidence(
         rest = [i for i in range(system.m) if i not in closed]
         if (system.output_matrix(rest) @ found.X).is_zero():
             return CutWitness(zero_transfer(system, closed, found))
+        # Arcs have vanished by accident, perhaps modulo this prime whatever is drawn.
+        decision = decide(system, rng)
+        modular, gains = decision.modular, lifted_gains(decision.modular, decision.gains)
     chosen = _connecting_arcs(system.m, suspected)
     powers = witnessed_powers(modular, chosen)
     names = system.names
     return FreedomWitness(
         modulus=modular.modulus,
-        gains=spectrum.certificate.gains,
+        gains=gains,
         arcs=tuple((names[j], names[i], powers[j, i]) for j, i in sorted(chosen)),
     )
 

@@ -1,5 +1,7 @@
 """Completeness: published answers, and the reason each NO gives."""
 
+from dataclasses import replace
+
 import pytest
 
 from mcexact.analysis.completeness import Completeness, completeness
@@ -56,3 +58,12 @@ def test_one_channel_is_complete_iff_it_controls_and_observes_everything() -> No
     chain = [[0, 1], [0, 0]]
     assert checked(completeness(MultiChannelSystem(chain, [[[0], [1]]], [[[1, 0]]]))).complete
     assert not checked(completeness(MultiChannelSystem(chain, [[[1], [0]]], [[[1, 0]]]))).complete
+
+
+def test_an_arc_that_vanishes_modulo_the_prime_of_the_gains_is_seen_modulo_another() -> None:
+    system = MultiChannelSystem([[1, 0], [0, 2]], [[[1], [0]], [[0], [1]]], [[[0, 1]], [[7, 0]]])
+    spectrum = fixed_spectrum(system)
+    at_7 = replace(spectrum, certificate=replace(spectrum.certificate, modulus=7))
+    answer = checked(completeness(system, spectrum=at_7))
+    assert answer.complete and isinstance(answer.certificate.evidence, FreedomWitness)
+    assert answer.certificate.evidence.modulus > 7
