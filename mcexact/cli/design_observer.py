@@ -116,12 +116,14 @@ def _designed(
     from mcexact.model.controller_file import controller_text
     from mcexact.model.json_text import parse
     from mcexact.synthesis.observer import design_observer
+    from mcexact.synthesis.spectrum import require_numbers
 
     spectrum = None
     system = system_in(place, data, limits)
     try:
         if prescribed is not None:
             spectrum = parse(prescribed[1], Limits(**limits))
+            require_numbers(spectrum)
         design = design_observer(system, spectrum=spectrum, **wanted)
     except InputError as error:
         raise error.within(prescribed[0] if prescribed is not None else place) from None

@@ -115,14 +115,16 @@ def _designed(
     from mcexact.model.controller_file import controller_text
     from mcexact.model.json_text import parse
     from mcexact.report.network_view import design_tables, design_view
+    from mcexact.synthesis.spectrum import require_numbers
 
-    design = getattr(importlib.import_module(f"mcexact.synthesis.{name}"), f"design_{name}")
     spectrum = None
     system = system_in(*plant, limits)
     try:
         if prescribed is not None:
             spectrum = parse(prescribed[1], Limits(**limits))
-        found = design(system, spectrum=spectrum, **wanted)
+            require_numbers(spectrum)
+        module = importlib.import_module(f"mcexact.synthesis.{name}")
+        found = getattr(module, f"design_{name}")(system, spectrum=spectrum, **wanted)
     except InputError as error:
         raise error.within(prescribed[0] if prescribed is not None else plant[0]) from None
     except Impossible as refused:

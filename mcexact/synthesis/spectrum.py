@@ -80,22 +80,7 @@ def _from_roots(entries: Sequence[Any], degree: int, where: str) -> Polynomial:
     """The product of the factors that the roots and pairs stand for."""
     result, count = Polynomial((Fraction(1),)), 0
     for k, entry in enumerate(entries):
-        place = f"{where}[{k}]"
-        if isinstance(entry, Mapping):
-            if set(entry) != {"re", "im"}:
-                raise InputError(
-                    'expected a pair as {"re": a, "im": b}, its conjugate is implied', where=place
-                )
-            re = as_fraction(entry["re"], where=f"{place}.re")
-            im = as_fraction(entry["im"], where=f"{place}.im")
-            if im == 0:
-                raise InputError(
-                    "expected an imaginary part that is not 0; write a real root as one number",
-                    where=place,
-                )
-            factor = Polynomial((re * re + im * im, -2 * re, Fraction(1)))
-        else:
-            factor = Polynomial((-as_fraction(entry, where=place), Fraction(1)))
+        factor = _factor(entry, f"{where}[{k}]")
         result, count = result * factor, count + factor.degree
     if count != degree:
         found = f"a list of {len(entries)}"
@@ -107,6 +92,56 @@ def _from_roots(entries: Sequence[Any], degree: int, where: str) -> Polynomial:
             where=where,
         )
     return result
+
+
+def _factor(entry: Any, place: str) -> Polynomial:
+    """The factor that one root, or one pair, stands for."""
+    if not isinstance(entry, Mapping):
+        return Polynomial((-as_fraction(entry, where=place), Fraction(1)))
+    if set(entry) != {"re", "im"}:
+        raise InputError(
+            'expected a pair as {"re": a, "im": b}, its conjugate is implied', where=place
+        )
+    re = as_fraction(entry["re"], where=f"{place}.re")
+    im = as_fraction(entry["im"], where=f"{place}.im")
+    if im == 0:
+        raise InputError(
+            "expected an imaginary part that is not 0; write a real root as one number",
+            where=place,
+        )
+    return Polynomial((re * re + im * im, -2 * re, Fraction(1)))
+
+
+def require_numbers(spectrum: Any, where: str = "spectrum") -> None:
+    """Refuse a prescribed spectrum with an entry that is no number, before any other work.
+
+    How many there have to be is only known when the order of the controller is.
+
+    Parameters
+    ----------
+    spectrum : list of numbers and pairs, or mapping to such
+    where : str
+
+    Raises
+    ------
+    InputError
+        If an entry is no rational number and no pair.
+
+    Examples
+    --------
+    >>> require_numbers({"closed_loop": ["-1", {"re": "-1", "im": "2"}]})
+    >>> require_numbers({"closed_loop": ["-1", "foo"]})
+    Traceback (most recent call last):
+        ...
+    mcexact.errors.InputError: spectrum.closed_loop[1]: expected an integer, a decimal such as \
+"-0.25" or "1e-3", or a quotient such as "1/3", found 'foo'
+    """
+    if isinstance(spectrum, Mapping):
+        for key, numbers in spectrum.items():
+            require_numbers(numbers, f"{where}.{key}")
+    elif isinstance(spectrum, Sequence) and not isinstance(spectrum, (str, bytes)):
+        for k, entry in enumerate(spectrum):
+            _factor(entry, f"{where}[{k}]")
 
 
 def default_polynomial(time: str, bound: Fraction, degree: int) -> Polynomial:
