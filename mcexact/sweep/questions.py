@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from types import MappingProxyType
 from typing import Any
 
@@ -32,6 +32,14 @@ QUESTIONS: MappingProxyType[str, Callable[[MultiChannelSystem], Any]] = MappingP
 )
 """The decisions by name; each returns a result with a ``certificate``."""
 
+# Where it is not a certificate of the question's own name about the plant itself.
+_KIND = {
+    "joint_controllability": "controllability",
+    "joint_observability": "controllability",
+    "observability_indices": "controllability_indices",
+}
+_ABOUT_THE_DUAL = {"joint_observability", "observability_indices"}
+
 
 def chosen(names: Iterable[str]) -> tuple[str, ...]:
     """The questions of these names, each once, in the order of the table.
@@ -47,3 +55,20 @@ def chosen(names: Iterable[str]) -> tuple[str, ...]:
         found = repr(unknown[0]) if unknown else "none"
         raise UsageError(f"expected questions out of {', '.join(QUESTIONS)}; found {found}")
     return tuple(name for name in QUESTIONS if name in asked)
+
+
+def answered(name: str, certificate: Mapping[str, Any]) -> bool:
+    """Whether a certificate is an answer to this question: by its kind, subject and channels.
+
+    Parameters
+    ----------
+    name : str
+        A question.
+    certificate : mapping
+        A document that the checker has found VALID.
+    """
+    subject = [{"construction": "dual"}] if name in _ABOUT_THE_DUAL else []
+    channels = [channel["name"] for channel in certificate["system"]["channels"]]
+    about = (certificate["kind"], certificate["subject"])
+    named = certificate["claim"].get("channels", channels)
+    return about == (_KIND.get(name, name), subject) and bool(named == channels)

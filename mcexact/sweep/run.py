@@ -14,7 +14,7 @@ from mcexact.errors import InternalError, McexactError
 from mcexact.exact.rational import DEFAULT_LIMITS, Limits
 from mcexact.model.system_file import digest
 from mcexact.sweep.jobs import Job, Outcome, Source, decide, entries, failure
-from mcexact.sweep.questions import chosen
+from mcexact.sweep.questions import answered, chosen
 from mcexact.sweep.records import Record, RecordFile
 from mcexact.sweep.workers import Workers, alone
 
@@ -193,9 +193,12 @@ def _checked(name: str, text: str, expected: str) -> dict[str, Any]:
     Raises
     ------
     InternalError
-        If the checker does not say VALID of it, about this system.
+        If the checker does not say VALID of it, about this system, or it answers something else.
     """
     verdict = check_document(text.encode("ascii"), expected)
     if verdict.verdict != "VALID":
         raise InternalError(f"the certificate for {name} is not accepted: {verdict.line()}")
-    return {"claim": json.loads(text)["claim"], "theorem": verdict.theorem}
+    document = json.loads(text)
+    if not answered(name, document):
+        raise InternalError(f"the certificate for {name} is about something else")
+    return {"claim": document["claim"], "theorem": verdict.theorem}

@@ -11,6 +11,7 @@ from typing import Any
 
 import pytest
 
+from mcexact.analysis.controllability import joint_controllability
 from mcexact.certificate import codec
 from mcexact.derived.draw import Draw, drawn_system
 from mcexact.errors import InputError, UsageError
@@ -64,6 +65,25 @@ def answer_falsely(job: Job) -> Outcome:
 
 def answer_something_else(job: Job) -> Outcome:
     return decide(Job(job.name, job.source, ("completeness",)))
+
+
+def answer_under_another_name(job: Job) -> Outcome:
+    """A true certificate about this very system, but not the one that was asked for."""
+    other = decide(Job(job.name, job.source, ("completeness",)))
+    return other | {"certificates": {"fixed_spectrum": other["certificates"]["completeness"]}}
+
+
+def observability_for_controllability(job: Job) -> Outcome:
+    """The same kind of certificate, of the dual."""
+    other = decide(Job(job.name, job.source, ("joint_observability",)))
+    made = other["certificates"]["joint_observability"]
+    return other | {"certificates": {"joint_controllability": made}}
+
+
+def controllability_of_one_channel(job: Job) -> Outcome:
+    """The same kind of certificate, of fewer channels."""
+    made = codec.encode(joint_controllability(job.system(), ["u1"]).certificate)
+    return decide(job) | {"certificates": {"joint_controllability": made}}
 
 
 def test_every_question_is_answered_as_it_is_one_by_one() -> None:
@@ -185,6 +205,22 @@ def test_an_answer_that_the_checker_does_not_accept_is_not_believed(
         [record] = sweep([source], work=work)
         assert record.error is not None and record.error["status"] == 70
         assert why in record.error["message"] and not record.answers
+
+
+@pytest.mark.parametrize(
+    ("question", "work"),
+    [
+        ("fixed_spectrum", answer_under_another_name),
+        ("joint_controllability", observability_for_controllability),
+        ("joint_controllability", controllability_of_one_channel),
+    ],
+    ids=["another kind", "the dual", "fewer channels"],
+)
+def test_a_true_certificate_that_answers_something_else_is_no_answer(
+    question: str, work: Callable[[Job], Outcome]
+) -> None:
+    [record] = sweep([gallery.load("hidden-triple-mode")], [question], work=work)
+    assert record.error is not None and "about something else" in record.error["message"]
 
 
 def test_jobs_are_made_when_there_is_room_for_them() -> None:
