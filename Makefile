@@ -36,7 +36,7 @@ agreement: $(STAMP)
 mutations: $(STAMP)
 	$(BIN)/python -m tests.checker.mutations 200
 
-# Every statement of the paper, with a report and certificates in reproduction/: a minute.
+# Every statement of the paper, with a report and certificates in reproduction/: less than a minute.
 reproduce: $(STAMP)
 	$(BIN)/mcexact reproduce -o reproduction
 
