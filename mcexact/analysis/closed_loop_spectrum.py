@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from mcexact.analysis.rate import best_rate
+from mcexact.analysis.rate import located
 from mcexact.certificate.evidence import RateInterval, RootDisc
-from mcexact.exact.enclosures import root_discs
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
@@ -46,7 +45,7 @@ def closed_loop_spectrum(M: Matrix, time: str) -> LoopSpectrum:
 
     Notes
     -----
-    Exact: the discs are those of `root_discs` for the squarefree part of the characteristic
+    Exact: the discs are those of `located` for the squarefree part of the characteristic
     polynomial.  Meant for small loops; the numbers in it grow with N².
 
     Examples
@@ -59,9 +58,6 @@ def closed_loop_spectrum(M: Matrix, time: str) -> LoopSpectrum:
     """
     polynomial = characteristic_polynomial(M)
     distinct = polynomial.squarefree_part()
-    discs = tuple(
-        RootDisc(disc.re, disc.im, disc.radius)
-        for disc in (root_discs(distinct) if distinct.degree > 0 else ())
-    )
+    discs, rate = located(time, [distinct] if distinct.degree > 0 else [])
     stable = StabilityRegion(time).contains_roots_of(polynomial)
-    return LoopSpectrum(polynomial, discs, stable, best_rate(time, discs))
+    return LoopSpectrum(polynomial, discs[0] if discs else (), stable, rate)

@@ -8,11 +8,10 @@ from typing import cast
 
 from mcexact.analysis.modular_system import closed_loop, generator, lifted, lifted_gains
 from mcexact.analysis.obstructions import Decision, Obstruction, decide
-from mcexact.analysis.rate import best_rate
+from mcexact.analysis.rate import located
 from mcexact.analysis.shrunk_subspace import ExactSubspace
 from mcexact.certificate.evidence import RateInterval, RootDisc, ShrunkSubspace
 from mcexact.certificate.fixed_spectrum import FixedFactorClaim, FixedSpectrumCertificate
-from mcexact.exact.enclosures import root_discs
 from mcexact.exact.location import StabilityRegion, Time
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import polynomial_residues, random_matrix
@@ -120,10 +119,13 @@ def fixed_spectrum(system: MultiChannelSystem) -> FixedSpectrum:
     rng = generator(system, "fixed_spectrum")
     decision = decide(system, rng)
     region = StabilityRegion(cast(Time, system.time))
-    factors = tuple(_factor(system, decision, o, region) for o in decision.obstructions)
+    discs, rate = located(system.time, [o.polynomial for o in decision.obstructions])
+    factors = tuple(
+        _factor(system, decision, o, roots, region)
+        for o, roots in zip(decision.obstructions, discs, strict=True)
+    )
     polynomial = product(factor.polynomial for factor in factors)
     stabilizable = all(factor.stable for factor in factors)
-    rate = best_rate(system.time, [disc for factor in factors for disc in factor.roots])
     certificate = FixedSpectrumCertificate(
         system=canonical_document(system.plant),
         subject=system.subject,
@@ -150,7 +152,11 @@ def evidence(system: MultiChannelSystem, subspace: ExactSubspace) -> ShrunkSubsp
 
 
 def _factor(
-    system: MultiChannelSystem, decision: Decision, found: Obstruction, region: StabilityRegion
+    system: MultiChannelSystem,
+    decision: Decision,
+    found: Obstruction,
+    roots: tuple[RootDisc, ...],
+    region: StabilityRegion,
 ) -> FixedFactor:
     T = set(found.subspace.channels_T)
     p = found.polynomial
@@ -162,7 +168,7 @@ def _factor(
         ),
         channels=system.named(i for i in range(system.m) if i not in T),
         rank=system.n - found.subspace.deficiency,
-        roots=tuple(RootDisc(d.re, d.im, d.radius) for d in root_discs(p)),
+        roots=roots,
         stable=region.contains_roots_of(p),
         subspace=evidence(system, found.subspace),
     )

@@ -1,4 +1,4 @@
-"""The best decay that is left when some modes cannot be moved, as an enclosure."""
+"""The best decay that some modes leave, enclosed to ten significant digits."""
 
 from __future__ import annotations
 
@@ -7,7 +7,60 @@ from fractions import Fraction
 from math import isqrt
 
 from mcexact.certificate.evidence import RateInterval, RootDisc
-from mcexact.exact.enclosures import decimal, exact_decimal
+from mcexact.exact.enclosures import decimal, exact_decimal, root_discs
+from mcexact.exact.location import is_hurwitz
+from mcexact.exact.polynomial import Polynomial, product
+from mcexact.exact.rational import digits_of
+
+# An enclosure is at most this part of its ends wide.
+_RELATIVE_WIDTH = Fraction(1, 10**10)
+# The significant digits with which a modulus that is no decimal is written.
+_MODULUS_DIGITS = 12
+
+
+def located(
+    time: str, polynomials: Sequence[Polynomial]
+) -> tuple[list[tuple[RootDisc, ...]], RateInterval | None]:
+    """Discs around all roots of some polynomials, and the best rate that these roots leave.
+
+    Parameters
+    ----------
+    time : {"continuous", "discrete"}
+    polynomials : sequence of Polynomial
+        Squarefree, of degree at least 1, no two with a common root.
+
+    Returns
+    -------
+    list of tuples of RootDisc
+        For each polynomial, disjoint discs with one root each.
+    RateInterval or None
+        None if there is no polynomial.
+
+    Notes
+    -----
+    The discs are made smaller until the interval is at most 10⁻¹⁰ of its ends wide.  Only where
+    the largest real part is 0 and no root there is a decimal does the interval keep 0 inside.
+
+    Examples
+    --------
+    >>> located("discrete", [Polynomial.of(2, -2, 1)])[1]
+    RateInterval(lower='1.414213562373', upper='1.414213562374')
+    >>> located("continuous", [Polynomial.of(2, 0, 1)])[1]
+    RateInterval(lower='-0.000000000001', upper='0.000000000001')
+    """
+    decimals = 0
+    while True:
+        discs = [
+            tuple(RootDisc(disc.re, disc.im, disc.radius) for disc in root_discs(p, decimals))
+            for p in polynomials
+        ]
+        every = [disc for those in discs for disc in those]
+        rate = best_rate(time, every)
+        if rate is None or _is_narrow(rate):
+            return discs, rate
+        if time == "continuous" and _ends_on_axis(product(polynomials)):
+            return discs, rate
+        decimals = 2 * max(_decimals(disc) for disc in every)
 
 
 def best_rate(time: str, discs: Sequence[RootDisc]) -> RateInterval | None:
@@ -22,7 +75,7 @@ def best_rate(time: str, discs: Sequence[RootDisc]) -> RateInterval | None:
     Returns
     -------
     RateInterval or None
-        None if there is no disc.
+        As narrow as the discs allow, but for the rounding of moduli; None if there is no disc.
 
     Examples
     --------
@@ -30,35 +83,59 @@ def best_rate(time: str, discs: Sequence[RootDisc]) -> RateInterval | None:
     RateInterval(lower='1.25', upper='1.75')
     >>> best_rate("discrete", [RootDisc("0.3", "0.4", "0.1")])
     RateInterval(lower='0.4', upper='0.6')
+    >>> best_rate("discrete", [RootDisc("0.9", "0.4", "0")])
+    RateInterval(lower='0.9848857801796', upper='0.9848857801797')
     """
     if not discs:
         return None
     numbers = [(exact_decimal(d.re), exact_decimal(d.im), exact_decimal(d.radius)) for d in discs]
-    digits = max(_digits(part) for d in discs for part in (d.re, d.im, d.radius))
+    digits = max(map(_decimals, discs))
     if time == "continuous":
         lower = -max(re + radius for re, _, radius in numbers)
         upper = -max(re - radius for re, _, radius in numbers)
     else:
-        moduli = [(_root_below(re, im, digits), radius) for re, im, radius in numbers]
-        exact = [
-            m * m == re * re + im * im for (m, _), (re, im, _) in zip(moduli, numbers, strict=True)
-        ]
-        step = Fraction(1, 10**digits)
-        lower = max(Fraction(0), max(m - radius for m, radius in moduli))
-        upper = max(
-            m + radius + (0 if sharp else step)
-            for (m, radius), sharp in zip(moduli, exact, strict=True)
-        )
+        digits = max(digits, _decimals_of_moduli(numbers))
+        moduli = [(*_root(re, im, digits), radius) for re, im, radius in numbers]
+        lower = max(Fraction(0), max(below - radius for below, _, radius in moduli))
+        upper = max(above + radius for _, above, radius in moduli)
     return RateInterval(*(decimal(int(end * 10**digits), digits) for end in (lower, upper)))
 
 
-def _digits(text: str) -> int:
+def _is_narrow(rate: RateInterval) -> bool:
+    """Whether the ends agree in their first digits."""
+    lower, upper = exact_decimal(rate.lower), exact_decimal(rate.upper)
+    return upper - lower <= _RELATIVE_WIDTH * min(abs(lower), abs(upper))
+
+
+def _ends_on_axis(p: Polynomial) -> bool:
+    """Whether the largest real part of the roots of a squarefree polynomial is 0, exactly.
+
+    Notes
+    -----
+    g = gcd(p(x), p(−x)) holds the roots on the axis, and pairs ±r besides; g + g' is Hurwitz just
+    in case there is no such pair, because Re g'/g > 0 to the right of roots on the axis (this is
+    what Routh's array does with a row of zeros).
+    """
+    g = p.gcd(p.scale(-1))
+    return g.degree > 0 and is_hurwitz(p // g) and is_hurwitz(g + g.derivative())
+
+
+def _decimals(disc: RootDisc) -> int:
     """The number of digits behind the point."""
-    return len(text.partition(".")[2])
+    return max(len(part.partition(".")[2]) for part in (disc.re, disc.im, disc.radius))
 
 
-def _root_below(re: Fraction, im: Fraction, digits: int) -> Fraction:
-    """√(re² + im²), rounded down to a decimal."""
+def _decimals_of_moduli(discs: Sequence[tuple[Fraction, Fraction, Fraction]]) -> int:
+    """Decimals that show `_MODULUS_DIGITS` digits of the largest modulus."""
+    size = max(max(abs(re), abs(im)) for re, im, _ in discs)
+    zeros = len(digits_of(int(1 / size))) if 0 < size < 1 else 0
+    return _MODULUS_DIGITS + zeros
+
+
+def _root(re: Fraction, im: Fraction, digits: int) -> tuple[Fraction, Fraction]:
+    """√(re² + im²), rounded down and up to decimals."""
     scale = 10**digits
     square = (re * re + im * im) * scale * scale
-    return Fraction(isqrt(square.numerator // square.denominator), scale)
+    below = isqrt(square.numerator // square.denominator)
+    above = below if below * below == square else below + 1
+    return Fraction(below, scale), Fraction(above, scale)

@@ -50,13 +50,15 @@ class _GridDisc:
     radius: int
 
 
-def root_discs(p: Polynomial) -> tuple[Disc, ...]:
+def root_discs(p: Polynomial, decimals: int = 0) -> tuple[Disc, ...]:
     """Pairwise disjoint discs that hold exactly one root each, together all of them.
 
     Parameters
     ----------
     p : Polynomial
         Squarefree, of degree d ≥ 1.
+    decimals : int
+        The grid has at least so many.
 
     Returns
     -------
@@ -88,7 +90,7 @@ def root_discs(p: Polynomial) -> tuple[Disc, ...]:
         raise InputError(f"expected a polynomial of degree at least 1, found {p}")
     if not p.is_squarefree():
         raise InputError(f"expected a polynomial without repeated roots, found {p}")
-    digits = _first_digits(p)
+    digits = max(_first_digits(p), decimals)
     for _ in range(32):
         discs = _on_grid(p, digits)
         if discs is not None and _disjoint(discs):
