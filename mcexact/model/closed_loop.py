@@ -11,7 +11,7 @@ from mcexact.exact.blocks import hstack, vstack
 from mcexact.exact.matrix import Matrix
 from mcexact.model.controller import Controller, LinearMap
 from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.system import MultiChannelSystem, with_graph
+from mcexact.model.system import MultiChannelSystem, with_wires
 
 
 @dataclass(frozen=True)
@@ -111,9 +111,7 @@ def loop_layout(
     UsageError, InputError
         If the controller does not fit.
     """
-    if graph is None and system.neighbors is None:
-        graph = NeighborGraph.empty(system.names)
-    system, found = with_graph(system, graph)
+    system, found = with_wires(system, graph)
     if found.delays and system.time != "discrete":
         raise UsageError(
             'delays are analyzed in discrete time only; this system has "time": "continuous"'

@@ -332,6 +332,23 @@ def with_graph(
     return system, system.neighbors
 
 
+def with_wires(
+    system: MultiChannelSystem, graph: NeighborGraph | Mapping[str, Iterable[str]] | None = None
+) -> tuple[MultiChannelSystem, NeighborGraph]:
+    """A system, and the graph on which a controller of it runs.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    graph : NeighborGraph or mapping of names, optional
+        Overrides ``system.neighbors``.  Without either nobody hears anybody, and the system stays
+        one without a graph, so that certificates about its loop are about the user's plant.
+    """
+    if graph is None and system.neighbors is None:
+        return system, NeighborGraph.empty(system.names)
+    return with_graph(system, graph)
+
+
 def _listed(value: Any, where: str) -> list[Any]:
     """The matrices of all channels."""
     if isinstance(value, (str, bytes, Mapping)) or not hasattr(value, "__iter__"):

@@ -12,7 +12,7 @@ from mcexact.exact.matrix import Matrix
 from mcexact.exact.rational import as_fraction
 from mcexact.model.controller import Controller
 from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.system import MultiChannelSystem, with_graph
+from mcexact.model.system import MultiChannelSystem, with_wires
 from mcexact.simulation.arithmetic import Native, arithmetic_named
 from mcexact.simulation.continuous import integrated, taylor
 from mcexact.simulation.network import Network, Snapshot
@@ -123,9 +123,7 @@ def simulate(
     >>> [snapshot.plant for snapshot in run.snapshots]
     [[Fraction(1, 1)], [Fraction(1, 2)], [Fraction(1, 4)]]
     """
-    if graph is None and system.neighbors is None:
-        graph = NeighborGraph.empty(system.names)
-    system, found = with_graph(system, graph)
+    system, found = with_wires(system, graph)
     discrete = system.time == "discrete"
     numbers = arithmetic_named(arithmetic or ("exact" if discrete else "float"), digits)
     network = Network(system, controller, found, numbers)
