@@ -11,6 +11,7 @@ from mcexact.analysis.covering import (
     CoveringCut,
     CoveringProgram,
     branch_tree,
+    checked_node_limit,
     minimize,
 )
 from mcexact.analysis.deficiency import deficiency
@@ -213,15 +214,15 @@ def minimal_shared_dimensions(
         Ask for a strongly connected extended transfer graph as well, so that the whole closed-loop
         spectrum is freely assignable.
     node_limit : int
-        Nodes of the branch tree after which to give up.
+        Nodes of the branch tree after which to give up, at least 1.
     progress : callable, optional
         Called with a line of text now and then.
 
     Raises
     ------
     UsageError
-        If there is no neighbor graph, the system is a derived one, or a price, an upper bound or
-        the bound is out of range.
+        If there is no neighbor graph, the system is a derived one, or a price, an upper bound,
+        the bound or the node limit is out of range.
     LimitReached
         At the node limit, where its ``lower`` and ``upper`` bound the least cost; or if the prices
         are too far apart.
@@ -247,6 +248,7 @@ def minimal_shared_dimensions(
     >>> minimal_shared_dimensions(plant, NeighborGraph.empty(plant.names)).feasible
     False
     """
+    checked_node_limit(node_limit)
     problem = _checked(system, graph, share, costs, upper, bound, free_assignability)
     cuts: list[_Cut] = []
     dimensions = _generate(problem, cuts, progress)

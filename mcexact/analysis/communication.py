@@ -12,6 +12,7 @@ from mcexact.analysis.covering import (
     CoveringCut,
     CoveringProgram,
     branch_tree,
+    checked_node_limit,
     minimize,
 )
 from mcexact.analysis.fixed_spectrum import evidence
@@ -123,12 +124,13 @@ def minimal_communication(
     bound : rational, optional
         A rate or radius: only modes that violate it count.
     node_limit : int
-        Nodes of the branch tree after which to give up.
+        Nodes of the branch tree after which to give up, at least 1.
 
     Raises
     ------
     UsageError
-        If there is no neighbor graph, a price is not positive, or what is shared does not fit.
+        If there is no neighbor graph, a price is not positive, what is shared does not fit, or
+        the node limit is below 1.
     LimitReached
         At the node limit.
 
@@ -146,6 +148,7 @@ def minimal_communication(
     >>> minimal_communication(plant, NeighborGraph.empty(plant.names)).added
     (('1', '2'),)
     """
+    checked_node_limit(node_limit)
     problem = _checked(system, graph, dimensions, share, costs, forbidden, bound)
     cuts: list[tuple[CoveringCut, ArcCut]] = []
     chosen = _generate(problem, cuts)

@@ -28,8 +28,9 @@ class Completeness:
     ----------
     complete : bool
         The transfer graph is strongly connected and the fixed spectrum is empty, all subsets of
-        channels included.  Then and only then some F makes the system controllable and observable
-        through any one channel.
+        channels included.  With a state, then and only then some F makes the system controllable
+        and observable through any one channel.  Without states every F does, but of several
+        channels none reaches another: the system is not complete.
     certificate : CompletenessCertificate
     """
 
@@ -64,6 +65,8 @@ def completeness(
     >>> ring = MultiChannelSystem(I, [[[1], [0]], [[0], [1]]], [[[0, 1]], [[1, 0]]])
     >>> completeness(ring).complete
     True
+    >>> completeness(MultiChannelSystem([], [[], []], [[], []])).complete
+    False
     """
     if spectrum is None:
         spectrum = fixed_spectrum(system)

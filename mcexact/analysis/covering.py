@@ -18,7 +18,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from mcexact.errors import InternalError, LimitReached, McexactError
+from mcexact.errors import InternalError, LimitReached, McexactError, UsageError
 
 if TYPE_CHECKING:
     import numpy as np
@@ -222,6 +222,21 @@ def _row(cut: CoveringCut, size: int) -> Floats:
     return row
 
 
+def checked_node_limit(node_limit: int) -> int:
+    """Return a number of nodes that leaves room for a tree.
+
+    Raises
+    ------
+    UsageError
+        If it is not an integer of at least 1.
+    """
+    if type(node_limit) is not int or node_limit < 1:
+        raise UsageError(
+            f"expected an integer of at least 1, found {node_limit!r}", where="node_limit"
+        )
+    return node_limit
+
+
 def branch_tree(
     program: CoveringProgram,
     value: Fraction | None,
@@ -237,7 +252,7 @@ def branch_tree(
     value
         The optimal cost, or None to prove that the program has no point at all.
     node_limit
-        Number of nodes after which to give up.
+        Number of nodes after which to give up, at least 1.
 
     Raises
     ------

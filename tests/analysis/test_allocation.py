@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 from fractions import Fraction
+from typing import Any
 
 import pytest
 
@@ -190,6 +191,22 @@ def test_the_node_limit_ends_with_what_is_proved() -> None:
     with pytest.raises(LimitReached, match="limit of 1 nodes") as stopped:
         minimal_shared_dimensions(triangles(2), node_limit=1)
     assert (stopped.value.lower, stopped.value.upper) == (3, 4)
+
+
+@pytest.mark.parametrize("limit", [0, -1, True, 2.5, "3", None])
+def test_a_node_limit_that_leaves_no_tree_is_refused_before_any_work(limit: Any) -> None:
+    told: list[str] = []
+    with pytest.raises(UsageError, match="node_limit: expected an integer of at least 1, found"):
+        minimal_shared_dimensions(triangles(2), node_limit=limit, progress=told.append)
+    with pytest.raises(UsageError, match="node_limit: expected an integer of at least 1, found"):
+        minimal_communication(triangles(2), node_limit=limit)
+    assert not told
+
+
+def test_what_is_infeasible_is_proved_by_one_node() -> None:
+    plant = gallery.load("liu2020-3ch-no-communication")
+    alone = NeighborGraph.empty(plant.names)
+    assert not minimal_shared_dimensions(plant, alone, node_limit=1).feasible
 
 
 def test_a_radius_of_0_is_not_taken_for_the_unit_disc() -> None:

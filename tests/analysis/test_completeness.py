@@ -6,6 +6,7 @@ import pytest
 
 from mcexact.analysis.completeness import Completeness, completeness
 from mcexact.analysis.fixed_spectrum import fixed_spectrum
+from mcexact.analysis.single_channel_gains import single_channel_gains
 from mcexact.certificate import codec
 from mcexact.certificate.completeness import CutWitness, FixedModeWitness, FreedomWitness
 from mcexact.checker import check_document
@@ -67,3 +68,11 @@ def test_an_arc_that_vanishes_modulo_the_prime_of_the_gains_is_seen_modulo_anoth
     answer = checked(completeness(system, spectrum=at_7))
     assert answer.complete and isinstance(answer.certificate.evidence, FreedomWitness)
     assert answer.certificate.evidence.modulus > 7
+
+
+@pytest.mark.parametrize("m", [1, 2, 3])
+def test_without_states_only_a_single_channel_is_complete(m: int) -> None:
+    """Every gain controls and observes nothing, but between several channels there is no arc."""
+    nothing = MultiChannelSystem([], [[]] * m, [[]] * m)
+    assert single_channel_gains(nothing).exists
+    assert checked(completeness(nothing)).complete is (m == 1)

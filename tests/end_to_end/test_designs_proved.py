@@ -1,4 +1,4 @@
-"""What `design` and `certify` write is about the user's own plant, with a neighbor graph or without."""
+"""What `design` and `certify` prove is about the plant in the file, with neighbors or without."""
 
 from pathlib import Path
 

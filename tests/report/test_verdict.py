@@ -1,6 +1,7 @@
 """Checking from Python is the same as checking files."""
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -32,3 +33,16 @@ def test_what_is_no_certificate_is_not_valid(tmp_path: Path) -> None:
     assert check(file).verdict == "MALFORMED"
     with pytest.raises(InputError, match=r"missing\.json: there is no such file"):
         check(tmp_path / "missing.json")
+
+
+@pytest.mark.parametrize("value", [{}, None, 3, b"{}", [], PLANT, fixed_spectrum(PLANT)])
+def test_what_is_neither_a_certificate_nor_a_file_is_refused(value: Any) -> None:
+    kind = type(value).__name__
+    expected = f"certificate: expected a certificate, such as .*, found {kind}"
+    with pytest.raises(InputError, match=expected):
+        check(value)
+
+
+def test_what_is_no_system_is_refused() -> None:
+    with pytest.raises(InputError, match="system: expected a MultiChannelSystem, found dict"):
+        check(fixed_spectrum(PLANT).certificate, {})  # type: ignore[arg-type]
