@@ -1,5 +1,8 @@
 """Exact, certified analysis of multi-channel linear systems.
 
+Control and controllers are linear and time-invariant here, with states of their own or without:
+a fixed mode is one that none of these moves.  Controllers that vary with time can move some.
+
 Names are loaded when they are first used, so that importing the package is quick and loads none of
 the heavy libraries.
 """

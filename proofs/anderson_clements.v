@@ -1,6 +1,6 @@
 (* Anderson and Clements (paper, Proposition 2): lambda is a fixed eigenvalue iff some P_s(lambda)
    has rank < n.  Over every field, lambda in any extension field of the field of the data; gains
-   with natural-number entries already move every eigenvalue that any gain moves. *)
+   with natural-number entries already move every eigenvalue that any constant gains move. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From mcexact Require Import multichannel rank_one_repair pencil_space.
 

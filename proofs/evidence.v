@@ -122,8 +122,8 @@ Variables (L : fieldType) (n m : nat) (p q k : 'I_m -> nat).
 Variables (S : multichannel L n p q) (lambda : L) (T : {set 'I_m}).
 Variables (u : nat) (U : 'M[L]_(n, u)) (V : 'M[L]_(\sum_i p i, u)).
 
-(* The same evidence for every dynamic channel controller.  U is enlarged by all states z_i, i in T;
-   nothing is assumed of the K_i, so lambda may be a pole of the controller. *)
+(* The same evidence for every dynamic linear time-invariant channel controller.  U is enlarged by all
+   states z_i, i in T; nothing is assumed of the K_i, so lambda may be a pole of the controller. *)
 Theorem shrunk_dynamic_rank d (D : controllers L p q k) :
   shrunk S lambda T U V -> \rank U = u -> (\rank (inputs S T) + d <= u)%N ->
   (\rank (lambda%:M - dynamic_loop S D)%R + d <= n + \sum_i k i)%N.
@@ -247,7 +247,7 @@ rewrite /eigenvalue /eigenspace -mxrank_eq0 mxrank_ker subn_eq0 -ltnNge -opprB.
 by rewrite mxrank_opp.
 Qed.
 
-(* Every root of p is fixed, and remains so under dynamic channel controllers. *)
+(* Every root of p is fixed, and remains so under dynamic linear time-invariant channel controllers. *)
 Theorem shrunk_subspace_fixed : (0 < d)%N -> fixed (map_system f S) lambda.
 Proof.
 move=> d0 F; rewrite eigenvalue_rank (leq_trans _ (shrunk_subspace_rank F))//.

@@ -15,7 +15,7 @@ Record multichannel (R : Type) (n m : nat) (p q : 'I_m -> nat) := Multichannel {
   mcB : forall i : 'I_m, 'M[R]_(n, p i);
   mcC : forall i : 'I_m, 'M[R]_(q i, n) }.
 
-(* Decentralized gains: one F_i for each channel, u_i = F_i y_i. *)
+(* Constant decentralized gains: one F_i for each channel, u_i = F_i y_i. *)
 Notation gains R p q := (forall i, 'M[R]_(p i, q i)).
 
 Section Ring.
@@ -34,7 +34,8 @@ Definition outputs S s : 'M[R]_(\sum_i q i, n) := \mxcol_i (if i \in s then mcC 
 Definition pencil S s (lambda : R) : 'M[R]_(n + \sum_i q i, n + \sum_i p i) :=
   block_mx (lambda%:M - mcA S) (inputs S (~: s)) (outputs S s) 0.
 
-(* Dynamic channel controllers z_i' = K_i z_i + L_i y_i, u_i = G_i z_i + F_i y_i; loop state (x, z). *)
+(* Dynamic linear time-invariant channel controllers z_i' = K_i z_i + L_i y_i, u_i = G_i z_i + F_i y_i;
+   loop state (x, z). *)
 Record controllers (k : 'I_m -> nat) := Controllers {
   ctF : gains R p q;
   ctG : forall i, 'M[R]_(p i, k i);

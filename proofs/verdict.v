@@ -169,7 +169,8 @@ Definition too_small : certificate := Certificate 3 3
 Lemma too_small_verdict : check_shrunk too_small = false.
 Proof. by vm_compute. Qed.
 
-(* 1 stays an eigenvalue for all gains over every field: stabilization by outputs alone is impossible *)
+(* 1 stays an eigenvalue for all constant gains over every field: with evidence.shrunk_subspace_fixed_dynamic, no
+   linear time-invariant control by outputs alone stabilizes *)
 Theorem example_fixed (L : fieldType) : fixed (system_of example_certificate L) 1.
 Proof.
 have h := @check_shrunk_fixed _ L example_verdict.

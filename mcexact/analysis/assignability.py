@@ -39,8 +39,8 @@ class Assignability:
     Attributes
     ----------
     free : bool
-        No mode is fixed, and at most one block has a dimension above 0: with dynamic channel
-        controllers every symmetric spectrum can be assigned.
+        No mode is fixed, and at most one block has a dimension above 0: with dynamic linear
+        time-invariant channel controllers every symmetric spectrum can be assigned.
     blocks : tuple of SpectrumBlock
         One for each strong component.  Without fixed modes each can be assigned by itself, to
         every symmetric set of its dimension and of the states of its controllers; where the

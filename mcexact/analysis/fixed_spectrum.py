@@ -1,4 +1,4 @@
-"""The fixed spectrum: the modes that no decentralized feedback moves, where they lie, and why."""
+"""The fixed spectrum: modes that no linear time-invariant decentralized feedback moves, and why."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ class FixedFactor:
     multiplicity_in_A : int
         The exponent of p in χ_A.
     multiplicity_at_most : int
-        The exponent of p in χ_{A_F} for the drawn F.  The multiplicity that no gain removes, the
-        least such exponent, is at most this; drawn gains attain it but for an accident.
+        The exponent of p in χ_{A_F} for the drawn F.  The multiplicity that no constant gains
+        remove, the least such exponent, is at most this; drawn gains attain it but for an accident.
     channels : tuple of str
         s, the largest set of channels whose pencil P_s(λ) = [λI − A, B_{m−s}; C_s, 0] has the
         least rank.
@@ -58,7 +58,11 @@ class FixedFactor:
 
 @dataclass(frozen=True)
 class FixedSpectrum:
-    """The modes that stay under every decentralized feedback u_i = F_i y_i, static or dynamic.
+    """The modes that stay under every linear time-invariant decentralized feedback.
+
+    That is u_i = F_i y_i with constant F_i, or with a dynamic controller of its own at each channel
+    (Wang and Davison 1973).  Feedback that varies with time can move some of them; the gallery has
+    an example, ``movable-by-periodic-gains``.
 
     Attributes
     ----------
@@ -69,8 +73,8 @@ class FixedSpectrum:
     factors : tuple of FixedFactor
         Sorted by degree, then by coefficients.
     stabilizable : bool
-        Whether every fixed mode lies in the stability region: then and only then some
-        decentralized dynamic feedback stabilizes the system.
+        Whether every fixed mode lies in the stability region: then and only then some linear
+        time-invariant decentralized feedback stabilizes the system.
     best_rate : RateInterval or None
         Encloses minus the largest real part (continuous time) or the largest modulus (discrete
         time) of the fixed modes; None if there is none.
@@ -90,7 +94,7 @@ class FixedSpectrum:
 
 
 def fixed_spectrum(system: MultiChannelSystem) -> FixedSpectrum:
-    """Decide which modes no decentralized feedback can move.
+    """Decide which modes no linear time-invariant decentralized feedback can move.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Certificate: the fixed spectrum, where it lies, and what decentralized control can reach."""
+"""Certificate: the fixed spectrum, where it lies, and which rate it leaves within reach."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class FixedFactorClaim:
         The exponent of p in the characteristic polynomial of A.
     multiplicity_at_most : int
         The exponent of p in the characteristic polynomial of the witness's closed loop: the
-        multiplicity of p that no gain removes is at most this.
+        multiplicity of p that no constant gains remove is at most this.
     channels : tuple of str
         s, a set of channels whose pencil P_s has the least rank at the roots of p.
     rank : int
@@ -69,7 +69,8 @@ class FixedSpectrumCertificate(Certificate):
         The product of the distinct factors; 1 if nothing is fixed.
     factors : tuple of FixedFactorClaim
     stabilizable : bool
-        Whether every factor is stable.
+        Whether every factor is stable: then and only then some linear time-invariant decentralized
+        control stabilizes the system.
     best_rate : RateInterval or None
         Encloses minus the largest real part (continuous time) or the largest modulus (discrete
         time) of the fixed modes; None if there is none.

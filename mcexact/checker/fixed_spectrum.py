@@ -59,9 +59,9 @@ def check(claim: Any, witness: Any, system: System) -> str:
     _require_ranks(completion, [(p, loss) for p, loss, *_ in found], A_F, ell)
     centers = [disc for *_, discs, _ in found for disc in discs]
     interval = root_discs.rate_interval(rate, "claim.best_rate", centers, system.time)
-    ends = [words.STABILIZABLE[stabilizable], f"{words.RATE[system.time]} {interval}"]
+    end = f"{words.STABILIZABLE[stabilizable]}, whose {words.RATE[system.time]} is {interval}"
     spectrum = f"{words.described(system)} is that of {words.polynomial_text(product)}"
-    return f"the fixed spectrum of {spectrum}: {'; '.join([text for *_, text in found] + ends)}"
+    return f"the fixed spectrum of {spectrum}: {'; '.join([*(text for *_, text in found), end])}"
 
 
 def _require_ranks(completion: Any, losses: list[Any], A_F: arithmetic.Matrix, ell: int) -> None:

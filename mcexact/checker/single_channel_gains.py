@@ -75,6 +75,6 @@ def _lost(witness: Any, system: System, Q: list[int], sides: tuple[str, ...]) ->
     else:
         p = reading.polynomial(parts[0], "witness.polynomial", 1)
         T = subspaces.shrunk_subspace(parts[1], "witness.subspace", target, p, 1)
-    reason = "its signals do not spread" if cut else f"{polynomial_text(p)} stays out of reach"
+    why = "its signals do not spread" if cut else f"{polynomial_text(p)} stays out of reach"
     require(q in T and q in Q, "channel", "witness.channel", "not in the set T, or not asked about")
-    return f"no gains make {described(system)} {side} through {channel(system, q)}: {reason}"
+    return f"no constant gains make {described(system)} {side} through {channel(system, q)}: {why}"

@@ -12,8 +12,8 @@ from .system import System
 
 RATE = {"continuous": "best decay rate", "discrete": "best spectral radius"}
 STABILIZABLE = {
-    True: "stabilizable by decentralized control",
-    False: "not stabilizable by decentralized control",
+    True: "stabilizable by linear time-invariant decentralized control",
+    False: "not stabilizable by linear time-invariant decentralized control",
 }
 PLAIN_NAME = re.compile(r"[\w.+-]{1,256}")
 

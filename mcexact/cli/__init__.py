@@ -25,8 +25,8 @@ from mcexact.cli.failures import exit_status, one_message
 def command_line() -> None:
     """Exact, certified answers about multi-channel linear systems.
 
-    Which modes can no decentralized controller move, which channels are to blame, and what
-    sharing would free them? Start with `mcexact analyze plant.json`.
+    Which modes can no linear time-invariant decentralized controller move, which channels are to
+    blame, and what sharing would free them? Start with `mcexact analyze plant.json`.
     """
 
 

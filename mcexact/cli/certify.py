@@ -44,7 +44,8 @@ def command(
 ) -> int:
     """Decide whether the loop of the system in FILE and the CONTROLLER is stable, or fast enough.
 
-    The decision is exact, whatever the controller was designed with. A no ends with status 1; with
+    The controller is linear and time-invariant, as every controller file is. The decision is exact,
+    whatever it was designed with. A no ends with status 1; with
     --certificates it is proved as well.
     """
     from mcexact.cli.files import directory, place_of, read

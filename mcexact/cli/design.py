@@ -15,4 +15,4 @@ from mcexact.cli.commands import Commands
     short_help="Design a controller, with its proof.",
 )
 def command() -> None:
-    """Design a controller and certify the closed loop that results."""
+    """Design a linear time-invariant controller and certify the closed loop that results."""

@@ -18,7 +18,8 @@ from mcexact.cli import designing
 def command(file: str, **given: Any) -> None:
     """Design a decentralized controller for the system in FILE (- for standard input).
 
-    Agent i makes u_i of y_i alone. Fixed modes that are fast enough stay; if one is not, the status
-    is 1 and the certificate says why.
+    Agent i makes u_i of y_i alone. Fixed modes, which no linear time-invariant controller of this
+    kind moves, stay if they are fast enough; if one is not, the status is 1 and the certificate
+    says why.
     """
     designing.answer("decentralized", file, given, {})

@@ -48,7 +48,8 @@ def command(
     """Design a distributed controller through the extended system of FILE (- for standard input).
 
     FILE needs a neighbor graph, and may have delays in discrete time. Agents share sub-states; the
-    controller file holds how long they hold them. If no sharing is enough the status is 1.
+    controller file holds how long they hold them. If no sharing is enough for linear
+    time-invariant control, the status is 1.
     """
     sizes: str | list[int] = dimensions
     if dimensions not in ("minimal", "bound"):

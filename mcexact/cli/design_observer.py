@@ -51,8 +51,8 @@ def command(
     """Design a distributed observer-based controller for the system in FILE (- for standard input).
 
     FILE needs a neighbor graph. Give a rate or radius, or all the numbers: n for the feedback and
-    nm + m - 1 for the estimation errors. If it is impossible the status is 1, and the certificate
-    says why.
+    nm + m - 1 for the estimation errors. If no linear time-invariant controller of this form
+    exists, the status is 1 and the certificate says why.
     """
     from mcexact.cli.files import directory, place_of, read, require_other
     from mcexact.cli.output import emit, emit_json, emit_tables

@@ -20,8 +20,9 @@ def augmented_outputs(
     Returns
     -------
     MultiChannelSystem
-        (A, B_i, C_{N_i}); a fixed mode of it cannot be moved by any distributed controller whose
-        agents send nothing but their measured outputs.  (Paper, section IV-B, equation `mss`.)
+        (A, B_i, C_{N_i}); a fixed mode of it cannot be moved by any linear time-invariant
+        distributed controller whose agents send nothing but their measured outputs.  (Paper,
+        section IV-B, equation `mss`.)
 
     Raises
     ------

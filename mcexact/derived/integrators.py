@@ -20,7 +20,8 @@ def setpoint_system(system: MultiChannelSystem) -> MultiChannelSystem:
     Returns
     -------
     MultiChannelSystem
-        n + Σ q_i states.  Agent i measures w_i.  Whatever stabilizes it holds every y_i at r_i.
+        n + Σ q_i states.  Agent i measures w_i.  A linear time-invariant controller that
+        stabilizes it holds every y_i at r_i.
 
     Notes
     -----

@@ -14,9 +14,9 @@ triangular in them::
             ⎢ 0       *       * ⎥              ⎢ 0    * ⎥       C_s = [ 0  0  * ]
             ⎣ 0       0       * ⎦              ⎣ 0    * ⎦
 
-Channels in T drive zone 1 only and the others, s, see zone 3 only.  Then no decentralized gain
-moves an eigenvalue of zone 2.  (A chain that does step down, from zone 3 to zone 1, carries what T
-puts in to where s sees it.)
+Channels in T drive zone 1 only and the others, s, see zone 3 only.  Then no constant
+decentralized gains move an eigenvalue of zone 2.  (A chain that does step down, from zone 3 to
+zone 1, carries what T puts in to where s sees it.)
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""A controller: one linear program per agent, each of which uses what that agent receives."""
+"""A controller: one linear time-invariant program per agent, of what that agent receives."""
 
 from __future__ import annotations
 

@@ -63,7 +63,7 @@ class Demonstration:
                 f" none, in {none} of {SEEDS} runs"
                 for digits, none in self.none_found
             ),
-            f"   mcexact  {powers}: unstable, whatever the gains",
+            f"   mcexact  {powers}: unstable, whatever constant gains",
             "",
         ]
         return "\n".join(lines)

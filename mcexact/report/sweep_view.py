@@ -11,6 +11,7 @@ from mcexact.exact.polynomial import Polynomial
 from mcexact.report.text import Table, count, shorten
 
 _MOST_ROWS = 60
+_NOT_STABILIZABLE = "not stabilizable: by no linear time-invariant decentralized controller"
 
 Document = Mapping[str, Any]
 
@@ -61,7 +62,8 @@ def sweep_tables(documents: Sequence[Document], questions: Sequence[str]) -> tup
     rows = tuple(_row(short[document["name"]], document, questions) for document in shown)
     named = counts(documents)
     said = tuple((key.replace("_", " "), str(number)) for key, number in named.items())
-    return (Table("", columns, rows, note), Table("of all systems", (), said))
+    stays = _NOT_STABILIZABLE if named.get("not_stabilizable") else ""
+    return (Table("", columns, rows, note), Table("of all systems", (), said, stays))
 
 
 def _tells(document: Document) -> int:

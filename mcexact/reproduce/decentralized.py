@@ -157,7 +157,7 @@ def partition(note: Notebook) -> None:
 
 
 def wang_davison(note: Notebook) -> None:
-    """Any rate iff nothing is fixed."""
+    """Any rate by linear time-invariant control iff nothing is fixed."""
     for name, plant in [
         *drawn_plants(8, states=3, channels=2, first=21),
         *drawn_plants(5, states=3, channels=2, fixed=True, first=21),
@@ -188,7 +188,10 @@ def example(note: Notebook) -> None:
     note.check("rank [I − A, B_1, B_3; C_{N_2}, 0] is 2", rank.rank == 2)
     found = fixed_spectrum(system)
     note.check("the fixed polynomial is x − 1", found.polynomial == Polynomial.from_roots([1]))
-    note.check("no distributed control with outputs alone stabilizes it", not found.stabilizable)
+    note.check(
+        "no linear time-invariant distributed control with outputs alone stabilizes it",
+        not found.stabilizable,
+    )
     note.certify(rank, found)
     alone = MultiChannelSystem(
         system.A, [c.B for c in system.channels], [c.C for c in system.channels]

@@ -21,7 +21,7 @@ def design_decentralized(
     arithmetic: ArithmeticKind = "exact",
     progress: Progress | None = None,
 ) -> NetworkDesign:
-    """Design a controller without any communication: agent i makes u_i of y_i alone.
+    """Design a linear time-invariant controller without communication: u_i is made of y_i alone.
 
     Parameters
     ----------
@@ -41,7 +41,8 @@ def design_decentralized(
     Raises
     ------
     Impossible
-        If a fixed mode is not fast enough; the certificate is that of the fixed spectrum.
+        If a fixed mode is not fast enough; the certificate is that of the fixed spectrum.  A
+        controller that varies with time is not ruled out.
 
     Examples
     --------
@@ -53,8 +54,8 @@ def design_decentralized(
     >>> design_decentralized(apart, rate=1)
     Traceback (most recent call last):
         ...
-    mcexact.errors.Impossible: no decentralized control moves the fixed modes that are the roots \
-of x - 1, and they are not fast enough (channels 1)
+    mcexact.errors.Impossible: no linear time-invariant decentralized control moves the fixed \
+modes that are the roots of x - 1, and they are not fast enough (channels 1)
     """
     if system.subject:
         raise UsageError("a controller is designed for a plant, not for a derived system")

@@ -104,7 +104,7 @@ def design_extended(
     arithmetic: ArithmeticKind = "exact",
     progress: Progress | None = None,
 ) -> ExtendedDesign:
-    """Design a distributed controller of least order on an extended system.
+    """Design a linear time-invariant distributed controller of least order on an extended system.
 
     Parameters
     ----------
@@ -160,8 +160,8 @@ def design_extended(
     >>> design_extended(plant, NeighborGraph.empty(plant.names), rate=1)
     Traceback (most recent call last):
         ...
-    mcexact.errors.Impossible: no shared dimensions free the modes that are not fast enough: \
-the agents 2, 3 hear nobody besides themselves, and lack 1
+    mcexact.errors.Impossible: no shared dimensions let linear time-invariant control move the \
+modes that are not fast enough: the agents 2, 3 hear nobody besides themselves, and lack 1
     """
     system, found = with_graph(system, graph)
     if system.subject:
@@ -219,9 +219,9 @@ def _sizes(
         worst = least.binding[0]
         heard = ", ".join(worst.boundary) or "nobody"
         raise Impossible(
-            "no shared dimensions free the modes that are not fast enough: the agents "
-            f"{', '.join(worst.subset) or 'of no subset'} hear {heard} besides themselves, and "
-            f"lack {worst.deficiency}",
+            "no shared dimensions let linear time-invariant control move the modes that are not "
+            f"fast enough: the agents {', '.join(worst.subset) or 'of no subset'} hear {heard} "
+            f"besides themselves, and lack {worst.deficiency}",
             least.certificate,
         )
     return least, least.dimensions

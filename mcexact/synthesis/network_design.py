@@ -234,8 +234,8 @@ def _require_fast(network: DerivedNetwork, fixed: FixedSpectrum, bound: Fraction
     factors = ", ".join(str(factor.polynomial) for factor in slow)
     channels = ", ".join(slow[0].channels) or "none"
     raise Impossible(
-        f"no {control} control{shared} moves the fixed modes that are the roots of {factors}, and "
-        f"they are not fast enough (channels {channels})",
+        f"no linear time-invariant {control} control{shared} moves the fixed modes that are the "
+        f"roots of {factors}, and they are not fast enough (channels {channels})",
         fixed.certificate,
     )
 

@@ -186,8 +186,8 @@ def design_observer(
     >>> design_observer(plant, {"1": [], "2": []}, rate=1)
     Traceback (most recent call last):
         ...
-    mcexact.errors.Impossible: the error system for these F_i is not complete: no lists K_i, H_ij \
-let one agent control and observe all estimation errors
+    mcexact.errors.Impossible: the error system for these F_i is not complete: no constant K_i, \
+H_ij let one agent control and observe all estimation errors
     """
     system, found = with_graph(system, graph)
     if system.subject:

@@ -379,6 +379,7 @@ def _refuse_if_impossible(
     if outside:
         raise Impossible(
             f"the error system for these F_i has the fixed modes {outside[0].polynomial}, not all "
-            f"of them in {region}: no lists K_i, H_ij and no channel controller can move them",
+            f"of them in {region}: no constant K_i, H_ij and no linear time-invariant channel "
+            "controller can move them",
             decision.certificate,
         )

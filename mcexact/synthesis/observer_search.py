@@ -81,7 +81,7 @@ def _candidates(task: ObserverTask) -> list[ReachingGains]:
     decision = completeness(task.error)
     if not decision.complete:
         raise Impossible(
-            "the error system for these F_i is not complete: no lists K_i, H_ij let one agent "
+            "the error system for these F_i is not complete: no constant K_i, H_ij let one agent "
             "control and observe all estimation errors",
             decision.certificate,
         )

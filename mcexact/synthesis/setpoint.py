@@ -123,7 +123,7 @@ def design_setpoint(
     ------
     Impossible
         If some set-points cannot be held (the certificate gives the combination), a mode cannot be
-        controlled or observed, or no feedback along this road can do it.
+        controlled or observed, or no linear time-invariant feedback along this road can do it.
 
     Notes
     -----
@@ -142,8 +142,8 @@ def design_setpoint(
     >>> design_setpoint(wash, rate=1)
     Traceback (most recent call last):
         ...
-    mcexact.errors.Impossible: no input holds set-points with (1) r != 0, r the set-points of \
-all outputs in order; 0 is an invariant zero of the plant
+    mcexact.errors.Impossible: no constant input holds set-points with (1) r != 0, r the \
+set-points of all outputs in order; 0 is an invariant zero of the plant
     """
     system, found = with_graph(system, graph)
     if system.subject:
@@ -243,7 +243,10 @@ def _required(system: MultiChannelSystem) -> SetpointSolvability:
         rows = "; ".join(
             "(" + ", ".join(map(str, row)) + ") r != 0" for row in found.combinations.numerators
         )
-        message = f"no input holds set-points with {rows}, r the set-points of all outputs in order"
+        message = (
+            f"no constant input holds set-points with {rows}, r the set-points of all outputs in "
+            "order"
+        )
     else:
         message = "the integrators add a mode that no input controls"
     if found.invariant_zero:

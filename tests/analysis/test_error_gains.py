@@ -53,7 +53,7 @@ def test_without_arcs_the_plant_itself_may_connect_the_agents() -> None:
     assert not refused.exists
     verdict = check_document(encode(refused.certificate).encode())
     assert verdict.verdict == "VALID"
-    assert verdict.theorem.startswith("no gains make")
+    assert verdict.theorem.startswith("no constant gains make")
 
 
 def test_a_plant_that_is_not_jointly_observable_is_refused_with_a_mode() -> None:

@@ -43,7 +43,7 @@ def named(system: Any, numbers: list[int]) -> list[str]:
 
 
 def test_the_gallery_is_whole() -> None:
-    assert len(gallery.names()) == 36
+    assert len(gallery.names()) == 37
 
 
 @pytest.mark.parametrize("name", gallery.names())

@@ -1,6 +1,6 @@
-"""Published systems with their sources, and what is known about them.
+"""Published systems with their sources, a few constructed ones, and what is known about them.
 
-The data are not this project's own: every file names its source.  Decimals are exact as typed.
+Every file names its source, or says that it is constructed.  Decimals are exact as typed.
 ``expected.json`` holds answers that two independent programs computed exactly.
 """
 

@@ -1,0 +1,81 @@
+"""A fixed mode that gains which vary with time do move: what is said of it speaks of the others."""
+
+import json
+from pathlib import Path
+
+import pytest
+import sympy
+
+from mcexact.analysis.fixed_spectrum import fixed_spectrum
+from mcexact.certificate import encode
+from mcexact.checker.kinds import check_document
+from mcexact.derived.feedback import closed_by
+from mcexact.errors import Impossible
+from mcexact.exact.linear_algebra import characteristic_polynomial
+from mcexact.exact.location import StabilityRegion
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.polynomial import Polynomial
+from mcexact.model import gallery
+from mcexact.synthesis.decentralized import design_decentralized
+from tests.end_to_end.command_line import run
+
+NAME = "movable-by-periodic-gains"
+FILE = Path(gallery.__file__).parent / f"{NAME}.json"
+PLANT = gallery.load(NAME)
+EVEN, ODD = ("0", "121/500"), ("1", "0")
+"""F_1 and F_2 at even and at odd t."""
+OVER_TWO_STEPS = Polynomial.of(0, "-363/1000", "-1/4", 1)
+X = sympy.Symbol("x")
+
+
+def gains(values: tuple[str, str]) -> tuple[Matrix, ...]:
+    return tuple(Matrix.from_rows([[value]]) for value in values)
+
+
+def symbolic_loop(F_1: sympy.Expr, F_2: sympy.Expr) -> sympy.Matrix:
+    """A + B_1 F_1 C_1 + B_2 F_2 C_2, from the numbers of the file."""
+    document = json.loads(FILE.read_text(encoding="utf-8"))
+
+    def matrix(rows: list[list[int | str]]) -> sympy.Matrix:
+        return sympy.Matrix([[sympy.Rational(entry) for entry in row] for row in rows])
+
+    loop = matrix(document["A"])
+    for F, channel in zip((F_1, F_2), document["channels"], strict=True):
+        loop += F * matrix(channel["B"]) * matrix(channel["C"])
+    return loop
+
+
+def test_no_constant_gains_move_the_mode() -> None:
+    loop = symbolic_loop(*sympy.symbols("F_1 F_2"))
+    assert sympy.expand((sympy.Rational(11, 10) * sympy.eye(3) - loop).det()) == 0
+    assert fixed_spectrum(PLANT).polynomial == Polynomial.of("-11/10", 1)
+
+
+def test_gains_of_period_two_stabilize_it() -> None:
+    over_two = closed_by(PLANT, gains(ODD)) @ closed_by(PLANT, gains(EVEN))
+    assert characteristic_polynomial(over_two) == OVER_TWO_STEPS
+    assert StabilityRegion("discrete").contains_roots_of(OVER_TWO_STEPS)
+
+
+def test_another_program_finds_the_same_loop_over_two_steps() -> None:
+    odd, even = (symbolic_loop(*map(sympy.Rational, F)) for F in (ODD, EVEN))
+    polynomial = (odd * even).charpoly(X)
+    expected = X**3 - X**2 / 4 - sympy.Rational(363, 1000) * X
+    assert sympy.expand(polynomial.as_expr() - expected) == 0
+    assert all(abs(root) < 1 for root in polynomial.all_roots())
+
+
+def test_the_checkers_theorem_speaks_of_linear_time_invariant_control() -> None:
+    verdict = check_document(encode(fixed_spectrum(PLANT).certificate).encode())
+    assert verdict.verdict == "VALID"
+    assert "is that of x - 11/10" in verdict.theorem
+    assert "not stabilizable by linear time-invariant decentralized control" in verdict.theorem
+
+
+def test_the_refusal_of_a_design_speaks_of_linear_time_invariant_control() -> None:
+    with pytest.raises(Impossible, match="no linear time-invariant decentralized control"):
+        design_decentralized(PLANT, radius=1)
+    done = run("design", "decentralized", str(FILE), "--radius", "1")
+    assert done.status == 1
+    assert "no linear time-invariant decentralized control moves" in done.stderr
+    assert "x - 11/10" in done.stderr
