@@ -218,10 +218,14 @@ def _sizes(
     if least.dimensions is None:
         worst = least.binding[0]
         heard = ", ".join(worst.boundary) or "nobody"
+        aim = (
+            "make the transfer graph of the extended system strongly connected"
+            if worst.mode is None
+            else "let linear time-invariant control move the modes that are not fast enough"
+        )
         raise Impossible(
-            "no shared dimensions let linear time-invariant control move the modes that are not "
-            f"fast enough: the agents {', '.join(worst.subset) or 'of no subset'} hear {heard} "
-            f"besides themselves, and lack {worst.deficiency}",
+            f"no shared dimensions {aim}: the agents {', '.join(worst.subset) or 'of no subset'} "
+            f"hear {heard} besides themselves, and lack {worst.deficiency}",
             least.certificate,
         )
     return least, least.dimensions

@@ -104,6 +104,17 @@ def test_a_graph_that_no_sharing_mends_is_refused() -> None:
     assert check_document(encode(refusal.value.certificate).encode()).verdict == "VALID"
 
 
+def test_a_transfer_graph_that_no_sharing_connects_is_refused_as_such() -> None:
+    plant = MultiChannelSystem(
+        [[1, 0], [0, 2]], [[[1], [0]], [[0], [1]]], [[[1, 0]], [[0, 1]]], neighbors={}
+    )
+    assert design_extended(plant, rate=1).dimensions == (0, 0)
+    with pytest.raises(Impossible, match="make the transfer graph of the extended") as refusal:
+        design_extended(plant, rate=1, free_assignability=True)
+    assert refusal.value.certificate.kind == "shared_dimensions"
+    assert check_document(encode(refusal.value.certificate).encode()).verdict == "VALID"
+
+
 def test_delays_need_a_network_that_has_them() -> None:
     with pytest.raises(UsageError, match="lifted"):
         design_extended(late(), network="extended", radius=1)
