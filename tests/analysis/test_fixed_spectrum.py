@@ -1,7 +1,6 @@
 """Fixed spectra: known answers, laws, the checker, and the oracle that enumerates all subsets."""
 
 import random
-import time as clock
 from fractions import Fraction
 
 import pytest
@@ -225,13 +224,8 @@ def test_adding_a_channel_never_creates_fixed_modes() -> None:
 @pytest.mark.parametrize("degree", [1, 3])
 def test_a_planted_mode_is_found_among_80_states_and_40_channels(degree: int) -> None:
     drawn = system_with_fixed_mode(SeededChoices(degree), states=80, channels=40, degree=degree)
-    start = clock.perf_counter()
     spectrum = fixed_spectrum(drawn.system)
-    found = clock.perf_counter() - start
     verdict = check_document(codec.encode(spectrum.certificate).encode())
-    print(
-        f"degree {degree}: found in {found:.2f} s, checked in {clock.perf_counter() - start:.2f} s"
-    )
     assert verdict.verdict == "VALID", verdict
     assert drawn.fixed_mode in [f.polynomial for f in spectrum.factors]
 
