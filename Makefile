@@ -5,7 +5,7 @@ BIN := .venv/bin
 STAMP := .venv/.installed
 GALLERY := mcexact/model/gallery
 
-.PHONY: reproduce look ledger demo test lint types tests agreement mutations bench proofs weakened-proofs
+.PHONY: records reproduce look ledger demo test lint types tests agreement mutations bench proofs weakened-proofs
 
 demo: $(STAMP)
 	$(BIN)/mcexact demo
@@ -39,6 +39,10 @@ mutations: $(STAMP)
 # Every statement of the paper, with a report and certificates in reproduction/: less than a minute.
 reproduce: $(STAMP)
 	$(BIN)/mcexact reproduce -o reproduction
+
+# What floating point answers wrongly on this machine, recorded beside the exhibits.
+records: $(STAMP)
+	$(BIN)/python -m mcexact.crosscheck.recording
 
 # The reports in a browser, at two widths, light and dark; screenshots in look/.
 look: $(STAMP)

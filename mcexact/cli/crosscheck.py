@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import click
@@ -10,12 +11,26 @@ from mcexact.cli import options
 
 
 @click.command(name="crosscheck", short_help="Floating-point verdicts beside the exact ones.")
-@click.argument("file")
+@click.argument("file", required=False)
+@click.option(
+    "--exhibits",
+    is_flag=True,
+    help="Instead of FILE: systems on which floating point was recorded to be wrong, with what it "
+    "answered there and what it answers on this machine.",
+)
+@click.option(
+    "--html",
+    type=click.Path(dir_okay=False, path_type=Path),
+    metavar="FILE",
+    help="With --exhibits: write them as a page for a browser.",
+)
 @options.as_json
 @options.work_limits
 @options.file_limits
 def command(
-    file: str,
+    file: str | None,
+    exhibits: bool,
+    html: Path | None,
     as_json: bool,
     timeout: float | None,
     max_memory: int | None,
@@ -29,19 +44,29 @@ def command(
     from mcexact.cli.files import place_of, read
     from mcexact.cli.output import emit, emit_json
     from mcexact.cli.supervision import supervised
+    from mcexact.model.atomic import write_text
     from mcexact.report.text import plain
 
-    place = place_of(file)
-    moved = options.given(limits)
-    answer = supervised(
-        _crosschecked,
-        place,
-        read(file, moved),
-        moved,
-        doing=f"cross-checking {place}",
-        timeout=timeout,
-        max_memory=max_memory,
-    )
+    if exhibits == (file is not None):
+        raise click.UsageError("give either FILE or --exhibits")
+    if html is not None and not exhibits:
+        raise click.UsageError("--html goes with --exhibits")
+    if file is None:
+        doing = "asking the exhibits' questions"
+        answer = supervised(_exhibited, doing=doing, timeout=timeout, max_memory=max_memory)
+    else:
+        place, moved = place_of(file), options.given(limits)
+        answer = supervised(
+            _crosschecked,
+            place,
+            read(file, moved),
+            moved,
+            doing=f"cross-checking {place}",
+            timeout=timeout,
+            max_memory=max_memory,
+        )
+    if html is not None:
+        write_text(html, answer["html"])
     if as_json:
         emit_json(answer["json"])
     else:
@@ -57,3 +82,16 @@ def _crosschecked(place: str, data: bytes, limits: dict[str, int]) -> dict[str, 
     system = system_in(place, data, limits)
     found = crosscheck(system)
     return {"json": crosscheck_view(found), "tables": crosscheck_tables(found)}
+
+
+def _exhibited() -> dict[str, Any]:
+    """Ask every exhibit's question here: what the child process does."""
+    from mcexact.crosscheck.gallery import exhibits, shown
+    from mcexact.report.crosscheck_view import exhibit_tables, exhibits_page, exhibits_view
+
+    found = [shown(each) for each in exhibits()]
+    return {
+        "json": exhibits_view(found),
+        "tables": exhibit_tables(found),
+        "html": exhibits_page(found),
+    }

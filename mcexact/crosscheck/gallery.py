@@ -1,10 +1,16 @@
-"""Systems on which floating point gives a wrong structural verdict, and why it does."""
+"""Systems on which floating point was recorded with a wrong structural verdict, and why it erred.
+
+Some of these verdicts are the sign of a rounding error, which other processors round otherwise: an
+exhibit is shown with the record, and beside it with what this machine says now.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from mcexact.crosscheck.records import Libraries, Record, libraries_of, recorded
+from mcexact.crosscheck.table import CrossCheck, CrossChecks, crosscheck
 from mcexact.errors import InternalError, UsageError
 from mcexact.exact.linear_algebra import inverse
 from mcexact.exact.matrix import Matrix
@@ -12,11 +18,12 @@ from mcexact.exact.polynomial import Polynomial
 from mcexact.model import gallery as published
 from mcexact.model.names import nearest, quoted
 from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system_file import digest
 
 
 @dataclass(frozen=True)
 class Exhibit:
-    """A system, a question that floating point answers wrongly, and the reason.
+    """A system, a question that floating point was seen to answer wrongly, and the reason.
 
     Attributes
     ----------
@@ -32,6 +39,54 @@ class Exhibit:
     question: str
     why: str
     make: Callable[[], MultiChannelSystem]
+
+    @property
+    def record(self) -> Record:
+        """What floating point answered where it was recorded."""
+        found = recorded()["exhibits"][self.name]
+        return Record(found["floating"], libraries_of(found["libraries"]))
+
+
+@dataclass(frozen=True)
+class Shown:
+    """An exhibit beside what this machine says.
+
+    Attributes
+    ----------
+    exhibit : Exhibit
+        With the record.
+    here : CrossCheck
+        Its question, answered exactly and, on this machine, in floating point.
+    libraries : Libraries
+        That answered here.
+    """
+
+    exhibit: Exhibit
+    here: CrossCheck
+    libraries: Libraries
+
+
+def shown(exhibit: Exhibit) -> Shown:
+    """Ask an exhibit's question on this machine, exactly and in floating point.
+
+    Examples
+    --------
+    >>> weak = shown(exhibit("weak-input"))
+    >>> weak.exhibit.record.floating, weak.here.exact
+    ('no, rank 1 of 2', 'yes, rank 2 of 2')
+    """
+    return _shown(exhibit, crosscheck(exhibit.make()))
+
+
+def shown_in(found: CrossChecks) -> tuple[Shown, ...]:
+    """The exhibits that are about the system of these cross-checks."""
+    asked = digest(found.system)
+    return tuple(_shown(each, found) for each in exhibits() if digest(each.make()) == asked)
+
+
+def _shown(exhibit: Exhibit, found: CrossChecks) -> Shown:
+    rows = {row.question: row for row in found.rows}
+    return Shown(exhibit, rows[exhibit.question], found.libraries)
 
 
 def exhibits() -> tuple[Exhibit, ...]:
@@ -78,18 +133,18 @@ _PUBLISHED = (
     _published(
         "compleib-rea3-m1",
         "joint observability",
-        "time constants of a reactor spread over many decades: of the 10 observable directions "
-        "the tolerance, relative to the largest one, leaves 1",
+        "time constants of a reactor spread over many decades: the tolerance, relative to the "
+        "largest singular value, leaves 1 of the 10 observable directions",
     ),
     _published(
         "compleib-cse1",
         "stability of A",
-        "an eigenvalue lies exactly on the boundary; the computed one falls on the stable side",
+        "an eigenvalue lies exactly on the boundary; the computed one fell on the stable side",
     ),
     _published(
         "siljak-two-subsystems-farina",
         "stability of A",
-        "an eigenvalue is exactly 0; the computed one is a negative rounding error",
+        "an eigenvalue is exactly 0; the computed one was a negative rounding error",
     ),
     _published(
         "farina-three-rooms",
@@ -106,7 +161,7 @@ _PUBLISHED = (
     _published(
         "liu2020-unimodular",
         "any fixed mode, pencils",
-        "the pencil loses rank at the eigenvalue 1 exactly, but the computed eigenvalue is off by "
+        "the pencil loses rank at the eigenvalue 1 exactly, but the computed eigenvalue was off by "
         "the square root of the machine precision, and there it has full rank",
     ),
     _published(

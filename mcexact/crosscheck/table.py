@@ -15,6 +15,7 @@ from mcexact.analysis.controllability_indices import (
 )
 from mcexact.analysis.fixed_spectrum import FixedSpectrum, fixed_spectrum
 from mcexact.analysis.transfer_graph import transfer_graph
+from mcexact.crosscheck.records import Libraries, libraries_here
 from mcexact.exact.floats import matrix_to_float
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.location import StabilityRegion
@@ -65,11 +66,14 @@ class CrossChecks:
     rows : tuple of CrossCheck
     distance : FixedModeDistance or None
         An upper bound, in floating point, on the distance to having a fixed mode.
+    libraries : Libraries
+        That answered in floating point.
     """
 
     system: MultiChannelSystem
     rows: tuple[CrossCheck, ...]
     distance: FixedModeDistance | None
+    libraries: Libraries
 
     @property
     def disagreements(self) -> tuple[CrossCheck, ...]:
@@ -110,17 +114,17 @@ def crosscheck(system: MultiChannelSystem) -> CrossChecks:
     Notes
     -----
     The floating-point functions are those of numpy, scipy and python-control at their default
-    tolerances, on the floats nearest to the entries.  Draws are seeded.
+    tolerances, on the floats nearest to the entries.  Draws are seeded.  Where a verdict hangs on
+    rounding errors it is other on other processors: `libraries` says what answered.
 
     Examples
     --------
-    Rank 7 in numpy, 20 in truth:
+    An input of 10⁻²⁰ is an input, but any tolerance takes it for none:
 
-    >>> A = [[(i + 1) * (i == j) for j in range(20)] for i in range(20)]
-    >>> plant = MultiChannelSystem(A, [[[1]] * 20], [[[1] * 20]])
+    >>> plant = MultiChannelSystem([[1, 0], [0, 2]], [[[1], ["1e-20"]]], [[[1, 1]]])
     >>> row = crosscheck(plant).disagreements[0]
     >>> row.question, row.floating, row.exact
-    ('joint controllability', 'no, rank 7 of 20', 'yes, rank 20 of 20')
+    ('joint controllability', 'no, rank 1 of 2', 'yes, rank 2 of 2')
     """
     floats = _Floats(
         matrix_to_float(system.A),
@@ -136,7 +140,12 @@ def crosscheck(system: MultiChannelSystem) -> CrossChecks:
         _stability(system, floats),
     ]
     distance = _answer(lambda: fixed_mode_distance(floats.A, floats.B, floats.C))
-    return CrossChecks(system, tuple(rows), None if isinstance(distance, _NoAnswer) else distance)
+    return CrossChecks(
+        system,
+        tuple(rows),
+        None if isinstance(distance, _NoAnswer) else distance,
+        libraries_here(),
+    )
 
 
 @dataclass(frozen=True)

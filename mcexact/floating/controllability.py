@@ -50,10 +50,10 @@ def controllability_rank(A: NDArray[np.float64], B: NDArray[np.float64]) -> int:
 
     Examples
     --------
-    The rank of this pair is 20:
+    The rank of this pair is 20; how much less is computed depends on the processor:
 
-    >>> controllability_rank(np.diag(np.arange(1.0, 21.0)), np.ones((20, 1)))
-    7
+    >>> controllability_rank(np.diag(np.arange(1.0, 21.0)), np.ones((20, 1))) < 20
+    True
     """
     return int(np.linalg.matrix_rank(controllability_matrix(A, B)))
 

@@ -1,11 +1,15 @@
-"""The table of floating-point verdicts beside exact ones, as text and as plain data."""
+"""Floating-point verdicts beside exact ones, and where floating point was recorded to be wrong."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
+from mcexact.crosscheck.gallery import Shown, shown_in
+from mcexact.crosscheck.records import Libraries
 from mcexact.crosscheck.table import CrossChecks
 from mcexact.report.observer_float_view import finite
+from mcexact.report.page import page
 from mcexact.report.text import Table
 
 _WORDS = {True: "agree", False: "DISAGREE", None: "no answer"}
@@ -27,6 +31,8 @@ def crosscheck_view(found: CrossChecks) -> dict[str, Any]:
             for row in found.rows
         ],
         "disagreements": [row.question for row in found.disagreements],
+        "libraries": found.libraries.document(),
+        "exhibits": exhibits_view(shown_in(found)),
         "floating_point": {
             "distance_to_fixed_mode": None
             if distance is None
@@ -52,8 +58,12 @@ def crosscheck_tables(found: CrossChecks) -> tuple[Table, ...]:
             f"{found.system.name or 'system'}: floating point beside exact, {said}",
             ("question", "floating point", "exact", "", "floating-point call, default tolerance"),
             rows,
+            note=f"in floating point: {found.libraries}",
         )
     ]
+    recorded = shown_in(found)
+    if recorded:
+        tables += exhibit_tables(recorded)
     distance = found.distance
     if distance is not None:
         names = ", ".join(found.system.named(distance.channels)) or "none"
@@ -73,3 +83,71 @@ def crosscheck_tables(found: CrossChecks) -> tuple[Table, ...]:
         title = "distance to having a fixed mode, in floating point, not proved"
         tables.append(Table(title, (), lines))
     return tuple(tables)
+
+
+def exhibit_tables(shown: Sequence[Shown]) -> tuple[Table, ...]:
+    """What was recorded, what this machine says and what is true; then the machines, and why."""
+    machines = [("recorded", str(libraries)) for libraries in _recorded_by(shown)]
+    machines += [("here", str(libraries)) for libraries in _answered_by(shown)]
+    return (
+        Table(
+            "where floating point was recorded to be wrong",
+            ("exhibit", "question", "recorded", "here", "exact"),
+            tuple(
+                (
+                    each.exhibit.name,
+                    each.here.question,
+                    each.exhibit.record.floating,
+                    each.here.floating,
+                    each.here.exact,
+                )
+                for each in shown
+            ),
+        ),
+        Table("what answered in floating point", (), tuple(machines)),
+        Table("why it erred", (), tuple((each.exhibit.name, each.exhibit.why) for each in shown)),
+    )
+
+
+def exhibits_view(shown: Sequence[Shown]) -> list[dict[str, Any]]:
+    """The exhibits as plain data."""
+    return [
+        {
+            "exhibit": each.exhibit.name,
+            "question": each.here.question,
+            "call": each.here.call,
+            "exact": each.here.exact,
+            "recorded": {
+                "floating": each.exhibit.record.floating,
+                "libraries": each.exhibit.record.libraries.document(),
+            },
+            "here": {
+                "floating": each.here.floating,
+                "agree": each.here.agree,
+                "libraries": each.libraries.document(),
+            },
+            "why": each.exhibit.why,
+        }
+        for each in shown
+    ]
+
+
+def exhibits_page(shown: Sequence[Shown]) -> str:
+    """The exhibits as one page of HTML."""
+    return page(
+        "exhibits",
+        title="Where floating point was recorded to be wrong",
+        exhibits=exhibits_view(shown),
+        recorded=[str(libraries) for libraries in _recorded_by(shown)],
+        here=[str(libraries) for libraries in _answered_by(shown)],
+    )
+
+
+def _recorded_by(shown: Sequence[Shown]) -> list[Libraries]:
+    """What answered where these exhibits were recorded, each once."""
+    return list(dict.fromkeys(each.exhibit.record.libraries for each in shown))
+
+
+def _answered_by(shown: Sequence[Shown]) -> list[Libraries]:
+    """What answered on this machine, once."""
+    return list(dict.fromkeys(each.libraries for each in shown))

@@ -11,6 +11,7 @@ import pytest
 import mcexact
 from mcexact.cli import main
 from mcexact.cli.commands import COMMANDS
+from mcexact.crosscheck.records import libraries_here
 from mcexact.model import gallery
 from mcexact.model.system_file import load_system
 
@@ -75,7 +76,7 @@ def test_an_error_that_nobody_foresaw_asks_to_be_reported(
     def broken() -> None:
         raise ZeroDivisionError("surprise")
 
-    monkeypatch.setattr("mcexact.report.demonstration.demonstration", broken)
+    monkeypatch.setattr("mcexact.crosscheck.demonstration.demonstration", broken)
     status, out, err = call("demo")
     assert (status, out) == (70, "")
     assert "internal error, ZeroDivisionError: surprise" in err
@@ -87,24 +88,26 @@ def test_an_interruption_is_status_130(call: Call, monkeypatch: pytest.MonkeyPat
     def interrupted() -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("mcexact.report.demonstration.demonstration", interrupted)
+    monkeypatch.setattr("mcexact.crosscheck.demonstration.demonstration", interrupted)
     assert call("demo")[0] == 130
 
 
-def test_demo_prints_what_the_readme_says_it_prints(call: Call) -> None:
+def test_demo_prints_what_the_readme_says_was_recorded(call: Call) -> None:
     status, out, _ = call("demo")
     assert status == 0
+    recorded, _, here = out.partition("\nOn this machine ")
     quoted = README.read_text(encoding="utf-8").replace("\n    ", "\n")
-    assert out in quoted
+    assert recorded in quoted
+    assert f"{libraries_here()}" in here
 
 
-def test_demo_as_json_has_both_failures(call: Call) -> None:
+def test_demo_as_json_has_both_failures_and_what_this_machine_says(call: Call) -> None:
     shown = json.loads(call("demo", "--json")[1])
-    assert shown["controllability"]["numpy"]["rank"] == 7
     assert shown["controllability"]["mcexact"]["rank"] == 20
-    assert [row["runs_that_found_none"] for row in shown["fixed_modes"]["numpy"]] == [200] * 3
     (fixed,) = shown["fixed_modes"]["mcexact"]
     assert fixed == {"factor": "x - 1", "multiplicity_at_most": 3}
+    assert shown["numpy"]["recorded"]["rank"] < 20
+    assert shown["numpy"]["here"]["libraries"] == libraries_here().document()
 
 
 def test_analyze_writes_a_valid_certificate_for_every_answer(call: Call, tmp_path: Path) -> None:

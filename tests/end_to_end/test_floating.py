@@ -6,7 +6,7 @@ from fractions import Fraction
 import pytest
 
 from mcexact.certificate import encode
-from mcexact.model import gallery
+from mcexact.crosscheck.gallery import exhibit, exhibits
 from mcexact.model.controller_file import save_controller
 from mcexact.model.local_controllers import local_controllers
 from mcexact.model.system import MultiChannelSystem
@@ -114,15 +114,42 @@ def test_a_controller_of_another_plant_is_malformed_input(folder, tmp_path):
     assert missing.status == 3
 
 
-def test_the_cross_check_names_the_disagreement(tmp_path):
-    save_system(gallery.load("hidden-triple-mode"), tmp_path / "plant.json")
+def test_the_cross_check_names_the_disagreements_and_what_answered(tmp_path):
+    save_system(exhibit("weak-input").make(), tmp_path / "plant.json")
+    answer = json.loads(run("crosscheck", str(tmp_path / "plant.json"), "--json").stdout)
+    assert "joint controllability" in answer["disagreements"]
+    assert answer["floating_point"]["distance_to_fixed_mode"]["at_most"] < 1e-12
+    [recorded] = answer["exhibits"]
+    assert recorded["exhibit"] == "weak-input"
     done = run("crosscheck", str(tmp_path / "plant.json"))
-    assert done.status == 0 and "3 wrong in floating point" in done.stdout
+    assert done.status == 0
+    assert f"{len(answer['disagreements'])} wrong in floating point" in done.stdout
     assert "numpy.linalg.matrix_rank(control.ctrb(A, B))" in done.stdout
     assert "in floating point, not proved" in done.stdout
-    answer = json.loads(run("crosscheck", str(tmp_path / "plant.json"), "--json").stdout)
-    assert "fixed modes, 8 digits" in answer["disagreements"]
-    assert answer["floating_point"]["distance_to_fixed_mode"]["at_most"] < 1e-12
+    assert "where floating point was recorded to be wrong" in done.stdout
+
+
+def test_the_exhibits_are_listed_and_written_as_a_page(tmp_path):
+    page = tmp_path / "exhibits.html"
+    done = run("crosscheck", "--exhibits", "--html", str(page), "--json")
+    assert done.status == 0
+    shown = json.loads(done.stdout)
+    assert [each["exhibit"] for each in shown] == [each.name for each in exhibits()]
+    assert all(each["recorded"]["floating"] != each["exact"] for each in shown)
+    assert all(each["exhibit"] in page.read_text() for each in shown)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ([], "give either FILE or --exhibits"),
+        (["plant.json", "--exhibits"], "give either FILE or --exhibits"),
+        (["plant.json", "--html", "page.html"], "--html goes with --exhibits"),
+    ],
+)
+def test_wrong_usage_of_crosscheck_gets_one_message(arguments, message):
+    done = run("crosscheck", *arguments)
+    assert done.status == 2 and message in done.stderr
 
 
 def test_the_cross_check_of_nonsense_is_malformed_input():

@@ -4,12 +4,22 @@ import json
 
 import pytest
 
+from mcexact.crosscheck.demonstration import Demonstration, FloatingAnswers
+from mcexact.crosscheck.gallery import exhibit, shown
+from mcexact.crosscheck.records import Libraries
 from mcexact.crosscheck.table import crosscheck
 from mcexact.model import gallery
 from mcexact.model.local_controllers import local_controllers
 from mcexact.model.system import MultiChannelSystem
 from mcexact.report.certify_view import verdict_tables, verdict_view
-from mcexact.report.crosscheck_view import crosscheck_tables, crosscheck_view
+from mcexact.report.crosscheck_view import (
+    crosscheck_tables,
+    crosscheck_view,
+    exhibit_tables,
+    exhibits_page,
+    exhibits_view,
+)
+from mcexact.report.demonstration_view import demonstration_text, demonstration_view
 from mcexact.report.observer_float_view import (
     design_margins,
     observer_float_tables,
@@ -18,6 +28,7 @@ from mcexact.report.observer_float_view import (
 from mcexact.report.text import plain
 from mcexact.synthesis.certify import certify_controller
 from mcexact.synthesis.observer import design_observer
+from tests.report.strict_html import Page, external_addresses
 from tests.synthesis.three_channels import three_channels
 
 
@@ -69,3 +80,60 @@ def test_the_cross_check_counts_its_disagreements(name):
     text = plain(crosscheck_tables(found))
     assert said in text and text.count("DISAGREE") == count
     json.dumps(crosscheck_view(found), allow_nan=False)
+
+
+ELSEWHERE = Libraries((("numpy", "1.26"), ("OpenBLAS", "0.3.23")), "Haswell")
+HERE = Libraries((("numpy", "2.4"), ("OpenBLAS", "0.3.31")), None)
+
+
+def test_an_exhibit_shows_its_record_beside_what_this_machine_says():
+    weak, zero = shown(exhibit("weak-input")), shown(exhibit("siljak-two-subsystems-farina"))
+    answers, machines, reasons = exhibit_tables([weak, zero])
+    assert answers.rows[0] == (
+        "weak-input",
+        "joint controllability",
+        *("no, rank 1 of 2", "no, rank 1 of 2", "yes, rank 2 of 2"),
+    )
+    assert answers.rows[1][2:] == ("yes", zero.here.floating, "no")
+    assert dict(machines.rows) == {
+        "recorded": str(weak.exhibit.record.libraries),
+        "here": str(weak.libraries),
+    }
+    assert [name for name, _ in reasons.rows] == ["weak-input", "siljak-two-subsystems-farina"]
+    json.dumps(exhibits_view([weak, zero]), allow_nan=False)
+
+
+def test_the_page_of_the_exhibits_names_the_machines_and_needs_no_other_file():
+    weak = shown(exhibit("weak-input"))
+    text = exhibits_page([weak])
+    assert Page(text).text and not external_addresses(text)
+    assert f"Recorded with {weak.exhibit.record.libraries}." in text
+    assert f"Here: {weak.libraries}." in text
+    assert "no, rank 1 of 2" in text and "yes, rank 2 of 2" in text
+
+
+def test_the_cross_check_of_an_exhibit_shows_the_record_too():
+    text = plain(crosscheck_tables(crosscheck(exhibit("weak-input").make())))
+    assert "where floating point was recorded to be wrong" in text
+    found = crosscheck(MultiChannelSystem([[1]], [[[1]]], [[[1]]]))
+    assert "recorded" not in plain(crosscheck_tables(found))
+    assert crosscheck_view(found)["exhibits"] == []
+
+
+@pytest.mark.parametrize(
+    ("rank", "none", "words"),
+    [
+        (7, 200, "they are the same"),
+        (8, 200, "1. matrix_rank([B AB ... A^19B]) = 8"),
+        (7, 199, "2. eigenvalues of 5 drawn closed loops, rounded to 6 digits: none, in 199 of"),
+    ],
+)
+def test_the_demonstration_tells_what_is_other_on_this_machine(rank, none, words):
+    recorded = FloatingAnswers(7, ((6, 200),), ELSEWHERE)
+    here = FloatingAnswers(rank, ((6, none),), HERE)
+    demonstration = Demonstration(20, "plant", (("x - 1", 3),), recorded, here)
+    before, _, after = demonstration_text(demonstration).partition("On this machine")
+    assert words in after and str(HERE) in after and "kernel unknown" in after
+    assert str(ELSEWHERE) in before and "(x - 1)^3" in before
+    view = demonstration_view(demonstration)["numpy"]
+    assert view["recorded"]["rank"] == 7 and view["here"]["rank"] == rank

@@ -1,0 +1,58 @@
+"""Recording what floating point answers here: `python -m mcexact.crosscheck.recording`.
+
+An answer is recorded where it is wrong; where this machine happens to round the right way, the
+older record, with the machine that it names, is kept.
+"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+from mcexact.crosscheck.demonstration import floating_answers
+from mcexact.crosscheck.gallery import exhibits
+from mcexact.crosscheck.records import RECORDS, libraries_here
+from mcexact.crosscheck.table import crosscheck
+from mcexact.model.atomic import write_text
+
+_PLACE = Path(__file__).with_name(RECORDS)
+
+
+def record(known: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:
+    """The document of the records brought up to date, and what is answered rightly here.
+
+    Parameters
+    ----------
+    known : dict
+        The document as it was; empty at first.
+    """
+    libraries = libraries_here().document()
+    shown: dict[str, Any] = {}
+    right = []
+    for each in exhibits():
+        rows = {row.question: row for row in crosscheck(each.make()).disagreements}
+        if each.question in rows:
+            shown[each.name] = {"floating": rows[each.question].floating, "libraries": libraries}
+        else:
+            right.append(each.name)
+            if each.name in known.get("exhibits", {}):
+                shown[each.name] = known["exhibits"][each.name]
+    answers = floating_answers()
+    if not answers.misleading:
+        right.append("demonstration")
+    demonstrated = answers.document() if answers.misleading else known["demonstration"]
+    return {"demonstration": demonstrated, "exhibits": shown}, right
+
+
+def main() -> None:
+    """Write the records of this machine into the package."""
+    known = json.loads(_PLACE.read_text("utf-8")) if _PLACE.exists() else {}
+    document, right = record(known)
+    write_text(_PLACE, json.dumps(document, indent=1) + "\n")
+    for name in right:
+        print(f"{name}: floating point answers rightly here, so nothing is recorded")
+
+
+if __name__ == "__main__":
+    main()
