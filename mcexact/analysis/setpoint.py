@@ -42,7 +42,7 @@ class SetpointSolvability:
         frequency.
     combinations : Matrix
         Rows w_2 ≠ 0, one entry for each output: w_2 · r = 0 for every vector r of set-points that
-        constant inputs can hold.  No rows when every set-point can be held.
+        an equilibrium holds.  No rows when every set-point can be held.
     certificate : SetpointCertificate
     """
 
@@ -54,7 +54,7 @@ class SetpointSolvability:
 
 
 def setpoint_solvability(system: MultiChannelSystem) -> SetpointSolvability:
-    """Decide whether set-point control of all outputs is possible.
+    """Decide whether linear time-invariant set-point control of all outputs is possible.
 
     Parameters
     ----------

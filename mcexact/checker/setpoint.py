@@ -45,12 +45,13 @@ def check(claim: Any, witness: Any, system: System) -> str:
         unused = zero is None and x0 is None and row is None
         require(unused, "claim", "claim.invariant_zero", "expected null where it is solvable")
         return result + "integrators behind all outputs add no mode that the inputs do not control"
+    result += "no linear time-invariant set-point control of all outputs; "
     if boolean(zero, "claim.invariant_zero"):
         require(row is None, "claim", "witness.normal", "expected null for an invariant zero")
         point = Fraction(integer(x0, "witness.point"))
         full = _rank(fixed + moving.times(point), ell) == rows
         require(full, "rank", "witness.point", "the rank there is not full modulo l")
-        return result + f"no set-point control of all outputs; {place} is an invariant zero"
+        return result + f"{place} is an invariant zero"
     require(x0 is None, "claim", "witness.point", "expected null where there is no such point")
     layers = polynomial_matrix(row, "witness.normal", 1, rows, rows + 1)
     require(not all(w.is_zero() for w in layers), "zero", "witness.normal", "the row is zero")
@@ -58,7 +59,7 @@ def check(claim: Any, witness: Any, system: System) -> str:
     for w, before in zip([*layers, below[0]], below, strict=True):
         same = (w @ fixed + before @ moving).is_zero()
         require(same, "identity", "witness.normal", "the row does not annihilate the pencil")
-    return result + "no set-point control of all outputs; the pencil has rank below that everywhere"
+    return result + "the pencil has rank below that everywhere"
 
 
 def _rank(S: Matrix, ell: int) -> int:

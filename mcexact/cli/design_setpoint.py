@@ -25,7 +25,7 @@ from mcexact.cli import designing
 def command(file: str, road: str, **given: Any) -> None:
     """Design a distributed controller that holds every output of FILE at its agent's set-point.
 
-    FILE needs a neighbor graph. Run it with simulate --reference. If constant inputs cannot hold
-    some set-points, the status is 1 and the certificate gives the combination.
+    FILE needs a neighbor graph. Run it with simulate --reference. If no equilibrium holds some
+    set-points, the status is 1 and the certificate gives the combination.
     """
     designing.answer("setpoint", file, given, {"road": road})

@@ -122,8 +122,9 @@ def design_setpoint(
     Raises
     ------
     Impossible
-        If some set-points cannot be held (the certificate gives the combination), a mode cannot be
-        controlled or observed, or no linear time-invariant feedback along this road can do it.
+        If no equilibrium holds some set-points (the certificate gives the combination), a mode
+        cannot be controlled or observed, or no linear time-invariant feedback along this road can
+        do it.
 
     Notes
     -----
@@ -142,7 +143,7 @@ def design_setpoint(
     >>> design_setpoint(wash, rate=1)
     Traceback (most recent call last):
         ...
-    mcexact.errors.Impossible: no constant input holds set-points with (1) r != 0, r the \
+    mcexact.errors.Impossible: no equilibrium holds set-points with (1) r != 0, r the \
 set-points of all outputs in order; 0 is an invariant zero of the plant
     """
     system, found = with_graph(system, graph)
@@ -244,8 +245,7 @@ def _required(system: MultiChannelSystem) -> SetpointSolvability:
             "(" + ", ".join(map(str, row)) + ") r != 0" for row in found.combinations.numerators
         )
         message = (
-            f"no constant input holds set-points with {rows}, r the set-points of all outputs in "
-            "order"
+            f"no equilibrium holds set-points with {rows}, r the set-points of all outputs in order"
         )
     else:
         message = "the integrators add a mode that no input controls"

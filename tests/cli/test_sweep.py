@@ -58,6 +58,7 @@ def test_a_folder_is_a_table_with_its_counts(call: Call, folder: Path) -> None:
         line[:9] for line in lines
     ]
     assert ["b.json", "4", "2", "empty", "yes"] in [line[:5] for line in lines]
+    assert "not stabilizable: by no linear time-invariant decentralized controller" in out
     assert ["with", "fixed", "modes", "1"] in lines and ["complete", "1"] in lines
 
 
