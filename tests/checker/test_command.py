@@ -15,6 +15,7 @@ import pytest
 from mcexact import checker
 from mcexact.checker.system import digest, read_plant
 from tests.checker.handmade import FIXED, FREE, PAPER, changed
+from tests.effort import PATIENCE
 
 ENVIRONMENTS = [
     {},
@@ -60,7 +61,7 @@ def run(
         text=True,
         encoding="utf-8",
         check=False,
-        timeout=60,
+        timeout=PATIENCE,
     )
 
 
@@ -152,7 +153,7 @@ def test_standard_input_is_a_file_as_well(folder: Path) -> None:
         input=json.dumps(FREE).encode(),
         capture_output=True,
         check=False,
-        timeout=60,
+        timeout=PATIENCE,
     )
     assert done.returncode == 0
     assert done.stdout.startswith(b"VALID the plant")

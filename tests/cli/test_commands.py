@@ -14,6 +14,7 @@ from mcexact.cli.commands import COMMANDS
 from mcexact.crosscheck.records import libraries_here
 from mcexact.model import gallery
 from mcexact.model.system_file import load_system
+from tests.end_to_end.command_line import without_progress
 
 GALLERY = Path(gallery.__file__).parent
 TRIPLE = str(GALLERY / "hidden-triple-mode.json")
@@ -32,7 +33,7 @@ def call(capsys: pytest.CaptureFixture[str]) -> Call:
         code = ended.value.code
         assert isinstance(code, int)
         captured = capsys.readouterr()
-        return code, captured.out, captured.err
+        return code, captured.out, without_progress(captured.err)
 
     return run
 

@@ -1,32 +1,29 @@
-"""Running the program as a user does: another process, its status, its output, what it used."""
+"""Running the program as a user does: another process, its status and its output."""
 
 import os
 import signal
 import subprocess
 import sys
-import tempfile
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
+
+from tests.effort import PATIENCE
 
 MCEXACT = (sys.executable, "-m", "mcexact")
-_MEASURED = Path(__file__).parent / "measured.py"
 
 
 @dataclass(frozen=True)
 class Run:
-    """What one run of the program ended with and used."""
+    """What one run of the program ended with."""
 
     status: int
     stdout: str
     stderr: str
-    cpu_seconds: float
-    mebibytes: float
 
     @property
     def messages(self) -> list[str]:
         """The lines on standard error, without those that say what takes long."""
-        return [line for line in self.stderr.splitlines() if not line.endswith(" …")]
+        return without_progress(self.stderr).splitlines()
 
 
 def run(
@@ -36,16 +33,20 @@ def run(
     environment: Mapping[str, str] | None = None,
 ) -> Run:
     """Run the program and wait for it."""
-    with tempfile.NamedTemporaryFile("r", encoding="ascii") as report:
-        done = subprocess.run(
-            [sys.executable, "-S", "-E", str(_MEASURED), report.name, *program, *arguments],
-            input=stdin,
-            capture_output=True,
-            check=False,
-            env={**os.environ, **(environment or {})},
-        )
-        cpu_seconds, mebibytes = map(float, report.read().split())
-    return Run(done.returncode, done.stdout.decode(), done.stderr.decode(), cpu_seconds, mebibytes)
+    done = subprocess.run(
+        [*program, *arguments],
+        input=stdin,
+        capture_output=True,
+        check=False,
+        env={**os.environ, **(environment or {})},
+        timeout=PATIENCE,
+    )
+    return Run(done.returncode, done.stdout.decode(), done.stderr.decode())
+
+
+def without_progress(text: str) -> str:
+    """What is on standard error without the lines that say what takes long: here or elsewhere."""
+    return "".join(line for line in text.splitlines(True) if not line.endswith(" …\n"))
 
 
 def interruptible() -> None:

@@ -8,7 +8,6 @@ import pickle
 import signal
 import subprocess
 import sys
-import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from fractions import Fraction
@@ -28,6 +27,8 @@ from mcexact.exact.polynomial import Polynomial
 from mcexact.model import gallery
 from mcexact.model.statespace import from_statespace
 from mcexact.sweep.run import sweep
+from tests import effort
+from tests.effort import PATIENCE
 from tests.end_to_end.command_line import MCEXACT, interruptible
 
 ONE = [[[1]]]
@@ -164,14 +165,12 @@ CALLS: dict[str, tuple[Callable[[], Any], type[McexactError], tuple[str, ...]]] 
 @pytest.mark.parametrize("name", CALLS)
 def test_a_call_that_cannot_be_meant_says_where_and_what(name: str) -> None:
     call, kind, texts = CALLS[name]
-    start = time.process_time()
-    with pytest.raises(McexactError) as caught:
+    with effort.at_most(20_000), pytest.raises(McexactError) as caught:
         call()
     assert isinstance(caught.value, kind)
     for text in texts:
         assert text in str(caught.value)
     assert "\n" not in str(caught.value)
-    assert time.process_time() - start < 1
 
 
 def test_b169_integer_arrays_are_taken_as_they_are() -> None:
@@ -196,7 +195,7 @@ def test_b191_threads_can_share_one_system() -> None:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="there is no such signal")
-def test_b187_an_interrupt_during_an_analysis_ends_it_with_130_within_two_seconds(
+def test_b187_an_interrupt_during_an_analysis_ends_it_with_130_and_leaves_nothing(
     tmp_path: Path,
 ) -> None:
     n, dice = 800, np.random.default_rng(1)
@@ -214,12 +213,12 @@ def test_b187_an_interrupt_during_an_analysis_ends_it_with_130_within_two_second
         stderr=subprocess.PIPE,
         preexec_fn=interruptible,
     ) as process:
-        time.sleep(2)
-        assert process.poll() is None, "too quick to be interrupted"
-        start = time.monotonic()
+        if process.stderr is None:
+            raise RuntimeError("no standard error")
+        said = process.stderr.readline()
+        assert said.decode().startswith("mcexact: analyzing ") and process.poll() is None
         process.send_signal(signal.SIGINT)
-        out, err = process.communicate(timeout=10)
-        assert time.monotonic() - start < 2
+        out, err = process.communicate(timeout=PATIENCE)
         assert (process.returncode, out) == (130, b"")
         assert b"Traceback" not in err
     assert [path.name for path in tmp_path.iterdir()] == ["large.json"]

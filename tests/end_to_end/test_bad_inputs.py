@@ -10,11 +10,11 @@ import pytest
 
 from mcexact.model import gallery
 from tests.end_to_end.bad_input_files import arguments
-from tests.end_to_end.command_line import MCEXACT, Run, run
+from tests.end_to_end.command_line import Run, run
 
 TABLE = json.loads((Path(__file__).parent / "bad_inputs.json").read_text(encoding="utf-8"))
-MOST_SECONDS = 1.0
-MOST_MEBIBYTES = 256
+FRUGAL = (sys.executable, "-m", "tests.effort", "200000")
+"""The program, allowed so many steps: it answers a bad input before any computation."""
 
 
 @pytest.fixture(scope="module")
@@ -54,11 +54,11 @@ def shared_loop(folder: Path) -> dict[str, Any]:
 def run_entry(entry: dict[str, Any], found: list[str]) -> Run:
     environment = entry.get("environment", {})
     if "shell" in entry:
-        command = entry["shell"].format(command=shlex.join([*MCEXACT, *found]))
+        command = entry["shell"].format(command=shlex.join([*FRUGAL, *found]))
         return run("-c", command, program=["sh"], environment=environment)
     if entry.get("closed_stdin"):
-        return run("-c", f"{shlex.join([*MCEXACT, *found])} <&-", program=["sh"])
-    return run(*found, environment=environment)
+        return run("-c", f"{shlex.join([*FRUGAL, *found])} <&-", program=["sh"])
+    return run(*found, program=FRUGAL, environment=environment)
 
 
 @pytest.mark.parametrize("entry", TABLE["entries"], ids=lambda entry: entry["id"])
@@ -79,8 +79,6 @@ def test_bad_input_gets_its_status_and_one_message(
         assert text in "\n".join(messages)
     for text in entry.get("prints", ()):
         assert text in done.stdout
-    assert done.cpu_seconds < MOST_SECONDS
-    assert done.mebibytes < MOST_MEBIBYTES
 
 
 def test_no_bad_input_leaves_a_file_behind(documents: dict[str, Any], tmp_path: Path) -> None:
