@@ -24,6 +24,10 @@ COMMANDS = (
 )
 
 
+class NoCommand(click.UsageError):
+    """A group is called without a command; the message is its help, which lists them."""
+
+
 class Commands(click.Group):
     """A group whose commands are modules of this package, each imported when it is named.
 
@@ -57,6 +61,18 @@ class Commands(click.Group):
         if not isinstance(command, click.Command):
             raise TypeError(f"{module.__name__}.command is not a command")
         return command
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Read the options of the group.
+
+        Raises
+        ------
+        NoCommand
+            If nothing follows the group; of this, versions of click make different statuses.
+        """
+        if not args and not ctx.resilient_parsing:
+            raise NoCommand(ctx.get_help(), ctx)
+        return super().parse_args(ctx, args)
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]

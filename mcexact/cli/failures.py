@@ -6,6 +6,7 @@ import re
 
 import click
 
+from mcexact.cli.commands import NoCommand
 from mcexact.errors import InternalError, McexactError
 
 DEFINITE_NO = 1
@@ -33,7 +34,7 @@ def one_message(error: BaseException) -> str:
 
     A group of commands that is called without one is no error to explain: its help is the answer.
     """
-    if type(error).__name__ == "NoArgsIsHelpError" and isinstance(error, click.UsageError):
+    if isinstance(error, NoCommand):
         return error.format_message()
     if isinstance(error, click.Abort | KeyboardInterrupt):
         text = "interrupted"
