@@ -92,22 +92,24 @@ def command(
     with status 1 if nothing suffices.
     """
 
+    from mcexact.cli.deadline import Deadline
     from mcexact.cli.files import directory, place_of, read
     from mcexact.cli.output import emit_json, emit_tables
     from mcexact.cli.supervision import supervised
     from mcexact.model.atomic import write_text
 
+    deadline = Deadline(timeout)
     place = place_of(file)
     names = ("bytes", "depth", "digits", "exponent")
     moved = options.given({name: rest.pop(name) for name in names})
     answer = supervised(
         _answer,
         place,
-        read(file, moved),
+        read(file, moved, deadline),
         moved,
         rest,
         doing=f"allocating for {place}",
-        timeout=timeout,
+        timeout=deadline,
         max_memory=max_memory,
     )
     if certificates is not None:

@@ -83,18 +83,20 @@ def command(
     completeness, and the parts into which the spectrum splits.
     """
 
+    from mcexact.cli.deadline import Deadline
     from mcexact.cli.files import directory, place_of, read, require_other
     from mcexact.cli.output import emit, emit_json, emit_tables
     from mcexact.cli.supervision import supervised
     from mcexact.model.atomic import write_text
 
+    deadline = Deadline(timeout)
     place = place_of(file)
     require_other(html, file)
     moved = options.given(limits)
     answer = supervised(
         _answer,
         place,
-        read(file, moved),
+        read(file, moved, deadline),
         moved,
         {
             "information": information,
@@ -107,7 +109,7 @@ def command(
         certificates is not None,
         {"html": html is not None, "latex": latex},
         doing=f"analyzing {place}",
-        timeout=timeout,
+        timeout=deadline,
         max_memory=max_memory,
     )
     if certificates is not None:

@@ -48,20 +48,22 @@ def command(
     whatever it was designed with. A no ends with status 1; with
     --certificates it is proved as well.
     """
+    from mcexact.cli.deadline import Deadline
     from mcexact.cli.files import directory, place_of, read
     from mcexact.cli.output import emit_json, emit_tables
     from mcexact.cli.supervision import supervised
     from mcexact.model.atomic import write_text
 
+    deadline = Deadline(timeout)
     moved = options.given(limits)
     answer = supervised(
         _certified,
-        (place_of(file), read(file, moved)),
-        (place_of(controller), read(controller, moved)),
+        (place_of(file), read(file, moved, deadline)),
+        (place_of(controller), read(controller, moved, deadline)),
         moved,
         {"rate": rate, "radius": radius, "largest": largest, "method": method},
         doing=f"certifying {place_of(controller)}",
-        timeout=timeout,
+        timeout=deadline,
         max_memory=max_memory,
     )
     if certificates is not None:

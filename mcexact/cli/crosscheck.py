@@ -41,6 +41,7 @@ def command(
     Each floating-point verdict is the library's own call with its default tolerance, and is quoted.
     At the end stands an upper bound on the distance to having a fixed mode, in floating point.
     """
+    from mcexact.cli.deadline import Deadline
     from mcexact.cli.files import place_of, read
     from mcexact.cli.output import emit, emit_json
     from mcexact.cli.supervision import supervised
@@ -51,18 +52,19 @@ def command(
         raise click.UsageError("give either FILE or --exhibits")
     if html is not None and not exhibits:
         raise click.UsageError("--html goes with --exhibits")
+    deadline = Deadline(timeout)
     if file is None:
         doing = "asking the exhibits' questions"
-        answer = supervised(_exhibited, doing=doing, timeout=timeout, max_memory=max_memory)
+        answer = supervised(_exhibited, doing=doing, timeout=deadline, max_memory=max_memory)
     else:
         place, moved = place_of(file), options.given(limits)
         answer = supervised(
             _crosschecked,
             place,
-            read(file, moved),
+            read(file, moved, deadline),
             moved,
             doing=f"cross-checking {place}",
-            timeout=timeout,
+            timeout=deadline,
             max_memory=max_memory,
         )
     if html is not None:

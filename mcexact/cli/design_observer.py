@@ -54,16 +54,18 @@ def command(
     nm + m - 1 for the estimation errors. If no linear time-invariant controller of this form
     exists, the status is 1 and the certificate says why.
     """
+    from mcexact.cli.deadline import Deadline
     from mcexact.cli.files import directory, place_of, read, require_other
     from mcexact.cli.output import emit, emit_json, emit_tables
     from mcexact.cli.supervision import supervised
     from mcexact.errors import Impossible
     from mcexact.model.atomic import write_text
 
+    deadline = Deadline(timeout)
     place = place_of(file)
     moved = options.given(limits)
     require_other(output, file, spectrum)
-    prescribed = None if spectrum is None else (place_of(spectrum), read(spectrum, moved))
+    prescribed = None if spectrum is None else (place_of(spectrum), read(spectrum, moved, deadline))
     wanted = {
         "q": agent,
         "rate": rate,
@@ -74,12 +76,12 @@ def command(
     answer = supervised(
         _designed,
         place,
-        read(file, moved),
+        read(file, moved, deadline),
         prescribed,
         moved,
         wanted,
         doing=f"designing for {place}",
-        timeout=timeout,
+        timeout=deadline,
         max_memory=max_memory,
     )
     if certificates is not None and answer["certificate"] is not None:

@@ -55,27 +55,29 @@ def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any
     wanted : mapping
         Further keywords of the function.
     """
+    from mcexact.cli.deadline import Deadline
     from mcexact.cli.files import directory, place_of, read, require_other
     from mcexact.cli.output import emit, emit_json, emit_tables
     from mcexact.cli.supervision import supervised
     from mcexact.errors import Impossible
     from mcexact.model.atomic import write_text
 
+    deadline = Deadline(given["timeout"])
     place = place_of(file)
     moved = options.given({k: given[k] for k in ("bytes", "depth", "digits", "exponent")})
     spectrum = given["spectrum"]
     require_other(given["output"], file, spectrum)
-    prescribed = None if spectrum is None else (place_of(spectrum), read(spectrum, moved))
+    prescribed = None if spectrum is None else (place_of(spectrum), read(spectrum, moved, deadline))
     keywords = {**wanted, "q": given["agent"], **{key: given[key] for key in HOW}}
     done = supervised(
         _designed,
         name,
-        (place, read(file, moved)),
+        (place, read(file, moved, deadline)),
         prescribed,
         moved,
         keywords,
         doing=f"designing for {place}",
-        timeout=given["timeout"],
+        timeout=deadline,
         max_memory=given["max_memory"],
     )
     if given["certificates"] is not None and done["certificates"]:

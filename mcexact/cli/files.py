@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from mcexact.errors import InputError
 
 if TYPE_CHECKING:
+    from mcexact.cli.deadline import Deadline
     from mcexact.model.system import MultiChannelSystem
 
 
@@ -17,21 +18,25 @@ def place_of(file: str) -> str:
     return "standard input" if file == "-" else file
 
 
-def read(file: str, limits: Mapping[str, int]) -> bytes:
+def read(file: str, limits: Mapping[str, int], deadline: Deadline) -> bytes:
     """The bytes of a file, or of the standard input for ``-``.
 
-    This is done before a child process is started, which has no standard input.
+    This is done before a child process is started, which has no standard input.  A pipe into which
+    nobody writes is waited for, until the deadline.
 
     Raises
     ------
     InputError
         If it is missing, unreadable or too large.
+    LimitReached
+        If the deadline is missed.
     """
     from mcexact.exact.rational import Limits
     from mcexact.model.json_text import read_bytes
 
     try:
-        return read_bytes(file, Limits(**limits))
+        with deadline.interrupting(f"reading {place_of(file)}"):
+            return read_bytes(file, Limits(**limits))
     except InputError as error:
         raise error.within(place_of(file)) from None
 

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from mcexact.cli import options
 from mcexact.cli.options import FOLDER, as_json
+
+if TYPE_CHECKING:
+    from mcexact.derived.draw import Draw
 
 
 @click.command(name="sample", short_help="Draw systems with known structure.")
@@ -27,28 +30,48 @@ from mcexact.cli.options import FOLDER, as_json
     "-o", "--output", type=FOLDER, metavar="DIR", help="Write system files into this directory."
 )
 @as_json
+@options.work_limits
 def command(
     seed: int,
     count: int,
     output: Path | None,
     as_json: bool,
+    timeout: float | None,
+    max_memory: int | None,
     **drawn: Any,
 ) -> None:
     """Draw a system that is jointly controllable and observable, and print its system file.
 
     A system file is JSON, so --json changes nothing here.
     """
+    from mcexact.cli.deadline import Deadline
     from mcexact.cli.files import directory
     from mcexact.cli.output import emit
-    from mcexact.derived.draw import Draw, drawn_system
+    from mcexact.cli.supervision import supervised
+    from mcexact.derived.draw import Draw
     from mcexact.model.atomic import write_text
-    from mcexact.model.system_file import system_text
 
     if count > 1 and output is None:
         raise click.UsageError("--count needs --output, a directory for the files")
+    deadline = Deadline(timeout)
     for number in range(seed, seed + count):
-        text = system_text(drawn_system(Draw(number, **drawn)))
+        text = supervised(
+            _drawn,
+            Draw(number, **drawn),
+            doing="drawing a system",
+            timeout=deadline,
+            max_memory=max_memory,
+            libraries=("flint",),
+        )
         if output is None:
             emit(text)
         else:
             write_text(directory(output) / f"sample-{number}.json", text)
+
+
+def _drawn(draw: Draw) -> str:
+    """Draw, and write it down: what the child process does."""
+    from mcexact.derived.draw import drawn_system
+    from mcexact.model.system_file import system_text
+
+    return system_text(drawn_system(draw))

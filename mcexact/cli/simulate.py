@@ -58,11 +58,13 @@ def command(
     **limits: int | None,
 ) -> None:
     """Run the CONTROLLER for the system in FILE, one agent each, messages along arcs only."""
+    from mcexact.cli.deadline import Deadline
     from mcexact.cli.files import place_of, read, require_other
     from mcexact.cli.output import emit_json, emit_tables
     from mcexact.cli.supervision import supervised
     from mcexact.model.atomic import write_bytes
 
+    deadline = Deadline(timeout)
     suffix = "" if output is None else output.suffix
     if suffix not in ("", ".csv", ".png", ".html") or (output is not None and not suffix):
         raise click.UsageError(f"expected a file that ends in .csv, .png or .html, found {output}")
@@ -70,8 +72,8 @@ def command(
     moved = options.given(limits)
     answer = supervised(
         _simulated,
-        (place_of(file), read(file, moved)),
-        (place_of(controller), read(controller, moved)),
+        (place_of(file), read(file, moved, deadline)),
+        (place_of(controller), read(controller, moved, deadline)),
         moved,
         {
             "initial": _numbers(initial, "--initial"),
@@ -81,7 +83,7 @@ def command(
         },
         suffix,
         doing=f"simulating {place_of(file)}",
-        timeout=timeout,
+        timeout=deadline,
         max_memory=max_memory,
     )
     for warning in answer["warnings"]:

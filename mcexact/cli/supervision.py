@@ -16,16 +16,18 @@ import signal
 import sys
 import time
 import traceback
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from multiprocessing.connection import Connection
 from typing import Any, TypeVar
 
-from mcexact.errors import InternalError, LimitReached, McexactError
+from mcexact.cli.deadline import Deadline
+from mcexact.cli.memory import MemoryLimit, died_of_memory, out_of_memory, ran_out
+from mcexact.errors import InternalError, McexactError
 from mcexact.sweep.workers import end_with_parent
 
 T = TypeVar("T")
 
-_MEBIBYTE = 1 << 20
+_LIBRARIES = ("flint", "numpy", "scipy.linalg")
 _SHOW_AFTER = 1.0  # seconds
 
 
@@ -33,8 +35,9 @@ def supervised(
     work: Callable[..., T],
     *arguments: Any,
     doing: str,
-    timeout: float | None = None,
+    timeout: float | Deadline | None = None,
     max_memory: int | None = None,
+    libraries: Sequence[str] = _LIBRARIES,
     quiet: bool = False,
 ) -> T:
     """Call a function in a child process and return what it returns.
@@ -47,10 +50,12 @@ def supervised(
         What it is called with.
     doing : str
         What is being done, for progress and for the message at a limit.
-    timeout : float, optional
-        Seconds.
+    timeout : float or Deadline, optional
+        Seconds for the work, or the deadline of the whole command.
     max_memory : int, optional
-        MiB that the child may add to what the program occupies when it starts.
+        MiB that the child may add to what the program and the libraries occupy.
+    libraries : sequence of str
+        Compiled libraries that are loaded before memory is limited.
     quiet : bool
         Show no progress.
 
@@ -70,46 +75,51 @@ def supervised(
     methods = multiprocessing.get_all_start_methods()
     context: Any = multiprocessing.get_context("fork" if "fork" in methods else "spawn")
     receiver, sender = context.Pipe(duplex=False)
-    child = context.Process(target=_child, args=(sender, max_memory, work, arguments))
+    deadline = timeout if isinstance(timeout, Deadline) else Deadline(timeout)
+    limits = (max_memory, tuple(libraries))
+    child = context.Process(target=_child, args=(sender, limits, work, arguments))
     sys.stdout.flush()
     sys.stderr.flush()
     child.start()
     sender.close()
     try:
-        outcome = _await(receiver, doing, timeout, quiet)
+        outcome = _await(receiver, doing, deadline, quiet)
     except EOFError:
         child.join()
-        raise _lost(child.exitcode, doing, max_memory) from None
+        if died_of_memory(child.exitcode, max_memory):
+            raise out_of_memory(doing, max_memory) from None
+        raise InternalError(
+            f"the computation ended with status {child.exitcode} while {doing}"
+        ) from None
     finally:
         child.kill()
         child.join()
         receiver.close()
     if isinstance(outcome, BaseException):
         if isinstance(outcome, MemoryError):
-            raise _out_of_memory(doing, max_memory)
+            raise out_of_memory(doing, max_memory)
         raise outcome
     result: T = outcome[0]
     return result
 
 
-def _await(receiver: Connection, doing: str, timeout: float | None, quiet: bool) -> Any:
+def _await(receiver: Connection, doing: str, deadline: Deadline, quiet: bool) -> Any:
     """Wait for the child's message, and show what it is doing if that takes long."""
     start = time.monotonic()
     with _terminable(), _progress(doing) as show:
-        while not receiver.poll(0.1 if timeout is None else min(0.1, timeout)):
-            elapsed = time.monotonic() - start
-            if timeout is not None and elapsed >= timeout:
-                raise LimitReached(
-                    f"the time limit of {timeout:g} s was reached while {doing}; "
-                    "nothing has been decided (--timeout allows more)"
-                )
+        while not receiver.poll(0.1 if (left := deadline.left()) is None else min(0.1, left)):
+            if deadline.left() == 0:
+                raise deadline.missed(doing)
             if not quiet:
-                show(elapsed)
+                show(time.monotonic() - start)
         return pickle.loads(receiver.recv_bytes())
 
 
 def _child(
-    sender: Connection, max_memory: int | None, work: Callable[..., Any], arguments: Any
+    sender: Connection,
+    limits: tuple[int | None, tuple[str, ...]],
+    work: Callable[..., Any],
+    arguments: Any,
 ) -> None:
     """Do the work and send its result, or the error that it ended with."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
@@ -120,53 +130,29 @@ def _child(
     silence = os.open(os.devnull, os.O_WRONLY)
     os.dup2(silence, 1)
     os.dup2(silence, 2)
+    max_memory, libraries = limits
+    limit = None
     try:
         if max_memory is not None:
-            _limit_memory(max_memory)
-        outcome: Any = (work(*arguments),)
-    except (McexactError, MemoryError) as error:
-        outcome = error
+            limit = MemoryLimit(max_memory, libraries)
+        message = pickle.dumps((work(*arguments),))
     except Exception as error:
-        frame = traceback.extract_tb(error.__traceback__)[-1]
-        place = f"{os.path.basename(frame.filename)}:{frame.lineno}"
-        outcome = InternalError(f"{type(error).__name__}: {error} ({place})")
-    sender.send_bytes(pickle.dumps(outcome))
+        if limit is not None:
+            limit.lift()
+        message = pickle.dumps(_told(error, limit))
+    sender.send_bytes(message)
     sender.close()
 
 
-def _limit_memory(mebibytes: int) -> None:
-    """Let this process grow by so much and no more."""
-    try:
-        import resource
-    except ImportError:
-        raise McexactError("this platform has no limit on memory") from None
-    occupied = 0
-    with contextlib.suppress(OSError, ValueError), open("/proc/self/statm") as statm:
-        occupied = int(statm.read().split()[0]) * resource.getpagesize()
-    limit = occupied + mebibytes * _MEBIBYTE
-    hard = resource.getrlimit(resource.RLIMIT_AS)[1]
-    resource.setrlimit(
-        resource.RLIMIT_AS, (limit if hard == resource.RLIM_INFINITY else min(limit, hard), hard)
-    )
-
-
-def _lost(exit_code: int | None, doing: str, max_memory: int | None) -> McexactError:
-    """What to say about a child that ended without a word."""
-    if max_memory is not None and exit_code in (-signal.SIGABRT, -signal.SIGSEGV, -signal.SIGBUS):
-        return _out_of_memory(doing, max_memory)
-    if exit_code == -getattr(signal, "SIGKILL", 9):
-        return _out_of_memory(doing, max_memory)
-    return InternalError(f"the computation ended with status {exit_code} while {doing}")
-
-
-def _out_of_memory(doing: str, max_memory: int | None) -> LimitReached:
-    """What to say when memory was not enough."""
-    if max_memory is None:
-        return LimitReached(f"the memory was exhausted while {doing}; nothing has been decided")
-    return LimitReached(
-        f"the memory limit of {max_memory} MiB was exhausted while {doing}; "
-        "nothing has been decided (--max-memory allows more)"
-    )
+def _told(error: Exception, limit: MemoryLimit | None) -> Exception:
+    """What the parent is told about an error: of those that were not intended, only the words."""
+    if ran_out(error) or (limit is not None and limit.explains(error)):
+        return MemoryError()
+    if isinstance(error, McexactError):
+        return error
+    frame = traceback.extract_tb(error.__traceback__)[-1]
+    place = f"{os.path.basename(frame.filename)}:{frame.lineno}"
+    return InternalError(f"{type(error).__name__}: {error} ({place})")
 
 
 @contextlib.contextmanager

@@ -16,6 +16,7 @@ from mcexact.cli import options
 from mcexact.cli.failures import INTERRUPTED
 
 if TYPE_CHECKING:
+    from mcexact.exact.rational import Limits
     from mcexact.sweep.jobs import Job, Source
     from mcexact.sweep.records import Record
 
@@ -113,6 +114,7 @@ def command(
         results=output,
         workers=workers or _processors(),
         limits=Limits(**options.given(limits)),
+        read=partial(_read, timeout=timeout),
         work=partial(_limited, timeout=timeout, max_memory=max_memory) if limited else decide,
     )
     documents: list[dict[str, Any]] = []
@@ -171,10 +173,22 @@ def _limited(job: Job, timeout: float | None, max_memory: int | None) -> dict[st
             doing=f"deciding {job.name}",
             timeout=timeout,
             max_memory=max_memory,
+            libraries=("flint", "numpy"),
             quiet=True,
         )
     except McexactError as error:
         return failure(error)
+
+
+def _read(path: str | os.PathLike[str], limits: Limits, timeout: float | None) -> bytes:
+    """Read a file; a pipe is waited for no longer than a system may take."""
+    from mcexact.cli.deadline import Deadline
+    from mcexact.model.json_text import read_bytes
+
+    if os.path.isfile(path):
+        return read_bytes(path, limits)
+    with Deadline(timeout).interrupting(f"reading {os.fspath(path)}"):
+        return read_bytes(path, limits)
 
 
 def _write(folder: Path, record: Record, total: int) -> None:

@@ -169,7 +169,7 @@ def _answer(call: Callable[[], Any]) -> Any:
         warnings.simplefilter("ignore")
         try:
             return call()
-        except ImportError as error:
+        except ModuleNotFoundError as error:
             return _NoAnswer(f"{error.name} is not installed")
         except (np.linalg.LinAlgError, ArithmeticError, ValueError) as error:
             return _NoAnswer(type(error).__name__)

@@ -7,8 +7,13 @@ from dataclasses import dataclass
 from mcexact.derived.choices import SeededChoices
 from mcexact.derived.drawn import jointly_controllable_system, system_with_fixed_mode
 from mcexact.derived.drawn_graph import drawn_graph
+from mcexact.errors import LimitReached
 from mcexact.exact.location import Time
+from mcexact.exact.rational import DEFAULT_LIMITS
 from mcexact.model.system import MultiChannelSystem
+
+# Each number takes some bytes of a system file: no more are drawn than are read back by default.
+_MOST_NUMBERS = DEFAULT_LIMITS.bytes // 4
 
 
 @dataclass(frozen=True)
@@ -39,6 +44,11 @@ class Draw:
 def drawn_system(draw: Draw) -> MultiChannelSystem:
     """Draw a system that is jointly controllable and observable.
 
+    Raises
+    ------
+    LimitReached
+        If it would be too large for a system file.
+
     Examples
     --------
     >>> drawn_system(Draw(seed=7, states=3)).n
@@ -46,6 +56,11 @@ def drawn_system(draw: Draw) -> MultiChannelSystem:
     """
     choices = SeededChoices(draw.seed)
     n, m, degree, time = draw.states, draw.channels, draw.fixed_degree, draw.time
+    if (numbers := max(n, 1) * (n + 2 * m)) > _MOST_NUMBERS:
+        raise LimitReached(
+            f"a system of {n} states and {m} channels has {numbers} numbers or more, and at most "
+            f"{_MOST_NUMBERS} are drawn; draw fewer states or channels"
+        )
     if degree is None:
         system = jointly_controllable_system(choices, n, m, time=time).system
     else:

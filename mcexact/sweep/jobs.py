@@ -5,20 +5,20 @@ from __future__ import annotations
 import hashlib
 import os
 import time
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import asdict, dataclass
 from typing import Any
 
 from mcexact.certificate import codec
 from mcexact.derived.draw import Draw, drawn_system
-from mcexact.errors import InputError, McexactError, UsageError
+from mcexact.errors import InputError, LimitReached, McexactError, UsageError
 from mcexact.exact.rational import DEFAULT_LIMITS, Limits
-from mcexact.model.json_text import read_bytes
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import digest, read_system, system_text
 from mcexact.sweep.questions import QUESTIONS
 
 Source = str | os.PathLike[str] | MultiChannelSystem | Draw
+Reader = Callable[[str | os.PathLike[str], Limits], bytes]
 Outcome = dict[str, Any]
 """Plain data that `decide` returns: what was decided, or why nothing was."""
 
@@ -65,12 +65,14 @@ def _hash(data: bytes) -> str:
     return hashlib.sha256(data).hexdigest()
 
 
-def job(source: Source, number: int, questions: tuple[str, ...], limits: Limits) -> Job:
+def job(
+    source: Source, number: int, questions: tuple[str, ...], limits: Limits, read: Reader
+) -> Job:
     """The job for one entry of a sweep.
 
     Raises
     ------
-    InputError
+    InputError, LimitReached
         If a file cannot be read.
     UsageError
         If the entry is nothing that names a system.
@@ -81,7 +83,7 @@ def job(source: Source, number: int, questions: tuple[str, ...], limits: Limits)
         name = source.name or f"system {number + 1}"
         return Job(name, system_text(source).encode(), questions, limits)
     if isinstance(source, str | os.PathLike):
-        return Job(os.fspath(source), read_bytes(source, limits), questions, limits)
+        return Job(os.fspath(source), read(source, limits), questions, limits)
     raise UsageError(
         f"expected paths, systems or draws to sweep over, found {type(source).__name__}"
     )
@@ -119,13 +121,13 @@ def failure(error: BaseException) -> Outcome:
 
 
 def entries(
-    sources: Iterable[Source], questions: tuple[str, ...], limits: Limits
-) -> Iterable[tuple[int, str, Job | InputError]]:
+    sources: Iterable[Source], questions: tuple[str, ...], limits: Limits, read: Reader
+) -> Iterable[tuple[int, str, Job | McexactError]]:
     """Number, name and job of every entry, made when it is asked for; or why there is none."""
     for number, source in enumerate(sources):
         try:
-            made: Job | InputError = job(source, number, questions, limits)
-        except InputError as error:
+            made: Job | McexactError = job(source, number, questions, limits, read)
+        except (InputError, LimitReached) as error:
             made = error
         name = made.name if isinstance(made, Job) else str(source)
         yield number, name, made

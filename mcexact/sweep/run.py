@@ -12,8 +12,9 @@ from typing import Any
 from mcexact.checker import check_document
 from mcexact.errors import InternalError, McexactError
 from mcexact.exact.rational import DEFAULT_LIMITS, Limits
+from mcexact.model.json_text import read_bytes
 from mcexact.model.system_file import digest
-from mcexact.sweep.jobs import Job, Outcome, Source, decide, entries, failure
+from mcexact.sweep.jobs import Job, Outcome, Reader, Source, decide, entries, failure
 from mcexact.sweep.questions import answered, chosen
 from mcexact.sweep.records import Record, RecordFile
 from mcexact.sweep.workers import Workers, alone
@@ -29,6 +30,7 @@ def sweep(
     executor: Executor | None = None,
     workers: int = 1,
     limits: Limits = DEFAULT_LIMITS,
+    read: Reader = read_bytes,
     work: Callable[[Job], Outcome] = decide,
 ) -> Iterator[Record]:
     """Ask the same questions about many systems.
@@ -48,6 +50,8 @@ def sweep(
         How many processes, or how many jobs the executor is given at once, two for each.
     limits : Limits, optional
         What the files may ask for.
+    read : callable, optional
+        Reads a file as `read_bytes` does, perhaps with a limit on the time that this may take.
     work : callable, optional
         Does what `decide` does, somewhere else or with limits.
 
@@ -79,7 +83,7 @@ def sweep(
     """
     asked = chosen(questions)
     team = Workers(executor, workers)
-    return _swept(entries(sources, asked, limits), team, results, work)
+    return _swept(entries(sources, asked, limits, read), team, results, work)
 
 
 def _swept(

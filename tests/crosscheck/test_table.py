@@ -1,5 +1,7 @@
 """The table of verdicts, on systems where everything is known."""
 
+import pytest
+
 import mcexact
 from mcexact.crosscheck import table
 from mcexact.crosscheck.table import crosscheck
@@ -37,13 +39,22 @@ def test_no_states_have_answers_too():
     assert all(row.agree is not False for row in found.rows if row.question != "stability of A")
 
 
-def test_a_library_that_raises_gives_no_answer(monkeypatch):
+def test_a_library_that_is_missing_gives_no_answer(monkeypatch):
     def missing(*_):
-        raise ImportError("No module named 'control'", name="control")
+        raise ModuleNotFoundError("No module named 'control'", name="control")
 
     monkeypatch.setattr(table.controllability, "ctrb_rank", missing)
     [row] = [row for row in crosscheck(PLAIN).rows if row.question == "joint controllability"]
     assert row.agree is None and row.floating == "no answer (control is not installed)"
+
+
+def test_a_library_that_cannot_be_loaded_is_not_called_missing(monkeypatch):
+    def unmapped(*_):
+        raise ImportError("failed to map segment from shared object", name="control")
+
+    monkeypatch.setattr(table.controllability, "ctrb_rank", unmapped)
+    with pytest.raises(ImportError, match="failed to map"):
+        crosscheck(PLAIN)
 
 
 def test_numbers_beyond_doubles_are_no_error():

@@ -1,0 +1,67 @@
+"""A limit on time, over everything that one command does."""
+
+from __future__ import annotations
+
+import contextlib
+import signal
+import threading
+import time
+from collections.abc import Iterator
+from types import FrameType
+
+from mcexact.errors import LimitReached
+
+
+class Deadline:
+    """A number of seconds from now, or none.
+
+    Parameters
+    ----------
+    seconds : float or None
+        None: there is no limit.
+    """
+
+    def __init__(self, seconds: float | None) -> None:
+        self.seconds = seconds
+        self._start = time.monotonic()
+
+    def left(self) -> float | None:
+        """The seconds that are left, at least 0; None without a limit."""
+        if self.seconds is None:
+            return None
+        return max(0.0, self.seconds - (time.monotonic() - self._start))
+
+    def missed(self, doing: str) -> LimitReached:
+        """What to raise when it is over."""
+        return LimitReached(
+            f"the time limit of {self.seconds:g} s was reached while {doing}; "
+            "nothing has been decided (--timeout allows more)"
+        )
+
+    @contextlib.contextmanager
+    def interrupting(self, doing: str) -> Iterator[None]:
+        """End what waits for the system, such as a pipe into which nobody writes, when it is over.
+
+        Raises
+        ------
+        LimitReached
+            At the deadline, where the platform has alarms and this is the main thread.
+        """
+        left = self.left()
+        here = threading.current_thread() is threading.main_thread()
+        if left is None or not here or not hasattr(signal, "setitimer"):
+            yield
+            return
+        if left == 0:
+            raise self.missed(doing)
+
+        def end(number: int, frame: FrameType | None) -> None:
+            raise self.missed(doing)
+
+        before = signal.signal(signal.SIGALRM, end)
+        signal.setitimer(signal.ITIMER_REAL, left)
+        try:
+            yield
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0)
+            signal.signal(signal.SIGALRM, before)

@@ -1,0 +1,130 @@
+"""A time limit holds over everything that a command does, also while it waits for its input."""
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+import pytest
+
+from mcexact.cli.deadline import Deadline
+from mcexact.errors import LimitReached
+from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system_file import save_system, system_text
+from tests.end_to_end.command_line import MCEXACT, interruptible, run
+
+PLANT = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+
+pytestmark = pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no named pipes")
+
+
+@pytest.fixture
+def pipe(tmp_path: Path) -> str:
+    """A named pipe that nobody writes to."""
+    path = tmp_path / "pipe.json"
+    os.mkfifo(path)
+    return str(path)
+
+
+@pytest.fixture
+def plant(tmp_path: Path) -> str:
+    path = tmp_path / "plant.json"
+    save_system(PLANT, path)
+    return str(path)
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("analyze", "PIPE"),
+        ("allocate", "PIPE"),
+        ("crosscheck", "PIPE"),
+        ("certify", "PLANT", "PIPE"),
+        ("simulate", "PLANT", "PIPE"),
+        ("design", "decentralized", "PLANT", "--rate=1", "--spectrum", "PIPE"),
+        ("design", "observer", "PIPE", "--rate=1"),
+        ("sweep", "PIPE"),
+    ],
+)
+def test_a_pipe_without_a_writer_is_waited_for_until_the_time_limit(
+    pipe: str, plant: str, arguments: tuple[str, ...]
+) -> None:
+    named = [{"PIPE": pipe, "PLANT": plant}.get(each, each) for each in arguments]
+    done = run(*named, "--timeout", "0.5", "--json")
+    assert done.status == 4
+    said = done.stdout if "sweep" in arguments else done.stderr
+    assert f"the time limit of 0.5 s was reached while reading {pipe}" in said
+
+
+def test_a_pipe_with_a_writer_is_read(pipe: str) -> None:
+    def write() -> None:
+        Path(pipe).write_text(system_text(PLANT), encoding="utf-8")
+
+    writer = threading.Thread(target=write)
+    writer.start()
+    done = run("analyze", pipe, "--timeout", "60", "--json")
+    writer.join()
+    assert done.status == 0, done.stderr
+
+
+def test_standard_input_that_never_ends_is_read_until_the_time_limit() -> None:
+    ours, theirs = os.pipe()
+    try:
+        done = subprocess.run(
+            [*MCEXACT, "analyze", "-", "--timeout", "0.5"],
+            stdin=ours,
+            capture_output=True,
+            check=False,
+        )
+    finally:
+        os.close(ours)
+        os.close(theirs)
+    assert done.returncode == 4
+    assert b"while reading standard input" in done.stderr
+
+
+def test_an_interrupt_ends_the_waiting_for_a_pipe(pipe: str) -> None:
+    script = (
+        f"from mcexact.cli import main\nprint('ready', flush=True)\nmain(['analyze', {pipe!r}])\n"
+    )
+    with subprocess.Popen(
+        [sys.executable, "-c", script],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        preexec_fn=interruptible,
+    ) as process:
+        assert process.stdout is not None
+        process.stdout.readline()
+        while process.poll() is None:
+            process.send_signal(signal.SIGINT)
+            try:
+                process.wait(timeout=1)
+            except subprocess.TimeoutExpired:
+                continue
+        # The second where the interrupt comes before the program listens for one.
+        assert process.returncode in (130, -signal.SIGINT)
+
+
+def test_a_deadline_that_is_over_is_missed_at_once() -> None:
+    deadline = Deadline(1e-9)
+    while deadline.left():
+        pass
+    with pytest.raises(LimitReached, match="while reading"), deadline.interrupting("reading"):
+        pytest.fail("nothing should be begun")
+
+
+def test_without_a_limit_nothing_is_interrupted() -> None:
+    before = signal.getsignal(signal.SIGALRM)
+    with Deadline(None).interrupting("reading"):
+        assert signal.getsignal(signal.SIGALRM) is before
+    assert Deadline(None).left() is None
+
+
+def test_what_is_done_in_time_leaves_no_alarm_behind() -> None:
+    before = signal.getsignal(signal.SIGALRM)
+    with Deadline(3600).interrupting("reading"):
+        assert signal.getitimer(signal.ITIMER_REAL)[0] > 0
+    assert signal.getitimer(signal.ITIMER_REAL)[0] == 0
+    assert signal.getsignal(signal.SIGALRM) is before
