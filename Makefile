@@ -5,7 +5,7 @@ BIN := .venv/bin
 STAMP := .venv/.installed
 GALLERY := mcexact/model/gallery
 
-.PHONY: records reproduce look ledger demo test lint types tests agreement mutations bench proofs weakened-proofs
+.PHONY: records reproduce look ledger demo test lint types tests matrix agreement mutations bench proofs weakened-proofs
 
 demo: $(STAMP)
 	$(BIN)/mcexact demo
@@ -22,7 +22,12 @@ types: $(STAMP)
 	$(BIN)/mypy --strict mcexact
 
 tests: $(STAMP)
-	HYPOTHESIS_PROFILE=ci $(BIN)/python -m pytest --quiet --numprocesses 2 --dist loadscope
+	HYPOTHESIS_PROFILE=ci $(BIN)/python -m pytest --quiet --numprocesses 2 --dist worksteal
+
+# The full tests under every kernel, Python and library version that they have to pass with: an hour
+# or more. CELLS='oldest python3.*' runs some; PYTHONS holds interpreters that are not on PATH.
+matrix: $(STAMP)
+	$(BIN)/python -m tests.matrix $(foreach cell,$(CELLS),'$(cell)')
 
 # Ratios to peers, measured in one run; the figures also go to bench.json.
 bench: $(STAMP)
