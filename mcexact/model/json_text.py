@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import stat
 import sys
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from typing import Any
 
 from mcexact.errors import InputError
@@ -16,12 +17,25 @@ from mcexact.model.names import nearest, quoted
 _BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 # Integers of up to this many characters are converted at once; the rest wait for the grammar.
 _SHORT = 18
+REMEMBERED = 10_000
+"""How many different numbers are kept to be recognized when they occur again."""
+_LONG = re.compile(rf"[0-9]{{{_SHORT + 1}}}")
 
 
 class NumberText(str):
     """A JSON number as it was typed."""
 
     __slots__ = ()
+
+
+class _NumberTexts(dict[str, NumberText]):
+    """The number texts of one document: what occurs again, as 0.0 does, is kept once."""
+
+    def __missing__(self, text: str) -> NumberText:
+        found = NumberText(text)
+        if len(self) < REMEMBERED:
+            self[text] = found
+        return found
 
 
 class JsonObject(dict[str, Any]):
@@ -92,8 +106,9 @@ def parse(data: bytes | str, limits: Limits = DEFAULT_LIMITS) -> Any:
     try:
         document = json.loads(
             text,
-            parse_int=_integer,
-            parse_float=NumberText,
+            # Without a long number the parser's own conversion, which is quicker, will do.
+            parse_int=_integer if _LONG.search(text) else None,
+            parse_float=_NumberTexts().__getitem__,
             parse_constant=NumberText,
             object_pairs_hook=_object,
         )
@@ -157,9 +172,16 @@ def _levels(document: Any) -> Iterator[list[Any]]:
         level = [
             child
             for container in level
-            for child in (container.values() if isinstance(container, dict) else container)
+            for child in _children(container)
             if type(child) is list or type(child) is JsonObject
         ]
+
+
+def _children(container: Any) -> Iterable[Any]:
+    """What a container holds; nothing if there is no container in it."""
+    if isinstance(container, dict):
+        return container.values()
+    return () if {list, JsonObject}.isdisjoint(map(type, container)) else container
 
 
 def expect_object(

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Protocol, TypeVar
 
 from mcexact.errors import FloatRefused, InputError
 from mcexact.exact.matrix import Matrix
@@ -12,6 +14,51 @@ _TWO_WAYS_IN = (
     "write the numbers as integers, fractions or strings, or use "
     'MultiChannelSystem.from_float(..., rounding="decimal" or "dyadic")'
 )
+
+
+class Shaped(Protocol):
+    """Whatever has numbers of rows and columns."""
+
+    @property
+    def shape(self) -> tuple[int, int]: ...
+
+
+S = TypeVar("S", bound=Shaped)
+
+
+@dataclass(frozen=True)
+class Table:
+    """A matrix as it was handed over: its shape is known, its entries are not read yet.
+
+    Attributes
+    ----------
+    where : str
+        Its place, for messages.
+    shape : (int, int)
+    rows : Matrix or sequence of tuples
+    """
+
+    where: str
+    shape: tuple[int, int]
+    rows: Matrix | Sequence[tuple[Any, ...]]
+
+    def matrix(self) -> Matrix:
+        """Read the entries.
+
+        Raises
+        ------
+        FloatRefused, InputError
+            As `as_matrix` does.
+        """
+        if isinstance(self.rows, Matrix):
+            return self.rows
+        if all(set(map(type, row)) <= {int} for row in self.rows):
+            return Matrix.from_integers(self.rows, ncols=self.shape[1])
+        exact = [
+            [as_fraction(entry, where=f"{self.where}[{i}][{j}]") for j, entry in enumerate(row)]
+            for i, row in enumerate(self.rows)
+        ]
+        return Matrix.from_rows(exact, ncols=self.shape[1])
 
 
 def as_matrix(value: Any, where: str, ncols: int | None = None) -> Matrix:
@@ -42,25 +89,31 @@ def as_matrix(value: Any, where: str, ncols: int | None = None) -> Matrix:
         ...
     mcexact.errors.FloatRefused: A[0][0]: ...
     """
+    return as_table(value, where, ncols).matrix()
+
+
+def as_table(value: Any, where: str, ncols: int | None = None) -> Table:
+    """Take a matrix over as `as_matrix` does, its shape alone, so that shapes can be compared.
+
+    Raises
+    ------
+    FloatRefused
+        If it is an array of floats.
+    InputError
+        If it is no matrix, or ragged.
+    """
     if isinstance(value, Matrix):
-        return value
+        return Table(where, value.shape, value)
     rows = _rows(value, where)
     if not rows:
-        width = getattr(value, "shape", (0, ncols or 0))[1]
-        return Matrix.zeros(0, int(width))
+        return Table(where, (0, int(getattr(value, "shape", (0, ncols or 0))[1])), rows)
     width = len(rows[0])
     for k, row in enumerate(rows):
         if len(row) != width:
             raise InputError(
                 f"expected {width} entries as in row 0, found {len(row)}", where=f"{where}[{k}]"
             )
-    if all(type(entry) is int for row in rows for entry in row):
-        return Matrix.from_integers(rows, ncols=width)
-    exact = [
-        [as_fraction(entry, where=f"{where}[{i}][{j}]") for j, entry in enumerate(row)]
-        for i, row in enumerate(rows)
-    ]
-    return Matrix.from_rows(exact, ncols=width)
+    return Table(where, (len(rows), width), rows)
 
 
 def _rows(value: Any, where: str) -> list[tuple[Any, ...]]:
@@ -104,7 +157,7 @@ def _rows(value: Any, where: str) -> list[tuple[Any, ...]]:
     return copied
 
 
-def require_shape(M: Matrix, where: str, nrows: int | None, ncols: int | None) -> Matrix:
+def require_shape(M: S, where: str, nrows: int | None, ncols: int | None) -> S:
     """Return the matrix if it has the expected numbers of rows and columns.
 
     Raises
@@ -122,7 +175,7 @@ def require_shape(M: Matrix, where: str, nrows: int | None, ncols: int | None) -
     return M
 
 
-def require_square(M: Matrix, where: str) -> Matrix:
+def require_square(M: S, where: str) -> S:
     """Return the matrix if it is square.
 
     Raises

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
@@ -16,6 +17,7 @@ from mcexact.exact.rational import (
     rational_text,
 )
 from mcexact.model.json_text import (
+    REMEMBERED,
     expect_integer,
     expect_list,
     expect_object,
@@ -84,65 +86,129 @@ def read_matrix(
         ...
     mcexact.errors.InputError: channels[2].B: expected 4 rows, found 3
     """
-    if isinstance(value, dict):
-        return _sparse(value, where, nrows, ncols, limits)
-    rows = expect_list(value, where)
-    for k, row in enumerate(rows):
-        if not isinstance(row, list):
-            raise InputError(
-                f"expected a row as a list, found {kind_of(row)}; "
-                "write a column as [[1], [2]] and a row as [[1, 2]]",
-                where=f"{where}[{k}]",
-            )
-        if len(row) != len(rows[0]):
-            raise InputError(
-                f"expected {len(rows[0])} entries as in row 0, found {len(row)}",
-                where=f"{where}[{k}]",
-            )
-    if rows:
-        width = len(rows[0])
-    else:
-        width = ncols or 0
-    # The shape first: it is quick, and says more than a bad entry does.
-    if nrows not in (None, len(rows)) or ncols not in (None, width):
-        require_shape(Matrix.zeros(len(rows), width), where, nrows, ncols)
-    if all(type(entry) is int for row in rows for entry in row):
-        return Matrix.from_integers(rows, ncols=width)
-    return Matrix.from_rows(
-        [
+    return unread_matrix(value, where, nrows, ncols, limits).matrix()
+
+
+@dataclass(frozen=True)
+class UnreadMatrix:
+    """A matrix of a file whose shape is known and none of whose numbers is read.
+
+    Attributes
+    ----------
+    where : str
+        Its place, for messages.
+    shape : (int, int)
+    rows : list
+        The rows, or the entries of a sparse matrix.
+    sparse : bool
+    limits : Limits
+    """
+
+    where: str
+    shape: tuple[int, int]
+    rows: list[Any]
+    sparse: bool
+    limits: Limits
+
+    def matrix(self) -> Matrix:
+        """Read the numbers.
+
+        Raises
+        ------
+        InputError
+            If one of them is none.
+        """
+        if self.sparse:
+            return _sparse(self)
+        if all(set(map(type, row)) <= {int} for row in self.rows):
+            return Matrix.from_integers(self.rows, ncols=self.shape[1])
+        # What occurs again, as 0.0 does, is read once.
+        known: dict[str, Fraction] = {}
+        return Matrix.from_rows(
             [
-                entry if type(entry) is int else read_number(entry, f"{where}[{i}][{j}]", limits)
-                for j, entry in enumerate(row)
-            ]
-            for i, row in enumerate(rows)
-        ],
-        ncols=width,
-    )
-
-
-def _sparse(
-    value: dict[str, Any], where: str, nrows: int | None, ncols: int | None, limits: Limits
-) -> Matrix:
-    """Read a matrix that lists its entries."""
-    expect_object(value, where, ("shape", "entries"))
-    shape = expect_list(value["shape"], f"{where}.shape")
-    if len(shape) != 2:
-        raise InputError(
-            f"expected [rows, columns], found {len(shape)} numbers", where=f"{where}.shape"
+                [
+                    entry if type(entry) is int else self._number(known, entry, i, j)
+                    for j, entry in enumerate(row)
+                ]
+                for i, row in enumerate(self.rows)
+            ],
+            ncols=self.shape[1],
         )
-    r, c = (expect_integer(size, f"{where}.shape[{k}]") for k, size in enumerate(shape))
-    for expected, found, what in ((nrows, r, "rows"), (ncols, c, "columns")):
-        if expected is not None and expected != found:
-            raise InputError(f"expected {expected} {what}, found {found}", where=where)
+
+    def _number(self, known: dict[str, Fraction], entry: Any, i: int, j: int) -> Fraction:
+        """Read the number at a position, or recall it."""
+        if isinstance(entry, str) and entry in known:
+            return known[entry]
+        number = read_number(entry, f"{self.where}[{i}][{j}]", self.limits)
+        if isinstance(entry, str) and len(known) < REMEMBERED:
+            known[entry] = number
+        return number
+
+
+def unread_matrix(
+    value: Any,
+    where: str,
+    nrows: int | None = None,
+    ncols: int | None = None,
+    limits: Limits = DEFAULT_LIMITS,
+) -> UnreadMatrix:
+    """Take a matrix over as `read_matrix` does, its shape alone: it is quick to compare.
+
+    Raises
+    ------
+    InputError
+        If it is no matrix, ragged, too large, or of another shape.
+
+    Examples
+    --------
+    >>> unread_matrix([[1, "no number"]], "A").shape
+    (1, 2)
+    """
+    if isinstance(value, dict):
+        expect_object(value, where, ("shape", "entries"))
+        shape = _sparse_shape(value["shape"], where, limits)
+        rows = expect_list(value["entries"], f"{where}.entries")
+    else:
+        rows = expect_list(value, where)
+        for k, row in enumerate(rows):
+            if not isinstance(row, list):
+                raise InputError(
+                    f"expected a row as a list, found {kind_of(row)}; "
+                    "write a column as [[1], [2]] and a row as [[1, 2]]",
+                    where=f"{where}[{k}]",
+                )
+            if len(row) != len(rows[0]):
+                raise InputError(
+                    f"expected {len(rows[0])} entries as in row 0, found {len(row)}",
+                    where=f"{where}[{k}]",
+                )
+        shape = len(rows), len(rows[0]) if rows else ncols or 0
+    unread = UnreadMatrix(where, shape, rows, isinstance(value, dict), limits)
+    return require_shape(unread, where, nrows, ncols)
+
+
+def _sparse_shape(value: Any, where: str, limits: Limits) -> tuple[int, int]:
+    """The shape that a matrix which lists its entries says."""
+    sizes = expect_list(value, f"{where}.shape")
+    if len(sizes) != 2:
+        raise InputError(
+            f"expected [rows, columns], found {len(sizes)} numbers", where=f"{where}.shape"
+        )
+    r, c = (expect_integer(size, f"{where}.shape[{k}]") for k, size in enumerate(sizes))
     # Each cell of a dense matrix takes two bytes or more; a sparse one may not ask for much more.
     if max(r, c) * max(min(r, c), 1) > limits.bytes // 4:
         raise InputError(
             f"expected at most {limits.bytes // 4} cells (Limits.bytes / 4), found {r} × {c}",
             where=where,
         )
-    entries = expect_list(value["entries"], f"{where}.entries")
+    return r, c
+
+
+def _sparse(unread: UnreadMatrix) -> Matrix:
+    """Read the entries that a matrix lists."""
+    (r, c), where = unread.shape, unread.where
     values: dict[tuple[int, int], Fraction] = {}
-    for k, entry in enumerate(entries):
+    for k, entry in enumerate(unread.rows):
         place = f"{where}.entries[{k}]"
         if len(expect_list(entry, place)) != 3:
             raise InputError(
@@ -153,7 +219,7 @@ def _sparse(
             raise InputError(f"expected a position inside {r} × {c}, found [{i}, {j}]", where=place)
         if (i, j) in values:
             raise InputError(f"the position [{i}, {j}] is listed twice", where=place)
-        values[i, j] = read_number(entry[2], f"{place}[2]", limits)
+        values[i, j] = read_number(entry[2], f"{place}[2]", unread.limits)
     denominator = math.lcm(*(number.denominator for number in values.values()))
     touched: dict[int, list[int]] = {}
     for (i, j), number in values.items():

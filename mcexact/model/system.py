@@ -11,7 +11,7 @@ from mcexact.errors import InputError, UsageError
 from mcexact.exact.blocks import hstack, vstack
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.rational import Rounding, as_fraction
-from mcexact.model.matrix_entry import as_matrix, require_shape, require_square
+from mcexact.model.matrix_entry import as_table, require_shape, require_square
 from mcexact.model.names import checked_names, checked_text, nearest, quoted
 from mcexact.model.neighbor_graph import NeighborGraph, graph_for
 
@@ -105,15 +105,16 @@ class MultiChannelSystem:
         name: str | None = None,
         source: str | None = None,
     ) -> None:
-        exact = require_square(as_matrix(A, "A"), "A")
-        channels = _channels(exact.shape[0], _listed(B, "B"), _listed(C, "C"), names)
+        table = require_square(as_table(A, "A"), "A")
+        # All shapes are compared before any entry is read.
+        channels = _channels(table.shape[0], _listed(B, "B"), _listed(C, "C"), names)
         labels = tuple(channel.name for channel in channels)
         if time not in TIMES:
             raise InputError(
                 f'expected "continuous" or "discrete", found {quoted(time)}', where="time"
             )
         self._fill(
-            A=exact,
+            A=table.matrix(),
             channels=channels,
             time=time,
             neighbors=graph_for(neighbors, labels),
@@ -374,13 +375,16 @@ def _channels(
     if len(labels) != m:
         raise InputError(f"expected {m} names, found {len(labels)}", where="names")
     checked = checked_names(labels, [f"names[{i}]" for i in range(m)])
-    return tuple(
-        Channel(
-            checked[i],
-            require_shape(as_matrix(B[i], f"B[{i}]"), f"B[{i}]", n, None),
-            require_shape(as_matrix(C[i], f"C[{i}]", ncols=n), f"C[{i}]", None, n),
+    tables = [
+        (
+            require_shape(as_table(B[i], f"B[{i}]"), f"B[{i}]", n, None),
+            require_shape(as_table(C[i], f"C[{i}]", ncols=n), f"C[{i}]", None, n),
         )
         for i in range(m)
+    ]
+    return tuple(
+        Channel(name, B_i.matrix(), C_i.matrix())
+        for name, (B_i, C_i) in zip(checked, tables, strict=True)
     )
 
 

@@ -22,11 +22,13 @@ from mcexact.model.json_text import (
 )
 from mcexact.model.matrix_entry import require_square
 from mcexact.model.matrix_json import (
+    UnreadMatrix,
     json_text_of_number,
     matrix_json,
     number_json,
     read_matrix,
     read_number,
+    unread_matrix,
 )
 from mcexact.model.names import checked_names, checked_text, quoted
 from mcexact.model.neighbor_graph import NeighborGraph
@@ -88,17 +90,21 @@ def read_system(data: bytes | str, *, limits: Limits = DEFAULT_LIMITS) -> MultiC
     time = document["time"]
     if time not in TIMES:
         raise InputError(f'expected "continuous" or "discrete", found {quoted(time)}', where="time")
+    # All shapes are compared before any number is read.
+    A = require_square(unread_matrix(document["A"], "A", limits=limits), "A")
+    names, B, C = _read_channels(document["channels"], A.shape[0], limits)
     if "D" in document:
         _refuse_feedthrough(document["D"], "D", limits)
-    A = require_square(read_matrix(document["A"], "A", limits=limits), "A")
-    names, B, C = _read_channels(document["channels"], A.shape[0], limits)
+    for k, channel in enumerate(document["channels"]):
+        if "D" in channel:
+            _refuse_feedthrough(channel["D"], f"channels[{k}].D", limits)
     sample_time = None
     if "sample_time" in document:
         sample_time = read_number(document["sample_time"], "sample_time", limits)
     return MultiChannelSystem(
-        A,
-        B,
-        C,
+        A.matrix(),
+        [B_i.matrix() for B_i in B],
+        [C_i.matrix() for C_i in C],
         time=time,
         names=names,
         neighbors=_read_graph(document, names),
@@ -114,8 +120,8 @@ def _optional_text(document: dict[str, Any], key: str) -> str | None:
 
 def _read_channels(
     value: Any, n: int, limits: Limits
-) -> tuple[tuple[str, ...], list[Matrix], list[Matrix]]:
-    """Read names and matrices of all channels."""
+) -> tuple[tuple[str, ...], list[UnreadMatrix], list[UnreadMatrix]]:
+    """Read the names of all channels and the shapes of their matrices."""
     channels = expect_list(value, "channels")
     if not channels:
         raise InputError("expected at least one channel, found none", where="channels")
@@ -125,10 +131,8 @@ def _read_channels(
         expect_object(channel, where, ("B", "C"), ("name", "D"))
         names.append(channel.get("name", str(k + 1)))
         places.append(f"{where}.name")
-        B.append(read_matrix(channel["B"], f"{where}.B", nrows=n, limits=limits))
-        C.append(read_matrix(channel["C"], f"{where}.C", ncols=n, limits=limits))
-        if "D" in channel:
-            _refuse_feedthrough(channel["D"], f"{where}.D", limits)
+        B.append(unread_matrix(channel["B"], f"{where}.B", nrows=n, limits=limits))
+        C.append(unread_matrix(channel["C"], f"{where}.C", ncols=n, limits=limits))
     return checked_names(names, places), B, C
 
 

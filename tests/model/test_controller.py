@@ -147,7 +147,7 @@ def test_static_programs_without_messages_are_decentralized_feedback():
     controller = Controller("continuous", digest(plant), tuple(agents))
     assert closed_loop_matrix(plant, controller) == feedback(plant, F).A
     made = closed_loop(plant, controller)
-    assert made.m == 0 and made.plant.neighbors == NeighborGraph.empty(plant.names)
+    assert made.m == 0 and made.plant == plant and made.plant.neighbors is None
     assert made.subject == ({"construction": "closed_loop", "controller": controller.document()},)
     assert controller.order == 0 and controller.arcs() == () and controller.height() == 3
 
