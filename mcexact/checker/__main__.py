@@ -8,6 +8,7 @@ if not __package__:
 
     folder = os.path.dirname(os.path.abspath(__file__))
     sys.path[0], __package__ = os.path.split(folder)
+    __spec__ = None  # it says that there is no package, of which later versions of Python complain
     __import__(__package__)
 
 from .command import main

@@ -31,14 +31,14 @@ def pencil_fixed_modes(
     --------
     >>> B, C = [np.array([[1.0], [0.0]])], [np.array([[1.0, 0.0]])]
     >>> pencil_fixed_modes(np.diag([1.0, 2.0]), B, C, [frozenset()])
-    (2.0,)
+    ((2+0j),)
     """
     n, found = A.shape[0], []
     chosen = list(subsets)
     for value in np.linalg.eigvals(A):
         ranks = (np.linalg.matrix_rank(pencil(A, B, C, s, value)) for s in chosen)
         if any(rank < n for rank in ranks):
-            found.append(value.item())
+            found.append(complex(value))
     return tuple(sorted(found, key=lambda each: (each.real, each.imag)))
 
 
