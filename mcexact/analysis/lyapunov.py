@@ -84,7 +84,8 @@ def quadratic_form(D: Matrix, time: str, bound: Fraction) -> QuadraticForm | Non
     Notes
     -----
     Floating point proposes P with S near the identity; as long as S is not dominant, the exact
-    residual is solved for a correction.  O(k³) operations on floats and on short integers.
+    residual is solved for a correction.  O(k³) operations on floats and on short integers.  What is
+    proposed depends on the processor and on the versions of numpy and scipy.
     """
     k = D.nrows
     if k == 0:

@@ -1,4 +1,8 @@
-"""Writing certificates: exact objects to the JSON of ``FORMAT.md``, always the same bytes."""
+"""Writing certificates: exact objects to the JSON of ``FORMAT.md``, equal ones with equal bytes.
+
+Evidence that is found exactly is equal on every processor; Lyapunov matrices, and controllers that
+are designed in floating point, are not: ``FORMAT.md`` says which certificates are only valid.
+"""
 
 from __future__ import annotations
 
@@ -124,7 +128,14 @@ def document(certificate: Certificate) -> dict[str, Any]:
 
 
 def encode(certificate: Certificate) -> str:
-    """The certificate as JSON text with a final line feed; equal certificates give equal text."""
+    """The certificate as JSON text with a final line feed; equal certificates give equal text.
+
+    Notes
+    -----
+    The same question gives an equal certificate on every processor, unless its evidence was
+    proposed in floating point: quadratic forms of the kind ``stability``, and whatever is about the
+    loop of a controller designed in floating point.  These are only valid.
+    """
     parts = {
         "claim": certificate.claim(),
         "format": FORMAT,

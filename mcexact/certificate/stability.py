@@ -20,7 +20,10 @@ class PolynomialMethod:
 
 @dataclass(frozen=True)
 class LyapunovBlock:
-    """A Lyapunov matrix of one diagonal block D, k × k.
+    """A Lyapunov matrix of one diagonal block D, k × k, proposed in floating point.
+
+    Its numbers depend on the processor and on the versions of numpy and scipy; they are verified
+    exactly.
 
     Attributes
     ----------

@@ -162,7 +162,8 @@ def design_observer_float(
         z' = (E − B̃G − LC̃) z + L ỹ,     ũ = −G z,
 
     its first matrix exact, since the separation is; at reduced order nm − rank C̃ see
-    `reduced_order_observer`.  O((nm)³) operations.
+    `reduced_order_observer`.  O((nm)³) operations.  What is proposed depends on the processor and
+    on the versions of numpy and scipy, and so do the controller and its certificate.
     """
     _require_doubles(system)
     region = StabilityRegion(system.time, bound)

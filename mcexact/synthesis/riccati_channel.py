@@ -40,7 +40,8 @@ def riccati_channel_controller(
 
     Notes
     -----
-    Floating point proposes G and L, as dyadic rationals; the rest is exact.
+    Floating point proposes G and L, as dyadic rationals that depend on the processor and on the
+    versions of numpy and scipy; the rest is exact.
     """
     G = _gain(part.A, part.B, time, bound)
     L = None if G is None else _gain(part.A.T, part.C.T, time, bound)

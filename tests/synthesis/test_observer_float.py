@@ -20,11 +20,13 @@ BOTH = {"1": ["2"], "2": ["1"]}
 
 
 def assert_meets(design, system, bound):
+    """The bound is certified, and met with room: no kernel errs by a tenth."""
     verdict = check_document(encode(design.certificate).encode())
     assert verdict.verdict == "VALID", verdict.line()
     loop = closed_loop_matrix(system, design.controller)
     assert loop == design.loop.matrix
-    region = StabilityRegion(system.time, Fraction(bound))
+    faster = Fraction(11, 10) if system.time == "continuous" else Fraction(10, 11)
+    region = StabilityRegion(system.time, Fraction(bound) * faster)
     assert region.contains_roots_of(characteristic_polynomial(loop))
 
 
@@ -141,7 +143,7 @@ def test_what_cannot_be_certified_is_not_returned(monkeypatch):
 )
 def test_plants_at_the_edge_are_designed_for(A, B, C, neighbors, time):
     plant = MultiChannelSystem(A, B, C, time=time, neighbors=neighbors)
-    bound = {"rate": "3/2"} if time == "continuous" else {"radius": "1/1000"}
+    bound = {"rate": "3/2"} if time == "continuous" else {"radius": "1/8"}
     design = design_observer(plant, arithmetic="float", **bound)
     assert_meets(design, plant, *bound.values())
 

@@ -1,0 +1,88 @@
+"""Which certificates have the same bytes under every kernel, and which are only valid.
+
+The same questions are asked in processes that multiply with different kernels in different numbers
+of threads, and hash strings differently.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from mcexact.checker.kinds import KINDS, check_document
+from tests.certificate.written import DESIGNS, PLANTS
+from tests.kernels import usable_kernels
+
+IN_FLOATING_POINT = {f"design-{design}-float" for design in DESIGNS}
+IN_FLOATING_POINT |= {"certify-lyapunov", "certify-instability"}
+KERNELS = usable_kernels()[:3]
+pytestmark = pytest.mark.skipif(len(KERNELS) < 2, reason="this processor runs one kernel only")
+
+Written = dict[str, dict[Path, bytes]]
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory: pytest.TempPathFactory) -> Written:
+    """All certificates, by the kernel under which they were written and by their place."""
+    found = {}
+    for seed, kernel in enumerate(KERNELS):
+        folder = tmp_path_factory.mktemp(kernel)
+        added = {
+            "OPENBLAS_CORETYPE": kernel,
+            "OPENBLAS_NUM_THREADS": str(seed + 1),
+            "PYTHONHASHSEED": str(seed),
+        }
+        subprocess.run(
+            [sys.executable, "-m", "tests.certificate.written", str(folder)],
+            env=os.environ | added,
+            check=True,
+            capture_output=True,
+        )
+        found[kernel] = {
+            path.relative_to(folder): path.read_bytes() for path in folder.glob("*/**/*.json")
+        }
+    return found
+
+
+def found_in_floating_point(document: dict[str, Any]) -> bool:
+    """Whether FORMAT.md says that this evidence was found in floating point."""
+    return document["kind"] == "stability" and document["witness"]["method"] != "polynomial"
+
+
+def of_a_design_in_floating_point(place: Path) -> bool:
+    """Whether the certificate stands in the folder of such a design."""
+    return any(part.endswith("-float") for part in place.parts)
+
+
+def test_what_is_found_exactly_has_the_same_bytes_under_every_kernel(written: Written) -> None:
+    first, *others = written.values()
+    kinds = set()
+    for place, data in first.items():
+        document = json.loads(data)
+        if of_a_design_in_floating_point(place) or found_in_floating_point(document):
+            continue
+        kinds.add(document["kind"])
+        for other in others:
+            assert other[place] == data, place
+    assert kinds == set(KINDS)
+
+
+def test_what_is_found_in_floating_point_is_valid_under_every_kernel(written: Written) -> None:
+    for certificates in written.values():
+        proposed = {
+            place: data
+            for place, data in certificates.items()
+            if of_a_design_in_floating_point(place) or found_in_floating_point(json.loads(data))
+        }
+        for place, data in proposed.items():
+            verdict = check_document(data)
+            assert verdict.verdict == "VALID", f"{place}: {verdict.line()}"
+        asked = {(place.parts[0], place.parts[1]) for place in proposed}
+        assert {name for _, name in asked} == IN_FLOATING_POINT
+        assert {plant for plant, name in asked if name.startswith("certify")} == set(PLANTS)

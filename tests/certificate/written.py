@@ -1,0 +1,79 @@
+"""Certificates of every kind for plants of the gallery, written as the command line writes them.
+
+Run as ``python -m tests.certificate.written FOLDER``; a subfolder for each plant and question.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from mcexact.analysis.exceptional_gains import exceptional_gains
+from mcexact.certificate import write
+from mcexact.cli import main
+from mcexact.exact.matrix import Matrix
+from mcexact.model import gallery
+from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system_file import save_system
+
+PLANTS = ("liu2020-3ch-extended-n1", "lexalutyi-two-double-integrators")
+DESIGNS = ("observer", "decentralized", "extended", "setpoint")
+
+
+def questions(plant: str, channel: str, place: Path) -> dict[str, list[str]]:
+    """What is asked on the command line, by the names of the subfolders."""
+    observer = str(place / "observer-exact.controller")
+    asked = {
+        "analyze": [plant, "--minimal", "--subset", channel, "--channel", channel],
+        "analyze-gains": [plant, "--every-channel"],
+        "allocate": [plant, "--free"],
+        "allocate-arcs": [plant, "--arcs"],
+    }
+    for design in DESIGNS:
+        for arithmetic in ("exact", "float"):
+            name = f"{design}-{arithmetic}"
+            options = [
+                "--rate=1",
+                "--arithmetic",
+                arithmetic,
+                "-o",
+                str(place / f"{name}.controller"),
+            ]
+            asked[f"design-{name}"] = [design, plant, *options]
+    asked["certify"] = [plant, observer, "--rate=1"]
+    asked["certify-lyapunov"] = [plant, observer, "--rate=1", "--method=lyapunov"]
+    asked["certify-instability"] = [plant, observer, "--rate=50", "--method=lyapunov"]
+    return asked
+
+
+def write_all(folder: Path) -> None:
+    """Write them."""
+    for name in PLANTS:
+        plant = with_graph(gallery.load(name))
+        place = folder / name
+        place.mkdir()
+        save_system(plant, folder / f"{name}.json")
+        asked = questions(str(folder / f"{name}.json"), plant.names[0], place)
+        for question, arguments in asked.items():
+            command = question.partition("-")[0]
+            try:
+                main([command, *arguments, "--certificates", str(place / question)])
+            except SystemExit as ended:
+                # A proved no has its certificates too.
+                if ended.code not in (0, 1):
+                    raise
+        ones = Matrix.from_integers([[1] * plant.n for _ in range(plant.n)])
+        found = exceptional_gains(ones, plant.A, plant.input_matrix())
+        write(found.controllability_set.certificate, place / "exceptional_gains.json")
+
+
+def with_graph(plant: MultiChannelSystem) -> MultiChannelSystem:
+    """The plant over its own graph, or over a ring."""
+    if plant.neighbors is not None:
+        return plant
+    return plant.with_neighbors(NeighborGraph.ring(plant.names))
+
+
+if __name__ == "__main__":
+    write_all(Path(sys.argv[1]))
