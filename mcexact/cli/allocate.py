@@ -93,12 +93,13 @@ def command(
     """
 
     from mcexact.cli.deadline import Deadline
-    from mcexact.cli.files import directory, place_of, read
+    from mcexact.cli.files import directory, place_of, read, require_writable
     from mcexact.cli.output import emit_json, emit_tables
     from mcexact.cli.supervision import supervised
     from mcexact.model.atomic import write_text
 
     deadline = Deadline(timeout)
+    require_writable(None, certificates)
     place = place_of(file)
     names = ("bytes", "depth", "digits", "exponent")
     moved = options.given({name: rest.pop(name) for name in names})

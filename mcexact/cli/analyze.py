@@ -84,7 +84,7 @@ def command(
     """
 
     from mcexact.cli.deadline import Deadline
-    from mcexact.cli.files import directory, place_of, read, require_other
+    from mcexact.cli.files import directory, place_of, read, require_other, require_writable
     from mcexact.cli.output import emit, emit_json, emit_tables
     from mcexact.cli.supervision import supervised
     from mcexact.model.atomic import write_text
@@ -92,6 +92,7 @@ def command(
     deadline = Deadline(timeout)
     place = place_of(file)
     require_other(html, file)
+    require_writable(html, certificates)
     moved = options.given(limits)
     answer = supervised(
         _answer,

@@ -49,12 +49,13 @@ def command(
     --certificates it is proved as well.
     """
     from mcexact.cli.deadline import Deadline
-    from mcexact.cli.files import directory, place_of, read
+    from mcexact.cli.files import directory, place_of, read, require_writable
     from mcexact.cli.output import emit_json, emit_tables
     from mcexact.cli.supervision import supervised
     from mcexact.model.atomic import write_text
 
     deadline = Deadline(timeout)
+    require_writable(None, certificates)
     moved = options.given(limits)
     answer = supervised(
         _certified,

@@ -42,7 +42,7 @@ def command(
     At the end stands an upper bound on the distance to having a fixed mode, in floating point.
     """
     from mcexact.cli.deadline import Deadline
-    from mcexact.cli.files import place_of, read
+    from mcexact.cli.files import place_of, read, require_writable
     from mcexact.cli.output import emit, emit_json
     from mcexact.cli.supervision import supervised
     from mcexact.model.atomic import write_text
@@ -52,6 +52,7 @@ def command(
         raise click.UsageError("give either FILE or --exhibits")
     if html is not None and not exhibits:
         raise click.UsageError("--html goes with --exhibits")
+    require_writable(html)
     deadline = Deadline(timeout)
     if file is None:
         doing = "asking the exhibits' questions"

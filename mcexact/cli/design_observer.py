@@ -55,7 +55,7 @@ def command(
     exists, the status is 1 and the certificate says why.
     """
     from mcexact.cli.deadline import Deadline
-    from mcexact.cli.files import directory, place_of, read, require_other
+    from mcexact.cli.files import directory, place_of, read, require_other, require_writable
     from mcexact.cli.output import emit, emit_json, emit_tables
     from mcexact.cli.supervision import supervised
     from mcexact.errors import Impossible
@@ -65,6 +65,7 @@ def command(
     place = place_of(file)
     moved = options.given(limits)
     require_other(output, file, spectrum)
+    require_writable(output, certificates)
     prescribed = None if spectrum is None else (place_of(spectrum), read(spectrum, moved, deadline))
     wanted = {
         "q": agent,

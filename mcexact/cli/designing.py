@@ -56,7 +56,7 @@ def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any
         Further keywords of the function.
     """
     from mcexact.cli.deadline import Deadline
-    from mcexact.cli.files import directory, place_of, read, require_other
+    from mcexact.cli.files import directory, place_of, read, require_other, require_writable
     from mcexact.cli.output import emit, emit_json, emit_tables
     from mcexact.cli.supervision import supervised
     from mcexact.errors import Impossible
@@ -67,6 +67,7 @@ def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any
     moved = options.given({k: given[k] for k in ("bytes", "depth", "digits", "exponent")})
     spectrum = given["spectrum"]
     require_other(given["output"], file, spectrum)
+    require_writable(given["output"], given["certificates"])
     prescribed = None if spectrum is None else (place_of(spectrum), read(spectrum, moved, deadline))
     keywords = {**wanted, "q": given["agent"], **{key: given[key] for key in HOW}}
     done = supervised(

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import contextlib
+import os
+import tempfile
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -76,6 +79,76 @@ def _is_same(output: Path, file: str) -> bool:
         return output.is_file() and output.samefile(file)
     except OSError:
         return False
+
+
+def require_writable(file: Path | None, folder: Path | None = None) -> None:
+    """Refuse, before the work, what could not be written after it; nothing is made or changed.
+
+    Parameters
+    ----------
+    file : Path or None
+        Where a result goes; its folder exists, or is made for the other results.
+    folder : Path or None
+        Where other results go; it is made, with the folders above it, where it is missing.
+
+    Raises
+    ------
+    InputError
+        If a new file cannot be made there, or something else stands there.
+    """
+    if folder is not None:
+        with _refusing(folder):
+            made = Path(os.path.realpath(folder))
+            if _exists(made) and not made.is_dir():
+                raise InputError("cannot be made a directory: File exists", where=str(folder))
+            _try(_nearest(made))
+    if file is not None:
+        with _refusing(file):
+            if _exists(file) and not file.is_file():
+                if file.is_dir() or not os.access(file, os.W_OK):
+                    raise InputError("cannot write: it is no file", where=str(file))
+                return
+            target = Path(os.path.realpath(file))
+            _exists(target)
+            to_be_made = () if folder is None else (made, *made.parents)
+            parent = target.parent
+            _try(_nearest(parent) if parent in to_be_made else parent)
+
+
+@contextlib.contextmanager
+def _refusing(path: Path) -> Iterator[None]:
+    """What the system says against writing, as an error of the input."""
+    try:
+        yield
+    except OSError as error:
+        raise InputError(f"cannot write: {error.strerror or error}", where=str(path)) from None
+    except ValueError as error:
+        if isinstance(error, InputError):
+            raise
+        raise InputError(f"is no file name: {error}", where=repr(str(path))) from None
+
+
+def _exists(path: Path) -> bool:
+    """Whether something stands there; an OSError if nothing ever could."""
+    try:
+        path.stat()
+    except FileNotFoundError:
+        return False
+    return True
+
+
+def _nearest(folder: Path) -> Path:
+    """The folder, or the nearest one above it that exists."""
+    while not _exists(folder):
+        folder = folder.parent
+    return folder
+
+
+def _try(folder: Path) -> None:
+    """Make a file without a lasting name in a folder; an OSError if that is impossible."""
+    handle, name = tempfile.mkstemp(prefix=".mcexact-", dir=folder)
+    os.close(handle)
+    os.unlink(name)
 
 
 def directory(path: Path) -> Path:

@@ -8,11 +8,12 @@ import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 
+from mcexact.cli.files import require_writable
 from mcexact.errors import InputError
 
 
 def require_replaceable(folder: Path, mark: str) -> None:
-    """Refuse a folder that holds something else than an earlier result.
+    """Refuse a folder that holds something else than an earlier result, or cannot be replaced.
 
     Parameters
     ----------
@@ -24,8 +25,9 @@ def require_replaceable(folder: Path, mark: str) -> None:
     Raises
     ------
     InputError
-        If it is something else.
+        If it is something else, or nothing can be written beside it.
     """
+    require_writable(None, Path(os.path.realpath(folder)).parent)
     if not folder.exists():
         return
     if not folder.is_dir():

@@ -45,7 +45,7 @@ def command(
     A system file is JSON, so --json changes nothing here.
     """
     from mcexact.cli.deadline import Deadline
-    from mcexact.cli.files import directory
+    from mcexact.cli.files import directory, require_writable
     from mcexact.cli.output import emit
     from mcexact.cli.supervision import supervised
     from mcexact.derived.draw import Draw
@@ -53,6 +53,7 @@ def command(
 
     if count > 1 and output is None:
         raise click.UsageError("--count needs --output, a directory for the files")
+    require_writable(None, output)
     deadline = Deadline(timeout)
     for number in range(seed, seed + count):
         text = supervised(

@@ -59,7 +59,7 @@ def command(
 ) -> None:
     """Run the CONTROLLER for the system in FILE, one agent each, messages along arcs only."""
     from mcexact.cli.deadline import Deadline
-    from mcexact.cli.files import place_of, read, require_other
+    from mcexact.cli.files import place_of, read, require_other, require_writable
     from mcexact.cli.output import emit_json, emit_tables
     from mcexact.cli.supervision import supervised
     from mcexact.model.atomic import write_bytes
@@ -69,6 +69,7 @@ def command(
     if suffix not in ("", ".csv", ".png", ".html") or (output is not None and not suffix):
         raise click.UsageError(f"expected a file that ends in .csv, .png or .html, found {output}")
     require_other(output, file, controller)
+    require_writable(output)
     moved = options.given(limits)
     answer = supervised(
         _simulated,

@@ -92,7 +92,7 @@ def command(
     """
     from functools import partial
 
-    from mcexact.cli.files import directory
+    from mcexact.cli.files import directory, require_writable
     from mcexact.cli.output import emit_json, emit_tables
     from mcexact.derived.draw import Draw
     from mcexact.exact.rational import Limits
@@ -106,7 +106,7 @@ def command(
     if not sources:
         raise click.UsageError("there is nothing to sweep over: name files, or --draws N")
     asked = tuple(name for name in _QUESTIONS if name in (questions or _QUESTIONS[:1]))
-    folder = None if certificates is None else directory(certificates)
+    require_writable(output, certificates)
     limited = timeout is not None or max_memory is not None
     records = sweep(
         sources,
@@ -123,8 +123,8 @@ def command(
             for record in records:
                 documents.append(record.document())
                 tell(documents)
-                if folder is not None:
-                    _write(folder, record, len(sources))
+                if certificates is not None:
+                    _write(directory(certificates), record, len(sources))
     except KeyboardInterrupt:
         kept = f"; the same command goes on from {output}" if output is not None else ""
         said = f"interrupted after {len(documents)} of {len(sources)} systems{kept}"

@@ -1,0 +1,144 @@
+"""What cannot be written is refused before the work, and work that fails leaves nothing behind."""
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from mcexact.cli import main
+from mcexact.cli.files import require_writable
+from mcexact.errors import InputError, LimitReached
+from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system_file import save_system
+
+WRITING = {
+    "analyze --html": ("analyze", "PLANT", "--html", "FILE"),
+    "analyze --certificates": ("analyze", "PLANT", "--certificates", "FOLDER"),
+    "allocate --certificates": ("allocate", "PLANT", "--certificates", "FOLDER"),
+    "certify --certificates": ("certify", "PLANT", "PLANT", "--certificates", "FOLDER"),
+    "crosscheck --html": ("crosscheck", "--exhibits", "--html", "FILE"),
+    "design decentralized -o": ("design", "decentralized", "PLANT", "--rate=1", "-o", "FILE"),
+    "design extended -o": ("design", "extended", "PLANT", "--rate=1", "-o", "FILE"),
+    "design setpoint -o": ("design", "setpoint", "PLANT", "--rate=1", "-o", "FILE"),
+    "design observer -o": ("design", "observer", "PLANT", "--rate=1", "-o", "FILE"),
+    "design observer --certificates": (
+        *("design", "observer", "PLANT", "--rate=1", "--certificates", "FOLDER"),
+    ),
+    "design extended --certificates": (
+        *("design", "extended", "PLANT", "--rate=1", "--certificates", "FOLDER"),
+    ),
+    "reproduce -o": ("reproduce", "-o", "FOLDER"),
+    "sample -o": ("sample", "-o", "FOLDER"),
+    "simulate -o": ("simulate", "PLANT", "PLANT", "-o", "FILE.csv"),
+    "sweep -o": ("sweep", "PLANT", "-o", "FILE"),
+    "sweep --certificates": ("sweep", "PLANT", "--certificates", "FOLDER"),
+}
+
+Ended = Callable[..., tuple[int, str]]
+
+
+@pytest.fixture
+def ended(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Ended:
+    """Run a command in this process: its status, and what it says on standard error."""
+    plant = tmp_path / "plant.json"
+    save_system(MultiChannelSystem([[1]], [[[1]]], [[[1]]]), plant)
+
+    def run(arguments: tuple[str, ...], place: Path) -> tuple[int, str]:
+        filled = [
+            each.replace("PLANT", str(plant)).replace("FILE", str(place / "result"))
+            if each != "FOLDER"
+            else str(place / "results" / "deep")
+            for each in arguments
+        ]
+        with pytest.raises(SystemExit) as exit_:
+            main(filled)
+        assert isinstance(exit_.value.code, int)
+        return exit_.value.code, capsys.readouterr().err
+
+    return run
+
+
+def working(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """Replace all work by a limit that is reached; the list says how often there was any."""
+    begun: list[str] = []
+
+    def limited(*_: Any, **options: Any) -> Any:
+        begun.append(options.get("doing", "sweeping"))
+        raise LimitReached("the work was begun")
+
+    monkeypatch.setattr("mcexact.cli.supervision.supervised", limited)
+    monkeypatch.setattr("mcexact.sweep.run.sweep", limited)
+    return begun
+
+
+@pytest.mark.parametrize("arguments", WRITING.values(), ids=WRITING.keys())
+def test_a_place_that_cannot_be_written_is_refused_before_the_work(
+    ended: Ended, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, arguments: tuple[str, ...]
+) -> None:
+    begun = working(monkeypatch)
+    barrier = tmp_path / "barrier"
+    barrier.write_text("no folder", encoding="ascii")
+    status, told = ended(arguments, barrier)
+    assert (status, begun) == (3, [])
+    assert "cannot write: Not a directory" in told
+
+
+@pytest.mark.parametrize("arguments", WRITING.values(), ids=WRITING.keys())
+def test_work_that_fails_leaves_no_file_or_folder_behind(
+    ended: Ended, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, arguments: tuple[str, ...]
+) -> None:
+    begun = working(monkeypatch)
+    place = tmp_path / "place"
+    place.mkdir()
+    status, _ = ended(arguments, place)
+    assert (status, len(begun)) == (4, 1)
+    assert list(place.iterdir()) == []
+
+
+def test_an_existing_file_is_not_touched(tmp_path: Path) -> None:
+    file = tmp_path / "result.json"
+    file.write_text("earlier", encoding="ascii")
+    require_writable(file, tmp_path)
+    assert file.read_text(encoding="ascii") == "earlier"
+    assert [path.name for path in tmp_path.iterdir()] == ["result.json"]
+
+
+@pytest.mark.parametrize(
+    ("file", "message"),
+    [
+        ("missing/result.json", "cannot write: No such file or directory"),
+        ("folder", "cannot write: it is no file"),
+        ("x" * 1000, "cannot write: File name too long"),
+        ("loop/result", "cannot write: Too many levels of symbolic links"),
+        ("a\0b", "is no file name"),
+    ],
+)
+def test_a_file_that_cannot_be_made_is_refused_with_the_reason(
+    tmp_path: Path, file: str, message: str
+) -> None:
+    (tmp_path / "folder").mkdir()
+    os.symlink("loop", tmp_path / "loop")
+    with pytest.raises(InputError, match=message):
+        require_writable(tmp_path / file)
+
+
+def test_a_folder_where_a_file_stands_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("", encoding="ascii")
+    with pytest.raises(InputError, match="cannot be made a directory"):
+        require_writable(None, tmp_path / "file")
+
+
+def test_a_file_may_go_into_the_folder_that_is_made_for_other_results(tmp_path: Path) -> None:
+    made = tmp_path / "evidence" / "deep"
+    require_writable(made / "controller.json", made)
+    require_writable(tmp_path / "evidence" / "controller.json", made)
+    with pytest.raises(InputError, match="No such file or directory"):
+        require_writable(tmp_path / "elsewhere" / "controller.json", made)
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/null"), reason="there are no devices")
+def test_a_device_is_written_as_it_is() -> None:
+    require_writable(Path("/dev/null"))
