@@ -65,6 +65,10 @@ class FloatRefused(InputError):
     """A float where an exact number is needed."""
 
 
+class OtherFormat(InputError):
+    """The file is well formed, but by its own word of another format than the one expected."""
+
+
 class UsageError(McexactError, ValueError):
     """The arguments do not make sense together, whatever the input holds."""
 

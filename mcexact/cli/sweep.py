@@ -84,7 +84,10 @@ def command(
     max_memory: int | None,
     **rest: Any,
 ) -> int:
-    """Ask the same questions about every system in the FILEs (all *.json of a DIRECTORY).
+    """Ask the same questions about every system in the FILEs.
+
+    Of a DIRECTORY, those *.json files are taken that by their key "format" are system files; the
+    others are skipped, and named in the summary.
 
     Every certificate is checked by the independent checker before it counts. What cannot be read
     or decided is named and stops nothing; the limits on time and memory are for each system. With
@@ -95,13 +98,15 @@ def command(
     from mcexact.cli.files import directory, require_writable
     from mcexact.cli.output import emit_json, emit_tables
     from mcexact.derived.draw import Draw
+    from mcexact.errors import InputError
     from mcexact.exact.rational import Limits
-    from mcexact.report.sweep_view import sweep_tables, sweep_view
+    from mcexact.report.sweep_view import skipped_table, sweep_tables, sweep_view
     from mcexact.sweep.jobs import decide
     from mcexact.sweep.run import sweep
 
     limits = {name: rest.pop(name) for name in ("bytes", "depth", "digits", "exponent")}
-    sources: list[Source] = list(_paths(files))
+    listed = _Listed(files)
+    sources: list[Source] = list(listed.paths)
     sources += [Draw(number, **rest) for number in range(seed, seed + (draws or 0))]
     if not sources:
         raise click.UsageError("there is nothing to sweep over: name files, or --draws N")
@@ -131,26 +136,66 @@ def command(
         click.echo(f"mcexact: {said}", err=True)
         return INTERRUPTED
     documents.sort(key=lambda document: int(document["number"]))
+    documents, skipped = listed.separated(documents)
+    if not documents:
+        raise InputError("there is no system file in it", where=", ".join(files))
     if as_json:
-        emit_json(sweep_view(documents))
+        emit_json(sweep_view(documents, skipped))
     else:
-        emit_tables(sweep_tables(documents, asked))
+        tables = sweep_tables(documents, asked)
+        emit_tables((*tables, skipped_table(skipped)) if skipped else tables)
     ended = {document["error"]["status"] for document in documents if "error" in document}
     return next(status for status in _PRECEDENCE if status in {0, *ended})
 
 
-def _paths(files: tuple[str, ...]) -> Iterator[str]:
-    """The files, and those in the directories."""
-    from mcexact.errors import InputError
+class _Listed:
+    """The files that were named, and those in the directories that may be system files.
 
-    for file in files:
-        if not os.path.isdir(file):
-            yield file
-            continue
-        found = sorted(str(path) for path in Path(file).glob("*.json"))
-        if not found:
-            raise InputError("there are no *.json files in this directory", where=file)
-        yield from found
+    Attributes
+    ----------
+    paths : list of str
+    """
+
+    def __init__(self, files: tuple[str, ...]) -> None:
+        from mcexact.errors import InputError
+
+        self.paths: list[str] = []
+        self._found: set[int] = set()
+        self._skipped: list[tuple[str, str]] = []
+        for file in files:
+            if not os.path.isdir(file):
+                self.paths.append(file)
+                continue
+            before = len(self.paths)
+            for path in sorted(Path(file).iterdir()):
+                self._take(path)
+            if len(self.paths) == before:
+                raise InputError("there are no *.json files in this directory", where=file)
+
+    def _take(self, path: Path) -> None:
+        """Take a file of a directory, unless its name says that it is something else."""
+        if path.is_dir() or path.name.startswith("."):
+            return
+        if path.suffix != ".json":
+            self._skipped.append((str(path), "its name does not end in .json"))
+        elif not path.is_file():
+            self._skipped.append((str(path), "it is no regular file"))
+        else:
+            self._found.add(len(self.paths))
+            self.paths.append(str(path))
+
+    def separated(
+        self, documents: list[dict[str, Any]]
+    ) -> tuple[list[dict[str, Any]], list[tuple[str, str]]]:
+        """The records, and what was skipped in the directories: a file that was named counts."""
+        kept, skipped = [], list(self._skipped)
+        for document in documents:
+            error = document.get("error", {})
+            if document["number"] in self._found and error.get("other_format"):
+                skipped.append((document["name"], error["message"]))
+            else:
+                kept.append(document)
+        return kept, sorted(skipped)
 
 
 def _processors() -> int:

@@ -10,7 +10,7 @@ import sys
 from collections.abc import Collection, Iterable, Iterator
 from typing import Any
 
-from mcexact.errors import InputError
+from mcexact.errors import InputError, OtherFormat
 from mcexact.exact.rational import DEFAULT_LIMITS, Limits
 from mcexact.model.names import nearest, quoted
 
@@ -226,18 +226,20 @@ def expect_format(document: Any, expected: str) -> dict[str, Any]:
 
     Raises
     ------
+    OtherFormat
+        Saying which kind of file was given instead.
     InputError
-        Saying which kind of file was given instead, or that the version is unknown.
+        If the version is unknown.
     """
     if not isinstance(document, dict):
-        raise InputError(
+        raise OtherFormat(
             f'expected a JSON object with "format": "{expected}", found {kind_of(document)}'
         )
     found = document.get("format")
     if found == expected:
         return document
     if found is None:
-        raise InputError(f'the key \'format\' is missing; expected "format": "{expected}"')
+        raise OtherFormat(f'the key \'format\' is missing; expected "format": "{expected}"')
     wanted = _KINDS.get(expected.partition("/")[0], "another file")
     if isinstance(found, str):
         stem = found.partition("/")[0]
@@ -248,8 +250,8 @@ def expect_format(document: Any, expected: str) -> dict[str, Any]:
                 where="format",
             )
         if stem in _KINDS:
-            raise InputError(f"expected {wanted}, found {_KINDS[stem]}", where="format")
-    raise InputError(f'expected "{expected}", found {quoted(found)}', where="format")
+            raise OtherFormat(f"expected {wanted}, found {_KINDS[stem]}", where="format")
+    raise OtherFormat(f'expected "{expected}", found {quoted(found)}', where="format")
 
 
 _KINDS = {

@@ -11,14 +11,33 @@ from mcexact.exact.polynomial import Polynomial
 from mcexact.report.text import Table, count, shorten
 
 _MOST_ROWS = 60
+_MOST_SKIPPED = 20
 _NOT_STABILIZABLE = "not stabilizable: by no linear time-invariant decentralized controller"
 
 Document = Mapping[str, Any]
 
 
-def sweep_view(documents: Sequence[Document]) -> dict[str, Any]:
-    """The counts and every record."""
-    return {"counts": counts(documents), "records": list(documents)}
+def sweep_view(
+    documents: Sequence[Document], skipped: Sequence[tuple[str, str]] = ()
+) -> dict[str, Any]:
+    """The counts, every record, and the files that were skipped, each with the reason."""
+    return {
+        "counts": counts(documents),
+        "records": list(documents),
+        "skipped": [{"name": name, "reason": reason} for name, reason in skipped],
+    }
+
+
+def skipped_table(skipped: Sequence[tuple[str, str]]) -> Table:
+    """The files of folders that are no system files, each with the reason."""
+    shown = [(shorten(name, 60), shorten(reason, 70)) for name, reason in skipped[:_MOST_SKIPPED]]
+    more = len(skipped) - len(shown)
+    return Table(
+        "skipped, because they are no system files",
+        ("file", "reason"),
+        tuple(shown),
+        f"and {more} more; --json has all of them" if more else "",
+    )
 
 
 def counts(documents: Sequence[Document]) -> dict[str, int]:

@@ -11,7 +11,7 @@ from typing import Any
 
 from mcexact.certificate import codec
 from mcexact.derived.draw import Draw, drawn_system
-from mcexact.errors import InputError, LimitReached, McexactError, UsageError
+from mcexact.errors import InputError, LimitReached, McexactError, OtherFormat, UsageError
 from mcexact.exact.rational import DEFAULT_LIMITS, Limits
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import digest, read_system, system_text
@@ -113,9 +113,13 @@ def decide(job: Job) -> Outcome:
 
 
 def failure(error: BaseException) -> Outcome:
-    """What is kept of an error: the exit status that it stands for, and its message."""
+    """What is kept of an error: the exit status that it stands for, and its message.
+
+    ``other_format`` says that the file is, by its own word, no system file.
+    """
     if isinstance(error, McexactError):
-        return {"error": {"status": error.exit_status, "message": str(error)}}
+        kept: dict[str, Any] = {"status": error.exit_status, "message": str(error)}
+        return {"error": kept | ({"other_format": True} if isinstance(error, OtherFormat) else {})}
     status = 4 if isinstance(error, MemoryError) else 70
     return {"error": {"status": status, "message": f"{type(error).__name__}: {error}"}}
 

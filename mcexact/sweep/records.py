@@ -37,7 +37,7 @@ class Record:
     seconds : float or None
         What deciding took, with the certificates.
     error : mapping or None
-        ``status``, an exit status, and ``message``.
+        ``status``, an exit status, and ``message``; ``other_format`` for what is no system file.
     certificates : mapping from questions to texts
         Checked; not kept in the file, and empty for a record that was read from one.
     """

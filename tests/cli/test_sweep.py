@@ -11,9 +11,13 @@ from pathlib import Path
 
 import pytest
 
+from mcexact.analysis.fixed_spectrum import fixed_spectrum
+from mcexact.certificate import codec
 from mcexact.cli import main
 from mcexact.cli.sweep import _QUESTIONS
 from mcexact.model import gallery
+from mcexact.model.controller_file import save_controller
+from mcexact.model.local_controllers import local_controllers
 from mcexact.model.system_file import save_system
 from mcexact.report.sweep_view import sweep_tables
 from mcexact.sweep.questions import QUESTIONS
@@ -166,3 +170,58 @@ def test_an_interrupted_sweep_says_so_and_goes_on(tmp_path: Path) -> None:
         check=True,
     )  # fmt: skip
     assert json.loads(again.stdout)["counts"]["decided"] == kept
+
+
+def test_of_a_folder_only_system_files_are_read_and_the_others_are_named(
+    call: Call, folder: Path, tmp_path: Path
+) -> None:
+    plant = gallery.load("hidden-triple-mode")
+    codec.write(fixed_spectrum(plant).certificate, folder / "certificate.json")
+    gains = [[[0] * plant.q(i)] * plant.p(i) for i in range(plant.m)]
+    save_controller(local_controllers(plant, gains), folder / "controller.json")
+    (folder / "other.json").write_text("[1, 2]", encoding="ascii")
+    (folder / "README.md").write_text("what these are", encoding="ascii")
+    results = str(tmp_path / "results.jsonl")
+    expected = [
+        ("README.md", "its name does not end in .json"),
+        ("certificate.json", "format: expected a system file, found a certificate"),
+        ("controller.json", "format: expected a system file, found a controller file"),
+        ("other.json", 'expected a JSON object with "format": "mcexact-system/1", found a list'),
+    ]
+    for _ in range(2):  # the second time from the results
+        status, out, _ = call(str(folder), "--json", "-o", results)
+        found = json.loads(out)
+        assert status == 0
+        assert found["counts"]["systems"] == found["counts"]["decided"] == 2
+        assert [(Path(s["name"]).name, s["reason"]) for s in found["skipped"]] == expected
+    told = call(str(folder))[1]
+    assert "skipped, because they are no system files" in told
+    assert all(name in told and reason in told for name, reason in expected)
+
+
+def test_a_malformed_system_file_in_a_folder_is_a_failure(call: Call, folder: Path) -> None:
+    for name, text in {
+        "short.json": '{"format": "mcexact-system/1"}',
+        "later.json": '{"format": "mcexact-system/9"}',
+        "broken.json": "{",
+    }.items():
+        (folder / name).write_text(text, encoding="ascii")
+    status, out, _ = call(str(folder), "--json")
+    found = json.loads(out)
+    assert (status, found["skipped"]) == (3, [])
+    assert found["counts"]["systems"] == 5
+    assert found["counts"]["decided"] == 2
+
+
+def test_a_file_that_is_named_is_never_skipped(call: Call, folder: Path) -> None:
+    (folder / "other.json").write_text("{}", encoding="ascii")
+    status, out, _ = call(str(folder / "other.json"), str(folder), "--json")
+    found = json.loads(out)
+    assert (status, found["counts"]["systems"], len(found["skipped"])) == (3, 3, 1)
+
+
+def test_a_folder_without_any_system_file_is_bad_input(call: Call, tmp_path: Path) -> None:
+    (tmp_path / "other.json").write_text("{}", encoding="ascii")
+    status, _, err = call(str(tmp_path))
+    assert status == 3
+    assert f"{tmp_path}: there is no system file in it" in err
