@@ -25,7 +25,7 @@ from mcexact.derived.choices import SeededChoices
 from mcexact.derived.drawn import jointly_controllable_system, system_with_fixed_mode
 from mcexact.derived.drawn_graph import drawn_graph
 from mcexact.derived.extended import extended_system
-from mcexact.errors import Impossible
+from mcexact.errors import Impossible, LimitReached
 from mcexact.exact.linear_algebra import left_nullspace
 from mcexact.exact.matrix import Matrix
 from mcexact.model.neighbor_graph import NeighborGraph
@@ -225,7 +225,13 @@ def setpoints(count: int, seed: int) -> Counter[str]:
         road: Road = "extended" if number % 4 < 2 else "observer"
         arithmetic: ArithmeticKind = "float" if number % 2 else "exact"
         wanted: dict[str, Any] = {"radius": RADIUS} if system.time == "discrete" else {"rate": 1}
-        design = design_setpoint(system, road=road, arithmetic=arithmetic, **wanted)
+        try:
+            design = design_setpoint(system, road=road, arithmetic=arithmetic, **wanted)
+        except LimitReached:
+            # A drawn plant may leave floating point too little room on some processors.
+            required(arithmetic == "float", "exact arithmetic finds a design", where)
+            seen["nothing found in floating point"] += 1
+            continue
         required(design.stability.stable, "stable", where)
         error = tracking_error(system, design.controller, random.Random(number))
         required(error <= 1e-6, f"an output misses its reference by {error}", where)
