@@ -45,8 +45,8 @@ def command(
     """Decide whether the loop of the system in FILE and the CONTROLLER is stable, or fast enough.
 
     The controller is linear and time-invariant, as every controller file is. The decision is exact,
-    whatever it was designed with. A no ends with status 1; with
-    --certificates it is proved as well.
+    whatever it was designed with. A no ends with status 1; with --certificates it is proved as
+    well. A controller that was made for another plant is warned of.
     """
     from mcexact.cli.deadline import Deadline
     from mcexact.cli.files import directory, place_of, read, require_writable
@@ -67,6 +67,8 @@ def command(
         timeout=deadline,
         max_memory=max_memory,
     )
+    for warning in answer["json"]["warnings"]:
+        click.echo(f"mcexact: warning: {warning}", err=True)
     if certificates is not None:
         name, text = answer["certificate"]
         write_text(directory(certificates) / name, text)
@@ -101,7 +103,7 @@ def _certified(
         raise error.within(program[0]) from None
     made = found.verdict.certificate
     return {
-        "json": verdict_view(found),
+        "json": verdict_view(found, controller.warnings_for(system)),
         "tables": verdict_tables(found),
         "certificate": (f"{made.kind}.json", codec.encode(made)),
     }

@@ -12,6 +12,7 @@ from mcexact.model.matrix_json import matrix_json
 from mcexact.model.names import quoted
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system_file import digest
 
 MAPS = ("shared_update", "private_update", "input")
 
@@ -100,7 +101,7 @@ class Controller:
     ----------
     time : {"continuous", "discrete"}
     system : str
-        The digest of the plant that it was made for.
+        The digest of the plant that it was made for; empty if that is not known.
     agents : tuple of AgentProgram
         In the order of the channels.
 
@@ -136,6 +137,19 @@ class Controller:
     def arcs(self) -> tuple[tuple[int, int], ...]:
         """The arcs (j, i), j ≠ i, on which agent i uses something of agent j."""
         return tuple((j, i) for i, agent in enumerate(self.agents) for j in agent.hears() if j != i)
+
+    def warnings_for(self, system: MultiChannelSystem) -> tuple[str, ...]:
+        """What a user should know before trusting a loop of the controller with this plant.
+
+        A controller fits many plants; it was designed for the numbers of one.
+        """
+        found = digest(system)
+        if self.system in ("", found):
+            return ()
+        return (
+            f"the controller was made for another plant, of digest {self.system[:12]}…, "
+            f"not for this one, of digest {found[:12]}…",
+        )
 
     def require_fits(self, system: MultiChannelSystem, graph: NeighborGraph) -> None:
         """Refuse a controller that this system cannot run over this graph.

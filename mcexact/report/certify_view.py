@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from mcexact.exact.rational import to_float
@@ -9,7 +10,7 @@ from mcexact.report.text import Table
 from mcexact.synthesis.certify import ControllerVerdict
 
 
-def verdict_view(found: ControllerVerdict) -> dict[str, Any]:
+def verdict_view(found: ControllerVerdict, warnings: Sequence[str] = ()) -> dict[str, Any]:
     """The verdict; ``certified`` is whether every eigenvalue lies in the region."""
     region = found.verdict.region
     return {
@@ -21,6 +22,7 @@ def verdict_view(found: ControllerVerdict) -> dict[str, Any]:
         "states": found.loop.n,
         "blocks": list(found.blocks),
         "largest": None if found.largest is None else str(found.largest),
+        "warnings": list(warnings),
     }
 
 

@@ -139,7 +139,7 @@ def run_report(
         reference=_by_channel(system, reference),
         arithmetic=arithmetic,
     )
-    warnings = () if run.warning is None else (run.warning,)
+    warnings = controller.warnings_for(system) + (() if run.warning is None else (run.warning,))
     return SimulationReport(system.name or "simulation", run, spectrum, warnings)
 
 

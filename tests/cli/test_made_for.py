@@ -1,0 +1,60 @@
+"""A controller that was made for another plant runs, is certified, and is warned of."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from mcexact.model.controller_file import load_controller, save_controller
+from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system_file import digest, save_system
+from tests.end_to_end.command_line import run
+
+WARNING = "mcexact: warning: the controller was made for another plant, of digest "
+
+
+def plant(pole: str) -> MultiChannelSystem:
+    return MultiChannelSystem([[pole]], [[[1]]], [[[1]]])
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """A plant with the controller designed for it, and another plant that it fits as well."""
+    save_system(plant("1"), tmp_path / "own.json")
+    save_system(plant("1/2"), tmp_path / "other.json")
+    where = str(tmp_path / "controller.json")
+    made = run("design", "decentralized", str(tmp_path / "own.json"), "--rate=1", "-o", where)
+    assert made.status == 0, made.stderr
+    return tmp_path
+
+
+@pytest.mark.parametrize("command", ["certify", "simulate"])
+def test_only_a_controller_for_another_plant_is_warned_of(folder: Path, command: str) -> None:
+    controller = str(folder / "controller.json")
+    own = run(command, str(folder / "own.json"), controller, "--json")
+    assert (own.status, own.messages, json.loads(own.stdout)["warnings"]) == (0, [], [])
+    other = run(command, str(folder / "other.json"), controller, "--json")
+    [message] = other.messages
+    assert other.status == 0
+    assert message.startswith(WARNING)
+    assert digest(plant("1"))[:12] in message and digest(plant("1/2"))[:12] in message
+    assert message.endswith(json.loads(other.stdout)["warnings"][0])
+    told = run(command, str(folder / "other.json"), controller)
+    assert told.messages == [message]
+
+
+@pytest.mark.parametrize("command", ["certify", "simulate"])
+def test_a_controller_that_names_no_plant_is_not_warned_of(folder: Path, command: str) -> None:
+    nameless = replace(load_controller(folder / "controller.json"), system="")
+    save_controller(nameless, folder / "nameless.json")
+    done = run(command, str(folder / "other.json"), str(folder / "nameless.json"))
+    assert (done.status, done.messages) == (0, [])
+
+
+def test_another_neighbor_graph_makes_another_plant(folder: Path) -> None:
+    """Its certificates are about another system, too."""
+    save_system(plant("1").with_neighbors({"1": []}), folder / "wired.json")
+    done = run("certify", str(folder / "wired.json"), str(folder / "controller.json"))
+    assert done.status == 0
+    assert done.messages[0].startswith(WARNING)
