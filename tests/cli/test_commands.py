@@ -11,6 +11,7 @@ import pytest
 import mcexact
 from mcexact.cli import main
 from mcexact.cli.commands import COMMANDS
+from mcexact.crosscheck import demonstration
 from mcexact.crosscheck.records import libraries_here
 from mcexact.model import gallery
 from mcexact.model.system_file import load_system
@@ -77,7 +78,7 @@ def test_an_error_that_nobody_foresaw_asks_to_be_reported(
     def broken() -> None:
         raise ZeroDivisionError("surprise")
 
-    monkeypatch.setattr("mcexact.crosscheck.demonstration.demonstration", broken)
+    monkeypatch.setattr(demonstration, "demonstration", broken)
     status, out, err = call("demo")
     assert (status, out) == (70, "")
     assert "internal error, ZeroDivisionError: surprise" in err
@@ -89,7 +90,7 @@ def test_an_interruption_is_status_130(call: Call, monkeypatch: pytest.MonkeyPat
     def interrupted() -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("mcexact.crosscheck.demonstration.demonstration", interrupted)
+    monkeypatch.setattr(demonstration, "demonstration", interrupted)
     assert call("demo")[0] == 130
 
 
