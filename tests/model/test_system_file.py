@@ -370,7 +370,7 @@ def test_a_name_as_long_as_the_file_system_allows_can_be_written(tmp_path):
 
 
 def test_what_no_file_can_be_called_is_refused():
-    with pytest.raises(InputError, match="is no file name: embedded null byte"):
+    with pytest.raises(InputError, match="is no file name: .*embedded null"):
         write_text("a\0b", "{}")
 
 
