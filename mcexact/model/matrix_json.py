@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -241,15 +242,22 @@ def number_json(value: Fraction) -> int | str:
     return rational_text(value)
 
 
-def matrix_json(M: Matrix) -> Any:
-    """Write a matrix as a list of rows; one with columns but no rows says its shape."""
+def matrix_json(M: Matrix, number: Callable[[Fraction], int | str] = number_json) -> Any:
+    """Write a matrix as a list of rows; one with columns but no rows says its shape.
+
+    Parameters
+    ----------
+    M : Matrix
+    number : callable
+        How an entry is written: as in a file, or as in the canonical object of a certificate.
+    """
     r, c = M.shape
     if not r and c:
         return {"shape": [0, c], "entries": []}
     d = M.denominator
     if d == 1 and all(entry.bit_length() < PRINTABLE_BITS for row in M.numerators for entry in row):
         return [list(row) for row in M.numerators]
-    return [[number_json(Fraction(entry, d)) for entry in row] for row in M.numerators]
+    return [[number(Fraction(entry, d)) for entry in row] for row in M.numerators]
 
 
 def json_text_of_number(value: int | str) -> str:

@@ -9,7 +9,7 @@ from typing import Any
 from mcexact.certificate import codec
 from mcexact.errors import InputError
 from mcexact.exact.matrix import Matrix
-from mcexact.exact.rational import DEFAULT_LIMITS, Limits
+from mcexact.exact.rational import DEFAULT_LIMITS, Limits, written
 from mcexact.model.atomic import write_text
 from mcexact.model.json_text import (
     expect_format,
@@ -192,9 +192,13 @@ def canonical_document(system: MultiChannelSystem) -> codec.PlainObject:
     document = codec.PlainObject()
     document |= {
         "time": plant.time,
-        "A": matrix_json(plant.A),
+        "A": matrix_json(plant.A, written),
         "channels": [
-            {"name": channel.name, "B": matrix_json(channel.B), "C": matrix_json(channel.C)}
+            {
+                "name": channel.name,
+                "B": matrix_json(channel.B, written),
+                "C": matrix_json(channel.C, written),
+            }
             for channel in plant.channels
         ],
     }

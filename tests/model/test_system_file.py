@@ -14,6 +14,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mcexact import testing
+from mcexact.analysis.controllability import joint_controllability
+from mcexact.certificate import codec
+from mcexact.checker import Limits as CheckerLimits
+from mcexact.checker import check_document
 from mcexact.derived.extended import extended_system
 from mcexact.errors import InputError
 from mcexact.exact.rational import Limits
@@ -370,7 +374,7 @@ def test_a_name_as_long_as_the_file_system_allows_can_be_written(tmp_path):
 
 
 def test_what_no_file_can_be_called_is_refused():
-    with pytest.raises(InputError, match="is no file name: .*embedded null"):
+    with pytest.raises(InputError, match=r"is no file name: .*embedded null"):
         write_text("a\0b", "{}")
 
 
@@ -389,3 +393,9 @@ def test_a_matrix_read_from_its_own_json_is_the_same(drawn):
 def test_an_unknown_gallery_system_is_refused():
     with pytest.raises(ValueError, match="no system 'hiden-triple-mode' in the gallery"):
         gallery.load("hiden-triple-mode")
+
+
+def test_certificates_about_plants_with_very_long_integers_are_canonical() -> None:
+    plant = MultiChannelSystem([[10**6000]], [[[1]]], [[[1]]])
+    text = codec.encode(joint_controllability(plant).certificate).encode("ascii")
+    assert check_document(text, limits=CheckerLimits(digits=10**4)).verdict == "VALID"
