@@ -32,7 +32,7 @@ from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import Entry, as_fraction
 from mcexact.model.names import quoted
 from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.system import MultiChannelSystem, with_graph
+from mcexact.model.system import MultiChannelSystem, with_wires
 from mcexact.model.system_file import canonical_document
 
 Arc = tuple[int, int]
@@ -66,6 +66,8 @@ class MinimalCommunication:
 class _Problem:
     """The plant over its graph, what an arc carries, and the arcs that may be added."""
 
+    given: MultiChannelSystem
+    """The plant as the user gave it, perhaps without a graph: the certificate is about this one."""
     plant: MultiChannelSystem
     share: Carried
     dimensions: tuple[int, ...] | None
@@ -112,7 +114,7 @@ def minimal_communication(
     system : MultiChannelSystem
         A plant, not a derived system.
     graph : NeighborGraph, optional
-        What agents hear already; overrides ``system.neighbors``.
+        What agents hear already; overrides ``system.neighbors``.  Without either they hear nobody.
     dimensions : sequence of m int, optional
         n_i of the extended system; without them agents share outputs alone.
     share : {"outputs", "outputs+states", "states"}, optional
@@ -165,7 +167,7 @@ def minimal_communication(
         final = problem.system(picked)
         found = absence(final, problem.region, generator(final, CommunicationCertificate.kind))
     certificate = CommunicationCertificate(
-        system=canonical_document(problem.plant),
+        system=canonical_document(problem.given),
         subject=(),
         share=problem.share,
         dimensions=problem.dimensions,
@@ -196,7 +198,8 @@ def _checked(
     forbidden: Iterable[tuple[str, str]],
     bound: Entry | None,
 ) -> _Problem:
-    plant, found = with_graph(system, graph)
+    given, found = with_wires(system, graph)
+    plant = given.with_neighbors(found)
     if plant.subject:
         raise UsageError("give the plant, not a system derived from it", where="system")
     carried: Carried = share or ("outputs" if dimensions is None else "outputs+states")
@@ -219,6 +222,7 @@ def _checked(
         if j not in found.neighborhood(i) and (j, i) not in excluded
     )
     return _Problem(
+        given=given,
         plant=plant,
         share=carried,
         dimensions=None if dimensions is None else tuple(dimensions),

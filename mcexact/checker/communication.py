@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -23,6 +24,8 @@ def check(claim: Any, witness: Any, system: System) -> str:
     )
     absence, cuts, tree = fields(witness, "witness", "absence", "cuts", "tree")
     reading.string(share, "claim.share", "outputs", "outputs+states", "states")
+    if system.neighbors is None:
+        system = replace(system, neighbors=[[i] for i in range(system.m)])
     require((sizes is None) == (share == "outputs"), "claim", "claim.dimensions", "do not fit")
     bound, candidates = region.read_bound(limit, system), wires.candidates(listed, system)
     costs, ends = [cost for *_, cost in candidates], [(j, i) for j, i, _ in candidates]

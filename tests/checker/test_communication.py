@@ -14,6 +14,7 @@ SILENT = NeighborGraph.empty(PLANT.names)
 CHAIN = NeighborGraph.from_names(PLANT.names, {"1": ["2"], "3": ["1"]})
 
 OUTPUTS = document(minimal_communication(PLANT, SILENT).certificate)
+WITHOUT_GRAPH = document(minimal_communication(PLANT).certificate)
 EXTENDED = document(minimal_communication(PLANT, CHAIN, dimensions=(0, 0, 1)).certificate)
 BLOCKED = document(
     minimal_communication(
@@ -23,12 +24,14 @@ BLOCKED = document(
 
 ACCEPTED = [
     ("outputs alone", OUTPUTS),
+    ("a plant without a neighbor graph", WITHOUT_GRAPH),
     ("one more wire for the extended system", EXTENDED),
     ("no candidate, no way", BLOCKED),
     ("another modulus", changed(OUTPUTS, ("witness.absence.modulus", 2**31 - 1))),
 ]
 
 REJECTED = [
+    ("no arc for a plant without a neighbor graph", WITHOUT_GRAPH, ("claim.added", [])),
     ("an arc that does not help", EXTENDED, ("claim.added", [["2", "3"]])),
     ("no arc at all", EXTENDED, ("claim.added", [])),
     ("an arc that is no candidate", EXTENDED, ("claim.added", [["2", "1"]])),
@@ -55,3 +58,8 @@ REJECTED = [
 
 test_sound_evidence_is_accepted = accepts(ACCEPTED)
 test_a_change_of_one_place_is_rejected = rejects(REJECTED)
+
+
+def test_a_plant_without_a_graph_gets_a_certificate_about_itself() -> None:
+    assert "neighbors" not in WITHOUT_GRAPH["system"]
+    assert WITHOUT_GRAPH["claim"] == OUTPUTS["claim"]
