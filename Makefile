@@ -5,7 +5,7 @@ BIN := .venv/bin
 STAMP := .venv/.installed
 GALLERY := mcexact/model/gallery
 
-.PHONY: records reproduce look ledger demo test lint types tests matrix agreement mutations bench proofs weakened-proofs
+.PHONY: records reproduce look ledger sentences demo test lint types tests matrix agreement mutations bench proofs weakened-proofs
 
 demo: $(STAMP)
 	$(BIN)/mcexact demo
@@ -60,6 +60,10 @@ look: $(STAMP)
 # The table of the paper's statements in proofs/README.md, from the ledger.
 ledger: $(STAMP)
 	$(BIN)/python proofs/ledger_table.py
+
+# The list of all sentences that the commands print about a system, from their templates.
+sentences: $(STAMP)
+	$(BIN)/python -m mcexact.answer.listing
 
 # Installs Coq where it is missing and where it may, compiles every proof and checks it twice.
 proofs:

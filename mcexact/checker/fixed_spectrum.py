@@ -59,7 +59,7 @@ def check(claim: Any, witness: Any, system: System) -> str:
     _require_ranks(completion, [(p, loss) for p, loss, *_ in found], A_F, ell)
     centers = [disc for *_, discs, _ in found for disc in discs]
     interval = root_discs.rate_interval(rate, "claim.best_rate", centers, system.time)
-    end = f"{words.STABILIZABLE[stabilizable]}, whose {words.RATE[system.time]} is {interval}"
+    end = f"{words.STABILIZABLE[stabilizable]}; {words.SLOWEST[system.time]} is {interval}"
     spectrum = f"{words.described(system)} is that of {words.polynomial_text(product)}"
     return f"the fixed spectrum of {spectrum}: {'; '.join([*(text for *_, text in found), end])}"
 

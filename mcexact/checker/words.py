@@ -10,7 +10,10 @@ from fractions import Fraction
 from .arithmetic import Polynomial
 from .system import System
 
-RATE = {"continuous": "best decay rate", "discrete": "best spectral radius"}
+SLOWEST = {
+    "continuous": "minus the largest real part of a fixed mode",
+    "discrete": "the largest modulus of a fixed mode",
+}
 STABILIZABLE = {
     True: "stabilizable by linear time-invariant decentralized control",
     False: "not stabilizable by linear time-invariant decentralized control",

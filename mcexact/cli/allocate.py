@@ -94,7 +94,8 @@ def command(
 
     from mcexact.cli.deadline import Deadline
     from mcexact.cli.files import directory, place_of, read, require_writable
-    from mcexact.cli.output import emit_json, emit_tables
+    from mcexact.cli.output import emit, emit_json, emit_tables
+    from mcexact.cli.rechecking import rechecked
     from mcexact.cli.supervision import supervised
     from mcexact.model.atomic import write_text
 
@@ -113,15 +114,25 @@ def command(
         timeout=deadline,
         max_memory=max_memory,
     )
+    if not as_json:
+        emit_tables(answer["tables"])
+    checked = rechecked(
+        answer["certificates"],
+        answer["digest"],
+        doing=f"re-checking the answers about {place}",
+        deadline=deadline,
+        max_memory=max_memory,
+    )
     if certificates is not None:
         folder = directory(certificates)
         for name, text in answer["certificates"].items():
             write_text(folder / f"{name}.json", text)
         answer["json"]["certificate"] = {name: f"{name}.json" for name in answer["certificates"]}
     if as_json:
-        emit_json(answer["json"])
-    else:
-        emit_tables(answer["tables"])
+        emit_json(answer["json"] | {"re_checked": checked.view()})
+    elif checked.missing is None:
+        emit("\n" + checked.line())
+    checked.require_complete()
     return 0 if answer["feasible"] else DEFINITE_NO
 
 
@@ -130,13 +141,16 @@ def _answer(
 ) -> dict[str, Any]:
     """Read, decide, and put the answer into text: what the child process does."""
     from mcexact.cli.files import system_in
+    from mcexact.model.system_file import digest
     from mcexact.report.allocation import arcs_report, dimensions_report
 
     system = system_in(place, data, limits)
     bound = _bound(system.time, question.pop("rate"), question.pop("radius"))
     if question.pop("arcs"):
-        return arcs_report(system, _wires(question, bound))
-    return dimensions_report(system, _dimensions(system.names, question, bound))
+        made = arcs_report(system, _wires(question, bound))
+    else:
+        made = dimensions_report(system, _dimensions(system.names, question, bound))
+    return made | {"digest": digest(system)}
 
 
 def _bound(time: str, rate: Fraction | None, radius: Fraction | None) -> Fraction | None:

@@ -10,6 +10,9 @@ import click
 from mcexact.cli import options
 from mcexact.cli.failures import DEFINITE_NO
 
+_LINES_OF_WORDS = 5
+_FACTORS = 6
+
 
 @click.command(name="analyze", short_help="Decide which modes no decentralized control can move.")
 @click.argument("file")
@@ -22,6 +25,11 @@ from mcexact.cli.failures import DEFINITE_NO
 )
 @click.option(
     "--minimal", is_flag=True, help="Find the least that the agents must share, both ways."
+)
+@click.option(
+    "--links",
+    is_flag=True,
+    help="Find the fewest links over which sending outputs leaves no mode fixed.",
 )
 @click.option(
     "--subset",
@@ -63,6 +71,7 @@ def command(
     file: str,
     information: str,
     minimal: bool,
+    links: bool,
     delayed: bool,
     subset: str | None,
     channel: str | None,
@@ -86,6 +95,7 @@ def command(
     from mcexact.cli.deadline import Deadline
     from mcexact.cli.files import directory, place_of, read, require_other, require_writable
     from mcexact.cli.output import emit, emit_json, emit_tables
+    from mcexact.cli.rechecking import rechecked
     from mcexact.cli.supervision import supervised
     from mcexact.model.atomic import write_text
 
@@ -102,15 +112,29 @@ def command(
         {
             "information": information,
             "minimal": minimal,
+            "links": links,
             "delayed": delayed,
             "subset": _named(subset),
             "channel": channel,
             "every_channel": every_channel,
         },
         certificates is not None,
-        {"html": html is not None, "latex": latex},
+        html is not None,
         doing=f"analyzing {place}",
         timeout=deadline,
+        max_memory=max_memory,
+    )
+    shown = not as_json
+    if latex and html is None and shown:
+        emit(answer["latex"])
+    elif shown:
+        emit(answer["words"] + "\n")
+        emit_tables(answer["tables"])
+    checked = rechecked(
+        answer["certificates"],
+        answer["digest"],
+        doing=f"re-checking the answers about {place}",
+        deadline=deadline,
         max_memory=max_memory,
     )
     if certificates is not None:
@@ -118,13 +142,13 @@ def command(
         for name, text in answer["certificates"].items():
             write_text(folder / name, text)
     if html is not None:
-        write_text(html, answer["html"])
+        results = answer["latex"] if latex else None
+        write_text(html, answer["page"].rendered(answer["certificates"], checked.verdicts, results))
     if as_json:
-        emit_json(answer["json"])
-    elif latex and html is None:
-        emit(answer["latex"])
-    else:
-        emit_tables(answer["tables"])
+        emit_json(answer["json"] | {"re_checked": checked.view()})
+    elif checked.missing is None and not (latex and html is None):
+        emit("\n" + checked.line())
+    checked.require_complete()
     if asserted == "no-fixed-modes" and not answer["json"]["fixed_spectrum"]["empty"]:
         return DEFINITE_NO
     return 0
@@ -142,30 +166,34 @@ def _answer(
     data: bytes,
     limits: dict[str, int],
     question: dict[str, Any],
-    with_certificates: bool,
-    views: dict[str, bool],
+    names_certificates: bool,
+    with_page: bool,
 ) -> dict[str, Any]:
     """Decide, and put the answer into text: what the child process does."""
     from mcexact.certificate import codec
     from mcexact.cli.files import system_in
+    from mcexact.model.system_file import digest
     from mcexact.report.assessment import assess
+    from mcexact.report.assessment_tables import assessment_tables
     from mcexact.report.json_view import assessment_view
-    from mcexact.report.text import assessment_tables
+    from mcexact.report.latex import assessment_latex
+    from mcexact.report.words import in_lines
 
     system = system_in(place, data, limits)
     assessment = assess(system, **question)
-    certificates = assessment.certificates() if with_certificates else {}
-    pages = {}
-    if views["html"]:
+    page = None
+    if with_page:
         from mcexact.report.assessment_page import assessment_page
 
-        pages["html"] = assessment_page(assessment, latex=views["latex"])
-    if views["latex"]:
-        from mcexact.report.latex import assessment_latex
-
-        pages["latex"] = assessment_latex(assessment)
-    return pages | {
-        "json": assessment_view(assessment, with_certificates=with_certificates),
-        "tables": assessment_tables(assessment),
-        "certificates": {name: codec.encode(made) for name, made in certificates.items()},
+        page = assessment_page(assessment)
+    return {
+        "json": assessment_view(assessment, with_certificates=names_certificates),
+        "words": in_lines(assessment, _LINES_OF_WORDS),
+        "tables": assessment_tables(assessment, most_factors=_FACTORS),
+        "latex": assessment_latex(assessment),
+        "page": page,
+        "certificates": {
+            name: codec.encode(made) for name, made in assessment.certificates().items()
+        },
+        "digest": digest(system.plant),
     }

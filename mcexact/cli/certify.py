@@ -50,7 +50,8 @@ def command(
     """
     from mcexact.cli.deadline import Deadline
     from mcexact.cli.files import directory, place_of, read, require_writable
-    from mcexact.cli.output import emit_json, emit_tables
+    from mcexact.cli.output import emit, emit_json, emit_tables
+    from mcexact.cli.rechecking import rechecked
     from mcexact.cli.supervision import supervised
     from mcexact.model.atomic import write_text
 
@@ -69,14 +70,24 @@ def command(
     )
     for warning in answer["json"]["warnings"]:
         click.echo(f"mcexact: warning: {warning}", err=True)
+    if not as_json:
+        emit_tables(answer["tables"])
+    name, text = answer["certificate"]
+    checked = rechecked(
+        {name: text},
+        answer["digest"],
+        doing=f"re-checking the verdict on {place_of(controller)}",
+        deadline=deadline,
+        max_memory=max_memory,
+    )
     if certificates is not None:
-        name, text = answer["certificate"]
         write_text(directory(certificates) / name, text)
         answer["json"]["certificate"] = name
     if as_json:
-        emit_json(answer["json"])
-    else:
-        emit_tables(answer["tables"])
+        emit_json(answer["json"] | {"re_checked": checked.view()})
+    elif checked.missing is None:
+        emit("\n" + checked.line())
+    checked.require_complete()
     return 0 if answer["json"]["certified"] else DEFINITE_NO
 
 
@@ -92,6 +103,7 @@ def _certified(
     from mcexact.errors import InputError
     from mcexact.exact.rational import Limits
     from mcexact.model.controller_file import read_controller
+    from mcexact.model.system_file import digest
     from mcexact.report.certify_view import verdict_tables, verdict_view
     from mcexact.synthesis.certify import certify_controller
 
@@ -106,4 +118,5 @@ def _certified(
         "json": verdict_view(found, controller.warnings_for(system)),
         "tables": verdict_tables(found),
         "certificate": (f"{made.kind}.json", codec.encode(made)),
+        "digest": digest(system),
     }

@@ -46,7 +46,7 @@ def command(
     from mcexact.cli.output import emit, emit_json
     from mcexact.cli.supervision import supervised
     from mcexact.model.atomic import write_text
-    from mcexact.report.text import plain
+    from mcexact.report.text import WIDE, plain
 
     if exhibits == (file is not None):
         raise click.UsageError("give either FILE or --exhibits")
@@ -73,7 +73,7 @@ def command(
     if as_json:
         emit_json(answer["json"])
     else:
-        emit(plain(answer["tables"]))
+        emit(plain(answer["tables"], width=WIDE))
 
 
 def _crosschecked(place: str, data: bytes, limits: dict[str, int]) -> dict[str, Any]:

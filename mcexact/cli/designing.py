@@ -15,18 +15,17 @@ HOW = ("rate", "radius", "arithmetic")
 """The options that the functions of `mcexact.synthesis` take under the same names."""
 
 
-def design_options(spectrum_help: str) -> Callable[[F], F]:
+def design_options(
+    spectrum_help: str,
+    agent_help: str = "Who carries the channel controller; else who needs the least order.",
+) -> Callable[[F], F]:
     """The options of every design, and the arguments of `answer`."""
     given = (
         options.rate,
         options.radius,
         click.option("--spectrum", metavar="FILE", help=spectrum_help),
         options.arithmetic,
-        click.option(
-            "--agent",
-            metavar="NAME",
-            help="Who carries the channel controller; else who needs the least order.",
-        ),
+        click.option("--agent", metavar="NAME", help=agent_help),
         options.controller_output,
         options.certificates,
         options.as_json,
@@ -43,7 +42,7 @@ def design_options(spectrum_help: str) -> Callable[[F], F]:
 
 
 def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any]) -> None:
-    """Design in a child process, then write the controller, the certificates and the summary.
+    """Design in a child process, show the answer, re-check its certificates and write the files.
 
     Parameters
     ----------
@@ -58,6 +57,7 @@ def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any
     from mcexact.cli.deadline import Deadline
     from mcexact.cli.files import directory, place_of, read, require_other, require_writable
     from mcexact.cli.output import emit, emit_json, emit_tables
+    from mcexact.cli.rechecking import rechecked
     from mcexact.cli.supervision import supervised
     from mcexact.errors import Impossible
     from mcexact.model.atomic import write_text
@@ -81,24 +81,33 @@ def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any
         timeout=deadline,
         max_memory=given["max_memory"],
     )
+    output, as_json, possible = given["output"], given["as_json"], "impossible" not in done
+    if possible and not as_json:
+        if output is None:
+            emit(done["controller"])
+        else:
+            emit_tables(done["tables"])
+    checked = rechecked(
+        done["certificates"],
+        done["digest"],
+        doing=f"re-checking the design for {place}",
+        deadline=deadline,
+        max_memory=given["max_memory"],
+    )
     if given["certificates"] is not None and done["certificates"]:
         folder = directory(given["certificates"])
         for written, text in done["certificates"].items():
             write_text(folder / written, text)
-    if "impossible" in done:
-        if given["as_json"]:
-            emit_json({"design": name, "possible": False, "reason": done["impossible"]})
+        done["json"]["certificates"] = list(done["certificates"])
+    if possible and output is not None:
+        write_text(output, done["controller"])
+    if as_json:
+        emit_json(done["json"] | {"re_checked": checked.view()})
+    elif possible and output is not None and checked.missing is None:
+        emit("\n" + checked.line())
+    checked.require_complete()
+    if not possible:
         raise Impossible(done["impossible"])
-    if given["output"] is not None:
-        write_text(given["output"], done["controller"])
-    if given["as_json"]:
-        if given["certificates"] is not None:
-            done["json"]["certificates"] = list(done["certificates"])
-        emit_json(done["json"])
-    elif given["output"] is not None:
-        emit_tables(done["tables"])
-    else:
-        emit(done["controller"])
 
 
 def _designed(
@@ -117,7 +126,7 @@ def _designed(
     from mcexact.exact.rational import Limits
     from mcexact.model.controller_file import controller_text
     from mcexact.model.json_text import parse
-    from mcexact.report.network_view import design_tables, design_view
+    from mcexact.model.system_file import digest
     from mcexact.synthesis.spectrum import require_numbers
 
     spectrum = None
@@ -133,10 +142,39 @@ def _designed(
     except Impossible as refused:
         evidence = refused.certificate
         written = {} if evidence is None else {f"{evidence.kind}.json": codec.encode(evidence)}
-        return {"impossible": str(refused), "certificates": written}
+        return {
+            "impossible": str(refused),
+            "certificates": written,
+            "digest": digest(system),
+            "json": {"design": name, "possible": False, "reason": str(refused)},
+        }
+    view, tables = _described(name, found)
     return {
         "controller": controller_text(found.controller),
         "certificates": {f"{k}.json": codec.encode(c) for k, c in found.certificates.items()},
-        "json": design_view(name, found),
-        "tables": design_tables(found),
+        "digest": digest(system),
+        "json": view,
+        "tables": tables,
     }
+
+
+def _described(name: str, design: Any) -> tuple[dict[str, Any], Any]:
+    """The design as plain data and as tables."""
+    from mcexact.synthesis.observer import ObserverDesign
+
+    if name != "observer":
+        from mcexact.report.network_view import design_tables, design_view
+
+        return design_view(name, design), design_tables(design)
+    if isinstance(design, ObserverDesign):
+        from mcexact.report.design_view import observer_tables, observer_view
+
+        return observer_view(design), observer_tables(design)
+    from mcexact.report.observer_float_view import (
+        design_margins,
+        observer_float_tables,
+        observer_float_view,
+    )
+
+    margins = design_margins(design)
+    return observer_float_view(design, margins), observer_float_tables(design, margins)

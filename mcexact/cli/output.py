@@ -35,11 +35,18 @@ def emit_json(document: Any) -> None:
     emit(json.dumps(document, indent=2, ensure_ascii=True) + "\n")
 
 
-def emit_tables(tables: Sequence[Table]) -> None:
-    """Draw tables where a person reads standard output as it comes, else write plain lines."""
-    from mcexact.report.text import plain, show
+def emit_tables(tables: Sequence[Table], width: int | None = None) -> None:
+    """Draw tables where a person reads standard output as it comes, else write plain lines.
+
+    Parameters
+    ----------
+    tables : sequence of Table
+    width : int, optional
+        Columns of the plain lines.
+    """
+    from mcexact.report.text import WIDTH, plain, show
 
     if sys.stdout.isatty():
         show(tables, sys.stdout)
     else:
-        emit(plain(tables))
+        emit(plain(tables, width or WIDTH))

@@ -101,6 +101,7 @@ def command(
     from mcexact.errors import InputError
     from mcexact.exact.rational import Limits
     from mcexact.report.sweep_view import skipped_table, sweep_tables, sweep_view
+    from mcexact.report.text import WIDE
     from mcexact.sweep.jobs import decide
     from mcexact.sweep.run import sweep
 
@@ -143,7 +144,7 @@ def command(
         emit_json(sweep_view(documents, skipped))
     else:
         tables = sweep_tables(documents, asked)
-        emit_tables((*tables, skipped_table(skipped)) if skipped else tables)
+        emit_tables((*tables, skipped_table(skipped)) if skipped else tables, width=WIDE)
     ended = {document["error"]["status"] for document in documents if "error" in document}
     return next(status for status in _PRECEDENCE if status in {0, *ended})
 

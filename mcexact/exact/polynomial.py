@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -294,7 +294,11 @@ class Polynomial:
         return [written(c) for c in self.coefficients]
 
     def __str__(self) -> str:
-        return _rendered(self, "x^{}", lambda c: rational_text(abs(c)), "*")
+        return self.text(rational_text)
+
+    def text(self, coefficient: Callable[[Fraction], str]) -> str:
+        """The polynomial, highest power first; ``coefficient`` writes the absolute values."""
+        return _rendered(self, "x^{}", lambda c: coefficient(abs(c)), "*")
 
     def latex(self) -> str:
         """LaTeX source.

@@ -1,4 +1,4 @@
-"""What `mcexact allocate` prints: who has to share how much, or which wires to add, and why."""
+"""What `mcexact allocate` prints: who has to share how much, or which links to add, and why."""
 
 from __future__ import annotations
 
@@ -14,12 +14,13 @@ from mcexact.analysis.allocation import (
     shared_dimension_bound,
 )
 from mcexact.analysis.communication import MinimalCommunication, minimal_communication
+from mcexact.analysis.controllability import joint_controllability, joint_observability
+from mcexact.analysis.neighbor_graph import neighbor_graph
+from mcexact.answer.wording import allocation as say
 from mcexact.certificate import codec
 from mcexact.model.system import MultiChannelSystem
 from mcexact.report.json_view import polynomial_view
-from mcexact.report.text import Table, count, shorten
-
-SHARED = {"outputs+states": "outputs and sub-states", "states": "sub-states alone"}
+from mcexact.report.text import Table
 
 
 def dimensions_report(system: MultiChannelSystem, options: Mapping[str, Any]) -> dict[str, Any]:
@@ -34,19 +35,25 @@ def dimensions_report(system: MultiChannelSystem, options: Mapping[str, Any]) ->
     """
     bound = shared_dimension_bound(system, share=options["share"])
     least = minimal_shared_dimensions(system, **options)
+    graph = neighbor_graph(system)
+    controllable, observable = joint_controllability(system), joint_observability(system)
+    holds = graph.strongly_connected and controllable.controllable and observable.controllable
     return {
         "feasible": least.feasible,
-        "json": _dimensions_view(system, bound, least),
-        "tables": _dimensions_tables(system, bound, least),
+        "json": _dimensions_view(system, bound, holds, least),
+        "tables": _dimensions_tables(system, bound if holds else None, least),
         "certificates": {
             "shared_dimension_bound": codec.encode(bound.certificate),
             "minimal_shared_dimensions": codec.encode(least.certificate),
+            "neighbor_graph": codec.encode(graph.certificate),
+            "joint_controllability": codec.encode(controllable.certificate),
+            "joint_observability": codec.encode(observable.certificate),
         },
     }
 
 
 def _dimensions_view(
-    system: MultiChannelSystem, bound: SharedDimensionBound, least: SharedDimensions
+    system: MultiChannelSystem, bound: SharedDimensionBound, holds: bool, least: SharedDimensions
 ) -> dict[str, Any]:
     minimal = None
     if least.dimensions is not None:
@@ -57,7 +64,8 @@ def _dimensions_view(
         }
     return {
         "share": least.share,
-        "bound": {"per_agent": bound.per_agent, "total": bound.total},
+        "deficiency": bound.per_agent,
+        "bound": {"per_agent": bound.per_agent, "total": bound.total} if holds else None,
         "feasible": least.feasible,
         "minimal": minimal,
         "binding": [
@@ -74,57 +82,59 @@ def _dimensions_view(
 
 
 def _dimensions_tables(
-    system: MultiChannelSystem, bound: SharedDimensionBound, least: SharedDimensions
+    system: MultiChannelSystem, bound: SharedDimensionBound | None, least: SharedDimensions
 ) -> tuple[Table, ...]:
-    name = system.name or "system"
-    reasons = Table(
-        "why" if least.feasible else "why nothing suffices",
-        ("these agents", "must hear from", "at least", "because of"),
-        tuple(_reason(subset) for subset in least.binding),
+    """What is least, beside the bound where that is one; and who has to receive how much."""
+    made = least.certificate
+    asked = {
+        "name": system.name or "system",
+        "share": least.share,
+        "scope": (system.time, made.bound, made.free_assignability),
+    }
+    why = Table(
+        "why" if least.feasible else "why nothing is enough",
+        ("these agents", "must receive from", "at least", "because of"),
+        tuple(_reason(subset, system.m) for subset in least.binding),
     )
     if least.dimensions is None:
-        title = f"{name}: sharing {SHARED[least.share]}, no dimensions leave every mode movable"
-        return (Table(title, (), ()), reasons)
+        return (Table(say.IMPOSSIBLE(**asked), (), ()), why)
+    columns: tuple[str, ...] = ("agent", "least")
+    row, total, values = say.ROW, say.TOTAL, {}
+    if bound is not None:
+        columns += ("Theorem 2's bound",)
+        row, total, values = say.ROW_BOUND, say.TOTAL_BOUND, {"bound": bound.per_agent}
     rows = [
-        (agent, str(size), str(bound.per_agent))
+        row.cells(agent=agent, size=size, **values)
         for agent, size in zip(system.names, least.dimensions, strict=True)
     ]
-    rows.append(("total", str(least.total), str(bound.total)))
-    note = _proof(least.cuts, "subset", least.nodes)
-    if least.cost != least.total:
-        note = f"least cost {least.cost}; {note}"
-    shares = Table(
-        f"{name}: what each agent has to share ({SHARED[least.share]})",
-        ("agent", "least", "Theorem 2's bound"),
-        tuple(rows),
-        note,
-    )
-    return (shares, reasons) if least.binding else (shares,)
+    whole = {} if bound is None else {"bound": bound.total}
+    rows.append(total.cells(size=least.total, **whole))
+    proof = say.PROOF if least.cost == least.total else say.COST_PROOF
+    note = proof(cost=least.cost, cuts=least.cuts, nodes=least.nodes)
+    shares = Table(say.LEAST(**asked), columns, tuple(rows), note)
+    return (shares, why) if least.binding else (shares,)
 
 
-def _proof(cuts: int, noun: str, nodes: int) -> str:
-    return f"proved with {count(cuts, noun)} and a branch tree of {count(nodes, 'node')}"
-
-
-def _reason(subset: BindingSubset) -> tuple[str, str, str, str]:
-    mode = "nothing reaches them otherwise"
-    if subset.mode is not None:
-        mode = f"the roots of {shorten(str(subset.mode))}"
-    return (
-        ", ".join(subset.subset),
-        ", ".join(subset.boundary) or "nobody: there is no wire",
-        str(subset.deficiency),
-        mode,
+def _reason(subset: BindingSubset, m: int) -> tuple[str, ...]:
+    """Why a set of agents needs something; of none and of all it is not a matter of sharing."""
+    told = say.REASON_CUT_OFF if subset.mode is None else say.REASON
+    if subset.mode is not None and len(subset.subset) in {0, m}:
+        told = say.REASON_UNREACHED["observe" if subset.subset else "control"]
+    return told.cells(
+        subset=subset.subset,
+        senders=subset.boundary,
+        deficiency=subset.deficiency,
+        p=subset.mode,
     )
 
 
 def arcs_report(system: MultiChannelSystem, options: Mapping[str, Any]) -> dict[str, Any]:
-    """Decide the cheapest wires; JSON, tables and certificates of the answer.
+    """Decide the cheapest links; JSON, tables and certificates of the answer.
 
     Parameters
     ----------
     system : MultiChannelSystem
-        A plant with a neighbor graph.
+        A plant.
     options : mapping
         The keywords of `minimal_communication`.
     """
@@ -145,15 +155,17 @@ def arcs_report(system: MultiChannelSystem, options: Mapping[str, Any]) -> dict[
 
 
 def _arcs_table(system: MultiChannelSystem, least: MinimalCommunication) -> Table:
-    name = system.name or "system"
-    note = _proof(least.cuts, "obstruction", least.nodes)
-    if least.added is None:
-        return Table(f"{name}: no wires that may be added leave every mode movable", (), (), note)
-    if not least.added:
-        return Table(f"{name}: every mode can be moved as it is, no wire is needed", (), (), note)
-    prices: dict[tuple[str, str], Fraction] = {
-        (j, i): price for j, i, price in least.certificate.candidates
+    made = least.certificate
+    asked = {
+        "name": system.name or "system",
+        "scope": (system.time, made.bound, False),
+        "what": made.share,
     }
-    rows = [(j, i, str(prices[j, i])) for j, i in least.added]
-    rows.append(("total", "", str(least.cost)))
-    return Table(f"{name}: wires to add", ("from", "to", "cost"), tuple(rows), note)
+    note = say.LINKS_PROOF(cuts=least.cuts, nodes=least.nodes)
+    if not least.added:
+        told = say.NO_LINKS if least.added is None else say.NO_LINKS_NEEDED
+        return Table(told(**asked), (), (), note)
+    prices: dict[tuple[str, str], Fraction] = {(j, i): price for j, i, price in made.candidates}
+    rows = [say.LINK.cells(start=j, end=i, cost=prices[j, i]) for j, i in least.added]
+    rows.append(say.LINKS_TOTAL.cells(cost=least.cost))
+    return Table(say.LINKS(**asked), ("from", "to", "cost"), tuple(rows), note)

@@ -11,6 +11,8 @@ from mcexact.errors import LimitReached, UsageError
 if TYPE_CHECKING:
     from mcexact.analysis.allocation import SharedDimensionBound, SharedDimensions
     from mcexact.analysis.assignability import Assignability
+    from mcexact.analysis.closed_loop_spectrum import OpenLoopSpectrum
+    from mcexact.analysis.communication import MinimalCommunication
     from mcexact.analysis.complementary_subsystem import ComplementarySubsystem
     from mcexact.analysis.completeness import Completeness
     from mcexact.analysis.controllability import JointControllability
@@ -23,6 +25,7 @@ if TYPE_CHECKING:
     from mcexact.analysis.single_channel_gains import SingleChannelGains
     from mcexact.analysis.transfer_graph import TransferGraph
     from mcexact.derived.extended import Share
+    from mcexact.exact.polynomial import Polynomial
     from mcexact.model.system import MultiChannelSystem
 
 SHARING: tuple[Share, ...] = ("outputs+states", "states")
@@ -112,12 +115,17 @@ class Assessment:
         Gains with which every channel controls and observes, if they were asked for.
     pencil_ranks : tuple of PencilRank
         For the subset that was asked about, at every mode of A.
+    spectrum_of_A : OpenLoopSpectrum or None
+        That these are all modes of A.
     neighbor_graph : NeighborGraphVerdict or None
         None if the plant has no neighbor graph.
     shared_dimension_bounds : mapping from the way of sharing to SharedDimensionBound
         Empty if the plant has no neighbor graph.
     minimal_shared_dimensions : mapping from the way of sharing to SharedDimensions, or None
         None unless it was asked for; a `LimitReached` where the node limit was reached.
+    minimal_communication : MinimalCommunication, LimitReached or None
+        The fewest links, over and above those of the neighbor graph, over which sending outputs
+        leaves nothing fixed; None unless it was asked for.
     """
 
     system: MultiChannelSystem
@@ -136,9 +144,11 @@ class Assessment:
     channel: ChannelAnswers | None = None
     every_channel: SingleChannelGains | None = None
     pencil_ranks: tuple[PencilRank, ...] = ()
+    spectrum_of_A: OpenLoopSpectrum | None = None
     neighbor_graph: NeighborGraphVerdict | None = None
     shared_dimension_bounds: Mapping[Share, SharedDimensionBound] = field(default_factory=dict)
     minimal_shared_dimensions: Mapping[Share, SharedDimensions | LimitReached] | None = None
+    minimal_communication: MinimalCommunication | LimitReached | None = None
 
     def certificates(self) -> dict[str, Any]:
         """The certificates under the names of their files, in the order of the answers."""
@@ -155,6 +165,8 @@ class Assessment:
             "setpoint": self.setpoint,
             "every_channel": self.every_channel,
             "neighbor_graph": self.neighbor_graph,
+            "spectrum_of_A": self.spectrum_of_A,
+            "minimal_communication": self.minimal_communication,
         }
         if self.channel is not None:
             answers |= self.channel.answers()
@@ -186,6 +198,7 @@ def assess(
     channel: str | None = None,
     every_channel: bool = False,
     minimal: bool = False,
+    links: bool = False,
     delayed: bool = False,
 ) -> Assessment:
     """Decide everything that applies to a plant.
@@ -204,6 +217,9 @@ def assess(
         Look for gains with which every channel controls and observes, too.
     minimal : bool
         Solve for the least dimensions that agents must share, too.
+    links : bool
+        Solve for the fewest links, over and above those of the neighbor graph, over which sending
+        outputs leaves nothing fixed, too.
     delayed : bool
         Decide the networks with the plant's delays, too.
 
@@ -263,6 +279,7 @@ def assess(
         channel=None if channel is None else _of_the_channel(system, channel),
         **({} if subset is None else _of_the_subset(system, subset)),
         every_channel=_every_channel(system) if every_channel else None,
+        minimal_communication=_links(plant) if links else None,
         **({} if plant.neighbors is None else _of_the_graph(plant, minimal)),
     )
 
@@ -327,6 +344,16 @@ def _of_the_channel(system: MultiChannelSystem, name: str) -> ChannelAnswers:
     )
 
 
+def _links(plant: MultiChannelSystem) -> MinimalCommunication | LimitReached:
+    """The fewest links for outputs, over and above those of the neighbor graph."""
+    from mcexact.analysis.communication import minimal_communication
+
+    try:
+        return minimal_communication(plant)
+    except LimitReached as reached:
+        return reached
+
+
 def _every_channel(system: MultiChannelSystem) -> SingleChannelGains:
     """Gains with which every channel controls and observes."""
     from mcexact.analysis.single_channel_gains import single_channel_gains
@@ -336,18 +363,23 @@ def _every_channel(system: MultiChannelSystem) -> SingleChannelGains:
 
 def _of_the_subset(system: MultiChannelSystem, subset: Sequence[str]) -> dict[str, Any]:
     """The pencil of a set of channels."""
+    from mcexact.analysis.closed_loop_spectrum import open_loop_spectrum
     from mcexact.analysis.complementary_subsystem import complementary_subsystem
 
-    answers: dict[str, Any] = {"pencil_ranks": _pencil_ranks(system, subset)}
+    spectrum = open_loop_spectrum(system)
+    answers: dict[str, Any] = {
+        "pencil_ranks": _pencil_ranks(system, subset, spectrum.polynomial),
+        "spectrum_of_A": spectrum,
+    }
     if 0 < len(set(subset)) < system.m:
         answers["complementary_subsystem"] = complementary_subsystem(system, subset)
     return answers
 
 
-def _pencil_ranks(system: MultiChannelSystem, subset: Sequence[str]) -> tuple[PencilRank, ...]:
+def _pencil_ranks(
+    system: MultiChannelSystem, subset: Sequence[str], polynomial: Polynomial
+) -> tuple[PencilRank, ...]:
     """The rank of P_s at the roots of each irreducible factor of the polynomial of A."""
     from mcexact.analysis.pencil import pencil_rank
-    from mcexact.exact.linear_algebra import characteristic_polynomial
 
-    modes = characteristic_polynomial(system.A).factor()
-    return tuple(pencil_rank(system, subset, mode) for mode, _ in modes)
+    return tuple(pencil_rank(system, subset, mode) for mode, _ in polynomial.factor())

@@ -2,35 +2,77 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 
-from mcexact.errors import Impossible, LimitReached
+from mcexact.answer.wording import details as say
+from mcexact.checker import Verdict
+from mcexact.errors import LimitReached
 from mcexact.report.assessment import Assessment
+from mcexact.report.assessment_tables import assessment_tables, bound_holds
 from mcexact.report.graph_figures import dimensions_picture, graph_picture
-from mcexact.report.latex import assessment_latex
 from mcexact.report.page import page
-from mcexact.report.text import assessment_tables, count
+from mcexact.report.picture import EmbeddedPicture
+from mcexact.report.text import Table
 from mcexact.report.words import answer
 
-if TYPE_CHECKING:
-    from mcexact.analysis.communication import MinimalCommunication
 
-_LARGEST_FOR_WIRES = 12
+@dataclass(frozen=True)
+class AssessmentPage:
+    """Everything that was decided about a system, but for the verdicts on its certificates.
 
-
-def assessment_page(assessment: Assessment, *, latex: bool = False) -> str:
-    """Everything that was decided about a system, the answer in plain words first.
-
-    Parameters
+    Attributes
     ----------
-    assessment : Assessment
-    latex : bool
-        Whether the results are added as LaTeX.
+    title, heading : str
+    good : bool
+        Whether control with the given information can stabilize the plant.
+    answer : tuple of str
+    pictures : tuple of EmbeddedPicture
+    tables : tuple of Table
     """
-    from mcexact.certificate import codec
-    from mcexact.checker import check_document
 
+    title: str
+    heading: str
+    good: bool
+    answer: tuple[str, ...]
+    pictures: tuple[EmbeddedPicture, ...]
+    tables: tuple[Table, ...]
+
+    def rendered(
+        self,
+        certificates: Mapping[str, str],
+        verdicts: Mapping[str, Verdict],
+        latex: str | None = None,
+    ) -> str:
+        """The whole page.
+
+        Parameters
+        ----------
+        certificates : mapping from names of files to texts
+        verdicts : mapping from names of files to Verdict
+            What the checker said of each; of one that is missing the page says that it was not
+            re-checked.
+        latex : str, optional
+            The results as LaTeX.
+        """
+        evidence = []
+        for name, text in certificates.items():
+            said = verdicts.get(name)
+            evidence.append(
+                {
+                    "title": name,
+                    "verdict": said.verdict if said else "not re-checked",
+                    "theorem": said.line() if said else "",
+                    "text": text,
+                }
+            )
+        if latex is not None:
+            evidence.append({"title": "LaTeX", "verdict": "", "theorem": "", "text": latex})
+        return page("assessment", **vars(self), evidence=evidence)
+
+
+def assessment_page(assessment: Assessment) -> AssessmentPage:
+    """Everything that was decided about a system, the answer in plain words first."""
     system = assessment.system
     pictures = [
         graph_picture(
@@ -46,51 +88,16 @@ def assessment_page(assessment: Assessment, *, latex: bool = False) -> str:
         if not isinstance(found, LimitReached)
     }
     if least:
-        bounds = {share: assessment.shared_dimension_bounds[share] for share in least}
-        pictures.append(dimensions_picture(system, bounds, least))
-    evidence = []
-    for name, made in assessment.certificates().items():
-        text = codec.encode(made)
-        said = check_document(text.encode("ascii"))
-        evidence.append(
-            {"title": name, "verdict": said.verdict, "theorem": said.line(), "text": text}
-        )
-    if latex:
-        text = assessment_latex(assessment)
-        evidence.append({"title": "LaTeX", "verdict": "", "theorem": "", "text": text})
+        bounds = assessment.shared_dimension_bounds if bound_holds(assessment) else None
+        pictures.append(dimensions_picture(system, least, bounds))
     first, *rest = assessment_tables(assessment)
-    tables = [replace(first, title="All answers"), *rest]
-    return page(
-        "assessment",
+    return AssessmentPage(
         title=system.name or "A multi-channel system",
-        heading=(
-            f"{count(system.n, 'state')}, {count(system.m, 'channel')}, {system.time} time; "
-            + (
-                "each agent feeds back the outputs of all its neighbors"
-                if assessment.information == "outputs"
-                else "each agent feeds back its own output"
-            )
+        heading=say.PAGE_HEADING(
+            n=system.n, m=system.m, time=system.time, information=assessment.information
         ),
         good=assessment.fixed_spectrum.stabilizable,
-        answer=answer(assessment, _wires(assessment)),
-        pictures=[drawn.embedded() for drawn in pictures],
-        tables=tables,
-        evidence=evidence,
+        answer=tuple(answer(assessment)),
+        pictures=tuple(drawn.embedded() for drawn in pictures),
+        tables=(replace(first, title="All answers"), *rest),
     )
-
-
-def _wires(assessment: Assessment) -> MinimalCommunication | None:
-    """The cheapest wires for outputs that leave nothing fixed; None where that is not at hand."""
-    from mcexact.analysis.communication import minimal_communication
-    from mcexact.model.neighbor_graph import NeighborGraph
-
-    plant = assessment.system.plant
-    if assessment.fixed_spectrum.empty or not 1 < plant.m <= _LARGEST_FOR_WIRES:
-        return None
-    graph = NeighborGraph.empty(plant.names)
-    if assessment.information == "outputs" and plant.neighbors is not None:
-        graph = plant.neighbors
-    try:
-        return minimal_communication(plant, graph)
-    except (LimitReached, Impossible):
-        return None

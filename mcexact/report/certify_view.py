@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from mcexact.exact.rational import to_float
+from mcexact.answer.wording import design as say
 from mcexact.report.text import Table
 from mcexact.synthesis.certify import ControllerVerdict
 
@@ -29,24 +29,19 @@ def verdict_view(found: ControllerVerdict, warnings: Sequence[str] = ()) -> dict
 def verdict_tables(found: ControllerVerdict) -> tuple[Table, ...]:
     """The verdict in a few lines."""
     region = found.verdict.region
-    how = {
-        "polynomial": "by the characteristic polynomial",
-        "lyapunov": "by Lyapunov matrices"
-        + (f", blocks of {_listed(found.blocks)} states" if len(found.blocks) > 1 else ""),
-        "instability": "by a quadratic form that decreases and is not positive",
-    }[found.verdict.method]
-    answer = "yes, every one" if found.verdict.stable else "no, not every one"
     rows = [
-        ("states of the loop", str(found.loop.n)),
-        (f"eigenvalues in {region}", f"{answer}, exactly"),
-        ("decided", how),
+        say.LOOP_STATES.row(n=found.loop.n),
+        (say.INSIDE if found.verdict.stable else say.OUTSIDE).row(region=region),
+        _decided(found),
     ]
     if found.largest is not None:
-        what = "largest rate" if region.time == "continuous" else "least radius"
-        rows.append((f"{what} found", f"{found.largest} (about {to_float(found.largest):.6g})"))
-    return (Table("closed loop", (), tuple(rows)),)
+        told = say.LARGEST if region.time == "continuous" else say.LEAST
+        rows.append(told.row(bound=found.largest))
+    return (Table(say.LOOP(), (), tuple(rows)),)
 
 
-def _listed(sizes: tuple[int, ...]) -> str:
-    """Numbers with commas and an and."""
-    return ", ".join(map(str, sizes[:-1])) + f" and {sizes[-1]}"
+def _decided(found: ControllerVerdict) -> tuple[str, str]:
+    """How it was decided, and on which blocks."""
+    if found.verdict.method == "lyapunov" and len(found.blocks) > 1:
+        return say.DECIDED_BLOCKS.row(sizes=found.blocks)
+    return say.DECIDED.row(method=found.verdict.method)

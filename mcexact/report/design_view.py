@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from mcexact.report.text import Table, shorten
+from mcexact.answer.wording import design as say
+from mcexact.report.text import Table
 from mcexact.synthesis.observer import ObserverDesign
 
 
@@ -24,10 +25,10 @@ def observer_view(design: ObserverDesign) -> dict[str, Any]:
 def observer_tables(design: ObserverDesign) -> tuple[Table, ...]:
     """The summary of a distributed observer."""
     rows = (
-        ("agent with the channel controller", f"{design.agent}, of order {design.channel.order}"),
-        ("states of all agents together", str(design.controller.order)),
-        ("spectrum of A + sum B_i F_i", shorten(str(design.feedback.polynomial))),
-        ("spectrum of the errors", shorten(str(design.error))),
-        ("longest number", f"{design.height} bits"),
+        say.CARRIER.row(agent=design.agent, order=design.channel.order),
+        say.ORDER.row(order=design.controller.order),
+        say.FEEDBACK.row(p=design.feedback.polynomial),
+        say.ERRORS.row(p=design.error),
+        say.LONGEST.row(bits=design.height),
     )
-    return (Table("distributed observer, closed loop certified", (), rows),)
+    return (Table(say.OBSERVER(), (), rows),)

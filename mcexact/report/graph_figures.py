@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from mcexact.analysis.fixed_spectrum import FixedSpectrum, fixed_spectrum
 from mcexact.analysis.transfer_graph import TransferGraph, transfer_graph
+from mcexact.answer.wording import details as say
 from mcexact.report.picture import Picture, empty_figure
-from mcexact.report.words import channels
 
 if TYPE_CHECKING:
     from mcexact.analysis.allocation import SharedDimensionBound, SharedDimensions
@@ -59,24 +59,17 @@ def graph_picture(
         figure.subplots(1, len(panels), squeeze=False)[0], panels, strict=True
     ):
         _draw(axis, title, names, arcs, subset, boundary)
-    shared = " (agents share outputs)" if information == "outputs" else ""
-    words = [f"{title}: {_listed(arcs)}" for title, arcs in panels]
+    words = [say.PICTURE_TRANSFER(arcs=panels[-1][1])]
+    if graph is not None:
+        words.insert(0, say.PICTURE_NEIGHBORS(arcs=panels[0][1]))
     if subset:
-        words.append(
-            f"the obstruction to {fixed.factors[0].polynomial}{shared}: "
-            f"{channels(sorted(subset, key=names.index))}, colored orange"
-        )
-    if boundary:
-        heard = ", ".join(sorted(boundary, key=names.index))
-        words.append(f"they hear {heard}, colored purple")
-    return Picture(figure, "Graphs" + shared, "; ".join(words) + ".")
-
-
-def _listed(arcs: Iterable[Arc]) -> str:
-    """The arcs in words."""
-    told = [f"{start} → {end}" for start, end in arcs]
-    more = f" and {len(told) - 40} more" if len(told) > 40 else ""
-    return ", ".join(told[:40]) + more if told else "no arcs"
+        s = sorted(subset, key=names.index)
+        words.append(say.PICTURE_OBSTRUCTION(s=s, p=fixed.factors[0].polynomial))
+        if boundary:
+            heard = sorted(boundary, key=names.index)
+            words.append(say.PICTURE_HEARD(s=s, heard=heard))
+    title = say.PICTURE_OUTPUTS() if information == "outputs" else say.PICTURE()
+    return Picture(figure, title, "; ".join(words) + ".")
 
 
 def _draw(
@@ -159,40 +152,47 @@ def _draw_matrix(
 
 def dimensions_picture(
     system: MultiChannelSystem,
-    bounds: Mapping[Share, SharedDimensionBound],
     least: Mapping[Share, SharedDimensions],
+    bounds: Mapping[Share, SharedDimensionBound] | None = None,
 ) -> Picture:
-    """Bars for every agent: the bound beside the least, for each way of sharing.
+    """Bars for every agent: the least for each way of sharing, beside the bound where it holds.
 
     Parameters
     ----------
     system : MultiChannelSystem
-    bounds, least : mapping from the way of sharing to the answer
+    least : mapping from the way of sharing to the answer
+    bounds : mapping from the way of sharing to the answer, optional
+        For a plant that meets the hypotheses of Theorem 2.
     """
     names = system.names
-    figure = empty_figure(4.4 * len(bounds), 3.2)
+    figure = empty_figure(4.4 * len(least), 3.2)
     words = []
-    for axis, (share, bound) in zip(
-        figure.subplots(1, len(bounds), squeeze=False)[0], bounds.items(), strict=True
+    for axis, (share, found) in zip(
+        figure.subplots(1, len(least), squeeze=False)[0], least.items(), strict=True
     ):
-        found = least[share].dimensions
-        sizes = (0,) * len(names) if found is None else found
+        sizes = (0,) * len(names) if found.dimensions is None else found.dimensions
         places = range(len(names))
-        axis.bar(
-            [k - 0.2 for k in places],
-            [bound.per_agent] * len(names),
-            0.4,
-            color="#bbbbbb",
-            label="bound of the paper",
-        )
+        bound = None if bounds is None else bounds[share].per_agent
+        if bound is not None:
+            axis.bar(
+                [k - 0.2 for k in places],
+                [bound] * len(names),
+                0.4,
+                color="#bbbbbb",
+                label="bound of the paper",
+            )
         axis.bar([k + 0.2 for k in places], sizes, 0.4, color=MARKED, label="least")
         axis.set_xticks(list(places), names, parse_math=False)
-        axis.set_yticks(range(max(bound.per_agent, *sizes, 1) + 1))
+        axis.set_yticks(range(max(bound or 0, *sizes, 1) + 1))
         axis.set_xlabel("agent")
         axis.set_ylabel("shared dimension")
         axis.set_title(share, fontsize="medium")
         axis.legend(fontsize="small", loc="upper center")
         axis.margins(y=0.35)
-        told = "nothing suffices" if found is None else f"least {list(found)}"
-        words.append(f"{share}: bound {bound.per_agent} for each agent, {told}")
-    return Picture(figure, "Shared dimensions by agent", "; ".join(words) + ".")
+        alone, beside, nothing = say.PICTURE_LEAST[share]
+        if found.dimensions is None:
+            words.append(nothing())
+        else:
+            told = alone if bound is None else beside
+            words.append(told(sizes=found.dimensions, bound=bound))
+    return Picture(figure, say.PICTURE_DIMENSIONS(), "; ".join(words) + ".")

@@ -8,9 +8,12 @@ from typing import TYPE_CHECKING, Any
 from mcexact.errors import LimitReached
 from mcexact.exact.rational import written
 from mcexact.report.assessment import Assessment, DelayedNetworks, stem
+from mcexact.report.assessment_tables import bound_holds, gains_row, movable, subsystem_completeness
+from mcexact.report.words import answer
 
 if TYPE_CHECKING:
     from mcexact.analysis.allocation import SharedDimensions
+    from mcexact.analysis.communication import MinimalCommunication
     from mcexact.analysis.complementary_subsystem import ComplementarySubsystem
     from mcexact.analysis.single_channel_gains import SingleChannelGains
     from mcexact.model.system import MultiChannelSystem
@@ -60,6 +63,7 @@ def assessment_view(assessment: Assessment, *, with_certificates: bool = False) 
                 for factor in spectrum.factors
             ],
         },
+        "answer": [str(sentence) for sentence in answer(assessment)],
         "stabilizable": spectrum.stabilizable,
         "best_rate": None if spectrum.best_rate is None else spectrum.best_rate.document(),
         "complete": assessment.completeness.complete,
@@ -77,14 +81,21 @@ def assessment_view(assessment: Assessment, *, with_certificates: bool = False) 
     if assessment.neighbor_graph is not None:
         connected = assessment.neighbor_graph.strongly_connected
         view["neighbor_graph"] = {"strongly_connected": connected}
+        holds = bound_holds(assessment)
         view["shared_dimension_bound"] = {
-            share: {"per_agent": bound.per_agent, "total": bound.total}
+            share: {
+                "deficiency": bound.per_agent,
+                "per_agent": bound.per_agent if holds else None,
+                "total": bound.total if holds else None,
+            }
             for share, bound in assessment.shared_dimension_bounds.items()
         }
         least = assessment.minimal_shared_dimensions
         view["minimal_shared_dimensions"] = least and {
             share: shared_dimensions_view(system, found) for share, found in least.items()
         }
+    if assessment.minimal_communication is not None:
+        view["minimal_communication"] = links_view(assessment.minimal_communication)
     if with_certificates:
         _name_certificates(view, assessment.certificates())
     return view
@@ -93,14 +104,30 @@ def assessment_view(assessment: Assessment, *, with_certificates: bool = False) 
 def shared_dimensions_view(
     system: MultiChannelSystem, found: SharedDimensions | LimitReached
 ) -> dict[str, Any]:
-    """The least dimensions by agent; the bounds on their sum where the node limit was reached."""
+    """The least dimensions by agent.
+
+    Where the node limit was reached, the bounds on their sum that were computed until then, which
+    no certificate proves.
+    """
     if isinstance(found, LimitReached):
         ends = {"lower": found.lower, "upper": found.upper}
-        return {name: None if end is None else written(end) for name, end in ends.items()}
+        bounds = {name: None if end is None else written(end) for name, end in ends.items()}
+        return {"decided": False, "computed_not_certified": bounds}
     dimensions = None
     if found.dimensions is not None:
         dimensions = dict(zip(system.names, found.dimensions, strict=True))
     return {"feasible": found.feasible, "total": found.total, "dimensions": dimensions}
+
+
+def links_view(found: MinimalCommunication | LimitReached) -> dict[str, Any] | None:
+    """The links to add, by name; None where the node limit was reached."""
+    if isinstance(found, LimitReached):
+        return None
+    return {
+        "feasible": found.feasible,
+        "added": None if found.added is None else [list(edge) for edge in found.added],
+        "cost": None if found.cost is None else written(found.cost),
+    }
 
 
 def transfer_graph_view(assessment: Assessment) -> dict[str, Any]:
@@ -131,6 +158,7 @@ def structure_view(assessment: Assessment) -> dict[str, Any]:
             for block in split.blocks
         ],
         "fixed_degree": split.fixed_degree,
+        "movable": dict(zip(("at_least", "at_most"), movable(assessment), strict=True)),
     }
     view["setpoint"] = {
         "solvable": assessment.setpoint.solvable,
@@ -142,16 +170,18 @@ def structure_view(assessment: Assessment) -> dict[str, Any]:
         view["delayed"] = delayed_view(assessment.delayed, assessment.system)
     subsystem, channel = assessment.complementary_subsystem, assessment.channel
     if subsystem is not None:
-        view["complementary_subsystem"] = complementary_subsystem_view(subsystem)
+        view["complementary_subsystem"] = complementary_subsystem_view(
+            subsystem, assessment.system.n
+        )
     if channel is not None:
         view["channel"] = {
             "name": channel.name,
             "controllable": channel.controllability.controllable,
             "observable": channel.observability.controllable,
-            "with_gains": {want: gains_view(found) for want, found in channel.gains.items()},
+            "with_gains": {want: gains_view(want, found) for want, found in channel.gains.items()},
         }
     if assessment.every_channel is not None:
-        view["every_channel"] = gains_view(assessment.every_channel)
+        view["every_channel"] = gains_view("every", assessment.every_channel)
     return view
 
 
@@ -172,7 +202,7 @@ def delayed_view(found: DelayedNetworks, system: MultiChannelSystem) -> dict[str
     return view
 
 
-def complementary_subsystem_view(found: ComplementarySubsystem) -> dict[str, Any]:
+def complementary_subsystem_view(found: ComplementarySubsystem, n: int) -> dict[str, Any]:
     """Rank, zeros, remnant polynomial and completeness of one subsystem."""
     return {
         "subset": list(found.subset),
@@ -190,14 +220,14 @@ def complementary_subsystem_view(found: ComplementarySubsystem) -> dict[str, Any
         "remnant": polynomial_view(found.remnant),
         "transfer_zero": found.transfer_zero,
         "complete": found.complete,
-        "reason": found.reason,
+        "reason": subsystem_completeness(found, n)[1],
     }
 
 
-def gains_view(found: SingleChannelGains) -> dict[str, Any]:
+def gains_view(want: str, found: SingleChannelGains) -> dict[str, Any]:
     """The gains by channel and the indices they reach, or why there are none."""
     if found.gains is None or found.indices is None:
-        return {"exists": False, "reason": found.reason}
+        return {"exists": False, "reason": gains_row(want, found)[1]}
     names = [channel["name"] for channel in found.certificate.system["channels"]]
     rows = [[[str(entry) for entry in row] for row in F.rows()] for F in found.gains]
     return {
@@ -222,16 +252,19 @@ _ANSWERS = {
     "setpoint": "setpoint.json",
     "every_channel": "every_channel.json",
     "neighbor_graph": "neighbor_graph.json",
+    "minimal_communication": "minimal_communication.json",
 }
 
 
 def _name_certificates(view: dict[str, Any], files: Iterable[str]) -> None:
     """Say under ``certificate`` where the evidence for each answer is."""
     files = set(files)
-    named = {answer: file for answer, file in _ANSWERS.items() if file in files and answer in view}
-    for answer, file in named.items():
-        if isinstance(view[answer], dict) and answer != "best_rate":
-            view[answer]["certificate"] = file
+    named = {name: file for name, file in _ANSWERS.items() if file in files and name in view}
+    for name, file in named.items():
+        if isinstance(view[name], dict) and name != "best_rate":
+            view[name]["certificate"] = file
+    if "spectrum_of_A.json" in files:
+        named["pencil_ranks"] = "spectrum_of_A.json"
     for number, rank in enumerate(view.get("pencil_ranks", ()), start=1):
         rank["certificate"] = f"pencil_rank_{number}.json"
     for name, network in view.get("delayed", {}).items():

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from mcexact.answer.wording import details as say
 from mcexact.exact.matrix import Matrix
 
 if TYPE_CHECKING:
@@ -57,16 +58,18 @@ def assessment_latex(assessment: Assessment) -> str:
         lines.append(rf"B_{{{k}}} &= {matrix(channel.B)}, & C_{{{k}}} &= {matrix(channel.C)}{last}")
     lines.append(r"\end{align*}")
     if spectrum.empty:
-        lines.append(r"$\Lambda_{\mathrm{fixed}} = \emptyset$.")
-        return "\n".join(lines) + "\n"
+        return "\n".join([*lines, say.LATEX_NOTHING_FIXED()]) + "\n"
     lines += [
         r"\begin{tabular}{lrrl}",
         r"mode & in $A$ & $\operatorname{rank} P_{\mathbf s}$ & $\mathbf s$ \\ \hline",
     ]
-    for factor in spectrum.factors:
-        names = ", ".join(map(escaped, factor.channels))
-        lines.append(
-            rf"${factor.polynomial.latex()}$ & {factor.multiplicity_in_A} & {factor.rank} "
-            rf"& $\{{\text{{{names}}}\}}$ \\"
+    lines += [
+        say.LATEX_FIXED_MODE(
+            p=factor.polynomial,
+            in_A=factor.multiplicity_in_A,
+            rank=factor.rank,
+            s=", ".join(map(escaped, factor.channels)),
         )
+        for factor in spectrum.factors
+    ]
     return "\n".join([*lines, r"\end{tabular}"]) + "\n"

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from mcexact.report.text import Table, shorten
+from mcexact.answer.wording import design as say
+from mcexact.report.text import Table
 from mcexact.synthesis.extended import ExtendedDesign
 from mcexact.synthesis.network_design import NetworkDesign
 from mcexact.synthesis.setpoint import SetpointDesign
@@ -51,29 +52,26 @@ def design_tables(design: AnyDesign) -> tuple[Table, ...]:
     """The summary of a design."""
     if isinstance(design, SetpointDesign):
         rows = [
-            ("states of all agents together", f"{design.order}, integrators included"),
-            ("gain from set-points to outputs", "the identity, exactly"),
-            ("longest number", f"{design.height} bits"),
+            say.ORDER_INTEGRATORS.row(order=design.order),
+            say.STEADY.row(),
+            say.LONGEST.row(bits=design.height),
         ]
-        title = f"set-point controller ({design.road}), closed loop certified"
-        return (Table(title, (), tuple(rows)),)
+        return (Table(say.SETPOINT(method=design.road), (), tuple(rows)),)
     found = design.design if isinstance(design, ExtendedDesign) else design
     rows = [
-        ("states of all agents together", str(found.order)),
-        ("a distributed observer would have", str(found.observer_order)),
+        say.ORDER.row(order=found.order),
+        say.OBSERVER_ORDER.row(order=found.observer_order),
     ]
     if found.network.kind != "decentralized":
         names = found.network.plant.names
-        sizes = zip(names, found.network.dimensions, strict=True)
-        rows.append(("shared dimensions", ", ".join(f"{name}: {n}" for name, n in sizes)))
+        rows.append(say.SHARED.row(sizes=list(zip(names, found.network.dimensions, strict=True))))
     for block in found.blocks:
-        carrier = f"{block.agent}, of order {block.order}"
-        if len(found.blocks) > 1:
-            carrier += f", for the channels {', '.join(block.channels)}"
-        rows.append(("agent with the channel controller", carrier))
-        rows.append(("spectrum that it assigns", shorten(str(block.polynomial))))
+        carrier = say.CARRIER if len(found.blocks) == 1 else say.CARRIER_FOR
+        rows.append(
+            carrier.row(agent=block.agent, order=block.order, channels=list(block.channels))
+        )
+        rows.append(say.ASSIGNED.row(p=block.polynomial))
     if found.kept.degree > 0:
-        rows.append(("fixed modes kept", shorten(str(found.kept))))
-    rows.append(("longest number", f"{found.height} bits"))
-    title = f"{found.network.kind} design, closed loop certified"
-    return (Table(title, (), tuple(rows)),)
+        rows.append(say.KEPT.row(p=found.kept))
+    rows.append(say.LONGEST.row(bits=found.height))
+    return (Table(say.NETWORK(kind=found.network.kind), (), tuple(rows)),)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import isfinite
 from typing import Any
 
+from mcexact.answer.wording import design as say
 from mcexact.exact.floats import matrix_to_float
 from mcexact.exact.location import StabilityRegion
 from mcexact.floating.margins import LoopMargins, loop_margins
@@ -35,10 +36,10 @@ def observer_float_tables(design: FloatObserverDesign, margins: LoopMargins) -> 
     """The summary: one table of what is certified, one of what is measured."""
     time = design.loop.loop.time
     proved = (
-        ("agent with the channel controller", f"{design.agent}, of order {design.order}"),
-        ("states of all agents together", str(design.controller.order)),
-        ("every eigenvalue of the loop", str(StabilityRegion(time, design.bound))),
-        ("longest number", f"{design.height} bits"),
+        say.CARRIER.row(agent=design.agent, order=design.order),
+        say.ORDER.row(order=design.controller.order),
+        say.REGION.row(region=StabilityRegion(time, design.bound)),
+        say.LONGEST.row(bits=design.height),
     )
     what = "abscissa" if time == "continuous" else "radius"
     norms = ", ".join(f"{name} {norm:.3g}" for name, norm in design.gain_norms().items())
@@ -49,8 +50,8 @@ def observer_float_tables(design: FloatObserverDesign, margins: LoopMargins) -> 
         ("distance to instability, at most", f"{margins.distance_to_instability:.3g}"),
     )
     return (
-        Table("distributed observer, designed in floating point, loop certified", (), proved),
-        Table("measured in floating point, not proved", (), measured),
+        Table(say.OBSERVER_FLOAT(), (), proved),
+        Table(say.MEASURED(), (), measured),
     )
 
 

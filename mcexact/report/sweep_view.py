@@ -7,8 +7,9 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
+from mcexact.answer.formats import count, cut, polynomial
 from mcexact.exact.polynomial import Polynomial
-from mcexact.report.text import Table, count, shorten
+from mcexact.report.text import Table, shorten
 
 _MOST_ROWS = 60
 _MOST_SKIPPED = 20
@@ -120,10 +121,11 @@ def _said(question: str, claim: Mapping[str, Any]) -> str:
             return "empty"
         coefficients = tuple(Fraction(coefficient) for coefficient in claim["polynomial"])
         stable = "" if claim["stabilizable"] else ", not stabilizable"
-        return shorten(str(Polynomial(coefficients)), 40) + stable
+        return polynomial(Polynomial(coefficients), 40) + stable
     if question in {"controllability_indices", "observability_indices"}:
-        return shorten(", ".join(map(str, claim["indices"])), 30)
+        return ", ".join(cut([str(k) for k in claim["indices"]], 10))
     if question == "assignability":
-        return f"{count(len(claim['blocks']), 'block')}, {claim['fixed_degree']} fixed"
+        parts = [str(block["dimension"]) for block in claim["blocks"] if block["dimension"]]
+        return f"parts of degree {', '.join(cut(parts, 6))}" if parts else "no part"
     key = {"completeness": "complete", "transfer_graph": "strongly_connected"}
     return "yes" if claim[key.get(question, "controllable")] else "no"

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from mcexact.certificate.evidence import Certificate
-from mcexact.checker import Verdict, check_document
-from mcexact.errors import InputError
+from mcexact.checker import Limits, Verdict, check_document
+from mcexact.errors import InputError, InternalError
 
 if TYPE_CHECKING:
     from mcexact.model.system import MultiChannelSystem
@@ -62,6 +63,39 @@ fixed_spectrum(system).certificate, or the name of a file, found dict
         )
     expected = None if system is None else digest(system.plant)
     return check_document(_text(certificate), expected)
+
+
+def recheck(certificates: Mapping[str, str], system_digest: str) -> dict[str, Verdict]:
+    """What the independent checker says of certificates about one plant.
+
+    Parameters
+    ----------
+    certificates : mapping from names to texts
+    system_digest : str
+
+    Returns
+    -------
+    dict from names to Verdict
+        Each is VALID, or INCOMPLETE where a limit of the checker was reached.
+
+    Raises
+    ------
+    InternalError
+        If a certificate is not accepted: then no answer of this run is to be believed.
+    """
+    verdicts = {}
+    for name, text in certificates.items():
+        data = text.encode("ascii")
+        size = len(data)
+        limits = Limits(bytes=max(Limits.bytes, size), digits=max(Limits.digits, size))
+        found = check_document(data, system_digest, limits)
+        if found.verdict not in {"VALID", "INCOMPLETE"}:
+            raise InternalError(
+                f"the independent checker does not accept {name} ({found.line()}): "
+                "do not believe the answers that were printed"
+            )
+        verdicts[name] = found
+    return verdicts
 
 
 def _text(certificate: Any) -> bytes:

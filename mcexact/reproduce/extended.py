@@ -169,7 +169,7 @@ def tightness(note: Notebook) -> None:
         note.check(f"{total} shared in all is the least ({share})", least[share].total == total)
         note.check("the bound asks for more", bounds[share].total > total)
         note.certify(bounds[share], least[share])
-    note.show(dimensions_picture(plant, bounds, least))
+    note.show(dimensions_picture(plant, least, bounds))
 
 
 def remark_2(note: Notebook) -> None:

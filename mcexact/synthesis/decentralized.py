@@ -54,8 +54,8 @@ def design_decentralized(
     >>> design_decentralized(apart, rate=1)
     Traceback (most recent call last):
         ...
-    mcexact.errors.Impossible: no linear time-invariant decentralized control moves the fixed \
-modes that are the roots of x - 1, and they are not fast enough (channels 1)
+    mcexact.errors.Impossible: no linear time-invariant decentralized control moves the mode 1, \
+fixed by s = {1}, and it is not fast enough
     """
     if system.subject:
         raise UsageError("a controller is designed for a plant, not for a derived system")

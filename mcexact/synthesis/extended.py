@@ -13,6 +13,7 @@ from mcexact.analysis.allocation import (
     minimal_shared_dimensions,
     shared_dimension_bound,
 )
+from mcexact.answer.wording import refusals as say
 from mcexact.derived.extended import Share, checked_dimensions
 from mcexact.errors import Impossible, InputError, UsageError
 from mcexact.exact.linear_algebra import characteristic_polynomial
@@ -161,7 +162,7 @@ def design_extended(
     Traceback (most recent call last):
         ...
     mcexact.errors.Impossible: no shared dimensions let linear time-invariant control move the \
-modes that are not fast enough: the agents 2, 3 hear nobody besides themselves, and lack 1
+modes that are not fast enough: agents 2 and 3 receive from nobody, and lack 1 state
     """
     system, found = with_graph(system, graph)
     if system.subject:
@@ -217,17 +218,16 @@ def _sizes(
         )
     if least.dimensions is None:
         worst = least.binding[0]
-        heard = ", ".join(worst.boundary) or "nobody"
-        aim = (
-            "make the transfer graph of the extended system strongly connected"
-            if worst.mode is None
-            else "let linear time-invariant control move the modes that are not fast enough"
+        if worst.mode is None:
+            told = say.NO_CONNECTION
+        elif 0 < len(worst.subset) < system.m:
+            told = say.NO_DIMENSIONS
+        else:
+            told = say.NOT_OBSERVED if worst.subset else say.NOT_CONTROLLED
+        message = told(
+            agents=worst.subset, senders=worst.boundary, k=worst.deficiency, p=worst.mode
         )
-        raise Impossible(
-            f"no shared dimensions {aim}: the agents {', '.join(worst.subset) or 'of no subset'} "
-            f"hear {heard} besides themselves, and lack {worst.deficiency}",
-            least.certificate,
-        )
+        raise Impossible(message, least.certificate)
     return least, least.dimensions
 
 

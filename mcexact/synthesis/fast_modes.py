@@ -5,6 +5,7 @@ from __future__ import annotations
 from mcexact.analysis.controllability import joint_controllability
 from mcexact.analysis.invariant_subspace import controllable_subspace
 from mcexact.analysis.modular_system import generator
+from mcexact.answer.wording import refusals as say
 from mcexact.errors import Impossible, InternalError
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
@@ -56,8 +57,7 @@ def feedback_for_region(system: MultiChannelSystem, region: StabilityRegion) -> 
     rest = decided.uncontrollable_polynomial
     if not region.contains_roots_of(rest):
         raise Impossible(
-            f"no state feedback can move the modes that are the roots of {rest}, and not all of "
-            f"them satisfy {region}: the system is not jointly controllable",
+            say.NOT_CONTROLLABLE_IN(p=rest, region=region),
             decided.certificate,
         )
     found = controllable_subspace(system.A, B, generator(system, "controllability"))

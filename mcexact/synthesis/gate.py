@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from math import lcm, prod
 from typing import Any
 
+from mcexact.analysis.closed_loop_spectrum import agreeing_moduli
 from mcexact.analysis.modular_system import generator
 from mcexact.analysis.stability import Method, Separation, certify_stability
+from mcexact.answer.wording import refusals as say
 from mcexact.certificate.closed_loop_spectrum import ClosedLoopSpectrumCertificate
 from mcexact.certificate.distributed_observer import DistributedObserverCertificate
 from mcexact.errors import Impossible, InternalError
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
-from mcexact.exact.modular import polynomial_residues, primes, residues_modulo_each
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.closed_loop import closed_loop
 from mcexact.model.controller import Controller
@@ -22,8 +22,6 @@ from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import canonical_document
 
-_MODULUS_BITS = 61
-_AT_ONCE = 16
 _KEY = object()
 
 
@@ -189,9 +187,7 @@ def certify_rate(
     loop = closed_loop(system, controller, graph)
     verdict = certify_stability(loop, bound, method=method, separation=separation)
     if not verdict.stable:
-        raise Impossible(
-            f"an eigenvalue of the loop is not in the region {verdict.region}", verdict.certificate
-        )
+        raise Impossible(say.OUTSIDE(region=verdict.region), verdict.certificate)
     return CertifiedClosedLoop(loop, controller, None, verdict.certificate, _KEY)
 
 
@@ -218,52 +214,3 @@ def separated(M: Matrix, n: int, private: list[int]) -> tuple[Matrix, Matrix]:
     if not moved.take(rest, first).is_zero():
         raise InternalError("the estimation errors do not evolve by themselves")
     return moved.take(first, first), moved.take(rest, rest)
-
-
-def agreeing_moduli(claims: list[tuple[Matrix, Polynomial]], seed: int) -> tuple[int, ...]:
-    """Primes that prove χ_M = p for every pair (M, p).
-
-    Raises
-    ------
-    InternalError
-        If χ_M is not p.
-
-    Notes
-    -----
-    With D = Π d_i over the row denominators, D·χ_M = det(diag(d)x − diag(d)M) is integral, with
-    coefficients of absolute value at most β = Π (d_i + Σ_j |d_i M_ij|).
-    """
-    bounds = [coefficient_bound(M) for M, _ in claims]
-    for (M, p), (D, beta) in zip(claims, bounds, strict=True):
-        scaled = [c * D for c in p.coefficients]
-        if p.degree != M.nrows or any(c.denominator != 1 or abs(c) > beta for c in scaled):
-            raise InternalError("the closed loop does not have the spectrum it was designed for")
-    largest = max(2 * beta for _, beta in bounds)
-    denominators = prod(D for D, _ in bounds)
-    chosen: dict[int, None] = {}
-    product = 1
-    for ell in primes(seed, _MODULUS_BITS):
-        if product > largest:
-            break
-        if denominators % ell and ell not in chosen:
-            chosen[ell] = None
-            product *= ell
-    moduli = tuple(chosen)
-    for M, p in claims:
-        for start in range(0, len(moduli), _AT_ONCE):
-            for residue in residues_modulo_each(M, moduli[start : start + _AT_ONCE]):
-                if residue.characteristic_polynomial() != polynomial_residues(p, residue.modulus):
-                    raise InternalError(
-                        "the closed loop does not have the spectrum it was designed for"
-                    )
-    return moduli
-
-
-def coefficient_bound(M: Matrix) -> tuple[int, int]:
-    """(D, β): the product of the row denominators, and the bound on the coefficients of D·χ_M."""
-    D = beta = 1
-    for row in M.rows():
-        d = lcm(*(entry.denominator for entry in row))
-        D *= d
-        beta *= d + sum(abs(entry.numerator) * (d // entry.denominator) for entry in row)
-    return D, beta

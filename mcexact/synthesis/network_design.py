@@ -12,6 +12,7 @@ from mcexact.analysis.fixed_spectrum import FixedSpectrum, fixed_spectrum
 from mcexact.analysis.single_channel_gains import SingleChannelGains, single_channel_gains
 from mcexact.analysis.stability import StabilityVerdict, certify_stability
 from mcexact.analysis.transfer_graph import transfer_graph
+from mcexact.answer.wording import refusals as say
 from mcexact.errors import Impossible, InputError, InternalError, LimitReached, UsageError
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
@@ -229,15 +230,13 @@ def _require_fast(network: DerivedNetwork, fixed: FixedSpectrum, bound: Fraction
     slow = fixed.outside(StabilityRegion(network.plant.time, bound))
     if not slow:
         return
-    control = "decentralized" if network.kind == "decentralized" else "distributed"
-    shared = "" if network.graph is None else f" with shared dimensions {list(network.dimensions)}"
-    factors = ", ".join(str(factor.polynomial) for factor in slow)
-    channels = ", ".join(slow[0].channels) or "none"
-    raise Impossible(
-        f"no linear time-invariant {control} control{shared} moves the fixed modes that are the "
-        f"roots of {factors}, and they are not fast enough (channels {channels})",
-        fixed.certificate,
+    told = say.FIXED if network.graph is None else say.FIXED_SHARED
+    message = told(
+        p=product(factor.polynomial for factor in slow),
+        s=slow[0].channels,
+        sizes=list(zip(network.plant.names, network.dimensions, strict=False)),
     )
+    raise Impossible(message, fixed.certificate)
 
 
 def _choices(

@@ -74,6 +74,11 @@ class ObserverDesign:
         return self.loop.certificate
 
     @property
+    def certificates(self) -> dict[str, Any]:
+        """All that was proved, by the name of a file."""
+        return {self.certificate.kind: self.certificate}
+
+    @property
     def height(self) -> int:
         """Bits of the longest numerator or denominator in the controller."""
         return self.controller.height()

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.analysis.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.modular_system import generator
+from mcexact.answer.wording import refusals as say
 from mcexact.derived.error_system import error_system
 from mcexact.derived.feedback import closed_by
 from mcexact.errors import Impossible, LimitReached, UsageError
@@ -87,6 +88,11 @@ class FloatObserverDesign:
     def certificate(self) -> Any:
         """The certificate of the loop, of kind ``stability``."""
         return self.loop.certificate
+
+    @property
+    def certificates(self) -> dict[str, Any]:
+        """All that was proved, by the name of a file."""
+        return {self.certificate.kind: self.certificate}
 
     @property
     def height(self) -> int:
@@ -362,25 +368,20 @@ def _refuse_if_impossible(
     ------
     Impossible
     """
-    for what, verb, found in (
-        ("controllable", "move", joint_controllability(system)),
-        ("observable", "see", joint_observability(system)),
+    for verb, found in (
+        ("move", joint_controllability(system)),
+        ("see", joint_observability(system)),
     ):
         polynomial = found.uncontrollable_polynomial
         if not region.contains_roots_of(polynomial):
-            raise Impossible(
-                f"not all roots of {polynomial} lie in {region}, and they are not {what} by all "
-                f"channels together: no controller can {verb} them",
-                found.certificate,
-            )
+            told = say.UNREACHED[verb]
+            raise Impossible(told(p=polynomial, region=region), found.certificate)
     if gains is None:
         return
     decision = fixed_spectrum(error_system(system, gains, graph))
     outside = decision.outside(region)
     if outside:
         raise Impossible(
-            f"the error system for these F_i has the fixed modes {outside[0].polynomial}, not all "
-            f"of them in {region}: no constant K_i, H_ij and no linear time-invariant channel "
-            "controller can move them",
+            say.ERRORS_FIXED(p=outside[0].polynomial, region=region),
             decision.certificate,
         )

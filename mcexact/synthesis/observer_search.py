@@ -14,6 +14,7 @@ from mcexact.analysis.completeness import completeness
 from mcexact.analysis.controllability import joint_observability
 from mcexact.analysis.gains import ReachingGains, error_gain_draws, reaching_gains
 from mcexact.analysis.modular_system import generator
+from mcexact.answer.wording import refusals as say
 from mcexact.errors import Impossible, InputError, LimitReached
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.neighbor_graph import NeighborGraph
@@ -74,17 +75,12 @@ def _candidates(task: ObserverTask) -> list[ReachingGains]:
     observable = joint_observability(system)
     if not observable.controllable:
         raise Impossible(
-            f"the roots of {observable.uncontrollable_polynomial} are not observable by all "
-            "channels together: no distributed observer can see them",
+            say.NOT_OBSERVABLE(p=observable.uncontrollable_polynomial),
             observable.certificate,
         )
     decision = completeness(task.error)
     if not decision.complete:
-        raise Impossible(
-            "the error system for these F_i is not complete: no constant K_i, H_ij let one agent "
-            "control and observe all estimation errors",
-            decision.certificate,
-        )
+        raise Impossible(say.ERRORS_NOT_COMPLETE(), decision.certificate)
     found = list(islice(reaching_gains(task.error, agent, draw, attempts=2000), count))
     if not found:
         raise LimitReached("lists K_i, H_ij exist, but 2000 draws did not find them")

@@ -10,6 +10,7 @@ from mcexact.analysis.controllability import joint_controllability, joint_observ
 from mcexact.analysis.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.setpoint import SetpointSolvability, setpoint_solvability
 from mcexact.analysis.stability import StabilityVerdict, certify_stability
+from mcexact.answer.wording import refusals as say
 from mcexact.derived.extended import extended_system
 from mcexact.derived.integrators import setpoint_system
 from mcexact.errors import Impossible, InputError, InternalError, UsageError
@@ -143,8 +144,8 @@ def design_setpoint(
     >>> design_setpoint(wash, rate=1)
     Traceback (most recent call last):
         ...
-    mcexact.errors.Impossible: no equilibrium holds set-points with (1) r != 0, r the \
-set-points of all outputs in order; 0 is an invariant zero of the plant
+    mcexact.errors.Impossible: no equilibrium holds set-points r with (1) r ≠ 0: 0 is an \
+invariant zero of the plant
     """
     system, found = with_graph(system, graph)
     if system.subject:
@@ -240,18 +241,11 @@ def _required(system: MultiChannelSystem) -> SetpointSolvability:
     found = setpoint_solvability(system)
     if found.solvable:
         return found
-    if found.combinations.nrows:
-        rows = "; ".join(
-            "(" + ", ".join(map(str, row)) + ") r != 0" for row in found.combinations.numerators
-        )
-        message = (
-            f"no equilibrium holds set-points with {rows}, r the set-points of all outputs in order"
-        )
-    else:
-        message = "the integrators add a mode that no input controls"
-    if found.invariant_zero:
-        message += f"; {int(system.time == 'discrete')} is an invariant zero of the plant"
-    raise Impossible(message, found.certificate)
+    told = say.NO_EQUILIBRIUM_ZERO if found.invariant_zero else say.NO_EQUILIBRIUM
+    if not found.combinations.nrows:
+        told = say.INTEGRATOR_MODE
+    place = int(system.time == "discrete")
+    raise Impossible(told(w=found.combinations.rows(), place=place), found.certificate)
 
 
 def _require_reachable(augmented: MultiChannelSystem, bound: Fraction | None) -> None:
@@ -260,11 +254,8 @@ def _require_reachable(augmented: MultiChannelSystem, bound: Fraction | None) ->
     for decide, verb in ((joint_controllability, "control"), (joint_observability, "observe")):
         decision = decide(augmented)
         if not region.contains_roots_of(decision.uncontrollable_polynomial):
-            raise Impossible(
-                f"the plant with its integrators has modes that the channels do not {verb} "
-                f"together, roots of {decision.uncontrollable_polynomial}",
-                decision.certificate,
-            )
+            told = say.INTEGRATORS_UNREACHED[verb]
+            raise Impossible(told(p=decision.uncontrollable_polynomial), decision.certificate)
 
 
 def with_integrators(system: MultiChannelSystem, controller: Controller) -> Controller:

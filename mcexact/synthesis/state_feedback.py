@@ -11,6 +11,7 @@ from random import Random
 from mcexact.analysis.controllability import joint_controllability
 from mcexact.analysis.gains import drawn_integers
 from mcexact.analysis.invariant_form import companion
+from mcexact.answer.wording import refusals as say
 from mcexact.errors import Impossible, InternalError, LimitReached
 from mcexact.exact.blocks import hstack
 from mcexact.exact.linear_algebra import (
@@ -79,8 +80,7 @@ def state_feedback(system: MultiChannelSystem, polynomial: Polynomial) -> StateF
     controllable = joint_controllability(system)
     if not controllable.controllable:
         raise Impossible(
-            "no state feedback can move the modes that are the roots of "
-            f"{controllable.uncontrollable_polynomial}: the system is not jointly controllable",
+            say.NOT_CONTROLLABLE(p=controllable.uncontrollable_polynomial),
             controllable.certificate,
         )
     B = system.input_matrix()

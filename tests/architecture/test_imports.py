@@ -14,14 +14,15 @@ STAGE = {
     "exact": 0,
     "model": 1,
     "derived": 2,
-    "analysis": 3,
-    "floating": 3,
-    "synthesis": 4,
-    "simulation": 5,
-    "crosscheck": 5,
-    "report": 6,
-    "sweep": 6,
-    "reproduce": 7,
+    "answer": 3,
+    "analysis": 4,
+    "floating": 4,
+    "synthesis": 5,
+    "simulation": 6,
+    "crosscheck": 6,
+    "report": 7,
+    "sweep": 7,
+    "reproduce": 8,
 }
 BESIDE = {"certificate", "checker", "testing", "cli", "errors"}
 EXACT_STAGES = {"exact", "model", "derived", "analysis", "certificate", "checker"}

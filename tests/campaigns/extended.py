@@ -250,7 +250,7 @@ def _refused(system: MultiChannelSystem, where: str, seen: Counter[str]) -> None
         claim = refusal.certificate.claim()
         named = "invariant zero" in str(refusal)
         required(named == claim["invariant_zero"], "the zero is named iff it is one", where)
-        required("r != 0" in str(refusal), "no combination", where)
+        required("r ≠ 0" in str(refusal), "no combination", where)
         seen["refused, an invariant zero" if named else "refused, dependent outputs"] += 1
         return
     raise AssertionError(f"{where}: not refused")

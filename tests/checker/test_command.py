@@ -73,8 +73,8 @@ def test_the_folder_runs_by_itself(folder: Path, start: Sequence[str]) -> None:
         "VALID the fixed spectrum of the plant (continuous time, 3 states, 3 channels) is that of "
         "x - 1: x - 1 (exponent 3 in det(xI - A), at most 1 in the gcd of all det(xI - A_F); least "
         "pencil rank 2, reached by the channels {2, 3}; not stable; roots 1 +- 0); not "
-        "stabilizable by linear time-invariant decentralized control, whose best decay rate is "
-        "between -1 and -1 "
+        "stabilizable by linear time-invariant decentralized control; minus the largest real part "
+        "of a fixed mode is between -1 and -1 "
         f"{digest(read_plant(PAPER))}\n"
     )
 

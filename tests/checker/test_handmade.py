@@ -20,7 +20,8 @@ def test_the_theorem_states_the_claim_in_words() -> None:
         "the fixed spectrum of the plant (continuous time, 3 states, 3 channels) is that of x - 1: "
         "x - 1 (exponent 3 in det(xI - A), at most 1 in the gcd of all det(xI - A_F); least pencil "
         "rank 2, reached by the channels {2, 3}; not stable; roots 1 +- 0); not stabilizable by "
-        "linear time-invariant decentralized control, whose best decay rate is between -1 and -1"
+        "linear time-invariant decentralized control; minus the largest real part of a fixed mode "
+        "is between -1 and -1"
     )
     assert "roots 0 - 1i +- 1/4, 0 + 1i +- 1/4" in checked(OSCILLATION).theorem
     assert checked(FREE).theorem.endswith(

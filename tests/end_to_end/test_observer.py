@@ -92,7 +92,7 @@ def test_impossible_is_status_1_and_leaves_the_certificate(folder, tmp_path):
     out, proofs = tmp_path / "controller.json", tmp_path / "proofs"
     arguments = ("--rate", "1", "-o", str(out), "--certificates", str(proofs))
     done = run("design", "observer", str(file), *arguments)
-    assert done.status == 1 and "not observable" in done.stderr
+    assert done.status == 1 and "do not observe" in done.stderr
     assert not out.exists()
     (certificate,) = proofs.iterdir()
     assert run("check", str(certificate), "--system", str(file)).status == 0

@@ -7,15 +7,17 @@ from pathlib import Path
 
 import pytest
 
+from mcexact.certificate import codec
 from mcexact.cli import main
 from mcexact.exact.matrix import Matrix
 from mcexact.model import gallery
 from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system_file import digest
 from mcexact.report.assessment import assess
 from mcexact.report.assessment_page import assessment_page
 from mcexact.report.graph_figures import graph_picture
 from mcexact.report.latex import assessment_latex, matrix
-from mcexact.report.words import answer
+from mcexact.report.verdict import recheck
 from tests.report.strict_html import Page, external_addresses
 
 ATTACK = "<script>alert(1)</script>"
@@ -33,15 +35,23 @@ def hostile() -> MultiChannelSystem:
     )
 
 
+def page_of(plant: MultiChannelSystem, **question: bool) -> str:
+    """The page with all its evidence, checked, and the results as LaTeX."""
+    assessment = assess(plant, **question)
+    texts = {name: codec.encode(made) for name, made in assessment.certificates().items()}
+    verdicts = recheck(texts, digest(plant))
+    return assessment_page(assessment).rendered(texts, verdicts, assessment_latex(assessment))
+
+
 @pytest.mark.parametrize("name", ["hidden-triple-mode", "farina-string-of-vehicles-4"])
 def test_the_page_of_an_analysis_parses_strictly_and_asks_nobody(name: str) -> None:
-    text = assessment_page(assess(gallery.load(name)), latex=True)
+    text = page_of(gallery.load(name))
     assert external_addresses(text) == []
     assert 'http-equiv="Content-Security-Policy"' in text and "prefers-color-scheme" in text
 
 
 def test_names_that_look_like_html_are_harmless() -> None:
-    text = assessment_page(assess(hostile(), minimal=True), latex=True)
+    text = page_of(hostile(), minimal=True)
     page = Page(text)
     assert "script" not in {tag for tag, _ in page.tags}
     assert {given["src"][:11] for tag, given in page.tags if tag == "img"} == {"data:image/"}
@@ -75,35 +85,10 @@ def test_an_address_in_a_page_is_found() -> None:
     assert external_addresses(good.format('<a href="https://example.org">x</a>'))
 
 
-def test_the_answer_says_who_reaches_a_mode_and_who_sees_it() -> None:
-    plant = MultiChannelSystem(
-        [[1]], [[[1]], [[0]]], [[[0]], [[1]]], neighbors={"1": [], "2": ["1"]}
-    )
-    said = answer(assess(plant, minimal=True))
-    assert said[0] == (
-        "Mode 1 (once in A) cannot be moved by any controller with this information: channel 1 "
-        "reaches it but does not see it, channel 2 sees it but does not reach it."
-    )
-    assert said[1:] == [
-        "No controller with this information stabilizes the system.",
-        "No sharing over this neighbor graph removes them.",
-    ]
-
-
-def test_a_name_that_holds_a_pronoun_is_left_as_it_is() -> None:
-    plant = MultiChannelSystem(
-        [[0, 1], [2, 0]],
-        [[[1, 0], [0, 1]], [[0], [0]]],
-        [[[0, 0]], [[1, 0]]],
-        names=["it1", "it2"],
-    )
-    said = answer(assess(plant))[0]
-    assert "channel it1 reaches them but does not see them, channel it2 sees them" in said
-
-
-def test_without_joint_controllability_nobody_is_said_to_reach_a_mode() -> None:
-    plant = MultiChannelSystem([[1]], [[[0]], [[0]]], [[[1]], [[1]]])
-    assert "no channel reaches it" in answer(assess(plant))[0]
+def test_a_certificate_that_was_not_re_checked_says_so() -> None:
+    page = assessment_page(assess(gallery.load("hidden-triple-mode")))
+    text = page.rendered({"fixed_spectrum.json": "{}"}, {})
+    assert "not re-checked" in text and "VALID" not in text
 
 
 def test_latex_escapes_names_and_writes_fractions() -> None:

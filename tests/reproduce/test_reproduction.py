@@ -42,7 +42,12 @@ def test_the_certificates_are_of_the_kinds_that_the_ledger_names(whole: Reproduc
 def test_the_report_parses_strictly_and_asks_nobody(whole: Reproduction) -> None:
     text = reproduction_page(whole)
     assert external_addresses(text) == []
-    for drawn in ("Graphs", "The effect of delays", "Set-point responses", "Shared dimensions"):
+    for drawn in (
+        "Graphs",
+        "The effect of delays",
+        "Set-point responses",
+        "Shared states by agent",
+    ):
         assert drawn in text
 
 

@@ -41,7 +41,7 @@ def test_published_plants_get_a_controller_without_messages(case: str, arithmeti
 
 
 def test_the_papers_example_is_refused_with_mode_1() -> None:
-    with pytest.raises(Impossible, match="x - 1") as refusal:
+    with pytest.raises(Impossible, match="moves the mode 1") as refusal:
         design_decentralized(three_channels(), rate=1)
     certificate = refusal.value.certificate
     assert certificate.kind == "fixed_spectrum"

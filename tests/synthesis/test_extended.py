@@ -90,7 +90,7 @@ def test_floating_point_takes_no_spectrum() -> None:
 
 
 def test_too_little_sharing_is_refused_with_the_fixed_modes() -> None:
-    with pytest.raises(Impossible, match="x - 1") as refusal:
+    with pytest.raises(Impossible, match="moves the mode 1") as refusal:
         design_extended(three_channels(), dimensions=[1, 0, 0], rate=1)
     assert refusal.value.certificate.kind == "fixed_spectrum"
     assert check_document(encode(refusal.value.certificate).encode()).verdict == "VALID"

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import pytest
 
+from mcexact.analysis.closed_loop_spectrum import agreeing_moduli, coefficient_bound
 from mcexact.certificate import encode
 from mcexact.checker import check_document
 from mcexact.errors import InternalError
@@ -13,10 +14,8 @@ from mcexact.exact.polynomial import Polynomial
 from mcexact.model.controller import LinearMap
 from mcexact.synthesis.gate import (
     CertifiedClosedLoop,
-    agreeing_moduli,
     certify_observer,
     certify_spectrum,
-    coefficient_bound,
 )
 from mcexact.synthesis.observer import design_observer
 from tests.synthesis.three_channels import three_channels

@@ -181,7 +181,7 @@ def test_an_unobservable_mode_refuses_with_its_certificate():
     plant = MultiChannelSystem(
         [[1, 0], [0, 2]], [[[1], [1]]] * 2, [[[1, 0]]] * 2, neighbors={"1": ["2"], "2": ["1"]}
     )
-    with pytest.raises(Impossible, match="not observable") as caught:
+    with pytest.raises(Impossible, match="do not observe it") as caught:
         design_observer(plant, rate=1)
     verdict = verdict_on(caught.value.certificate)
     assert verdict.verdict == "VALID" and "dual" in verdict.theorem

@@ -66,18 +66,18 @@ def test_a_fast_mode_may_be_out_of_reach():
 
 @pytest.mark.parametrize(
     ("B", "C", "word"),
-    [([[1], [0]], [[1, 1]], "controllable"), ([[1], [1]], [[1, 0]], "observable")],
+    [([[1], [0]], [[1, 1]], "control"), ([[1], [1]], [[1, 0]], "observe")],
 )
 def test_a_slow_mode_out_of_reach_is_a_refusal_with_a_certificate(B, C, word):
     plant = MultiChannelSystem([[2, 0], [0, 3]], [B], [C], neighbors={"1": []})
-    with pytest.raises(Impossible, match=f"not {word} by all channels") as refusal:
+    with pytest.raises(Impossible, match=f"all channels together do not {word}") as refusal:
         design_observer(plant, rate=1, arithmetic="float")
     assert check_document(encode(refusal.value.certificate).encode()).verdict == "VALID"
 
 
 def test_agents_that_cannot_hear_of_each_other_are_a_refusal_for_these_gains():
     plant = MultiChannelSystem([[1]], [[[1]], [[0]]], [[[0]], [[1]]], neighbors={"1": [], "2": []})
-    with pytest.raises(Impossible, match="fixed modes x") as refusal:
+    with pytest.raises(Impossible, match="move the mode 1 of the error system") as refusal:
         design_observer(plant, gains=[[[-4]], [[0]]], rate=1, arithmetic="float")
     assert check_document(encode(refusal.value.certificate).encode()).verdict == "VALID"
     with pytest.raises(LimitReached, match="try another agent"):

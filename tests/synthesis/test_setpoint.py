@@ -116,7 +116,7 @@ def test_dependent_outputs_are_refused_and_no_zero_is_named() -> None:
         [[[1, 1]], [[1, 1]]],
         neighbors={"1": ["2"], "2": ["1"]},
     )
-    with pytest.raises(Impossible, match=r"\(-1, 1\) r != 0") as refusal:
+    with pytest.raises(Impossible, match=r"\(-1, 1\) r ≠ 0") as refusal:
         design_setpoint(plant, rate=1)
     assert "invariant zero" not in str(refusal.value)
     assert refusal.value.certificate.invariant_zero is False

@@ -1,0 +1,79 @@
+"""The sentences of `mcexact design` and `certify`.
+
+A premise is a certificate by the stem of its file; ``loop`` stands for the one about the closed
+loop, of the kind `closed_loop_spectrum`, `stability` or `distributed_observer`.
+"""
+
+from __future__ import annotations
+
+from mcexact.answer.template import Template
+from mcexact.answer.wording import forms
+
+_ = forms  # its forms are what the fields below name
+_LOOP = ("loop",)
+
+OBSERVER = Template("design-observer", "distributed observer; closed loop certified", _LOOP)
+OBSERVER_FLOAT = Template(
+    "design-observer-float",
+    "distributed observer, designed in floating point; closed loop certified",
+    _LOOP,
+)
+NETWORK = Template("design-network", "{kind:network} controller; closed loop certified", _LOOP)
+SETPOINT = Template(
+    "design-setpoint", "set-point controller ({method:method}); closed loop certified", _LOOP
+)
+CARRIER = Template(
+    "design-carrier",
+    "{agent:name}, of order {order:int}",
+    label="agent with the channel controller",
+)
+CARRIER_FOR = Template(
+    "design-carrier-for",
+    "{agent:name}, of order {order:int}, for {channels:channels}",
+    label="agent with the channel controller",
+)
+ORDER = Template("design-order", "{order:int}", label="states of all agents together")
+ORDER_INTEGRATORS = Template(
+    "design-order-integrators",
+    "{order:int}, integrators included",
+    label="states of all agents together",
+)
+FEEDBACK = Template(
+    "design-feedback", "{p:polynomial}", ("loop",), label="spectrum of A + sum B_i F_i"
+)
+ERRORS = Template("design-errors", "{p:polynomial}", _LOOP, label="spectrum of the errors")
+REGION = Template("design-region", "{region:region}", _LOOP, label="every eigenvalue of the loop")
+OBSERVER_ORDER = Template(
+    "design-observer-order",
+    "{order:int}",
+    label="states of the paper's observer",
+)
+SHARED = Template("design-shared", "{sizes:dimensions}", label="shared dimensions")
+ASSIGNED = Template("design-assigned", "{p:polynomial}", _LOOP, label="spectrum that it assigns")
+KEPT = Template("design-kept", "{p:modes}", ("loop", "fixed_spectrum"), label="fixed modes kept")
+LONGEST = Template("design-longest-number", "{bits:int} bits", label="longest number")
+STEADY = Template(
+    "design-steady-state",
+    "the identity, exactly",
+    _LOOP,
+    "B. A. Francis and W. M. Wonham 1976",
+    "gain from set-points to outputs",
+)
+MEASURED = Template("design-measured", "measured in floating point, not proved")
+
+LOOP = Template("certify-loop", "closed loop")
+LOOP_STATES = Template("certify-states", "{n:int}", label="states of the loop")
+INSIDE = Template(
+    "certify-inside", "every one satisfies {region:region}", _LOOP, label="eigenvalues"
+)
+OUTSIDE = Template(
+    "certify-outside", "not every one satisfies {region:region}", _LOOP, label="eigenvalues"
+)
+DECIDED_BLOCKS = Template(
+    "certify-decided-blocks",
+    "by Lyapunov matrices, blocks of {sizes:list} states",
+    label="decided",
+)
+DECIDED = Template("certify-decided", "{method:decided}", label="decided")
+LARGEST = Template("certify-largest", "{bound:number}", _LOOP, label="largest rate found")
+LEAST = Template("certify-least", "{bound:number}", _LOOP, label="least radius found")

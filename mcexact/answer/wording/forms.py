@@ -1,0 +1,232 @@
+"""Forms of fields that are the project's own: how often, how fast, which parts, who shares what."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+
+from mcexact.answer.formats import (
+    channels,
+    count,
+    cut,
+    decimal_number,
+    listed,
+    modes,
+    name_set,
+    name_text,
+    number,
+    polynomial,
+    rounded,
+)
+from mcexact.answer.template import FORMS, Form, choice
+from mcexact.certificate.evidence import RateInterval
+from mcexact.exact.enclosures import exact_decimal
+from mcexact.exact.location import StabilityRegion
+from mcexact.exact.polynomial import Polynomial
+
+_POLYNOMIAL, _DECIMAL, _NUMBER, _SET, _NAME = (
+    FORMS[name].pattern for name in ("polynomial", "decimal", "number", "set", "name")
+)
+_TIMES = {1: "once", 2: "twice", 3: "three times"}
+
+
+def _often(multiplicities: tuple[int, int]) -> str:
+    """How often a mode is in A, and how many of these at most stay."""
+    times, stuck = multiplicities
+    often = f"{_TIMES.get(times, f'{times} times')} in A"
+    if stuck == times:
+        return often
+    return often + (", of which one stays" if stuck == 1 else f", of which at most {stuck} stay")
+
+
+def _behavior(slowest: tuple[str, RateInterval]) -> str:
+    """How the slowest fixed mode behaves, from the time domain and the enclosure of its rate."""
+    time, rate = slowest
+    lower, upper = exact_decimal(rate.lower), exact_decimal(rate.upper)
+    if time == "continuous":
+        if lower > 0:
+            return f"decays at the rate {_end(rate.lower, rate)}"
+        if upper < 0:
+            return f"grows at the rate {_end(rate.upper.removeprefix('-'), rate)}"
+    else:
+        if upper < 1:
+            return f"decays by the factor {_end(rate.upper, rate)} in each step"
+        if lower > 1:
+            return f"grows by the factor {_end(rate.lower, rate)} in each step"
+    return "neither decays nor grows" if lower == upper else "does not decay"
+
+
+def _end(text: str, rate: RateInterval) -> str:
+    """An end of an enclosure: rounded, and said to be, unless it is the number itself."""
+    return decimal_number(text, 24 if rate.lower == rate.upper else 0)
+
+
+def _roots(centers: Sequence[tuple[Fraction, Fraction]]) -> str:
+    """Centers of root discs in six digits, a conjugate pair as one; of many the first few."""
+    told = [
+        rounded(re) if not im else f"{rounded(re)} ± {rounded(im)}i"
+        for re, im in centers
+        if im >= 0
+    ]
+    return ", ".join(cut(told, 6))
+
+
+def _blocks(blocks: Sequence[tuple[int, Sequence[str]]]) -> str:
+    """The degrees of the parts, those of degree 0 left out; of many the first few."""
+    return ", ".join(cut([f"{size} by {name_set(names, 6)}" for size, names in blocks if size], 8))
+
+
+def _components(components: Sequence[Sequence[str]]) -> str:
+    """Sets of channels, those with more than one first; of many the first few."""
+    ordered = sorted(components, key=len, reverse=True)
+    return " ".join(cut([name_set(names, 6) for names in ordered], 8))
+
+
+def _indices(numbers: Sequence[int]) -> str:
+    return ", ".join(cut([str(k) for k in numbers], 15)) or "none"
+
+
+def _shared(sizes: Sequence[tuple[str, int]]) -> str:
+    """How many states each agent shares; those that share none are left out."""
+    told = [f"{count(size, 'state')} by agent {name_text(name)}" for name, size in sizes if size]
+    return ", ".join(cut(told, 11))
+
+
+def _scope(counted: tuple[str, Fraction | None, bool]) -> str:
+    """Of which modes none is fixed: from the time domain, the bound, and whether all are free."""
+    time, bound, free = counted
+    which = "no mode"
+    if bound is not None:
+        limit = "slower than the rate" if time == "continuous" else "outside the radius"
+        which += f" {limit} {number(bound)}"
+    return f"{which} is fixed" + (" and the whole spectrum can be assigned" if free else "")
+
+
+def _agents(names: Sequence[str]) -> str:
+    """Agents by name, as a phrase."""
+    return channels(names).replace("channel", "agent", 1) if names else "no agents"
+
+
+def _dimensions(sizes: Sequence[tuple[str, int]]) -> str:
+    """How many states each agent shares, with those that share none."""
+    return ", ".join(cut([f"{name_text(name)}: {size}" for name, size in sizes], 12))
+
+
+def _region(region: StabilityRegion) -> str:
+    """Where eigenvalues have to lie, such as Re λ < -1."""
+    if region.time == "continuous":
+        return f"Re λ < {number(-(region.bound or Fraction(0)))}"
+    return f"|λ| < {number(region.bound or Fraction(1))}"
+
+
+def _combinations(rows: Sequence[Sequence[Fraction]]) -> str:
+    """Combinations of set-points that an equilibrium cannot have."""
+    told = ["(" + ", ".join(number(Fraction(x)) for x in row) + ") r ≠ 0" for row in rows]
+    return " or ".join(told)
+
+
+def _arrows(edges: Sequence[tuple[str, str]]) -> str:
+    """Every edge of a graph, in the words that stand for a picture of it."""
+    told = [f"{name_text(start)} → {name_text(end)}" for start, end in edges]
+    return ", ".join(cut(told, 40)) or "no edges"
+
+
+def _capital(text: str) -> str:
+    return text[0].upper() + text[1:]
+
+
+_MODES, _MORE = FORMS["modes"].pattern, r"(?:, \d+ more)?"
+_REAL = r"-?\d+(?:\.\d+)?(?:e[+-]\d+)?"
+_ROOT = rf"{_REAL}(?: ± {_REAL}i)?"
+_ROW = rf"\({_NUMBER}(?:, {_NUMBER})*\)"
+_ARROW = rf"{_NAME} → {_NAME}"
+_SHARE = rf"\d+ states? by agent {_NAME}"
+FORMS |= {
+    "control": choice(
+        own="linear time-invariant decentralized control",
+        outputs="linear time-invariant control by the outputs of all neighbors",
+    ),
+    "information": choice(
+        own="each agent feeds back its own output",
+        outputs="each agent feeds back the outputs of all its neighbors",
+    ),
+    "often": Form(
+        _often,
+        r"(?:once|twice|three times|\d+ times) in A(?:, of which (?:one stays|at most \d+ stay))?",
+    ),
+    "behavior": Form(
+        _behavior,
+        rf"(?:(?:decays|grows) (?:at the rate {_DECIMAL}|by the factor {_DECIMAL} in each step)"
+        r"|neither decays nor grows|does not decay)",
+    ),
+    "Modes": Form(lambda p: _capital(modes(p, 60)), _MODES.replace("the", "The")),
+    "are": Form(lambda p: "is" if _single(p) else "are", "(?:is|are)"),
+    "them": Form(lambda p: "it" if _single(p) else "them", "(?:it|them)"),
+    "escape": Form(
+        lambda p: "which does not satisfy" if _single(p) else "which do not all satisfy",
+        "which (?:does not|do not all) satisfy",
+    ),
+    "slow": Form(
+        lambda p: "it is not fast enough" if _single(p) else "not all of them are fast enough",
+        "(?:it is not|not all of them are) fast enough",
+    ),
+    "do": Form(lambda names: "does" if len(names) == 1 else "do", "(?:does|do)"),
+    "roots": Form(_roots, rf"{_ROOT}(?:, {_ROOT})*{_MORE}"),
+    "blocks": Form(_blocks, rf"\d+ by {_SET}(?:, \d+ by {_SET})*{_MORE}"),
+    "components": Form(_components, rf"{_SET}(?: {_SET})*(?: \d+ more)?"),
+    "indices": Form(_indices, rf"(?:none|\d+(?:, \d+)*){_MORE}"),
+    "factors": Form(
+        lambda found: ", ".join(cut([polynomial(p, 30) for p in found], 6)),
+        rf"{_POLYNOMIAL}(?:, {_POLYNOMIAL})*{_MORE}",
+    ),
+    "side": choice(controllable="controllable", observable="observable"),
+    "reached": Form(
+        lambda indices: ", ".join(cut([" and ".join(map(str, pair)) for pair in indices], 8)),
+        rf"\d+(?: and \d+)?(?:, \d+(?: and \d+)?)*{_MORE}",
+    ),
+    "arrows": Form(_arrows, rf"(?:no edges|{_ARROW}(?:, {_ARROW})*{_MORE})"),
+    "force": Form(lambda names: "forces" if len(names) == 1 else "force", "forces?"),
+    "receive": Form(lambda names: "receives" if len(names) == 1 else "receive", "receives?"),
+    "list": Form(
+        lambda sizes: listed([str(size) for size in sizes]), r"\d+(?:, \d+)*(?: and \d+)?"
+    ),
+    "names": Form(
+        lambda names: ", ".join(cut([name_text(name) for name in names], 8)) or "nobody",
+        rf"{_NAME}(?:, {_NAME})*{_MORE}",
+    ),
+    "agents": Form(
+        _agents,
+        rf"(?:no agents|agent {_NAME}|agents (?:{_NAME}(?:, {_NAME})* and )?{_NAME})",
+    ),
+    "dimensions": Form(_dimensions, rf"{_NAME}: \d+(?:, {_NAME}: \d+)*{_MORE}"),
+    "region": Form(_region, rf"(?:Re λ < {_NUMBER}|\|λ\| < {_NUMBER})"),
+    "combinations": Form(_combinations, rf"{_ROW} r ≠ 0(?: or {_ROW} r ≠ 0)*"),
+    "network": choice(
+        decentralized="decentralized",
+        extended="distributed, through shared states,",
+        lifted="distributed, through shared states with delays,",
+        held="distributed, through shared states held for the delays,",
+    ),
+    "method": choice(observer="by an observer", extended="through shared states"),
+    "decided": choice(
+        polynomial="by the characteristic polynomial",
+        lyapunov="by Lyapunov matrices",
+        instability="by a quadratic form that decreases and is not positive",
+    ),
+    "latex": Form(Polynomial.latex, r"[-+ x0-9^{}a-z\\]+"),
+    "latex_names": Form(str, r"[^\n]*"),
+    "share": choice(**{"outputs+states": "beside outputs", "states": "without outputs"}),
+    "carried": choice(
+        **{"outputs": "outputs", "outputs+states": "outputs and states", "states": "states"}
+    ),
+    "scope": Form(
+        _scope,
+        rf"no mode(?: slower than the rate {_NUMBER}| outside the radius {_NUMBER})? is fixed"
+        r"(?: and the whole spectrum can be assigned)?",
+    ),
+    "shared": Form(_shared, rf"{_SHARE}(?:, {_SHARE})*{_MORE}"),
+}
+
+
+def _single(p: Polynomial) -> bool:
+    return p.degree == 1

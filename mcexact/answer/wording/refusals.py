@@ -1,0 +1,133 @@
+"""Why there is no design as it was asked for; the premise is the certificate of the refusal."""
+
+from __future__ import annotations
+
+from mcexact.answer.template import Template
+from mcexact.answer.wording import forms
+
+_ = forms  # its forms are what the fields below name
+_CONTROLLABLE = ("controllability",)
+_FIXED = ("fixed_spectrum",)
+
+NOT_CONTROLLABLE = Template(
+    "refused-not-controllable",
+    "no state feedback moves {p:modes}: the system is not jointly controllable",
+    _CONTROLLABLE,
+    "controllability.uncontrollable_modes",
+)
+NOT_CONTROLLABLE_IN = Template(
+    "refused-not-controllable-in",
+    "no state feedback moves {p:modes}, {p:escape} {region:region}: the system is not jointly "
+    "controllable",
+    _CONTROLLABLE,
+    "controllability.uncontrollable_modes",
+)
+UNREACHED = {
+    "move": Template(
+        "refused-uncontrollable",
+        "no controller moves {p:modes}, {p:escape} {region:region}: all channels together do not "
+        "control {p:them}",
+        _CONTROLLABLE,
+        "controllability.uncontrollable_modes",
+    ),
+    "see": Template(
+        "refused-unobservable",
+        "no controller sees {p:modes}, {p:escape} {region:region}: all channels together do not "
+        "observe {p:them}",
+        _CONTROLLABLE,
+        "controllability.uncontrollable_modes",
+    ),
+}
+NOT_OBSERVABLE = Template(
+    "refused-not-observable",
+    "no distributed observer sees {p:modes}: all channels together do not observe {p:them}",
+    _CONTROLLABLE,
+    "controllability.uncontrollable_modes",
+)
+ERRORS_NOT_COMPLETE = Template(
+    "refused-errors-not-complete",
+    "the error system for these F_i is not complete: no constant K_i, H_ij let one agent control "
+    "and observe all estimation errors",
+    ("completeness",),
+    "free_assignment.corfmat_morse_converse",
+)
+ERRORS_FIXED = Template(
+    "refused-errors-fixed",
+    "no constant K_i, H_ij and no linear time-invariant channel controller move {p:modes} of the "
+    "error system for these F_i, {p:escape} {region:region}",
+    _FIXED,
+    "evidence.shrunk_subspace_fixed_dynamic",
+)
+_FIXED_MODES = (
+    "no linear time-invariant {control} control moves {{p:modes}}, fixed by s = {{s:set}}, and "
+    "{{p:slow}}"
+)
+FIXED = Template(
+    "refused-fixed",
+    _FIXED_MODES.format(control="decentralized"),
+    _FIXED,
+    "evidence.shrunk_subspace_fixed_dynamic",
+)
+FIXED_SHARED = Template(
+    "refused-fixed-shared",
+    _FIXED_MODES.format(control="distributed") + " (shared dimensions {sizes:dimensions})",
+    _FIXED,
+    "evidence.shrunk_subspace_fixed_dynamic",
+)
+_LACK = ": {{agents:agents}} receive from {{senders:names}}, and lack {{k:count state}}"
+NO_DIMENSIONS = Template(
+    "refused-no-dimensions",
+    "no shared dimensions let linear time-invariant control move the modes that are not fast enough"
+    + _LACK.format(),
+    ("shared_dimensions",),
+    "extended_bound.extended_no_fixed",
+)
+NOT_CONTROLLED, NOT_OBSERVED = (
+    Template(
+        f"refused-sharing-in-vain-{verb}",
+        "no amount of sharing lets linear time-invariant control move {p:modes}: all agents "
+        f"together do not {verb} {{p:them}}",
+        ("shared_dimensions",),
+        "extended_bound.extended_no_fixed",
+    )
+    for verb in ("control", "observe")
+)
+NO_CONNECTION = Template(
+    "refused-no-connection",
+    "no shared dimensions make the transfer graph of the extended system strongly connected"
+    + _LACK.format(),
+    ("shared_dimensions",),
+    "transfer_graph.zero_transfer_cut",
+)
+OUTSIDE = Template(
+    "refused-outside", "not every eigenvalue of the loop satisfies {region:region}", ("stability",)
+)
+NO_EQUILIBRIUM = Template(
+    "refused-no-equilibrium",
+    "no equilibrium holds set-points r with {w:combinations}",
+    ("setpoint",),
+    "setpoint.setpoint_unreachable",
+)
+NO_EQUILIBRIUM_ZERO = Template(
+    "refused-no-equilibrium-zero",
+    "no equilibrium holds set-points r with {w:combinations}: {place:int} is an invariant zero of "
+    "the plant",
+    ("setpoint",),
+    "setpoint.setpoint_unreachable",
+)
+INTEGRATOR_MODE = Template(
+    "refused-integrator-mode",
+    "the integrators add a mode that no input controls: {place:int} is an invariant zero of the "
+    "plant",
+    ("setpoint",),
+    "setpoint.setpoint_rank",
+)
+INTEGRATORS_UNREACHED = {
+    verb: Template(
+        f"refused-integrators-{verb}",
+        "the plant with its integrators has {p:modes}, which all channels together do not " + verb,
+        _CONTROLLABLE,
+        "controllability.uncontrollable_modes",
+    )
+    for verb in ("control", "observe")
+}

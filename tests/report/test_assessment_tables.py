@@ -1,0 +1,202 @@
+"""The table of `analyze`: what it says, and that it stays readable whatever the data."""
+
+import io
+from typing import Any
+
+import pytest
+
+from mcexact import MultiChannelSystem, NeighborGraph
+from mcexact.model import gallery
+from mcexact.report.assessment import assess
+from mcexact.report.assessment_tables import assessment_tables
+from mcexact.report.text import plain, show
+
+EXAMPLE: dict[str, Any] = {
+    "A": [[1, 0, 0], [0, 1, 0], [0, 1, 1]],
+    "B": [[[1], [0], [0]], [[0], [1], [0]], [[1], [0], [0]]],
+    "C": [[[1, 0, 0], [0, 0, 1]], [[0, 1, 0]], [[0, 1, 0]]],
+}
+WIDE = 10**6
+
+
+def text_of(system: MultiChannelSystem, **question: Any) -> str:
+    return plain(assessment_tables(assess(system, **question)), width=WIDE)
+
+
+def rows_of(system: MultiChannelSystem, **question: Any) -> dict[str, str]:
+    """The names and values of the tables without columns; values of one name are joined."""
+    found: dict[str, str] = {}
+    for table in assessment_tables(assess(system, **question)):
+        for name, value in table.rows if not table.columns else ():
+            found[name] = f"{found[name]}; {value}" if name in found else value
+    return found
+
+
+def test_the_obstruction_is_named_with_its_channels_and_its_rank() -> None:
+    text = text_of(MultiChannelSystem(**EXAMPLE))
+    assert "3 states, 3 channels {1, 2, 3}, continuous time" in text
+    row = next(line for line in text.splitlines() if line.startswith("  x - 1 "))
+    assert row.split() == ["x", "-", "1", "1", "no", "3", "1", "{2,", "3}", "2"]
+    assert rows_of(MultiChannelSystem(**EXAMPLE))["stabilizable"].startswith("not by linear time")
+
+
+def test_nothing_is_fixed_is_said_in_words() -> None:
+    rows = rows_of(MultiChannelSystem([[0]], [[[1]]], [[[1]]]))
+    assert rows["fixed modes"] == "none"
+    assert rows["slowest fixed mode"] == "none: every decay rate can be reached"
+
+
+@pytest.mark.parametrize(
+    ("A", "time", "said"),
+    [
+        ([[1]], "continuous", "grows at the rate 1"),
+        ([[-1]], "continuous", "decays at the rate 1"),
+        ([[0]], "continuous", "neither decays nor grows"),
+        ([[0, 1], [-1, 0]], "continuous", "neither decays nor grows"),
+        ([[2]], "discrete", "grows by the factor 2 in each step"),
+        ([["1/2"]], "discrete", "decays by the factor 0.5 in each step"),
+        ([[-1]], "discrete", "neither decays nor grows"),
+        ([[0, 1], [1, 1]], "continuous", "grows at the rate about 1.61803"),
+    ],
+)
+def test_a_fixed_mode_is_said_to_decay_or_to_grow_and_how_fast(A, time, said) -> None:
+    n = len(A)
+    plant = MultiChannelSystem(A, [[[0]] * n], [[[0] * n]], time=time)
+    assert rows_of(plant)["slowest fixed mode"] == said
+
+
+def test_modes_out_of_reach_and_inactive_channels_are_named() -> None:
+    system = MultiChannelSystem([[1, 0], [0, 2]], [[[1], [0]], [[0], [0]]], [[[1, 1]], [[1, 1]]])
+    rows = rows_of(system)
+    assert rows["jointly controllable"] == "all but the mode 2"
+    assert rows["inactive channels"].startswith("{2}:")
+
+
+def test_eigenvalues_beside_a_fixed_mode_are_counted_and_not_called_assignable() -> None:
+    # One strong component of degree 3, and yet one of the three eigenvalues is fixed.
+    plant = gallery.load("davison-aghdam-miller-2020-p27")
+    assert rows_of(plant)["closed-loop spectrum"] == "2 of 3 eigenvalues can be moved"
+    assert rows_of(MultiChannelSystem(**EXAMPLE))["closed-loop spectrum"].startswith("2 of 3")
+
+
+COMPLETE = {"1": ["2"], "2": ["1"]}
+
+
+def test_sharing_is_said_to_be_in_vain_where_a_mode_is_not_controlled() -> None:
+    plant = MultiChannelSystem(
+        [[1, 0], [0, 2]], [[[1], [0]]] * 2, [[[1, 1]]] * 2, neighbors=COMPLETE
+    )
+    rows = rows_of(plant, minimal=True)
+    assert rows["enough to share"] == (
+        "no amount of sharing frees the mode 2, which all agents together do not control"
+    )
+    assert "no dimensions suffice" in rows["least to share"]
+
+
+def test_sharing_is_said_to_be_in_vain_where_a_mode_is_not_observed() -> None:
+    plant = MultiChannelSystem(
+        [[1, 0], [0, 2]], [[[1], [1]]] * 2, [[[1, 0]]] * 2, neighbors=COMPLETE
+    )
+    rows = rows_of(plant)
+    assert rows["enough to share"].endswith("the mode 2, which all agents together do not observe")
+
+
+def test_without_a_strongly_connected_graph_no_bound_is_claimed() -> None:
+    plant = MultiChannelSystem(**EXAMPLE, neighbors={"2": ["1"], "3": ["1"]})
+    rows = rows_of(plant, minimal=True)
+    assert rows["enough to share"] == "no bound: the neighbor graph is not strongly connected"
+    assert rows["least to share"].startswith("outputs alone")
+
+
+def test_what_the_agents_have_to_share_is_said_when_they_have_neighbors() -> None:
+    plant = MultiChannelSystem(**EXAMPLE)
+    rows = rows_of(plant.with_neighbors(NeighborGraph.ring(plant.names)), minimal=True)
+    assert rows["enough to share"] == (
+        "outputs, and 1 state by each agent: 3 in all; without outputs, 1 state by each agent: "
+        "3 in all"
+    )
+    assert rows["least to share"] == (
+        "outputs, and 1 state by agent 3; without outputs, 1 state by agent 1, 1 state by agent 3"
+    )
+
+
+def test_set_points_are_not_promised_where_an_unstable_mode_is_out_of_reach() -> None:
+    hidden = MultiChannelSystem([[1, 0], [0, 2]], [[[1], [0]]], [[[1, 1]]])
+    assert rows_of(hidden)["set-points"] == (
+        "no stable loop holds them: the mode 2 is not stable and out of reach"
+    )
+    stable = MultiChannelSystem([[1, 0], [0, -2]], [[[1], [0]]], [[[1, 1]]])
+    assert rows_of(stable)["set-points"].startswith("centralized control holds every output")
+
+
+@pytest.mark.parametrize(("time", "place"), [("continuous", 0), ("discrete", 1)])
+def test_an_invariant_zero_and_dependent_outputs_are_told_apart(time: str, place: int) -> None:
+    A = [[place, 1], [-2, place - 3]]
+    wash = MultiChannelSystem(A, [[[0], [1]]], [[[0, 1]]], time=time)
+    assert rows_of(wash)["set-points"].endswith(f"{place} is an invariant zero")
+    twice = MultiChannelSystem([["1/2"]], [[[1]], [[1]]], [[[1]], [[1]]], time=time)
+    assert rows_of(twice)["set-points"].endswith("the outputs are dependent")
+
+
+def test_the_ranks_for_a_subset_are_a_table_of_the_modes_of_A_proved_to_be_all() -> None:
+    assessment = assess(MultiChannelSystem(**EXAMPLE), subset=["2"])
+    text = plain(assessment_tables(assessment), width=WIDE)
+    assert "for s = {2}" in text
+    assert "x - 1                2     yes" in text
+    assert "spectrum_of_A.json" in assessment.certificates()
+
+
+def test_a_system_without_states_is_readable() -> None:
+    assert "0 states" in text_of(MultiChannelSystem([], [[]], [[[]]]))
+
+
+def test_long_numbers_are_rounded_and_never_cut() -> None:
+    text = text_of(MultiChannelSystem([[10**3999 + 7]], [[[0]]], [[[1]]]))
+    assert max(map(len, text.splitlines())) < 300
+    assert "the mode about 1e+3999" in text
+
+
+@pytest.mark.parametrize("name", ["[bold]u1[/bold]", "<script>alert(1)</script>"])
+def test_markup_in_a_name_is_shown_and_not_obeyed(name: str) -> None:
+    system = MultiChannelSystem([[1]], [[[1]]], [[[0]]], names=[name])
+    stream = io.StringIO()
+    show(assessment_tables(assess(system)), stream)
+    assert name in text_of(system)
+    assert name in stream.getvalue().replace("\n", "")
+
+
+def test_indices_and_what_a_channel_reaches_are_said() -> None:
+    plant = MultiChannelSystem(**EXAMPLE)
+    rows = rows_of(plant, subset=["2", "3"], channel="1")
+    assert rows["controllability indices"] == "2, 1; index 2"
+    assert rows["remnant polynomial"] == "x - 1"
+    assert rows["complete"].startswith("no")
+    assert rows["observable with gains"] == "yes, indices 2"
+    assert rows["both with gains"].endswith("at the mode 1")
+
+
+def test_gains_through_every_channel_are_announced() -> None:
+    ring = MultiChannelSystem(
+        [[1, 0], [0, 1]], [[[1], [0]], [[0], [1]]], [[[0, 1]], [[1, 0]]], names=["a", "b"]
+    )
+    rows = rows_of(ring, every_channel=True)
+    assert rows["closed-loop spectrum"] == "freely assignable"
+    assert rows["through every channel"] == "yes, indices 2 and 2, 2 and 2"
+
+
+def test_indices_of_very_long_chains_are_left_out() -> None:
+    n = 101
+    chain = [[int(i == j + 1) for j in range(n)] for i in range(n)]
+    system = MultiChannelSystem(
+        chain, [[[int(i == 0)] for i in range(n)]], [[[int(i == 0) for i in range(n)]]]
+    )
+    assert rows_of(system)["controllability indices"].startswith("left out")
+
+
+def test_of_many_factors_the_first_are_listed_and_the_rest_counted() -> None:
+    n = 9
+    diagonal = [[(k + 1) * (k == j) for j in range(n)] for k in range(n)]
+    plant = MultiChannelSystem(diagonal, [[[0]] * n], [[[1] * n]])
+    table = assessment_tables(assess(plant), most_factors=6)[1]
+    assert len(table.rows) == 6
+    assert table.note.startswith("3 more factors; --json and --html list all.")
