@@ -6,11 +6,12 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from mcexact.answer.template import Template, templates
-from mcexact.answer.wording import allocation, analysis, design, details, refusals
+from mcexact.answer.wording import allocation, analysis, design, details, links, refusals
 
 TOPICS = {
     "analyze": (analysis, details),
     "allocate": (allocation,),
+    "allocate --arcs": (links,),
     "design, certify": (design,),
     "design, where there is none": (refusals,),
 }

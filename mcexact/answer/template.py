@@ -18,7 +18,7 @@ _COEFFICIENT = rf"(?:\({_NUMBER}\)|{_NUMBER})"
 _POWER = r"x(?:\^\d+)?"
 _TERM = rf"(?:{_COEFFICIENT}(?:\*{_POWER})?|{_POWER}|…)"
 _POLYNOMIAL = rf"-?{_TERM}(?: [+-] {_TERM})*(?: \(degree \d+\))?"
-_NAME = r"[^,{}\n]+?"
+_NAME = r"[^,{}|\n]+?"
 _NAMES = rf"{_NAME}(?:, {_NAME})*"
 
 

@@ -140,7 +140,8 @@ def _rows(value: Any, where: str) -> list[tuple[Any, ...]]:
     if hasattr(value, "tolist"):
         value = value.tolist()
     try:
-        rows = tuple(value)
+        # By way of an iterator: a length that a subclass claims would be reserved at once.
+        rows = tuple(iter(value))
     except TypeError:
         raise InputError(
             f"expected a matrix as a list of rows, found {type(value).__name__}", where=where

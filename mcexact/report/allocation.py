@@ -17,6 +17,7 @@ from mcexact.analysis.communication import MinimalCommunication, minimal_communi
 from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.analysis.neighbor_graph import neighbor_graph
 from mcexact.answer.wording import allocation as say
+from mcexact.answer.wording import links
 from mcexact.certificate import codec
 from mcexact.model.system import MultiChannelSystem
 from mcexact.report.json_view import polynomial_view
@@ -161,11 +162,11 @@ def _arcs_table(system: MultiChannelSystem, least: MinimalCommunication) -> Tabl
         "scope": (system.time, made.bound, False),
         "what": made.share,
     }
-    note = say.LINKS_PROOF(cuts=least.cuts, nodes=least.nodes)
+    note = links.PROOF(cuts=least.cuts, nodes=least.nodes)
     if not least.added:
-        told = say.NO_LINKS if least.added is None else say.NO_LINKS_NEEDED
+        told = links.IMPOSSIBLE if least.added is None else links.NONE_NEEDED
         return Table(told(**asked), (), (), note)
     prices: dict[tuple[str, str], Fraction] = {(j, i): price for j, i, price in made.candidates}
-    rows = [say.LINK.cells(start=j, end=i, cost=prices[j, i]) for j, i in least.added]
-    rows.append(say.LINKS_TOTAL.cells(cost=least.cost))
-    return Table(say.LINKS(**asked), ("from", "to", "cost"), tuple(rows), note)
+    rows = [links.ROW.cells(start=j, end=i, cost=prices[j, i]) for j, i in least.added]
+    rows.append(links.TOTAL.cells(cost=least.cost))
+    return Table(links.LEAST(**asked), ("from", "to", "cost"), tuple(rows), note)

@@ -21,8 +21,8 @@ PLANTS = ("liu2020-3ch-extended-n1", "lexalutyi-two-double-integrators")
 DESIGNS = ("observer", "decentralized", "extended", "setpoint")
 
 
-def questions(plant: str, channel: str, place: Path) -> dict[str, list[str]]:
-    """What is asked on the command line, by the names of the subfolders."""
+def questions(plant: str, channel: str, place: Path, whole: bool) -> dict[str, list[str]]:
+    """What is asked on the command line, by the names of the subfolders; every design if whole."""
     observer = str(place / "observer-exact.controller")
     asked = {
         "analyze": [plant, "--minimal", "--subset", channel, "--channel", channel],
@@ -30,7 +30,7 @@ def questions(plant: str, channel: str, place: Path) -> dict[str, list[str]]:
         "allocate": [plant, "--free"],
         "allocate-arcs": [plant, "--arcs"],
     }
-    for design in DESIGNS:
+    for design in DESIGNS if whole else ("observer",):
         for arithmetic in ("exact", "float"):
             name = f"{design}-{arithmetic}"
             options = [
@@ -54,7 +54,9 @@ def write_all(folder: Path) -> None:
         place = folder / name
         place.mkdir()
         save_system(plant, folder / f"{name}.json")
-        asked = questions(str(folder / f"{name}.json"), plant.names[0], place)
+        asked = questions(
+            str(folder / f"{name}.json"), plant.names[0], place, whole=name == PLANTS[0]
+        )
         for question, arguments in asked.items():
             command = question.partition("-")[0]
             try:

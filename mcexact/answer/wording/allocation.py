@@ -7,7 +7,6 @@ from mcexact.answer.wording import forms
 
 _ = forms  # its forms are what the fields below name
 _LEAST = ("minimal_shared_dimensions",)
-_LINKS = ("minimal_communication",)
 
 LEAST = Template(
     "allocate-least", "{name:name}: least shared states {share:share} so that {scope:scope}", _LEAST
@@ -59,28 +58,4 @@ REASON_CUT_OFF = Template(
     "allocate-reason-cut-off",
     "{subset:names} | {senders:names} | {deficiency:int} | the others do not act on them",
     _LEAST,
-)
-
-LINKS = Template(
-    "allocate-links",
-    "{name:name}: links to add so that {scope:scope}, sending {what:carried}",
-    _LINKS,
-)
-NO_LINKS_NEEDED = Template(
-    "allocate-no-links-needed",
-    "{name:name}: no links to add so that {scope:scope}, sending {what:carried}",
-    _LINKS,
-)
-NO_LINKS = Template(
-    "allocate-no-links",
-    "{name:name}: no links that may be added are enough so that {scope:scope}, sending "
-    "{what:carried}",
-    _LINKS,
-)
-LINK = Template("allocate-link", "{start:name} | {end:name} | {cost:number}", _LINKS)
-LINKS_TOTAL = Template("allocate-links-total", "total |  | {cost:number}", _LINKS)
-LINKS_PROOF = Template(
-    "allocate-links-proof",
-    "proved with {cuts:count obstruction} and a branch tree of {nodes:count node}",
-    _LINKS,
 )

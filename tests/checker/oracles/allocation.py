@@ -58,8 +58,9 @@ def _allowed(p: enumeration.Coefficients, time: str, bound: Any) -> bool:
 
 
 def _heard(document: Document) -> list[list[int]]:
-    graph = plant_of(document).neighbors
-    return [] if graph is None else [list(graph.neighborhood(i)) for i in range(graph.m)]
+    plant = plant_of(document)
+    graph = plant.neighbors or NeighborGraph.empty(plant.names)
+    return [list(graph.neighborhood(i)) for i in range(graph.m)]
 
 
 def draw_dimensions(seed: int) -> Document:

@@ -1,0 +1,126 @@
+"""What `allocate`, `design` and `certify` say is made by templates whose premises are certified."""
+
+from __future__ import annotations
+
+import random
+from fractions import Fraction
+from typing import Any
+
+import pytest
+
+from mcexact.certificate import codec
+from mcexact.checker import check_document
+from mcexact.errors import Impossible, LimitReached
+from mcexact.model import gallery
+from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem
+from mcexact.report.allocation import arcs_report, dimensions_report
+from mcexact.report.certify_view import verdict_tables
+from mcexact.report.design_view import observer_tables
+from mcexact.report.network_view import design_tables
+from mcexact.report.observer_float_view import design_margins, observer_float_tables
+from mcexact.report.text import Table, plain
+from mcexact.synthesis.certify import certify_controller
+from mcexact.synthesis.decentralized import design_decentralized
+from mcexact.synthesis.extended import design_extended
+from mcexact.synthesis.observer import design_observer
+from mcexact.synthesis.setpoint import design_setpoint
+from tests.answer.reading import texts_of_plain
+from tests.answer.test_sentences import drawn, match
+
+CHROME = {
+    "why",
+    "why nothing is enough",
+    "agent | least",
+    "agent | least | Theorem 2's bound",
+    "these agents | must receive from | at least | because of",
+    "from | to | cost",
+}
+LOOPS = {"closed_loop_spectrum", "stability", "distributed_observer"}
+
+
+def require_made(topic: str, tables: tuple[Table, ...], certificates: dict[str, bytes]) -> None:
+    """Every text is made by a template, and its premises are among the certificates, all VALID."""
+    for name, data in certificates.items():
+        assert check_document(data).verdict == "VALID", name
+    known = set(certificates) | ({"loop"} if LOOPS & set(certificates) else set())
+    for text in texts_of_plain(plain(tables, width=10**6)):
+        if text not in CHROME:
+            template = match(text, topic)
+            assert set(template.premises) <= known, (template.key, known)
+
+
+def encoded(certificates: dict[str, Any]) -> dict[str, bytes]:
+    return {name: codec.encode(made).encode("ascii") for name, made in certificates.items()}
+
+
+@pytest.mark.parametrize("start", range(0, 60, 10))
+def test_what_is_said_of_allocations(start: int) -> None:
+    for seed in range(start, start + 10):
+        plant, rng = drawn(seed), random.Random(seed)
+        if plant.neighbors is None:
+            plant = plant.with_neighbors(NeighborGraph.ring(plant.names))
+        bound = rng.choice([None, Fraction(1, 2)])
+        share = rng.choice(["outputs+states", "states"])
+        free = rng.random() < 0.3
+        asked = {"share": share, "bound": bound, "free_assignability": free}
+        for topic, made in (
+            ("allocate", dimensions_report(plant, asked)),
+            ("allocate --arcs", arcs_report(plant, {"dimensions": None, "bound": bound})),
+        ):
+            certificates = {k: text.encode("ascii") for k, text in made["certificates"].items()}
+            require_made(topic, made["tables"], certificates)
+
+
+def wanted(plant: MultiChannelSystem) -> dict[str, Any]:
+    return {"rate": "1/10"} if plant.time == "continuous" else {"radius": "9/10"}
+
+
+def described(design: Any) -> tuple[Table, ...]:
+    """The tables of a design, without the figures that are measured in floating point."""
+    if type(design).__name__ == "ObserverDesign":
+        return observer_tables(design)
+    if type(design).__name__ == "FloatObserverDesign":
+        return observer_float_tables(design, design_margins(design))[:1]
+    return design_tables(design)
+
+
+DESIGNS = {
+    "observer": design_observer,
+    "decentralized": design_decentralized,
+    "extended": design_extended,
+    "setpoint": design_setpoint,
+}
+
+
+@pytest.mark.parametrize("name", sorted(DESIGNS))
+@pytest.mark.parametrize("seed", range(12))
+def test_what_is_said_of_designs_and_of_refusals(name: str, seed: int) -> None:
+    plant = drawn(seed)
+    if plant.neighbors is None or plant.n > 3:
+        plant = gallery.load("liu2020-3ch-no-communication")
+        plant = plant.with_neighbors(NeighborGraph.ring(plant.names))
+    try:
+        design = DESIGNS[name](plant, arithmetic="float", **wanted(plant))
+    except LimitReached:
+        return
+    except Impossible as refusal:
+        template = match(str(refusal), "design, where there is none")
+        assert template.key.startswith("refused-")
+        assert {refusal.certificate.kind} == set(template.premises)
+        data = codec.encode(refusal.certificate).encode("ascii")
+        assert check_document(data).verdict == "VALID"
+        return
+    require_made("design, certify", described(design), encoded(design.certificates))
+
+
+@pytest.mark.parametrize(
+    "options", [{}, {"rate": 50}, {"method": "lyapunov"}, {"largest": True}], ids=str
+)
+def test_what_is_said_of_controllers(options: dict[str, Any]) -> None:
+    plant = gallery.load("quadruple-tank-pminus")
+    design = design_decentralized(plant, rate="1/100", arithmetic="float")
+    found = certify_controller(plant, design.controller, **options)
+    require_made(
+        "design, certify", verdict_tables(found), encoded({"stability": found.verdict.certificate})
+    )
