@@ -25,7 +25,7 @@ IMPOSSIBLE = Template(
     _LINKS,
 )
 ROW = Template("allocate-link", "{start:name} | {end:name} | {cost:number}", _LINKS)
-TOTAL = Template("allocate-links-total", "total |  | {cost:number}", _LINKS)
+TOTAL = Template("allocate-links-total", "total | – | {cost:number}", _LINKS)
 PROOF = Template(
     "allocate-links-proof",
     "proved with {cuts:count obstruction} and a branch tree of {nodes:count node}",
