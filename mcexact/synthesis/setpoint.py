@@ -243,7 +243,7 @@ def _required(system: MultiChannelSystem) -> SetpointSolvability:
         return found
     told = say.NO_EQUILIBRIUM_ZERO if found.invariant_zero else say.NO_EQUILIBRIUM
     if not found.combinations.nrows:
-        told = say.INTEGRATOR_MODE
+        told = say.MODE_OF_THE_INTEGRATORS
     place = int(system.time == "discrete")
     raise Impossible(told(w=found.combinations.rows(), place=place), found.certificate)
 

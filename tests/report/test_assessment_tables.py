@@ -116,7 +116,8 @@ def test_what_the_agents_have_to_share_is_said_when_they_have_neighbors() -> Non
         "3 in all"
     )
     assert rows["least to share"] == (
-        "outputs, and 1 state by agent 3; without outputs, 1 state by agent 1, 1 state by agent 3"
+        "beside outputs, 1 state by agent 3; without outputs, 1 state by agent 1, 1 state by "
+        "agent 3"
     )
 
 

@@ -255,14 +255,14 @@ SETPOINT_ZERO = Template(
     "setpoint-zero",
     "no stable linear time-invariant loop holds them all: {place:int} is an invariant zero",
     ("setpoint",),
-    "setpoint.setpoint_unreachable",
+    "setpoint.setpoint_rank",
     "set-points",
 )
 SETPOINT_DEPENDENT = Template(
     "setpoint-dependent",
-    "not all values have an equilibrium: the outputs are dependent",
+    "no stable linear time-invariant loop holds them all: the outputs are dependent",
     ("setpoint",),
-    "setpoint.setpoint_unreachable",
+    "setpoint.setpoint_rank",
     "set-points",
 )
 CONNECTED = Template(
@@ -349,7 +349,7 @@ LEAST = {
     "outputs+states": _least_templates(
         "outputs-states",
         "minimal_shared_dimensions_outputs_states",
-        "outputs, and ",
+        "beside outputs, ",
         "outputs alone",
     ),
     "states": _least_templates(

@@ -94,14 +94,14 @@ def _gains(key: str, premise: str, label: str) -> tuple[Template, ...]:
         Template(f"{key}-gains", "yes, indices {reached:reached}", (premise,), label=label),
         Template(
             f"{key}-stuck",
-            "no: no gains make channel {name:name} {side:side} at {p:modes}",
+            "no: no constant gains make channel {name:name} {side:side} at {p:modes}",
             (premise,),
             label=label,
         ),
         Template(
             f"{key}-unreached",
-            "no: no gains make channel {name:name} {side:side}, nothing leads between it and "
-            "{rest:channels}",
+            "no: no constant gains make channel {name:name} {side:side}, nothing leads between it "
+            "and {rest:channels}",
             (premise,),
             label=label,
         ),

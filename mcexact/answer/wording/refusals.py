@@ -115,12 +115,12 @@ NO_EQUILIBRIUM_ZERO = Template(
     ("setpoint",),
     "setpoint.setpoint_unreachable",
 )
-INTEGRATOR_MODE = Template(
-    "refused-integrator-mode",
-    "the integrators add a mode that no input controls: {place:int} is an invariant zero of the "
-    "plant",
+MODE_OF_THE_INTEGRATORS = Template(
+    "refused-mode-of-the-integrators",
+    "no stable loop has integrators behind the outputs: all channels together do not control the "
+    "mode {place:int} of the plant",
     ("setpoint",),
-    "setpoint.setpoint_rank",
+    "setpoint.setpoint_output_part",
 )
 INTEGRATORS_UNREACHED = {
     verb: Template(
