@@ -34,7 +34,7 @@ ROOT = Path(__file__).parents[1]
 FOLDER = ROOT / "build" / "matrix"
 VERSIONS = ("3.11", "3.12", "3.13")
 LOOPS = 16
-SUITE = ("-m", "pytest", "--quiet", "-p", "no:cacheprovider", "-n", "2", "--dist", "worksteal")
+SUITE = ("-m", "pytest", "--quiet", "-p", "no:cacheprovider", "--dist", "worksteal")
 
 _BUSY = "import os\nparent = os.getppid()\nwhile os.getppid() == parent: pass"  # ends with this one
 _VERSION = "import sys; print('{}.{}'.format(*sys.version_info))"
@@ -55,6 +55,8 @@ class Cell:
         The file that prescribes the versions of the libraries, if they are not the latest.
     loops : int
         How many processes are busy beside the tests.
+    workers : int
+        How many processes run tests.
     chosen : bool
         Whether it is run without being asked for.
     """
@@ -64,6 +66,7 @@ class Cell:
     version: str = ""
     constraints: str = ""
     loops: int = 0
+    workers: int = 2
     chosen: bool = True
 
 
@@ -88,7 +91,8 @@ def cells() -> Iterator[Cell]:
     for version in VERSIONS:
         yield Cell(f"python{version}", version=version)
     yield Cell("oldest", version=VERSIONS[0], constraints="tests/oldest.txt")
-    yield Cell("busy", loops=LOOPS)
+    # With two workers beside so many loops the tests would take three quarters of an hour.
+    yield Cell("busy", loops=LOOPS, workers=8)
 
 
 def interpreters() -> dict[str, str]:
@@ -155,7 +159,11 @@ def run(cell: Cell, found: Mapping[str, str]) -> Outcome:
     start = time.monotonic()
     with log.open("w", encoding="utf-8") as output, busy(cell.loops):
         done = subprocess.run(
-            [python, *SUITE], cwd=ROOT, env=variables, stdout=output, stderr=subprocess.STDOUT
+            [python, *SUITE, "-n", str(cell.workers)],
+            cwd=ROOT,
+            env=variables,
+            stdout=output,
+            stderr=subprocess.STDOUT,
         )
     said = counts(log.read_text(encoding="utf-8", errors="replace"))
     verdict = "failed" if done.returncode else "passed"
