@@ -91,8 +91,8 @@ def cells() -> Iterator[Cell]:
     for version in VERSIONS:
         yield Cell(f"python{version}", version=version)
     yield Cell("oldest", version=VERSIONS[0], constraints="tests/oldest.txt")
-    # With two workers beside so many loops the tests would take three quarters of an hour.
-    yield Cell("busy", loops=LOOPS, workers=8)
+    # With two workers beside so many loops the tests would take most of an hour.
+    yield Cell("busy", loops=LOOPS, workers=16)
 
 
 def interpreters() -> dict[str, str]:

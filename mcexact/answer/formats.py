@@ -135,7 +135,7 @@ def name_set(names: Iterable[str], limit: int = 12) -> str:
     return "{" + ", ".join(cut([name_text(name) for name in names], limit)) + "}"
 
 
-def cut(words: Sequence[str], limit: int) -> list[str]:
+def cut(words: Sequence[str], limit: int, more: str = "{} more") -> list[str]:
     """The first few words, and how many more there are.
 
     Examples
@@ -143,7 +143,7 @@ def cut(words: Sequence[str], limit: int) -> list[str]:
     >>> cut(["a", "b", "c"], 2)
     ['a', 'b', '1 more']
     """
-    return list(words) if len(words) <= limit else [*words[:limit], f"{len(words) - limit} more"]
+    return list(words) if len(words) <= limit else [*words[:limit], more.format(len(words) - limit)]
 
 
 def name_text(name: str, limit: int = 40) -> str:
@@ -163,4 +163,4 @@ def edges(arcs: Sequence[tuple[str, str]], limit: int = 12) -> str:
         return "no edges"
     if len(arcs) > limit:
         return count(len(arcs), "edge")
-    return ", ".join(f"{name_text(start, 12)} -> {name_text(end, 12)}" for start, end in arcs)
+    return ", ".join(f"{name_text(start)} -> {name_text(end)}" for start, end in arcs)

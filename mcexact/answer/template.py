@@ -4,53 +4,12 @@ from __future__ import annotations
 
 import re
 import string
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from collections.abc import Iterator
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from mcexact.answer import formats
-
-_INTEGER = r"\d+"
-_DECIMAL = r"(?:-?\d+(?:\.\d+)?|about -?\d(?:\.\d+)?e[+-]\d+|about -?\d+(?:\.\d+)?)"
-_NUMBER = rf"(?:-?\d+/\d+|{_DECIMAL})"
-_COEFFICIENT = rf"(?:\({_NUMBER}\)|{_NUMBER})"
-_POWER = r"x(?:\^\d+)?"
-_TERM = rf"(?:{_COEFFICIENT}(?:\*{_POWER})?|{_POWER}|…)"
-_POLYNOMIAL = rf"-?{_TERM}(?: [+-] {_TERM})*(?: \(degree \d+\))?"
-_NAME = r"[^,{}|\n]+?"
-_NAMES = rf"{_NAME}(?:, {_NAME})*"
-
-
-@dataclass(frozen=True)
-class Form:
-    """How a field of a template is written, and what writings look like."""
-
-    write: Callable[[Any], str]
-    pattern: str
-
-
-def choice(**words: str) -> Form:
-    """A field that is one of a few phrases, each known by a keyword."""
-    return Form(words.__getitem__, "(?:" + "|".join(map(re.escape, words.values())) + ")")
-
-
-FORMS: dict[str, Form] = {
-    "int": Form(str, _INTEGER),
-    "name": Form(formats.name_text, _NAME),
-    "number": Form(formats.number, _NUMBER),
-    "decimal": Form(formats.decimal_number, _DECIMAL),
-    "polynomial": Form(formats.polynomial, _POLYNOMIAL),
-    "modes": Form(formats.modes, rf"(?:the mode {_NUMBER}|the \d+ roots of {_POLYNOMIAL})"),
-    "channels": Form(formats.channels, rf"(?:channel {_NAME}|channels (?:{_NAMES} and )?{_NAME})"),
-    "set": Form(formats.name_set, rf"\{{(?:{_NAMES})?\}}"),
-    "edges": Form(
-        formats.edges, rf"(?:no edges|\d+ edges|{_NAME} -> {_NAME}(?:, {_NAME} -> {_NAME})*)"
-    ),
-    "yes": Form(lambda value: "yes" if value else "no", "(?:yes|no)"),
-    "time": choice(continuous="continuous", discrete="discrete"),
-}
-"""The forms of fields that every topic uses; topics add their own."""
+from mcexact.answer.forms import form
 
 
 class Sentence(str):
@@ -91,7 +50,7 @@ class Template:
     text: str
     premises: tuple[str, ...] = ()
     theorem: str = ""
-    label: str = field(default="")
+    label: str = ""
 
     def __call__(self, **values: Any) -> Sentence:
         """The sentence with these values."""
@@ -115,21 +74,13 @@ class Template:
         for literal, name, spec, _ in string.Formatter().parse(self.text):
             parts.append(re.escape(literal))
             if name is not None:
-                parts.append(_form(spec or "").pattern)
+                parts.append(form(spec or "").pattern)
         return re.compile("".join(parts))
 
 
 class _Writer(string.Formatter):
     def format_field(self, value: Any, format_spec: str) -> str:
-        return _form(format_spec).write(value)
-
-
-def _form(spec: str) -> Form:
-    """The form that a field names."""
-    if spec.startswith("count "):
-        noun = spec.removeprefix("count ")
-        return Form(lambda size: formats.count(size, noun), rf"(?:1 {noun}|\d+ {noun}s)")
-    return FORMS[spec]
+        return form(format_spec).write(value)
 
 
 def templates(*modules: Any) -> Iterator[Template]:

@@ -14,7 +14,9 @@ _LINES_OF_WORDS = 5
 _FACTORS = 6
 
 
-@click.command(name="analyze", short_help="Decide which modes no decentralized control can move.")
+@click.command(
+    name="analyze", short_help="Decide which modes no linear time-invariant control can move."
+)
 @click.argument("file")
 @click.option(
     "--information",
@@ -87,9 +89,9 @@ def command(
 ) -> int:
     """Decide everything about the system in FILE (- for standard input).
 
-    Which modes are fixed under every decentralized control, which channels are to blame, whether
-    the rest can be stabilized, joint controllability with its indices, the transfer graph,
-    completeness, and the parts into which the spectrum splits.
+    Which modes are fixed under every linear time-invariant decentralized control, which channels
+    are to blame, whether the rest can be stabilized, joint controllability with its indices, the
+    transfer graph, completeness, and the parts into which the spectrum splits.
     """
 
     from mcexact.cli.deadline import Deadline

@@ -105,6 +105,8 @@ def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any
         emit_json(done["json"] | {"re_checked": checked.view()})
     elif possible and output is not None and checked.missing is None:
         emit("\n" + checked.line())
+    if not possible and checked.missing is not None and not as_json:
+        click.echo(f"mcexact: {done['impossible']}", err=True)
     checked.require_complete()
     if not possible:
         raise Impossible(done["impossible"])

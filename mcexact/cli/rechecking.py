@@ -20,16 +20,19 @@ class Rechecked:
     ----------
     verdicts : mapping from names of certificates to Verdict
         Those that are VALID.
+    open : tuple of str
+        The names of the others.
     missing : LimitReached or None
         Why not all are: a limit on time or memory, or one of the checker's own.
     """
 
     verdicts: Mapping[str, Verdict]
+    open: tuple[str, ...]
     missing: LimitReached | None
 
     def view(self) -> dict[str, Any]:
-        """For programs: whether all were re-checked, and how many were found VALID."""
-        return {"complete": self.missing is None, "valid": len(self.verdicts)}
+        """For programs: how many were found VALID, and which were not re-checked."""
+        return {"valid": len(self.verdicts), "open": list(self.open)}
 
     def line(self) -> str:
         """For people."""
@@ -88,12 +91,12 @@ def rechecked(
             timeout=deadline,
             max_memory=max_memory,
         )
-    except LimitReached:
-        limits = "--timeout or --max-memory allow more"
-        return Rechecked({}, LimitReached(f"the answers were not re-checked: {limits}"))
+    except LimitReached as reached:
+        told = reached.message.replace("nothing has been decided", "the answers are not re-checked")
+        return Rechecked({}, tuple(certificates), LimitReached(told))
     valid = {name: said for name, said in found.items() if said.verdict == "VALID"}
-    open_ones = [f"{name} ({found[name].message})" for name in found if name not in valid]
+    reasons = [f"{name} ({found[name].message})" for name in found if name not in valid]
     missing = None
-    if open_ones:
-        missing = LimitReached(f"not re-checked, a limit of the checker: {', '.join(open_ones)}")
-    return Rechecked(valid, missing)
+    if reasons:
+        missing = LimitReached(f"not re-checked, a limit of the checker: {', '.join(reasons)}")
+    return Rechecked(valid, tuple(name for name in found if name not in valid), missing)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
@@ -23,6 +23,8 @@ from mcexact.model.system import MultiChannelSystem
 from mcexact.report.json_view import polynomial_view
 from mcexact.report.text import Table
 
+_BOUND = {"outputs+states": "Theorem 2's bound", "states": "Remark 2's bound"}
+
 
 def dimensions_report(system: MultiChannelSystem, options: Mapping[str, Any]) -> dict[str, Any]:
     """Decide the least dimensions; JSON, tables and certificates of the answer.
@@ -38,7 +40,9 @@ def dimensions_report(system: MultiChannelSystem, options: Mapping[str, Any]) ->
     least = minimal_shared_dimensions(system, **options)
     graph = neighbor_graph(system)
     controllable, observable = joint_controllability(system), joint_observability(system)
+    # Theorem 2 leaves no mode fixed; that the whole spectrum can be assigned is more.
     holds = graph.strongly_connected and controllable.controllable and observable.controllable
+    holds = holds and not least.certificate.free_assignability
     return {
         "feasible": least.feasible,
         "json": _dimensions_view(system, bound, holds, least),
@@ -91,10 +95,13 @@ def _dimensions_tables(
         "name": system.name or "system",
         "share": least.share,
         "scope": (system.time, made.bound, made.free_assignability),
+        "price": _price(made.costs),
+        "limits": "none" if all(u is None for u in made.upper) else "upper",
+        "time": _instant(system),
     }
     why = Table(
         "why" if least.feasible else "why nothing is enough",
-        ("these agents", "must receive from", "at least", "because of"),
+        ("these agents", "can receive from", "need", "because of"),
         tuple(_reason(subset, system.m) for subset in least.binding),
     )
     if least.dimensions is None:
@@ -102,7 +109,7 @@ def _dimensions_tables(
     columns: tuple[str, ...] = ("agent", "least")
     row, total, values = say.ROW, say.TOTAL, {}
     if bound is not None:
-        columns += ("Theorem 2's bound",)
+        columns += (_BOUND[least.share],)
         row, total, values = say.ROW_BOUND, say.TOTAL_BOUND, {"bound": bound.per_agent}
     rows = [
         row.cells(agent=agent, size=size, **values)
@@ -110,10 +117,20 @@ def _dimensions_tables(
     ]
     whole = {} if bound is None else {"bound": bound.total}
     rows.append(total.cells(size=least.total, **whole))
-    proof = say.PROOF if least.cost == least.total else say.COST_PROOF
+    proof = say.PROOF if asked["price"] == "least" else say.COST_PROOF
     note = proof(cost=least.cost, cuts=least.cuts, nodes=least.nodes)
     shares = Table(say.LEAST(**asked), columns, tuple(rows), note)
     return (shares, why) if least.binding else (shares,)
+
+
+def _price(costs: Sequence[Fraction]) -> str:
+    """Whether the least number is asked for, or the least price."""
+    return "least" if all(cost == 1 for cost in costs) else "cheapest"
+
+
+def _instant(system: MultiChannelSystem) -> str:
+    """Whether the answer supposes that messages take no time, although some do."""
+    return "delays" if system.neighbors is not None and system.neighbors.delays else "none"
 
 
 def _reason(subset: BindingSubset, m: int) -> tuple[str, ...]:
@@ -160,7 +177,9 @@ def _arcs_table(system: MultiChannelSystem, least: MinimalCommunication) -> Tabl
     asked = {
         "name": system.name or "system",
         "scope": (system.time, made.bound, False),
-        "what": made.share,
+        "what": (made.share, made.dimensions),
+        "price": _price([price for *_, price in made.candidates]),
+        "time": _instant(system),
     }
     note = links.PROOF(cuts=least.cuts, nodes=least.nodes)
     if not least.added:

@@ -150,6 +150,19 @@ class Assessment:
     minimal_shared_dimensions: Mapping[Share, SharedDimensions | LimitReached] | None = None
     minimal_communication: MinimalCommunication | LimitReached | None = None
 
+    @property
+    def instant(self) -> str:
+        """Whether what is said of messages supposes that they take no time: "delays" if it does."""
+        graph = self.system.plant.neighbors
+        return "delays" if graph is not None and graph.delays else "none"
+
+    @property
+    def control(self) -> str:
+        """What the controllers are that the fixed spectrum is about."""
+        if self.information == "outputs" and self.instant == "delays":
+            return "instant"
+        return self.information
+
     def certificates(self) -> dict[str, Any]:
         """The certificates under the names of their files, in the order of the answers."""
         answers: dict[str, Any] = {

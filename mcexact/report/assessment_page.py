@@ -94,7 +94,7 @@ def assessment_page(assessment: Assessment) -> AssessmentPage:
     return AssessmentPage(
         title=system.name or "A multi-channel system",
         heading=say.PAGE_HEADING(
-            n=system.n, m=system.m, time=system.time, information=assessment.information
+            n=system.n, m=system.m, time=system.time, information=assessment.control
         ),
         good=assessment.fixed_spectrum.stabilizable,
         answer=tuple(answer(assessment)),

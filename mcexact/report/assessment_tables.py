@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from mcexact.analysis.controllability_indices import ControllabilityIndices
     from mcexact.analysis.fixed_spectrum import FixedFactor
     from mcexact.analysis.single_channel_gains import SingleChannelGains
+    from mcexact.certificate.evidence import RateInterval
 
 Row = tuple[str, ...]
 
@@ -56,7 +57,7 @@ def assessment_tables(
 def _joint(assessment: Assessment) -> Iterator[Row]:
     """Joint controllability and observability, or the modes that are out of reach."""
     if assessment.information == "outputs":
-        yield say.INFORMATION.row(information="outputs")
+        yield say.INFORMATION.row(information=assessment.control)
     for found, yes, no in (
         (assessment.controllability, say.CONTROLLABLE, say.UNCONTROLLABLE),
         (assessment.observability, say.OBSERVABLE, say.UNOBSERVABLE),
@@ -75,7 +76,7 @@ def _graph(assessment: Assessment) -> Iterator[Row]:
 
 def _spectrum(assessment: Assessment) -> Iterator[Row]:
     """What stays, whether the rest can be stabilized, and how fast."""
-    spectrum, control = assessment.fixed_spectrum, assessment.information
+    spectrum, control = assessment.fixed_spectrum, assessment.control
     if spectrum.best_rate is None:
         yield say.FIXED_NONE.row()
         yield say.STABILIZABLE.row(control=control)
@@ -84,7 +85,13 @@ def _spectrum(assessment: Assessment) -> Iterator[Row]:
     yield say.FIXED.row(p=spectrum.polynomial)
     told = say.STABILIZABLE if spectrum.stabilizable else say.NOT_STABILIZABLE
     yield told.row(control=control)
-    yield say.SLOWEST.row(slowest=(assessment.system.time, spectrum.best_rate))
+    yield say.SLOWEST.row(slowest=slowest(assessment))
+
+
+def slowest(assessment: Assessment) -> tuple[str, RateInterval | None, bool]:
+    """What is said of the slowest fixed mode is made of this."""
+    spectrum = assessment.fixed_spectrum
+    return assessment.system.time, spectrum.best_rate, spectrum.stabilizable
 
 
 def _structure(assessment: Assessment) -> Iterator[Row]:
@@ -159,6 +166,16 @@ def _out_of_reach(assessment: Assessment) -> Polynomial:
     )
 
 
+def _links(assessment: Assessment) -> Iterator[Row]:
+    """The fewest links to add, where that was asked for."""
+    links = assessment.minimal_communication
+    if isinstance(links, LimitReached):
+        yield say.TABLE_LINKS["limit"].row()
+    elif links is not None:
+        found = "impossible" if links.added is None else "some" if links.added else "none"
+        yield say.TABLE_LINKS[found].row(added=links.added, time=assessment.instant)
+
+
 def _sharing(assessment: Assessment) -> Iterator[Row]:
     """What is enough to share over the neighbor graph, and what is least."""
     if assessment.neighbor_graph is None:
@@ -179,7 +196,8 @@ def _sharing(assessment: Assessment) -> Iterator[Row]:
     if bound_holds(assessment):
         for share, bound in assessment.shared_dimension_bounds.items():
             some, none = say.ENOUGH[share]
-            yield (some if bound.per_agent else none).row(k=bound.per_agent, total=bound.total)
+            told = some if bound.per_agent else none
+            yield told.row(k=bound.per_agent, total=bound.total, time=assessment.instant)
     for share, least in (assessment.minimal_shared_dimensions or {}).items():
         some, none, impossible, limit = say.LEAST[share]
         if isinstance(least, LimitReached):
@@ -188,7 +206,8 @@ def _sharing(assessment: Assessment) -> Iterator[Row]:
             yield impossible.row()
         else:
             sizes = list(zip(assessment.system.names, least.dimensions, strict=True))
-            yield (some if any(least.dimensions) else none).row(sizes=sizes)
+            told = some if any(least.dimensions) else none
+            yield told.row(sizes=sizes, time=assessment.instant)
 
 
 def bound_holds(assessment: Assessment) -> bool:
@@ -227,6 +246,7 @@ _PARTS: tuple[Callable[[Assessment], Iterator[Row]], ...] = (
     _structure,
     _setpoint,
     _every_channel,
+    _links,
     _sharing,
     _delayed,
 )
@@ -252,8 +272,8 @@ def _fixed_modes(assessment: Assessment, most: int | None) -> Table:
     if len(rows) < len(factors):
         note = f"{details.FIXED_MODES_MORE(k=len(factors) - len(rows))}. {note}"
     return Table(
-        details.FIXED_MODES(control=assessment.information),
-        ("factor", "roots", "stable", "in A", "stay", "s", "rank"),
+        details.FIXED_MODES(control=assessment.control),
+        ("factor", "roots, about", "stable", "in A", "stay", "s", "rank"),
         rows,
         note,
     )
@@ -314,12 +334,12 @@ def _channel(found: ChannelAnswers) -> Table:
 
 def gains_row(want: str, found: SingleChannelGains) -> tuple[str, str]:
     """The indices that gains reach, or why there are none."""
-    reached, stuck, unreached = details.GAINS[want]
+    told = details.GAINS[want]
     why = found.certificate.evidence
     if isinstance(why, GainsWitness):
-        return reached.row(reached=found.indices)
+        return told["reached"].row(reached=found.indices)
     if isinstance(why, StuckWitness):
-        return stuck.row(name=why.channel, side=why.side, p=why.polynomial)
+        return told["stuck"].row(name=why.channel, side=why.side, p=why.polynomial)
     names = [channel["name"] for channel in found.certificate.system["channels"]]
     rest = [name for name in names if name not in set(why.zero.channels_from)]
-    return unreached.row(name=why.channel, side=why.side, rest=rest)
+    return told[why.side].row(name=why.channel, rest=rest)

@@ -92,7 +92,7 @@ def recheck(certificates: Mapping[str, str], system_digest: str) -> dict[str, Ve
         if found.verdict not in {"VALID", "INCOMPLETE"}:
             raise InternalError(
                 f"the independent checker does not accept {name} ({found.line()}): "
-                "do not believe the answers that were printed"
+                "the answers of this run are not to be believed"
             )
         verdicts[name] = found
     return verdicts

@@ -9,6 +9,7 @@ from mcexact.answer.template import Sentence
 from mcexact.answer.wording import analysis as say
 from mcexact.errors import LimitReached
 from mcexact.report.assessment import Assessment
+from mcexact.report.assessment_tables import slowest
 from mcexact.report.text import WIDTH, wrapped
 
 if TYPE_CHECKING:
@@ -28,7 +29,7 @@ def answer(assessment: Assessment, most_factors: int = _MOST_FACTORS) -> list[Se
     """
     if assessment.fixed_spectrum.empty:
         return [
-            say.NOTHING_FIXED(control=assessment.information),
+            say.NOTHING_FIXED(control=assessment.control),
             *_assigned(assessment),
         ]
     return [
@@ -39,12 +40,18 @@ def answer(assessment: Assessment, most_factors: int = _MOST_FACTORS) -> list[Se
 
 
 def in_lines(assessment: Assessment, most: int, width: int = WIDTH) -> str:
-    """The answer in so many lines, sentences that are told by the table left out where need be."""
+    """The answer in so many lines; whole sentences are left out, which the table tells as well."""
+    lines: list[str] = []
     for factors in range(_MOST_FACTORS, -1, -1):
-        lines = [line for each in answer(assessment, factors) for line in wrapped(each, width)]
-        if len(lines) <= most:
+        lines = []
+        for sentence in answer(assessment, factors):
+            more = wrapped(sentence, width)
+            if len(lines) + len(more) > most:
+                break
+            lines += more
+        else:
             break
-    return "\n".join(lines[:most]) + "\n"
+    return "\n".join(lines) + "\n"
 
 
 def _assigned(assessment: Assessment) -> list[Sentence]:
@@ -62,8 +69,7 @@ def _stabilized(assessment: Assessment) -> Sentence:
     """Whether control with this information stabilizes, and how the slowest fixed mode behaves."""
     spectrum = assessment.fixed_spectrum
     told = say.STABLE if spectrum.stabilizable else say.UNSTABLE
-    slowest = (assessment.system.time, spectrum.best_rate)
-    return told(control=assessment.information, slowest=slowest)
+    return told(control=assessment.control, slowest=slowest(assessment))
 
 
 def _blames(assessment: Assessment, most: int) -> Iterator[Sentence]:
@@ -100,7 +106,8 @@ def _remedies(assessment: Assessment) -> Iterator[Sentence]:
         if links.added is None:
             yield say.NO_LINKS()
         else:
-            yield say.LINKS[beside](added=links.added) if links.added else say.LINKS_NONE()
+            some = say.LINKS[beside] if links.added else say.LINKS_NONE
+            yield some(added=links.added, time=assessment.instant)
     least = (assessment.minimal_shared_dimensions or {}).get("outputs+states")
     if least is None or isinstance(least, LimitReached):
         return
@@ -108,6 +115,6 @@ def _remedies(assessment: Assessment) -> Iterator[Sentence]:
         yield say.NO_SHARING()
     elif any(least.dimensions):
         sizes = list(zip(assessment.system.names, least.dimensions, strict=True))
-        yield say.SHARING_REMOVES(sizes=sizes)
+        yield say.SHARING_REMOVES(sizes=sizes, time=assessment.instant)
     else:
-        yield say.OUTPUTS_REMOVE()
+        yield say.OUTPUTS_REMOVE(time=assessment.instant)

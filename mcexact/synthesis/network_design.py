@@ -232,7 +232,7 @@ def _require_fast(network: DerivedNetwork, fixed: FixedSpectrum, bound: Fraction
         return
     told = say.FIXED if network.graph is None else say.FIXED_SHARED
     message = told(
-        p=product(factor.polynomial for factor in slow),
+        p=slow[0].polynomial,
         s=slow[0].channels,
         sizes=list(zip(network.plant.names, network.dimensions, strict=False)),
     )

@@ -171,7 +171,7 @@ invariant zero of the plant
         try:
             made, polynomial = task.designed(bound)
         except Impossible as refused:
-            raise Impossible(str(refused), _about_the_plant(refused, augmented)) from None
+            raise _about_the_plant(refused, augmented) from None
     controller = with_integrators(system, made)
     return _certified(system, controller, polynomial, bound, solvability, road, arithmetic)
 
@@ -223,17 +223,17 @@ def _aim(time: str, bound: Fraction | None, task: _Task) -> Fraction | None:
     return bound if bound is None or not free else 3 * bound
 
 
-def _about_the_plant(refused: Impossible, augmented: MultiChannelSystem) -> Any:
-    """The evidence of a refusal, for the plant and its integrators instead of one plant of both."""
+def _about_the_plant(refused: Impossible, augmented: MultiChannelSystem) -> Impossible:
+    """The refusal, with evidence about the plant and its integrators, not one plant of both."""
     found = refused.certificate
-    if found is None:
-        return None
     if found.kind == "shared_dimensions":
         # No dimensions are enough: then neither are as many as there are states.
         sizes = (augmented.n,) * augmented.m
-        return fixed_spectrum(extended_system(augmented, sizes, "states")).certificate
+        stuck = fixed_spectrum(extended_system(augmented, sizes, "states"))
+        return Impossible(say.INTEGRATORS_FIXED(p=stuck.polynomial), stuck.certificate)
     plant = canonical_document(augmented.plant)
-    return replace(found, system=plant, subject=(*augmented.subject, *found.subject))
+    subject = (*augmented.subject, *found.subject)
+    return Impossible(refused.message, replace(found, system=plant, subject=subject))
 
 
 def _required(system: MultiChannelSystem) -> SetpointSolvability:

@@ -33,7 +33,8 @@ CHROME = {
     "why nothing is enough",
     "agent | least",
     "agent | least | Theorem 2's bound",
-    "these agents | must receive from | at least | because of",
+    "agent | least | Remark 2's bound",
+    "these agents | can receive from | need | because of",
     "from | to | cost",
 }
 LOOPS = {"closed_loop_spectrum", "stability", "distributed_observer"}
@@ -64,9 +65,16 @@ def test_what_is_said_of_allocations(start: int) -> None:
         share = rng.choice(["outputs+states", "states"])
         free = rng.random() < 0.3
         asked = {"share": share, "bound": bound, "free_assignability": free}
+        if rng.random() < 0.5:
+            asked["costs"] = [rng.randint(1, 9) for _ in plant.names]
+        if rng.random() < 0.3:
+            asked["upper"] = [rng.choice([None, 0, 1]) for _ in plant.names]
+        links: dict[str, Any] = {"dimensions": None, "bound": bound}
+        if rng.random() < 0.5:
+            links |= {"dimensions": [rng.randint(0, 1) for _ in plant.names], "share": share}
         for topic, made in (
             ("allocate", dimensions_report(plant, asked)),
-            ("allocate --arcs", arcs_report(plant, {"dimensions": None, "bound": bound})),
+            ("allocate --arcs", arcs_report(plant, links)),
         ):
             certificates = {k: text.encode("ascii") for k, text in made["certificates"].items()}
             require_made(topic, made["tables"], certificates)

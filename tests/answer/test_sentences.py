@@ -36,7 +36,7 @@ AT_ONCE = 10
 
 # What is no sentence about the system: names of columns and parts of the page.
 CHROME = {
-    "factor | roots | stable | in A | stay | s | rank",
+    "factor | roots, about | stable | in A | stay | s | rank",
     "factor of det(xI-A) | rank | below n",
     "All answers",
     "Evidence",

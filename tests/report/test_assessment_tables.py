@@ -51,12 +51,13 @@ def test_nothing_is_fixed_is_said_in_words() -> None:
     [
         ([[1]], "continuous", "grows at the rate 1"),
         ([[-1]], "continuous", "decays at the rate 1"),
-        ([[0]], "continuous", "neither decays nor grows"),
-        ([[0, 1], [-1, 0]], "continuous", "neither decays nor grows"),
-        ([[2]], "discrete", "grows by the factor 2 in each step"),
-        ([["1/2"]], "discrete", "decays by the factor 0.5 in each step"),
-        ([[-1]], "discrete", "neither decays nor grows"),
+        ([[0]], "continuous", "does not decay"),
+        ([[0, 1], [-1, 0]], "continuous", "does not decay"),
+        ([[2]], "discrete", "becomes 2 times as large in each step"),
+        ([["1/2"]], "discrete", "becomes 0.5 times as large in each step"),
+        ([[-1]], "discrete", "does not decay"),
         ([[0, 1], [1, 1]], "continuous", "grows at the rate about 1.61803"),
+        ([[0, 1], ["-99999999999997/100000000000000", 1]], "discrete", "decays very slowly"),
     ],
 )
 def test_a_fixed_mode_is_said_to_decay_or_to_grow_and_how_fast(A, time, said) -> None:
@@ -124,7 +125,7 @@ def test_what_the_agents_have_to_share_is_said_when_they_have_neighbors() -> Non
 def test_set_points_are_not_promised_where_an_unstable_mode_is_out_of_reach() -> None:
     hidden = MultiChannelSystem([[1, 0], [0, 2]], [[[1], [0]]], [[[1, 1]]])
     assert rows_of(hidden)["set-points"] == (
-        "no stable loop holds them: the mode 2 is not stable and out of reach"
+        "no stable loop holds them: the mode 2 is out of reach, and it is not stable"
     )
     stable = MultiChannelSystem([[1, 0], [0, -2]], [[[1], [0]]], [[[1, 1]]])
     assert rows_of(stable)["set-points"].startswith("centralized control holds every output")
@@ -136,7 +137,7 @@ def test_an_invariant_zero_and_dependent_outputs_are_told_apart(time: str, place
     wash = MultiChannelSystem(A, [[[0], [1]]], [[[0, 1]]], time=time)
     assert rows_of(wash)["set-points"].endswith(f"{place} is an invariant zero")
     twice = MultiChannelSystem([["1/2"]], [[[1]], [[1]]], [[[1]], [[1]]], time=time)
-    assert rows_of(twice)["set-points"].endswith("the outputs are dependent")
+    assert rows_of(twice)["set-points"].endswith("cannot move the outputs independently")
 
 
 def test_the_ranks_for_a_subset_are_a_table_of_the_modes_of_A_proved_to_be_all() -> None:
@@ -201,3 +202,22 @@ def test_of_many_factors_the_first_are_listed_and_the_rest_counted() -> None:
     table = assessment_tables(assess(plant), most_factors=6)[1]
     assert len(table.rows) == 6
     assert table.note.startswith("3 more factors; --json and --html list all.")
+
+
+def test_a_graph_with_delays_is_said_to_be_taken_without_them() -> None:
+    graph = NeighborGraph.from_names(["1", "2"], {"1": ["2"], "2": ["1"]}, {"1": {"2": 2}})
+    plant = MultiChannelSystem(
+        [[2]], [[[1]], [[0]]], [[[0]], [[1]]], time="discrete", neighbors=graph
+    )
+    rows = rows_of(plant, minimal=True, links=True, information="outputs")
+    assert rows["information"].endswith("received without delay")
+    assert rows["stabilizable"].endswith("by the outputs of all neighbors without delay")
+    for label in ("enough to share", "least to share", "fewest links to add"):
+        assert "if messages took no time" in rows[label]
+
+
+def test_links_have_a_row_whenever_they_were_asked_for() -> None:
+    free = MultiChannelSystem([[0]], [[[1]], [[1]]], [[[1]], [[1]]])
+    assert rows_of(free, links=True)["fewest links to add"] == "none"
+    lost = MultiChannelSystem([[1]], [[[0]], [[0]]], [[[1]], [[1]]])
+    assert rows_of(lost, links=True)["fewest links to add"] == "no links are enough"

@@ -69,7 +69,7 @@ def test_a_picture_is_the_same_bytes_every_time_and_says_what_it_shows() -> None
     plant = gallery.load("liu2020-3ch-augmented-outputs")
     drawn = graph_picture(plant)
     assert drawn.embedded() == graph_picture(plant).embedded()
-    assert "channel 2, colored orange" in drawn.alternative
+    assert "orange: channel 2" in drawn.alternative
 
 
 @pytest.mark.parametrize("bad", ["<p>", "<p></b>", "<p>a & b</p>", "<table></table>", "<p/>"])

@@ -44,7 +44,7 @@ def test_links_come_with_the_certificate_that_they_suffice_and_that_fewer_do_not
     plant = gallery.load("liu2020-unimodular")
     assert not any("Sending" in told for told in answer(assess(plant)))
     asked = assess(plant, links=True)
-    assert "Sending outputs along 3 -> 2 leaves no mode fixed, and no fewer links do." in answer(
+    assert "Sending outputs along 3 → 2 leaves no mode fixed, and no fewer links do." in answer(
         asked
     )
     assert "minimal_communication.json" in asked.certificates()
@@ -55,6 +55,16 @@ def test_free_assignment_is_claimed_only_of_what_is_complete() -> None:
     assert "in parts, one for each of 2 strong components" in answer(assess(chain))[1]
     single = MultiChannelSystem([[0]], [[[1]]], [[[1]]])
     assert "any one channel" in answer(assess(single))[1]
+
+
+@pytest.mark.parametrize("most", [1, 2, 3, 5, 9])
+def test_no_sentence_is_cut(most: int) -> None:
+    assessment = assess(gallery.load("liu2020-3ch-no-communication"), links=True)
+    shown = in_lines(assessment, most)
+    assert len(shown.splitlines()) <= most or not shown.strip()
+    sentences = answer(assessment, 8)
+    told = " ".join(shown.split())
+    assert told == " ".join(sentences[: told.count(". ") + told.endswith(".")])
 
 
 @pytest.mark.parametrize("name", gallery.names())

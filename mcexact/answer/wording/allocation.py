@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from mcexact.answer.template import Template
-from mcexact.answer.wording import forms
 
-_ = forms  # its forms are what the fields below name
 _LEAST = ("minimal_shared_dimensions",)
 
 LEAST = Template(
-    "allocate-least", "{name:name}: least shared states {share:share} so that {scope:scope}", _LEAST
+    "allocate-least",
+    "{name:name}: {price:price} shared states {share:share} so that {scope:scope}"
+    "{limits:limits}{time:instant}",
+    _LEAST,
 )
 IMPOSSIBLE = Template(
     "allocate-impossible",
-    "{name:name}: no shared states {share:share} are enough so that {scope:scope}",
+    "{name:name}: no shared states {share:share} are enough so that {scope:scope}{limits:limits}",
     _LEAST,
 )
 ROW = Template("allocate-row", "{agent:name} | {size:int}", _LEAST)

@@ -7,9 +7,7 @@ both ways of sharing the sentence rests on the one that it names.
 from __future__ import annotations
 
 from mcexact.answer.template import Template
-from mcexact.answer.wording import forms
 
-_ = forms  # its forms are what the fields below name
 _SPECTRUM = ("fixed_spectrum",)
 _WANG_DAVISON = "S. H. Wang and E. J. Davison 1973"
 
@@ -86,37 +84,40 @@ UNOBSERVED = Template(
     _PBH,
 )
 MORE_FIXED = Template(
-    "more-fixed-modes", "{k:count more factor} of the fixed polynomial: see the table.", _SPECTRUM
+    "more-fixed-modes", "There are {k:count more factor} of the fixed polynomial.", _SPECTRUM
 )
 _LINKS = ("minimal_communication",)
 LINKS = {
     False: Template(
         "links",
-        "Sending outputs along {added:edges} leaves no mode fixed, and no fewer links do.",
+        "Sending outputs along {added:arrows} leaves no mode fixed{time:instant}, and no fewer "
+        "links do.",
         _LINKS,
     ),
     True: Template(
         "links-beside-graph",
-        "Sending outputs over the neighbor graph and along {added:edges} leaves no mode fixed, and "
-        "no fewer links do.",
+        "Sending outputs over the neighbor graph and along {added:arrows} leaves no mode "
+        "fixed{time:instant}, and no fewer links do.",
         _LINKS,
     ),
 }
 LINKS_NONE = Template(
-    "links-none", "Sending outputs over the neighbor graph leaves no mode fixed.", _LINKS
+    "links-none",
+    "Sending outputs over the neighbor graph leaves no mode fixed{time:instant}.",
+    _LINKS,
 )
 NO_LINKS = Template(
-    "no-links", "No links between agents that send outputs free every mode.", _LINKS
+    "no-links", "Sending outputs between all agents does not free every mode.", _LINKS
 )
 SHARING_REMOVES = Template(
     "sharing-removes",
-    "Over the neighbor graph it is enough to send outputs and to share {sizes:shared}, and nothing "
-    "less is.",
+    "Over the neighbor graph it is enough to send outputs and to share {sizes:shared}"
+    "{time:instant}, and no smaller number of states is.",
     ("minimal_shared_dimensions_outputs_states",),
 )
 OUTPUTS_REMOVE = Template(
     "outputs-remove",
-    "Over the neighbor graph it is enough to send outputs.",
+    "Over the neighbor graph it is enough to send outputs{time:instant}.",
     ("minimal_shared_dimensions_outputs_states",),
 )
 NO_SHARING = Template(
@@ -158,7 +159,7 @@ GRAPH_PARTS = Template(
     label="transfer graph",
 )
 INACTIVE = Template(
-    "inactive-channels", "{names:set}: without input or without output", label="inactive channels"
+    "inactive-channels", "{names:set}: B_i = 0 or C_i = 0", label="inactive channels"
 )
 FIXED_NONE = Template("fixed-none", "none", _SPECTRUM, label="fixed modes")
 FIXED = Template("fixed", "{p:modes}", _SPECTRUM, label="fixed modes")
@@ -191,7 +192,7 @@ def _index_templates(name: str) -> tuple[Template, Template, Template]:
         Template(f"{name}-indices", "{indices:indices}", premises, label=label),
         Template(
             f"{name}-indices-left-out",
-            "left out: many states for few channels",
+            "left out: many states for few inputs or outputs",
             label=label,
         ),
     )
@@ -246,7 +247,7 @@ SETPOINT_STABLE_REST = Template(
 )
 SETPOINT_UNSTABLE_REST = Template(
     "setpoint-unstable-rest",
-    "no stable loop holds them: {p:modes} {p:are} not stable and out of reach",
+    "no stable loop holds them: {p:modes} {p:are} out of reach, and {p:unstable}",
     (*_SETPOINT, "fixed_spectrum"),
     "joint_controllability.controllable_hautus",
     "set-points",
@@ -260,7 +261,8 @@ SETPOINT_ZERO = Template(
 )
 SETPOINT_DEPENDENT = Template(
     "setpoint-dependent",
-    "no stable linear time-invariant loop holds them all: the outputs are dependent",
+    "no stable linear time-invariant loop holds them all: the inputs cannot move the outputs "
+    "independently",
     ("setpoint",),
     "setpoint.setpoint_rank",
     "set-points",
@@ -280,14 +282,14 @@ ENOUGH = {
     "outputs+states": (
         Template(
             "enough-outputs-states",
-            "outputs, and {k:count state} by each agent: {total:int} in all",
+            "outputs, and {k:count state} by each agent: {total:int} in all{time:instant}",
             ("shared_dimension_bound_outputs_states", *_BOUND),
             "extended_bound.theorem_2",
             _ENOUGH,
         ),
         Template(
             "enough-outputs",
-            "outputs alone",
+            "outputs alone{time:instant}",
             ("shared_dimension_bound_outputs_states", *_BOUND),
             "extended_bound.theorem_2",
             _ENOUGH,
@@ -296,7 +298,7 @@ ENOUGH = {
     "states": (
         Template(
             "enough-states",
-            "without outputs, {k:count state} by each agent: {total:int} in all",
+            "without outputs, {k:count state} by each agent: {total:int} in all{time:instant}",
             ("shared_dimension_bound_states", *_BOUND),
             "extended_bound.remark_2",
             _ENOUGH,
@@ -336,8 +338,8 @@ def _least_templates(key: str, premise: str, before: str, alone: str) -> tuple[T
     """What is least, for one way of sharing: some states, none, or that nothing suffices."""
     label = "least to share"
     return (
-        Template(f"least-{key}", before + "{sizes:shared}", (premise,), label=label),
-        Template(f"least-{key}-none", alone, (premise,), label=label),
+        Template(f"least-{key}", before + "{sizes:shared}{time:instant}", (premise,), label=label),
+        Template(f"least-{key}-none", alone + "{time:instant}", (premise,), label=label),
         Template(
             f"least-{key}-impossible", before + "no dimensions suffice", (premise,), label=label
         ),
@@ -345,6 +347,18 @@ def _least_templates(key: str, premise: str, before: str, alone: str) -> tuple[T
     )
 
 
+TABLE_LINKS = {
+    "some": Template(
+        "table-links", "{added:arrows}{time:instant}", _LINKS, label="fewest links to add"
+    ),
+    "none": Template("table-links-none", "none{time:instant}", _LINKS, label="fewest links to add"),
+    "impossible": Template(
+        "table-links-impossible", "no links are enough", _LINKS, label="fewest links to add"
+    ),
+    "limit": Template(
+        "table-links-limit", "not decided within the node limit", label="fewest links to add"
+    ),
+}
 LEAST = {
     "outputs+states": _least_templates(
         "outputs-states",

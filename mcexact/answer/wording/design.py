@@ -7,9 +7,7 @@ loop, of the kind `closed_loop_spectrum`, `stability` or `distributed_observer`.
 from __future__ import annotations
 
 from mcexact.answer.template import Template
-from mcexact.answer.wording import forms
 
-_ = forms  # its forms are what the fields below name
 _LOOP = ("loop",)
 
 OBSERVER = Template("design-observer", "distributed observer; closed loop certified", _LOOP)

@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 from mcexact.answer.template import Template
-from mcexact.answer.wording import forms
-
-_ = forms  # its forms are what the fields below name
 
 # The table of fixed modes.
 
@@ -88,24 +85,32 @@ ALONE = {
 }
 
 
-def _gains(key: str, premise: str, label: str) -> tuple[Template, ...]:
+def _gains(key: str, premise: str, label: str) -> dict[str, Template]:
     """Whether there are gains, with the indices that they reach; or why not."""
-    return (
-        Template(f"{key}-gains", "yes, indices {reached:reached}", (premise,), label=label),
-        Template(
+    causes = {
+        "controllable": "it does not act on {rest:channels}",
+        "observable": "{rest:channels} {rest:do} not act on it",
+    }
+    return {
+        "reached": Template(
+            f"{key}-gains", "yes, indices {reached:reached}", (premise,), label=label
+        ),
+        "stuck": Template(
             f"{key}-stuck",
             "no: no constant gains make channel {name:name} {side:side} at {p:modes}",
             (premise,),
             label=label,
         ),
-        Template(
-            f"{key}-unreached",
-            "no: no constant gains make channel {name:name} {side:side}, nothing leads between it "
-            "and {rest:channels}",
+    } | {
+        side: Template(
+            f"{key}-unreached-{side}",
+            f"no: no constant gains make channel {{name:name}} {side}, since {cause}",
             (premise,),
-            label=label,
-        ),
-    )
+            "single_channel_gains.single_channel_no_cut",
+            label,
+        )
+        for side, cause in causes.items()
+    }
 
 
 GAINS = {
@@ -138,15 +143,17 @@ PICTURE = Template("picture-graphs", "Graphs")
 PICTURE_OUTPUTS = Template("picture-graphs-outputs", "Graphs (agents share outputs)")
 PICTURE_NEIGHBORS = Template("picture-neighbor-graph", "neighbor graph: {arcs:arrows}")
 PICTURE_TRANSFER = Template(
-    "picture-transfer-graph", "transfer graph: {arcs:arrows}", ("transfer_graph",)
+    "picture-transfer-graph",
+    "transfer graph, between different channels: {arcs:arrows}",
+    ("transfer_graph",),
 )
 PICTURE_OBSTRUCTION = Template(
     "picture-obstruction",
-    "{s:channels}, colored orange, {s:force} {p:modes} to stay fixed",
+    "orange: {s:channels}, the set s of {p:modes}",
     ("fixed_spectrum",),
 )
 PICTURE_HEARD = Template(
-    "picture-heard", "{s:channels} {s:receive} from {heard:channels}, colored purple"
+    "picture-heard", "purple: {heard:channels}, from whom some of them receive"
 )
 PICTURE_DIMENSIONS = Template("picture-dimensions", "Shared states by agent")
 PICTURE_LEAST = {

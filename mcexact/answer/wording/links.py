@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 from mcexact.answer.template import Template
-from mcexact.answer.wording import forms
 
-_ = forms  # its forms are what the fields below name
 _LINKS = ("minimal_communication",)
 
 LEAST = Template(
     "allocate-links",
-    "{name:name}: links to add so that {scope:scope}, sending {what:carried}",
+    "{name:name}: {price:links} to add so that {scope:scope}, sending {what:carried}{time:instant}",
     _LINKS,
 )
 NONE_NEEDED = Template(
     "allocate-no-links-needed",
-    "{name:name}: no links to add so that {scope:scope}, sending {what:carried}",
+    "{name:name}: no links to add so that {scope:scope}, sending {what:carried}{time:instant}",
     _LINKS,
 )
 IMPOSSIBLE = Template(

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from mcexact.answer.template import Template
-from mcexact.answer.wording import forms
 
-_ = forms  # its forms are what the fields below name
 _CONTROLLABLE = ("controllability",)
 _FIXED = ("fixed_spectrum",)
 
@@ -58,29 +56,28 @@ ERRORS_FIXED = Template(
     _FIXED,
     "evidence.shrunk_subspace_fixed_dynamic",
 )
-_FIXED_MODES = (
-    "no linear time-invariant {control} control moves {{p:modes}}, fixed by s = {{s:set}}, and "
-    "{{p:slow}}"
-)
+_FIXED_MODES = " control moves {p:modes}, fixed by s = {s:set}, and {p:slow}"
 FIXED = Template(
     "refused-fixed",
-    _FIXED_MODES.format(control="decentralized"),
+    "no linear time-invariant decentralized" + _FIXED_MODES,
     _FIXED,
     "evidence.shrunk_subspace_fixed_dynamic",
 )
 FIXED_SHARED = Template(
     "refused-fixed-shared",
-    _FIXED_MODES.format(control="distributed") + " (shared dimensions {sizes:dimensions})",
+    "no linear time-invariant distributed"
+    + _FIXED_MODES
+    + " (shared dimensions {sizes:dimensions})",
     _FIXED,
     "evidence.shrunk_subspace_fixed_dynamic",
 )
-_LACK = ": {{agents:agents}} receive from {{senders:names}}, and lack {{k:count state}}"
+_LACK = ": {agents:agents} can receive from {senders:names} and {agents:lack} {k:count state}"
 NO_DIMENSIONS = Template(
     "refused-no-dimensions",
     "no shared dimensions let linear time-invariant control move the modes that are not fast enough"
-    + _LACK.format(),
+    + _LACK,
     ("shared_dimensions",),
-    "extended_bound.extended_no_fixed",
+    "extended_bound.extended_no_fixed, extended_bound.extended_states_no_fixed",
 )
 NOT_CONTROLLED, NOT_OBSERVED = (
     Template(
@@ -88,14 +85,14 @@ NOT_CONTROLLED, NOT_OBSERVED = (
         "no amount of sharing lets linear time-invariant control move {p:modes}: all agents "
         f"together do not {verb} {{p:them}}",
         ("shared_dimensions",),
-        "extended_bound.extended_no_fixed",
+        "extended_bound.extended_no_fixed, extended_bound.extended_states_no_fixed",
     )
     for verb in ("control", "observe")
 )
 NO_CONNECTION = Template(
     "refused-no-connection",
     "no shared dimensions make the transfer graph of the extended system strongly connected"
-    + _LACK.format(),
+    + _LACK,
     ("shared_dimensions",),
     "transfer_graph.zero_transfer_cut",
 )
@@ -131,3 +128,10 @@ INTEGRATORS_UNREACHED = {
     )
     for verb in ("control", "observe")
 }
+INTEGRATORS_FIXED = Template(
+    "refused-integrators-fixed",
+    "no linear time-invariant distributed control of the plant with its integrators moves "
+    "{p:modes}, however many states are shared",
+    _FIXED,
+    "evidence.shrunk_subspace_fixed_dynamic",
+)

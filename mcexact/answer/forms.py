@@ -1,15 +1,19 @@
-"""Forms of fields that are the project's own: how often, how fast, which parts, who shares what."""
+"""How the fields of sentences are written: numbers, modes, channels, rates, who shares what."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
 
 from mcexact.answer.formats import (
     channels,
     count,
     cut,
     decimal_number,
+    edges,
     listed,
     modes,
     name_set,
@@ -18,15 +22,43 @@ from mcexact.answer.formats import (
     polynomial,
     rounded,
 )
-from mcexact.answer.template import FORMS, Form, choice
 from mcexact.certificate.evidence import RateInterval
 from mcexact.exact.enclosures import exact_decimal
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial
 
-_POLYNOMIAL, _DECIMAL, _NUMBER, _SET, _NAME = (
-    FORMS[name].pattern for name in ("polynomial", "decimal", "number", "set", "name")
-)
+_INTEGER = r"\d+"
+_DECIMAL = r"(?:-?\d+(?:\.\d+)?|about -?\d(?:\.\d+)?e[+-]\d+|about -?\d+(?:\.\d+)?)"
+_NUMBER = rf"(?:-?\d+/\d+|{_DECIMAL})"
+_COEFFICIENT = rf"(?:\({_NUMBER}\)|{_NUMBER})"
+_POWER = r"x(?:\^\d+)?"
+_TERM = rf"(?:{_COEFFICIENT}(?:\*{_POWER})?|{_POWER}|…)"
+_POLYNOMIAL = rf"-?{_TERM}(?: [+-] {_TERM})*(?: \(degree \d+\))?"
+_NAME = r"[^,{}|\n]+?"
+_NAMES = rf"{_NAME}(?:, {_NAME})*"
+_MODES = rf"(?:the mode {_NUMBER}|the \d+ roots of {_POLYNOMIAL})"
+_SET = rf"\{{(?:{_NAMES})?\}}"
+_MORE = r"(?:, \d+ more)?"
+_REAL = r"-?\d+(?:\.\d+)?(?:e[+-]\d+)?"
+_ROOT = rf"{_REAL}(?: ± {_REAL}i)?"
+_ROW = rf"\({_NUMBER}(?:, {_NUMBER})*\)"
+_ARROW = rf"{_NAME} → {_NAME}"
+_SHARE = rf"\d+ states? by agent {_NAME}"
+
+
+@dataclass(frozen=True)
+class Form:
+    """How a field of a template is written, and what writings look like."""
+
+    write: Callable[[Any], str]
+    pattern: str
+
+
+def choice(**words: str) -> Form:
+    """A field that is one of a few phrases, each known by a keyword."""
+    return Form(words.__getitem__, "(?:" + "|".join(map(re.escape, words.values())) + ")")
+
+
 _TIMES = {1: "once", 2: "twice", 3: "three times"}
 
 
@@ -39,21 +71,22 @@ def _often(multiplicities: tuple[int, int]) -> str:
     return often + (", of which one stays" if stuck == 1 else f", of which at most {stuck} stay")
 
 
-def _behavior(slowest: tuple[str, RateInterval]) -> str:
-    """How the slowest fixed mode behaves, from the time domain and the enclosure of its rate."""
-    time, rate = slowest
+def _behavior(slowest: tuple[str, RateInterval, bool]) -> str:
+    """How the slowest fixed mode behaves: from the time, the enclosure of its rate, its stability.
+
+    The enclosure can reach the boundary where the mode does not.
+    """
+    time, rate, stable = slowest
     lower, upper = exact_decimal(rate.lower), exact_decimal(rate.upper)
     if time == "continuous":
         if lower > 0:
             return f"decays at the rate {_end(rate.lower, rate)}"
         if upper < 0:
             return f"grows at the rate {_end(rate.upper.removeprefix('-'), rate)}"
-    else:
-        if upper < 1:
-            return f"decays by the factor {_end(rate.upper, rate)} in each step"
-        if lower > 1:
-            return f"grows by the factor {_end(rate.lower, rate)} in each step"
-    return "neither decays nor grows" if lower == upper else "does not decay"
+    elif upper < 1 or lower > 1:
+        end = rate.upper if upper < 1 else rate.lower
+        return f"becomes {_end(end, rate)} times as large in each step"
+    return "decays very slowly" if stable else "does not decay"
 
 
 def _end(text: str, rate: RateInterval) -> str:
@@ -89,7 +122,7 @@ def _indices(numbers: Sequence[int]) -> str:
 def _shared(sizes: Sequence[tuple[str, int]]) -> str:
     """How many states each agent shares; those that share none are left out."""
     told = [f"{count(size, 'state')} by agent {name_text(name)}" for name, size in sizes if size]
-    return ", ".join(cut(told, 11))
+    return ", ".join(cut(told, 11, "by {} more agents"))
 
 
 def _scope(counted: tuple[str, Fraction | None, bool]) -> str:
@@ -97,9 +130,18 @@ def _scope(counted: tuple[str, Fraction | None, bool]) -> str:
     time, bound, free = counted
     which = "no mode"
     if bound is not None:
-        limit = "slower than the rate" if time == "continuous" else "outside the radius"
-        which += f" {limit} {number(bound)}"
+        which += f" with Re λ ≥ {number(-bound)}" if time == "continuous" else ""
+        which += f" with |λ| ≥ {number(bound)}" if time == "discrete" else ""
     return f"{which} is fixed" + (" and the whole spectrum can be assigned" if free else "")
+
+
+def _carried(sent: tuple[str, Sequence[int] | None]) -> str:
+    """What a link carries, with the dimensions of the states that are shared."""
+    share, sizes = sent
+    if sizes is None:
+        return "outputs"
+    states = f"states (dimensions {listed([str(size) for size in sizes])})"
+    return f"outputs and {states}" if share == "outputs+states" else states
 
 
 def _agents(names: Sequence[str]) -> str:
@@ -125,30 +167,37 @@ def _combinations(rows: Sequence[Sequence[Fraction]]) -> str:
     return " or ".join(told)
 
 
-def _arrows(edges: Sequence[tuple[str, str]]) -> str:
+def _arrows(arcs: Sequence[tuple[str, str]]) -> str:
     """Every edge of a graph, in the words that stand for a picture of it."""
-    told = [f"{name_text(start)} → {name_text(end)}" for start, end in edges]
-    return ", ".join(cut(told, 40)) or "no edges"
+    told = [f"{name_text(start)} → {name_text(end)}" for start, end in arcs]
+    return ", ".join(cut(told, 40)) or "none"
 
 
 def _capital(text: str) -> str:
     return text[0].upper() + text[1:]
 
 
-_MODES, _MORE = FORMS["modes"].pattern, r"(?:, \d+ more)?"
-_REAL = r"-?\d+(?:\.\d+)?(?:e[+-]\d+)?"
-_ROOT = rf"{_REAL}(?: ± {_REAL}i)?"
-_ROW = rf"\({_NUMBER}(?:, {_NUMBER})*\)"
-_ARROW = rf"{_NAME} → {_NAME}"
-_SHARE = rf"\d+ states? by agent {_NAME}"
-FORMS |= {
+FORMS: dict[str, Form] = {
+    "int": Form(str, _INTEGER),
+    "name": Form(name_text, _NAME),
+    "number": Form(number, _NUMBER),
+    "decimal": Form(decimal_number, _DECIMAL),
+    "polynomial": Form(polynomial, _POLYNOMIAL),
+    "modes": Form(modes, _MODES),
+    "channels": Form(channels, rf"(?:channel {_NAME}|channels (?:{_NAMES} and )?{_NAME})"),
+    "set": Form(name_set, _SET),
+    "edges": Form(edges, rf"(?:no edges|\d+ edges|{_NAME} -> {_NAME}(?:, {_NAME} -> {_NAME})*)"),
+    "yes": Form(lambda value: "yes" if value else "no", "(?:yes|no)"),
+    "time": choice(continuous="continuous", discrete="discrete"),
     "control": choice(
         own="linear time-invariant decentralized control",
         outputs="linear time-invariant control by the outputs of all neighbors",
+        instant="linear time-invariant control by the outputs of all neighbors without delay",
     ),
     "information": choice(
         own="each agent feeds back its own output",
         outputs="each agent feeds back the outputs of all its neighbors",
+        instant="each agent feeds back the outputs of all its neighbors, received without delay",
     ),
     "often": Form(
         _often,
@@ -156,8 +205,8 @@ FORMS |= {
     ),
     "behavior": Form(
         _behavior,
-        rf"(?:(?:decays|grows) (?:at the rate {_DECIMAL}|by the factor {_DECIMAL} in each step)"
-        r"|neither decays nor grows|does not decay)",
+        rf"(?:(?:decays|grows) at the rate {_DECIMAL}"
+        rf"|becomes {_DECIMAL} times as large in each step|decays very slowly|does not decay)",
     ),
     "Modes": Form(lambda p: _capital(modes(p, 60)), _MODES.replace("the", "The")),
     "are": Form(lambda p: "is" if _single(p) else "are", "(?:is|are)"),
@@ -166,6 +215,15 @@ FORMS |= {
         lambda p: "which does not satisfy" if _single(p) else "which do not all satisfy",
         "which (?:does not|do not all) satisfy",
     ),
+    "lack": Form(lambda names: "lacks" if len(names) == 1 else "lack", "lacks?"),
+    "unstable": Form(
+        lambda p: "it is not stable" if _single(p) else "not all of them are stable",
+        "(?:it is not|not all of them are) stable",
+    ),
+    "price": choice(least="least", cheapest="cheapest"),
+    "links": choice(least="the fewest links", cheapest="the cheapest links"),
+    "limits": choice(none="", upper=", within the upper limits"),
+    "instant": choice(none="", delays=", if messages took no time"),
     "slow": Form(
         lambda p: "it is not fast enough" if _single(p) else "not all of them are fast enough",
         "(?:it is not|not all of them are) fast enough",
@@ -184,8 +242,7 @@ FORMS |= {
         lambda indices: ", ".join(cut([" and ".join(map(str, pair)) for pair in indices], 8)),
         rf"\d+(?: and \d+)?(?:, \d+(?: and \d+)?)*{_MORE}",
     ),
-    "arrows": Form(_arrows, rf"(?:no edges|{_ARROW}(?:, {_ARROW})*{_MORE})"),
-    "force": Form(lambda names: "forces" if len(names) == 1 else "force", "forces?"),
+    "arrows": Form(_arrows, rf"(?:none|{_ARROW}(?:, {_ARROW})*{_MORE})"),
     "receive": Form(lambda names: "receives" if len(names) == 1 else "receive", "receives?"),
     "list": Form(
         lambda sizes: listed([str(size) for size in sizes]), r"\d+(?:, \d+)*(?: and \d+)?"
@@ -216,17 +273,25 @@ FORMS |= {
     "latex": Form(Polynomial.latex, r"[-+ x0-9^{}a-z\\]+"),
     "latex_names": Form(str, r"[^\n]*"),
     "share": choice(**{"outputs+states": "beside outputs", "states": "without outputs"}),
-    "carried": choice(
-        **{"outputs": "outputs", "outputs+states": "outputs and states", "states": "states"}
+    "carried": Form(
+        _carried, r"(?:outputs|(?:outputs and )?states \(dimensions \d+(?:, \d+)*(?: and \d+)?\))"
     ),
     "scope": Form(
         _scope,
-        rf"no mode(?: slower than the rate {_NUMBER}| outside the radius {_NUMBER})? is fixed"
+        rf"no mode(?: with (?:Re λ|\|λ\|) ≥ {_NUMBER})? is fixed"
         r"(?: and the whole spectrum can be assigned)?",
     ),
-    "shared": Form(_shared, rf"{_SHARE}(?:, {_SHARE})*{_MORE}"),
+    "shared": Form(_shared, rf"{_SHARE}(?:, {_SHARE})*(?:, by \d+ more agents)?"),
 }
 
 
 def _single(p: Polynomial) -> bool:
     return p.degree == 1
+
+
+def form(spec: str) -> Form:
+    """The form that a field names: one of `FORMS`, or ``count noun``."""
+    if spec.startswith("count "):
+        noun = spec.removeprefix("count ")
+        return Form(lambda size: count(size, noun), rf"(?:1 {noun}|\d+ {noun}s)")
+    return FORMS[spec]
