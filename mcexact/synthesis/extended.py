@@ -162,7 +162,7 @@ def design_extended(
     Traceback (most recent call last):
         ...
     mcexact.errors.Impossible: no shared dimensions let linear time-invariant control move the \
-modes that are not fast enough: agents 2 and 3 receive from nobody, and lack 1 state
+modes that are not fast enough: agents 2 and 3 can receive from nobody and lack 1 state
     """
     system, found = with_graph(system, graph)
     if system.subject:
