@@ -92,7 +92,7 @@ def cells() -> Iterator[Cell]:
         yield Cell(f"python{version}", version=version)
     yield Cell("oldest", version=VERSIONS[0], constraints="tests/oldest.txt")
     # With two workers beside so many loops the tests would take most of an hour.
-    yield Cell("busy", loops=LOOPS, workers=16)
+    yield Cell("busy", loops=LOOPS, workers=8)
 
 
 def interpreters() -> dict[str, str]:
