@@ -1,0 +1,200 @@
+"""The bytes of every exact certificate, for the plants of the gallery and for drawn ones.
+
+Run as ``python -m tests.certificate.test_golden`` to write ``golden.json`` anew, where a change of
+bytes is intended.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import random
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import mcexact
+from mcexact.analysis.closed_loop_spectrum import open_loop_spectrum
+from mcexact.analysis.delays import held_verdict, lifted_verdict
+from mcexact.analysis.neighbor_graph import neighbor_graph
+from mcexact.analysis.setpoint import setpoint_solvability
+from mcexact.certificate import encode
+from mcexact.derived.extended import Share
+from mcexact.errors import Impossible, LimitReached
+from mcexact.exact.matrix import Matrix
+from mcexact.model import gallery
+from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem
+from tests.oracle.draws import exact, sparse_system
+
+GOLDEN = Path(__file__).with_name("golden.json")
+DRAWN = 120
+SHARING: tuple[Share, ...] = ("outputs+states", "states")
+DESIGNED = ("liu2020-3ch-no-communication", "lexalutyi-two-double-integrators")
+
+Answers = Iterator[tuple[str, Any]]
+
+
+def text_of(answer: Any) -> str:
+    """The text of an answer's certificate, or of a refusal's."""
+    return encode(getattr(answer, "certificate", answer))
+
+
+def plants() -> Iterator[tuple[str, MultiChannelSystem]]:
+    """All of the gallery; then drawn ones in both times, half of them over drawn graphs."""
+    for name in gallery.names():
+        yield name, gallery.load(name)
+    for number in range(DRAWN):
+        rng = random.Random(number)
+        plant = exact(sparse_system(rng), ("continuous", "discrete")[number % 2])
+        if number % 4 >= 2:
+            plant = plant.with_neighbors(drawn_graph(rng, plant.names))
+        yield f"drawn-{number}", plant
+
+
+def drawn_graph(rng: random.Random, names: tuple[str, ...]) -> NeighborGraph:
+    """A ring or a sparse graph, its messages delayed by 0, 1 or 2 units."""
+    m = len(names)
+    heard = [[(i + 1) % m] for i in range(m)]
+    if rng.random() < 0.5:
+        heard = [[j for j in range(m) if rng.random() < 0.3] for _ in range(m)]
+    delays = [(i, j, rng.choice([0, 1, 2])) for i in range(m) for j in heard[i] if i != j]
+    return NeighborGraph(names, heard, delays)
+
+
+def answers(plant: MultiChannelSystem) -> Answers:
+    """What can be asked about any system, with its graph if it has one, by the question."""
+    yield from of_the_system(plant)
+    yield from of_its_channels(plant)
+    yield "minimal_communication", least(mcexact.minimal_communication, plant)
+    if plant.neighbors is not None:
+        yield from of_its_graph(plant)
+
+
+def of_the_system(system: MultiChannelSystem) -> Answers:
+    yield "joint_controllability", mcexact.joint_controllability(system)
+    yield "joint_observability", mcexact.joint_observability(system)
+    yield "transfer_graph", mcexact.transfer_graph(system)
+    yield "fixed_spectrum", mcexact.fixed_spectrum(system)
+    yield "completeness", mcexact.completeness(system)
+    yield "controllability_indices", mcexact.controllability_indices(system)
+    yield "observability_indices", mcexact.observability_indices(system)
+    yield "assignability", mcexact.assignability(system)
+    yield "setpoint", setpoint_solvability(system)
+
+
+def of_its_channels(system: MultiChannelSystem) -> Answers:
+    """One channel, the set of it alone, and every channel at once."""
+    name = system.names[-1]
+    yield "channel_controllability", mcexact.joint_controllability(system, [name])
+    yield "channel_observability", mcexact.joint_observability(system, [name])
+    for want in ("controllable", "observable", "both"):
+        yield f"channel_gains_{want}", mcexact.single_channel_gains(system, name, want=want)
+    yield "every_channel", mcexact.single_channel_gains(system)
+    spectrum = open_loop_spectrum(system)
+    yield "spectrum_of_A", spectrum
+    for factor, _ in spectrum.polynomial.factor():
+        yield "pencil_rank", mcexact.pencil_rank(system, [name], factor)
+    if system.m > 1:
+        yield "complementary_subsystem", mcexact.complementary_subsystem(system, [name])
+    yield "stability", mcexact.certify_stability(system, method="polynomial")
+    if system.n:
+        ones = Matrix.from_integers([[1] * system.n for _ in range(system.n)])
+        try:
+            found = mcexact.exceptional_gains(ones, system.A, system.input_matrix())
+        except Impossible as refused:
+            yield "exceptional_gains_refused", refused
+            return
+        yield "exceptional_gains_index_set", found.index_set
+        yield "exceptional_gains_controllability_set", found.controllability_set
+
+
+def of_its_graph(plant: MultiChannelSystem) -> Answers:
+    """What agents can share, at once and with the delays of their messages."""
+    yield "neighbor_graph", neighbor_graph(plant)
+    zero = [[[0] * plant.n for _ in range(plant.p(i))] for i in range(plant.m)]
+    yield "error_gains", mcexact.error_gains(plant, zero)
+    for name, found in of_the_system(mcexact.augmented_outputs(plant)):
+        yield f"augmented_{name}", found
+    for share in SHARING:
+        bound = mcexact.shared_dimension_bound(plant, share=share)
+        yield f"shared_dimension_bound_{share}", bound
+        for free in (False, True):
+            found = least(
+                mcexact.minimal_shared_dimensions, plant, share=share, free_assignability=free
+            )
+            yield f"minimal_shared_dimensions_{share}", found
+        extended = mcexact.extended_system(plant, [1] * plant.m, share)
+        yield f"extended_fixed_spectrum_{share}", mcexact.fixed_spectrum(extended)
+        yield (
+            f"links_{share}",
+            least(mcexact.minimal_communication, plant, share=share, dimensions=[1] * plant.m),
+        )
+    if plant.time == "discrete":
+        for name, verdict in (
+            ("lifted", lifted_verdict(plant, [bound.per_agent] * plant.m)),
+            ("held", held_verdict(plant, [bound.per_agent] * plant.m)),
+        ):
+            yield f"{name}_fixed_spectrum", verdict.spectrum
+            yield f"{name}_joint_controllability", verdict.controllability
+            yield f"{name}_joint_observability", verdict.observability
+
+
+def least(solve: Any, plant: MultiChannelSystem, **arguments: Any) -> Any:
+    """The answer of a program, or None at its limit."""
+    try:
+        return solve(plant, **arguments)
+    except LimitReached:
+        return None
+
+
+def designs() -> Iterator[tuple[str, Answers]]:
+    """Certificates of exact designs for a rate, about the loop and what it was made of."""
+    for name in DESIGNED:
+        plant = gallery.load(name)
+        plant = plant.with_neighbors(NeighborGraph.ring(plant.names))
+        for design in ("observer", "decentralized", "extended", "setpoint"):
+            try:
+                made = getattr(mcexact, f"design_{design}")(plant, rate=1)
+            except Impossible as refused:
+                yield f"{design}: {name}", iter([("refusal", refused)])
+            else:
+                yield f"{design}: {name}", iter(made.certificates.items())
+
+
+def digests() -> dict[str, dict[str, str]]:
+    """One digest for each plant, one for each question, and one for each design."""
+    by_plant: dict[str, Any] = {}
+    by_question: dict[str, Any] = {}
+    for name, plant in plants():
+        for question, answer in answers(plant):
+            data = b"" if answer is None else text_of(answer).encode("ascii")
+            for place, key in ((by_plant, name), (by_question, question)):
+                place.setdefault(key, hashlib.sha256()).update(data)
+    by_design: dict[str, Any] = {}
+    for name, made in designs():
+        found = by_design[name] = hashlib.sha256()
+        for _, answer in made:
+            found.update(text_of(answer).encode("ascii"))
+    return {
+        place: {key: found.hexdigest() for key, found in sorted(table.items())}
+        for place, table in (
+            ("plants", by_plant),
+            ("questions", by_question),
+            ("designs", by_design),
+        )
+    }
+
+
+def test_every_exact_certificate_has_the_recorded_bytes() -> None:
+    recorded = json.loads(GOLDEN.read_text(encoding="ascii"))
+    found = digests()
+    changed = {
+        place: sorted({key for key, _ in set(recorded[place].items()) ^ set(found[place].items())})
+        for place in recorded
+    }
+    assert not any(changed.values()), changed
+
+
+if __name__ == "__main__":
+    GOLDEN.write_text(json.dumps(digests(), indent=1) + "\n", encoding="ascii")
