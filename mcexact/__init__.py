@@ -10,10 +10,14 @@ the heavy libraries.
 import importlib
 from typing import TYPE_CHECKING, Any
 
+from mcexact.analysis.questions import QUESTIONS
+
 if TYPE_CHECKING:
     from mcexact.analysis.allocation import minimal_shared_dimensions as minimal_shared_dimensions
     from mcexact.analysis.allocation import shared_dimension_bound as shared_dimension_bound
+    from mcexact.analysis.analyze import analyze as analyze
     from mcexact.analysis.assignability import assignability as assignability
+    from mcexact.analysis.closed_loop_spectrum import open_loop_spectrum as open_loop_spectrum
     from mcexact.analysis.communication import minimal_communication as minimal_communication
     from mcexact.analysis.complementary_subsystem import (
         complementary_subsystem as complementary_subsystem,
@@ -31,6 +35,8 @@ if TYPE_CHECKING:
     from mcexact.analysis.exceptional_gains import exceptional_gains as exceptional_gains
     from mcexact.analysis.fixed_spectrum import fixed_spectrum as fixed_spectrum
     from mcexact.analysis.pencil import pencil_rank as pencil_rank
+    from mcexact.analysis.pencil import pencil_ranks as pencil_ranks
+    from mcexact.analysis.setpoint import setpoint_solvability as setpoint_solvability
     from mcexact.analysis.single_channel_gains import (
         single_channel_gains as single_channel_gains,
     )
@@ -64,14 +70,11 @@ if TYPE_CHECKING:
 _HOME = {
     "MultiChannelSystem": "model.system",
     "NeighborGraph": "model.neighbor_graph",
-    "assignability": "analysis.assignability",
+    "analyze": "analysis.analyze",
     "augmented_outputs": "derived.augmented_outputs",
     "certify_controller": "synthesis.certify",
     "certify_stability": "analysis.stability",
     "check": "report.verdict",
-    "complementary_subsystem": "analysis.complementary_subsystem",
-    "completeness": "analysis.completeness",
-    "controllability_indices": "analysis.controllability_indices",
     "crosscheck": "crosscheck.table",
     "design_decentralized": "synthesis.decentralized",
     "design_extended": "synthesis.extended",
@@ -82,27 +85,24 @@ _HOME = {
     "error_system": "derived.error_system",
     "exceptional_gains": "analysis.exceptional_gains",
     "extended_system": "derived.extended",
-    "fixed_spectrum": "analysis.fixed_spectrum",
     "held_system": "derived.held",
-    "joint_controllability": "analysis.controllability",
-    "joint_observability": "analysis.controllability",
     "lifted_system": "derived.lifted",
     "load_controller": "model.controller_file",
     "load_system": "model.system_file",
     "local_controllers": "model.local_controllers",
     "loop_from_statespace": "model.statespace",
     "matrix_system": "analysis.stability",
-    "minimal_communication": "analysis.communication",
-    "minimal_shared_dimensions": "analysis.allocation",
-    "observability_indices": "analysis.controllability_indices",
     "pencil_rank": "analysis.pencil",
     "save_controller": "model.controller_file",
     "save_system": "model.system_file",
     "setpoint_system": "derived.integrators",
-    "shared_dimension_bound": "analysis.allocation",
     "simulate": "simulation.trajectory",
-    "single_channel_gains": "analysis.single_channel_gains",
-    "transfer_graph": "analysis.transfer_graph",
+}
+# A question is the function that decides it.
+_HOME |= {
+    question.function: f"analysis.{question.module}"
+    for question in QUESTIONS.values()
+    if question.function != "neighbor_graph"
 }
 
 __version__ = "0.1.0"

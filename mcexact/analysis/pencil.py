@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
+from mcexact.analysis.closed_loop_spectrum import OpenLoopSpectrum, open_loop_spectrum
 from mcexact.analysis.modular_system import generator
 from mcexact.certificate.pencil_rank import PencilRankCertificate
 from mcexact.errors import InputError, InternalError
@@ -124,6 +125,24 @@ def pencil_rank(system: MultiChannelSystem, s: Iterable[str], mode: Any) -> Penc
         pivots=pivots,
     )
     return PencilRank(names, p, rank, max(0, system.n - rank), certificate)
+
+
+def pencil_ranks(
+    system: MultiChannelSystem, s: Iterable[str], *, spectrum: OpenLoopSpectrum | None = None
+) -> tuple[PencilRank, ...]:
+    """The rank of P_s at every mode of A, one for each irreducible factor of det(xI − A).
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    s : iterable of str
+        Names of channels.
+    spectrum : OpenLoopSpectrum, optional
+        ``open_loop_spectrum(system)``, where it is known already.
+    """
+    subset = list(s)
+    found = open_loop_spectrum(system) if spectrum is None else spectrum
+    return tuple(pencil_rank(system, subset, mode) for mode, _ in found.polynomial.factor())
 
 
 def _irreducible(mode: Any) -> Polynomial:

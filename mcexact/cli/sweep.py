@@ -14,6 +14,7 @@ import click
 
 from mcexact.cli import options
 from mcexact.cli.failures import INTERRUPTED
+from mcexact.sweep.questions import QUESTIONS
 
 if TYPE_CHECKING:
     from mcexact.exact.rational import Limits
@@ -23,16 +24,6 @@ if TYPE_CHECKING:
 # What a sweep ends with: the first of these that some system ended with.
 _PRECEDENCE = (70, 3, 2, 4, 0)
 _SAY_EVERY = 10.0  # seconds
-_QUESTIONS = (
-    "fixed_spectrum",
-    "completeness",
-    "joint_controllability",
-    "joint_observability",
-    "controllability_indices",
-    "observability_indices",
-    "transfer_graph",
-    "assignability",
-)
 
 
 @click.command(name="sweep", short_help="The same questions about many files or draws.")
@@ -40,10 +31,10 @@ _QUESTIONS = (
 @click.option(
     "--question",
     "questions",
-    type=click.Choice(_QUESTIONS),
+    type=click.Choice(QUESTIONS),
     multiple=True,
     metavar="NAME",
-    help=f"What to decide, again for more: {', '.join(_QUESTIONS)}; the first if there is none.",
+    help=f"What to decide, again for more: {', '.join(QUESTIONS)}; the first if there is none.",
 )
 @click.option(
     "--draws",
@@ -111,7 +102,7 @@ def command(
     sources += [Draw(number, **rest) for number in range(seed, seed + (draws or 0))]
     if not sources:
         raise click.UsageError("there is nothing to sweep over: name files, or --draws N")
-    asked = tuple(name for name in _QUESTIONS if name in (questions or _QUESTIONS[:1]))
+    asked = tuple(name for name in QUESTIONS if name in (questions or {"fixed_spectrum"}))
     require_writable(output, certificates)
     limited = timeout is not None or max_memory is not None
     records = sweep(

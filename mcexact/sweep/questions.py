@@ -2,43 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
-from types import MappingProxyType
+from collections.abc import Iterable, Mapping
 from typing import Any
 
-from mcexact.analysis.assignability import assignability
-from mcexact.analysis.completeness import completeness
-from mcexact.analysis.controllability import joint_controllability, joint_observability
-from mcexact.analysis.controllability_indices import (
-    controllability_indices,
-    observability_indices,
-)
-from mcexact.analysis.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.transfer_graph import transfer_graph
+from mcexact.analysis.questions import QUESTIONS as ALL
 from mcexact.errors import UsageError
-from mcexact.model.system import MultiChannelSystem
 
-QUESTIONS: MappingProxyType[str, Callable[[MultiChannelSystem], Any]] = MappingProxyType(
-    {
-        "fixed_spectrum": fixed_spectrum,
-        "completeness": completeness,
-        "joint_controllability": joint_controllability,
-        "joint_observability": joint_observability,
-        "controllability_indices": controllability_indices,
-        "observability_indices": observability_indices,
-        "transfer_graph": transfer_graph,
-        "assignability": assignability,
-    }
-)
-"""The decisions by name; each returns a result with a ``certificate``."""
-
-# Where it is not a certificate of the question's own name about the plant itself.
-_KIND = {
-    "joint_controllability": "controllability",
-    "joint_observability": "controllability",
-    "observability_indices": "controllability_indices",
+QUESTIONS = {
+    name: question for name, question in ALL.items() if question.unbidden and not question.needs
 }
-_ABOUT_THE_DUAL = {"joint_observability", "observability_indices"}
+"""Those of `mcexact.analysis.questions` that need nothing but the plant, and are cheap."""
 
 
 def chosen(names: Iterable[str]) -> tuple[str, ...]:
@@ -67,8 +40,9 @@ def answered(name: str, certificate: Mapping[str, Any]) -> bool:
     certificate : mapping
         A document that the checker has found VALID.
     """
-    subject = [{"construction": "dual"}] if name in _ABOUT_THE_DUAL else []
+    question = QUESTIONS[name]
+    subject = [{"construction": "dual"}] if question.dual else []
     channels = [channel["name"] for channel in certificate["system"]["channels"]]
     about = (certificate["kind"], certificate["subject"])
     named = certificate["claim"].get("channels", channels)
-    return about == (_KIND.get(name, name), subject) and bool(named == channels)
+    return about == (question.kind or name, subject) and bool(named == channels)

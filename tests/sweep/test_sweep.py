@@ -96,7 +96,7 @@ def test_every_question_is_answered_as_it_is_one_by_one() -> None:
     )
     assert list(record.answers) == list(QUESTIONS)
     for name, question in QUESTIONS.items():
-        document = codec.document(question(system).certificate)
+        document = codec.document(question.decide(system).certificate)
         assert record.answers[name]["claim"] == document["claim"]
         assert json.loads(record.certificates[name]) == document
 

@@ -1,0 +1,257 @@
+"""Everything that can be asked about one system, each question decided once and only when asked."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from functools import cached_property
+from typing import Any
+
+from mcexact.analysis.questions import QUESTIONS
+from mcexact.errors import LimitReached, UsageError
+from mcexact.model.system import MultiChannelSystem
+
+
+class Analysis:
+    """The answers about one system, by attribute or item, each decided when it is first asked for.
+
+    Parameters
+    ----------
+    plant : MultiChannelSystem
+    questions : iterable of str, optional
+    information : {"own", "outputs"}
+    subset : sequence of str, optional
+    channel : str, optional
+        As `analyze` takes them.
+
+    Attributes
+    ----------
+    plant : MultiChannelSystem
+    information : str
+    """
+
+    def __init__(
+        self,
+        plant: MultiChannelSystem,
+        questions: Iterable[str] | None = None,
+        *,
+        information: str = "own",
+        subset: Sequence[str] | None = None,
+        channel: str | None = None,
+    ) -> None:
+        self.plant = plant
+        self.information = information
+        self._arguments: dict[str, Any] = {
+            "neighbors": plant.neighbors,
+            "subset": subset,
+            "channel": channel,
+            "channels": None if channel is None else [channel],
+        }
+        self._found: dict[str, Any] = {}
+        if information not in {"own", "outputs"}:
+            raise UsageError(f"expected the information 'own' or 'outputs', found {information!r}")
+        if information == "outputs":
+            self._require("neighbors", "information 'outputs' is about what the agents receive")
+        self._asked = set(self.unbidden if questions is None else questions)
+        for name in sorted(self._asked):
+            self._require_known(name)
+
+    @property
+    def asked(self) -> tuple[str, ...]:
+        """The questions asked so far, and those whose answers they take, as the table has them."""
+        return tuple(name for name in QUESTIONS if name in self._asked)
+
+    @cached_property
+    def unbidden(self) -> tuple[str, ...]:
+        """The questions that are asked when none is named."""
+        return tuple(name for name in self._applicable() if name not in self.left_out)
+
+    @cached_property
+    def left_out(self) -> tuple[str, ...]:
+        """Those that would be among them, if their evidence were not out of proportion."""
+        ports = {
+            "": self.system.n,
+            "inputs": self.system.input_matrix().ncols,
+            "outputs": self.system.output_matrix().nrows,
+        }
+        return tuple(
+            name
+            for name in self._applicable()
+            if QUESTIONS[name].ports
+            and self.system.n**2 > 10**4 * max(ports[QUESTIONS[name].ports], 1)
+        )
+
+    def _applicable(self) -> Iterator[str]:
+        subset = self._arguments["subset"]
+        for name, question in QUESTIONS.items():
+            there = not question.needs or self._arguments[question.needs] is not None
+            if name == "complementary_subsystem" and there:
+                there = 0 < len(set(subset)) < self.plant.m
+            if question.unbidden and there:
+                yield name
+
+    def _require_known(self, name: str) -> None:
+        if name not in QUESTIONS:
+            raise UsageError(f"there is no question {name!r}; expected {', '.join(QUESTIONS)}")
+        self._require(QUESTIONS[name].needs, f"the question {name!r} is about {{}}")
+
+    def _require(self, needed: str, asked: str) -> None:
+        """Refuse what makes no sense without a graph, a set of channels or a channel."""
+        if not needed or self._arguments[needed] is not None:
+            return
+        if needed == "neighbors":
+            raise UsageError(
+                asked.format("messages between neighbors")
+                + ", and this system names no neighbors: add 'neighbors' to the file"
+            )
+        argument = needed.removesuffix("s")
+        raise UsageError(f"{asked.format(f'one {argument} of channels')}: give {argument}=")
+
+    @cached_property
+    def system(self) -> MultiChannelSystem:
+        """The plant, or the plant with the outputs that the agents receive."""
+        if self.information == "own":
+            return self.plant
+        from mcexact.derived.augmented_outputs import augmented_outputs
+
+        return augmented_outputs(self.plant)
+
+    @cached_property
+    def lifted(self) -> MultiChannelSystem:
+        """The plant with its delayed wires, shared over which are as many states as the bound."""
+        from mcexact.derived.lifted import lifted_system
+
+        return lifted_system(self.plant, self._shared("outputs_states"))
+
+    @cached_property
+    def held(self) -> MultiChannelSystem:
+        """The same where sub-states alone are shared, and held for the delays."""
+        from mcexact.derived.held import held_system
+
+        return held_system(self.plant, self._shared("states"))
+
+    def _shared(self, stem: str) -> tuple[int, ...]:
+        return (self._answer(f"shared_dimension_bound_{stem}").per_agent,) * self.plant.m
+
+    def __getitem__(self, name: str) -> Any:
+        """The answer to a question, decided if it is not known yet.
+
+        Raises
+        ------
+        UsageError
+            If there is no such question, or it needs what the system does not have.
+        LimitReached
+            If a limit on work left it open.
+        """
+        self._require_known(name)
+        found = self._answer(name)
+        if isinstance(found, LimitReached):
+            raise found
+        return found
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_") or name not in QUESTIONS:
+            raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+        return self[name]
+
+    def __dir__(self) -> list[str]:
+        return sorted({*super().__dir__(), *QUESTIONS})
+
+    def _answer(self, name: str) -> Any:
+        """What was decided, or the limit at which that ended."""
+        self._asked.add(name)
+        if name not in self._found:
+            question = QUESTIONS[name]
+            arguments = [getattr(self, question.about)]
+            if question.needs not in {"", "neighbors"}:
+                arguments.append(self._arguments[question.needs])
+            reused = {key: self._answer(other) for key, other in question.reuses.items()}
+            try:
+                self._found[name] = question.decide(*arguments, **reused)
+            except LimitReached as reached:
+                self._found[name] = reached
+        return self._found[name]
+
+    def decided(self) -> dict[str, Any]:
+        """The answers to all that was asked; several answers to one question are numbered."""
+        answers: dict[str, Any] = {}
+        for name, found in self._outcomes().items():
+            if isinstance(found, tuple):
+                answers |= {f"{name}_{k}": each for k, each in enumerate(found, start=1)}
+            elif not isinstance(found, LimitReached):
+                answers[name] = found
+        return answers
+
+    def open(self) -> dict[str, LimitReached]:
+        """What was asked and left open by a limit on work."""
+        return {
+            name: found
+            for name, found in self._outcomes().items()
+            if isinstance(found, LimitReached)
+        }
+
+    def __repr__(self) -> str:
+        plant = self.plant
+        open_ = sum(name not in self._found for name in self._asked)
+        return (
+            f"Analysis(n={plant.n}, m={plant.m}, {plant.time} time: "
+            f"{len(self._found)} questions decided, {open_} asked and not yet)"
+        )
+
+    def _outcomes(self) -> dict[str, Any]:
+        """Everything that was asked, or needed for it, in the order of the table."""
+        for name in self.asked:
+            self._answer(name)
+        return {name: self._found[name] for name in self.asked}
+
+
+def analyze(
+    plant: MultiChannelSystem,
+    questions: Iterable[str] | None = None,
+    *,
+    besides: Iterable[str] = (),
+    information: str = "own",
+    subset: Sequence[str] | None = None,
+    channel: str | None = None,
+) -> Analysis:
+    """Ask about a system: by default everything that applies and is cheap.
+
+    Parameters
+    ----------
+    plant : MultiChannelSystem
+    questions : iterable of str, optional
+        Names out of `QUESTIONS`; nothing that is NP-hard is asked unless it is named.
+    besides : iterable of str
+        Questions to be asked besides those.
+    information : {"own", "outputs"}
+        What agent i feeds back: y_i, or the y_j of all j in N_i.
+    subset : sequence of str, optional
+        Names of channels: the rank of their pencil at every mode is asked as well, and their
+        complementary subsystem.
+    channel : str, optional
+        The name of a channel: what it controls and observes is asked as well.
+
+    Returns
+    -------
+    Analysis
+        Nothing is decided before it is looked at.
+
+    Raises
+    ------
+    UsageError
+        If there is no question of a name, or it needs what the system does not have.
+
+    Examples
+    --------
+    >>> from mcexact.model import gallery
+    >>> found = analyze(gallery.load("liu2020-3ch-no-communication"))
+    >>> found.fixed_spectrum.empty, found.completeness.complete
+    (False, False)
+    >>> sorted(found.minimal_communication.added)
+    [('1', '2')]
+    """
+    made = Analysis(plant, questions, information=information, subset=subset, channel=channel)
+    named = {*besides}
+    for name in sorted(named):
+        made._require_known(name)
+    made._asked |= named
+    return made

@@ -1,0 +1,224 @@
+"""What can be asked about a system: one table, from which names of answers and files derive."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import Any
+
+SHARES = {"outputs+states": "outputs_states", "states": "states"}
+"""How each way of sharing appears in the name of a question."""
+
+
+@dataclass(frozen=True)
+class Question:
+    """Who decides it, about what, and when it is asked.
+
+    Attributes
+    ----------
+    home : str
+        Module of `mcexact.analysis` and function, with a colon between.
+    help : str
+        What is decided, as a clause after "whether", "which" or "what".
+    about : {"system", "plant", "lifted", "held"}
+        The plant; the system that the agents see, which is the plant or the plant with the outputs
+        that they receive; or the plant with sub-states shared over its delayed wires.
+    needs : {"", "neighbors", "subset", "channel", "channels"}
+        What has to be there: a neighbor graph, or a set of channels or a channel that is asked
+        about; the last three are the function's second argument, ``channels`` is a list of one.
+    unbidden : bool
+        Whether it is asked when nobody names it; what is NP-hard or slow never is.
+    ports : {"", "inputs", "outputs"}
+        If not empty, it is asked unbidden only where n² ≤ 10⁴ times the number of these: the
+        evidence is a Krylov sequence, which fewer ports make longer.
+    given : mapping
+        Further keywords of the function.
+    reuses : mapping
+        Keywords that take the answer to another question about the same system.
+    kind : str
+        The kind of the certificate, where that is not the name of the question.
+    dual : bool
+        Whether the certificate is about the dual system.
+    """
+
+    home: str
+    help: str
+    about: str = "system"
+    needs: str = ""
+    unbidden: bool = True
+    ports: str = ""
+    given: Mapping[str, Any] = field(default_factory=dict)
+    reuses: Mapping[str, str] = field(default_factory=dict)
+    kind: str = ""
+    dual: bool = False
+
+    @property
+    def module(self) -> str:
+        """The file of the function that decides it."""
+        return self.home.partition(":")[0]
+
+    @property
+    def function(self) -> str:
+        """The name of that function."""
+        return self.home.partition(":")[2]
+
+    def decide(self, *arguments: Any, **keywords: Any) -> Any:
+        """Call that function."""
+        module = importlib.import_module(f"mcexact.analysis.{self.module}")
+        return getattr(module, self.function)(*arguments, **self.given, **keywords)
+
+
+def _joint(about: str = "system", needs: str = "", unbidden: bool = True) -> dict[str, Question]:
+    """What all channels together, or one of them, reach and see."""
+    return {
+        f"{what}ability": Question(
+            f"controllability:joint_{what}ability",
+            f"which modes the channels {verb}",
+            about=about,
+            needs=needs,
+            unbidden=unbidden,
+            kind="controllability",
+            dual=what == "observ",
+        )
+        for what, verb in (("controll", "control"), ("observ", "observe"))
+    }
+
+
+_JOINT, _ALONE = _joint(), _joint(needs="channels")
+_SPECTRUM = {"spectrum": "fixed_spectrum"}
+
+QUESTIONS: Mapping[str, Question] = MappingProxyType(
+    {
+        "fixed_spectrum": Question(
+            "fixed_spectrum:fixed_spectrum",
+            "which modes no linear time-invariant decentralized control moves",
+        ),
+        "completeness": Question(
+            "completeness:completeness",
+            "whether one channel can control and observe everything, whatever the channel",
+            reuses=_SPECTRUM,
+        ),
+        **{f"joint_{name}": question for name, question in _JOINT.items()},
+        "controllability_indices": Question(
+            "controllability_indices:controllability_indices",
+            "how long the inputs take to reach every state",
+            ports="inputs",
+        ),
+        "observability_indices": Question(
+            "controllability_indices:observability_indices",
+            "how long the outputs take to tell every state",
+            ports="outputs",
+            kind="controllability_indices",
+            dual=True,
+        ),
+        "transfer_graph": Question(
+            "transfer_graph:transfer_graph", "which channel's inputs reach which outputs"
+        ),
+        "assignability": Question(
+            "assignability:assignability",
+            "into which parts the closed-loop spectrum splits",
+            reuses=_SPECTRUM | {"graph": "transfer_graph"},
+        ),
+        "setpoint": Question(
+            "setpoint:setpoint_solvability",
+            "whether every output can be held at any value",
+            about="plant",
+        ),
+        "complementary_subsystem": Question(
+            "complementary_subsystem:complementary_subsystem",
+            "rank, zeros and remnant polynomial of the pencil of a set of channels",
+            needs="subset",
+        ),
+        "spectrum_of_A": Question(
+            "closed_loop_spectrum:open_loop_spectrum",
+            "the modes of the plant",
+            unbidden=False,
+            kind="closed_loop_spectrum",
+        ),
+        "pencil_rank": Question(
+            "pencil:pencil_ranks",
+            "the rank of the pencil of a set of channels at every mode",
+            needs="subset",
+            reuses={"spectrum": "spectrum_of_A"},
+        ),
+        **{f"channel_{name}": question for name, question in _ALONE.items()},
+        **{
+            f"channel_gains_{want}": Question(
+                "single_channel_gains:single_channel_gains",
+                f"whether gains make one channel {said}",
+                needs="channel",
+                given={"want": want},
+                kind="single_channel_gains",
+            )
+            for want, said in (
+                ("controllable", "control everything"),
+                ("observable", "observe everything"),
+                ("both", "control and observe everything"),
+            )
+        },
+        "every_channel": Question(
+            "single_channel_gains:single_channel_gains",
+            "gains with which every channel controls and observes the whole plant",
+            unbidden=False,
+            kind="single_channel_gains",
+        ),
+        "neighbor_graph": Question(
+            "neighbor_graph:neighbor_graph",
+            "whether the neighbor graph is strongly connected",
+            about="plant",
+            needs="neighbors",
+        ),
+        **{
+            f"shared_dimension_bound_{stem}": Question(
+                "allocation:shared_dimension_bound",
+                "how many states are enough for every agent to share",
+                about="plant",
+                needs="neighbors",
+                given={"share": share},
+                kind="deficiency",
+            )
+            for share, stem in SHARES.items()
+        },
+        **{
+            f"minimal_shared_dimensions_{stem}": Question(
+                "allocation:minimal_shared_dimensions",
+                "the least that the agents must share",
+                about="plant",
+                needs="neighbors",
+                unbidden=False,
+                given={"share": share},
+                kind="shared_dimensions",
+            )
+            for share, stem in SHARES.items()
+        },
+        "minimal_communication": Question(
+            "communication:minimal_communication",
+            "the fewest links over which sending outputs leaves no mode fixed",
+            about="plant",
+            unbidden=False,
+            kind="communication",
+        ),
+        **{
+            f"{network}_{name}": question
+            for network in ("lifted", "held")
+            for name, question in {
+                "fixed_spectrum": Question(
+                    "fixed_spectrum:fixed_spectrum",
+                    f"which modes stay with the delays of the wires, {network}",
+                    about=network,
+                    needs="neighbors",
+                    unbidden=False,
+                    kind="fixed_spectrum",
+                ),
+                **{
+                    f"joint_{what}": found
+                    for what, found in _joint(network, "neighbors", False).items()
+                },
+            }.items()
+        },
+    }
+)
+"""All questions by name. The name is also that of the answer in Python and JSON, and, with
+``.json``, that of its certificate's file; what has several answers numbers them."""

@@ -1,0 +1,135 @@
+"""Everything about one system: asked for lazily, decided once, and nothing slow unless named."""
+
+import inspect
+from typing import Any
+
+import pytest
+
+import mcexact
+from mcexact.analysis.analyze import Analysis, analyze
+from mcexact.analysis.questions import QUESTIONS, Question
+from mcexact.errors import LimitReached, UsageError
+from mcexact.model import gallery
+from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem
+
+PAPER = gallery.load("liu2020-3ch-no-communication")
+RING = PAPER.with_neighbors(NeighborGraph.ring(PAPER.names))
+NP_HARD = {
+    "minimal_shared_dimensions_outputs_states",
+    "minimal_shared_dimensions_states",
+    "minimal_communication",
+}
+
+
+@pytest.fixture
+def calls(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """The functions that are called, by name."""
+    made: list[str] = []
+    decide = Question.decide
+
+    def counted(self: Question, *arguments: Any, **keywords: Any) -> Any:
+        made.append(self.function)
+        return decide(self, *arguments, **keywords)
+
+    monkeypatch.setattr(Question, "decide", counted)
+    return made
+
+
+def test_nothing_is_decided_before_it_is_looked_at_and_nothing_twice(calls: list[str]) -> None:
+    found = analyze(RING)
+    assert calls == []
+    assert found.completeness is found["completeness"]
+    assert calls == ["completeness", "fixed_spectrum"] or calls == [
+        "fixed_spectrum",
+        "completeness",
+    ]
+    found.decided()
+    found.decided()
+    assert len(calls) == len(found.asked)
+
+
+def test_nothing_np_hard_is_asked_unless_it_is_named(calls: list[str]) -> None:
+    analyze(RING, subset=["1"], channel="2").decided()
+    assert not {"minimal_shared_dimensions", "minimal_communication"} & set(calls)
+    assert not NP_HARD & {name for name, question in QUESTIONS.items() if question.unbidden}
+
+
+def test_a_question_that_is_named_alone_is_asked_alone() -> None:
+    assert analyze(RING, ["joint_observability"]).decided().keys() == {"joint_observability"}
+    found = analyze(RING, ["joint_observability"], besides=["minimal_communication"])
+    assert found.decided().keys() == {"joint_observability", "minimal_communication"}
+
+
+def test_what_another_answer_takes_is_among_the_answers() -> None:
+    answers = analyze(PAPER, ["pencil_rank"], subset=["2", "3"]).decided()
+    assert list(answers) == ["spectrum_of_A", "pencil_rank_1"]
+    assert answers["pencil_rank_1"].rank == 2
+
+
+def test_a_question_is_about_what_the_agents_receive_or_about_the_plant() -> None:
+    found = analyze(RING, information="outputs")
+    assert found.system.subject == found.fixed_spectrum.certificate.subject != ()
+    assert found.setpoint.certificate.subject == ()
+
+
+def test_a_limit_leaves_a_question_open_and_the_others_answered(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def ended(self: Question, *arguments: Any, **keywords: Any) -> Any:
+        raise LimitReached("too many nodes")
+
+    found = analyze(PAPER, ["fixed_spectrum", "minimal_communication"])
+    assert not found.fixed_spectrum.empty
+    monkeypatch.setattr(Question, "decide", ended)
+    assert found.decided().keys() == {"fixed_spectrum"}
+    assert found.open().keys() == {"minimal_communication"}
+    with pytest.raises(LimitReached):
+        found.minimal_communication  # noqa: B018
+
+
+def test_indices_of_very_long_chains_are_asked_only_by_name() -> None:
+    n = 101
+    chain = [[int(i == j + 1) for j in range(n)] for i in range(n)]
+    first = [[int(i == 0)] for i in range(n)]
+    found = analyze(MultiChannelSystem(chain, [first], [[[1] * n]]))
+    assert set(found.left_out) == {"controllability_indices", "observability_indices"}
+    assert found.controllability_indices.index == n
+    assert "controllability_indices" in found.asked
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"information": "outputs"}, "add 'neighbors' to the file"),
+        ({"besides": ["minimal_shared_dimensions_states"]}, "add 'neighbors' to the file"),
+        ({"questions": ["pencil_rank"]}, "give subset="),
+        ({"questions": ["channel_gains_both"]}, "give channel="),
+        ({"questions": ["completness"]}, "there is no question 'completness'"),
+        ({"information": "all"}, "'own' or 'outputs'"),
+    ],
+)
+def test_what_makes_no_sense_is_refused_before_the_work(given: dict[str, Any], said: str) -> None:
+    with pytest.raises(UsageError, match=said):
+        analyze(PAPER, **given)
+
+
+def test_a_name_that_is_no_question_is_an_attribute_error() -> None:
+    with pytest.raises(AttributeError, match="no attribute 'spectra'"):
+        analyze(PAPER).spectra  # noqa: B018
+    assert set(QUESTIONS) <= set(dir(analyze(PAPER)))
+
+
+@pytest.mark.parametrize("name", sorted(QUESTIONS))
+def test_every_question_has_a_function_that_takes_what_the_table_gives_it(name: str) -> None:
+    question = QUESTIONS[name]
+    module = __import__(f"mcexact.analysis.{question.module}", fromlist=[question.function])
+    taken = inspect.signature(getattr(module, question.function)).parameters
+    assert {*question.given, *question.reuses} <= set(taken)
+    assert set(question.reuses.values()) <= set(QUESTIONS)
+
+
+def test_every_question_is_answered_by_a_public_function() -> None:
+    functions = {question.function for question in QUESTIONS.values()} - {"neighbor_graph"}
+    assert functions | {"analyze"} <= set(mcexact.__all__)
+    assert isinstance(mcexact.analyze(PAPER), Analysis)
