@@ -2,43 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from mcexact.analysis.covering import (
-    DEFAULT_NODE_LIMIT,
-    CoveringCut,
-    CoveringProgram,
-    branch_tree,
-    checked_node_limit,
-    minimize,
-)
+from mcexact.analysis.covering import DEFAULT_NODE_LIMIT, CoveringCut, CoveringProgram
+from mcexact.analysis.cut_generation import CoveringProblem, Progress, covering_optimum
 from mcexact.analysis.deficiency import deficiency
 from mcexact.analysis.invariant_subspace import controllable_subspace
 from mcexact.analysis.modular_system import generator
-from mcexact.analysis.separation import (
-    absence,
-    boundary,
-    deficiency_cut,
-    violated_subsets,
-    violating_factors,
-)
+from mcexact.analysis.separation import boundary, complement, violated_subsets, violating_factors
 from mcexact.analysis.transfer_graph import transfer_graph, zero_transfer
-from mcexact.certificate.covering import ConnectivityCut, DeficiencyCut
+from mcexact.certificate.covering import ConnectivityCut
 from mcexact.certificate.deficiency import DeficiencyCertificate
 from mcexact.certificate.shared_dimensions import SharedDimensionsCertificate
 from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.derived.extended import Share, checked_share, extended_system
-from mcexact.errors import LimitReached, UsageError
-from mcexact.exact.location import StabilityRegion, bounded_region
+from mcexact.errors import UsageError
+from mcexact.exact.location import bounded_region
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import Entry, as_fraction
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_graph
 from mcexact.model.system_file import canonical_document
-
-Progress = Callable[[str], None]
 
 
 @dataclass(frozen=True)
@@ -159,29 +145,6 @@ def shared_dimension_bound(
     return SharedDimensionBound(share, per_agent, per_agent * system.m, found.certificate)
 
 
-@dataclass(frozen=True)
-class _Problem:
-    """What is asked, in the order of the channels."""
-
-    system: MultiChannelSystem
-    graph: NeighborGraph
-    share: Share
-    costs: tuple[Fraction, ...]
-    upper: tuple[int | None, ...]
-    bound: Fraction | None
-    region: StabilityRegion | None
-    """Where a mode may stay fixed."""
-    free_assignability: bool
-
-
-@dataclass(frozen=True)
-class _Cut:
-    """A cut, as an inequality and as evidence."""
-
-    inequality: CoveringCut
-    evidence: DeficiencyCut | ConnectivityCut
-
-
 def minimal_shared_dimensions(
     system: MultiChannelSystem,
     graph: NeighborGraph | None = None,
@@ -248,70 +211,67 @@ def minimal_shared_dimensions(
     >>> minimal_shared_dimensions(plant, NeighborGraph.empty(plant.names)).feasible
     False
     """
-    checked_node_limit(node_limit)
-    problem = _checked(system, graph, share, costs, upper, bound, free_assignability)
-    cuts: list[_Cut] = []
-    dimensions = _generate(problem, cuts, progress)
-    program = _program(problem, cuts)
-    cost = None if dimensions is None else program.cost(dimensions)
-    try:
-        tree = branch_tree(program, cost, node_limit=node_limit)
-    except LimitReached as error:
-        if error.lower is None:
-            raise
-        raise LimitReached(
-            f"{error.message}; the least cost is between {error.lower} and {cost}",
-            lower=error.lower,
-            upper=cost,
-        ) from None
-    used = sorted(tree.cuts())
-    binding = tuple(_binding(problem, cuts[k], dimensions) for k in used)
-    evidence = None
-    if dimensions is not None:
-        extended = extended_system(problem.system, dimensions, share)
-        rng = generator(extended, SharedDimensionsCertificate.kind)
-        evidence = absence(extended, problem.region, rng, connected=free_assignability)
+    system, found = _plant_with_graph(system, graph, share)
+    program = _program(system.m, costs, upper)
+    exact = None if bound is None else as_fraction(bound, where="bound")
+    region = None if exact is None else bounded_region(system.time, exact)
+    base, factors = base_system(system, share), violating_factors(system, region)
+    rng = generator(base, SharedDimensionsCertificate.kind)
+
+    def violated(sizes: Sequence[int], extended: MultiChannelSystem) -> list[CoveringCut]:
+        cuts = violated_subsets(base, extended, factors, sizes, found, rng)
+        return cuts or (_connectivity_cuts(base, extended, found) if free_assignability else [])
+
+    problem = CoveringProblem(
+        SharedDimensionsCertificate.kind,
+        program,
+        lambda sizes: extended_system(system, sizes, share),
+        violated,
+        region,
+        free_assignability,
+    )
+    least = covering_optimum(problem, node_limit, progress).with_cuts_of_leaves()
     certificate = SharedDimensionsCertificate(
-        system=canonical_document(problem.system),
+        system=canonical_document(system),
         subject=(),
         share=share,
-        bound=problem.bound,
+        bound=exact,
         free_assignability=free_assignability,
-        costs=problem.costs,
-        upper=problem.upper,
-        dimensions=dimensions,
-        cost=cost,
-        absence=evidence,
-        cuts=tuple(cuts[k].evidence for k in used),
-        tree=tree.written("agent", problem.system.names, {k: i for i, k in enumerate(used)}),
+        costs=program.costs,
+        upper=program.upper,
+        dimensions=least.values,
+        cost=least.cost,
+        absence=least.absence,
+        cuts=tuple(cut.evidence for cut in least.cuts),
+        tree=least.tree("agent", system.names),
     )
+    binding = (_binding(system, cut, least.values) for cut in least.cuts)
     return SharedDimensions(
         share=share,
-        feasible=dimensions is not None,
-        dimensions=dimensions,
-        total=None if dimensions is None else sum(dimensions),
-        cost=cost,
+        feasible=least.values is not None,
+        dimensions=least.values,
+        total=None if least.values is None else sum(least.values),
+        cost=least.cost,
         binding=tuple(b for b in binding if b is not None),
-        cuts=len(used),
-        nodes=len(tree.nodes),
+        cuts=len(least.cuts),
+        nodes=len(least.nodes),
         certificate=certificate,
     )
 
 
-def _checked(
-    system: MultiChannelSystem,
-    graph: NeighborGraph | None,
-    share: Share,
-    costs: Sequence[Entry] | None,
-    upper: Sequence[int | None] | None,
-    bound: Entry | None,
-    free_assignability: bool,
-) -> _Problem:
+def _plant_with_graph(
+    system: MultiChannelSystem, graph: NeighborGraph | None, share: Share
+) -> tuple[MultiChannelSystem, NeighborGraph]:
     checked_share(share)
     system, found = with_graph(system, graph)
     if system.subject:
         raise UsageError("give the plant, not a system derived from it", where="system")
-    m = system.m
+    return system, found
+
+
+def _program(
+    m: int, costs: Sequence[Entry] | None, upper: Sequence[int | None] | None
+) -> CoveringProgram:
     given = [1] * m if costs is None else costs
     prices = tuple(as_fraction(c, where=f"costs[{i}]") for i, c in enumerate(given))
     if len(prices) != m or any(price <= 0 for price in prices):
@@ -319,56 +279,12 @@ def _checked(
     limits = tuple(upper) if upper is not None else (None,) * m
     if len(limits) != m or any(u is not None and (type(u) is not int or u < 0) for u in limits):
         raise UsageError(f"expected {m} integers >= 0 or None, one for each agent", where="upper")
-    exact = None if bound is None else as_fraction(bound, where="bound")
-    return _Problem(
-        system=system,
-        graph=found,
-        share=share,
-        costs=prices,
-        upper=limits,
-        bound=exact,
-        region=None if exact is None else bounded_region(system.time, exact),
-        free_assignability=free_assignability,
-    )
-
-
-def _program(problem: _Problem, cuts: Sequence[_Cut]) -> CoveringProgram:
-    return CoveringProgram(problem.costs, problem.upper, tuple(cut.inequality for cut in cuts))
-
-
-def _generate(
-    problem: _Problem, cuts: list[_Cut], progress: Progress | None
-) -> tuple[int, ...] | None:
-    """Add cuts until an optimal point of the master problem violates none; None if it has none."""
-    base = base_system(problem.system, problem.share)
-    factors = violating_factors(problem.system, problem.region)
-    rng = generator(base, SharedDimensionsCertificate.kind)
-    canonical = False
-    while True:
-        values = minimize(_program(problem, cuts), canonical=canonical)
-        if progress is not None:
-            progress(f"{len(cuts)} cuts, at least {sum(values) if values else 0} to share")
-        if values is None:
-            return None
-        extended = extended_system(problem.system, values, problem.share)
-        violated = violated_subsets(base, extended, factors, values, problem.graph, rng)
-        new = [
-            _Cut(CoveringCut(boundary(problem.graph, v.s), v.deficiency), deficiency_cut(base, v))
-            for v in violated
-        ]
-        if not new and problem.free_assignability:
-            new = _connectivity_cuts(problem, base, extended)
-        if new:
-            cuts += new
-        elif canonical:
-            return values
-        else:
-            canonical = True
+    return CoveringProgram(prices, limits)
 
 
 def _connectivity_cuts(
-    problem: _Problem, base: MultiChannelSystem, extended: MultiChannelSystem
-) -> list[_Cut]:
+    base: MultiChannelSystem, extended: MultiChannelSystem, graph: NeighborGraph
+) -> list[CoveringCut]:
     """The cut of one strong component that no arc leaves, if there is more than one component."""
     found = transfer_graph(extended)
     if found.strongly_connected:
@@ -379,24 +295,21 @@ def _connectivity_cuts(
         if all(i in component for j, i in found.arcs if j in component)
     )
     T = base.indices(closed)
-    s = tuple(i for i in range(base.m) if i not in T)
+    s = complement(base.m, T)
     rng = generator(base, SharedDimensionsCertificate.kind)
-    subspace = controllable_subspace(base.A, base.input_matrix(T), rng)
-    zero = zero_transfer(base, T, subspace)
-    return [_Cut(CoveringCut(boundary(problem.graph, s), 1), ConnectivityCut(base.named(s), zero))]
+    zero = zero_transfer(base, T, controllable_subspace(base.A, base.input_matrix(T), rng))
+    return [CoveringCut(boundary(graph, s), 1, ConnectivityCut(base.named(s), zero))]
 
 
 def _binding(
-    problem: _Problem, cut: _Cut, dimensions: Sequence[int] | None
+    plant: MultiChannelSystem, cut: CoveringCut, dimensions: Sequence[int] | None
 ) -> BindingSubset | None:
     """What a cut says, if the dimensions meet it with equality (or cannot meet it at all)."""
-    support, demand = cut.inequality.support, cut.inequality.demand
-    if dimensions is not None and sum(dimensions[i] for i in support) > demand:
+    if dimensions is not None and sum(dimensions[i] for i in cut.support) > cut.demand:
         return None
-    evidence = cut.evidence
     return BindingSubset(
-        subset=evidence.subset,
-        boundary=problem.system.named(support),
-        mode=evidence.polynomial if isinstance(evidence, DeficiencyCut) else None,  # type: ignore[arg-type]
-        deficiency=demand,
+        subset=cut.evidence.subset,
+        boundary=plant.named(cut.support),
+        mode=getattr(cut.evidence, "polynomial", None),
+        deficiency=cut.demand,
     )

@@ -2,22 +2,17 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Literal, get_args
 
-from mcexact.analysis.covering import (
-    DEFAULT_NODE_LIMIT,
-    CoveringCut,
-    CoveringProgram,
-    branch_tree,
-    checked_node_limit,
-    minimize,
-)
+from mcexact.analysis.covering import DEFAULT_NODE_LIMIT, CoveringCut, CoveringProgram
+from mcexact.analysis.cut_generation import CoveringProblem, covering_optimum
 from mcexact.analysis.fixed_spectrum import evidence
 from mcexact.analysis.modular_system import generator
-from mcexact.analysis.separation import absence, least_minimizers, violating_factors
+from mcexact.analysis.separation import least_minimizers, violating_factors
 from mcexact.analysis.shrunk_subspace import ExactSubspace, exact_subspace
 from mcexact.certificate.communication import CommunicationCertificate
 from mcexact.certificate.covering import ArcCut
@@ -26,7 +21,7 @@ from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.derived.extended import Share, extended_system, selector
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.blocks import block_diagonal
-from mcexact.exact.location import StabilityRegion, bounded_region
+from mcexact.exact.location import bounded_region
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import Entry, as_fraction
@@ -63,21 +58,17 @@ class MinimalCommunication:
 
 
 @dataclass(frozen=True)
-class _Problem:
-    """The plant over its graph, what an arc carries, and the arcs that may be added."""
+class _Wires:
+    """A plant over its graph, what an arc carries, and the arcs that may be added."""
 
-    given: MultiChannelSystem
-    """The plant as the user gave it, perhaps without a graph: the certificate is about this one."""
     plant: MultiChannelSystem
     share: Carried
     dimensions: tuple[int, ...] | None
-    region: StabilityRegion | None
     candidates: tuple[Arc, ...]
-    costs: tuple[Fraction, ...]
 
-    def system(self, added: Iterable[Arc]) -> MultiChannelSystem:
-        """The system over the graph with these arcs added."""
-        arcs = tuple(added)
+    def chosen(self, values: Sequence[int]) -> MultiChannelSystem:
+        """The system over the graph with the candidates added whose value is 1."""
+        arcs = tuple(itertools.compress(self.candidates, values))
         wired = add_arcs(self.plant, arcs) if arcs else self.plant
         if self.dimensions is None:
             return augmented_outputs(wired)
@@ -86,14 +77,23 @@ class _Problem:
 
     def carried(self, j: int) -> Matrix:
         """S_j, the rows that an arc from j adds to the outputs of the system."""
-        if self.dimensions is None:
-            return self.plant.C(j)
-        total = sum(self.dimensions)
-        E = selector(sum(self.dimensions[:j]), self.dimensions[j], total).T
         outputs = self.plant.C(j)
-        if self.share == "states":
-            outputs = Matrix.zeros(0, self.plant.n)
-        return block_diagonal([outputs, E])
+        if self.dimensions is None:
+            return outputs
+        E = selector(sum(self.dimensions[:j]), self.dimensions[j], sum(self.dimensions)).T
+        none = Matrix.zeros(0, self.plant.n)
+        return block_diagonal([none if self.share == "states" else outputs, E])
+
+    def cut(self, subspace: ExactSubspace, p: Polynomial) -> CoveringCut:
+        """The candidates that break it: j → i, i outside T, with S_j U ≠ 0 modulo p."""
+        subspace = _trimmed(subspace)
+        carried = [(self.carried(j) @ subspace.U) % p for j in range(self.plant.m)]
+        breaking = frozenset(
+            k
+            for k, (j, i) in enumerate(self.candidates)
+            if i not in subspace.channels_T and not carried[j].is_zero()
+        )
+        return CoveringCut(breaking, 1, ArcCut(p, evidence(self.chosen(()), subspace)))
 
 
 def minimal_communication(
@@ -150,56 +150,60 @@ def minimal_communication(
     >>> minimal_communication(plant, NeighborGraph.empty(plant.names)).added
     (('1', '2'),)
     """
-    checked_node_limit(node_limit)
-    problem = _checked(system, graph, dimensions, share, costs, forbidden, bound)
-    cuts: list[tuple[CoveringCut, ArcCut]] = []
-    chosen = _generate(problem, cuts)
-    program = _program(problem, cuts)
-    cost = None if chosen is None else program.cost(chosen)
-    tree = branch_tree(program, cost, node_limit=node_limit)
-    names = problem.plant.names
-    arcs = tuple((names[j], names[i]) for j, i in problem.candidates)
-    found = None
-    added = None
-    if chosen is not None:
-        picked = [arc for arc, taken in zip(problem.candidates, chosen, strict=True) if taken]
-        added = tuple((names[j], names[i]) for j, i in picked)
-        final = problem.system(picked)
-        found = absence(final, problem.region, generator(final, CommunicationCertificate.kind))
+    given, found = with_wires(system, graph)
+    wires = _checked(given.with_neighbors(found), found, dimensions, share, forbidden)
+    plant, names = wires.plant, wires.plant.names
+    exact = None if bound is None else as_fraction(bound, where="bound")
+    region = None if exact is None else bounded_region(plant.time, exact)
+    factors = violating_factors(plant, region)
+    rng = generator(wires.chosen(()), CommunicationCertificate.kind)
+
+    def violated(_: Sequence[int], system: MultiChannelSystem) -> list[CoveringCut]:
+        cuts = []
+        for p in factors:
+            subspaces = (exact_subspace(system, T, p) for T in least_minimizers(system, p, rng))
+            subspace = next(filter(None, subspaces), None)
+            if subspace is not None:
+                cuts.append(wires.cut(subspace, p))
+        return cuts
+
+    program = CoveringProgram(_prices(wires, costs or {}), (1,) * len(wires.candidates))
+    problem = CoveringProblem(
+        CommunicationCertificate.kind, program, wires.chosen, violated, region
+    )
+    least = covering_optimum(problem, node_limit)
+    arcs = [(names[j], names[i]) for j, i in wires.candidates]
+    added = None if least.values is None else tuple(itertools.compress(arcs, least.values))
     certificate = CommunicationCertificate(
-        system=canonical_document(problem.given),
+        system=canonical_document(given),
         subject=(),
-        share=problem.share,
-        dimensions=problem.dimensions,
-        bound=None if bound is None else as_fraction(bound),
-        candidates=tuple((*arc, price) for arc, price in zip(arcs, problem.costs, strict=True)),
+        share=wires.share,
+        dimensions=wires.dimensions,
+        bound=exact,
+        candidates=tuple((*arc, c) for arc, c in zip(arcs, program.costs, strict=True)),
         added=added,
-        cost=cost,
-        absence=found,
-        cuts=tuple(cut for _, cut in cuts),
-        tree=tree.written("arc", arcs, {k: k for k in range(len(cuts))}),
+        cost=least.cost,
+        absence=least.absence,
+        cuts=tuple(cut.evidence for cut in least.cuts),
+        tree=least.tree("arc", arcs),
     )
     return MinimalCommunication(
-        feasible=chosen is not None,
+        feasible=added is not None,
         added=added,
-        cost=cost,
-        cuts=len(cuts),
-        nodes=len(tree.nodes),
+        cost=least.cost,
+        cuts=len(least.cuts),
+        nodes=len(least.nodes),
         certificate=certificate,
     )
 
 
 def _checked(
-    system: MultiChannelSystem,
-    graph: NeighborGraph | None,
+    plant: MultiChannelSystem,
+    graph: NeighborGraph,
     dimensions: Sequence[int] | None,
     share: Carried | None,
-    costs: Mapping[tuple[str, str], Entry] | None,
     forbidden: Iterable[tuple[str, str]],
-    bound: Entry | None,
-) -> _Problem:
-    given, found = with_wires(system, graph)
-    plant = given.with_neighbors(found)
+) -> _Wires:
     if plant.subject:
         raise UsageError("give the plant, not a system derived from it", where="system")
     carried: Carried = share or ("outputs" if dimensions is None else "outputs+states")
@@ -210,77 +214,28 @@ def _checked(
         )
     if (carried == "outputs") != (dimensions is None):
         raise UsageError("sub-states are shared iff their dimensions are given", where="share")
-    prices = {_arc(plant, arc): as_fraction(price) for arc, price in (costs or {}).items()}
-    if any(price <= 0 for price in prices.values()):
-        raise UsageError("the price of an arc must be positive", where="costs")
     excluded = {_arc(plant, arc) for arc in forbidden}
-    m = plant.m
     candidates = tuple(
         (j, i)
-        for j in range(m)
-        for i in range(m)
-        if j not in found.neighborhood(i) and (j, i) not in excluded
+        for j in range(plant.m)
+        for i in range(plant.m)
+        if j not in graph.neighborhood(i) and (j, i) not in excluded
     )
-    return _Problem(
-        given=given,
-        plant=plant,
-        share=carried,
-        dimensions=None if dimensions is None else tuple(dimensions),
-        region=None
-        if bound is None
-        else bounded_region(plant.time, as_fraction(bound, where="bound")),
-        candidates=candidates,
-        costs=tuple(prices.get(arc, Fraction(1)) for arc in candidates),
-    )
+    sizes = None if dimensions is None else tuple(dimensions)
+    return _Wires(plant, carried, sizes, candidates)
+
+
+def _prices(wires: _Wires, costs: Mapping[tuple[str, str], Entry]) -> tuple[Fraction, ...]:
+    """The price of each candidate, 1 where none is given."""
+    prices = {_arc(wires.plant, arc): as_fraction(price) for arc, price in costs.items()}
+    if any(price <= 0 for price in prices.values()):
+        raise UsageError("the price of an arc must be positive", where="costs")
+    return tuple(prices.get(arc, Fraction(1)) for arc in wires.candidates)
 
 
 def _arc(plant: MultiChannelSystem, arc: tuple[str, str]) -> Arc:
     sender, receiver = arc
     return plant.index(sender), plant.index(receiver)
-
-
-def _program(problem: _Problem, cuts: Sequence[tuple[CoveringCut, ArcCut]]) -> CoveringProgram:
-    size = len(problem.candidates)
-    return CoveringProgram(problem.costs, (1,) * size, tuple(cut for cut, _ in cuts))
-
-
-def _generate(problem: _Problem, cuts: list[tuple[CoveringCut, ArcCut]]) -> tuple[int, ...] | None:
-    """Add cuts until an optimal set of arcs is broken by none; None if there is no set at all."""
-    factors = violating_factors(problem.plant, problem.region)
-    rng = generator(problem.system(()), CommunicationCertificate.kind)
-    canonical = False
-    while True:
-        chosen = minimize(_program(problem, cuts), canonical=canonical)
-        if chosen is None:
-            return None
-        picked = [arc for arc, taken in zip(problem.candidates, chosen, strict=True) if taken]
-        system = problem.system(picked)
-        new = []
-        for p in factors:
-            for T in least_minimizers(system, p, rng):
-                subspace = exact_subspace(system, T, p)
-                if subspace is not None:
-                    new.append(_cut(problem, subspace, p))
-                    break
-        if new:
-            cuts += new
-        elif canonical:
-            return chosen
-        else:
-            canonical = True
-
-
-def _cut(problem: _Problem, subspace: ExactSubspace, p: Polynomial) -> tuple[CoveringCut, ArcCut]:
-    """The candidates that break an obstruction: j → i, i outside T, with S_j U ≠ 0 modulo p."""
-    subspace = _trimmed(subspace)
-    U = subspace.U
-    senders = {j for j in range(problem.plant.m) if not ((problem.carried(j) @ U) % p).is_zero()}
-    breaking = frozenset(
-        k
-        for k, (j, i) in enumerate(problem.candidates)
-        if j in senders and i not in subspace.channels_T
-    )
-    return CoveringCut(breaking, 1), ArcCut(p, evidence(problem.system(()), subspace))
 
 
 def _trimmed(subspace: ExactSubspace) -> ExactSubspace:

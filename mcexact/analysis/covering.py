@@ -12,13 +12,13 @@ again by the checker.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from mcexact.errors import InternalError, LimitReached, McexactError, UsageError
+from mcexact.errors import InternalError, LimitReached, McexactError
 
 if TYPE_CHECKING:
     import numpy as np
@@ -36,10 +36,11 @@ _MULTIPLIER_DENOMINATORS = (1, 2, 3, 4, 6, 12, 60, 1000, 10**6)
 
 @dataclass(frozen=True)
 class CoveringCut:
-    """The inequality Σ_{i ∈ support} x_i ≥ demand."""
+    """The inequality Σ_{i ∈ support} x_i ≥ demand, and what proves it in a certificate."""
 
     support: frozenset[int]
     demand: int
+    evidence: Any = None
 
 
 @dataclass(frozen=True)
@@ -58,7 +59,7 @@ class CoveringProgram:
 
     costs: tuple[Fraction, ...]
     upper: tuple[int | None, ...]
-    cuts: tuple[CoveringCut, ...]
+    cuts: tuple[CoveringCut, ...] = ()
 
     @cached_property
     def unit(self) -> Fraction:
@@ -107,38 +108,9 @@ class CoveringProgram:
 Node = dict[str, Any]
 """``{"variable": i, "at_most": k}``, ``{"violated": k}`` or ``{"multipliers": [[k, y], …]}``."""
 
-
-@dataclass(frozen=True)
-class BranchTree:
-    """A proof that no integer point of a covering program costs less than a value.
-
-    Attributes
-    ----------
-    nodes : tuple of Node
-        In preorder: an inner node splits its box into x_i ≤ k, whose tree follows, and
-        x_i ≥ k + 1, whose tree follows that.
-    """
-
-    nodes: tuple[Node, ...]
-
-    def cuts(self) -> set[int]:
-        """The numbers of the cuts that the leaves name."""
-        violated = {node["violated"] for node in self.nodes if "violated" in node}
-        return violated | {k for node in self.nodes for k, _ in node.get("multipliers", ())}
-
-    def written(
-        self, key: str, labels: Sequence[Any], place: Mapping[int, int]
-    ) -> tuple[Node, ...]:
-        """The nodes as a certificate has them: variables by name, cuts by new numbers."""
-
-        def node(here: Node) -> Node:
-            if "violated" in here:
-                return {"violated": place[here["violated"]]}
-            if "multipliers" in here:
-                return {"multipliers": [[place[k], y] for k, y in here["multipliers"]]}
-            return {key: labels[here["variable"]], "at_most": here["at_most"]}
-
-        return tuple(map(node, self.nodes))
+Tree = tuple[Node, ...]
+"""The nodes in preorder: an inner node splits its box into x_i ≤ k, whose tree follows, and
+x_i ≥ k + 1, whose tree follows that."""
 
 
 def minimize(program: CoveringProgram, *, canonical: bool = True) -> tuple[int, ...] | None:
@@ -222,27 +194,12 @@ def _row(cut: CoveringCut, size: int) -> Floats:
     return row
 
 
-def checked_node_limit(node_limit: int) -> int:
-    """Return a number of nodes that leaves room for a tree.
-
-    Raises
-    ------
-    UsageError
-        If it is not an integer of at least 1.
-    """
-    if type(node_limit) is not int or node_limit < 1:
-        raise UsageError(
-            f"expected an integer of at least 1, found {node_limit!r}", where="node_limit"
-        )
-    return node_limit
-
-
 def branch_tree(
     program: CoveringProgram,
     value: Fraction | None,
     *,
     node_limit: int = DEFAULT_NODE_LIMIT,
-) -> BranchTree:
+) -> Tree:
     """A tree that proves that no point of the program costs less than ``value``.
 
     Parameters
@@ -273,7 +230,7 @@ def branch_tree(
         lower, upper = boxes.pop()
         if len(nodes) == node_limit:
             raise LimitReached(
-                f"the branch tree reached its limit of {node_limit} nodes (--node-limit)",
+                f"the branch tree reached its limit of {node_limit} nodes",
                 lower=_relaxation_bound(program, first),
                 upper=value,
             )
@@ -283,7 +240,7 @@ def branch_tree(
             i, k = node["variable"], node["at_most"]
             boxes.append(((*lower[:i], k + 1, *lower[i + 1 :]), upper))
             boxes.append((lower, (*upper[:i], k, *upper[i + 1 :])))
-    return BranchTree(tuple(nodes))
+    return tuple(nodes)
 
 
 def _node(

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import random
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
+from mcexact.analysis.covering import CoveringCut
 from mcexact.analysis.fixed_spectrum import evidence
 from mcexact.analysis.modular_system import (
     ModularSystem,
@@ -14,7 +14,7 @@ from mcexact.analysis.modular_system import (
     residue_systems,
 )
 from mcexact.analysis.obstructions import decide
-from mcexact.analysis.shrunk_subspace import ExactSubspace, exact_subspace, obstruction_modulo
+from mcexact.analysis.shrunk_subspace import exact_subspace, obstruction_modulo
 from mcexact.analysis.transfer_graph import (
     strong_components,
     suspected_arcs,
@@ -82,20 +82,6 @@ def extreme_minimizers(
         yield T, complement(system.m, next(other, ()))
 
 
-@dataclass(frozen=True)
-class DeficientSubset:
-    """A subset s with n − rank P_s(λ) = deficiency ≥ 1 at every root λ of p, and the proof."""
-
-    s: Channels
-    polynomial: Polynomial
-    subspace: ExactSubspace
-
-    @property
-    def deficiency(self) -> int:
-        """n − rank P_s(λ)."""
-        return self.subspace.deficiency
-
-
 def violated_subsets(
     base: MultiChannelSystem,
     extended: MultiChannelSystem,
@@ -103,7 +89,7 @@ def violated_subsets(
     dimensions: Sequence[int],
     graph: NeighborGraph,
     rng: random.Random,
-) -> list[DeficientSubset]:
+) -> list[CoveringCut]:
     """Subsets s with Σ n_i over N_s∖s below the deficiency of P_s; empty iff there is none.
 
     Parameters
@@ -118,30 +104,21 @@ def violated_subsets(
     graph : NeighborGraph
     rng : random.Random
     """
-    found: list[DeficientSubset] = []
+    found: list[CoveringCut] = []
     for p in factors:
         for pair in extreme_minimizers(extended, p, rng):
             here = []
             for T in dict.fromkeys(pair):
                 s = complement(base.m, T)
-                subspace = exact_subspace(base, T, p)
-                available = sum(dimensions[i] for i in boundary(graph, s))
-                if subspace is not None and available < subspace.deficiency:
-                    here.append(DeficientSubset(s, p, subspace))
+                subspace, around = exact_subspace(base, T, p), boundary(graph, s)
+                if subspace and sum(dimensions[i] for i in around) < subspace.deficiency:
+                    lost, shrunk = subspace.deficiency, evidence(base, subspace)
+                    cut = DeficiencyCut(base.named(s), p, lost, shrunk)
+                    here.append(CoveringCut(around, lost, cut))
             if here:
                 found += here
                 break
     return found
-
-
-def deficiency_cut(base: MultiChannelSystem, subset: DeficientSubset) -> DeficiencyCut:
-    """The certificate's form of a violated subset."""
-    return DeficiencyCut(
-        subset=base.named(subset.s),
-        polynomial=subset.polynomial,
-        deficiency=subset.deficiency,
-        subspace=evidence(base, subset.subspace),
-    )
 
 
 def absence(

@@ -41,7 +41,7 @@ def test_the_unit_in_which_prices_are_counted_does_not_matter(unit):
     values = minimize(program)
     assert values == (1, 0, 1)
     tree = branch_tree(program, program.cost(values))
-    assert any("multipliers" in node for node in tree.nodes)
+    assert any("multipliers" in node for node in tree)
 
 
 def test_prices_that_differ_in_the_sixth_digit_are_told_apart():
