@@ -8,13 +8,13 @@ import sys
 from dataclasses import asdict
 from pathlib import Path
 
-from benchmarks import bad_inputs, fixed_spectrum, start_up
+from benchmarks import bad_inputs, fixed_spectrum, matrices, start_up
 
 
 def main(arguments: list[str]) -> int:
     """Run; the one argument is the JSON file to write.  Ends with 1 if a limit is exceeded."""
     found = []
-    for module in (fixed_spectrum, start_up, bad_inputs):
+    for module in (fixed_spectrum, matrices, start_up, bad_inputs):
         for row in module.rows():
             found.append(row)
             mark = "holds" if row.holds else "FALLS SHORT"

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 
 from mcexact.errors import InputError
-from mcexact.exact.matrix import Matrix, Rows, lowest_terms
+from mcexact.exact.matrix import Matrix, Rows, from_numerators
 
 
 def hstack(matrices: Sequence[Matrix], nrows: int | None = None) -> Matrix:
@@ -28,16 +28,15 @@ def hstack(matrices: Sequence[Matrix], nrows: int | None = None) -> Matrix:
     """
     height = _common(matrices, [M.nrows for M in matrices], nrows, "rows", "hstack")
     tables, denominator = _over_one_denominator(matrices)
-    rows = tuple(tuple(entry for table in tables for entry in table[i]) for i in range(height))
-    return lowest_terms(height, sum(M.ncols for M in matrices), rows, denominator)
+    rows = [[entry for table in tables for entry in table[i]] for i in range(height)]
+    return from_numerators(rows, denominator, sum(M.ncols for M in matrices))
 
 
 def vstack(matrices: Sequence[Matrix], ncols: int | None = None) -> Matrix:
     """The matrices below each other; all have the same number of columns (see `hstack`)."""
     width = _common(matrices, [M.ncols for M in matrices], ncols, "columns", "vstack")
     tables, denominator = _over_one_denominator(matrices)
-    rows = tuple(row for table in tables for row in table)
-    return lowest_terms(len(rows), width, rows, denominator)
+    return from_numerators([row for table in tables for row in table], denominator, width)
 
 
 def block(rows: Sequence[Sequence[Matrix]]) -> Matrix:
@@ -72,7 +71,7 @@ def block_diagonal(matrices: Sequence[Matrix]) -> Matrix:
         right = width - left - M.ncols
         rows += [(0,) * left + row + (0,) * right for row in table]
         left += M.ncols
-    return lowest_terms(len(rows), width, tuple(rows), denominator)
+    return from_numerators(rows, denominator, width)
 
 
 def kronecker(A: Matrix, B: Matrix) -> Matrix:
@@ -83,12 +82,10 @@ def kronecker(A: Matrix, B: Matrix) -> Matrix:
     >>> kronecker(Matrix.from_rows([[1, 2]]), Matrix.identity(2)).numerators
     ((1, 0, 2, 0), (0, 1, 0, 2))
     """
-    rows = tuple(
-        tuple(a * b for a in upper for b in lower)
-        for upper in A.numerators
-        for lower in B.numerators
-    )
-    return lowest_terms(A.nrows * B.nrows, A.ncols * B.ncols, rows, A.denominator * B.denominator)
+    rows = [
+        [a * b for a in upper for b in lower] for upper in A.numerators for lower in B.numerators
+    ]
+    return from_numerators(rows, A.denominator * B.denominator, A.ncols * B.ncols)
 
 
 def _common(
@@ -104,11 +101,4 @@ def _common(
 
 def _over_one_denominator(matrices: Sequence[Matrix]) -> tuple[list[Rows], int]:
     denominator = math.lcm(*(M.denominator for M in matrices))
-    tables = []
-    for M in matrices:
-        factor = denominator // M.denominator
-        if factor == 1:
-            tables.append(M.numerators)
-        else:
-            tables.append(tuple(tuple(factor * entry for entry in row) for row in M.numerators))
-    return tables, denominator
+    return [(M * denominator).numerators for M in matrices], denominator

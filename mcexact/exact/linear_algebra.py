@@ -9,7 +9,7 @@ import flint
 
 from mcexact.errors import InputError
 from mcexact.exact.blocks import hstack
-from mcexact.exact.matrix import Matrix, from_flint, lowest_terms, unchecked
+from mcexact.exact.matrix import Matrix, from_flint, from_numerators
 from mcexact.exact.polynomial import Polynomial
 
 # A prime for a first look at a rank: full rank modulo it is full rank over Q.
@@ -55,7 +55,7 @@ def row_echelon(M: Matrix) -> tuple[Matrix, tuple[int, ...]]:
         while not row[j]:
             j += 1
         pivots.append(j)
-    return unchecked(r, M.ncols, whole.numerators[:r], whole.denominator), tuple(pivots)
+    return whole.take(rows=range(r)), tuple(pivots)
 
 
 def column_echelon(M: Matrix) -> tuple[Matrix, tuple[int, ...]]:
@@ -91,7 +91,7 @@ def kernel(M: Matrix) -> tuple[Matrix, tuple[int, ...]]:
             rows.append(tuple(-row[k] for k in free))
         else:
             rows.append(tuple(reduced.denominator if k == j else 0 for k in free))
-    return lowest_terms(M.ncols, len(free), tuple(rows), reduced.denominator), free
+    return from_numerators(rows, reduced.denominator, len(free)), free
 
 
 def nullspace(M: Matrix) -> Matrix:
@@ -126,11 +126,11 @@ def solve(M: Matrix, right: Matrix) -> Matrix | None:
     if pivots and pivots[-1] >= M.ncols:
         return None
     position = {j: i for i, j in enumerate(pivots)}
-    rows = tuple(
+    rows = [
         reduced.numerators[position[j]][M.ncols :] if j in position else (0,) * right.ncols
         for j in range(M.ncols)
-    )
-    return lowest_terms(M.ncols, right.ncols, rows, reduced.denominator)
+    ]
+    return from_numerators(rows, reduced.denominator, right.ncols)
 
 
 def solve_nonsingular(M: Matrix, right: Matrix) -> Matrix | None:

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from itertools import chain
 from typing import Any
 
 import flint
@@ -20,22 +21,20 @@ Rows = tuple[tuple[int, ...], ...]
 _MOST_ENTRIES = 2**28
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Matrix:
     """A rational matrix, M = N / d with integer N and d ≥ 1 in lowest terms.
 
-    Parameters
+    Attributes
     ----------
-    nrows, ncols : int
-        Either may be 0.
-    numerators : tuple of nrows tuples of ncols int
     denominator : int
-        At least 1 and coprime to the numerators taken together; 1 for a matrix without entries.
+        d: at least 1 and coprime to the numerators taken together; 1 without entries.
 
     Notes
     -----
     Exact, immutable, hashable; equal matrices are equal objects in the sense of ``==``.  Build one
-    with `from_rows` (any exact entries) or `from_integers`.
+    with `from_rows` (any exact entries) or `from_integers`.  The numerators stay in flint's form
+    from one operation to the next; `numerators` converts them to integers when it is first read.
 
     Examples
     --------
@@ -48,24 +47,9 @@ class Matrix:
     (3, 0)
     """
 
-    nrows: int
-    ncols: int
-    numerators: Rows
+    # Shared with other matrices and with callers in this stage, so never to be changed by anyone.
+    _integer: flint.fmpz_mat
     denominator: int
-
-    def __post_init__(self) -> None:
-        require_sizes(self.nrows, self.ncols)
-        if type(self.denominator) is not int or self.denominator < 1:
-            raise InputError(f"expected a denominator of at least 1, found {self.denominator!r}")
-        if type(self.numerators) is not tuple or len(self.numerators) != self.nrows:
-            raise InputError(f"expected a tuple of {self.nrows} rows of numerators")
-        for row in self.numerators:
-            if type(row) is not tuple or len(row) != self.ncols:
-                raise InputError(f"expected rows that are tuples of {self.ncols} numerators")
-            if not set(map(type, row)) <= {int}:
-                raise InputError("expected numerators of type int; use Matrix.from_rows")
-        if self.denominator != 1 and _content(self.numerators, self.denominator) != 1:
-            raise InputError("expected lowest terms; use Matrix.from_integers")
 
     @classmethod
     def from_rows(
@@ -93,6 +77,7 @@ class Matrix:
             place = f"{where or ''}[{i}]"
             table.append(list(_items(row, place)))
         width = (len(table[0]) if table else 0) if ncols is None else ncols
+        require_sizes(len(table), width)
         for i, entries in enumerate(table):
             if len(entries) != width:
                 raise InputError(
@@ -100,17 +85,17 @@ class Matrix:
                     where=f"{where or ''}[{i}]",
                 )
         if all(set(map(type, entries)) <= {int} for entries in table):
-            return cls(len(table), width, tuple(map(tuple, table)), 1)
+            return from_numerators(table, 1, width)
         fractions = [
             [as_fraction(entry, where=f"{where or ''}[{i}][{j}]") for j, entry in enumerate(row)]
             for i, row in enumerate(table)
         ]
         denominator = math.lcm(*{entry.denominator for row in fractions for entry in row})
-        numerators = tuple(
-            tuple(entry.numerator * (denominator // entry.denominator) for entry in row)
+        numerators = [
+            [entry.numerator * (denominator // entry.denominator) for entry in row]
             for row in fractions
-        )
-        return cls(len(table), width, numerators, denominator)
+        ]
+        return from_numerators(numerators, denominator, width)
 
     @classmethod
     def from_integers(
@@ -123,24 +108,31 @@ class Matrix:
         InputError
             An entry is not an int, the denominator is 0, or the rows differ in length.
         """
-        table = tuple(tuple(row) for row in rows)
+        table = list(map(tuple, rows))
         width = (len(table[0]) if table else 0) if ncols is None else ncols
         if type(denominator) is not int or denominator == 0:
             raise InputError(f"expected a nonzero integer denominator, found {denominator!r}")
-        numerators = cls(len(table), width, table, 1).numerators
-        return lowest_terms(len(table), width, numerators, denominator)
+        require_sizes(len(table), width)
+        for row in table:
+            if len(row) != width:
+                raise InputError(f"expected rows of {width} numerators each")
+            if not set(map(type, row)) <= {int}:
+                raise InputError("expected numerators of type int; use Matrix.from_rows")
+        return from_numerators(table, denominator, width)
 
     @classmethod
     def zeros(cls, nrows: int, ncols: int) -> Matrix:
         """The nrows × ncols zero matrix."""
         require_sizes(nrows, ncols)
-        return cls(nrows, ncols, ((0,) * ncols,) * nrows, 1)
+        return cls(flint.fmpz_mat(nrows, ncols), 1)
 
     @classmethod
     def identity(cls, n: int) -> Matrix:
         """The n × n identity matrix."""
-        require_sizes(n, n)
-        return cls(n, n, tuple((0,) * i + (1,) + (0,) * (n - 1 - i) for i in range(n)), 1)
+        made = cls.zeros(n, n)
+        for i in range(n):
+            made._integer[i, i] = 1
+        return made
 
     @classmethod
     def column(cls, entries: Iterable[Entry]) -> Matrix:
@@ -148,22 +140,37 @@ class Matrix:
         return cls.from_rows([[entry] for entry in entries], ncols=1)
 
     @property
+    def nrows(self) -> int:
+        """Number of rows."""
+        return self._integer.nrows()
+
+    @property
+    def ncols(self) -> int:
+        """Number of columns."""
+        return self._integer.ncols()
+
+    @property
     def shape(self) -> tuple[int, int]:
         """Numbers of rows and columns."""
         return self.nrows, self.ncols
 
+    @cached_property
+    def numerators(self) -> Rows:
+        """The rows of N."""
+        entries, width = tuple(map(int, self._integer.entries())), self.ncols
+        return tuple(entries[i * width : (i + 1) * width] for i in range(self.nrows))
+
     @property
     def T(self) -> Matrix:
         """The transpose."""
-        columns = tuple(zip(*self.numerators, strict=True)) if self.nrows else ((),) * self.ncols
-        return unchecked(self.ncols, self.nrows, columns, self.denominator)
+        return Matrix(self._integer.transpose(), self.denominator)
 
     def __getitem__(self, position: tuple[int, int]) -> Fraction:
         """The entry in a row and a column, counted from 0; negative positions are refused."""
         i, j = position
         if not (0 <= i < self.nrows and 0 <= j < self.ncols):
             raise IndexError(f"no entry ({i}, {j}) in a {self.nrows} × {self.ncols} matrix")
-        return Fraction(self.numerators[i][j], self.denominator)
+        return Fraction(int(self._integer[i, j]), self.denominator)
 
     def rows(self) -> tuple[tuple[Fraction, ...], ...]:
         """The entries as Fractions; slower than `numerators` for large matrices."""
@@ -183,20 +190,26 @@ class Matrix:
             for k in chosen or ():
                 if not 0 <= k < size:
                     raise IndexError(f"no {name} {k} in a {self.nrows} × {self.ncols} matrix")
-        table = self.numerators if rows is None else tuple(self.numerators[i] for i in rows)
+        table = self.numerators if rows is None else [self.numerators[i] for i in rows]
         if cols is not None:
-            table = tuple(tuple(row[j] for j in cols) for row in table)
-        return lowest_terms(
-            len(table), self.ncols if cols is None else len(cols), table, self.denominator
-        )
+            table = [tuple(row[j] for j in cols) for row in table]
+        return from_numerators(table, self.denominator, self.ncols if cols is None else len(cols))
 
     def is_zero(self) -> bool:
         """Whether every entry is 0; true without entries."""
-        return not any(map(any, self.numerators))
+        return not self._integer
 
     def is_square(self) -> bool:
         """Whether there are as many rows as columns."""
         return self.nrows == self.ncols
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Matrix):
+            return NotImplemented
+        return self.denominator == other.denominator and bool(self._integer == other._integer)
+
+    def __hash__(self) -> int:
+        return hash((self.shape, self.numerators, self.denominator))
 
     def __add__(self, other: Matrix) -> Matrix:
         return self._combined(other, 1)
@@ -210,16 +223,17 @@ class Matrix:
         if self.shape != other.shape:
             raise _shapes_do_not_match("+" if sign > 0 else "-", self, other)
         denominator = math.lcm(self.denominator, other.denominator)
-        a, b = denominator // self.denominator, sign * (denominator // other.denominator)
-        table = tuple(
-            tuple(a * x + b * y for x, y in zip(row, addend, strict=True))
-            for row, addend in zip(self.numerators, other.numerators, strict=True)
-        )
-        return lowest_terms(self.nrows, self.ncols, table, denominator)
+        left = self._over(denominator)
+        right = other._over(denominator)
+        return from_flint(left + right if sign > 0 else left - right, denominator)
+
+    def _over(self, denominator: int) -> flint.fmpz_mat:
+        """The numerators over a multiple of the denominator."""
+        factor = denominator // self.denominator
+        return self._integer if factor == 1 else self._integer * factor
 
     def __neg__(self) -> Matrix:
-        table = tuple(tuple(-entry for entry in row) for row in self.numerators)
-        return unchecked(self.nrows, self.ncols, table, self.denominator)
+        return Matrix(-self._integer, self.denominator)
 
     def __matmul__(self, other: Matrix) -> Matrix:
         if not isinstance(other, Matrix):
@@ -232,8 +246,7 @@ class Matrix:
         if isinstance(factor, bool) or not isinstance(factor, (int, Fraction)):
             return NotImplemented
         p, q = factor.numerator, factor.denominator
-        table = tuple(tuple(p * entry for entry in row) for row in self.numerators)
-        return lowest_terms(self.nrows, self.ncols, table, q * self.denominator)
+        return from_flint(self._integer * p, q * self.denominator)
 
     __rmul__ = __mul__
 
@@ -241,14 +254,9 @@ class Matrix:
         """The k-th power of a square matrix, k ≥ 0."""
         if not self.is_square():
             raise InputError(f"expected a square matrix, found {self.nrows} × {self.ncols}")
-        heights = (x.bit_length() for row in self.numerators for x in row)
-        k = require_power(k, max(self.denominator.bit_length(), *heights, 1))
-        result = Matrix.identity(self.nrows)
-        for bit in bin(k)[2:]:
-            result = result @ result
-            if bit == "1":
-                result = result @ self
-        return result
+        lengths = (int(x.bit_length()) for x in self._integer.entries())
+        k = require_power(k, max(self.denominator.bit_length(), *lengths, 1))
+        return from_flint(self._integer**k, self.denominator**k)
 
     def trace(self) -> Fraction:
         """The sum of the diagonal entries of a square matrix."""
@@ -256,13 +264,8 @@ class Matrix:
             raise InputError(f"expected a square matrix, found {self.nrows} × {self.ncols}")
         return Fraction(sum(self.numerators[i][i] for i in range(self.nrows)), self.denominator)
 
-    @cached_property
-    def _integer(self) -> flint.fmpz_mat:
-        """The numerators for flint; shared, so never to be changed by anyone."""
-        return flint.fmpz_mat(self.nrows, self.ncols, [x for row in self.numerators for x in row])
-
-    def __getstate__(self) -> dict[str, Any]:
-        return {name: self.__dict__[name] for name in self.__dataclass_fields__}
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Matrix.from_integers, (self.numerators, self.denominator, self.ncols)
 
     def __repr__(self) -> str:
         rows = ", ".join("[" + ", ".join(map(rational_text, row)) + "]" for row in self.rows())
@@ -290,39 +293,19 @@ def _items(rows: Any, where: str | None) -> Iterable[Any]:
     return rows
 
 
-def _content(numerators: Rows, denominator: int) -> int:
-    """The greatest common divisor of the denominator and all numerators."""
-    content = denominator
-    for row in numerators:
-        content = math.gcd(content, *row)
-        if content == 1:
-            break
-    return content
-
-
-def unchecked(nrows: int, ncols: int, numerators: Rows, denominator: int) -> Matrix:
-    """A matrix from parts known to be valid; `__post_init__` would look at every entry again."""
-    made = object.__new__(Matrix)
-    made.__dict__.update(nrows=nrows, ncols=ncols, numerators=numerators, denominator=denominator)
-    return made
-
-
-def lowest_terms(nrows: int, ncols: int, numerators: Rows, denominator: int) -> Matrix:
-    """The matrix numerators / denominator in lowest terms; the parts are valid, denominator ≠ 0."""
-    content = _content(numerators, abs(denominator))
-    if denominator < 0:
-        content = -content
-    if content != 1:
-        numerators = tuple(tuple(entry // content for entry in row) for row in numerators)
-    return unchecked(nrows, ncols, numerators, denominator // content)
+def from_numerators(rows: Sequence[Sequence[int]], denominator: int, ncols: int) -> Matrix:
+    """The matrix rows / denominator; the rows are valid, denominator ≠ 0."""
+    return from_flint(
+        flint.fmpz_mat(len(rows), ncols, list(chain.from_iterable(rows))), denominator
+    )
 
 
 def from_flint(table: flint.fmpz_mat, denominator: int = 1) -> Matrix:
-    """The matrix table / denominator, denominator ≠ 0."""
-    nrows, ncols = table.nrows(), table.ncols()
-    entries = tuple(map(int, table.entries()))
-    rows = tuple(entries[i * ncols : (i + 1) * ncols] for i in range(nrows))
-    return lowest_terms(nrows, ncols, rows, denominator)
+    """The matrix table / denominator in lowest terms, denominator ≠ 0."""
+    if denominator == 1:
+        return Matrix(table, 1)
+    numerators, least = (flint.fmpq_mat(table) / denominator).numer_denom()
+    return Matrix(numerators, int(least))
 
 
 def _shapes_do_not_match(operation: str, a: Matrix, b: Matrix) -> InputError:

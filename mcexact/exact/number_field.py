@@ -6,10 +6,10 @@ import math
 
 from mcexact.errors import InputError, InternalError
 from mcexact.exact.linear_algebra import solve_nonsingular
-from mcexact.exact.matrix import Matrix, Rows
+from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import primes, residues
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.polynomial_matrix import PolynomialMatrix, monic_modulus, reduced
+from mcexact.exact.polynomial_matrix import PolynomialMatrix, monic_modulus
 
 
 def kernel(M: PolynomialMatrix, p: Polynomial) -> tuple[PolynomialMatrix, tuple[int, ...]]:
@@ -88,7 +88,7 @@ def _kernel_at_pivots(
     if X is None:
         return None
     position = {j: i for i, j in enumerate(pivots)}
-    tables: list[Rows] = []
+    layers = []
     for k in range(degree):
         table = []
         for j in range(ncols):
@@ -96,8 +96,8 @@ def _kernel_at_pivots(
                 table.append(X.numerators[position[j] * degree + k])
             else:
                 table.append(tuple(X.denominator if f == j and k == 0 else 0 for f in free))
-        tables.append(tuple(table))
-    return reduced(ncols, len(free), tables, X.denominator), free
+        layers.append(Matrix.from_integers(table, X.denominator, ncols=len(free)))
+    return PolynomialMatrix.from_matrices(*layers), free
 
 
 def _numerators(M: Matrix) -> Matrix:
@@ -143,7 +143,7 @@ def inflate(M: PolynomialMatrix, p: Polynomial) -> Matrix:
     columns = []
     power = M % p
     for k in range(degree):
-        columns.append(power.matrices() + (Matrix.zeros(*M.shape),) * degree)
+        columns.append(power.matrices + (Matrix.zeros(*M.shape),) * degree)
         if k + 1 < degree:
             power = power.times_x() % p
     denominator = math.lcm(*(E.denominator for column in columns for E in column))

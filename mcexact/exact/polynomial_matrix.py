@@ -5,25 +5,24 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
+from itertools import zip_longest
 
 from mcexact.errors import InputError
+from mcexact.exact import blocks
 from mcexact.exact.matrix import Matrix, Rows
-from mcexact.exact.modular import ModularMatrix
+from mcexact.exact.modular import ModularMatrix, residues
 from mcexact.exact.polynomial import Polynomial
 
 
 @dataclass(frozen=True)
 class PolynomialMatrix:
-    """A matrix of rational polynomials, Σ_k x^k E_k / d with integer matrices E_k.
+    """A matrix of rational polynomials, Σ_k x^k M_k.
 
     Parameters
     ----------
-    nrows, ncols : int
-        Either may be 0.
-    denominator : int
-        d ≥ 1, coprime to the entries of all E_k taken together.
-    coefficients : tuple of at least one tuple of nrows tuples of ncols int
-        E_0, E_1, …; the last one is not zero unless it is the only one.
+    matrices : tuple of at least one Matrix
+        M_0, M_1, …, of one shape; the last one is not zero unless it is the only one.
 
     Notes
     -----
@@ -36,35 +35,21 @@ class PolynomialMatrix:
     ('1/2*x', '-2')
     """
 
-    nrows: int
-    ncols: int
-    denominator: int
-    coefficients: tuple[Rows, ...]
+    matrices: tuple[Matrix, ...]
 
     def __post_init__(self) -> None:
-        if not self.coefficients:
-            raise InputError("expected at least one coefficient matrix")
-        for table in self.coefficients:
-            Matrix(self.nrows, self.ncols, table, 1)
-        if type(self.denominator) is not int or self.denominator < 1:
-            raise InputError(f"expected a denominator of at least 1, found {self.denominator!r}")
-        if self.denominator != _content(self.coefficients, self.denominator) * self.denominator:
-            raise InputError("expected lowest terms; use PolynomialMatrix.from_matrices")
-        if len(self.coefficients) > 1 and not any(map(any, self.coefficients[-1])):
+        if len({M.shape for M in self.matrices}) != 1:
+            raise InputError("expected at least one coefficient matrix, all of one shape")
+        if len(self.matrices) > 1 and self.matrices[-1].is_zero():
             raise InputError("expected a last coefficient matrix that is not zero")
 
     @classmethod
     def from_matrices(cls, *coefficients: Matrix) -> PolynomialMatrix:
         """Σ_k x^k M_k of rational matrices of one shape, at least one."""
-        if not coefficients or len({M.shape for M in coefficients}) != 1:
-            raise InputError("expected at least one coefficient matrix, all of one shape")
-        denominator = math.lcm(*(M.denominator for M in coefficients))
-        tables = [
-            tuple(tuple(entry * (denominator // M.denominator) for entry in row) for row in rows)
-            for M in coefficients
-            for rows in (M.numerators,)
-        ]
-        return reduced(*coefficients[0].shape, tables, denominator)
+        length = len(coefficients)
+        while length > 1 and coefficients[length - 1].is_zero():
+            length -= 1
+        return cls(coefficients[:length])
 
     @classmethod
     def pencil(cls, M0: Matrix, M1: Matrix) -> PolynomialMatrix:
@@ -79,18 +64,16 @@ class PolynomialMatrix:
         width = (len(rows[0]) if rows else 0) if ncols is None else ncols
         if any(len(row) != width for row in rows):
             raise InputError(f"expected rows of {width} polynomials each")
-        denominator = math.lcm(*(p.denominator for row in rows for p in row))
-        length = max((len(p.coefficients) for row in rows for p in row), default=0)
-
-        def numerator(p: Polynomial, k: int) -> int:
-            known = p.numerators
-            return known[k] * (denominator // p.denominator) if k < len(known) else 0
-
-        tables = [
-            tuple(tuple(numerator(p, k) for p in row) for row in rows)
-            for k in range(max(length, 1))
-        ]
-        return reduced(len(rows), width, tables, denominator)
+        length = max((len(p.coefficients) for row in rows for p in row), default=1)
+        return cls.from_matrices(
+            *(
+                Matrix.from_rows(
+                    [[p.coefficients[k] if k <= p.degree else 0 for p in row] for row in rows],
+                    ncols=width,
+                )
+                for k in range(max(length, 1))
+            )
+        )
 
     @classmethod
     def identity(cls, n: int) -> PolynomialMatrix:
@@ -98,47 +81,56 @@ class PolynomialMatrix:
         return cls.from_matrices(Matrix.identity(n))
 
     @property
+    def nrows(self) -> int:
+        """Number of rows."""
+        return self.matrices[0].nrows
+
+    @property
+    def ncols(self) -> int:
+        """Number of columns."""
+        return self.matrices[0].ncols
+
+    @property
     def shape(self) -> tuple[int, int]:
         """Numbers of rows and columns."""
-        return self.nrows, self.ncols
+        return self.matrices[0].shape
+
+    @cached_property
+    def denominator(self) -> int:
+        """The least common denominator of all entries."""
+        return math.lcm(*(M.denominator for M in self.matrices))
+
+    @property
+    def coefficients(self) -> tuple[Rows, ...]:
+        """The integer rows of the M_k times `denominator`."""
+        return tuple((M * self.denominator).numerators for M in self.matrices)
 
     @property
     def T(self) -> PolynomialMatrix:
         """The transpose."""
-        return PolynomialMatrix.from_matrices(*(M.T for M in self.matrices()))
-
-    def matrices(self) -> tuple[Matrix, ...]:
-        """The rational coefficient matrices E_k / d."""
-        return tuple(
-            Matrix.from_integers(table, self.denominator, ncols=self.ncols)
-            for table in self.coefficients
-        )
+        return PolynomialMatrix(tuple(M.T for M in self.matrices))
 
     def entry(self, i: int, j: int) -> Polynomial:
         """One entry."""
-        return Polynomial.from_coefficients([M[i, j] for M in self.matrices()])
+        return Polynomial.from_coefficients([M[i, j] for M in self.matrices])
 
     def is_zero(self) -> bool:
         """Whether every entry is 0."""
-        return not any(any(map(any, table)) for table in self.coefficients)
+        return self.matrices[-1].is_zero()
 
     def take(
         self, rows: Sequence[int] | None = None, cols: Sequence[int] | None = None
     ) -> PolynomialMatrix:
         """The submatrix with these rows and columns, in the order given; None takes all."""
-        return PolynomialMatrix.from_matrices(*(M.take(rows, cols) for M in self.matrices()))
+        return PolynomialMatrix.from_matrices(*(M.take(rows, cols) for M in self.matrices))
 
     def __add__(self, other: PolynomialMatrix | Matrix) -> PolynomialMatrix:
         addend = _as_polynomial_matrix(other)
-        zero = Matrix.zeros(*self.shape)
-        ours, theirs = self.matrices(), addend.matrices()
-        length = max(len(ours), len(theirs))
-        ours += (zero,) * (length - len(ours))
-        theirs += (Matrix.zeros(*addend.shape),) * (length - len(theirs))
-        return PolynomialMatrix.from_matrices(*(a + b for a, b in zip(ours, theirs, strict=True)))
+        pairs = zip_longest(self.matrices, addend.matrices)
+        return PolynomialMatrix.from_matrices(*(a + b if a and b else a or b for a, b in pairs))
 
     def __neg__(self) -> PolynomialMatrix:
-        return PolynomialMatrix.from_matrices(*(-M for M in self.matrices()))
+        return PolynomialMatrix(tuple(-M for M in self.matrices))
 
     def __sub__(self, other: PolynomialMatrix | Matrix) -> PolynomialMatrix:
         return self + -_as_polynomial_matrix(other)
@@ -153,7 +145,7 @@ class PolynomialMatrix:
         """Every entry reduced modulo p of degree ≥ 1."""
         lead = monic_modulus(p).coefficients
         degree = p.degree
-        matrices = list(self.matrices())
+        matrices = list(self.matrices)
         for k in range(len(matrices) - 1, degree - 1, -1):
             top = matrices.pop()
             if not top.is_zero():
@@ -164,44 +156,17 @@ class PolynomialMatrix:
 
     def times_x(self) -> PolynomialMatrix:
         """x times the matrix."""
-        return PolynomialMatrix.from_matrices(Matrix.zeros(*self.shape), *self.matrices())
+        return PolynomialMatrix.from_matrices(Matrix.zeros(*self.shape), *self.matrices)
 
     def at_residue(self, mu: int, ell: int) -> ModularMatrix:
         """The matrix at x = mu modulo a prime that does not divide the denominator."""
         total = ModularMatrix.zeros(self.nrows, self.ncols, ell)
-        if self.denominator % ell == 0:
-            raise InputError(f"the modulus {ell} divides a denominator; draw another")
-        for table in reversed(self.coefficients):
-            total = total * mu + ModularMatrix.from_rows(table, ell, ncols=self.ncols)
-        return total * pow(self.denominator, -1, ell)
+        for M in reversed(self.matrices):
+            total = total * mu + residues(M, ell)
+        return total
 
     def __repr__(self) -> str:
-        return f"PolynomialMatrix.from_matrices({', '.join(map(repr, self.matrices()))})"
-
-
-def _content(tables: Sequence[Rows], denominator: int) -> int:
-    content = denominator
-    for table in tables:
-        for row in table:
-            content = math.gcd(content, *row)
-            if content == 1:
-                return 1
-    return content
-
-
-def reduced(nrows: int, ncols: int, tables: Sequence[Rows], denominator: int) -> PolynomialMatrix:
-    """The matrix Σ x^k tables[k] / denominator, denominator ≥ 1, brought to lowest terms."""
-    kept = list(tables)
-    while len(kept) > 1 and not any(map(any, kept[-1])):
-        kept.pop()
-    content = _content(kept, denominator)
-    if content != 1:
-        kept = [tuple(tuple(entry // content for entry in row) for row in table) for table in kept]
-    made = object.__new__(PolynomialMatrix)
-    made.__dict__.update(
-        nrows=nrows, ncols=ncols, denominator=denominator // content, coefficients=tuple(kept)
-    )
-    return made
+        return f"PolynomialMatrix.from_matrices({', '.join(map(repr, self.matrices))})"
 
 
 def _as_polynomial_matrix(M: PolynomialMatrix | Matrix) -> PolynomialMatrix:
@@ -213,13 +178,11 @@ def _product(left: PolynomialMatrix, right: PolynomialMatrix) -> PolynomialMatri
         raise InputError(
             f"shapes do not match: {left.nrows} × {left.ncols} @ {right.nrows} × {right.ncols}"
         )
-    ours, theirs = left.matrices(), right.matrices()
-    sums: list[Matrix | None] = [None] * (len(ours) + len(theirs) - 1)
-    for i, a in enumerate(ours):
-        for j, b in enumerate(theirs):
-            term, known = a @ b, sums[i + j]
-            sums[i + j] = term if known is None else known + term
-    return PolynomialMatrix.from_matrices(*(M for M in sums if M is not None))
+    sums = [Matrix.zeros(left.nrows, right.ncols)] * (len(left.matrices) + len(right.matrices) - 1)
+    for i, a in enumerate(left.matrices):
+        for j, b in enumerate(right.matrices):
+            sums[i + j] += a @ b
+    return PolynomialMatrix.from_matrices(*sums)
 
 
 def monic_modulus(p: Polynomial) -> Polynomial:
@@ -232,18 +195,15 @@ def vstack(matrices: Sequence[PolynomialMatrix]) -> PolynomialMatrix:
     """Polynomial matrices below each other, at least one, equally wide."""
     if not matrices or len({M.ncols for M in matrices}) != 1:
         raise InputError("expected at least one matrix, all equally wide")
-    length = max(len(M.coefficients) for M in matrices)
-    denominator = math.lcm(*(M.denominator for M in matrices))
-    tables: list[Rows] = []
-    for k in range(length):
-        rows: list[tuple[int, ...]] = []
-        for M in matrices:
-            factor = denominator // M.denominator
-            zero: Rows = ((0,) * M.ncols,) * M.nrows
-            table = M.coefficients[k] if k < len(M.coefficients) else zero
-            rows += [tuple(factor * entry for entry in row) for row in table]
-        tables.append(tuple(rows))
-    return reduced(sum(M.nrows for M in matrices), matrices[0].ncols, tables, denominator)
+    layers = zip_longest(*(M.matrices for M in matrices))
+    return PolynomialMatrix.from_matrices(
+        *(
+            blocks.vstack(
+                [part or Matrix.zeros(*M.shape) for part, M in zip(layer, matrices, strict=True)]
+            )
+            for layer in layers
+        )
+    )
 
 
 def hstack(matrices: Sequence[PolynomialMatrix]) -> PolynomialMatrix:
