@@ -19,7 +19,7 @@ from mcexact.certificate.shared_dimensions import SharedDimensionsCertificate
 from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.derived.extended import Share, checked_share, extended_system
 from mcexact.errors import UsageError
-from mcexact.exact.location import bounded_region
+from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import Entry, as_fraction
 from mcexact.model.neighbor_graph import NeighborGraph
@@ -214,7 +214,7 @@ def minimal_shared_dimensions(
     system, found = _plant_with_graph(system, graph, share)
     program = _program(system.m, costs, upper)
     exact = None if bound is None else as_fraction(bound, where="bound")
-    region = None if exact is None else bounded_region(system.time, exact)
+    region = None if exact is None else StabilityRegion.of(system.time, bound=exact)
     base, factors = base_system(system, share), violating_factors(system, region)
     rng = generator(base, SharedDimensionsCertificate.kind)
 

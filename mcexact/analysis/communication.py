@@ -21,7 +21,7 @@ from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.derived.extended import Share, extended_system, selector
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.blocks import block_diagonal
-from mcexact.exact.location import bounded_region
+from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import Entry, as_fraction
@@ -154,7 +154,7 @@ def minimal_communication(
     wires = _checked(given.with_neighbors(found), found, dimensions, share, forbidden)
     plant, names = wires.plant, wires.plant.names
     exact = None if bound is None else as_fraction(bound, where="bound")
-    region = None if exact is None else bounded_region(plant.time, exact)
+    region = None if exact is None else StabilityRegion.of(plant.time, bound=exact)
     factors = violating_factors(plant, region)
     rng = generator(wires.chosen(()), CommunicationCertificate.kind)
 

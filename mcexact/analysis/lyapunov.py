@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 
 from mcexact.analysis.smith_doubling import doubled_lyapunov
 from mcexact.exact.floats import dyadic_matrix, matrix_to_float
+from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.rational import to_float
 
@@ -51,12 +52,12 @@ class QuadraticForm:
     v: Matrix | None
 
 
-def decrease(D: Matrix, P: Matrix, time: str, bound: Fraction) -> Matrix:
+def decrease(D: Matrix, P: Matrix, region: StabilityRegion) -> Matrix:
     """S, the symmetric matrix that must be positive definite."""
-    if time == "continuous":
-        half = D.T @ P
-        return -(half + half.T + P * (2 * bound))
-    return P * bound**2 - D.T @ (P @ D)
+    if region.discrete:
+        return P * region.edge**2 - D.T @ (P @ D)
+    half = D.T @ P
+    return -(half + half.T + P * (2 * region.edge))
 
 
 def is_dominant(S: Matrix) -> bool:
@@ -64,16 +65,14 @@ def is_dominant(S: Matrix) -> bool:
     return all(row[i] > sum(map(abs, row)) - abs(row[i]) for i, row in enumerate(S.numerators))
 
 
-def quadratic_form(D: Matrix, time: str, bound: Fraction) -> QuadraticForm | None:
+def quadratic_form(D: Matrix, region: StabilityRegion) -> QuadraticForm | None:
     """Search for a quadratic form that decides where the eigenvalues of D lie.
 
     Parameters
     ----------
     D : Matrix
         k × k.
-    time : {"continuous", "discrete"}
-    bound : Fraction
-        The rate or the radius.
+    region : StabilityRegion
 
     Returns
     -------
@@ -93,7 +92,7 @@ def quadratic_form(D: Matrix, time: str, bound: Fraction) -> QuadraticForm | Non
         return QuadraticForm(empty, empty, empty, None)
     scales = _balancing(D)
     balanced = scaled(D, [1 / s for s in scales], scales)
-    P = _approximate(balanced, time, bound) or _precise(balanced, time, bound)
+    P = _approximate(balanced, region) or _precise(balanced, region)
     if P is None:
         return None
     R2 = _diagonal(scales)
@@ -139,7 +138,7 @@ def _balancing(D: Matrix) -> list[Fraction]:
     return [Fraction(float(factor)) for factor in factors]
 
 
-def _approximate(D: Matrix, time: str, bound: Fraction) -> Matrix | None:
+def _approximate(D: Matrix, region: StabilityRegion) -> Matrix | None:
     """A symmetric P with S dominant, found by floating-point solutions of exact residuals."""
     import numpy as np
 
@@ -150,42 +149,43 @@ def _approximate(D: Matrix, time: str, bound: Fraction) -> Matrix | None:
         return None
     P, residual = Matrix.zeros(k, k), identity
     for _ in range(_REFINEMENTS):
-        step = _solve(D_float, matrix_to_float(residual), time, to_float(bound))
+        step = _solve(D_float, matrix_to_float(residual), region)
         if step is None:
             return None
         P = P + dyadic_matrix(step)
-        S = decrease(D, P, time, bound)
+        S = decrease(D, P, region)
         if is_dominant(S):
             return P
         residual = identity - S
     return None
 
 
-def _precise(D: Matrix, time: str, bound: Fraction) -> Matrix | None:
+def _precise(D: Matrix, region: StabilityRegion) -> Matrix | None:
     """A P with S dominant from Smith's doubling: for blocks that are far from normal."""
     import numpy as np
 
     if D.nrows > _DOUBLING_LIMIT or not np.all(np.isfinite(matrix_to_float(D))):
         return None
-    P = doubled_lyapunov(D, time, bound)
-    return P if P is not None and is_dominant(decrease(D, P, time, bound)) else None
+    P = doubled_lyapunov(D, region)
+    return P if P is not None and is_dominant(decrease(D, P, region)) else None
 
 
-def _solve(D: Floats, Q: Floats, time: str, bound: float) -> Floats | None:
+def _solve(D: Floats, Q: Floats, region: StabilityRegion) -> Floats | None:
     """The symmetric solution of DᵀP + PD + 2bP = −Q, or of r²P − DᵀPD = Q, in floating point."""
     import warnings
 
     import numpy as np
     from scipy.linalg import LinAlgError, solve_continuous_lyapunov, solve_discrete_lyapunov
 
+    bound = to_float(region.edge)
     with warnings.catch_warnings():
         # An ill-conditioned equation may still give a P that passes the exact test.
         warnings.simplefilter("ignore")
         try:
-            if time == "continuous":
-                P = solve_continuous_lyapunov((D + bound * np.eye(len(D))).T, -Q)
-            else:
+            if region.discrete:
                 P = solve_discrete_lyapunov(D.T / bound, Q / bound**2)
+            else:
+                P = solve_continuous_lyapunov((D + bound * np.eye(len(D))).T, -Q)
         except (LinAlgError, ValueError):
             return None
     if not np.all(np.isfinite(P)):

@@ -8,6 +8,7 @@ from fractions import Fraction
 from mcexact.analysis.lyapunov import QuadraticForm, decrease, is_dominant
 from mcexact.certificate.stability import InstabilityMethod
 from mcexact.exact.blocks import block_diagonal, vstack
+from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 
 _SCALES = (8, 24, 48, 96)
@@ -18,8 +19,7 @@ def separated_instability(
     T: Matrix,
     inverse: Matrix,
     forms: Sequence[QuadraticForm],
-    time: str,
-    bound: Fraction,
+    region: StabilityRegion,
 ) -> InstabilityMethod | None:
     """P, R2 and v for M = T Δ T⁻¹, Δ block upper triangular, from those of the diagonal blocks.
 
@@ -28,8 +28,7 @@ def separated_instability(
     M, T, inverse : Matrix, N × N
     forms : sequence of QuadraticForm
         One for each diagonal block, at least one with a ``v``.
-    time : {"continuous", "discrete"}
-    bound : Fraction
+    region : StabilityRegion
 
     Returns
     -------
@@ -58,6 +57,6 @@ def separated_instability(
         R2 = T @ block_diagonal(
             [form.R2 * (1 / root) for form, root in zip(forms, roots, strict=True)]
         )
-        if is_dominant(R2.T @ (decrease(M, P, time, bound) @ R2)):
+        if is_dominant(R2.T @ (decrease(M, P, region) @ R2)):
             return InstabilityMethod(P, R2, v)
     return None

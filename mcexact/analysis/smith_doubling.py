@@ -5,6 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from mcexact.exact.floats import matrix_from_float, matrix_to_float
+from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 
 _BITS = 320
@@ -12,15 +13,14 @@ _DOUBLINGS = 40
 _NEWTON = 9
 
 
-def doubled_lyapunov(D: Matrix, time: str, bound: Fraction) -> Matrix | None:
+def doubled_lyapunov(D: Matrix, region: StabilityRegion) -> Matrix | None:
     """P with −(DᵀP + PD + 2bP), or r²P − DᵀPD, near the identity, for D that is far from normal.
 
     Parameters
     ----------
     D : Matrix, k × k
-    time : {"continuous", "discrete"}
-    bound : Fraction
-        The rate b or the radius r > 0.
+    region : StabilityRegion
+        Of the rate b or the radius r.
 
     Returns
     -------
@@ -37,13 +37,13 @@ def doubled_lyapunov(D: Matrix, time: str, bound: Fraction) -> Matrix | None:
     Examples
     --------
     >>> D = Matrix.from_rows([[-2, 10**9], [0, -3]])
-    >>> P = doubled_lyapunov(D, "continuous", Fraction(1))
+    >>> P = doubled_lyapunov(D, StabilityRegion("continuous", 1))
     >>> S = -(D.T @ P + P @ D + P * 2)
     >>> all(abs(x) < Fraction(1, 10**40) for row in (S - Matrix.identity(2)).rows() for x in row)
     True
     """
-    identity = Matrix.identity(D.nrows)
-    if time == "discrete":
+    identity, bound = Matrix.identity(D.nrows), region.edge
+    if region.discrete:
         N, Q = rounded(D * (1 / bound)), identity * (1 / bound**2)
     else:
         shifted = D + identity * bound

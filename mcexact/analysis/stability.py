@@ -21,11 +21,9 @@ from mcexact.certificate.stability import (
 )
 from mcexact.errors import UsageError
 from mcexact.exact.linear_algebra import characteristic_polynomial
-from mcexact.exact.location import StabilityRegion, bounded_region
-from mcexact.exact.location import region as named_region
+from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import primes, residues
-from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import Entry, as_fraction
 from mcexact.model.matrix_entry import as_matrix
 from mcexact.model.system import MultiChannelSystem
@@ -103,7 +101,7 @@ def matrix_system(M: Any, time: str = "continuous") -> MultiChannelSystem:
 
 def certify_stability(
     loop: MultiChannelSystem,
-    bound: Entry | None = None,
+    region: StabilityRegion | None = None,
     *,
     rate: Entry | None = None,
     radius: Entry | None = None,
@@ -117,11 +115,11 @@ def certify_stability(
     loop : MultiChannelSystem
         A closed loop (`closed_loop`, `loop_from_statespace`), or `matrix_system` of a matrix; what
         counts is its A.
-    bound : rational, optional
-        A rate R (continuous time: real parts below −R) or a radius R (discrete time: moduli below
-        R); by default the stability region.
+    region : StabilityRegion, optional
+        Where every eigenvalue is asked to lie.
     rate, radius : rational, optional
-        The same by name; the one of the other time domain is refused.
+        The same by a number: real parts below −rate (continuous time), or moduli below the radius
+        (discrete time).  By default stability alone.
     method : {"polynomial", "lyapunov"}, optional
         By default the characteristic polynomial for small loops, Lyapunov matrices for large
         ones, and the polynomial again where these do not decide.
@@ -146,7 +144,10 @@ def certify_stability(
     >>> certify_stability(matrix_system(M), rate=1).stable
     False
     """
-    region = _asked_region(loop.time, bound, rate, radius)
+    asked = StabilityRegion.of(loop.time, rate, radius)
+    if region is not None and (asked.bound is not None or region.time != loop.time):
+        raise UsageError("give a region of the time domain of the loop, or a rate or a radius")
+    region = region or asked
     if separation is not None:
         _require_separation(loop.A, separation)
     tried = (method,) if method is not None else _order(loop.n, separation)
@@ -168,21 +169,6 @@ def certify_stability(
             )
             return StabilityVerdict(stable, region, found.document()["method"], certificate)
     raise UsageError("Lyapunov matrices do not decide here: leave the method open", where="method")
-
-
-def _asked_region(
-    time: str, bound: Entry | None, rate: Entry | None, radius: Entry | None
-) -> StabilityRegion:
-    """The region that the arguments name, one of them at most."""
-    if bound is not None and (rate is not None or radius is not None):
-        raise UsageError("give a bound, or a rate or a radius, not both")
-    if bound is not None:
-        return bounded_region(time, as_fraction(bound, where="bound"))
-    return named_region(
-        time,
-        None if rate is None else as_fraction(rate, where="rate"),
-        None if radius is None else as_fraction(radius, where="radius"),
-    )
 
 
 def _order(n: int, separation: Separation | None) -> tuple[Method, ...]:
@@ -211,16 +197,15 @@ def _lyapunov(
     loop: MultiChannelSystem, region: StabilityRegion, separation: Separation | None
 ) -> LyapunovMethod | InstabilityMethod | None:
     """Quadratic forms of the blocks, or of the whole loop if unstable; None if undecided."""
-    bound = region.bound if region.bound is not None else Fraction(loop.time == "discrete")
     parts: Sequence[Matrix] = (loop.A,) if separation is None else separation.blocks()
     forms = []
     for D in parts:
-        form = quadratic_form(D, loop.time, bound)
+        form = quadratic_form(D, region)
         if form is None:
             return None
         forms.append(form)
     if any(form.R is None for form in forms):
-        return _instability(loop, bound, separation, forms)
+        return _instability(loop, region, separation, forms)
     blocks = [LyapunovBlock(f.P, f.R, f.R2) for f in forms if f.R is not None]
     transformation = None
     if separation is not None:
@@ -231,7 +216,7 @@ def _lyapunov(
 
 def _instability(
     loop: MultiChannelSystem,
-    bound: Fraction,
+    region: StabilityRegion,
     separation: Separation | None,
     forms: Sequence[QuadraticForm],
 ) -> InstabilityMethod | None:
@@ -239,11 +224,9 @@ def _instability(
     if separation is None:
         [form] = forms
     elif separation.inverse is not None:
-        return separated_instability(
-            loop.A, separation.T, separation.inverse, forms, loop.time, bound
-        )
+        return separated_instability(loop.A, separation.T, separation.inverse, forms, region)
     else:
-        whole = quadratic_form(loop.A, loop.time, bound)
+        whole = quadratic_form(loop.A, region)
         if whole is None:
             return None
         form = whole
@@ -267,10 +250,10 @@ def _nonsingular_modulus(loop: MultiChannelSystem, T: Matrix) -> int:
     raise UsageError("T is singular", where="separation")
 
 
-def largest_certified_rate(
+def fastest_region(
     loop: MultiChannelSystem, *, accuracy: Entry = Fraction(1, 10**6)
-) -> Fraction | None:
-    """The largest rate on a grid (least radius, in discrete time) that a loop certainly has.
+) -> StabilityRegion | None:
+    """The region of the largest rate on a grid (least radius, in discrete time) that a loop meets.
 
     Parameters
     ----------
@@ -280,9 +263,9 @@ def largest_certified_rate(
 
     Returns
     -------
-    Fraction or None
-        R such that every eigenvalue has real part below −R and R + accuracy fails (or it has
-        modulus below R and R − accuracy fails); None if the loop is not even stable, or in
+    StabilityRegion or None
+        Of a bound R such that every eigenvalue has real part below −R and R + accuracy fails (or
+        it has modulus below R and R − accuracy fails); None if the loop is not even stable, or in
         continuous time not faster than ``accuracy``.
 
     Notes
@@ -292,31 +275,25 @@ def largest_certified_rate(
     Examples
     --------
     >>> M = Matrix.from_rows([[0, 1], [-2, -3]])
-    >>> largest_certified_rate(matrix_system(M), accuracy="1/8")
-    Fraction(7, 8)
+    >>> str(fastest_region(matrix_system(M), accuracy="1/8"))
+    'Re λ < -7/8'
     """
     width = as_fraction(accuracy)
     if width <= 0:
         raise UsageError("expected a positive number", where="accuracy")
-    chi = characteristic_polynomial(loop.A)
-    if not StabilityRegion(loop.time).contains_roots_of(chi) or chi.degree == 0:
+    chi, whole = characteristic_polynomial(loop.A), StabilityRegion(loop.time)
+    if not whole.contains_roots_of(chi) or chi.degree == 0:
         return None
-    if loop.time == "discrete":
-        return _bisected(chi, loop.time, Fraction(1), Fraction(0), width)
-    slow, fast = Fraction(0), Fraction(1)
-    while StabilityRegion(loop.time, fast).contains_roots_of(chi):
-        slow, fast = fast, 2 * fast
-    return _bisected(chi, loop.time, slow, fast, width) or None
 
+    def meets(bound: Fraction) -> bool:
+        return StabilityRegion(loop.time, bound).contains_roots_of(chi)
 
-def _bisected(
-    chi: Polynomial, time: str, holds: Fraction, fails: Fraction, width: Fraction
-) -> Fraction:
-    """Halve the interval between a bound that holds and one that fails."""
+    holds, fails = whole.edge, Fraction(0)
+    if not whole.discrete:
+        fails = Fraction(1)
+        while meets(fails):
+            holds, fails = fails, 2 * fails
     while abs(fails - holds) > width:
         middle = (holds + fails) / 2
-        if StabilityRegion(time, middle).contains_roots_of(chi):
-            holds = middle
-        else:
-            fails = middle
-    return holds
+        holds, fails = (middle, fails) if meets(middle) else (holds, middle)
+    return StabilityRegion(loop.time, holds) if holds else None

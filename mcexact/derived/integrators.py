@@ -6,6 +6,7 @@ from itertools import accumulate
 
 from mcexact.derived.extended import selector
 from mcexact.exact.blocks import block, vstack
+from mcexact.exact.location import steady_point
 from mcexact.exact.matrix import Matrix
 from mcexact.model.system import MultiChannelSystem
 
@@ -43,8 +44,7 @@ def setpoint_system(system: MultiChannelSystem) -> MultiChannelSystem:
     counts = [system.q(i) for i in range(m)]
     total = sum(counts)
     starts = [0, *accumulate(counts)]
-    discrete = system.time == "discrete"
-    W = Matrix.identity(total) if discrete else Matrix.zeros(total, total)
+    W = Matrix.identity(total) * steady_point(system.time)
     return system.derived(
         block([[system.A, Matrix.zeros(n, total)], [system.output_matrix(), W]]),
         [vstack([system.B(i), Matrix.zeros(total, system.p(i))]) for i in range(m)],

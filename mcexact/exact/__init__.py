@@ -40,7 +40,7 @@ from mcexact.exact.linear_algebra import (
     row_echelon,
     solve,
 )
-from mcexact.exact.location import StabilityRegion, in_region, is_hurwitz, is_schur
+from mcexact.exact.location import StabilityRegion, is_hurwitz, is_schur
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import (
     ModularMatrix,
@@ -85,7 +85,6 @@ __all__ = [
     "dyadic_matrix",
     "from_float",
     "hstack",
-    "in_region",
     "inverse",
     "is_hurwitz",
     "is_schur",

@@ -4,15 +4,33 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Literal
+from typing import Any, Literal
 
 import flint
 
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.rational import written
+from mcexact.exact.rational import as_fraction, written
 
 Time = Literal["continuous", "discrete"]
+
+
+def is_discrete(time: str) -> bool:
+    """Whether a time domain is the discrete one: whatever depends on the domain asks this.
+
+    Raises
+    ------
+    InputError
+        It is neither ``"continuous"`` nor ``"discrete"``.
+    """
+    if time not in ("continuous", "discrete"):
+        raise InputError(f'expected time "continuous" or "discrete", found {time!r}')
+    return time == "discrete"
+
+
+def steady_point(time: str) -> int:
+    """The eigenvalue of what stays as it is: 0, or 1 in discrete time."""
+    return int(is_discrete(time))
 
 
 def is_hurwitz(p: Polynomial) -> bool:
@@ -102,18 +120,93 @@ class StabilityRegion:
     bound: Fraction | None = None
 
     def __post_init__(self) -> None:
-        if self.time not in ("continuous", "discrete"):
-            raise InputError(f'expected time "continuous" or "discrete", found {self.time!r}')
+        discrete = is_discrete(self.time)
         if self.bound is None:
             return
         bound = self.bound
         if type(bound) not in (int, Fraction):
             raise UsageError(f"expected an exact rate or radius, found {bound!r}")
-        if self.time == "continuous" and bound <= 0:
+        if not discrete and bound <= 0:
             raise UsageError(f"expected a rate above 0, found {bound}")
-        if self.time == "discrete" and not 0 < bound <= 1:
+        if discrete and not 0 < bound <= 1:
             raise UsageError(f"expected a radius above 0 and at most 1, found {bound}")
         object.__setattr__(self, "bound", Fraction(bound))
+
+    @classmethod
+    def of(
+        cls, time: str, rate: Any = None, radius: Any = None, *, bound: Any = None
+    ) -> StabilityRegion:
+        """The region that a caller names, or that of stability; the one border for such numbers.
+
+        Parameters
+        ----------
+        time : {"continuous", "discrete"}
+        rate, radius : rational, optional
+            The one of the time domain.
+        bound : rational, optional
+            Instead of these, the one of the time domain as certificates write it: a rate of 0 is
+            that of stability.
+
+        Raises
+        ------
+        UsageError
+            Two are given, the one of the other time domain, or one out of range.
+        InputError
+            A number cannot be read as a rational one.
+
+        Examples
+        --------
+        >>> str(StabilityRegion.of("continuous", rate="1/2"))
+        'Re λ < -1/2'
+        >>> StabilityRegion.of("discrete", rate=1)
+        Traceback (most recent call last):
+            ...
+        mcexact.errors.UsageError: a rate is for continuous time; give a radius
+        """
+        discrete = is_discrete(time)
+        own, other = ("radius", "rate") if discrete else ("rate", "radius")
+        given = {"rate": rate, "radius": radius, "bound": bound}
+        given = {name: entry for name, entry in given.items() if entry is not None}
+        if other in given:
+            elsewhere = "continuous" if discrete else "discrete"
+            raise UsageError(f"a {other} is for {elsewhere} time; give a {own}")
+        if len(given) > 1:
+            raise UsageError(f"give a bound or a {own}, not both")
+        for name, entry in given.items():
+            found = as_fraction(entry, where=name)
+            return cls(time, None if name == "bound" and not discrete and found == 0 else found)
+        return cls(time)
+
+    @property
+    def discrete(self) -> bool:
+        """Whether it is about discrete time."""
+        return is_discrete(self.time)
+
+    @property
+    def word(self) -> str:
+        """What a bound is called: a rate or a radius."""
+        return "radius" if self.discrete else "rate"
+
+    @property
+    def edge(self) -> Fraction:
+        """The bound, or where there is none that of stability: the rate 0, the radius 1."""
+        return Fraction(self.discrete) if self.bound is None else self.bound
+
+    @property
+    def limit(self) -> Fraction:
+        """What the real parts, or the moduli, of the numbers in the region are below."""
+        return self.edge if self.discrete else -self.edge
+
+    def tightened(self, margin: Fraction, offset: int = 0) -> StabilityRegion:
+        """A smaller region, to design for: the rate R + margin (R + offset), or R (1 − margin).
+
+        Examples
+        --------
+        >>> str(StabilityRegion.of("continuous", 2).tightened(Fraction(1, 4)))
+        'Re λ < -5/2'
+        """
+        change = -margin * self.edge if self.discrete else margin * (self.edge + offset)
+        return StabilityRegion.of(self.time, bound=self.edge + change)
 
     def shifted(self, p: Polynomial) -> Polynomial:
         """A polynomial with all roots in the unbounded region iff those of p are in this one.
@@ -127,61 +220,12 @@ class StabilityRegion:
         """
         if self.bound is None:
             return p
-        if self.time == "continuous":
-            return p.compose_shift(-self.bound)
-        return p.scale(self.bound)
+        return p.scale(self.bound) if self.discrete else p.compose_shift(-self.bound)
 
     def contains_roots_of(self, p: Polynomial) -> bool:
         """Whether every complex root of a nonzero polynomial lies in the region."""
         standard = self.shifted(p)
-        return is_hurwitz(standard) if self.time == "continuous" else is_schur(standard)
+        return is_schur(standard) if self.discrete else is_hurwitz(standard)
 
     def __str__(self) -> str:
-        if self.time == "continuous":
-            return f"Re λ < {written(-self.bound) if self.bound else 0}"
-        return f"|λ| < {written(self.bound) if self.bound else 1}"
-
-
-def bounded_region(time: str, bound: Fraction | None) -> StabilityRegion:
-    """The region of a bound as certificates write it: a rate ≥ 0, or a radius in (0, 1].
-
-    Raises
-    ------
-    UsageError
-        The bound is out of range.
-
-    Examples
-    --------
-    >>> str(bounded_region("continuous", Fraction(0))), str(bounded_region("discrete", Fraction(1)))
-    ('Re λ < 0', '|λ| < 1')
-    """
-    return StabilityRegion(time, None if time == "continuous" and bound == 0 else bound)
-
-
-def in_region(
-    p: Polynomial, time: str, rate: Fraction | None = None, radius: Fraction | None = None
-) -> bool:
-    """Whether every root of p lies in the stability region of the time domain.
-
-    Parameters
-    ----------
-    p : Polynomial
-        Not 0.
-    time : {"continuous", "discrete"}
-    rate : Fraction, optional
-        For continuous time only.
-    radius : Fraction, optional
-        For discrete time only.
-    """
-    return region(time, rate, radius).contains_roots_of(p)
-
-
-def region(
-    time: str, rate: Fraction | None = None, radius: Fraction | None = None
-) -> StabilityRegion:
-    """The stability region of a time domain; a rate or radius for the other one is wrong usage."""
-    if time == "continuous" and radius is not None:
-        raise UsageError("a radius is for discrete time; give a rate")
-    if time == "discrete" and rate is not None:
-        raise UsageError("a rate is for continuous time; give a radius")
-    return StabilityRegion(time, rate if time == "continuous" else radius)
+        return f"{'|λ|' if self.discrete else 'Re λ'} < {written(self.limit)}"

@@ -8,6 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from mcexact.exact.location import StabilityRegion, is_discrete
+from mcexact.exact.rational import to_float
+
 Array = NDArray[np.float64]
 
 _STARTS = 4
@@ -53,7 +56,7 @@ def loop_margins(M: Array, time: str) -> LoopMargins:
     0.195
     """
     if len(M) == 0:
-        return LoopMargins(-np.inf if time == "continuous" else 0.0, 0.0, np.inf)
+        return LoopMargins(spectral_bound(M, time), 0.0, np.inf)
     eigenvalues = np.linalg.eigvals(M).astype(np.complex128)
     return LoopMargins(
         spectral_bound(M, time),
@@ -65,44 +68,42 @@ def loop_margins(M: Array, time: str) -> LoopMargins:
 def spectral_bound(M: Array, time: str) -> float:
     """The largest real part or modulus of an eigenvalue, as `numpy.linalg.eigvals` computes it."""
     if len(M) == 0:
-        return -np.inf if time == "continuous" else 0.0
+        return 0.0 if is_discrete(time) else -np.inf
     eigenvalues = np.linalg.eigvals(M).astype(np.complex128)
-    return float(np.max(eigenvalues.real if time == "continuous" else np.abs(eigenvalues)))
+    return float(np.max(np.abs(eigenvalues) if is_discrete(time) else eigenvalues.real))
+
+
+def is_within(M: Array, region: StabilityRegion) -> bool:
+    """Whether the computed eigenvalues lie in a region."""
+    return spectral_bound(M, region.time) < to_float(region.limit)
 
 
 def _numerical_bound(M: Array, time: str) -> float:
     """The numerical abscissa; the numerical radius over a grid of angles."""
-    if time == "continuous":
-        return float(np.linalg.eigvalsh((M + M.T) / 2)[-1])
-    largest = 0.0
-    for angle in np.linspace(0.0, np.pi, _ANGLES + 1):
-        turned = np.exp(1j * angle) * M
-        largest = max(largest, float(np.linalg.eigvalsh((turned + turned.conj().T) / 2)[-1]))
-    return largest
+    angles = np.linspace(0.0, np.pi, _ANGLES + 1) if is_discrete(time) else [0.0]
+    turned = [np.exp(1j * angle) * M for angle in angles]
+    return max(float(np.linalg.eigvalsh((each + each.conj().T) / 2)[-1]) for each in turned)
 
 
 def _distance_to_instability(M: Array, time: str, eigenvalues: NDArray[np.complex128]) -> float:
     """The least σ_min(zI − M) found on the boundary, by searches that start below eigenvalues."""
     from scipy.optimize import minimize_scalar
 
-    if time == "continuous":
-        order = np.argsort(-eigenvalues.real)
-        positions, unstable = eigenvalues.imag, bool(np.max(eigenvalues.real) >= 0)
-    else:
-        order = np.argsort(-np.abs(eigenvalues))
-        positions, unstable = np.angle(eigenvalues), bool(np.max(np.abs(eigenvalues)) >= 1)
-    if unstable:
+    discrete = is_discrete(time)
+    sizes = np.abs(eigenvalues) if discrete else eigenvalues.real
+    if np.max(sizes) >= to_float(StabilityRegion(time).limit):
         return 0.0
+    order, positions = np.argsort(-sizes), np.angle(eigenvalues) if discrete else eigenvalues.imag
 
     def least(position: float) -> float:
         return smallest_singular_value(
-            M, 1j * position if time == "continuous" else complex(np.exp(1j * position))
+            M, complex(np.exp(1j * position)) if discrete else 1j * position
         )
 
     starts = {abs(float(positions[k])) for k in order[: 2 * _STARTS]}
     found = min(least(start) for start in starts | {0.0})
     for start in sorted(starts, key=least)[:_STARTS]:
-        width = max(0.5, abs(start) / 2) if time == "continuous" else 0.5
+        width = 0.5 if discrete else max(0.5, abs(start) / 2)
         search = minimize_scalar(
             least,
             bounds=(start - width, start + width),

@@ -8,6 +8,7 @@ from functools import cached_property
 
 from mcexact.errors import UsageError
 from mcexact.exact.blocks import hstack, vstack
+from mcexact.exact.location import is_discrete
 from mcexact.exact.matrix import Matrix
 from mcexact.model.controller import Controller, LinearMap
 from mcexact.model.neighbor_graph import NeighborGraph
@@ -112,7 +113,7 @@ def loop_layout(
         If the controller does not fit.
     """
     system, found = with_wires(system, graph)
-    if found.delays and system.time != "discrete":
+    if found.delays and not is_discrete(system.time):
         raise UsageError(
             'delays are analyzed in discrete time only; this system has "time": "continuous"'
         )

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from mcexact.errors import InputError, UsageError
+from mcexact.exact.location import is_discrete
 from mcexact.exact.matrix import Matrix
 from mcexact.model.matrix_json import matrix_json
 from mcexact.model.names import quoted
@@ -184,7 +185,7 @@ class Controller:
                 raise InputError(
                     f"agent {quoted(names[j])} is no follower", where=f"agents[{i}].hold"
                 )
-        if agent.hold and self.time != "discrete":
+        if agent.hold and not is_discrete(self.time):
             raise InputError("only discrete time can hold a signal", where=f"agents[{i}].hold")
         sizes = (agent.shared, agent.private, system.p(i))
         for label, each, nrows in zip(MAPS, agent.maps(), sizes, strict=True):

@@ -35,7 +35,7 @@ def verdict_tables(found: ControllerVerdict) -> tuple[Table, ...]:
         _decided(found),
     ]
     if found.largest is not None:
-        told = say.LARGEST if region.time == "continuous" else say.LEAST
+        told = say.LEAST if region.discrete else say.LARGEST
         rows.append(told.row(bound=found.largest))
     return (Table(say.LOOP(), (), tuple(rows)),)
 

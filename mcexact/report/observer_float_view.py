@@ -7,7 +7,6 @@ from typing import Any
 
 from mcexact.answer.wording import design as say
 from mcexact.exact.floats import matrix_to_float
-from mcexact.exact.location import StabilityRegion
 from mcexact.floating.margins import LoopMargins, loop_margins
 from mcexact.report.text import Table
 from mcexact.synthesis.observer_float import FloatObserverDesign
@@ -20,7 +19,7 @@ def observer_float_view(design: FloatObserverDesign, margins: LoopMargins) -> di
         "arithmetic": "float",
         "agent": design.agent,
         "order": design.controller.order,
-        "certified_bound": str(design.bound),
+        "certified_bound": str(design.region.bound),
         "bits_of_longest_number": design.height,
         "floating_point": {
             "gain_norms": design.gain_norms(),
@@ -34,14 +33,13 @@ def observer_float_view(design: FloatObserverDesign, margins: LoopMargins) -> di
 
 def observer_float_tables(design: FloatObserverDesign, margins: LoopMargins) -> tuple[Table, ...]:
     """The summary: one table of what is certified, one of what is measured."""
-    time = design.loop.loop.time
     proved = (
         say.CARRIER.row(agent=design.agent, order=design.order),
         say.ORDER.row(order=design.controller.order),
-        say.REGION.row(region=StabilityRegion(time, design.bound)),
+        say.REGION.row(region=design.region),
         say.LONGEST.row(bits=design.height),
     )
-    what = "abscissa" if time == "continuous" else "radius"
+    what = "radius" if design.region.discrete else "abscissa"
     norms = ", ".join(f"{name} {norm:.3g}" for name, norm in design.gain_norms().items())
     measured = (
         ("norms of the gains", norms),

@@ -14,6 +14,7 @@ from mcexact.derived.error_system import error_system
 from mcexact.derived.feedback import feedback
 from mcexact.exact.blocks import block, hstack, kronecker, vstack
 from mcexact.exact.linear_algebra import characteristic_polynomial
+from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.neighbor_graph import NeighborGraph
@@ -104,7 +105,7 @@ def centralized_feedback(note: Notebook) -> None:
     """II-C: A + Σ B_i F_i gets any spectrum by one F split into the F_i."""
     for name, plant in plants(10):
         note.on(name)
-        wanted = default_polynomial("continuous", Fraction(1), plant.n)
+        wanted = default_polynomial(StabilityRegion.of("continuous", rate=1), plant.n)
         found = state_feedback(plant, wanted)
         B, F = plant.input_matrix(), vstack(list(found.gains), ncols=plant.n)
         parts = sum(

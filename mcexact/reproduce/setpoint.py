@@ -10,6 +10,7 @@ from mcexact.derived.integrators import setpoint_system
 from mcexact.errors import Impossible
 from mcexact.exact.blocks import block, vstack
 from mcexact.exact.linear_algebra import characteristic_polynomial, determinant, rank, solve
+from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.system import MultiChannelSystem
@@ -68,7 +69,9 @@ def any_stabilizing_control(note: Notebook) -> None:
         if not joint_controllability(made).controllable:
             continue
         note.on(name)
-        F = state_feedback(made, default_polynomial("continuous", Fraction(1), made.n))
+        F = state_feedback(
+            made, default_polynomial(StabilityRegion.of("continuous", rate=1), made.n)
+        )
         loop = made.A + made.input_matrix() @ vstack(list(F.gains), ncols=made.n)
         q = made.n - plant.n
         R = vstack([Matrix.zeros(plant.n, q), Matrix.identity(q)])

@@ -12,12 +12,12 @@ from mcexact.analysis.stability import (
     Separation,
     StabilityVerdict,
     certify_stability,
-    largest_certified_rate,
+    fastest_region,
 )
 from mcexact.errors import LimitReached, UsageError
 from mcexact.exact.floats import matrix_to_float
-from mcexact.exact.location import region as named_region
-from mcexact.exact.rational import Entry, as_fraction
+from mcexact.exact.location import StabilityRegion
+from mcexact.exact.rational import Entry, to_float
 from mcexact.floating.margins import spectral_bound
 from mcexact.model.closed_loop import closed_loop
 from mcexact.model.controller import Controller
@@ -105,12 +105,8 @@ def certify_controller(
     False
     """
     tell = progress or (lambda _: None)
-    asked = named_region(
-        system.time,
-        None if rate is None else as_fraction(rate, where="rate"),
-        None if radius is None else as_fraction(radius, where="radius"),
-    )
-    if largest and asked.bound is not None:
+    region = StabilityRegion.of(system.time, rate, radius)
+    if largest and region.bound is not None:
         raise UsageError("either look for the largest rate or give one")
     tell("the closed loop")
     loop = closed_loop(system, controller, graph)
@@ -122,23 +118,22 @@ def certify_controller(
         tell("the largest rate")
         best = _largest(loop, separation)
     tell("the decision")
-    bound = best if largest else asked.bound
-    verdict = _decided(loop, bound, method, separation)
+    verdict = _decided(loop, best or region, method, separation)
     used = separation.sizes if separation is not None and verdict.method == "lyapunov" else None
-    return ControllerVerdict(verdict, loop, used or (loop.n,), best)
+    return ControllerVerdict(verdict, loop, used or (loop.n,), None if best is None else best.bound)
 
 
 def _decided(
     loop: MultiChannelSystem,
-    bound: Fraction | None,
+    region: StabilityRegion,
     method: Method | None,
     separation: Separation | None,
 ) -> StabilityVerdict:
     """Decide by Lyapunov matrices if the loop is large, else by its characteristic polynomial."""
     if method is not None or loop.n <= POLYNOMIAL_LIMIT:
-        return certify_stability(loop, bound, method=method, separation=separation)
+        return certify_stability(loop, region, method=method, separation=separation)
     try:
-        return certify_stability(loop, bound, method="lyapunov", separation=separation)
+        return certify_stability(loop, region, method="lyapunov", separation=separation)
     except UsageError:
         if loop.n > _POLYNOMIAL_UNASKED:
             raise LimitReached(
@@ -146,34 +141,32 @@ def _decided(
                 "characteristic polynomial takes long: ask for the method polynomial, or for "
                 "another bound"
             ) from None
-    return certify_stability(loop, bound, method="polynomial")
+    return certify_stability(loop, region, method="polynomial")
 
 
-def _largest(loop: MultiChannelSystem, separation: Separation | None) -> Fraction | None:
+def _largest(loop: MultiChannelSystem, separation: Separation | None) -> StabilityRegion | None:
     """By bisection over the polynomial, or over parts of the computed bound for large loops."""
     import numpy as np
 
-    floats = matrix_to_float(loop.A)
+    floats, whole = matrix_to_float(loop.A), StabilityRegion(loop.time)
     if loop.n <= POLYNOMIAL_LIMIT or not np.all(np.isfinite(floats)):
-        return largest_certified_rate(loop)
-    discrete = loop.time == "discrete"
-    computed = spectral_bound(floats, loop.time)
-    spare = Fraction(1 - computed if discrete else -computed).limit_denominator(10**6)
+        return fastest_region(loop)
+    spare = Fraction(to_float(whole.limit) - spectral_bound(floats, loop.time))
+    spare = spare.limit_denominator(10**6)
     if spare <= 0:
         return None
-    holds, fails = 0, _PARTS_TRIED
+    best, holds, fails = None, 0, _PARTS_TRIED
     while fails - holds > 1:
         middle = (holds + fails) // 2
-        bound = _part(spare, middle, discrete=discrete)
+        # The region that uses so many of `_PARTS_TRIED` parts of what the eigenvalues leave.
+        region = whole.tightened(spare * middle / _PARTS_TRIED, offset=1)
         try:
-            proved = certify_stability(loop, bound, method="lyapunov", separation=separation).stable
+            found = certify_stability(loop, region, method="lyapunov", separation=separation)
+            proved = found.stable
         except UsageError:
             proved = False
-        holds, fails = (middle, fails) if proved else (holds, middle)
-    return _part(spare, holds, discrete=discrete) if holds else None
-
-
-def _part(spare: Fraction, k: int, *, discrete: bool) -> Fraction:
-    """The bound that uses k of `_PARTS_TRIED` parts of what the computed eigenvalues leave."""
-    part = spare * k / _PARTS_TRIED
-    return 1 - part if discrete else part
+        if proved:
+            best, holds = region, middle
+        else:
+            fails = middle
+    return best

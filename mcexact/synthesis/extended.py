@@ -25,7 +25,7 @@ from mcexact.synthesis.gate import CertifiedClosedLoop
 from mcexact.synthesis.network_candidates import ArithmeticKind, Progress
 from mcexact.synthesis.network_design import NetworkDesign, design_network
 from mcexact.synthesis.networks import NetworkKind, shared_network
-from mcexact.synthesis.spectrum import convergence_bound
+from mcexact.synthesis.spectrum import wanted_region
 
 Dimensions = str | Sequence[int]
 """``"minimal"``, ``"bound"``, or n_1 … n_m."""
@@ -171,10 +171,10 @@ modes that are not fast enough: agents 2 and 3 can receive from nobody and lack 
     if kind not in ("extended", "lifted", "held"):
         raise UsageError(f'expected "extended", "lifted" or "held", found {kind!r}')
     sharing: Share = share or ("states" if kind == "held" else "outputs+states")
-    bound = convergence_bound(system.time, rate, radius, needed=spectrum is None)
+    region = wanted_region(system.time, rate, radius, spectrum=spectrum)
     tell = progress or (lambda _: None)
     tell("shared dimensions")
-    allocation, sizes = _sizes(system, dimensions, sharing, kind, bound, free_assignability)
+    allocation, sizes = _sizes(system, dimensions, sharing, region, free_assignability)
     derived = shared_network(system, found, sizes, sharing, kind)
     design = design_network(
         derived,
@@ -192,8 +192,7 @@ def _sizes(
     system: MultiChannelSystem,
     dimensions: Dimensions,
     share: Share,
-    kind: NetworkKind,
-    bound: Any,
+    region: StabilityRegion,
     free_assignability: bool,
 ) -> tuple[SharedDimensions | SharedDimensionBound | None, tuple[int, ...]]:
     """n_1 … n_m, and where they come from."""
@@ -208,9 +207,9 @@ def _sizes(
             where="dimensions",
         )
     least = minimal_shared_dimensions(
-        system, share=share, bound=bound, free_assignability=free_assignability
+        system, share=share, bound=region.bound, free_assignability=free_assignability
     )
-    if least.dimensions is None and bound is None:
+    if least.dimensions is None and region.bound is None:
         # Not every mode can be freed; the stable ones may stay.
         stable = _rate_of_stable_modes(system)
         least = minimal_shared_dimensions(
@@ -233,10 +232,11 @@ def _sizes(
 
 def _rate_of_stable_modes(system: MultiChannelSystem) -> Fraction:
     """A rate that every stable mode of A meets; in discrete time the radius 1."""
-    if system.time == "discrete":
-        return Fraction(1)
+    region = StabilityRegion(system.time)
+    if region.discrete:
+        return region.edge
     modes = [p for p, _ in characteristic_polynomial(system.A).factor()]
-    stable = [p for p in modes if StabilityRegion(system.time).contains_roots_of(p)]
+    stable = [p for p in modes if region.contains_roots_of(p)]
     rate = Fraction(1)
     while not all(StabilityRegion(system.time, rate).contains_roots_of(p) for p in stable):
         rate /= 2

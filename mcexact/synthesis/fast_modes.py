@@ -42,8 +42,7 @@ def feedback_for_region(system: MultiChannelSystem, region: StabilityRegion) -> 
     Examples
     --------
     >>> system = MultiChannelSystem([[1, 0], [0, -9]], [[[1], [0]]], [[[1, 1]]])
-    >>> from fractions import Fraction
-    >>> str(feedback_for_region(system, StabilityRegion("continuous", Fraction(1))).polynomial)
+    >>> str(feedback_for_region(system, StabilityRegion("continuous", 1)).polynomial)
     'x^2 + 11*x + 18'
     """
     if region.bound is None:
@@ -51,7 +50,7 @@ def feedback_for_region(system: MultiChannelSystem, region: StabilityRegion) -> 
     decided = joint_controllability(system)
     B = system.input_matrix()
     if decided.controllable:
-        polynomial = default_polynomial(system.time, region.bound, system.n)
+        polynomial = default_polynomial(region, system.n)
         gains = split_by_channel(system, assigning_feedback(system.A, B, polynomial))
         return given_feedback(system, gains)
     rest = decided.uncontrollable_polynomial
@@ -63,7 +62,7 @@ def feedback_for_region(system: MultiChannelSystem, region: StabilityRegion) -> 
     found = controllable_subspace(system.A, B, generator(system, "controllability"))
     pivots = list(found.pivots)
     A1 = (system.A @ found.X).take(rows=pivots)
-    polynomial = default_polynomial(system.time, region.bound, len(pivots))
+    polynomial = default_polynomial(region, len(pivots))
     F1 = assigning_feedback(A1, B.take(rows=pivots), polynomial)
     selection = Matrix.identity(system.n).take(rows=pivots)
     return given_feedback(system, split_by_channel(system, F1 @ selection))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import Any
 
 from mcexact.analysis.closed_loop_spectrum import agreeing_moduli
@@ -103,7 +102,7 @@ def certify_observer(
     feedback: Polynomial,
     error: Polynomial,
     *,
-    bound: Fraction | None = None,
+    region: StabilityRegion | None = None,
     graph: NeighborGraph | None = None,
 ) -> CertifiedClosedLoop:
     """Verify the separation of a distributed observer, and the spectra of both parts.
@@ -116,8 +115,8 @@ def certify_observer(
         Every agent shares an estimate of the n states.
     feedback, error : Polynomial
         The characteristic polynomials of A + Σ B_i F_i and of the error system.
-    bound : Fraction, optional
-        A rate or radius that every root of both meets.
+    region : StabilityRegion, optional
+        Where every root of both lies.
     graph : NeighborGraph, optional
 
     Raises
@@ -136,10 +135,11 @@ def certify_observer(
     """
     loop = closed_loop(system, controller, graph)
     M_F, M_E = separated(loop.A, system.n, [agent.private for agent in controller.agents])
-    if bound is not None:
-        region = StabilityRegion(system.time, bound)
-        if not (region.contains_roots_of(feedback) and region.contains_roots_of(error)):
-            raise InternalError(f"a root does not meet the bound {bound}")
+    bound = None
+    if region is not None and region.bound is not None:
+        bound = region.bound
+        if not all(map(region.contains_roots_of, (feedback, error))):
+            raise InternalError(f"a root is not in the region {region}")
     seed = generator(loop, "distributed_observer").getrandbits(64)
     moduli = agreeing_moduli([(M_F, feedback), (M_E, error)], seed)
     certificate = DistributedObserverCertificate(
@@ -152,12 +152,12 @@ def certify_rate(
     system: MultiChannelSystem,
     controller: Controller,
     *,
-    bound: Fraction | None = None,
+    region: StabilityRegion | None = None,
     graph: NeighborGraph | None = None,
     separation: Separation | None = None,
     method: Method | None = None,
 ) -> CertifiedClosedLoop:
-    """Verify that every eigenvalue of a loop meets a rate or a radius.
+    """Verify that every eigenvalue of a loop lies in a region.
 
     Parameters
     ----------
@@ -165,8 +165,8 @@ def certify_rate(
         A plant.
     controller : Controller
         Any one, from anywhere.
-    bound : Fraction, optional
-        A rate (continuous time) or a radius (discrete time); by default stability alone.
+    region : StabilityRegion, optional
+        By default that of stability.
     graph : NeighborGraph, optional
     separation : Separation, optional
         To go block by block; see `observer_separation`.
@@ -176,7 +176,7 @@ def certify_rate(
     Raises
     ------
     Impossible
-        If an eigenvalue does not meet the bound; the certificate proves it.
+        If an eigenvalue lies outside; the certificate proves it.
     UsageError
         If the method asked for does not decide.
 
@@ -185,7 +185,7 @@ def certify_rate(
     Exact (`proofs/stability.md`), whatever arithmetic the controller was designed in.
     """
     loop = closed_loop(system, controller, graph)
-    verdict = certify_stability(loop, bound, method=method, separation=separation)
+    verdict = certify_stability(loop, region, method=method, separation=separation)
     if not verdict.stable:
         raise Impossible(say.OUTSIDE(region=verdict.region), verdict.certificate)
     return CertifiedClosedLoop(loop, controller, None, verdict.certificate, _KEY)

@@ -14,6 +14,7 @@ from mcexact.analysis.modular_system import generator
 from mcexact.derived.feedback import closed_by
 from mcexact.errors import InputError, InternalError
 from mcexact.exact.linear_algebra import characteristic_polynomial
+from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial, product
 from mcexact.synthesis.channel_controller import (
@@ -49,7 +50,7 @@ class NetworkTask:
     choices: tuple[tuple[int, ...], ...]
     spectrum: FixedSpectrum
     prescribed: Any
-    bound: Fraction | None
+    region: StabilityRegion
     arithmetic: ArithmeticKind
     tell: Progress
 
@@ -59,7 +60,7 @@ class NetworkTask:
     def polynomial(self, channel: int, degree: int, *, only: bool) -> Polynomial:
         """The prescribed polynomial of the block with this channel."""
         if self.prescribed is None:
-            return default_polynomial(self.network.plant.time, self.bound or Fraction(0), degree)
+            return default_polynomial(self.region, degree)
         if only and not isinstance(self.prescribed, Mapping):
             return spectrum_polynomial(self.prescribed, degree, where="spectrum.closed_loop")
         names = self.network.plant.names
@@ -159,13 +160,12 @@ def _riccati_controller(
     """The controller with the smallest gains among the channels that move as much as this one."""
     system = task.network.system
     rng = generator(system, "channel_controller")
-    bound = task.bound or Fraction(int(system.time == "discrete"))
     best: tuple[int, ChannelController | None] = (reach.channel, None)
     for q in next(choice for choice in task.choices if reach.channel in choice):
         part = channel_part(M, system.B(q), system.C(q), rng)
         if part.A.nrows != reach.degree:
             continue
-        found = riccati_channel_controller(part, system.time, bound)
+        found = riccati_channel_controller(part, task.region)
         if found is not None and (best[1] is None or found.largest < best[1].largest):
             best = (q, found)
     return best

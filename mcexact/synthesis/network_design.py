@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
@@ -29,7 +28,7 @@ from mcexact.synthesis.network_candidates import (
     best_candidate,
 )
 from mcexact.synthesis.networks import DerivedNetwork, network_programs
-from mcexact.synthesis.spectrum import convergence_bound
+from mcexact.synthesis.spectrum import wanted_region
 
 _ATTEMPTS = 96
 _MORE_ATTEMPTS = 600
@@ -183,20 +182,20 @@ def design_network(
     of order k_q, one less than the smaller of its indices; in floating point an observer-based one
     from two Riccati equations, of the order of the part.
     """
-    bound = convergence_bound(network.plant.time, rate, radius, needed=spectrum is None)
+    region = wanted_region(network.plant.time, rate, radius, spectrum=spectrum)
     prescribed = _prescribed(spectrum)
     if arithmetic == "float" and prescribed is not None:
         raise UsageError(
-            "in floating point give a rate or radius; a spectrum needs --arithmetic exact"
+            "in floating point give a rate or radius; a spectrum needs exact arithmetic"
         )
     if q is not None:
         network.plant.index(q)
     tell = progress or (lambda _: None)
     tell("fixed modes")
     fixed = fixed_spectrum(network.system)
-    _require_fast(network, fixed, bound)
+    _require_fast(network, fixed, region)
     components, choices = _choices(network, q)
-    task = NetworkTask(network, components, choices, fixed, prescribed, bound, arithmetic, tell)
+    task = NetworkTask(network, components, choices, fixed, prescribed, region, arithmetic, tell)
     tell("decentralized gains")
     for attempts in (_ATTEMPTS, _MORE_ATTEMPTS):
         found = best_candidate(task, drawn_gains(network.system, choices, attempts=attempts))
@@ -225,9 +224,9 @@ def _prescribed(spectrum: Any) -> Any:
     return spectrum
 
 
-def _require_fast(network: DerivedNetwork, fixed: FixedSpectrum, bound: Fraction | None) -> None:
+def _require_fast(network: DerivedNetwork, fixed: FixedSpectrum, region: StabilityRegion) -> None:
     """Refuse a network with a fixed mode that is too slow."""
-    slow = fixed.outside(StabilityRegion(network.plant.time, bound))
+    slow = fixed.outside(region)
     if not slow:
         return
     told = say.FIXED if network.graph is None else say.FIXED_SHARED
@@ -267,11 +266,11 @@ def _certified(task: NetworkTask, candidate: NetworkCandidate) -> NetworkDesign:
     polynomial = Polynomial(whole.coefficients[unused:])
     loop = certify_spectrum(network.plant, controller, polynomial, network.graph)
     stability = None
-    if task.bound is not None:
-        stability = certify_stability(loop.loop, task.bound)
+    if task.region.bound is not None:
+        stability = certify_stability(loop.loop, task.region)
         if not stability.stable:
             raise InputError(
-                f"the prescribed numbers do not meet the bound {task.bound}", where="spectrum"
+                f"the prescribed numbers do not all satisfy {task.region}", where="spectrum"
             )
     names = network.plant.names
     blocks = tuple(

@@ -23,7 +23,7 @@ from mcexact.synthesis.fast_modes import feedback_for_region, observable_part
 from mcexact.synthesis.gate import CertifiedClosedLoop, certify_observer, certify_rate
 from mcexact.synthesis.observer_programs import observer_programs
 from mcexact.synthesis.observer_search import ObserverTask, Progress, best_channel_controller
-from mcexact.synthesis.spectrum import convergence_bound, spectrum_polynomial
+from mcexact.synthesis.spectrum import spectrum_polynomial, wanted_region
 from mcexact.synthesis.state_feedback import (
     StateFeedback,
     given_feedback,
@@ -202,7 +202,7 @@ H_ij let one agent control and observe all estimation errors
             "the distributed observer has no delays on its wires; remove them, or design with an "
             "extended system"
         )
-    bound = convergence_bound(system.time, rate, radius, needed=spectrum is None)
+    region = wanted_region(system.time, rate, radius, spectrum=spectrum)
     if order not in (None, "least"):
         raise UsageError(f'expected order "least" or none, found {order!r}', where="order")
     if arithmetic not in ("exact", "float"):
@@ -211,23 +211,23 @@ H_ij let one agent control and observe all estimation errors
     wanted = _checked_spectrum(spectrum, gains)
     agent = 0 if q is None else system.index(q)
     if arithmetic == "float":
-        if bound is None or wanted:
+        if region.bound is None or wanted:
             raise UsageError(
                 "a design in floating point takes a rate or a radius; a spectrum needs "
                 'arithmetic "exact"'
             )
-        return _in_floating_point(system, found, agent, bound, gains, order == "least", tell)
-    if spectrum is None and gains is None and bound is not None:
+        return _in_floating_point(system, found, agent, region, gains, order == "least", tell)
+    if spectrum is None and gains is None and region.bound is not None:
         hidden = joint_observability(system).uncontrollable_polynomial
-        if hidden.degree > 0 and StabilityRegion(system.time, bound).contains_roots_of(hidden):
-            return _of_the_observable_part(system, found, agent, bound, order == "least", tell)
+        if hidden.degree > 0 and region.contains_roots_of(hidden):
+            return _of_the_observable_part(system, found, agent, region, order == "least", tell)
     tell("state feedback")
-    feedback = _feedback(system, wanted.get("feedback"), bound, gains)
+    feedback = _feedback(system, wanted.get("feedback"), region, gains)
     tell("lists K, H for the error system")
     error = error_system(system, feedback.gains, found)
     least = order == "least"
     return _certified(
-        ObserverTask(system, found, agent, feedback, error, wanted, bound, least, tell)
+        ObserverTask(system, found, agent, feedback, error, wanted, region, least, tell)
     )
 
 
@@ -245,7 +245,7 @@ def _certified(task: ObserverTask) -> ObserverDesign:
         controller,
         task.feedback.polynomial,
         polynomial,
-        bound=task.bound,
+        region=task.region,
         graph=task.graph,
     )
     agent = task.system.names[task.agent]
@@ -257,10 +257,8 @@ def _certified(task: ObserverTask) -> ObserverDesign:
 
 def _require_bound(task: ObserverTask, polynomial: Polynomial, what: str) -> None:
     """Refuse gains or a spectrum from outside that do not meet a rate or radius given besides."""
-    if task.bound is None:
-        return
-    region = StabilityRegion(task.system.time, task.bound)
-    if not region.contains_roots_of(polynomial):
+    region = task.region
+    if region.bound is not None and not region.contains_roots_of(polynomial):
         raise UsageError(
             f"the spectrum of {what} that was asked for is not in the region {region} that was "
             "asked for besides; give the one or the other"
@@ -271,7 +269,7 @@ def _in_floating_point(
     system: MultiChannelSystem,
     graph: NeighborGraph,
     agent: int,
-    bound: Fraction,
+    region: StabilityRegion,
     gains: Sequence[Any] | None,
     least: bool,
     tell: Progress,
@@ -281,7 +279,7 @@ def _in_floating_point(
 
     given = None if gains is None else checked_gains(system, gains, [system.n] * system.m)
     return design_observer_float(
-        system, graph, agent, bound, gains=given, reduced=least, progress=tell
+        system, graph, agent, region, gains=given, reduced=least, progress=tell
     )
 
 
@@ -289,17 +287,17 @@ def _of_the_observable_part(
     system: MultiChannelSystem,
     graph: NeighborGraph,
     agent: int,
-    bound: Fraction,
+    region: StabilityRegion,
     least: bool,
     tell: Progress,
 ) -> ObserverDesign:
     """The design for what all channels together see; what they do not see is fast enough."""
     part, L = observable_part(system)
-    feedback = feedback_for_region(part, StabilityRegion(system.time, bound))
+    feedback = feedback_for_region(part, region)
     error = error_system(part, feedback.gains, graph)
-    design = _certified(ObserverTask(part, graph, agent, feedback, error, {}, bound, least, tell))
+    design = _certified(ObserverTask(part, graph, agent, feedback, error, {}, region, least, tell))
     controller = replace(design.controller, system=digest(system))
-    loop = certify_rate(system, controller, bound=bound, graph=graph, method="polynomial")
+    loop = certify_rate(system, controller, region=region, graph=graph, method="polynomial")
     return replace(design, controller=controller, loop=loop, estimated=L)
 
 
@@ -327,12 +325,12 @@ def _checked_spectrum(
 def _feedback(
     system: MultiChannelSystem,
     wanted: Any,
-    bound: Fraction | None,
+    region: StabilityRegion,
     gains: Sequence[Any] | None,
 ) -> StateFeedback:
     """F_i with the prescribed polynomial, one for the bound, or the gains from outside."""
     if gains is not None:
         return given_feedback(system, tuple(checked_gains(system, gains, [system.n] * system.m)))
-    if wanted is None and bound is not None:
-        return feedback_for_region(system, StabilityRegion(system.time, bound))
+    if wanted is None and region.bound is not None:
+        return feedback_for_region(system, region)
     return state_feedback(system, spectrum_polynomial(wanted, system.n, where="spectrum.feedback"))

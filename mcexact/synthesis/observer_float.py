@@ -15,10 +15,9 @@ from mcexact.derived.error_system import error_system
 from mcexact.derived.feedback import closed_by
 from mcexact.errors import Impossible, LimitReached, UsageError
 from mcexact.exact.floats import dyadic_matrix, matrix_to_float
-from mcexact.exact.location import StabilityRegion
+from mcexact.exact.location import StabilityRegion, is_discrete
 from mcexact.exact.matrix import Matrix
-from mcexact.exact.rational import to_float
-from mcexact.floating.margins import spectral_bound
+from mcexact.floating.margins import is_within
 from mcexact.model.closed_loop import closed_loop_matrix
 from mcexact.model.controller import Controller
 from mcexact.model.neighbor_graph import NeighborGraph
@@ -57,8 +56,8 @@ class FloatObserverDesign:
     loop : CertifiedClosedLoop
     agent : str
         q, whose channel controller observes and moves all errors.
-    bound : Fraction
-        The certified rate or radius.
+    region : StabilityRegion
+        The certified one.
     feedback : tuple of Matrix
         F_i, p_i×n, dyadic.
     lists : tuple of Matrix
@@ -76,7 +75,7 @@ class FloatObserverDesign:
     controller: Controller
     loop: CertifiedClosedLoop
     agent: str
-    bound: Fraction
+    region: StabilityRegion
     feedback: tuple[Matrix, ...]
     lists: tuple[Matrix, ...]
     G: Matrix
@@ -127,13 +126,13 @@ def design_observer_float(
     system: MultiChannelSystem,
     graph: NeighborGraph,
     agent: int,
-    bound: Fraction,
+    region: StabilityRegion,
     *,
     gains: Sequence[Matrix] | None = None,
     reduced: bool = False,
     progress: Progress,
 ) -> FloatObserverDesign:
-    """Design a distributed observer for a rate or a radius by Riccati equations; certify it.
+    """Design a distributed observer for a region by Riccati equations; certify it.
 
     Parameters
     ----------
@@ -144,7 +143,7 @@ def design_observer_float(
         Without delays.
     agent : int
         q, counted from 0.
-    bound : Fraction
+    region : StabilityRegion
     gains : sequence of m Matrix, optional
         F_i (p_i×n) from outside.
     reduced : bool
@@ -172,10 +171,9 @@ def design_observer_float(
     on the versions of numpy and scipy, and so do the controller and its certificate.
     """
     _require_doubles(system)
-    region = StabilityRegion(system.time, bound)
     tried = 0
     for margin in _MARGINS:
-        target = _target(system.time, bound, margin)
+        target = region.tightened(margin)
         progress("state feedback")
         F = _state_feedback(system, target) if gains is None else tuple(gains)
         if F is None:
@@ -192,13 +190,13 @@ def design_observer_float(
             progress("certificate")
             observer = each.observer
             controller = observer_programs(system, graph, agent, F, each.lists, observer.channel)
-            loop = _certified(system, graph, controller, bound, observer.Y)
+            loop = _certified(system, graph, controller, region, observer.Y)
             if loop is not None:
                 return FloatObserverDesign(
                     controller,
                     loop,
                     system.names[agent],
-                    bound,
+                    region,
                     F,
                     each.lists,
                     each.G,
@@ -229,14 +227,11 @@ def _require_doubles(system: MultiChannelSystem) -> None:
             )
 
 
-def _target(time: str, bound: Fraction, margin: Fraction) -> float:
-    """What to design for, so that the bound is met with something to spare."""
-    return to_float(bound * (1 + margin) if time == "continuous" else bound * (1 - margin))
-
-
-def _state_feedback(system: MultiChannelSystem, target: float) -> tuple[Matrix, ...] | None:
+def _state_feedback(
+    system: MultiChannelSystem, target: StabilityRegion
+) -> tuple[Matrix, ...] | None:
     """Dyadic F_i by a Riccati equation; None if there is no solution."""
-    rounded = _gain(system.A, system.input_matrix(), system.time, target)
+    rounded = _gain(system.A, system.input_matrix(), target)
     if rounded is None:
         return None
     gains, start = [], 0
@@ -259,7 +254,7 @@ def _drawn_lists(
     """
     import numpy as np
 
-    n, discrete = system.n, system.time == "discrete"
+    n, discrete = system.n, is_discrete(system.time)
     rng = np.random.default_rng(generator(error, "lists").getrandbits(64))
     spread = float(np.max(np.abs(np.linalg.eigvals(matrix_to_float(system.A))), initial=1.0))
     strengths = (0.5, 1.0, 0.0) if discrete else (2 * spread, spread, 4 * spread)
@@ -280,23 +275,27 @@ def _drawn_lists(
 
 
 def _solved(
-    error: MultiChannelSystem, agent: int, lists: tuple[Matrix, ...], target: float, reduced: bool
+    error: MultiChannelSystem,
+    agent: int,
+    lists: tuple[Matrix, ...],
+    target: StabilityRegion,
+    reduced: bool,
 ) -> list[_Candidate]:
     """Observers of the errors under these lists, of full order and, if asked for, of reduced."""
     import numpy as np
 
     E, B, C = closed_by(error, lists), error.B(agent), error.C(agent)
-    G = _gain(E, B, error.time, target)
+    G = _gain(E, B, target)
     if G is None:
         return []
     made = []
-    L = _gain(E.T, C.T, error.time, target)
+    L = _gain(E.T, C.T, target)
     if L is not None:
         made.append(full_order_observer(E, B, C, -G, -L.T))
     if reduced:
 
         def gain(E22: Matrix, E12: Matrix) -> Matrix | None:
-            found = _gain(E22.T, E12.T, error.time, target)
+            found = _gain(E22.T, E12.T, target)
             return None if found is None else -found.T
 
         less = reduced_order_observer(E, B, C, -G, gain)
@@ -308,33 +307,27 @@ def _solved(
     ]
 
 
-def _gain(A: Matrix, B: Matrix, time: str, target: float) -> Matrix | None:
+def _gain(A: Matrix, B: Matrix, target: StabilityRegion) -> Matrix | None:
     """A dyadic F for A + B F by a Riccati equation; None if there is no solution."""
     floats, inputs = matrix_to_float(A), matrix_to_float(B)
-    F = _first_feedback(floats, inputs, time, target)
-    return None if F is None else _rounded(floats, inputs, F, time, target)
+    F = _first_feedback(floats, inputs, target)
+    return None if F is None else _rounded(floats, inputs, F, target)
 
 
-def _first_feedback(A: Floats, B: Floats, time: str, target: float) -> Floats | None:
+def _first_feedback(A: Floats, B: Floats, target: StabilityRegion) -> Floats | None:
     """A gain with the least effort that leads to a solution that computes as fast enough."""
     for effort in _EFFORTS:
-        F = riccati_feedback(A, B, time, target, effort=effort)
-        if F is not None and _is_reached(A + B @ F, time, target):
+        F = riccati_feedback(A, B, target, effort=effort)
+        if F is not None and is_within(A + B @ F, target):
             return F
     return None
 
 
-def _is_reached(M: Floats, time: str, target: float) -> bool:
-    """Whether the computed eigenvalues meet the target."""
-    computed = spectral_bound(M, time)
-    return computed < (-target if time == "continuous" else target)
-
-
-def _rounded(A: Floats, B: Floats, F: Floats, time: str, target: float) -> Matrix:
+def _rounded(A: Floats, B: Floats, F: Floats, target: StabilityRegion) -> Matrix:
     """A gain in few bits if these are enough, else in as many as a double has."""
     few, many = _BITS
     found = dyadic_matrix(F, few)
-    reached = _is_reached(A + B @ matrix_to_float(found), time, target)
+    reached = is_within(A + B @ matrix_to_float(found), target)
     return found if reached else dyadic_matrix(F, many)
 
 
@@ -342,7 +335,7 @@ def _certified(
     system: MultiChannelSystem,
     graph: NeighborGraph,
     controller: Controller,
-    bound: Fraction,
+    region: StabilityRegion,
     Y: Matrix,
 ) -> CertifiedClosedLoop | None:
     """The loop through the gate, block by block; None if Lyapunov matrices do not prove it."""
@@ -350,7 +343,7 @@ def _certified(
     separation = observer_separation(M, system.n, controller, Y)
     try:
         return certify_rate(
-            system, controller, bound=bound, graph=graph, separation=separation, method="lyapunov"
+            system, controller, region=region, graph=graph, separation=separation, method="lyapunov"
         )
     except (Impossible, UsageError):
         return None

@@ -16,6 +16,7 @@ from mcexact.analysis.gains import ReachingGains, error_gain_draws, reaching_gai
 from mcexact.analysis.modular_system import generator
 from mcexact.answer.wording import refusals as say
 from mcexact.errors import Impossible, InputError, LimitReached
+from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
@@ -42,7 +43,7 @@ class ObserverTask:
     feedback: StateFeedback
     error: MultiChannelSystem
     wanted: Mapping[str, Any]
-    bound: Fraction | None
+    region: StabilityRegion
     least: bool
     tell: Progress
 
@@ -50,7 +51,7 @@ class ObserverTask:
         """The prescribed polynomial of the error system, of this degree."""
         if "error" in self.wanted:
             return spectrum_polynomial(self.wanted["error"], degree, where="spectrum.error")
-        return default_polynomial(self.system.time, self.bound or Fraction(0), degree)
+        return default_polynomial(self.region, degree)
 
     def center(self) -> Fraction:
         """The mean of the prescribed numbers; 0 where their number is not the usual one."""

@@ -5,6 +5,9 @@ from __future__ import annotations
 import warnings
 from typing import TYPE_CHECKING
 
+from mcexact.exact.location import StabilityRegion
+from mcexact.exact.rational import to_float
+
 if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
@@ -13,17 +16,16 @@ if TYPE_CHECKING:
 
 
 def riccati_feedback(
-    A: Floats, B: Floats, time: str, bound: float, *, effort: float = 1.0
+    A: Floats, B: Floats, region: StabilityRegion, *, effort: float = 1.0
 ) -> Floats | None:
-    """F that brings the spectrum of A + B F within a rate or a radius, in floating point.
+    """F that brings the spectrum of A + B F into a region, in floating point.
 
     Parameters
     ----------
     A : ndarray, n × n
     B : ndarray, n × p
-    time : {"continuous", "discrete"}
-    bound : float
-        A rate α ≥ 0 or a radius ρ in (0, 1].
+    region : StabilityRegion
+        Of a rate α ≥ 0 or a radius ρ.
     effort : float
         The weight of the input against that of the state.
 
@@ -41,14 +43,14 @@ def riccati_feedback(
     --------
     >>> import numpy as np
     >>> A, B = np.array([[0.0, 1.0], [0.0, 0.0]]), np.array([[0.0], [1.0]])
-    >>> F = riccati_feedback(A, B, "continuous", 2.0)
+    >>> F = riccati_feedback(A, B, StabilityRegion("continuous", 2))
     >>> bool(np.linalg.eigvals(A + B @ F).real.max() < -2)
     True
     """
     import numpy as np
     from scipy.linalg import LinAlgError, solve_continuous_are, solve_discrete_are
 
-    n, p = B.shape
+    (n, p), bound = B.shape, to_float(region.edge)
     if n == 0 or p == 0:
         return np.zeros((p, n))
     Q, R = np.eye(n), effort * np.eye(p)
@@ -56,15 +58,15 @@ def riccati_feedback(
         # What comes out is certified exactly or thrown away.
         warnings.simplefilter("ignore")
         try:
-            if time == "continuous":
-                X = solve_continuous_are(A + bound * np.eye(n), B, Q, R)
-                F: Floats = np.asarray(-(B.T @ X) / effort, dtype=np.float64)
-            else:
+            if region.discrete:
                 scaled = B / bound
                 X = solve_discrete_are(A / bound, scaled, Q, R)
                 weighted = scaled.T @ X
                 gain = np.linalg.solve(R + weighted @ scaled, weighted @ (A / bound))
-                F = np.asarray(-gain, dtype=np.float64)
+            else:
+                X = solve_continuous_are(A + bound * np.eye(n), B, Q, R)
+                gain = (B.T @ X) / effort
+            F: Floats = np.asarray(-gain, dtype=np.float64)
         except (LinAlgError, ValueError):
             return None
     return F if np.all(np.isfinite(F)) else None

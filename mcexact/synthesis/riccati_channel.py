@@ -6,10 +6,9 @@ from fractions import Fraction
 
 from mcexact.exact.floats import dyadic_matrix, matrix_to_float
 from mcexact.exact.linear_algebra import characteristic_polynomial
-from mcexact.exact.location import bounded_region
+from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.rational import to_float
 from mcexact.synthesis.channel_controller import ChannelController
 from mcexact.synthesis.channel_parts import ChannelPart
 from mcexact.synthesis.riccati import riccati_feedback
@@ -20,7 +19,7 @@ _MARGINS = (Fraction(0), Fraction(1, 16), Fraction(1, 4))
 
 
 def riccati_channel_controller(
-    part: ChannelPart, time: str, bound: Fraction
+    part: ChannelPart, region: StabilityRegion
 ) -> ChannelController | None:
     """An observer and a state feedback for a minimal triple, fast enough or nothing.
 
@@ -28,9 +27,7 @@ def riccati_channel_controller(
     ----------
     part : ChannelPart
         d states.
-    time : {"continuous", "discrete"}
-    bound : Fraction
-        A rate ≥ 0 or a radius.
+    region : StabilityRegion
 
     Returns
     -------
@@ -43,8 +40,8 @@ def riccati_channel_controller(
     Floating point proposes G and L, as dyadic rationals that depend on the processor and on the
     versions of numpy and scipy; the rest is exact.
     """
-    G = _gain(part.A, part.B, time, bound)
-    L = None if G is None else _gain(part.A.T, part.C.T, time, bound)
+    G = _gain(part.A, part.B, region)
+    L = None if G is None else _gain(part.A.T, part.C.T, region)
     if G is None or L is None:
         return None
     feedback, injection = part.A + part.B @ G[0], part.A + L[0].T @ part.C
@@ -54,14 +51,13 @@ def riccati_channel_controller(
     )  # fmt: skip
 
 
-def _gain(A: Matrix, B: Matrix, time: str, bound: Fraction) -> tuple[Matrix, Polynomial] | None:
-    """A gain with which A + BG meets the bound, and the polynomial that proves it."""
-    region = bounded_region(time, bound)
+def _gain(A: Matrix, B: Matrix, region: StabilityRegion) -> tuple[Matrix, Polynomial] | None:
+    """A gain that brings A + BG into the region, and the polynomial that proves it."""
     states, inputs = matrix_to_float(A), matrix_to_float(B)
     for effort in _EFFORTS:
         for margin in _MARGINS:
-            faster = bound * (1 - margin) if time == "discrete" else bound + margin * (1 + bound)
-            found = riccati_feedback(states, inputs, time, to_float(faster), effort=effort)
+            target = region.tightened(margin, offset=1)
+            found = riccati_feedback(states, inputs, target, effort=effort)
             if found is None:
                 break
             G = dyadic_matrix(found, bits=_BITS)

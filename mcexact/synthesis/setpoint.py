@@ -16,7 +16,7 @@ from mcexact.derived.integrators import setpoint_system
 from mcexact.errors import Impossible, InputError, InternalError, UsageError
 from mcexact.exact.blocks import block, hstack, vstack
 from mcexact.exact.linear_algebra import solve
-from mcexact.exact.location import StabilityRegion
+from mcexact.exact.location import StabilityRegion, steady_point
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.closed_loop import closed_loop_matrix, loop_layout, reference_matrix
@@ -28,7 +28,7 @@ from mcexact.synthesis.extended import Dimensions, design_extended
 from mcexact.synthesis.gate import CertifiedClosedLoop, certify_rate, certify_spectrum
 from mcexact.synthesis.network_candidates import ArithmeticKind, Progress
 from mcexact.synthesis.observer import design_observer
-from mcexact.synthesis.spectrum import convergence_bound
+from mcexact.synthesis.spectrum import wanted_region
 
 Road = Literal["observer", "extended"]
 
@@ -152,10 +152,10 @@ invariant zero of the plant
         raise UsageError("a controller is designed for a plant, not for a derived system")
     if road not in ("observer", "extended"):
         raise UsageError(f'expected "observer" or "extended", found {road!r}', where="road")
-    bound = convergence_bound(system.time, rate, radius, needed=spectrum is None)
+    region = wanted_region(system.time, rate, radius, spectrum=spectrum)
     solvability = _required(system)
     augmented = setpoint_system(system)
-    _require_reachable(augmented, bound)
+    _require_reachable(augmented, region)
     alone = MultiChannelSystem(
         augmented.A,
         [channel.B for channel in augmented.channels],
@@ -166,14 +166,14 @@ invariant zero of the plant
     )
     task = _Task(alone, q, spectrum, road, dimensions, arithmetic, progress)
     try:
-        made, polynomial = task.designed(_aim(system.time, bound, task))
+        made, polynomial = task.designed(_aim(region, task))
     except Impossible:
         try:
-            made, polynomial = task.designed(bound)
+            made, polynomial = task.designed(region)
         except Impossible as refused:
             raise _about_the_plant(refused, augmented) from None
     controller = with_integrators(system, made)
-    return _certified(system, controller, polynomial, bound, solvability, road, arithmetic)
+    return _certified(system, controller, polynomial, region, solvability, road, arithmetic)
 
 
 @dataclass(frozen=True)
@@ -188,10 +188,10 @@ class _Task:
     arithmetic: ArithmeticKind
     progress: Progress | None
 
-    def designed(self, bound: Fraction | None) -> tuple[Controller, Polynomial | None]:
+    def designed(self, region: StabilityRegion) -> tuple[Controller, Polynomial | None]:
         """A controller, and the polynomial of the loop where the design proves it."""
-        alone, name = self.alone, "rate" if self.alone.time == "continuous" else "radius"
-        given: dict[str, Any] = {name: bound, "progress": self.progress}
+        alone = self.alone
+        given: dict[str, Any] = {region.word: region.bound, "progress": self.progress}
         if self.road == "extended":
             found = design_extended(
                 alone,
@@ -214,13 +214,13 @@ class _Task:
         return proposed.controller, proposed.loop.polynomial
 
 
-def _aim(time: str, bound: Fraction | None, task: _Task) -> Fraction | None:
+def _aim(region: StabilityRegion, task: _Task) -> StabilityRegion:
     """Where to place the numbers that nobody prescribed: beyond the rate that is certified.
 
     Roots that repeat, behind large gains, take many time constants to fade.
     """
-    free = task.spectrum is None and task.arithmetic == "exact" and time == "continuous"
-    return bound if bound is None or not free else 3 * bound
+    free = task.spectrum is None and task.arithmetic == "exact" and not region.discrete
+    return region.tightened(Fraction(2)) if free else region
 
 
 def _about_the_plant(refused: Impossible, augmented: MultiChannelSystem) -> Impossible:
@@ -244,13 +244,12 @@ def _required(system: MultiChannelSystem) -> SetpointSolvability:
     told = say.NO_EQUILIBRIUM_ZERO if found.invariant_zero else say.NO_EQUILIBRIUM
     if not found.combinations.nrows:
         told = say.MODE_OF_THE_INTEGRATORS
-    place = int(system.time == "discrete")
+    place = steady_point(system.time)
     raise Impossible(told(w=found.combinations.rows(), place=place), found.certificate)
 
 
-def _require_reachable(augmented: MultiChannelSystem, bound: Fraction | None) -> None:
+def _require_reachable(augmented: MultiChannelSystem, region: StabilityRegion) -> None:
     """Refuse modes that nobody controls or observes and that are not fast enough."""
-    region = StabilityRegion(augmented.time, bound)
     for decide, verb in ((joint_controllability, "control"), (joint_observability, "observe")):
         decision = decide(augmented)
         if not region.contains_roots_of(decision.uncontrollable_polynomial):
@@ -284,7 +283,7 @@ def with_integrators(system: MultiChannelSystem, controller: Controller) -> Cont
         for each in agent.maps():
             if any(j != i and not M.is_zero() for j, M in each.outputs.items()):
                 raise InputError("an agent uses the integrators of another one")
-        stay = Matrix.identity(q) * int(system.time == "discrete")
+        stay = Matrix.identity(q) * steady_point(system.time)
         moved = [
             _on_own_state(each, i, size, q, k)
             for each, size in zip(agent.maps(), (agent.shared, k, system.p(i)), strict=True)
@@ -329,7 +328,7 @@ def steady_gain(
     """
     layout = loop_layout(system, controller, graph)
     M, R = closed_loop_matrix(system, controller, graph), reference_matrix(layout)
-    place = int(system.time == "discrete")
+    place = steady_point(system.time)
     steady = solve(Matrix.identity(M.nrows) * place - M, R)
     if steady is None:
         return None
@@ -340,7 +339,7 @@ def _certified(
     system: MultiChannelSystem,
     controller: Controller,
     polynomial: Polynomial | None,
-    bound: Fraction | None,
+    region: StabilityRegion,
     solvability: SetpointSolvability,
     road: str,
     arithmetic: str,
@@ -348,10 +347,10 @@ def _certified(
     """Prove the spectrum or the rate of the loop with the plant itself, and its steady gain."""
     if polynomial is not None:
         loop = certify_spectrum(system, controller, polynomial)
-        stability = certify_stability(loop.loop, bound)
+        stability = certify_stability(loop.loop, region)
     else:
-        loop = certify_rate(system, controller, bound=bound)
-        stability = certify_stability(loop.loop, bound)
+        loop = certify_rate(system, controller, region=region)
+        stability = certify_stability(loop.loop, region)
     if not stability.stable:
         raise InputError("the prescribed numbers do not make a stable loop", where="spectrum")
     gain = steady_gain(system, controller)

@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 from mcexact.errors import InputError, UsageError
-from mcexact.exact.location import region
+from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import as_fraction
 
@@ -144,60 +144,55 @@ def require_numbers(spectrum: Any, where: str = "spectrum") -> None:
             _factor(entry, f"{where}[{k}]")
 
 
-def default_polynomial(time: str, bound: Fraction, degree: int) -> Polynomial:
-    """A polynomial of small height with every root in the region that a rate or a radius names.
+def default_polynomial(region: StabilityRegion, degree: int) -> Polynomial:
+    """A polynomial of small height with every root in a region.
 
     Parameters
     ----------
-    time : {"continuous", "discrete"}
-    bound : Fraction
-        R: every root gets real part below −R (continuous), or modulus below R (discrete).
+    region : StabilityRegion
     degree : int
 
     Returns
     -------
     Polynomial
-        Continuous time: the roots −c, −c−1, −c−2, −c, … with c the least integer above R.  Discrete
-        time: x^degree (deadbeat), which meets every radius and has the least height.
+        Continuous time: the roots −c, −c−1, −c−2, −c, … with c the least integer above the rate.
+        Discrete time: x^degree (deadbeat), which meets every radius and has the least height.
 
     Examples
     --------
-    >>> str(default_polynomial("continuous", Fraction(1, 2), 2))
+    >>> str(default_polynomial(StabilityRegion.of("continuous", rate="1/2"), 2))
     'x^2 + 3*x + 2'
     """
-    if time == "discrete":
+    if region.discrete:
         return Polynomial((Fraction(0),) * degree + (Fraction(1),))
-    least = bound.numerator // bound.denominator + 1
+    least = region.edge.numerator // region.edge.denominator + 1
     result = Polynomial((Fraction(1),))
     for k in range(degree):
         result = result * Polynomial((Fraction(least + k % 3), Fraction(1)))
     return result
 
 
-def convergence_bound(
-    time: str, rate: Any = None, radius: Any = None, *, needed: bool = False
-) -> Fraction | None:
-    """The rate in continuous time, or the radius in discrete time, checked.
+def wanted_region(
+    time: str, rate: Any = None, radius: Any = None, *, spectrum: Any = None
+) -> StabilityRegion:
+    """The region of a design; without a bound if a spectrum is prescribed and nothing else.
 
     Parameters
     ----------
     time : {"continuous", "discrete"}
     rate, radius : rational, optional
-        At most the one that belongs to the time domain; rate > 0, 0 < radius ≤ 1.
-    needed : bool
-        Whether leaving both out is an error.
+        See `StabilityRegion.of`.
+    spectrum : optional
+        The prescribed numbers.
 
     Raises
     ------
     UsageError
-        If the one is given that belongs to the other time domain, or it is out of range.
+        If there is neither; or as in `StabilityRegion.of`.
     """
-    found = region(
-        time,
-        None if rate is None else as_fraction(rate, where="rate"),
-        None if radius is None else as_fraction(radius, where="radius"),
-    )
-    if needed and found.bound is None:
-        name = "rate" if time == "continuous" else "radius"
-        raise UsageError(f"give a {name} or a spectrum: nothing says how fast the loop must be")
-    return found.bound
+    region = StabilityRegion.of(time, rate, radius)
+    if spectrum is None and region.bound is None:
+        raise UsageError(
+            f"give a {region.word} or a spectrum: nothing says how fast the loop must be"
+        )
+    return region

@@ -14,7 +14,6 @@ from mcexact.analysis.allocation import (
     shared_dimension_bound,
 )
 from mcexact.analysis.communication import minimal_communication
-from mcexact.analysis.stability import certify_stability
 from mcexact.certificate import Certificate, encode
 from mcexact.checker.kinds import check_document
 from mcexact.derived.augmented_outputs import augmented_outputs
@@ -211,7 +210,7 @@ def test_what_is_infeasible_is_proved_by_one_node() -> None:
 
 def test_a_radius_of_0_is_not_taken_for_the_unit_disc() -> None:
     discrete = MultiChannelSystem([[0]], [[[1]]], [[[1]]], time="discrete", neighbors={})
-    for decide in (minimal_shared_dimensions, minimal_communication, certify_stability):
+    for decide in (minimal_shared_dimensions, minimal_communication):
         with pytest.raises(UsageError, match="a radius above 0"):
             decide(discrete, bound=0)
 

@@ -6,6 +6,7 @@ import pytest
 
 from mcexact.analysis.lyapunov import decrease, is_dominant, quadratic_form
 from mcexact.analysis.smith_doubling import doubled_lyapunov
+from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 
 
@@ -25,8 +26,8 @@ def far_from_normal(time: str, states: int = 8) -> Matrix:
 )
 def test_the_residual_is_the_identity(time, bound):
     D = far_from_normal(time, 3)
-    P = doubled_lyapunov(D, time, bound)
-    S = decrease(D, P, time, bound)
+    P = doubled_lyapunov(D, StabilityRegion(time, bound))
+    S = decrease(D, P, StabilityRegion(time, bound))
     off = S - Matrix.identity(3)
     assert max(abs(x) for row in off.rows() for x in row) < Fraction(1, 10**30)
 
@@ -35,7 +36,7 @@ def test_the_residual_is_the_identity(time, bound):
     ("time", "bound"), [("continuous", Fraction(3)), ("discrete", Fraction(1, 4))]
 )
 def test_an_eigenvalue_outside_leaves_no_solution(time, bound):
-    assert doubled_lyapunov(far_from_normal(time, 3), time, bound) is None
+    assert doubled_lyapunov(far_from_normal(time, 3), StabilityRegion(time, bound)) is None
 
 
 @pytest.mark.parametrize(
@@ -43,11 +44,12 @@ def test_an_eigenvalue_outside_leaves_no_solution(time, bound):
 )
 def test_what_defeats_double_precision_is_decided(time, bound):
     D = far_from_normal(time)
-    form = quadratic_form(D, time, bound)
+    form = quadratic_form(D, StabilityRegion(time, bound))
     assert form is not None and form.R is not None
     assert is_dominant(form.R.T @ form.P @ form.R)
-    assert is_dominant(form.R2.T @ decrease(D, form.P, time, bound) @ form.R2)
+    assert is_dominant(form.R2.T @ decrease(D, form.P, StabilityRegion(time, bound)) @ form.R2)
 
 
 def test_numbers_beyond_doubles_leave_the_question_open():
-    assert quadratic_form(Matrix.from_rows([[-(10**400)]]), "continuous", Fraction(1)) is None
+    far = Matrix.from_rows([[-(10**400)]])
+    assert quadratic_form(far, StabilityRegion("continuous", Fraction(1))) is None

@@ -12,13 +12,14 @@ from mcexact.analysis.stability import (
     Separation,
     StabilityVerdict,
     certify_stability,
-    largest_certified_rate,
+    fastest_region,
     matrix_system,
 )
 from mcexact.certificate import encode
 from mcexact.checker.kinds import check_document
 from mcexact.errors import FloatRefused, UsageError
 from mcexact.exact.blocks import block_diagonal
+from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 
 NEAR = Fraction(1, 10**9)
@@ -98,10 +99,10 @@ def test_a_loop_is_certified_block_by_block() -> None:
     inverse = Matrix.from_rows([[1, 0, 0], [-1, 1, 0], [1, -1, 1]])
     loop = matrix_system(T @ Delta @ inverse)
     separation = Separation(T, Delta, (1, 2))
-    verdict = certify_stability(loop, "1/2", separation=separation)
+    verdict = certify_stability(loop, rate="1/2", separation=separation)
     assert verdict.stable and verdict.method == "lyapunov"
     assert_valid(verdict)
-    late = certify_stability(loop, 1, separation=separation)
+    late = certify_stability(loop, rate=1, separation=separation)
     assert not late.stable and late.method == "polynomial"
     assert_valid(late)
 
@@ -133,14 +134,14 @@ def test_lyapunov_matrices_do_not_decide_on_the_boundary() -> None:
 @pytest.mark.parametrize("size", [1, 45])
 def test_a_bound_beyond_floats_is_decided_by_the_polynomial(size: int) -> None:
     loop = matrix_system(Matrix.identity(size) * -1)
-    assert not certify_stability(loop, 10**400).stable
+    assert not certify_stability(loop, rate=10**400).stable
     with pytest.raises(UsageError, match="leave the method open"):
-        certify_stability(loop, 10**400, method="lyapunov")
+        certify_stability(loop, rate=10**400, method="lyapunov")
 
 
 def test_a_quadratic_form_means_what_it_says() -> None:
     D = with_eigenvalues(Fraction(-1), 8)
-    form = quadratic_form(D, "continuous", Fraction(1, 2))
+    form = quadratic_form(D, StabilityRegion("continuous", Fraction(1, 2)))
     assert form is not None and form.R is not None
     S = -(D.T @ form.P + form.P @ D + form.P)
     assert form.P == form.P.T
@@ -149,15 +150,15 @@ def test_a_quadratic_form_means_what_it_says() -> None:
 
 def test_the_largest_rate_is_found_by_bisection() -> None:
     loop = matrix_system(with_eigenvalues(Fraction(-3, 7), 6))
-    rate = largest_certified_rate(loop, accuracy=Fraction(1, 1000))
-    assert rate is not None and rate < Fraction(3, 7) <= rate + Fraction(1, 1000)
-    assert_valid(certify_stability(loop, rate))
+    found = fastest_region(loop, accuracy=Fraction(1, 1000))
+    assert found is not None and found.edge < Fraction(3, 7) <= found.edge + Fraction(1, 1000)
+    assert_valid(certify_stability(loop, found))
     shrinking = matrix_system(hidden([[[Fraction(2, 3)]], [[Fraction(-1, 2)]]]), "discrete")
-    radius = largest_certified_rate(shrinking, accuracy=Fraction(1, 1000))
-    assert radius is not None and radius - Fraction(1, 1000) <= Fraction(2, 3) < radius
-    assert largest_certified_rate(matrix_system(Matrix.from_rows([[1]]))) is None
+    found = fastest_region(shrinking, accuracy=Fraction(1, 1000))
+    assert found is not None and found.edge - Fraction(1, 1000) <= Fraction(2, 3) < found.edge
+    assert fastest_region(matrix_system(Matrix.from_rows([[1]]))) is None
     with pytest.raises(UsageError, match="positive"):
-        largest_certified_rate(loop, accuracy=0)
+        fastest_region(loop, accuracy=0)
 
 
 def test_a_loop_may_be_a_list_of_rows() -> None:
@@ -171,3 +172,11 @@ def test_no_states_are_stable() -> None:
         verdict = certify_stability(matrix_system(Matrix.zeros(0, 0)), method=method)  # type: ignore[arg-type]
         assert verdict.stable
         assert_valid(verdict)
+
+
+def test_a_region_of_the_other_time_domain_is_refused() -> None:
+    loop = matrix_system([[-1]])
+    for options in ({}, {"rate": 1}):
+        with pytest.raises(UsageError, match="region of the time domain of the loop"):
+            time = "continuous" if options else "discrete"
+            certify_stability(loop, StabilityRegion(time), **options)  # type: ignore[arg-type]

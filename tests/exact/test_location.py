@@ -7,8 +7,8 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from mcexact.errors import InputError, UsageError
-from mcexact.exact.location import StabilityRegion, in_region, is_hurwitz, is_schur
+from mcexact.errors import FloatRefused, InputError, UsageError
+from mcexact.exact.location import StabilityRegion, is_hurwitz, is_schur
 from mcexact.exact.polynomial import Polynomial, product
 from tests.exact.draws import polynomials
 
@@ -45,11 +45,13 @@ def test_numpy_agrees_away_from_the_boundary(p):
 def test_a_bound_moves_the_region(p, numerator, denominator):
     assume(not p.is_zero())
     R = Fraction(numerator, denominator)
-    assert in_region(p, "continuous", rate=R) == is_hurwitz(p.compose_shift(-R))
+    faster = StabilityRegion.of("continuous", rate=R)
+    assert faster.contains_roots_of(p) == is_hurwitz(p.compose_shift(-R))
     radius = min(R, Fraction(1))
-    assert in_region(p, "discrete", radius=radius) == is_schur(p.scale(radius))
-    assert in_region(p, "discrete") == is_schur(p)
-    assert in_region(p, "continuous") == is_hurwitz(p)
+    smaller = StabilityRegion.of("discrete", radius=radius)
+    assert smaller.contains_roots_of(p) == is_schur(p.scale(radius))
+    assert StabilityRegion.of("discrete").contains_roots_of(p) == is_schur(p)
+    assert StabilityRegion.of("continuous").contains_roots_of(p) == is_hurwitz(p)
 
 
 def test_roots_on_the_boundary_are_outside():
@@ -58,8 +60,9 @@ def test_roots_on_the_boundary_are_outside():
     assert not is_hurwitz(Polynomial.of(1, 1, 1, 1))
     assert not is_schur(Polynomial.of(1, 1))
     assert not is_schur(Polynomial.of(1, "6/5", 1))
-    assert not in_region(Polynomial.of(2, 1), "continuous", rate=Fraction(2))
-    assert not in_region(Polynomial.of(-1, 2), "discrete", radius=Fraction(1, 2))
+    assert not StabilityRegion.of("continuous", rate=2).contains_roots_of(Polynomial.of(2, 1))
+    half = StabilityRegion.of("discrete", radius="1/2")
+    assert not half.contains_roots_of(Polynomial.of(-1, 2))
 
 
 def test_constants_have_no_root_that_could_be_outside():
@@ -108,11 +111,31 @@ def test_a_bound_out_of_range_is_wrong_usage(time, bound, message):
 
 
 def test_the_bound_of_the_other_time_is_wrong_usage():
-    p = Polynomial.of(1, 1)
     with pytest.raises(UsageError, match="a radius is for discrete time; give a rate"):
-        in_region(p, "continuous", radius=Fraction(1))
+        StabilityRegion.of("continuous", radius=1)
     with pytest.raises(UsageError, match="a rate is for continuous time; give a radius"):
-        in_region(p, "discrete", rate=Fraction(1))
+        StabilityRegion.of("discrete", rate=1)
+    with pytest.raises(UsageError, match="give a bound or a radius, not both"):
+        StabilityRegion.of("discrete", radius=1, bound=1)
+    with pytest.raises(FloatRefused, match="rate"):
+        StabilityRegion.of("continuous", rate=0.5)
+
+
+def test_a_bound_as_certificates_write_it_may_be_the_rate_0():
+    assert StabilityRegion.of("continuous", bound=0) == StabilityRegion("continuous")
+    assert StabilityRegion.of("discrete", bound=1).bound == 1
+    with pytest.raises(UsageError, match="expected a radius above 0"):
+        StabilityRegion.of("discrete", bound=0)
+
+
+@pytest.mark.parametrize("time", ["continuous", "discrete"])
+@pytest.mark.parametrize("bound", [None, "1/3"])
+def test_a_tightened_region_lies_inside(time, bound):
+    region = StabilityRegion.of(time, bound=bound)
+    inner = region.tightened(Fraction(1, 8), offset=1)
+    assert inner.limit < region.limit
+    at_the_edge = Polynomial.of(-inner.limit, 1)
+    assert region.contains_roots_of(at_the_edge) and not inner.contains_roots_of(at_the_edge)
 
 
 def test_regions_show_their_inequality():

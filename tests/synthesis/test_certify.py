@@ -7,6 +7,7 @@ import pytest
 from mcexact.certificate import encode
 from mcexact.checker import check_document
 from mcexact.errors import Impossible, LimitReached, UsageError
+from mcexact.exact.location import StabilityRegion
 from mcexact.model.local_controllers import local_controllers
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis import certify
@@ -86,9 +87,9 @@ def test_a_bound_of_the_other_time_domain_is_wrong_usage():
 
 
 def test_the_gate_lets_no_slow_loop_through():
-    assert_valid(certify_rate(PLANT, STATIC, bound=Fraction(1)).certificate)
+    assert_valid(certify_rate(PLANT, STATIC, region=StabilityRegion("continuous", 1)).certificate)
     with pytest.raises(
         Impossible, match="not every eigenvalue of the loop satisfies Re λ < -2"
     ) as refusal:
-        certify_rate(PLANT, STATIC, bound=Fraction(2))
+        certify_rate(PLANT, STATIC, region=StabilityRegion("continuous", 2))
     assert_valid(refusal.value.certificate)

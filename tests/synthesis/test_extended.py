@@ -159,7 +159,7 @@ def test_without_holding_the_loop_has_another_spectrum_and_a_proven_verdict() ->
     loop = closed_loop(plant, hasty)
     chi = characteristic_polynomial(loop.A)
     assert chi != Polynomial.from_roots(FREE[:15])
-    verdict = certify_stability(loop, 1)
+    verdict = certify_stability(loop)
     assert check_document(encode(verdict.certificate).encode()).verdict == "VALID"
     run = simulate(plant, hasty, horizon=120)
     grows = max(map(abs, run.snapshots[120].plant)) > max(map(abs, run.snapshots[60].plant))

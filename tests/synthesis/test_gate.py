@@ -9,6 +9,7 @@ from mcexact.certificate import encode
 from mcexact.checker import check_document
 from mcexact.errors import InternalError
 from mcexact.exact.linear_algebra import characteristic_polynomial
+from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.controller import LinearMap
@@ -56,9 +57,13 @@ def test_another_program_does_not_pass(design):
 
 
 def test_a_bound_that_does_not_hold_does_not_pass(design):
-    with pytest.raises(InternalError, match="does not meet the bound"):
+    with pytest.raises(InternalError, match="a root is not in the region"):
         certify_observer(
-            three_channels(), design.controller, design.feedback.polynomial, design.error, bound=1
+            three_channels(),
+            design.controller,
+            design.feedback.polynomial,
+            design.error,
+            region=StabilityRegion("continuous", 1),
         )
 
 

@@ -7,7 +7,7 @@ import pytest
 from mcexact.errors import FloatRefused, InputError, UsageError
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial
-from mcexact.synthesis.spectrum import convergence_bound, default_polynomial, spectrum_polynomial
+from mcexact.synthesis.spectrum import default_polynomial, spectrum_polynomial, wanted_region
 
 
 @pytest.mark.parametrize(
@@ -56,9 +56,10 @@ def test_a_float_is_refused():
 @pytest.mark.parametrize(("time", "bound"), [("continuous", "5/2"), ("discrete", "1/3")])
 @pytest.mark.parametrize("degree", [0, 1, 7])
 def test_the_default_meets_its_bound(time, bound, degree):
-    p = default_polynomial(time, Fraction(bound), degree)
+    region = StabilityRegion(time, Fraction(bound))
+    p = default_polynomial(region, degree)
     assert p.degree == degree and p.is_monic()
-    assert StabilityRegion(time, Fraction(bound)).contains_roots_of(p)
+    assert region.contains_roots_of(p)
 
 
 @pytest.mark.parametrize(
@@ -70,15 +71,15 @@ def test_the_default_meets_its_bound(time, bound, degree):
         ("continuous", {"rate": -1}),
         ("discrete", {"radius": 0}),
         ("discrete", {"radius": 2}),
-        ("discrete", {"needed": True}),
-        ("continuous", {"needed": True}),
+        ("discrete", {}),
+        ("continuous", {}),
     ],
 )
 def test_the_wrong_bound_is_wrong_usage(time, options):
     with pytest.raises(UsageError):
-        convergence_bound(time, **options)
+        wanted_region(time, **options)
 
 
-def test_a_bound_may_be_left_out():
-    assert convergence_bound("continuous") is None
-    assert convergence_bound("discrete", radius="1/2") == Fraction(1, 2)
+def test_a_bound_may_be_left_out_beside_a_spectrum():
+    assert wanted_region("continuous", spectrum=[-1]).bound is None
+    assert wanted_region("discrete", radius="1/2").bound == Fraction(1, 2)

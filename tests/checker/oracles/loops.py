@@ -84,7 +84,9 @@ def draw_stability(seed: int) -> Document | None:
     bound = rng.choice([None, Fraction(1, 4), Fraction(1, 2)])
     method = "lyapunov" if seed % 3 else "polynomial"
     try:
-        found = certify_stability(matrix_system(M, time), bound, method=method)  # type: ignore[arg-type]
+        found = certify_stability(
+            matrix_system(M, time), StabilityRegion(time, bound), method=method
+        )  # type: ignore[arg-type]
     except ValueError:
         return None
     document: Document = json.loads(codec.encode(found.certificate))
@@ -96,10 +98,7 @@ def confirms_stability(document: Document) -> bool:
     system, claim = subject_of(document), document["claim"]
     rows = [list(row) for row in system.A.rows()]
     p = Polynomial(enumeration.characteristic_polynomial(rows))
-    bound = None if claim["bound"] is None else Fraction(claim["bound"])
-    if system.time == "continuous" and bound == 0:
-        bound = None
-    inside = StabilityRegion(system.time, bound).contains_roots_of(p)
+    inside = StabilityRegion.of(system.time, bound=claim["bound"]).contains_roots_of(p)
     return claim["stable"] is inside
 
 
