@@ -19,7 +19,7 @@ import time
 from pathlib import Path
 
 import mcexact.checker
-from mcexact.certificate import encode
+from mcexact.answer.codec import encode
 from mcexact.exact.floats import matrix_to_float
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem

@@ -17,8 +17,9 @@ from benchmarks import peers
 from benchmarks.measure import Timing, interleaved
 from mcexact import checker
 from mcexact.analysis.completeness import completeness
-from mcexact.analysis.fixed_spectrum import FixedSpectrum, fixed_spectrum
-from mcexact.certificate import encode
+from mcexact.analysis.fixed_spectrum import fixed_spectrum
+from mcexact.answer.codec import encode
+from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.derived.choices import SeededChoices
 from mcexact.derived.drawn import system_with_fixed_mode
 from mcexact.exact.matrix import Matrix

@@ -43,6 +43,7 @@ if TYPE_CHECKING:
     from mcexact.analysis.stability import certify_stability as certify_stability
     from mcexact.analysis.stability import matrix_system as matrix_system
     from mcexact.analysis.transfer_graph import transfer_graph as transfer_graph
+    from mcexact.answer.check import check as check
     from mcexact.crosscheck.table import crosscheck as crosscheck
     from mcexact.derived.augmented_outputs import augmented_outputs as augmented_outputs
     from mcexact.derived.dual import dual as dual
@@ -59,7 +60,6 @@ if TYPE_CHECKING:
     from mcexact.model.system import MultiChannelSystem as MultiChannelSystem
     from mcexact.model.system_file import load_system as load_system
     from mcexact.model.system_file import save_system as save_system
-    from mcexact.report.verdict import check as check
     from mcexact.simulation.trajectory import simulate as simulate
     from mcexact.synthesis.certify import certify_controller as certify_controller
     from mcexact.synthesis.decentralized import design_decentralized as design_decentralized
@@ -74,7 +74,7 @@ _HOME = {
     "augmented_outputs": "derived.augmented_outputs",
     "certify_controller": "synthesis.certify",
     "certify_stability": "analysis.stability",
-    "check": "report.verdict",
+    "check": "answer.check",
     "crosscheck": "crosscheck.table",
     "design_decentralized": "synthesis.decentralized",
     "design_extended": "synthesis.extended",

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from mcexact.analysis.fixed_spectrum import FixedSpectrum, fixed_spectrum
+from mcexact.analysis.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.invariant_subspace import controllable_subspace, krylov_rows
 from mcexact.analysis.modular_system import generator, residue_systems
 from mcexact.analysis.transfer_graph import TransferGraph, transfer_graph
+from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.certificate.assignability import AssignabilityCertificate, MinimalRealization
 from mcexact.errors import InternalError
 from mcexact.exact.matrix import Matrix

@@ -7,8 +7,8 @@ from math import lcm, prod
 
 from mcexact.analysis.modular_system import generator
 from mcexact.analysis.rate import located
+from mcexact.answer.evidence import RateInterval, RootDisc
 from mcexact.certificate.closed_loop_spectrum import ClosedLoopSpectrumCertificate
-from mcexact.certificate.evidence import RateInterval, RootDisc
 from mcexact.errors import InternalError
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.location import StabilityRegion

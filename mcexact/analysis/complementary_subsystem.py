@@ -9,8 +9,8 @@ from random import Random
 from mcexact.analysis.invariant_form import companions, invariant_form
 from mcexact.analysis.invariant_subspace import controllable_subspace
 from mcexact.analysis.modular_system import generator, residue_systems
+from mcexact.answer.evidence import RootDisc
 from mcexact.certificate.complementary_subsystem import ComplementarySubsystemCertificate
-from mcexact.certificate.evidence import RootDisc
 from mcexact.errors import InternalError, UsageError
 from mcexact.exact.blocks import hstack, vstack
 from mcexact.exact.enclosures import root_discs

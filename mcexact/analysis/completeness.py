@@ -5,11 +5,12 @@ from __future__ import annotations
 import random
 from dataclasses import dataclass
 
-from mcexact.analysis.fixed_spectrum import FixedSpectrum, fixed_spectrum
+from mcexact.analysis.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.invariant_subspace import controllable_subspace
 from mcexact.analysis.modular_system import ModularSystem, generator, lifted_gains
 from mcexact.analysis.obstructions import decide
 from mcexact.analysis.transfer_graph import Arc, suspected_arcs, witnessed_powers, zero_transfer
+from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.certificate.completeness import (
     CompletenessCertificate,
     CutWitness,
@@ -84,10 +85,10 @@ def completeness(
 def _evidence(
     system: MultiChannelSystem, spectrum: FixedSpectrum, rng: random.Random
 ) -> FreedomWitness | FixedModeWitness | CutWitness:
-    for factor in spectrum.factors:
-        return FixedModeWitness(factor.polynomial, factor.subspace)
-    modular = ModularSystem(system, spectrum.certificate.modulus)
-    gains = spectrum.certificate.gains
+    if not spectrum.empty:
+        return FixedModeWitness(spectrum.factors[0].polynomial, spectrum.subspaces[0])
+    modular = ModularSystem(system, spectrum.modulus)
+    gains = spectrum.gains
     while True:
         suspected = suspected_arcs(modular, rng)
         closed = _closed_set(system.m, suspected)

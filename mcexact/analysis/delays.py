@@ -11,8 +11,9 @@ from mcexact.analysis.controllability import (
     joint_controllability,
     joint_observability,
 )
-from mcexact.analysis.fixed_spectrum import FixedSpectrum, fixed_spectrum
+from mcexact.analysis.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.transfer_graph import TransferGraph, transfer_graph
+from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.derived.extended import Share, extended_system
 from mcexact.derived.held import held_system
 from mcexact.derived.lifted import lifted_system

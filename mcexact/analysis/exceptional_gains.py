@@ -11,8 +11,8 @@ from typing import Any
 from mcexact.analysis.controllability import joint_controllability
 from mcexact.analysis.controllability_indices import controllability_indices
 from mcexact.analysis.modular_system import generator
+from mcexact.answer.evidence import RootDisc
 from mcexact.certificate.controllability_indices import ControllabilityIndicesCertificate
-from mcexact.certificate.evidence import RootDisc
 from mcexact.certificate.exceptional_gains import ExceptionalFactor, ExceptionalGainsCertificate
 from mcexact.errors import Impossible, InternalError
 from mcexact.exact.blocks import hstack

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from mcexact.analysis.allocation import shared_dimension_bound
-from mcexact.analysis.fixed_spectrum import FixedSpectrum, fixed_spectrum
+from mcexact.analysis.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.transfer_graph import TransferGraph, transfer_graph
-from mcexact.certificate.fixed_spectrum import FixedSpectrumCertificate
+from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.derived.extended import Share, extended_system
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_graph
@@ -34,9 +34,9 @@ class BoundAttained:
     spectrum: FixedSpectrum
 
     @property
-    def certificate(self) -> FixedSpectrumCertificate:
+    def certificate(self) -> FixedSpectrum:
         """The evidence either way."""
-        return self.spectrum.certificate
+        return self.spectrum
 
 
 def bound_attained(

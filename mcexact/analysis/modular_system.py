@@ -8,7 +8,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from mcexact.certificate.codec import canonical, plain
 from mcexact.exact import krylov
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import (
@@ -18,6 +17,7 @@ from mcexact.exact.modular import (
     primes,
     residues,
 )
+from mcexact.model.canonical import canonical, plain
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import digest
 

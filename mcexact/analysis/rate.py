@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from math import isqrt
 
-from mcexact.certificate.evidence import RateInterval, RootDisc
+from mcexact.answer.evidence import RateInterval, RootDisc
 from mcexact.exact.enclosures import decimal, exact_decimal, root_discs
 from mcexact.exact.location import is_hurwitz
 from mcexact.exact.polynomial import Polynomial, product

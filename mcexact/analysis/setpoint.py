@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import random
-from dataclasses import dataclass
 from functools import reduce
 
 from mcexact.analysis.modular_system import generator
-from mcexact.certificate.setpoint import SetpointCertificate
+from mcexact.answer.setpoint import SetpointSolvability
 from mcexact.errors import InternalError
 from mcexact.exact.blocks import block, hstack, vstack
 from mcexact.exact.linear_algebra import (
@@ -20,37 +19,9 @@ from mcexact.exact.modular import primes, residues
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.polynomial_matrix import PolynomialMatrix
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import canonical_document
 
 _POINTS = 8
 _MINORS = 3
-
-
-@dataclass(frozen=True)
-class SetpointSolvability:
-    """Whether S = [A, B; C, 0] (discrete time: A − I) has full row rank n + Σ q_i.
-
-    Attributes
-    ----------
-    solvable : bool
-        Whether it has: then the plant with an integrator behind every output is jointly
-        controllable if the plant is.
-    rank : int
-    invariant_zero : bool or None
-        When it has not: whether [xI − A, B; C, 0] has full row rank for other x, so that 0
-        (discrete time: 1) is an invariant zero.  If not, the outputs are dependent at every
-        frequency.
-    combinations : Matrix
-        Rows w_2 ≠ 0, one entry for each output: w_2 · r = 0 for every vector r of set-points that
-        an equilibrium holds.  No rows when every set-point can be held.
-    certificate : SetpointCertificate
-    """
-
-    solvable: bool
-    rank: int
-    invariant_zero: bool | None
-    combinations: Matrix
-    certificate: SetpointCertificate
 
 
 def setpoint_solvability(system: MultiChannelSystem) -> SetpointSolvability:
@@ -94,30 +65,17 @@ def setpoint_solvability(system: MultiChannelSystem) -> SetpointSolvability:
         point = _full_rank_point(M0, M1, modulus, rng)
         normal = None if point is not None else _annihilating_row(system, M0, M1, rng)
     zero = None if not W.nrows else point is not None
-    certificate = SetpointCertificate(
-        canonical_document(system.plant),
-        system.subject,
-        W.nrows == 0,
-        rank,
-        zero,
-        modulus,
-        W,
-        pivots,
-        point,
-        normal,
+    return SetpointSolvability(
+        system,
+        solvable=not W.nrows,
+        rank=rank,
+        invariant_zero=zero,
+        modulus=modulus,
+        left=W,
+        pivots=pivots,
+        point=point,
+        normal=normal,
     )
-    combinations, _ = row_echelon(W.take(cols=range(n, S.nrows)))
-    return SetpointSolvability(W.nrows == 0, rank, zero, _scaled(combinations), certificate)
-
-
-def _scaled(rows: Matrix) -> Matrix:
-    """Nonzero rows without denominators, the last nonzero entry positive."""
-    kept = []
-    for row in rows.numerators:
-        last = next((x for x in reversed(row) if x), 0)
-        if last:
-            kept.append([x if last > 0 else -x for x in row])
-    return Matrix.from_integers(kept, ncols=rows.ncols)
 
 
 def _modulus(S: Matrix, rank: int, rng: random.Random) -> int:

@@ -9,7 +9,7 @@ from functools import cached_property
 
 from mcexact.analysis.invariant_subspace import InvariantSubspace, controllable_subspace
 from mcexact.analysis.modular_system import ModularSystem, generator, residue_systems
-from mcexact.certificate.evidence import ZeroTransfer
+from mcexact.answer.evidence import ZeroTransfer
 from mcexact.certificate.transfer_graph import TransferGraphCertificate
 from mcexact.errors import InternalError
 from mcexact.exact.modular import ModularMatrix

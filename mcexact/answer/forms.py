@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+from mcexact.answer.evidence import RateInterval
 from mcexact.answer.formats import (
     channels,
     count,
@@ -22,7 +23,6 @@ from mcexact.answer.formats import (
     polynomial,
     rounded,
 )
-from mcexact.certificate.evidence import RateInterval
 from mcexact.exact.enclosures import exact_decimal
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial

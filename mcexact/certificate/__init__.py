@@ -1,21 +1,26 @@
-"""What evidence is: one frozen dataclass per kind of certificate, and the codec that writes them.
+"""Kinds of certificates whose answers are declared elsewhere still: frozen dataclasses."""
 
-Takes exact objects (matrices, polynomials) from the finder, gives JSON documents in the format of
-``FORMAT.md``, and refuses anything that has no exact form.  Pure data: nothing here decides
-anything, and nothing of the rest of the package is imported.  One file per kind, named as the kind.
-"""
+from __future__ import annotations
 
-from .codec import digest, document, encode, write
-from .evidence import Certificate, RateInterval, RootDisc, ShrunkSubspace, ZeroTransfer
+from dataclasses import dataclass
+from typing import Any, ClassVar
 
-__all__ = [
-    "Certificate",
-    "RateInterval",
-    "RootDisc",
-    "ShrunkSubspace",
-    "ZeroTransfer",
-    "digest",
-    "document",
-    "encode",
-    "write",
-]
+from mcexact.model.canonical import Document
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """A statement about a system, with the evidence for it."""
+
+    kind: ClassVar[str] = ""
+
+    system: Document
+    subject: tuple[Document, ...]
+
+    def claim(self) -> dict[str, Any]:
+        """The statement, as the keys of the kind's ``claim``."""
+        raise NotImplementedError
+
+    def witness(self) -> dict[str, Any]:
+        """The evidence, as the keys of the kind's ``witness``."""
+        raise NotImplementedError

@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from .evidence import Certificate, MatrixLike
-from .transfer_graph import TransferGraphCertificate
+from mcexact.certificate import Certificate
+from mcexact.certificate.transfer_graph import TransferGraphCertificate
+from mcexact.exact.matrix import Matrix
 
 
 @dataclass(frozen=True)
@@ -15,19 +16,19 @@ class MinimalRealization:
 
     Attributes
     ----------
-    X : MatrixLike
+    X : Matrix
         n × a, im X the smallest A-invariant subspace that contains im B_c.
     pivots : tuple of int
         a rows of X that form the identity.
-    W : MatrixLike
+    W : Matrix
         d × a, W A_x = Â W and C_c X = Ĉ W.
     columns : tuple of int
         d columns of W that form the identity.
     """
 
-    X: MatrixLike
+    X: Matrix
     pivots: tuple[int, ...]
-    W: MatrixLike
+    W: Matrix
     columns: tuple[int, ...]
 
     def document(self) -> dict[str, Any]:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from .evidence import Certificate, PolynomialLike
+from mcexact.certificate import Certificate
+from mcexact.exact.polynomial import Polynomial
 
 
 @dataclass(frozen=True)
@@ -14,7 +15,7 @@ class ClosedLoopSpectrumCertificate(Certificate):
 
     Attributes
     ----------
-    polynomial : PolynomialLike
+    polynomial : Polynomial
         Monic, of degree n.
     moduli : tuple of int
         Pairwise coprime, modulo each of which the polynomials agree; their product exceeds twice a
@@ -23,7 +24,7 @@ class ClosedLoopSpectrumCertificate(Certificate):
 
     kind: ClassVar[str] = "closed_loop_spectrum"
 
-    polynomial: PolynomialLike
+    polynomial: Polynomial
     moduli: tuple[int, ...]
 
     def claim(self) -> dict[str, Any]:

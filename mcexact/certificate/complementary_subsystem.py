@@ -5,7 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from .evidence import Certificate, MatrixLike, PolynomialLike
+from mcexact.certificate import Certificate
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.polynomial import Polynomial
 
 
 @dataclass(frozen=True)
@@ -18,10 +20,10 @@ class ComplementarySubsystemCertificate(Certificate):
         s, nonempty and proper, in the order of the system.
     normal_rank : int
         The rank k of P_s over Q(x).
-    invariant_polynomials : tuple of PolynomialLike
+    invariant_polynomials : tuple of Polynomial
         Those of degree at least 1, each dividing the next; the others of the k are 1.  Their roots
         are the invariant zeros.
-    remnant : PolynomialLike
+    remnant : Polynomial
         The product of the first n invariant polynomials.
     transfer_zero : bool
         Whether C_s (xI − A)⁻¹ B_{m−s} = 0.
@@ -31,7 +33,7 @@ class ComplementarySubsystemCertificate(Certificate):
         The number of columns of X that span the controlled part.
     modulus : int
         ℓ ≥ 2 of every rank.
-    evidence : mapping from names to MatrixLike
+    evidence : mapping from names to Matrix
         The matrices X, F, A1, S, B1, L, G and N of ``FORMAT.md``.
     """
 
@@ -39,13 +41,13 @@ class ComplementarySubsystemCertificate(Certificate):
 
     subset: tuple[str, ...]
     normal_rank: int
-    invariant_polynomials: tuple[PolynomialLike, ...]
-    remnant: PolynomialLike
+    invariant_polynomials: tuple[Polynomial, ...]
+    remnant: Polynomial
     transfer_zero: bool
     complete: bool
     reachable: int
     modulus: int
-    evidence: dict[str, MatrixLike]
+    evidence: dict[str, Matrix]
 
     def claim(self) -> dict[str, Any]:
         """The statement, as the keys of the kind's ``claim``."""

@@ -5,7 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from .evidence import Certificate, MatrixLike, PolynomialLike, ShrunkSubspace, ZeroTransfer
+from mcexact.answer.evidence import ShrunkSubspace, ZeroTransfer
+from mcexact.certificate import Certificate
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.polynomial import Polynomial
 
 
 @dataclass(frozen=True)
@@ -16,7 +19,7 @@ class FreedomWitness:
     ----------
     modulus : int
         ℓ ≥ 2 of every congruence.
-    gains : tuple of MatrixLike
+    gains : tuple of Matrix
         F_i, p_i × q_i: χ_A and χ_{A_F} are coprime modulo ℓ.
     arcs : tuple of (str, str, int)
         (j, i, k) with C_i A^k B_j ≠ 0 modulo ℓ, sorted by (from, to), enough of them to make the
@@ -24,7 +27,7 @@ class FreedomWitness:
     """
 
     modulus: int
-    gains: tuple[MatrixLike, ...]
+    gains: tuple[Matrix, ...]
     arcs: tuple[tuple[str, str, int], ...]
 
     def document(self) -> dict[str, Any]:
@@ -38,13 +41,13 @@ class FixedModeWitness:
 
     Attributes
     ----------
-    polynomial : PolynomialLike
+    polynomial : Polynomial
         p, monic of degree at least 1.
     subspace : ShrunkSubspace
         Of deficiency at least 1 for p.
     """
 
-    polynomial: PolynomialLike
+    polynomial: Polynomial
     subspace: ShrunkSubspace
 
     def document(self) -> dict[str, Any]:

@@ -5,7 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from .evidence import Certificate, MatrixLike, PolynomialLike
+from mcexact.certificate import Certificate
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.polynomial import Polynomial
 
 
 @dataclass(frozen=True)
@@ -20,11 +22,11 @@ class ControllabilityCertificate(Certificate):
         d = dim ⟨A | B_T⟩.
     controllable : bool
         Whether d = n.
-    uncontrollable_polynomial : PolynomialLike
+    uncontrollable_polynomial : Polynomial
         Monic, of degree n − d: the characteristic polynomial of A on the quotient.
     modulus : int
         ℓ ≥ 2, modulo which the rank d is reached.
-    annihilator : MatrixLike
+    annihilator : Matrix
         W, (n − d) × n: its columns ``pivots`` form the identity, WA = (WA)[:, pivots] W, WB_T = 0.
     pivots : tuple of int
         n − d columns of W, strictly increasing.
@@ -35,9 +37,9 @@ class ControllabilityCertificate(Certificate):
     channels: tuple[str, ...]
     dimension: int
     controllable: bool
-    uncontrollable_polynomial: PolynomialLike
+    uncontrollable_polynomial: Polynomial
     modulus: int
-    annihilator: MatrixLike
+    annihilator: Matrix
     pivots: tuple[int, ...]
 
     def claim(self) -> dict[str, Any]:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from .evidence import Certificate, MatrixLike
+from mcexact.certificate import Certificate
+from mcexact.exact.matrix import Matrix
 
 
 @dataclass(frozen=True)
@@ -24,7 +25,7 @@ class ControllabilityIndicesCertificate(Certificate):
         κ_1 ≥ κ_2 ≥ …, the conjugate partition of r_1, r_2 − r_1, …
     modulus : int
         ℓ ≥ 2, modulo which the ranks are reached.
-    annihilator : MatrixLike
+    annihilator : Matrix
         W, (n − r_1) × n, of full row rank: its first n − r_k rows annihilate the first k blocks.
     """
 
@@ -35,7 +36,7 @@ class ControllabilityIndicesCertificate(Certificate):
     index: int | None
     indices: tuple[int, ...]
     modulus: int
-    annihilator: MatrixLike
+    annihilator: Matrix
 
     def claim(self) -> dict[str, Any]:
         """The statement, as the keys of the kind's ``claim``."""

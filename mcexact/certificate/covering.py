@@ -6,7 +6,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from .evidence import MatrixLike, PolynomialLike, ShrunkSubspace, ZeroTransfer
+from mcexact.answer.evidence import ShrunkSubspace, ZeroTransfer
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.polynomial import Polynomial
 
 Tree = Sequence[Mapping[str, Any]]
 """The nodes of a branch tree in preorder, as plain data and Fractions, as in ``FORMAT.md``."""
@@ -18,19 +20,19 @@ class Absence:
 
     Attributes
     ----------
-    gains : tuple of MatrixLike
+    gains : tuple of Matrix
         F̄_i of the system that the claim speaks of.
     modulus : int
         ℓ ≥ 2.
-    allowed : tuple of (PolynomialLike, int)
+    allowed : tuple of (Polynomial, int)
         Factors p inside the region, with their exponents in the characteristic polynomial.
     arcs : tuple of (str, str, int), or None
         (j, i, k) with C̄_i Ā^k B̄_j ≠ 0 modulo ℓ.
     """
 
-    gains: tuple[MatrixLike, ...]
+    gains: tuple[Matrix, ...]
     modulus: int
-    allowed: tuple[tuple[PolynomialLike, int], ...] = ()
+    allowed: tuple[tuple[Polynomial, int], ...] = ()
     arcs: tuple[tuple[str, str, int], ...] | None = None
 
     def document(self) -> dict[str, Any]:
@@ -51,7 +53,7 @@ class DeficiencyCut:
     ----------
     subset : tuple of str
         The names of s.
-    polynomial : PolynomialLike
+    polynomial : Polynomial
         p, monic, not inside the region.
     deficiency : int
         d ≥ 1.
@@ -60,7 +62,7 @@ class DeficiencyCut:
     """
 
     subset: tuple[str, ...]
-    polynomial: PolynomialLike
+    polynomial: Polynomial
     deficiency: int
     subspace: ShrunkSubspace
 
@@ -100,13 +102,13 @@ class ArcCut:
 
     Attributes
     ----------
-    polynomial : PolynomialLike
+    polynomial : Polynomial
         p, monic, not inside the region.
     subspace : ShrunkSubspace
         For p, in the system over the given neighbor graph.
     """
 
-    polynomial: PolynomialLike
+    polynomial: Polynomial
     subspace: ShrunkSubspace
 
     def document(self) -> dict[str, Any]:

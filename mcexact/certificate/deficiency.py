@@ -5,7 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from .evidence import Certificate, MatrixLike, PolynomialLike, ShrunkSubspace
+from mcexact.answer.evidence import ShrunkSubspace
+from mcexact.certificate import Certificate
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.polynomial import Polynomial
 
 
 @dataclass(frozen=True)
@@ -18,11 +21,11 @@ class DeficiencyCertificate(Certificate):
         ρ ≥ 0.
     modulus : int
         ℓ ≥ 2, modulo which the characteristic polynomials of A and A_F + B_0 C_0 are coprime.
-    gains : tuple of MatrixLike
+    gains : tuple of Matrix
         F_i, p_i × q_i, one for each channel.
-    B0, C0 : MatrixLike
+    B0, C0 : Matrix
         n × ρ and ρ × n.
-    polynomial : PolynomialLike or None
+    polynomial : Polynomial or None
         p, monic of degree at least 1, at whose roots ρ is reached; None iff ρ = 0.
     subspace : ShrunkSubspace or None
         Of deficiency ρ for p; None iff ρ = 0.
@@ -32,10 +35,10 @@ class DeficiencyCertificate(Certificate):
 
     deficiency: int
     modulus: int
-    gains: tuple[MatrixLike, ...]
-    B0: MatrixLike
-    C0: MatrixLike
-    polynomial: PolynomialLike | None
+    gains: tuple[Matrix, ...]
+    B0: Matrix
+    C0: Matrix
+    polynomial: Polynomial | None
     subspace: ShrunkSubspace | None
 
     def claim(self) -> dict[str, Any]:

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, ClassVar
 
-from .evidence import Certificate, PolynomialLike
+from mcexact.certificate import Certificate
+from mcexact.exact.polynomial import Polynomial
 
 
 @dataclass(frozen=True)
@@ -15,9 +16,9 @@ class DistributedObserverCertificate(Certificate):
 
     Attributes
     ----------
-    feedback : PolynomialLike
+    feedback : Polynomial
         The characteristic polynomial of M_F = A + Σ B_i F_i, of degree n.
-    error : PolynomialLike
+    error : Polynomial
         The characteristic polynomial of M_E, the matrix of the error system.
     bound : Fraction or None
         A certified rate (every real part is below −bound) or radius (every modulus is below it).
@@ -27,8 +28,8 @@ class DistributedObserverCertificate(Certificate):
 
     kind: ClassVar[str] = "distributed_observer"
 
-    feedback: PolynomialLike
-    error: PolynomialLike
+    feedback: Polynomial
+    error: Polynomial
     bound: Fraction | None
     moduli: tuple[int, ...]
 

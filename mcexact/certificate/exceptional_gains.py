@@ -5,7 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from .evidence import Certificate, MatrixLike, PolynomialLike, PolynomialMatrixLike, RootDisc
+from mcexact.answer.evidence import RootDisc
+from mcexact.certificate import Certificate
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.polynomial_matrix import PolynomialMatrix
 
 
 @dataclass(frozen=True)
@@ -14,16 +18,16 @@ class ExceptionalFactor:
 
     Attributes
     ----------
-    polynomial : PolynomialLike
+    polynomial : Polynomial
         f, monic of degree at least 1.
-    row : PolynomialMatrixLike
+    row : PolynomialMatrix
         1 × n, reduced modulo f, with row · [B, (M+gA)B, …] = 0 modulo f.
     pivot : int
         The place of an entry 1.
     """
 
-    polynomial: PolynomialLike
-    row: PolynomialMatrixLike
+    polynomial: Polynomial
+    row: PolynomialMatrix
     pivot: int
 
     def document(self) -> dict[str, Any]:
@@ -37,11 +41,11 @@ class ExceptionalGainsCertificate(Certificate):
 
     Attributes
     ----------
-    M : MatrixLike
+    M : Matrix
         n × n; A and B are those of the subject, all its channels taken together.
     blocks : int
         At least 1.
-    polynomial : PolynomialLike
+    polynomial : Polynomial
         Monic and squarefree.
     roots : tuple of RootDisc
         One for each root of the polynomial, its center real where the root is.
@@ -49,20 +53,20 @@ class ExceptionalGainsCertificate(Certificate):
         ℓ ≥ 2.
     factors : tuple of ExceptionalFactor
         Their product is the polynomial.
-    compressions : tuple of two MatrixLike
+    compressions : tuple of two Matrix
         R and R', blocks·p × n: det(K(g) R), without the factors, and det(K(g) R') are coprime
         modulo ℓ.
     """
 
     kind: ClassVar[str] = "exceptional_gains"
 
-    M: MatrixLike
+    M: Matrix
     blocks: int
-    polynomial: PolynomialLike
+    polynomial: Polynomial
     roots: tuple[RootDisc, ...]
     modulus: int
     factors: tuple[ExceptionalFactor, ...]
-    compressions: tuple[MatrixLike, MatrixLike]
+    compressions: tuple[Matrix, Matrix]
 
     def claim(self) -> dict[str, Any]:
         """The statement, as the keys of the kind's ``claim``."""

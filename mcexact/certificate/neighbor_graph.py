@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from .evidence import Certificate
+from mcexact.certificate import Certificate
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from .evidence import Certificate, PolynomialLike, PolynomialMatrixLike
+from mcexact.certificate import Certificate
+from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.polynomial_matrix import PolynomialMatrix
 
 
 @dataclass(frozen=True)
@@ -16,13 +18,13 @@ class PencilRankCertificate(Certificate):
     ----------
     subset : tuple of str
         s, in the order of the system.
-    polynomial : PolynomialLike
+    polynomial : Polynomial
         p, monic of degree at least 1.
     rank : int
         r.
     modulus : int
         ℓ ≥ 2: elimination over (Z/ℓ)[x]/(p) with unit pivots reaches r.
-    kernel : PolynomialMatrixLike
+    kernel : PolynomialMatrix
         c × (c − r), c = n + the inputs of m−s: its rows ``pivots`` form the identity and
         P_s · kernel = 0 modulo p.
     pivots : tuple of int
@@ -32,10 +34,10 @@ class PencilRankCertificate(Certificate):
     kind: ClassVar[str] = "pencil_rank"
 
     subset: tuple[str, ...]
-    polynomial: PolynomialLike
+    polynomial: Polynomial
     rank: int
     modulus: int
-    kernel: PolynomialMatrixLike
+    kernel: PolynomialMatrix
     pivots: tuple[int, ...]
 
     def claim(self) -> dict[str, Any]:

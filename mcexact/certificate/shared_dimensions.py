@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, ClassVar
 
-from .covering import Absence, ConnectivityCut, DeficiencyCut, Tree
-from .evidence import Certificate
+from mcexact.certificate import Certificate
+from mcexact.certificate.covering import Absence, ConnectivityCut, DeficiencyCut, Tree
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from .evidence import Certificate, MatrixLike, PolynomialLike, ShrunkSubspace, ZeroTransfer
+from mcexact.answer.evidence import ShrunkSubspace, ZeroTransfer
+from mcexact.certificate import Certificate
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.polynomial import Polynomial
 
 
 @dataclass(frozen=True)
@@ -14,21 +17,21 @@ class GainsWitness:
 
     Attributes
     ----------
-    gains : tuple of MatrixLike
+    gains : tuple of Matrix
         F_i, p_i × q_i, one list for all channels named.
     modulus : int
         ℓ ≥ 2, modulo which the ranks reach n.
-    annihilators : tuple of tuple of MatrixLike
+    annihilators : tuple of tuple of Matrix
         For each channel and each thing asked, a 1 × n row that annihilates the blocks before the
         last one that is needed.
-    generator : MatrixLike or None
+    generator : Matrix or None
         b, n × 1, with b, A_F b, …, A_F^{n−1} b independent modulo ℓ: A_F is cyclic.
     """
 
-    gains: tuple[MatrixLike, ...]
+    gains: tuple[Matrix, ...]
     modulus: int
-    annihilators: tuple[tuple[MatrixLike, ...], ...]
-    generator: MatrixLike | None
+    annihilators: tuple[tuple[Matrix, ...], ...]
+    generator: Matrix | None
 
     def document(self) -> dict[str, Any]:
         """The object of ``FORMAT.md``, its values still exact objects."""
@@ -50,7 +53,7 @@ class StuckWitness:
         q.
     side : str
         ``"controllable"``, or ``"observable"``: then the subspace is one of the dual.
-    polynomial : PolynomialLike
+    polynomial : Polynomial
         p, monic of degree at least 1.
     subspace : ShrunkSubspace
         For p, with q in T.
@@ -58,7 +61,7 @@ class StuckWitness:
 
     channel: str
     side: str
-    polynomial: PolynomialLike
+    polynomial: Polynomial
     subspace: ShrunkSubspace
 
     def document(self) -> dict[str, Any]:

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, ClassVar
 
-from .evidence import Certificate, MatrixLike
+from mcexact.certificate import Certificate
+from mcexact.exact.matrix import Matrix
 
 
 @dataclass(frozen=True)
@@ -27,16 +28,16 @@ class LyapunovBlock:
 
     Attributes
     ----------
-    P : MatrixLike
+    P : Matrix
         Symmetric.
-    R, R2 : MatrixLike
+    R, R2 : Matrix
         RᵀPR and −R2ᵀ(DᵀP + PD + 2·bound·P)R2 (discrete time: R2ᵀ(bound²P − DᵀPD)R2) are strictly
         diagonally dominant with positive diagonal.
     """
 
-    P: MatrixLike
-    R: MatrixLike
-    R2: MatrixLike
+    P: Matrix
+    R: Matrix
+    R2: Matrix
 
     def document(self) -> dict[str, Any]:
         """The object of ``FORMAT.md``, its values still exact objects."""
@@ -47,8 +48,8 @@ class LyapunovBlock:
 class Transformation:
     """M T = T Δ, T nonsingular modulo ℓ and Δ block upper triangular."""
 
-    T: MatrixLike
-    Delta: MatrixLike
+    T: Matrix
+    Delta: Matrix
     modulus: int
 
     def document(self) -> dict[str, Any]:
@@ -78,15 +79,15 @@ class InstabilityMethod:
 
     Attributes
     ----------
-    P, R2 : MatrixLike
+    P, R2 : Matrix
         As in `LyapunovBlock`, for the whole matrix.
-    v : MatrixLike
+    v : Matrix
         One column, not 0.
     """
 
-    P: MatrixLike
-    R2: MatrixLike
-    v: MatrixLike
+    P: Matrix
+    R2: Matrix
+    v: Matrix
 
     def document(self) -> dict[str, Any]:
         """The object of ``FORMAT.md``, its values still exact objects."""

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from .evidence import Certificate, ZeroTransfer
+from mcexact.answer.evidence import ZeroTransfer
+from mcexact.certificate import Certificate
 
 
 @dataclass(frozen=True)

@@ -172,7 +172,7 @@ def _answer(
     with_page: bool,
 ) -> dict[str, Any]:
     """Decide, and put the answer into text: what the child process does."""
-    from mcexact.certificate import codec
+    from mcexact.answer import codec
     from mcexact.cli.files import system_in
     from mcexact.model.system_file import digest
     from mcexact.report.assessment import assess

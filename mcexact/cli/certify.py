@@ -98,7 +98,7 @@ def _certified(
     wanted: dict[str, Any],
 ) -> dict[str, Any]:
     """Decide, and put the answer into text: what the child process does."""
-    from mcexact.certificate import codec
+    from mcexact.answer import codec
     from mcexact.cli.files import system_in
     from mcexact.errors import InputError
     from mcexact.exact.rational import Limits

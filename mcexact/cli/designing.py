@@ -122,7 +122,7 @@ def _designed(
     """Design, and put the answer into text: what the child process does."""
     import importlib
 
-    from mcexact.certificate import codec
+    from mcexact.answer import codec
     from mcexact.cli.files import system_in
     from mcexact.errors import Impossible, InputError
     from mcexact.exact.rational import Limits

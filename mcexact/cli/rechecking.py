@@ -78,9 +78,9 @@ def rechecked(
     InternalError
         If one is not accepted.
     """
+    from mcexact.answer.check import recheck
     from mcexact.cli.supervision import supervised
     from mcexact.errors import LimitReached
-    from mcexact.report.verdict import recheck
 
     try:
         found = supervised(

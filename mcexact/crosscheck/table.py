@@ -13,8 +13,9 @@ from mcexact.analysis.controllability_indices import (
     controllability_indices,
     observability_indices,
 )
-from mcexact.analysis.fixed_spectrum import FixedSpectrum, fixed_spectrum
+from mcexact.analysis.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.transfer_graph import transfer_graph
+from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.crosscheck.records import Libraries, libraries_here
 from mcexact.exact.floats import matrix_to_float
 from mcexact.exact.linear_algebra import characteristic_polynomial

@@ -6,11 +6,11 @@ import json
 import os
 from typing import Any
 
-from mcexact.certificate import codec
 from mcexact.errors import InputError
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.rational import DEFAULT_LIMITS, Limits, written
 from mcexact.model.atomic import write_text
+from mcexact.model.canonical import PlainObject, sha256
 from mcexact.model.json_text import (
     expect_format,
     expect_integer,
@@ -171,7 +171,7 @@ def _mapping(value: Any, where: str) -> dict[str, Any]:
     return value
 
 
-def canonical_document(system: MultiChannelSystem) -> codec.PlainObject:
+def canonical_document(system: MultiChannelSystem) -> PlainObject:
     """The plant of a system as the ``system`` object of a certificate.
 
     Parameters
@@ -186,10 +186,10 @@ def canonical_document(system: MultiChannelSystem) -> codec.PlainObject:
         source.
     """
     plant = system.plant
-    known: codec.PlainObject | None = plant.__dict__.get("_canonical_document")
+    known: PlainObject | None = plant.__dict__.get("_canonical_document")
     if known is not None:
         return known
-    document = codec.PlainObject()
+    document = PlainObject()
     document |= {
         "time": plant.time,
         "A": matrix_json(plant.A, written),
@@ -238,7 +238,7 @@ def digest(system: MultiChannelSystem) -> str:
     >>> digest(first) == digest(second)
     True
     """
-    return codec.digest(canonical_document(system))
+    return sha256(canonical_document(system))
 
 
 def save_system(system: MultiChannelSystem, path: str | os.PathLike[str]) -> None:

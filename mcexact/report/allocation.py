@@ -16,9 +16,9 @@ from mcexact.analysis.allocation import (
 from mcexact.analysis.communication import MinimalCommunication, minimal_communication
 from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.analysis.neighbor_graph import neighbor_graph
+from mcexact.answer import codec
 from mcexact.answer.wording import allocation as say
 from mcexact.answer.wording import links
-from mcexact.certificate import codec
 from mcexact.model.system import MultiChannelSystem
 from mcexact.report.json_view import polynomial_view
 from mcexact.report.text import Table

@@ -18,12 +18,12 @@ if TYPE_CHECKING:
     from mcexact.analysis.controllability import JointControllability
     from mcexact.analysis.controllability_indices import ControllabilityIndices
     from mcexact.analysis.delays import NetworkVerdict
-    from mcexact.analysis.fixed_spectrum import FixedSpectrum
     from mcexact.analysis.neighbor_graph import NeighborGraphVerdict
     from mcexact.analysis.pencil import PencilRank
-    from mcexact.analysis.setpoint import SetpointSolvability
     from mcexact.analysis.single_channel_gains import SingleChannelGains
     from mcexact.analysis.transfer_graph import TransferGraph
+    from mcexact.answer.fixed_spectrum import FixedSpectrum
+    from mcexact.answer.setpoint import SetpointSolvability
     from mcexact.derived.extended import Share
     from mcexact.exact.polynomial import Polynomial
     from mcexact.model.system import MultiChannelSystem

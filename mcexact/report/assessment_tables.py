@@ -19,9 +19,9 @@ from mcexact.report.text import Table
 if TYPE_CHECKING:
     from mcexact.analysis.complementary_subsystem import ComplementarySubsystem
     from mcexact.analysis.controllability_indices import ControllabilityIndices
-    from mcexact.analysis.fixed_spectrum import FixedFactor
     from mcexact.analysis.single_channel_gains import SingleChannelGains
-    from mcexact.certificate.evidence import RateInterval
+    from mcexact.answer.evidence import RateInterval
+    from mcexact.answer.fixed_spectrum import FixedFactor
 
 Row = tuple[str, ...]
 

@@ -6,8 +6,9 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from mcexact.analysis.fixed_spectrum import FixedSpectrum, fixed_spectrum
+from mcexact.analysis.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.transfer_graph import TransferGraph, transfer_graph
+from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.answer.wording import details as say
 from mcexact.report.picture import Picture, empty_figure
 

@@ -13,7 +13,7 @@ from mcexact.report.assessment_tables import slowest
 from mcexact.report.text import WIDTH, wrapped
 
 if TYPE_CHECKING:
-    from mcexact.analysis.fixed_spectrum import FixedFactor
+    from mcexact.answer.fixed_spectrum import FixedFactor
 
 _MOST_FACTORS = 8
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from mcexact.answer.formats import count
-from mcexact.report.latex import escaped
+from mcexact.answer.latex import escaped
 from mcexact.report.page import page
 from mcexact.report.text import Table
 from mcexact.reproduce.reproduction import SECTIONS, Reproduction, Row

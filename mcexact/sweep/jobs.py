@@ -9,10 +9,11 @@ from collections.abc import Callable, Iterable
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from mcexact.certificate import codec
+from mcexact.answer import codec
 from mcexact.derived.draw import Draw, drawn_system
 from mcexact.errors import InputError, LimitReached, McexactError, OtherFormat, UsageError
 from mcexact.exact.rational import DEFAULT_LIMITS, Limits
+from mcexact.model.canonical import canonical
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import digest, read_system, system_text
 from mcexact.sweep.questions import QUESTIONS
@@ -46,7 +47,7 @@ class Job:
     def key(self) -> str:
         """A hash of the source and the questions: equal jobs have equal answers."""
         source = asdict(self.source) if isinstance(self.source, Draw) else _hash(self.source)
-        return _hash(codec.canonical([source, list(self.questions)]).encode("ascii"))
+        return _hash(canonical([source, list(self.questions)]).encode("ascii"))
 
     def system(self) -> MultiChannelSystem:
         """Read it, or draw it.

@@ -10,8 +10,8 @@ from dataclasses import dataclass, field
 from io import FileIO
 from typing import Any
 
-from mcexact.certificate import codec
 from mcexact.errors import InputError, UsageError
+from mcexact.model.canonical import canonical
 
 FORMAT = "mcexact-sweep/1"
 _AGAIN = (4, 70)  # a limit, a failure: another run may end otherwise
@@ -145,7 +145,7 @@ class RecordFile:
 
     def add(self, record: Record) -> None:
         """Append a record, whole."""
-        line = codec.canonical(record.document()).encode("ascii") + b"\n"
+        line = canonical(record.document()).encode("ascii") + b"\n"
         try:
             self._stream.write(line)
         except OSError as error:

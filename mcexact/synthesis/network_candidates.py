@@ -9,8 +9,8 @@ from math import ceil
 from random import Random
 from typing import Any, Literal
 
-from mcexact.analysis.fixed_spectrum import FixedSpectrum
 from mcexact.analysis.modular_system import generator
+from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.derived.feedback import closed_by
 from mcexact.errors import InputError, InternalError
 from mcexact.exact.linear_algebra import characteristic_polynomial

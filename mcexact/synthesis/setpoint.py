@@ -8,8 +8,9 @@ from typing import Any, Literal
 
 from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.analysis.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.setpoint import SetpointSolvability, setpoint_solvability
+from mcexact.analysis.setpoint import setpoint_solvability
 from mcexact.analysis.stability import StabilityVerdict, certify_stability
+from mcexact.answer.setpoint import SetpointSolvability
 from mcexact.answer.wording import refusals as say
 from mcexact.derived.extended import extended_system
 from mcexact.derived.integrators import setpoint_system

@@ -14,7 +14,8 @@ from mcexact.analysis.allocation import (
     shared_dimension_bound,
 )
 from mcexact.analysis.communication import minimal_communication
-from mcexact.certificate import Certificate, encode
+from mcexact.answer.codec import encode
+from mcexact.answer.protocol import Answer
 from mcexact.checker.kinds import check_document
 from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.derived.extended import extended_system
@@ -38,7 +39,7 @@ PLANT = gallery.load("liu2020-3ch-no-communication")
 RING = NeighborGraph.ring(PLANT.names)
 
 
-def assert_valid(certificate: Certificate) -> None:
+def assert_valid(certificate: Answer) -> None:
     verdict = check_document(encode(certificate).encode("ascii"))
     assert verdict.verdict == "VALID", verdict.line()
 

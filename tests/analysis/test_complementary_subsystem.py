@@ -10,7 +10,7 @@ from hypothesis import given
 
 from mcexact import MultiChannelSystem, complementary_subsystem, completeness, dual
 from mcexact.analysis.invariant_form import companions, invariant_form
-from mcexact.certificate import encode
+from mcexact.answer.codec import encode
 from mcexact.checker import check_document
 from mcexact.derived.drawn import Drawn
 from mcexact.errors import UsageError

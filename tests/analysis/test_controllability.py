@@ -7,7 +7,7 @@ import pytest
 
 from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.analysis.invariant_subspace import controllable_subspace
-from mcexact.certificate import codec
+from mcexact.answer import codec
 from mcexact.checker import check_document
 from mcexact.derived.dual import dual
 from mcexact.errors import UsageError

@@ -3,7 +3,7 @@
 import random
 
 from mcexact.analysis.controllability_indices import controllability_indices, observability_indices
-from mcexact.certificate import codec
+from mcexact.answer import codec
 from mcexact.checker import check_document
 from mcexact.exact.matrix import Matrix
 from mcexact.model.system import MultiChannelSystem

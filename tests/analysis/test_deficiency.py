@@ -3,7 +3,7 @@
 import pytest
 
 from mcexact.analysis.deficiency import deficiency
-from mcexact.certificate import codec
+from mcexact.answer import codec
 from mcexact.checker import check_document
 from mcexact.model.system import MultiChannelSystem
 

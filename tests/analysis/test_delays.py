@@ -9,7 +9,7 @@ from mcexact.analysis.delays import (
     held_verdict,
     lifted_verdict,
 )
-from mcexact.certificate import encode
+from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
 from mcexact.derived.extended import extended_system
 from mcexact.derived.held import held_system

@@ -8,7 +8,8 @@ from mcexact.analysis.controllability import joint_controllability, joint_observ
 from mcexact.analysis.extended import bound_attained, graph_inclusion
 from mcexact.analysis.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.transfer_graph import transfer_graph
-from mcexact.certificate import Certificate, encode
+from mcexact.answer.codec import encode
+from mcexact.answer.protocol import Answer
 from mcexact.checker.kinds import check_document
 from mcexact.derived.extended import extended_system
 from mcexact.derived.integrators import setpoint_system
@@ -20,7 +21,7 @@ from mcexact.model.system import MultiChannelSystem
 from tests.oracle.enumeration import pencil_rank, plain
 
 
-def assert_valid(certificate: Certificate) -> None:
+def assert_valid(certificate: Answer) -> None:
     verdict = check_document(encode(certificate).encode("ascii"))
     assert verdict.verdict == "VALID", verdict.line()
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from mcexact import MultiChannelSystem, error_gains
-from mcexact.certificate import encode
+from mcexact.answer.codec import encode
 from mcexact.checker import check_document
 from mcexact.errors import UsageError
 from mcexact.exact.blocks import block

@@ -5,9 +5,10 @@ from fractions import Fraction
 
 import pytest
 
-from mcexact.analysis.fixed_spectrum import FixedSpectrum, fixed_spectrum
+from mcexact.analysis.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.obstructions import CommonFactor, decide
-from mcexact.certificate import codec
+from mcexact.answer import codec
+from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.checker import check_document
 from mcexact.derived.choices import SeededChoices
 from mcexact.derived.drawn import system_with_fixed_mode

@@ -13,7 +13,7 @@ from mcexact.analysis.modular_system import (
     quick_bits,
     residue_systems,
 )
-from mcexact.certificate import codec
+from mcexact.answer import codec
 from mcexact.checker import check_document
 from mcexact.derived.choices import SeededChoices
 from mcexact.derived.drawn import system_with_fixed_mode

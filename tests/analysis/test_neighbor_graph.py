@@ -3,7 +3,7 @@
 import pytest
 
 from mcexact.analysis.neighbor_graph import neighbor_graph
-from mcexact.certificate import codec
+from mcexact.answer import codec
 from mcexact.checker import check_document
 from mcexact.errors import UsageError
 from mcexact.model.system import MultiChannelSystem

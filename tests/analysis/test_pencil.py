@@ -3,7 +3,7 @@
 import pytest
 
 from mcexact.analysis.pencil import pencil_rank
-from mcexact.certificate import codec
+from mcexact.answer import codec
 from mcexact.checker import check_document
 from mcexact.errors import FloatRefused, InputError, UsageError
 from mcexact.exact.polynomial import Polynomial

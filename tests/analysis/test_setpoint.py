@@ -9,7 +9,7 @@ import sympy
 
 from mcexact.analysis.controllability import joint_controllability
 from mcexact.analysis.setpoint import setpoint_solvability
-from mcexact.certificate import encode
+from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
 from mcexact.derived.choices import SeededChoices
 from mcexact.derived.drawn import drawn_system

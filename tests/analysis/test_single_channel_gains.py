@@ -7,7 +7,7 @@ import random
 import pytest
 
 from mcexact import MultiChannelSystem, completeness, single_channel_gains
-from mcexact.certificate import encode
+from mcexact.answer.codec import encode
 from mcexact.checker import check_document
 from mcexact.derived.dual import dual
 from mcexact.errors import UsageError

@@ -15,7 +15,7 @@ from mcexact.analysis.stability import (
     fastest_region,
     matrix_system,
 )
-from mcexact.certificate import encode
+from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
 from mcexact.errors import FloatRefused, UsageError
 from mcexact.exact.blocks import block_diagonal

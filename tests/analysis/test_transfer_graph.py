@@ -3,7 +3,7 @@
 import pytest
 
 from mcexact.analysis.transfer_graph import transfer_graph
-from mcexact.certificate import codec
+from mcexact.answer import codec
 from mcexact.checker import check_document
 from mcexact.derived.dual import dual
 from mcexact.exact.matrix import Matrix

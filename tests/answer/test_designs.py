@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from mcexact.certificate import codec
+from mcexact.answer import codec
 from mcexact.checker import check_document
 from mcexact.errors import Impossible, LimitReached
 from mcexact.model import gallery

@@ -11,9 +11,9 @@ from typing import Any
 
 import pytest
 
+from mcexact.answer import codec
 from mcexact.answer.listing import FILE, TOPICS, everything, listing
 from mcexact.answer.template import Template, templates
-from mcexact.certificate import codec
 from mcexact.checker import check_document
 from mcexact.model import gallery
 from mcexact.model.neighbor_graph import NeighborGraph

@@ -12,7 +12,7 @@ from fractions import Fraction
 
 from mcexact.analysis.allocation import minimal_shared_dimensions, shared_dimension_bound
 from mcexact.analysis.communication import minimal_communication
-from mcexact.certificate import encode
+from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
 from mcexact.model.neighbor_graph import NeighborGraph
 from tests.oracle.allocation import demands, fewest_arcs, least_cost

@@ -19,7 +19,7 @@ from mcexact.analysis.controllability import joint_controllability, joint_observ
 from mcexact.analysis.delays import connectivity, extended_verdict, held_verdict, lifted_verdict
 from mcexact.analysis.extended import graph_inclusion
 from mcexact.analysis.setpoint import setpoint_solvability
-from mcexact.certificate import encode
+from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
 from mcexact.derived.choices import SeededChoices
 from mcexact.derived.drawn import jointly_controllable_system, system_with_fixed_mode

@@ -21,7 +21,7 @@ import numpy as np
 
 import mcexact.checker
 from mcexact.analysis.stability import certify_stability, matrix_system
-from mcexact.certificate import encode
+from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
 from mcexact.derived.choices import SeededChoices
 from mcexact.derived.drawn import jointly_controllable_system

@@ -15,7 +15,7 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import Any
 
-from mcexact.certificate import encode
+from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
 from mcexact.derived.choices import SeededChoices
 from mcexact.derived.drawn import jointly_controllable_system

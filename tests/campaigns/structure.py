@@ -27,7 +27,7 @@ from mcexact.analysis.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.pencil import pencil_rank
 from mcexact.analysis.single_channel_gains import single_channel_gains
 from mcexact.analysis.transfer_graph import transfer_graph
-from mcexact.certificate import encode
+from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
 from mcexact.derived.choices import SeededChoices
 from mcexact.derived.drawn import jointly_controllable_system

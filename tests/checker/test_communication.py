@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mcexact.analysis.communication import minimal_communication
-from mcexact.certificate.codec import document
+from mcexact.answer.codec import document
 from mcexact.model import gallery
 from mcexact.model.neighbor_graph import NeighborGraph
 from tests.checker.handmade import changed

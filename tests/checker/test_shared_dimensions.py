@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mcexact.analysis.allocation import minimal_shared_dimensions
-from mcexact.certificate.codec import document
+from mcexact.answer.codec import document
 from mcexact.model import gallery
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem

@@ -9,7 +9,6 @@ from typing import Any
 
 import pytest
 
-from mcexact.certificate.codec import plain
 from mcexact.checker import arithmetic
 from mcexact.checker.reading import Refused
 from mcexact.checker.subject import CONSTRUCTIONS, read_subject
@@ -25,6 +24,7 @@ from mcexact.derived.integrators import setpoint_system
 from mcexact.derived.lifted import lifted_system
 from mcexact.exact.matrix import Matrix
 from mcexact.model import system_file
+from mcexact.model.canonical import plain
 from mcexact.model.closed_loop import closed_loop
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.neighbor_graph import NeighborGraph

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from mcexact.analysis.fixed_spectrum import fixed_spectrum
-from mcexact.certificate import codec
+from mcexact.answer import codec
 from mcexact.cli import main
 from mcexact.model import gallery
 from mcexact.model.controller_file import save_controller

@@ -8,7 +8,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mcexact import testing
-from mcexact.certificate import codec
 from mcexact.checker.subject import read_subject
 from mcexact.checker.system import digest as checked_digest
 from mcexact.checker.system import read_plant
@@ -22,6 +21,7 @@ from mcexact.derived.held import held_system
 from mcexact.derived.integrators import setpoint_system
 from mcexact.derived.lifted import lifted_system
 from mcexact.exact.matrix import Matrix
+from mcexact.model.canonical import text_of
 from mcexact.model.closed_loop import closed_loop
 from mcexact.model.system_file import canonical_document, digest
 from tests.model.test_controller import drawn_controller
@@ -31,9 +31,9 @@ SHARES = ("outputs+states", "states")
 
 def rebuilt(system):
     """Let the checker build the subject from what a certificate would hold; compare everything."""
-    plant = read_plant(json.loads(codec.canonical(codec.plain(canonical_document(system)))))
+    plant = read_plant(json.loads(text_of(canonical_document(system))))
     assert checked_digest(plant) == digest(system)
-    found = read_subject(json.loads(codec.canonical(codec.plain(system.subject))), plant)
+    found = read_subject(json.loads(text_of(system.subject)), plant)
     assert plain(found.A) == system.A.rows()
     assert [plain(B) for B in found.B] == [channel.B.rows() for channel in system.channels]
     assert [plain(C) for C in found.C] == [channel.C.rows() for channel in system.channels]

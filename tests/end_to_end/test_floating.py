@@ -5,7 +5,7 @@ from fractions import Fraction
 
 import pytest
 
-from mcexact.certificate import encode
+from mcexact.answer.codec import encode
 from mcexact.crosscheck.gallery import exhibit, exhibits
 from mcexact.model.controller_file import save_controller
 from mcexact.model.local_controllers import local_controllers

@@ -7,7 +7,7 @@ import pytest
 import sympy
 
 from mcexact.analysis.fixed_spectrum import fixed_spectrum
-from mcexact.certificate import encode
+from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
 from mcexact.derived.feedback import closed_by
 from mcexact.errors import Impossible

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 from mcexact import testing
 from mcexact.analysis.controllability import joint_controllability
-from mcexact.certificate import codec
+from mcexact.answer import codec
 from mcexact.checker import Limits as CheckerLimits
 from mcexact.checker import check_document
 from mcexact.derived.extended import extended_system

@@ -13,10 +13,11 @@ from typing import Any
 from mcexact.analysis.completeness import completeness
 from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.analysis.deficiency import deficiency
-from mcexact.analysis.fixed_spectrum import FixedSpectrum, fixed_spectrum
+from mcexact.analysis.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.pencil import pencil_rank
 from mcexact.analysis.transfer_graph import transfer_graph
-from mcexact.certificate import codec
+from mcexact.answer import codec
+from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.checker import check_document
 from mcexact.model.system import MultiChannelSystem
 from tests.oracle import enumeration as oracle

@@ -7,7 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from mcexact.certificate import codec
+from mcexact.answer import codec
+from mcexact.answer.check import recheck
+from mcexact.answer.latex import matrix
 from mcexact.cli import main
 from mcexact.exact.matrix import Matrix
 from mcexact.model import gallery
@@ -16,8 +18,7 @@ from mcexact.model.system_file import digest
 from mcexact.report.assessment import assess
 from mcexact.report.assessment_page import assessment_page
 from mcexact.report.graph_figures import graph_picture
-from mcexact.report.latex import assessment_latex, matrix
-from mcexact.report.verdict import recheck
+from mcexact.report.latex import assessment_latex
 from tests.report.strict_html import Page, external_addresses
 
 ATTACK = "<script>alert(1)</script>"

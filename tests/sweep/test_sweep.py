@@ -13,11 +13,12 @@ from typing import Any
 import pytest
 
 from mcexact.analysis.controllability import joint_controllability
-from mcexact.certificate import codec
+from mcexact.answer import codec
 from mcexact.derived.draw import Draw, drawn_system
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.rational import Limits
 from mcexact.model import gallery
+from mcexact.model.canonical import canonical
 from mcexact.model.system_file import digest, save_system
 from mcexact.sweep.jobs import Job, Outcome, decide
 from mcexact.sweep.questions import QUESTIONS
@@ -61,7 +62,7 @@ def answer_falsely(job: Job) -> Outcome:
     outcome = decide(job)
     made = json.loads(outcome["certificates"]["fixed_spectrum"])
     made["claim"]["stabilizable"] = not made["claim"]["stabilizable"]
-    return outcome | {"certificates": {"fixed_spectrum": codec.canonical(made)}}
+    return outcome | {"certificates": {"fixed_spectrum": canonical(made)}}
 
 
 def answer_something_else(job: Job) -> Outcome:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from mcexact.certificate import encode
+from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
 from mcexact.derived.choices import SeededChoices
 from mcexact.derived.drawn import drawn_system

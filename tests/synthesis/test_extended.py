@@ -8,7 +8,7 @@ from fractions import Fraction
 import pytest
 
 from mcexact.analysis.stability import certify_stability
-from mcexact.certificate import encode
+from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
 from mcexact.derived.choices import SeededChoices
 from mcexact.derived.drawn import jointly_controllable_system

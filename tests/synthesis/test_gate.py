@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from mcexact.analysis.closed_loop_spectrum import agreeing_moduli, coefficient_bound
-from mcexact.certificate import encode
+from mcexact.answer.codec import encode
 from mcexact.checker import check_document
 from mcexact.errors import InternalError
 from mcexact.exact.linear_algebra import characteristic_polynomial

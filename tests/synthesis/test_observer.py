@@ -2,7 +2,7 @@
 
 import pytest
 
-from mcexact.certificate import encode
+from mcexact.answer.codec import encode
 from mcexact.checker import check_document
 from mcexact.derived.error_system import error_system
 from mcexact.errors import Impossible, InputError, UsageError

@@ -4,7 +4,7 @@ from fractions import Fraction
 
 import pytest
 
-from mcexact.certificate import encode
+from mcexact.answer.codec import encode
 from mcexact.checker import check_document
 from mcexact.errors import Impossible, InputError, LimitReached, UsageError
 from mcexact.exact.linear_algebra import characteristic_polynomial

@@ -11,7 +11,7 @@ from typing import Any
 
 from mcexact.analysis.allocation import minimal_shared_dimensions
 from mcexact.analysis.communication import minimal_communication
-from mcexact.certificate import codec
+from mcexact.answer import codec
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.neighbor_graph import NeighborGraph

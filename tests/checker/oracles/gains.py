@@ -14,7 +14,7 @@ from sympy import Poly, Rational, Symbol, gcd_list
 
 from mcexact.analysis.exceptional_gains import exceptional_gains
 from mcexact.analysis.single_channel_gains import single_channel_gains
-from mcexact.certificate import codec
+from mcexact.answer import codec
 from mcexact.errors import Impossible
 from tests.checker.mutations import Document, Registration
 from tests.checker.oracles.spine import SLACK, _number, _roots, drawn_system

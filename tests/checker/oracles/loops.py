@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Any
 
 from mcexact.analysis.stability import certify_stability, matrix_system
-from mcexact.certificate import codec
+from mcexact.answer import codec
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial

@@ -19,7 +19,7 @@ from mcexact.analysis.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.neighbor_graph import neighbor_graph
 from mcexact.analysis.pencil import pencil_rank
 from mcexact.analysis.transfer_graph import transfer_graph
-from mcexact.certificate import codec
+from mcexact.answer import codec
 from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.exact.location import is_hurwitz, is_schur
 from mcexact.model.neighbor_graph import NeighborGraph

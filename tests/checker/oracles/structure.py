@@ -14,7 +14,7 @@ from sympy import Poly, Rational, Symbol, eye, gcd
 from mcexact.analysis.assignability import assignability
 from mcexact.analysis.complementary_subsystem import complementary_subsystem
 from mcexact.analysis.setpoint import setpoint_solvability
-from mcexact.certificate import codec
+from mcexact.answer import codec
 from mcexact.model.system import MultiChannelSystem
 from tests.checker.mutations import Document, Registration
 from tests.checker.oracles.spine import drawn_system

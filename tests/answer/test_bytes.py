@@ -16,7 +16,7 @@ from typing import Any
 import pytest
 
 from mcexact.checker.kinds import KINDS, check_document
-from tests.certificate.written import DESIGNS, PLANTS
+from tests.answer.written import DESIGNS, PLANTS
 from tests.kernels import usable_kernels
 
 IN_FLOATING_POINT = {f"design-{design}-float" for design in DESIGNS}
@@ -39,7 +39,7 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> Written:
             "PYTHONHASHSEED": str(seed),
         }
         subprocess.run(
-            [sys.executable, "-m", "tests.certificate.written", str(folder)],
+            [sys.executable, "-m", "tests.answer.written", str(folder)],
             env=os.environ | added,
             check=True,
             capture_output=True,

@@ -1,6 +1,6 @@
 """The bytes of every exact certificate, for the plants of the gallery and for drawn ones.
 
-Run as ``python -m tests.certificate.test_golden`` to write ``golden.json`` anew, where a change of
+Run as ``python -m tests.answer.test_golden`` to write ``golden.json`` anew, where a change of
 bytes is intended.
 """
 
@@ -18,7 +18,7 @@ from mcexact.analysis.closed_loop_spectrum import open_loop_spectrum
 from mcexact.analysis.delays import held_verdict, lifted_verdict
 from mcexact.analysis.neighbor_graph import neighbor_graph
 from mcexact.analysis.setpoint import setpoint_solvability
-from mcexact.certificate import encode
+from mcexact.answer.codec import encode
 from mcexact.derived.extended import Share
 from mcexact.errors import Impossible, LimitReached
 from mcexact.exact.matrix import Matrix

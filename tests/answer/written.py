@@ -1,6 +1,6 @@
 """Certificates of every kind for plants of the gallery, written as the command line writes them.
 
-Run as ``python -m tests.certificate.written FOLDER``; a subfolder for each plant and question.
+Run as ``python -m tests.answer.written FOLDER``; a subfolder for each plant and question.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 from mcexact.analysis.exceptional_gains import exceptional_gains
-from mcexact.certificate import write
+from mcexact.answer.codec import save_certificate
 from mcexact.cli import main
 from mcexact.exact.matrix import Matrix
 from mcexact.model import gallery
@@ -67,7 +67,7 @@ def write_all(folder: Path) -> None:
                     raise
         ones = Matrix.from_integers([[1] * plant.n for _ in range(plant.n)])
         found = exceptional_gains(ones, plant.A, plant.input_matrix())
-        write(found.controllability_set.certificate, place / "exceptional_gains.json")
+        save_certificate(found.controllability_set.certificate, place / "exceptional_gains.json")
 
 
 def with_graph(plant: MultiChannelSystem) -> MultiChannelSystem:

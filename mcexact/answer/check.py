@@ -7,7 +7,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mcexact.certificate.evidence import Certificate
+from mcexact.answer.protocol import Answer
+from mcexact.certificate import Certificate
 from mcexact.checker import Limits, Verdict, check_document
 from mcexact.errors import InputError, InternalError
 
@@ -16,15 +17,15 @@ if TYPE_CHECKING:
 
 
 def check(
-    certificate: Certificate | str | os.PathLike[str],
+    certificate: Answer | Certificate | str | os.PathLike[str],
     system: MultiChannelSystem | None = None,
 ) -> Verdict:
     """Check a certificate with the independent checker.
 
     Parameters
     ----------
-    certificate : Certificate or path
-        A result's ``certificate``, or a file.
+    certificate : Answer or path
+        An answer, or the file of its certificate.
     system : MultiChannelSystem, optional
         The plant that the certificate must be about.
 
@@ -43,16 +44,16 @@ def check(
     --------
     >>> from mcexact import MultiChannelSystem, fixed_spectrum
     >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
-    >>> check(fixed_spectrum(plant).certificate, plant).verdict
+    >>> check(fixed_spectrum(plant), plant).verdict
     'VALID'
     >>> other = MultiChannelSystem([[2]], [[[1]]], [[[1]]])
-    >>> check(fixed_spectrum(plant).certificate, other).verdict
+    >>> check(fixed_spectrum(plant), other).verdict
     'INVALID'
     >>> check({})
     Traceback (most recent call last):
         ...
-    mcexact.errors.InputError: certificate: expected a certificate, such as \
-fixed_spectrum(system).certificate, or the name of a file, found dict
+    mcexact.errors.InputError: certificate: expected an answer, such as \
+fixed_spectrum(system), or the name of a certificate file, found dict
     """
     from mcexact.model.system import MultiChannelSystem
     from mcexact.model.system_file import digest
@@ -85,10 +86,7 @@ def recheck(certificates: Mapping[str, str], system_digest: str) -> dict[str, Ve
     """
     verdicts = {}
     for name, text in certificates.items():
-        data = text.encode("ascii")
-        size = len(data)
-        limits = Limits(bytes=max(Limits.bytes, size), digits=max(Limits.digits, size))
-        found = check_document(data, system_digest, limits)
+        found = checked(text.encode("ascii"), system_digest)
         if found.verdict not in {"VALID", "INCOMPLETE"}:
             raise InternalError(
                 f"the independent checker does not accept {name} ({found.line()}): "
@@ -96,6 +94,13 @@ def recheck(certificates: Mapping[str, str], system_digest: str) -> dict[str, Ve
             )
         verdicts[name] = found
     return verdicts
+
+
+def checked(data: bytes, system_digest: str | None = None) -> Verdict:
+    """What the checker says of a certificate's text; it reads numbers and texts of any length."""
+    size = len(data)
+    limits = Limits(bytes=max(Limits.bytes, size), digits=max(Limits.digits, size))
+    return check_document(data, system_digest, limits)
 
 
 def _text(certificate: Any) -> bytes:
@@ -107,12 +112,12 @@ def _text(certificate: Any) -> bytes:
             return read_bytes(Path(certificate))
         except InputError as error:
             raise error.within(str(certificate)) from None
-    if not isinstance(certificate, Certificate):
+    if not isinstance(certificate, Answer | Certificate):
         raise InputError(
-            "expected a certificate, such as fixed_spectrum(system).certificate, or the name of a "
+            "expected an answer, such as fixed_spectrum(system), or the name of a certificate "
             f"file, found {type(certificate).__name__}",
             where="certificate",
         )
-    from mcexact.certificate import codec
+    from mcexact.answer import codec
 
     return codec.encode(certificate).encode("ascii")

@@ -1,0 +1,102 @@
+"""Answer: the fixed spectrum, where it lies, and which rate it leaves within reach."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from mcexact.answer.evidence import RateInterval, RootDisc, ShrunkSubspace
+from mcexact.answer.protocol import Answer, Part, answer, claim, shown, witness
+from mcexact.exact.location import StabilityRegion
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.polynomial import Polynomial
+
+
+@dataclass(frozen=True)
+class FixedFactor(Part):
+    """An irreducible polynomial whose roots are fixed modes.
+
+    Attributes
+    ----------
+    polynomial : Polynomial
+        p, monic and irreducible over Q.
+    multiplicity_in_A : int
+        The exponent of p in χ_A.
+    multiplicity_at_most : int
+        The exponent of p in χ_{A_F} for the drawn F.  The multiplicity that no constant gains
+        remove, the least such exponent, is at most this; drawn gains attain it but for an accident.
+    channels : tuple of str
+        s, the largest set of channels whose pencil P_s(λ) = [λI − A, B_{m−s}; C_s, 0] has the
+        least rank.
+    rank : int
+        That rank, below n.
+    stable : bool
+        Whether every root lies in the stability region of the system's time domain.
+    roots : tuple of RootDisc
+        Disjoint discs, each with exactly one root of p.
+    """
+
+    polynomial: Polynomial
+    multiplicity_in_A: int
+    multiplicity_at_most: int
+    channels: tuple[str, ...]
+    rank: int
+    stable: bool
+    roots: tuple[RootDisc, ...]
+
+
+@dataclass(frozen=True)
+class Completion(Part):
+    """B_0 (n × ρ) and C_0 (ρ × n): d columns and rows bound the deficiency of a factor by d."""
+
+    B0: Matrix
+    C0: Matrix
+
+
+@answer("fixed_spectrum")
+class FixedSpectrum(Answer):
+    """The modes that stay under every linear time-invariant decentralized feedback.
+
+    That is u_i = F_i y_i with constant F_i, or with a dynamic controller of its own at each channel
+    (Wang and Davison 1973).  Feedback that varies with time can move some of them; the gallery has
+    an example, ``movable-by-periodic-gains``.
+
+    Attributes
+    ----------
+    polynomial : Polynomial
+        The product of the distinct factors, 1 if there is none: its roots are the fixed modes.
+    factors : tuple of FixedFactor
+        Sorted by degree, then by coefficients.
+    stabilizable : bool
+        Whether every fixed mode lies in the stability region: then and only then some linear
+        time-invariant decentralized feedback stabilizes the system.
+    best_rate : RateInterval or None
+        Encloses minus the largest real part (continuous time) or the largest modulus (discrete
+        time) of the fixed modes; None if there is none.
+    gains : tuple of Matrix
+        F_i, p_i × q_i, one for each channel.
+    modulus : int
+        ℓ ≥ 2, modulo which the rest of χ_A is coprime to χ_{A_F}.
+    subspaces : tuple of ShrunkSubspace
+        One for each factor, of deficiency n − rank.
+    completion : Completion or None
+        None if there is no factor.
+    """
+
+    polynomial: Polynomial = claim()
+    factors: tuple[FixedFactor, ...] = claim()
+    stabilizable: bool = claim()
+    best_rate: RateInterval | None = claim()
+    gains: tuple[Matrix, ...] = witness()
+    modulus: int = witness()
+    subspaces: tuple[ShrunkSubspace, ...] = witness()
+    completion: Completion | None = witness()
+
+    @property
+    @shown("nothing is fixed")
+    def empty(self) -> bool:
+        """Whether no mode is fixed."""
+        return not self.factors
+
+    def outside(self, region: StabilityRegion) -> tuple[FixedFactor, ...]:
+        """The factors with a root outside a region: a design for this rate has to free them."""
+        return tuple(f for f in self.factors if not region.contains_roots_of(f.polynomial))

@@ -1,0 +1,199 @@
+"""What an answer is: a claim about a system and the witness that proves it, declared once.
+
+A kind of answer is a frozen dataclass in a file of its own.  Each field is a claim or a piece of
+the witness; whatever else an answer has is a property of these.  From the fields follow the
+certificate, how it is read back, the JSON view, and the ways in which an answer shows itself.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, ClassVar, NoReturn, Self, TypeVar, dataclass_transform
+
+from mcexact.answer import showing
+from mcexact.model.canonical import Document, text_of
+from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system_file import canonical_document
+
+KINDS: dict[str, type[Answer]] = {}
+"""The kinds of answers whose files were imported, by name."""
+
+AnyAnswer = TypeVar("AnyAnswer", bound="Answer")
+AnyFunction = TypeVar("AnyFunction", bound=Callable[..., Any])
+
+
+def claim(label: str = "", *, key: str = "") -> Any:
+    """A field that the checker verifies.
+
+    Parameters
+    ----------
+    label : str
+        What it is, for a table; by default the key in words.
+    key : str
+        Its key in the certificate, where that is not the name of the field.
+    """
+    return dataclasses.field(metadata={"role": "claim", "label": label, "key": key})
+
+
+def witness(*, whole: bool = False) -> Any:
+    """A field that proves the claims.
+
+    Parameters
+    ----------
+    whole : bool
+        The field is a `Part` whose keys are those of the witness.
+    """
+    return dataclasses.field(metadata={"role": "witness", "whole": whole})
+
+
+def shown(label: str = "") -> Callable[[AnyFunction], AnyFunction]:
+    """Mark the function of a property that is shown beside the claims."""
+
+    def marked(get: AnyFunction) -> AnyFunction:
+        get.__dict__["label"] = label
+        return get
+
+    return marked
+
+
+@dataclass(frozen=True)
+class Part:
+    """A piece of a claim or of a witness: a frozen dataclass whose keys are its fields.
+
+    A key that is no name in Python is the metadata ``key`` of its field.
+    """
+
+    brief: ClassVar[tuple[str, ...]] = ()
+    """The fields by which it is told in a line; the first one by default."""
+
+    def document(self) -> dict[str, Any]:
+        """The object of ``FORMAT.md``, its values still exact objects."""
+        return {key_of(each): getattr(self, each.name) for each in dataclasses.fields(self)}
+
+
+@dataclass(frozen=True, repr=False, eq=False)
+class Answer:
+    """A decision about a system, with its proof; equal ones have equal certificates.
+
+    Attributes
+    ----------
+    about : MultiChannelSystem
+        What it is about: a plant, or a system made from one.
+    """
+
+    kind: ClassVar[str] = ""
+
+    about: MultiChannelSystem
+
+    @property
+    def system(self) -> Document:
+        """The user's plant, as the canonical object of ``FORMAT.md``."""
+        return canonical_document(self.about)
+
+    @property
+    def subject(self) -> tuple[Document, ...]:
+        """The constructions that lead from the plant to what the answer is about, in order."""
+        return self.about.subject
+
+    @property
+    def certificate(self) -> Self:
+        """The answer itself."""
+        return self
+
+    def claim(self) -> dict[str, Any]:
+        """The statement, as the keys of the kind's ``claim``."""
+        return {key_of(each): getattr(self, each.name) for each in fields_of(type(self), "claim")}
+
+    def witness(self) -> dict[str, Any]:
+        """The evidence, as the keys of the kind's ``witness``."""
+        found: dict[str, Any] = {}
+        for each in fields_of(type(self), "witness"):
+            value = getattr(self, each.name)
+            found |= value.document() if each.metadata["whole"] else {each.name: value}
+        return found
+
+    def document(self) -> dict[str, Any]:
+        """Claim and witness, as they stand in the certificate of another answer."""
+        return {"claim": self.claim(), "witness": self.witness()}
+
+    def entries(self) -> Iterator[tuple[str, str, Any]]:
+        """Key, label and value of everything that is shown: the claims, and what follows."""
+        for each in fields_of(type(self), "claim"):
+            key = key_of(each)
+            yield key, each.metadata["label"] or in_words(key), getattr(self, each.name)
+        for name, label in shown_of(type(self)).items():
+            yield name, label or in_words(name), getattr(self, name)
+
+    def view(self) -> dict[str, Any]:
+        """What is shown, as plain data for programs."""
+        return {key: showing.plain_view(value) for key, _, value in self.entries()}
+
+    def _text(self) -> str:
+        return text_of([self.kind, self.system, self.subject, self.document()])
+
+    def __eq__(self, other: object) -> bool:
+        return self._text() == other._text() if isinstance(other, Answer) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self._text())
+
+    def __bool__(self) -> NoReturn:
+        claimed = [key for key, value in self.claim().items() if isinstance(value, bool)]
+        known = [name for name in shown_of(type(self)) if isinstance(getattr(self, name), bool)]
+        named = " or ".join(f".{name}" for name in known + claimed or self.claim())
+        raise TypeError(f"an answer is neither true nor false: ask for {named}")
+
+    def __repr__(self) -> str:
+        return showing.line(self)
+
+    def _repr_html_(self) -> str:
+        return showing.html(self)
+
+    def _repr_latex_(self) -> str:
+        return showing.latex(self)
+
+
+@dataclass_transform(frozen_default=True, field_specifiers=(claim, witness))
+def answer(kind: str) -> Callable[[type[AnyAnswer]], type[AnyAnswer]]:
+    """Make a class an answer of a kind: a frozen dataclass of claims and witnesses.
+
+    Parameters
+    ----------
+    kind : str
+        Its name in certificates, which is that of the file and of the checker's rule.
+    """
+
+    def made(cls: type[AnyAnswer]) -> type[AnyAnswer]:
+        cls.kind = kind
+        KINDS[kind] = dataclass(frozen=True, repr=False, eq=False)(cls)
+        return cls
+
+    return made
+
+
+def fields_of(kind: type[Answer], role: str) -> list[dataclasses.Field[Any]]:
+    """The claims of a kind, or the fields of its witness."""
+    return [each for each in dataclasses.fields(kind) if each.metadata.get("role") == role]
+
+
+def shown_of(kind: type[Answer]) -> dict[str, str]:
+    """The properties that are shown beside the claims, with their labels."""
+    found = {}
+    for name, each in vars(kind).items():
+        get = each.func if isinstance(each, cached_property) else getattr(each, "fget", None)
+        if "label" in getattr(get, "__dict__", {}):
+            found[name] = get.__dict__["label"]
+    return found
+
+
+def key_of(each: dataclasses.Field[Any]) -> str:
+    """The key of a field in the certificate."""
+    return each.metadata.get("key") or each.name
+
+
+def in_words(key: str) -> str:
+    """A key as a label."""
+    return key.replace("_", " ")

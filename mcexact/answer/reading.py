@@ -1,0 +1,178 @@
+"""Answers read back from certificates: the inverse of `codec.encode`, by the fields' types."""
+
+from __future__ import annotations
+
+import importlib
+import json
+import os
+import sys
+import types
+import typing
+from collections.abc import Callable, Mapping
+from dataclasses import fields, is_dataclass
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+from mcexact.answer.check import checked
+from mcexact.answer.protocol import KINDS, Answer, fields_of, key_of
+from mcexact.derived.arcs import add_arcs
+from mcexact.derived.augmented_outputs import augmented_outputs
+from mcexact.derived.dual import dual
+from mcexact.derived.error_system import error_system
+from mcexact.derived.extended import extended_system
+from mcexact.derived.feedback import feedback, full_output
+from mcexact.derived.held import held_system
+from mcexact.derived.integrators import setpoint_system
+from mcexact.derived.lifted import lifted_system
+from mcexact.errors import InputError
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.polynomial_matrix import PolynomialMatrix
+from mcexact.exact.rational import Limits
+from mcexact.model import controller_file, system_file
+from mcexact.model.canonical import canonical
+from mcexact.model.closed_loop import closed_loop
+from mcexact.model.json_text import read_bytes
+from mcexact.model.system import MultiChannelSystem
+
+
+def load_certificate(path: str | os.PathLike[str]) -> Answer:
+    """Read an answer from the file of its certificate, after the independent checker accepted it.
+
+    Parameters
+    ----------
+    path : path
+
+    Raises
+    ------
+    InputError
+        If the file is missing, unreadable or too large, or the checker does not call it VALID.
+
+    Notes
+    -----
+    A matrix without rows is written without its number of columns, and read with none.
+    """
+    try:
+        data = read_bytes(Path(path))
+    except InputError as error:
+        raise error.within(str(path)) from None
+    verdict = checked(data)
+    if verdict.verdict != "VALID":
+        raise InputError(f"the checker does not accept it ({verdict.line()})", where=str(path))
+    digits = sys.get_int_max_str_digits()
+    try:
+        # Exact evidence may have longer numbers than the interpreter reads by default.
+        sys.set_int_max_str_digits(0)
+        return answer_of(json.loads(data))
+    finally:
+        sys.set_int_max_str_digits(digits)
+
+
+def answer_of(document: Mapping[str, Any]) -> Answer:
+    """The answer whose certificate a valid document is."""
+    about = _plant(document["system"])
+    for construction in document["subject"]:
+        about = _CONSTRUCTIONS[construction["construction"]](about, construction)
+    importlib.import_module(f"mcexact.answer.{document['kind']}")
+    return _answer(KINDS[document["kind"]], document, about)
+
+
+def _plant(document: Mapping[str, Any]) -> MultiChannelSystem:
+    text = canonical({"format": system_file.FORMAT, **document})
+    return system_file.read_system(text, limits=_roomy(text))
+
+
+def _closed_loop(system: MultiChannelSystem, given: Mapping[str, Any]) -> MultiChannelSystem:
+    text = canonical({"format": controller_file.FORMAT, "system": "", **given["controller"]})
+    return closed_loop(system, controller_file.read_controller(text, _roomy(text)))
+
+
+def _roomy(text: str) -> Limits:
+    """Limits that a text which was accepted already does not meet."""
+    return Limits(bytes=max(Limits.bytes, len(text)), digits=max(Limits.digits, len(text)))
+
+
+def _gains(given: Mapping[str, Any], widths: list[int]) -> list[Matrix]:
+    return [_matrix(F, ncols) for F, ncols in zip(given["gains"], widths, strict=True)]
+
+
+_CONSTRUCTIONS: Mapping[
+    str, Callable[[MultiChannelSystem, Mapping[str, Any]], MultiChannelSystem]
+] = {
+    "augmented_outputs": lambda system, _: augmented_outputs(system),
+    "dual": lambda system, _: dual(system),
+    "feedback": lambda system, given: feedback(
+        system, _gains(given, [system.q(i) for i in range(system.m)])
+    ),
+    "full_output": lambda system, given: full_output(system, system.index(given["channel"])),
+    "arcs": lambda system, given: add_arcs(
+        system, [(system.index(j), system.index(i)) for j, i in given["added"]]
+    ),
+    "extended": lambda system, given: extended_system(system, given["dimensions"], given["share"]),
+    "lifted": lambda system, given: lifted_system(system, given["dimensions"], given["share"]),
+    "held": lambda system, given: held_system(system, given["dimensions"]),
+    "integrators": lambda system, _: setpoint_system(system),
+    "error": lambda system, given: error_system(system, _gains(given, [system.n] * system.m)),
+    "closed_loop": _closed_loop,
+}
+
+
+def _answer(kind: type[Answer], document: Mapping[str, Any], about: MultiChannelSystem) -> Answer:
+    """Claim and witness as the fields of a kind of answer."""
+    hints = typing.get_type_hints(kind)
+    values = {}
+    for role in ("claim", "witness"):
+        for each in fields_of(kind, role):
+            whole = each.metadata.get("whole")
+            value = document[role] if whole else document[role][key_of(each)]
+            values[each.name] = _value(hints[each.name], value, about)
+    return kind(about, **values)
+
+
+def _value(wanted: Any, value: Any, about: MultiChannelSystem) -> Any:
+    """A value of a type, from plain data."""
+    arguments = typing.get_args(wanted)
+    if isinstance(wanted, types.UnionType):
+        [wanted] = [each for each in arguments if _could_be(each, value)]
+        arguments = typing.get_args(wanted)
+    if typing.get_origin(wanted) is tuple:
+        each = [arguments[0]] * len(value) if arguments[-1] is Ellipsis else arguments
+        return tuple(_value(t, v, about) for t, v in zip(each, value, strict=True))
+    if wanted in _READ:
+        return _READ[wanted](value)
+    if isinstance(wanted, type) and is_dataclass(wanted):
+        if issubclass(wanted, Answer):
+            return _answer(wanted, value, about)
+        hints = typing.get_type_hints(wanted)
+        entries = {f.name: _value(hints[f.name], value[key_of(f)], about) for f in fields(wanted)}
+        return wanted(**entries)
+    return value
+
+
+def _could_be(wanted: Any, value: Any) -> bool:
+    """Whether plain data are of this one of several types."""
+    if wanted is types.NoneType or value is None:
+        return wanted is types.NoneType and value is None
+    if is_dataclass(wanted) and wanted not in _READ and isinstance(value, dict):
+        return {key_of(each) for each in fields(wanted)} == value.keys()
+    return True
+
+
+def _matrix(value: Mapping[str, Any], ncols: int | None = None) -> Matrix:
+    return Matrix.from_integers(value["entries"], value["denominator"], ncols)
+
+
+def _polynomial_matrix(value: Mapping[str, Any]) -> PolynomialMatrix:
+    d = value["denominator"]
+    return PolynomialMatrix.from_matrices(
+        *(Matrix.from_integers(layer, d) for layer in value["coefficients"])
+    )
+
+
+_READ: Mapping[Any, Callable[[Any], Any]] = {
+    Fraction: Fraction,
+    Polynomial: Polynomial.from_coefficients,
+    Matrix: _matrix,
+    PolynomialMatrix: _polynomial_matrix,
+}

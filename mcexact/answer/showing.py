@@ -1,0 +1,137 @@
+"""Answers shown: one line, HTML, LaTeX and plain data; what does not fit is left out whole."""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+from fractions import Fraction
+from html import escape
+from typing import TYPE_CHECKING, Any
+
+from mcexact.answer.latex import escaped
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.polynomial import Polynomial
+from mcexact.model.canonical import plain
+
+if TYPE_CHECKING:
+    from mcexact.answer.protocol import Answer
+
+LINE = 200
+"""Characters in the ``repr`` of an answer, at most."""
+_CELL = 300
+
+
+def line(answer: Answer) -> str:
+    """The claims in one line; no number and no name is cut.
+
+    Notes
+    -----
+    Every claim is first given the room of its shortest form; the rest goes to the claims whose
+    whole form is the shortest.
+    """
+    values = answer.claim()
+    if answer.subject:
+        values["of"] = tuple(each["construction"] for each in answer.subject)
+    texts = {key: fitted(value, 0) for key, value in values.items()}
+    head = type(answer).__name__
+    room = LINE - len(_call(head, texts))
+    for _, key in sorted((len(fitted(value, LINE)), key) for key, value in values.items()):
+        longer = fitted(values[key], len(texts[key]) + room)
+        room += len(texts[key]) - len(longer)
+        texts[key] = longer
+    return _call(head, texts)
+
+
+def _call(head: str, texts: dict[str, str]) -> str:
+    return f"{head}({', '.join(f'{key}={text}' for key, text in texts.items())})"
+
+
+def fitted(value: Any, room: int) -> str:
+    """A value in so many characters, or else in the fewest it can have.
+
+    Examples
+    --------
+    >>> fitted(("1", "2", "3", "4"), 15), fitted(("1", "2"), 0)
+    ("('1', … 3 more)", '(… 2 more)')
+    >>> fitted(Polynomial.of(7, 0, -3, 1), 30), fitted(Polynomial.of(7, 0, -3, 1), 12)
+    ('x^3 - 3*x^2 + 7', '… (degree 3)')
+    """
+    if isinstance(value, tuple | list):
+        return _sequence(value, room)
+    if isinstance(value, Polynomial):
+        return _polynomial(value, room)
+    if isinstance(value, Matrix):
+        return f"{value.nrows}×{value.ncols} matrix"
+    if dataclasses.is_dataclass(value):
+        names = getattr(value, "brief", ()) or (dataclasses.fields(value)[0].name,)
+        told = tuple(getattr(value, name) for name in names)
+        return fitted(told[0] if len(told) == 1 else told, room)
+    text = str(value) if isinstance(value, Fraction) else repr(value)
+    short = value is None or isinstance(value, bool)
+    return text if short or len(text) <= room else "…"
+
+
+def _sequence(values: tuple[Any, ...] | list[Any], room: int) -> str:
+    """The first few items, and how many more there are."""
+    kept: list[str] = []
+    used = len("()")
+    for place, value in enumerate(values):
+        left = len(values) - place - 1
+        more = len(f", … {left} more") if left else 0
+        text = fitted(value, room - used - more)
+        if used + len(text) + more > room:
+            break
+        kept.append(text)
+        used += len(text) + len(", ")
+    left = len(values) - len(kept)
+    return "(" + ", ".join([*kept, f"… {left} more"] if left else kept) + ")"
+
+
+def _polynomial(p: Polynomial, room: int) -> str:
+    """The first terms, and the degree."""
+    whole = str(p)
+    if len(whole) <= room:
+        return whole
+    end = f"… (degree {p.degree})"
+    shown = ""
+    for term in re.split(r"(?<=.)(?= [+-] )", whole):
+        if len(shown) + len(term) + len(f" + {end}") > room:
+            break
+        shown += term
+    return f"{shown} + {end}" if shown else end
+
+
+def plain_view(value: Any) -> Any:
+    """Plain data for programs: polynomials and matrices as lists of exact strings."""
+    if isinstance(value, Polynomial):
+        return [str(c) for c in value.coefficients]
+    if isinstance(value, Matrix):
+        return [[str(entry) for entry in row] for row in value.rows()]
+    if hasattr(value, "document"):
+        return {key: plain_view(item) for key, item in value.document().items()}
+    if isinstance(value, tuple | list):
+        return [plain_view(item) for item in value]
+    return plain(value)
+
+
+def html(answer: Answer) -> str:
+    """Everything that is shown, as a table."""
+    rows = "".join(
+        f"<tr><th>{escape(label)}</th><td>{escape(fitted(value, _CELL))}</td></tr>"
+        for _, label, value in answer.entries()
+    )
+    return f"<table><caption>{type(answer).__name__}</caption>{rows}</table>"
+
+
+def latex(answer: Answer) -> str:
+    """Everything that is shown, as an array."""
+    rows = r" \\ ".join(
+        rf"\text{{{escaped(label)}}} & {_latex(value)}" for _, label, value in answer.entries()
+    )
+    return rf"$\begin{{array}}{{ll}} {rows} \end{{array}}$"
+
+
+def _latex(value: Any) -> str:
+    if isinstance(value, Polynomial):
+        return value.latex()
+    return rf"\text{{{escaped(fitted(value, _CELL))}}}"

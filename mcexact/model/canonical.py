@@ -1,0 +1,107 @@
+"""Exact objects as plain data, the one JSON text of plain data, and its digest."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import sys
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.polynomial_matrix import PolynomialMatrix
+from mcexact.exact.rational import written
+
+Document = Mapping[str, Any]
+"""A JSON object made of plain data."""
+
+
+class PlainObject(dict[str, Any]):
+    """A JSON object made of plain data, not to be changed; its canonical text is made once.
+
+    The system is most of a certificate, and all certificates about it share it.
+    """
+
+    @cached_property
+    def text(self) -> str:
+        """The canonical JSON text."""
+        return canonical(self)
+
+
+def plain(value: Any) -> Any:
+    """Turn exact objects into the plain data of a JSON document.
+
+    Parameters
+    ----------
+    value : object
+        None, a bool, an int, a string, a Fraction, a matrix, a polynomial matrix, a polynomial,
+        something with a ``document()``, or a mapping or sequence of such.
+
+    Returns
+    -------
+    object
+        Made of dict, list, str, int, bool and None.
+
+    Raises
+    ------
+    TypeError
+        If the value has no exact form, as a float has none.
+
+    Examples
+    --------
+    >>> plain({"half": Fraction(1, 2), "channels": ("1", "2")})
+    {'half': '1/2', 'channels': ['1', '2']}
+    >>> plain(0.5)
+    Traceback (most recent call last):
+        ...
+    TypeError: a certificate holds exact data only, found float
+    """
+    if value is None or isinstance(value, (bool, int, str, PlainObject)):
+        return value
+    if isinstance(value, Fraction):
+        return written(value)
+    if isinstance(value, Polynomial):
+        return value.as_json()
+    if isinstance(value, Matrix):
+        return {"denominator": value.denominator, "entries": _integers(value.numerators)}
+    if isinstance(value, PolynomialMatrix):
+        layers = [_integers(layer) for layer in value.coefficients]
+        return {"denominator": value.denominator, "coefficients": layers}
+    if hasattr(value, "document"):
+        return plain(value.document())
+    if isinstance(value, Mapping):
+        return {str(key): plain(item) for key, item in value.items()}
+    if isinstance(value, Sequence) and not isinstance(value, (bytes, bytearray)):
+        return [plain(item) for item in value]
+    raise TypeError(f"a certificate holds exact data only, found {type(value).__name__}")
+
+
+def _integers(rows: Sequence[Sequence[int]]) -> list[list[int]]:
+    """Copy rows of integers as lists."""
+    return [list(map(int, row)) for row in rows]
+
+
+def canonical(value: Any) -> str:
+    """The one JSON text of plain data: sorted keys, no blanks, non-ASCII characters escaped."""
+    digits = sys.get_int_max_str_digits()
+    try:
+        # Exact evidence may have longer numbers than the interpreter prints by default.
+        sys.set_int_max_str_digits(0)
+        return json.dumps(
+            value, sort_keys=True, separators=(",", ":"), ensure_ascii=True, check_circular=False
+        )
+    finally:
+        sys.set_int_max_str_digits(digits)
+
+
+def text_of(value: Any) -> str:
+    """The canonical JSON text of exact objects."""
+    return value.text if isinstance(value, PlainObject) else canonical(plain(value))
+
+
+def sha256(value: Any) -> str:
+    """The SHA-256 of the canonical JSON of exact objects, in lower-case hexadecimal."""
+    return hashlib.sha256(text_of(value).encode("ascii")).hexdigest()
