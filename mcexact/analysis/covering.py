@@ -19,6 +19,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from mcexact.errors import InternalError, LimitReached, McexactError
+from mcexact.exact.floats import to_float
 
 if TYPE_CHECKING:
     import numpy as np
@@ -70,7 +71,7 @@ class CoveringProgram:
     @cached_property
     def float_costs(self) -> list[float]:
         """The costs in units, for the search in floating point."""
-        return [float(cost / self.unit) for cost in self.costs]
+        return [to_float(cost / self.unit) for cost in self.costs]
 
     @cached_property
     def largest_demand(self) -> int:
@@ -159,15 +160,15 @@ def _integer_optimum(
 
     size = len(program.costs)
     rows = [_row(cut, size) for cut in program.cuts]
-    low = [float(cut.demand) for cut in program.cuts]
+    low = [to_float(cut.demand) for cut in program.cuts]
     high = [np.inf] * len(rows)
     if at_most is not None:
         rows.append(np.array(program.float_costs))
         low.append(-np.inf)
-        high.append(float(at_most / program.unit) + 0.5)
+        high.append(to_float(at_most / program.unit) + 0.5)
     constraints = [LinearConstraint(np.array(rows), low, high)] if rows else []
     top = program.largest_demand
-    upper = np.array([np.inf if u is None else float(min(u, top)) for u in program.upper])
+    upper = np.array([np.inf if u is None else to_float(min(u, top)) for u in program.upper])
     lower = np.zeros(size)
     for i, value in enumerate(fixed):
         lower[i] = upper[i] = value
@@ -301,7 +302,7 @@ def _relaxation(
     found = linprog(
         program.float_costs,
         A_ub=-np.array([_row(cut, size) for cut in program.cuts]),
-        b_ub=[-float(cut.demand) for cut in program.cuts],
+        b_ub=[-to_float(cut.demand) for cut in program.cuts],
         bounds=[
             (low, None if high is None else max(low, min(high, program.largest_demand)))
             for low, high in zip(lower, upper, strict=True)

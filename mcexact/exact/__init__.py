@@ -9,7 +9,7 @@ polynomial's roots with respect to a stability region.  Refuses floats, except t
 No other stage imports flint: sizes and moduli that it would abort on are refused here.
 
 ===================  ==================================================================
-`rational`           one number: entries, the written grammar, the way in from floats
+`rational`           one number: entries, the written grammar
 `matrix`             rational matrices
 `blocks`             rational matrices put together from blocks
 `linear_algebra`     ranks, kernels, solutions, characteristic polynomials over Q
@@ -21,13 +21,19 @@ No other stage imports flint: sizes and moduli that it would abort on are refuse
 `number_field`       kernels and ranks over Q[x]/(p)
 `location`           Hurwitz and Schur tests, stability regions
 `enclosures`         discs and intervals around roots
-`floats`             arrays of floats to rational matrices and back
+`floats`             floats to rational numbers and matrices, and back
 ===================  ==================================================================
 """
 
 from mcexact.exact.blocks import block, block_diagonal, hstack, kronecker, vstack
 from mcexact.exact.enclosures import Disc, real_root_intervals, root_discs
-from mcexact.exact.floats import dyadic_matrix, matrix_from_float, matrix_to_float
+from mcexact.exact.floats import (
+    dyadic_matrix,
+    from_float,
+    matrix_from_float,
+    matrix_to_float,
+    to_float,
+)
 from mcexact.exact.linear_algebra import (
     characteristic_polynomial,
     column_echelon,
@@ -59,9 +65,7 @@ from mcexact.exact.rational import (
     Entry,
     Limits,
     as_fraction,
-    from_float,
     parse_rational,
-    to_float,
     written,
 )
 

@@ -1,18 +1,78 @@
-"""Arrays of floats to rational matrices and back: the two crossings, entry by entry."""
+"""Floats to rational numbers and matrices, and back: the one place of the two crossings."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from mcexact.errors import InputError
 from mcexact.exact.matrix import Matrix
-from mcexact.exact.rational import Rounding, from_float, to_float
 
 if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
+
+Rounding = Literal["decimal", "dyadic"]
+
+# Floats hold every integer up to here.
+_EXACT = 2**53
+
+
+def from_float(x: float, rounding: Rounding, *, where: str | None = None) -> Fraction:
+    """The rational number that a float is taken for: one of the two crossings.
+
+    Parameters
+    ----------
+    x : float
+        Finite; a numpy floating-point scalar will do.
+    rounding : {"decimal", "dyadic"}
+        "decimal" reads the shortest decimal that prints the float (0.1 is 1/10), "dyadic" the
+        binary fraction that is stored.
+
+    Raises
+    ------
+    InputError
+        The number is not finite, or the rounding is unknown.
+
+    Examples
+    --------
+    >>> from_float(0.1, "decimal")
+    Fraction(1, 10)
+    >>> from_float(0.1, "dyadic")
+    Fraction(3602879701896397, 36028797018963968)
+    """
+    if rounding not in ("decimal", "dyadic"):
+        raise InputError(
+            f'expected rounding "decimal" or "dyadic", found {rounding!r}', where=where
+        )
+    value = float(x)
+    if not math.isfinite(value):
+        raise InputError(f"expected a finite number, found {value!r}", where=where)
+    if rounding == "dyadic":
+        return Fraction(value)
+    return Fraction(repr(value))
+
+
+def to_float(q: Fraction | int | str) -> float:
+    """The float nearest to a rational number, or to a decimal in writing: the other crossing.
+
+    A number beyond the range of floats becomes an infinity of its sign.
+
+    Examples
+    --------
+    >>> to_float(Fraction(1, 3))
+    0.3333333333333333
+    """
+    return float(q) if isinstance(q, str) else _quotient(q.numerator, q.denominator)
+
+
+def _quotient(p: int, q: int) -> float:
+    try:
+        return p / q
+    except OverflowError:
+        return math.inf if p > 0 else -math.inf
 
 
 def matrix_from_float(
@@ -85,8 +145,8 @@ def dyadic_matrix(M: Any, bits: int = 52) -> Matrix:
     if largest == 0.0:
         return Matrix.zeros(*M.shape)
     exponent = bits - int(np.frexp(largest)[1])
-    whole = matrix_from_float(np.round(np.ldexp(M, exponent)), "dyadic")
-    return whole * (Fraction(2) ** -exponent)
+    whole = [list(map(int, row)) for row in np.round(np.ldexp(M, exponent)).tolist()]
+    return Matrix.from_integers(whole, ncols=M.shape[1]) * (Fraction(2) ** -exponent)
 
 
 def _from_array(M: Any, where: str | None) -> tuple[list[list[Any]], int]:
@@ -133,8 +193,11 @@ def matrix_to_float(M: Matrix) -> npt.NDArray[np.float64]:
     """
     import numpy as np
 
-    array = np.empty(M.shape, dtype=np.float64)
-    for i, row in enumerate(M.rows()):
-        for j, entry in enumerate(row):
-            array[i, j] = to_float(entry)
-    return array
+    try:
+        table = np.array(M.numerators, dtype=np.int64).reshape(M.shape)
+    except OverflowError:
+        table = None
+    if table is not None and max(M.denominator, int(np.abs(table).max(initial=0))) <= _EXACT:
+        return table / np.float64(M.denominator)
+    entries = [[_quotient(entry, M.denominator) for entry in row] for row in M.numerators]
+    return np.array(entries, dtype=np.float64).reshape(M.shape)

@@ -1,20 +1,17 @@
-"""One rational number: what may be an entry, how it is written, and the way in from a float."""
+"""One rational number: what may be an entry, and how it is written."""
 
 from __future__ import annotations
 
-import math
 import re
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
-from typing import Any, Literal
+from typing import Any
 
 from mcexact.errors import FloatRefused, InputError, LimitReached
 
 Entry = Any
 """int, Fraction, Decimal, str in the written grammar, or a sympy Rational."""
-
-Rounding = Literal["decimal", "dyadic"]
 
 
 @dataclass(frozen=True)
@@ -222,57 +219,6 @@ def _from_decimal(entry: Decimal, where: str | None) -> Fraction:
         )
     mantissa = _integer("".join(map(str, digits)) or "0") * (-1 if sign else 1)
     return mantissa * Fraction(10) ** exponent
-
-
-def from_float(x: float, rounding: Rounding, *, where: str | None = None) -> Fraction:
-    """The rational number that a float is taken for: one of the two crossings.
-
-    Parameters
-    ----------
-    x : float
-        Finite; a numpy floating-point scalar will do.
-    rounding : {"decimal", "dyadic"}
-        "decimal" reads the shortest decimal that prints the float (0.1 is 1/10), "dyadic" the
-        binary fraction that is stored.
-
-    Raises
-    ------
-    InputError
-        The number is not finite, or the rounding is unknown.
-
-    Examples
-    --------
-    >>> from_float(0.1, "decimal")
-    Fraction(1, 10)
-    >>> from_float(0.1, "dyadic")
-    Fraction(3602879701896397, 36028797018963968)
-    """
-    if rounding not in ("decimal", "dyadic"):
-        raise InputError(
-            f'expected rounding "decimal" or "dyadic", found {rounding!r}', where=where
-        )
-    value = float(x)
-    if not math.isfinite(value):
-        raise InputError(f"expected a finite number, found {value!r}", where=where)
-    if rounding == "dyadic":
-        return Fraction(value)
-    return Fraction(repr(value))
-
-
-def to_float(q: Fraction) -> float:
-    """The float nearest to a rational number: the other crossing.
-
-    A number beyond the range of floats becomes an infinity of its sign.
-
-    Examples
-    --------
-    >>> to_float(Fraction(1, 3))
-    0.3333333333333333
-    """
-    try:
-        return q.numerator / q.denominator
-    except OverflowError:
-        return math.inf if q > 0 else -math.inf
 
 
 def require_power(exponent: Any, bits: int) -> int:

@@ -6,9 +6,8 @@ from collections.abc import Sequence
 from typing import Any
 
 from mcexact.errors import InputError
-from mcexact.exact.floats import matrix_from_float
+from mcexact.exact.floats import Rounding, matrix_from_float
 from mcexact.exact.matrix import Matrix
-from mcexact.exact.rational import Rounding
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.matrix_entry import as_matrix, require_shape, require_square
 from mcexact.model.system import MultiChannelSystem

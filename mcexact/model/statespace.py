@@ -7,9 +7,8 @@ from fractions import Fraction
 from typing import Any
 
 from mcexact.errors import InputError
-from mcexact.exact.floats import matrix_from_float
+from mcexact.exact.floats import Rounding, from_float, matrix_from_float
 from mcexact.exact.matrix import Matrix
-from mcexact.exact.rational import Rounding, from_float
 from mcexact.model.names import nearest, quoted
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem

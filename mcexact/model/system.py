@@ -9,8 +9,9 @@ from typing import Any, Self
 
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.blocks import hstack, vstack
+from mcexact.exact.floats import Rounding, matrix_from_float
 from mcexact.exact.matrix import Matrix
-from mcexact.exact.rational import Rounding, as_fraction
+from mcexact.exact.rational import as_fraction
 from mcexact.model.matrix_entry import as_table, require_shape, require_square
 from mcexact.model.names import checked_names, checked_text, nearest, quoted
 from mcexact.model.neighbor_graph import NeighborGraph, graph_for
@@ -151,7 +152,6 @@ class MultiChannelSystem:
         >>> MultiChannelSystem.from_float(A, B, C, rounding="decimal").A[0, 0]
         Fraction(1, 10)
         """
-        from mcexact.exact.floats import matrix_from_float
 
         def exact(M: Any, where: str) -> Matrix:
             return matrix_from_float(M, rounding, where=where)

@@ -8,8 +8,7 @@ from fractions import Fraction
 from typing import Any
 
 from mcexact.analysis.closed_loop_spectrum import LoopSpectrum
-from mcexact.exact.enclosures import exact_decimal
-from mcexact.exact.rational import to_float
+from mcexact.exact.floats import to_float
 from mcexact.report.trajectory import error_norms, state_norms
 from mcexact.simulation.trajectory import Trajectory
 
@@ -58,8 +57,8 @@ def drawable(spectrum: LoopSpectrum | None) -> LoopSpectrum | None:
     """The spectrum, unless an eigenvalue is beyond the floats that pictures are made of."""
     if spectrum is None:
         return None
-    parts = (exact_decimal(part) for disc in spectrum.discs for part in (disc.re, disc.im))
-    return spectrum if all(math.isfinite(to_float(part)) for part in parts) else None
+    parts = (to_float(part) for disc in spectrum.discs for part in (disc.re, disc.im))
+    return spectrum if all(map(math.isfinite, parts)) else None
 
 
 def draw_decay(
@@ -70,7 +69,7 @@ def draw_decay(
     label: str,
 ) -> None:
     """Norms on a logarithmic axis, with the certified rate through the largest first value."""
-    times = [float(t) for t in run.times]
+    times = [to_float(t) for t in run.times]
     marker = "." if run.time == "discrete" else ""
     shown = [value for values in curves.values() for value in values if 0 < value < float("inf")]
     for name, values in curves.items():
@@ -104,9 +103,9 @@ def _slope(
     top = max(tops)
     start = tops.index(top)
     if time == "continuous":
-        decay = float(Fraction(rate.lower))
+        decay = to_float(rate.lower)
     else:
-        radius = float(Fraction(rate.upper))
+        radius = to_float(rate.upper)
         if radius <= 0:
             return []
         decay = -math.log(radius)
@@ -121,16 +120,16 @@ def rate_text(time: str, spectrum: LoopSpectrum) -> str:
     if spectrum.rate is None:
         return ""
     if time == "continuous":
-        return f"rate {float(Fraction(spectrum.rate.lower)):.4g}"
-    return f"radius {float(Fraction(spectrum.rate.upper)):.4g}"
+        return f"rate {to_float(spectrum.rate.lower):.4g}"
+    return f"radius {to_float(spectrum.rate.upper):.4g}"
 
 
 def draw_eigenvalues(axis: Any, time: str, spectrum: LoopSpectrum) -> None:
     """The eigenvalues, and the stability region in gray."""
     from matplotlib.patches import Circle
 
-    re = [float(Fraction(disc.re)) for disc in spectrum.discs]
-    im = [float(Fraction(disc.im)) for disc in spectrum.discs]
+    re = [to_float(disc.re) for disc in spectrum.discs]
+    im = [to_float(disc.im) for disc in spectrum.discs]
     if time == "continuous":
         left = min([*re, -1.0]) * 1.2 - 0.5
         axis.axvspan(left, 0, color="0.92", zorder=0)
@@ -145,13 +144,13 @@ def draw_eigenvalues(axis: Any, time: str, spectrum: LoopSpectrum) -> None:
     reach = max([1.0, *map(abs, im)]) * 1.15
     axis.set_ylim(-reach, reach)
     for x, y, disc in zip(re, im, spectrum.discs, strict=True):
-        axis.add_patch(Circle((x, y), float(Fraction(disc.radius)), color="C3", alpha=0.4))
+        axis.add_patch(Circle((x, y), to_float(disc.radius), color="C3", alpha=0.4))
     axis.plot(re, im, "x", color="C3", label="eigenvalue")
     enclosed = [
         (x, y) for x, y, disc in zip(re, im, spectrum.discs, strict=True) if Fraction(disc.radius)
     ]
     if enclosed:
-        largest = max(float(Fraction(disc.radius)) for disc in spectrum.discs)
+        largest = max(to_float(disc.radius) for disc in spectrum.discs)
         axis.plot(
             *zip(*enclosed, strict=True),
             "o",

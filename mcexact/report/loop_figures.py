@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from fractions import Fraction
 
 from mcexact.analysis.closed_loop_spectrum import LoopSpectrum
+from mcexact.exact.floats import to_float
 from mcexact.report.figures import draw_decay, draw_eigenvalues, rate_text
 from mcexact.report.picture import Picture, empty_figure
 from mcexact.report.trajectory import error_norms, state_norms
@@ -27,7 +27,7 @@ def spectrum_picture(spectrum: LoopSpectrum, time: str, title: str) -> Picture:
     axis.set_title(title, fontsize="medium")
     told = ", ".join(_point(disc.re, disc.im) for disc in spectrum.discs[:20])
     told += ", …" if len(spectrum.discs) > 20 else ""
-    largest = max((float(Fraction(disc.radius)) for disc in spectrum.discs), default=0.0)
+    largest = max((to_float(disc.radius) for disc in spectrum.discs), default=0.0)
     verdict = "all in the stability region" if spectrum.stable else "not all stable"
     sure = f"in a certified disc of radius at most {largest:.1e}" if largest else "known exactly"
     words = f"{len(spectrum.discs)} distinct eigenvalues, {verdict} (gray): {told}; each is {sure}."
@@ -36,7 +36,7 @@ def spectrum_picture(spectrum: LoopSpectrum, time: str, title: str) -> Picture:
 
 def _point(re: str, im: str) -> str:
     """A complex number in four digits."""
-    real, imaginary = float(Fraction(re)), float(Fraction(im))
+    real, imaginary = to_float(re), to_float(im)
     return f"{real:.4g}" if imaginary == 0 else f"{real:.4g}{imaginary:+.4g}i"
 
 
@@ -80,7 +80,7 @@ def delays_picture(runs: Sequence[tuple[int, Trajectory]]) -> Picture:
     words = []
     for delay, run in runs:
         norms = state_norms(run)
-        axis.plot([float(t) for t in run.times], norms, marker=".", label=f"delay {delay}")
+        axis.plot([to_float(t) for t in run.times], norms, marker=".", label=f"delay {delay}")
         rest = next((k for k, value in enumerate(norms) if value == 0), None)
         ends = f"exactly 0 from step {rest}" if rest is not None else f"ends at {norms[-1]:.1e}"
         words.append(f"delay {delay}: largest {max(norms):.1e}, {ends}")
@@ -116,7 +116,7 @@ def setpoint_picture(
     axis = figure.subplots()
     words = []
     for k, (name, values) in enumerate(zip(names, outputs, strict=True)):
-        axis.plot([float(t) for t in run.times], values, color=f"C{k}", label=name)
+        axis.plot([to_float(t) for t in run.times], values, color=f"C{k}", label=name)
         axis.axhline(wanted[k], color=f"C{k}", linestyle="--", linewidth=1)
         words.append(f"{name} ends at {values[-1]:.6g}, its set-point is {wanted[k]:g}")
     axis.set_xlabel("step" if run.time == "discrete" else "time")

@@ -10,6 +10,7 @@ from typing import Any
 
 from mcexact.analysis.closed_loop_spectrum import LoopSpectrum, closed_loop_spectrum
 from mcexact.errors import InputError
+from mcexact.exact.floats import to_float
 from mcexact.model.closed_loop import closed_loop_matrix
 from mcexact.model.controller import Controller
 from mcexact.model.system import MultiChannelSystem
@@ -147,7 +148,7 @@ def _horizon(time: str, spectrum: LoopSpectrum | None, states: int) -> Fraction:
     """Some time constants, within reason."""
     rate = None if spectrum is None else spectrum.rate
     if time == "discrete":
-        radius = 0.9 if rate is None else min(0.95, float(Fraction(rate.upper)))
+        radius = 0.9 if rate is None else min(0.95, to_float(rate.upper))
         steps = states if radius <= 0 else max(states, math.ceil(-10 / math.log(radius)))
         return Fraction(min(steps + 3, 200))
     lower = Fraction(1) if rate is None else Fraction(rate.lower)

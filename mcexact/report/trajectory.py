@@ -7,6 +7,8 @@ import io
 from fractions import Fraction
 from typing import Any
 
+from mcexact.exact.floats import to_float
+from mcexact.exact.rational import rational_text
 from mcexact.simulation.trajectory import Trajectory
 
 
@@ -31,13 +33,9 @@ def trajectory_csv(run: Trajectory) -> str:
 def _written(value: Any, run: Trajectory) -> str:
     """A number as text."""
     if isinstance(value, Fraction) and run.arithmetic == "float":
-        return repr(value.numerator / value.denominator)
+        return repr(to_float(value))
     if isinstance(value, Fraction):
-        from decimal import Decimal
-
-        if value.denominator == 1:
-            return str(Decimal(value.numerator))
-        return f"{Decimal(value.numerator)}/{Decimal(value.denominator)}"
+        return rational_text(value)
     return repr(value) if isinstance(value, float) else str(value)
 
 
@@ -57,10 +55,7 @@ def error_norms(run: Trajectory) -> dict[str, list[float]]:
 def _largest(values: list[Any]) -> float:
     """The largest absolute value as a float; inf beyond the floats, 0 without entries."""
     top = max((abs(value) for value in values), default=0)
-    try:
-        return float(top)
-    except OverflowError:
-        return float("inf")
+    return to_float(top) if isinstance(top, (int, Fraction)) else float(top)
 
 
 def trajectory_rows(run: Trajectory, lines: int = 12) -> tuple[tuple[str, ...], ...]:
@@ -70,7 +65,7 @@ def trajectory_rows(run: Trajectory, lines: int = 12) -> tuple[tuple[str, ...], 
     chosen = sorted({round(k * (count - 1) / max(lines - 1, 1)) for k in range(lines)})
     return tuple(
         (
-            f"{float(run.times[k]):g}",
+            f"{to_float(run.times[k]):g}",
             f"{states[k]:.3e}",
             *(f"{errors[name][k]:.3e}" for name in errors),
         )

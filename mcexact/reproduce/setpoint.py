@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+import numpy as np
+
 from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.analysis.setpoint import setpoint_solvability
 from mcexact.derived.integrators import setpoint_system
 from mcexact.errors import Impossible
 from mcexact.exact.blocks import block, vstack
+from mcexact.exact.floats import matrix_to_float, to_float
 from mcexact.exact.linear_algebra import characteristic_polynomial, determinant, rank, solve
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
@@ -152,19 +155,13 @@ def distributed_setpoints(note: Notebook) -> None:
     wanted = [Fraction(1), Fraction(-2)]
     design = design_setpoint(plant, rate=1)
     run = simulate(plant, design.controller, horizon=16, reference=[[r] for r in wanted])
-    C = plant.output_matrix().rows()
-    outputs = [
-        [
-            sum(float(c) * float(x) for c, x in zip(row, shot.plant, strict=True))
-            for shot in run.snapshots
-        ]
-        for row in C
-    ]
-    near = all(abs(y[-1] - float(r)) < 1e-3 for y, r in zip(outputs, wanted, strict=True))
+    outputs = (
+        matrix_to_float(plant.output_matrix()) @ np.array([shot.plant for shot in run.snapshots]).T
+    ).tolist()
+    goals = [to_float(r) for r in wanted]
+    near = all(abs(y[-1] - r) < 1e-3 for y, r in zip(outputs, goals, strict=True))
     note.check("the run ends at the set-points 1 and −2", near)
-    note.show(
-        setpoint_picture(run, outputs, [float(r) for r in wanted], ["y of agent 1", "y of agent 2"])
-    )
+    note.show(setpoint_picture(run, outputs, goals, ["y of agent 1", "y of agent 2"]))
     name, plant = washed_out()
     note.on(name)
     try:

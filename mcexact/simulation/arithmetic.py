@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Protocol
 
+from mcexact.exact.floats import matrix_to_float, to_float
 from mcexact.exact.matrix import Matrix
 
 Native = Any
@@ -61,11 +62,7 @@ class ExactArithmetic:
 
     def largest(self, column: Matrix) -> float:
         """The largest absolute value; inf beyond the floats."""
-        top = max((abs(row[0]) for row in column.numerators), default=0)
-        try:
-            return float(Fraction(top, column.denominator))
-        except OverflowError:
-            return float("inf")
+        return to_float(max(map(abs, self.entries(column)), default=0))
 
 
 class MultiprecisionArithmetic:
@@ -116,13 +113,10 @@ class DoubleArithmetic:
 
     def convert(self, M: Matrix) -> Native:
         """An array of floats, every entry rounded once."""
-        from mcexact.exact.floats import matrix_to_float
-
         return matrix_to_float(M)
 
     def scalar(self, q: Fraction) -> float:
         """A float."""
-        from mcexact.exact.rational import to_float
 
         return to_float(q)
 

@@ -15,9 +15,9 @@ from mcexact.analysis.stability import (
     fastest_region,
 )
 from mcexact.errors import LimitReached, UsageError
-from mcexact.exact.floats import matrix_to_float
+from mcexact.exact.floats import matrix_to_float, to_float
 from mcexact.exact.location import StabilityRegion
-from mcexact.exact.rational import Entry, to_float
+from mcexact.exact.rational import Entry
 from mcexact.floating.margins import spectral_bound
 from mcexact.model.closed_loop import closed_loop
 from mcexact.model.controller import Controller

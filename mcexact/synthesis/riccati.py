@@ -5,8 +5,8 @@ from __future__ import annotations
 import warnings
 from typing import TYPE_CHECKING
 
+from mcexact.exact.floats import to_float
 from mcexact.exact.location import StabilityRegion
-from mcexact.exact.rational import to_float
 
 if TYPE_CHECKING:
     import numpy as np

@@ -1,5 +1,6 @@
-"""The crossings of arrays."""
+"""The two crossings, of numbers and of arrays."""
 
+import math
 from fractions import Fraction
 
 import numpy as np
@@ -9,11 +10,43 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mcexact.errors import InputError
-from mcexact.exact.floats import matrix_from_float, matrix_to_float
+from mcexact.exact.floats import from_float, matrix_from_float, matrix_to_float, to_float
 from mcexact.exact.matrix import Matrix
 from tests.exact.draws import matrices
 
 finite = st.floats(allow_nan=False, allow_infinity=False)
+
+
+@given(finite)
+def test_both_roundings_come_back_as_the_same_float(x):
+    assert to_float(from_float(x, "decimal")) == x
+    assert to_float(from_float(x, "dyadic")) == x
+    assert from_float(x, "dyadic") == Fraction(x)
+
+
+def test_the_roundings_differ_on_a_tenth():
+    assert from_float(0.1, "decimal") == Fraction(1, 10)
+    assert from_float(np.float64(0.1), "decimal") == Fraction(1, 10)
+    assert from_float(0.1, "dyadic").denominator == 2**55
+
+
+@pytest.mark.parametrize("x", [math.nan, math.inf, -math.inf])
+def test_only_finite_floats_come_in(x):
+    with pytest.raises(InputError, match="expected a finite number"):
+        from_float(x, "dyadic")
+
+
+def test_an_unknown_rounding_is_refused():
+    with pytest.raises(InputError, match='expected rounding "decimal" or "dyadic"'):
+        from_float(0.5, "nearest")
+    with pytest.raises(InputError, match="expected rounding"):
+        matrix_from_float([[0.5]], "up")
+
+
+def test_numbers_beyond_the_range_of_floats_become_infinities():
+    assert to_float(Fraction(10**400)) == math.inf
+    assert to_float(Fraction(-(10**400))) == -math.inf
+    assert to_float(Fraction(1, 10**400)) == 0.0
 
 
 @given(
@@ -93,6 +126,7 @@ def test_what_is_no_real_matrix_is_refused(array, message):
         matrix_from_float(array, where="B")
 
 
-def test_an_unknown_rounding_is_refused():
-    with pytest.raises(InputError, match="expected rounding"):
-        matrix_from_float([[0.5]], "up")
+def test_a_matrix_of_long_numbers_is_rounded_entry_by_entry():
+    M = Matrix.from_rows([[10**400, "-1/3"], [f"{2**53 + 1}", Fraction(1, 10**400)]])
+    assert matrix_to_float(M).tolist() == [[math.inf, -1 / 3], [float(2**53), 0.0]]
+    assert to_float("1e400") == math.inf

@@ -14,9 +14,7 @@ from mcexact.errors import FloatRefused, InputError
 from mcexact.exact.rational import (
     Limits,
     as_fraction,
-    from_float,
     parse_rational,
-    to_float,
     written,
 )
 
@@ -160,36 +158,6 @@ def test_a_decimal_that_is_not_finite_is_refused(entry):
 def test_a_decimal_with_a_huge_exponent_is_refused():
     with pytest.raises(InputError, match="exponent of at most 1000 in absolute value"):
         as_fraction(Decimal("1e999999999"))
-
-
-@given(st.floats(allow_nan=False, allow_infinity=False))
-def test_both_roundings_come_back_as_the_same_float(x):
-    assert to_float(from_float(x, "decimal")) == x
-    assert to_float(from_float(x, "dyadic")) == x
-    assert from_float(x, "dyadic") == Fraction(x)
-
-
-def test_the_roundings_differ_on_a_tenth():
-    assert from_float(0.1, "decimal") == Fraction(1, 10)
-    assert from_float(np.float64(0.1), "decimal") == Fraction(1, 10)
-    assert from_float(0.1, "dyadic").denominator == 2**55
-
-
-@pytest.mark.parametrize("x", [math.nan, math.inf, -math.inf])
-def test_only_finite_floats_come_in(x):
-    with pytest.raises(InputError, match="expected a finite number"):
-        from_float(x, "dyadic")
-
-
-def test_an_unknown_rounding_is_refused():
-    with pytest.raises(InputError, match='expected rounding "decimal" or "dyadic"'):
-        from_float(0.5, "nearest")
-
-
-def test_numbers_beyond_the_range_of_floats_become_infinities():
-    assert to_float(Fraction(10**400)) == math.inf
-    assert to_float(Fraction(-(10**400))) == -math.inf
-    assert to_float(Fraction(1, 10**400)) == 0.0
 
 
 @given(st.fractions())
