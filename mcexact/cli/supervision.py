@@ -108,10 +108,10 @@ def _await(receiver: Connection, doing: str, deadline: Deadline, quiet: bool) ->
     start = time.monotonic()
     with _terminable(), _progress(doing) as show:
         while not receiver.poll(0.1 if (left := deadline.left()) is None else min(0.1, left)):
-            if deadline.left() == 0:
-                raise deadline.missed(doing)
             if not quiet:
                 show(time.monotonic() - start)
+            if deadline.left() == 0:
+                raise deadline.missed(doing)
         return pickle.loads(receiver.recv_bytes())
 
 
