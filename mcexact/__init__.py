@@ -46,12 +46,12 @@ if TYPE_CHECKING:
     from mcexact.answer.check import check as check
     from mcexact.crosscheck.table import crosscheck as crosscheck
     from mcexact.derived.augmented_outputs import augmented_outputs as augmented_outputs
+    from mcexact.derived.delayed import held_system as held_system
+    from mcexact.derived.delayed import lifted_system as lifted_system
     from mcexact.derived.dual import dual as dual
     from mcexact.derived.error_system import error_system as error_system
     from mcexact.derived.extended import extended_system as extended_system
-    from mcexact.derived.held import held_system as held_system
     from mcexact.derived.integrators import setpoint_system as setpoint_system
-    from mcexact.derived.lifted import lifted_system as lifted_system
     from mcexact.model.controller_file import load_controller as load_controller
     from mcexact.model.controller_file import save_controller as save_controller
     from mcexact.model.local_controllers import local_controllers as local_controllers
@@ -85,8 +85,8 @@ _HOME = {
     "error_system": "derived.error_system",
     "exceptional_gains": "analysis.exceptional_gains",
     "extended_system": "derived.extended",
-    "held_system": "derived.held",
-    "lifted_system": "derived.lifted",
+    "held_system": "derived.delayed",
+    "lifted_system": "derived.delayed",
     "load_controller": "model.controller_file",
     "load_system": "model.system_file",
     "local_controllers": "model.local_controllers",

@@ -118,14 +118,14 @@ class Analysis:
     @cached_property
     def lifted(self) -> MultiChannelSystem:
         """The plant with its delayed wires, shared over which are as many states as the bound."""
-        from mcexact.derived.lifted import lifted_system
+        from mcexact.derived.delayed import lifted_system
 
         return lifted_system(self.plant, self._shared("outputs_states"))
 
     @cached_property
     def held(self) -> MultiChannelSystem:
         """The same where sub-states alone are shared, and held for the delays."""
-        from mcexact.derived.held import held_system
+        from mcexact.derived.delayed import held_system
 
         return held_system(self.plant, self._shared("states"))
 

@@ -14,9 +14,8 @@ from mcexact.analysis.controllability import (
 from mcexact.analysis.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.transfer_graph import TransferGraph, transfer_graph
 from mcexact.answer.fixed_spectrum import FixedSpectrum
+from mcexact.derived.delayed import held_system, lifted_system
 from mcexact.derived.extended import Share, extended_system
-from mcexact.derived.held import held_system
-from mcexact.derived.lifted import lifted_system
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_graph

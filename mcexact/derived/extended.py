@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from itertools import accumulate
-from typing import Literal, get_args
+from typing import Any, Literal, get_args
 
-from mcexact.errors import InputError
-from mcexact.exact.blocks import block_diagonal, hstack
+from mcexact.errors import InputError, LimitReached
+from mcexact.exact.blocks import block, block_diagonal, hstack, kronecker, vstack
 from mcexact.exact.matrix import Matrix
 from mcexact.model.names import quoted
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_graph
 
 Share = Literal["outputs+states", "states"]
+
+LARGEST = 20_000
+"""States that such a system may have; a delay in a file can ask for any number."""
 
 
 def checked_share(share: str) -> str:
@@ -46,6 +49,32 @@ def selector(start: int, size: int, total: int) -> Matrix:
     """
     rows = [[int(row - start == column) for column in range(size)] for row in range(total)]
     return Matrix.from_integers(rows, ncols=size)
+
+
+def shift(d: int) -> Matrix:
+    """S_d, the d×d shift matrix: ones just below the diagonal.
+
+    Examples
+    --------
+    >>> shift(3).numerators
+    ((0, 0, 0), (1, 0, 0), (0, 1, 0))
+    """
+    return Matrix.from_integers([[int(i == j + 1) for j in range(d)] for i in range(d)], ncols=d)
+
+
+def require_size(states: int) -> None:
+    """Refuse a system of absurdly many states.
+
+    Raises
+    ------
+    LimitReached
+        Beyond `LARGEST` states.
+    """
+    if states > LARGEST:
+        raise LimitReached(
+            f"this would be a system of {states} states, more than {LARGEST}; share fewer states, "
+            "or shorten the delays"
+        )
 
 
 def extended_system(
@@ -100,21 +129,61 @@ def extended_system(
     (4, ((0, 1, 0, 0), (0, 1, 0, 0), (0, 0, 0, 1)))
     """
     system, found = with_graph(system, graph)
-    sizes = checked_dimensions(system, dimensions)
-    checked_share(share)
-    total = sum(sizes)
-    starts = [0, *accumulate(sizes)]
-    E = [selector(starts[i], sizes[i], total) for i in range(system.m)]
-    B = [block_diagonal([system.B(i), E[i]]) for i in range(system.m)]
-    C = []
-    for i in range(system.m):
-        heard = found.neighborhood(i)
-        measured = system.output_matrix(heard if share == "outputs+states" else [i])
-        C.append(block_diagonal([measured, hstack([E[j] for j in heard], nrows=total).T]))
+    construction = {"construction": "extended", "share": share, "dimensions": dimensions}
+    return exchanged(system, found, construction, lambda i, j: 0)
+
+
+def exchanged(
+    system: MultiChannelSystem,
+    graph: NeighborGraph,
+    construction: Mapping[str, Any],
+    delay: Callable[[int, int], int],
+) -> MultiChannelSystem:
+    """Append shared sub-states and the messages under way, as `lifted_system` draws them.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    graph : NeighborGraph
+    construction : mapping
+        Its ``dimensions`` n_1 … n_m, and how agents ``share``: sub-states alone if it does not say.
+    delay : function of i and j
+        After how many steps agent i sees x_j, and y_j where outputs are shared.
+    """
+    sizes = checked_dimensions(system, construction["dimensions"])
+    both = checked_share(construction.get("share", "states")) == "outputs+states"
+    n, m = system.n, system.m
+    seen = [{j: delay(i, j) for j in graph.neighborhood(i)} for i in range(m)]
+    late = [max(steps.get(j, 0) for steps in seen) for j in range(m)]
+    sent = [system.q(j) if both else 0 for j in range(m)]
+    blocks = [k + d * (k + q) for d, k, q in zip(late, sizes, sent, strict=True)]
+    starts = [0, *accumulate(blocks)]
+    require_size(n + starts[m])
+
+    def x(j: int, steps: int) -> Matrix:
+        return selector(starts[j] + steps * sizes[j], sizes[j], starts[m])
+
+    def y(j: int, steps: int) -> Matrix:
+        behind = (late[j] + 1) * sizes[j] + (steps - 1) * sent[j]
+        return selector(starts[j] + behind, sent[j], starts[m])
+
+    K, G, C = [], [], []
+    for j, d in enumerate(late):
+        K += [kronecker(shift(d + 1), Matrix.identity(sizes[j]))]
+        K += [kronecker(shift(d), Matrix.identity(sent[j]))]
+        entering = system.C(j) if both and d else Matrix.zeros(0, n)
+        G += [Matrix.zeros((d + 1) * sizes[j], n), entering]
+        G += [Matrix.zeros(d * sent[j] - entering.nrows, n)]
+    for i, steps in enumerate(seen):
+        at_once = [j for j in steps if not steps[j]] if both else [i]
+        under_way = [y(j, steps[j]) for j in steps if steps[j] and both]
+        states = [x(j, steps[j]) for j in steps]
+        received = hstack([*under_way, *states], nrows=starts[m]).T
+        C.append(block_diagonal([system.output_matrix(at_once), received]))
     return system.derived(
-        block_diagonal([system.A, Matrix.zeros(total, total)]),
-        B,
+        block([[system.A, Matrix.zeros(n, starts[m])], [vstack(G), block_diagonal(K)]]),
+        [block_diagonal([system.B(i), x(i, 0)]) for i in range(m)],
         C,
-        {"construction": "extended", "share": share, "dimensions": list(sizes)},
-        neighbors=found,
+        {**construction, "dimensions": list(sizes)},
+        neighbors=graph,
     )

@@ -8,11 +8,10 @@ from functools import cached_property
 
 from mcexact.errors import UsageError
 from mcexact.exact.blocks import hstack, vstack
-from mcexact.exact.location import is_discrete
 from mcexact.exact.matrix import Matrix
 from mcexact.model.controller import Controller, LinearMap
 from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.system import MultiChannelSystem, with_wires
+from mcexact.model.system import MultiChannelSystem, require_discrete, with_wires
 
 
 @dataclass(frozen=True)
@@ -113,10 +112,8 @@ def loop_layout(
         If the controller does not fit.
     """
     system, found = with_wires(system, graph)
-    if found.delays and not is_discrete(system.time):
-        raise UsageError(
-            'delays are analyzed in discrete time only; this system has "time": "continuous"'
-        )
+    if found.delays:
+        require_discrete(system)
     controller.require_fits(system, found)
     return LoopLayout(system, controller, found)
 

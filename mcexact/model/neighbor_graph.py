@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 from mcexact.errors import FloatRefused, InputError, UsageError
@@ -203,7 +204,7 @@ class NeighborGraph:
         """d_j, the largest d_ij over the followers i of j."""
         return max((d for (_, sender), d in self._delay_of.items() if sender == j), default=0)
 
-    @property
+    @cached_property
     def _delay_of(self) -> dict[tuple[int, int], int]:
         return {(i, j): d for i, j, d in self.delays}
 

@@ -308,6 +308,20 @@ class MultiChannelSystem:
         )
 
 
+def require_discrete(system: MultiChannelSystem) -> None:
+    """Refuse continuous time.
+
+    Raises
+    ------
+    UsageError
+        If the system is in continuous time.
+    """
+    if system.time != "discrete":
+        raise UsageError(
+            'delays are analyzed in discrete time only; this system has "time": "continuous"'
+        )
+
+
 def with_graph(
     system: MultiChannelSystem, graph: NeighborGraph | Mapping[str, Iterable[str]] | None = None
 ) -> tuple[MultiChannelSystem, NeighborGraph]:

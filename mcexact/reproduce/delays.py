@@ -11,8 +11,8 @@ from mcexact.analysis.completeness import completeness
 from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.analysis.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.transfer_graph import transfer_graph
-from mcexact.derived.held import held_system
-from mcexact.derived.lifted import lifted_system, shift
+from mcexact.derived.delayed import held_system, lifted_system
+from mcexact.derived.extended import shift
 from mcexact.exact.blocks import vstack
 from mcexact.exact.linear_algebra import rank
 from mcexact.exact.matrix import Matrix

@@ -6,9 +6,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
+from mcexact.derived.delayed import held_system, lifted_system
 from mcexact.derived.extended import Share, extended_system
-from mcexact.derived.held import held_system
-from mcexact.derived.lifted import lifted_system
 from mcexact.errors import UsageError
 from mcexact.exact.matrix import Matrix
 from mcexact.model.controller import AgentProgram, Controller, LinearMap

@@ -11,8 +11,8 @@ from mcexact.analysis.delays import (
 )
 from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
+from mcexact.derived.delayed import held_system
 from mcexact.derived.extended import extended_system
-from mcexact.derived.held import held_system
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem

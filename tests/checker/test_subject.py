@@ -15,13 +15,12 @@ from mcexact.checker.subject import CONSTRUCTIONS, read_subject
 from mcexact.checker.system import System, digest, read_plant
 from mcexact.derived.arcs import add_arcs
 from mcexact.derived.augmented_outputs import augmented_outputs
+from mcexact.derived.delayed import held_system, lifted_system
 from mcexact.derived.dual import dual
 from mcexact.derived.error_system import error_system
 from mcexact.derived.extended import extended_system
 from mcexact.derived.feedback import feedback, full_output
-from mcexact.derived.held import held_system
 from mcexact.derived.integrators import setpoint_system
-from mcexact.derived.lifted import lifted_system
 from mcexact.exact.matrix import Matrix
 from mcexact.model import system_file
 from mcexact.model.canonical import plain

@@ -5,9 +5,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mcexact import testing
+from mcexact.derived.delayed import held_system, lifted_system
 from mcexact.derived.extended import extended_system
-from mcexact.derived.held import held_system
-from mcexact.derived.lifted import lifted_system
 from mcexact.errors import LimitReached, UsageError
 from mcexact.exact.blocks import vstack
 from mcexact.exact.matrix import Matrix

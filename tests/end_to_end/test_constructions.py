@@ -13,13 +13,12 @@ from mcexact.checker.system import digest as checked_digest
 from mcexact.checker.system import read_plant
 from mcexact.derived.arcs import add_arcs
 from mcexact.derived.augmented_outputs import augmented_outputs
+from mcexact.derived.delayed import held_system, lifted_system
 from mcexact.derived.dual import dual
 from mcexact.derived.error_system import error_system
 from mcexact.derived.extended import extended_system
 from mcexact.derived.feedback import feedback, full_output
-from mcexact.derived.held import held_system
 from mcexact.derived.integrators import setpoint_system
-from mcexact.derived.lifted import lifted_system
 from mcexact.exact.matrix import Matrix
 from mcexact.model.canonical import text_of
 from mcexact.model.closed_loop import closed_loop

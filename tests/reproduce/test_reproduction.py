@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from mcexact.cli import main
-from mcexact.derived import error_system, extended, feedback, held, integrators, lifted
+from mcexact.derived import error_system, extended, feedback, integrators
 from mcexact.reproduce.ledger import statements
 from mcexact.reproduce.pages import answer, reproduction_latex, reproduction_page
 from mcexact.reproduce.reproduction import Reproduction, reproduce
@@ -80,8 +80,8 @@ def transposed(module: Any, name: str) -> Any:
 
 BROKEN = [
     (extended, "selector", doubled, "emcs", "Equations bun, emcs"),
-    (lifted, "shift", transposed, "emcsdd", "Equations emcsdd, emcsdd-mtrx"),
-    (held, "shift", transposed, "emcsdd-hold", "Equations emcsdd-hold, emcsdd-hold-mtrx"),
+    (extended, "shift", transposed, "emcsdd", "Equations emcsdd, emcsdd-mtrx"),
+    (extended, "shift", transposed, "emcsdd-hold", "Equations emcsdd-hold, emcsdd-hold-mtrx"),
     (error_system, "block", doubled, "eme1", "Equations eme1, eme2, auditt, com.o, anal"),
     (integrators, "selector", doubled, "b1", "Equations int, b1, b2"),
     (feedback, "closed_by", doubled, "mcs", "Equation (1)"),
