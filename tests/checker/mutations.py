@@ -6,7 +6,8 @@ Every number, name, key and list position is changed, one at a time, on its own.
 never end in an error of the checker, and never make it work much longer than an original does.
 One whose claim, subject, system or kind differs from the original's may be VALID only if the
 oracle of its kind, run on the mutant's own system, confirms the claim.  Kinds join by registering
-a :class:`Registration` in a module of ``tests/checker/oracles``.
+a :class:`Registration` in a module of ``tests/checker/oracles``, or as the ``ORACLE`` of the file
+that tests their rule.
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ from fractions import Fraction
 from typing import Any
 
 from mcexact.checker import Verdict, check_document
+from mcexact.checker.kinds import KINDS
 from tests import effort
 from tests.checker import oracles
 
@@ -53,10 +55,12 @@ class Registration:
 
 
 def registrations() -> dict[str, Registration]:
-    """All registered kinds: the ``KINDS`` of every module in ``tests/checker/oracles``."""
+    """All kinds: the ``KINDS`` of the modules in ``oracles``, else ``ORACLE`` beside the tests."""
     found: dict[str, Registration] = {}
     for module in sorted(info.name for info in pkgutil.iter_modules(oracles.__path__)):
         found |= getattr(importlib.import_module(f"{oracles.__name__}.{module}"), "KINDS", {})
+    for kind in KINDS.keys() - found.keys():
+        found[kind] = importlib.import_module(f"tests.checker.test_{kind}").ORACLE
     return found
 
 
