@@ -10,6 +10,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 
 from .kinds import Verdict, check_document
+from .manifest import manifest_verdicts
 from .reading import Limits, Refused
 from .system import digest, read_system_file
 
@@ -30,8 +31,10 @@ def read_file(path: str, limits: Limits) -> bytes:
         ) from error
 
 
-def verdicts(paths: Sequence[str], system: str | None, limits: Limits) -> Iterator[Verdict]:
-    """The verdict on each file.
+def verdicts(
+    paths: Sequence[str], manifest: str | None, system: str | None, limits: Limits
+) -> Iterator[tuple[dict[str, str], Verdict]]:
+    """What each verdict is about (a ``file``, or the ``text`` of a sentence), and the verdict.
 
     Raises
     ------
@@ -43,9 +46,14 @@ def verdicts(paths: Sequence[str], system: str | None, limits: Limits) -> Iterat
         try:
             data = read_file(path, limits)
         except Refused as found:
-            yield Verdict(found.verdict, "", "", found.code, found.place, found.message)
+            yield (
+                {"file": path},
+                Verdict(found.verdict, "", "", found.code, found.place, found.message),
+            )
         else:
-            yield check_document(data, wanted, limits)
+            yield {"file": path}, check_document(data, wanted, limits)
+    if manifest is not None:
+        yield from manifest_verdicts(manifest, wanted, limits)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -56,7 +64,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     parser = argparse.ArgumentParser(prog="checker", description=__doc__, allow_abbrev=False)
     parser.add_argument(
-        "files", nargs="+", metavar="FILE", help="certificates; - is standard input"
+        "files", nargs="*", metavar="FILE", help="certificates; - is standard input"
+    )
+    parser.add_argument(
+        "--manifest", metavar="FILE", help="sentences, and the certificates that imply them"
     )
     parser.add_argument("--system", metavar="FILE", help="insist on certificates about its system")
     parser.add_argument("--json", action="store_true", help="print one JSON document")
@@ -64,6 +75,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         default = getattr(Limits, name)
         parser.add_argument(f"--max-{name}", type=int, default=default, metavar="N")
     options = parser.parse_args(arguments)
+    if not options.files and options.manifest is None:
+        parser.error("expected a FILE or --manifest")
     limits = Limits(options.max_bytes, options.max_depth, options.max_digits)
     sys.set_int_max_str_digits(0)
     # Never a traceback for a character that the terminal's encoding lacks.
@@ -71,8 +84,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         sys.stdout.reconfigure(errors="backslashreplace")
     found = []
     try:
-        for verdict in verdicts(options.files, options.system, limits):
-            found.append(verdict)
+        for about, verdict in verdicts(options.files, options.manifest, options.system, limits):
+            found.append((about, verdict))
             if not options.json:
                 print(verdict.line(), flush=True)
     except Refused as error:
@@ -81,6 +94,5 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         return 130
     if options.json:
-        rows = zip(options.files, found, strict=True)
-        print(json.dumps({"verdicts": [{"file": file, **asdict(v)} for file, v in rows]}, indent=1))
-    return next(status for status in PRECEDENCE if status in {0, *(v.status for v in found)})
+        print(json.dumps({"verdicts": [about | asdict(v) for about, v in found]}, indent=1))
+    return next(status for status in PRECEDENCE if status in {0, *(v.status for _, v in found)})

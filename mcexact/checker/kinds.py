@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib import import_module
 from typing import Any
 
@@ -31,14 +31,15 @@ KINDS: dict[str, Rule] = {stem: import_module(f".{stem}", __package__).check for
 
 @dataclass(frozen=True)
 class Verdict:
-    """What is said of one certificate.
+    """What is said of one certificate, or of one sentence.
 
     Attributes
     ----------
     verdict : str
-        VALID, INVALID, MALFORMED, INCOMPLETE, or ERROR for a bug in this checker.
+        VALID (of a sentence: IMPLIED), INVALID, MALFORMED, INCOMPLETE, or ERROR for a bug in this
+        checker.
     theorem : str
-        The statement that was checked, in words; empty unless VALID.
+        The statement that was checked, in words; empty unless VALID or IMPLIED.
     digest : str
         The SHA-256 of the certificate's plant; empty if it could not be read.
     code, place, message : str
@@ -55,12 +56,13 @@ class Verdict:
     @property
     def status(self) -> int:
         """The exit status that this verdict asks for."""
-        return {"VALID": 0, "INVALID": 1, "MALFORMED": 3, "INCOMPLETE": 5}.get(self.verdict, 70)
+        statuses = {"VALID": 0, "IMPLIED": 0, "INVALID": 1, "MALFORMED": 3, "INCOMPLETE": 5}
+        return statuses.get(self.verdict, 70)
 
     def line(self) -> str:
         """The verdict as one line of text."""
-        if self.verdict == "VALID":
-            return f"VALID {self.theorem} {self.digest}"
+        if not self.status:
+            return f"{self.verdict} {self.theorem} {self.digest}".rstrip()
         return f"{self.verdict} {self.code} {self.place}: {self.message}"
 
 
@@ -82,10 +84,10 @@ def check_document(
     Verdict
         Anything unexpected, an exception included, is a verdict other than VALID.
     """
-    known, digits = "", sys.get_int_max_str_digits()
-    try:
-        # The limit on digits is kept by the reader; the interpreter's own would stop some messages.
-        sys.set_int_max_str_digits(0)
+    known = ""
+
+    def check() -> Verdict:
+        nonlocal known
         document = parse(data, limits or Limits()) if isinstance(data, bytes) else data
         kind, plant, steps, claim, witness = _parts(document)
         system = read_plant(plant)
@@ -93,18 +95,28 @@ def check_document(
         if system_digest is not None:
             same = known == system_digest
             require(same, "system", "system", f"about another system, of digest {known}")
-        theorem = KINDS[kind](claim, witness, read_subject(steps, system))
-        return Verdict("VALID", theorem, known)
+        return Verdict("VALID", KINDS[kind](claim, witness, read_subject(steps, system)))
+
+    return replace(answer(check), digest=known)
+
+
+def answer(check: Callable[[], Verdict]) -> Verdict:
+    """What a check says, or why it stopped."""
+    digits = sys.get_int_max_str_digits()
+    try:
+        # The limit on digits is kept by the reader; the interpreter's own would stop some messages.
+        sys.set_int_max_str_digits(0)
+        return check()
     except Refused as found:
-        return Verdict(found.verdict, "", known, found.code, found.place, found.message)
+        return Verdict(found.verdict, "", "", found.code, found.place, found.message)
     except TooLarge:
-        return Verdict("INCOMPLETE", "", known, "size", "subject", "matrices too large to build")
+        return Verdict("INCOMPLETE", "", "", "size", "subject", "matrices too large to build")
     except NotAUnit:
         message = "a number that has to be inverted is not a unit modulo l"
-        return Verdict("INVALID", "", known, "unit", "witness.modulus", message)
+        return Verdict("INVALID", "", "", "unit", "witness.modulus", message)
     except Exception as error:
         message = f"{type(error).__name__}: {error}".splitlines()[0][:200]
-        return Verdict("ERROR", "", known, "internal", "checker", ascii(message))
+        return Verdict("ERROR", "", "", "internal", "checker", ascii(message))
     finally:
         sys.set_int_max_str_digits(digits)
 

@@ -15,6 +15,7 @@ import pytest
 from mcexact import checker
 from mcexact.checker.system import digest, read_plant
 from tests.checker.handmade import FIXED, FREE, PAPER, changed
+from tests.checker.manifests import SENTENCES, write
 from tests.effort import PATIENCE
 
 ENVIRONMENTS = [
@@ -144,6 +145,23 @@ def test_json_says_the_same(folder: Path) -> None:
     assert first["theorem"].startswith("the fixed spectrum of the plant")
     assert (second["verdict"], second["code"]) == ("INVALID", "common_factor")
     assert second["theorem"] == ""
+
+
+def test_a_manifest_is_checked_beside_files_or_alone(folder: Path) -> None:
+    (folder / "evidence").mkdir(exist_ok=True)
+    write(folder / "evidence")
+    done = run(folder, "--manifest", "evidence", "--system", "system.json")
+    assert (done.returncode, done.stderr) == (0, "")
+    lines = done.stdout.splitlines()
+    assert len(lines) == len(SENTENCES)
+    assert all(line.startswith("IMPLIED ") for line in lines)
+    both = run(folder, "fixed.json", "--manifest", "evidence/manifest.json", "--json")
+    found = json.loads(both.stdout)["verdicts"]
+    assert [row["verdict"] for row in found] == ["VALID"] + ["IMPLIED"] * len(SENTENCES)
+    assert [row["text"] for row in found[1:]] == [each["text"] for each in SENTENCES]
+    other = run(folder, "--manifest", "evidence", "--system", "other.json")
+    assert other.returncode == 1
+    assert run(folder, "--manifest", "nowhere").returncode == 3
 
 
 def test_standard_input_is_a_file_as_well(folder: Path) -> None:

@@ -11,11 +11,13 @@ import pytest
 
 from mcexact import checker
 from mcexact.checker.kinds import KINDS
+from mcexact.checker.manifest import RULES as RULES_OF_SENTENCES
 
 FOLDER = Path(checker.__file__).parent
 PROOFS = FOLDER.parent.parent / "proofs"
 STEMS = sorted(path.stem for path in FOLDER.glob("*.py"))
-NO_RULE = {"__init__", "__main__", "command", "kinds", "reading", "system", "words"}
+SENTENCES = {stem for stem in STEMS if stem.startswith("sentence")} | {"manifest"}
+NO_RULE = {"__init__", "__main__", "command", "kinds", "reading", "system", "words"} | SENTENCES
 """What reads, starts and speaks; every other file holds a rule, or evidence of several."""
 SENTENCE = re.compile(r"Theorems? ((?:``\w+\.\w+``(?:,\s+)?)+)\.")
 OPEN = "Open: see ``proofs/OPEN.md``."
@@ -121,6 +123,13 @@ def test_what_is_listed_is_a_theorem(name: str) -> None:
     stem, _, theorem = name.partition(".")
     text = (PROOFS / f"{stem}.v").read_text(encoding="utf-8")
     assert re.search(rf"^(?:Theorem|Corollary|Proposition) {theorem}\b", text, re.MULTILINE)
+
+
+def test_every_theorem_of_a_sentence_is_proved_by_machine_or_has_an_author() -> None:
+    for key, rule in RULES_OF_SENTENCES.items():
+        for name in re.split(r"[,;] ", rule.theorem) if rule.theorem else ():
+            author = re.fullmatch(r"[A-Z][\w. ]+ (and [A-Z][\w. ]+ )?\d{4}", name)
+            assert name in LISTED or author, (key, name)
 
 
 def test_what_says_that_it_is_open_is_what_the_page_lists() -> None:

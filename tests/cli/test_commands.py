@@ -15,6 +15,7 @@ from mcexact.crosscheck import demonstration
 from mcexact.crosscheck.records import libraries_here
 from mcexact.model import gallery
 from mcexact.model.system_file import load_system
+from tests.checker.manifests import write
 from tests.end_to_end.command_line import without_progress
 
 GALLERY = Path(gallery.__file__).parent
@@ -173,6 +174,15 @@ def test_check_ends_with_the_worst_status_in_its_order(call: Call, tmp_path: Pat
     assert words == ["VALID", "INVALID", "INCOMPLETE", "MALFORMED"]
     status, out, _ = call("check", "--json", *files.values())
     assert [row["verdict"] for row in json.loads(out)["verdicts"]] == words
+
+
+def test_check_says_what_certificates_imply(call: Call, tmp_path: Path) -> None:
+    status, out, _ = call("check", "--manifest", str(write(tmp_path)))
+    assert (status, {line.split()[0] for line in out.splitlines()}) == (0, {"IMPLIED"})
+    (tmp_path / "neighbor_graph.json").unlink()
+    status, out, _ = call("check", "--manifest", str(tmp_path), "--json")
+    assert (status, json.loads(out)["verdicts"][0]["file"]) == (1, "neighbor_graph.json")
+    assert call("check")[0] == 2
 
 
 def test_sample_draws_the_same_system_from_the_same_seed(call: Call) -> None:

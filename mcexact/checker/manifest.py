@@ -1,0 +1,222 @@
+"""A manifest: sentences, and the certificates that imply them; ``FORMAT.md`` says what it holds."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import re
+import stat
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from . import sentences_analysis, sentences_design, sentences_sharing
+from .kinds import Verdict, answer, check_document
+from .reading import (
+    Limits,
+    Refused,
+    fields,
+    incomplete,
+    items,
+    malformed,
+    parse,
+    require,
+    shown,
+    string,
+)
+from .sentence import RULES, Premise
+from .subject import read_subject
+from .system import read_plant
+
+TOPICS = (sentences_analysis, sentences_sharing, sentences_design)
+"""Where the rules are."""
+FORMAT = "mcexact-manifest/1"
+NAME = "manifest.json"
+FILE = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_+-]{0,99}\.json")
+"""The name of a certificate's file, beside the manifest; no path, whatever the system."""
+DIGEST = re.compile(r"[0-9a-f]{64}")
+TOKEN = re.compile(r"(?:[^~]|~[01])*+")
+INDEX = re.compile(r"0|[1-9][0-9]{0,9}")
+
+
+def manifest_verdicts(
+    path: str, system_digest: str | None = None, limits: Limits | None = None
+) -> Iterator[tuple[dict[str, str], Verdict]]:
+    """What is said of the manifest if it cannot be read, of certificates not VALID, of sentences.
+
+    Parameters
+    ----------
+    path : str
+        A manifest, or a folder that holds one under its usual name.
+    system_digest : str, optional
+        The digest of the plant that everything must be about; else that of the first certificate.
+    limits : Limits, optional
+        For the manifest and for each certificate.
+    """
+    path = os.path.join(path, NAME) if os.path.isdir(path) else path
+    parts: list[Any] = []
+
+    def read() -> Verdict:
+        parts.extend(_parts(parse(_bytes(path, limits or Limits()), limits or Limits())))
+        return Verdict("READ")
+
+    verdict = answer(read)
+    if not parts:
+        yield {"file": NAME}, verdict
+        return
+    digests, sentences, base = parts
+    known = Evidence(os.path.dirname(path), base, limits or Limits(), system_digest)
+    for name in sorted(digests):
+        verdict = known.taken(name, digests[name])
+        if verdict.verdict != "VALID":
+            yield {"file": name}, verdict
+    for k, sentence in enumerate(sentences):
+        yield {"text": sentence["text"]}, known.judged(sentence, f"sentences[{k}]")
+
+
+def _bytes(path: str, limits: Limits) -> bytes:
+    """The bytes of a regular file, one more than the limit at most; no link is followed."""
+    try:
+        regular = stat.S_ISREG(os.lstat(path).st_mode)
+        require(regular, "file", "file", "not a regular file of this folder")
+        with open(path, "rb") as stream:
+            return stream.read(limits.bytes + 1)
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise Refused("MALFORMED", "unreadable", "file", f"cannot be read: {reason}") from error
+
+
+def _parts(document: Any) -> tuple[Any, ...]:
+    """The digests by name, the sentences, and the subject, of a manifest of the right form."""
+    version, listed, sentences, base = fields(
+        document, "manifest", "format", "certificates", "sentences", optional=("subject",)
+    )
+    if string(version, "format") != FORMAT:
+        malformed("format", f"expected {FORMAT!r}, found {shown(version)}")
+    if not isinstance(listed, dict) or not items(sentences, "sentences"):
+        malformed("manifest", "expected digests by the names of files, and at least one sentence")
+    for name, value in listed.items():
+        if not FILE.fullmatch(name) or name == NAME:
+            malformed("certificates", f"expected a name such as setpoint.json, found {shown(name)}")
+        if not DIGEST.fullmatch(string(value, "certificates")):
+            malformed("certificates", f"expected a SHA-256 in hexadecimal, found {shown(value)}")
+    for k, sentence in enumerate(sentences):
+        place = f"sentences[{k}]"
+        *texts, because = fields(sentence, place, "text", "rule", "theorem", "because")
+        for name, pointer, _ in (items(entry, place, 3) for entry in items(because, place)):
+            texts += [name, pointer]
+            if string(name, place) not in listed:
+                malformed(place, f"{shown(name)} is no certificate of this manifest")
+        for text in texts:
+            string(text, place)
+    return listed, sentences, [] if base is None else items(base, "subject")
+
+
+@dataclass
+class Evidence:
+    """The certificates of a manifest, all about one plant.
+
+    Attributes
+    ----------
+    folder : str
+    base : list
+        The constructions that lead to the system that the sentences are about.
+    limits : Limits
+    digest : str or None
+        Of the plant; the first certificate that is VALID decides it.
+    verdicts, premises : dict
+        What was said of each certificate, and those that are VALID.
+    """
+
+    folder: str
+    base: list[Any]
+    limits: Limits
+    digest: str | None
+    verdicts: dict[str, Verdict] = field(default_factory=dict)
+    premises: dict[str, Premise] = field(default_factory=dict)
+
+    def taken(self, name: str, wanted: str) -> Verdict:
+        """Check one certificate; if it is VALID it becomes a premise."""
+
+        def check() -> Verdict:
+            path, most = os.path.join(self.folder, name), self.limits.bytes
+            require(os.path.lexists(path), "missing", "file", "is not beside the manifest")
+            data = _bytes(path, self.limits)
+            same_bytes = len(data) > most or hashlib.sha256(data).hexdigest() == wanted
+            require(same_bytes, "digest", "file", "not the bytes that the manifest names")
+            document = parse(data, self.limits)
+            verdict = check_document(document, self.digest, self.limits)
+            if verdict.verdict == "VALID":
+                self.premises[name] = self._premise(name, document, verdict.theorem)
+                self.digest = verdict.digest
+            return verdict
+
+        self.verdicts[name] = answer(check)
+        return self.verdicts[name]
+
+    def _premise(self, name: str, document: Any, theorem: str) -> Premise:
+        """A certificate that was found VALID."""
+        plant, steps = read_plant(document["system"]), document["subject"]
+        own = same(steps[: len(self.base)], self.base)
+        path = tuple(step["construction"] for step in steps[len(self.base) :]) if own else None
+        return Premise(name, document, plant, read_subject(steps, plant), theorem, path)
+
+    def judged(self, sentence: dict[str, Any], place: str) -> Verdict:
+        """What becomes of one sentence."""
+        key, because = sentence["rule"], sentence["because"]
+
+        def check() -> Verdict:
+            if key not in RULES:
+                incomplete("rule", "rule", f"{shown(key)} is not a rule known here")
+            theorem = RULES[key].theorem
+            named = sentence["theorem"] == theorem
+            require(named, "theorem", "theorem", f"expected {theorem or 'none'}")
+            cited = list(dict.fromkeys(name for name, *_ in because))
+            for name in cited:
+                if self.verdicts[name].verdict == "INCOMPLETE":
+                    incomplete("premise", name, "this certificate could not be checked")
+                require(name in self.premises, "premise", name, "this certificate is not VALID")
+            for name, pointer, value in because:
+                found = pointed(self.premises[name].document, pointer, name)
+                require(same(found, value), "value", name, f"another value at {shown(pointer)}")
+            require(bool(self.premises), "premise", "because", "nothing tells of the plant")
+            told = [
+                replace(self.premises[name], pointers=tuple(p for n, p, _ in because if n == name))
+                for name in cited
+            ]
+            words = RULES[key].implied(told, [*self.premises.values()])
+            words += f" [{theorem}]" if theorem else ""
+            return Verdict("IMPLIED", f"{words} from {', '.join(cited)}" if cited else words)
+
+        verdict = answer(check)
+        if verdict.verdict == "IMPLIED":
+            return verdict
+        return replace(verdict, place=f"{place} {shown(key)} {verdict.place}")
+
+
+def pointed(document: Any, pointer: str, place: str) -> Any:
+    """The value to which a JSON pointer (RFC 6901) leads."""
+    node, good = document, not pointer or pointer[0] == "/"
+    for token in pointer.split("/")[1:]:
+        if not TOKEN.fullmatch(token):
+            good = False
+        key = token.replace("~1", "/").replace("~0", "~")
+        if isinstance(node, list) and INDEX.fullmatch(key) and int(key) < len(node):
+            node = node[int(key)]
+        elif isinstance(node, dict) and key in node:
+            node = node[key]
+        else:
+            good = False
+    require(good, "pointer", place, f"{shown(pointer)} leads nowhere")
+    return node
+
+
+def same(a: Any, b: Any) -> bool:
+    """Whether two values are the same JSON: true is not 1, and the order of keys does not count."""
+    if type(a) is not type(b):
+        return False
+    if isinstance(a, dict):
+        return a.keys() == b.keys() and all(same(a[key], b[key]) for key in a)
+    if isinstance(a, list):
+        return len(a) == len(b) and all(map(same, a, b))
+    return bool(a == b)

@@ -1,0 +1,181 @@
+"""What a sentence may rest on: premises, the roles that they play, and the table of rules."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from .reading import require
+from .system import System
+from .words import channel_set, described
+
+Path = tuple[str, ...]
+"""The names of the constructions that lead from what the manifest is about to a subject."""
+
+SYSTEM: tuple[Path, ...] = ((), ("augmented_outputs",))
+"""What the agents see: their own outputs, or also those of their neighbors."""
+DUAL = tuple((*path, "dual") for path in SYSTEM)
+PLANT, HEARD = SYSTEM[:1], SYSTEM[1:]
+
+
+@dataclass(frozen=True)
+class Premise:
+    """A certificate that was found VALID.
+
+    Attributes
+    ----------
+    file : str
+    document : dict
+        The whole certificate; what its witness says has been verified as well.
+    plant, system : System
+        The plant, and the subject that was built from it.
+    theorem : str
+        What the checker said.
+    path : tuple of str, or None
+        How the subject is made; None if not of what the manifest is about.
+    pointers : tuple of str
+        To what a sentence rests on.
+    """
+
+    file: str
+    document: dict[str, Any]
+    plant: System
+    system: System
+    theorem: str
+    path: Path | None
+    pointers: tuple[str, ...] = ()
+
+    def __getitem__(self, key: str) -> Any:
+        return self.document["claim"][key]
+
+    @property
+    def kind(self) -> str:
+        """The kind of the certificate."""
+        return str(self.document["kind"])
+
+    @property
+    def witness(self) -> Any:
+        """The evidence, verified."""
+        return self.document["witness"]
+
+    @property
+    def about(self) -> str:
+        """The subject in words."""
+        return described(self.system)
+
+    def expect(self, holds: bool, message: str) -> None:
+        """Stop unless the claims are as the sentence needs them."""
+        require(holds, "claim", self.file, message)
+
+    def cited(self, pointer: str) -> list[Any]:
+        """The members of a list that the sentence points into; all of them if into none."""
+        members: Any = self.document
+        for key in pointer.split("/")[1:]:
+            members = members[key]
+        inside = [
+            p.removeprefix(f"{pointer}/") for p in self.pointers if p.startswith(f"{pointer}/")
+        ]
+        numbers = {int(rest.split("/")[0]) for rest in inside}
+        return [member for k, member in enumerate(members) if k in numbers or not numbers]
+
+    def set_of(self, channels: Sequence[str]) -> str:
+        """A set of channels by name."""
+        return channel_set(self.system, [self.system.names.index(name) for name in channels])
+
+
+@dataclass(frozen=True)
+class Role:
+    """What a premise has to be: one of these kinds, its subject made in one of these ways.
+
+    ``many`` takes all that fit, at least one, as a list.
+    """
+
+    kinds: Path
+    paths: tuple[Path, ...] = SYSTEM
+    many: bool = False
+
+    def fits(self, premise: Premise, heard: bool) -> bool:
+        """Whether a premise can play it, where the agents see their neighbors' outputs or not.
+
+        A role about what the agents see has to be played for the same information by all.
+        """
+        ways = self.paths
+        if ways in (SYSTEM, DUAL):
+            ways = ways[heard : heard + 1]
+        return premise.kind in self.kinds and premise.path in ways
+
+    def words(self) -> str:
+        """The role, for a message."""
+        ways = " or ".join("+".join(path) or "the plant" for path in self.paths)
+        return f"a premise of the kind {' or '.join(self.kinds)}, about {ways}"
+
+
+@dataclass(frozen=True)
+class Rule:
+    """Which premises imply a sentence, by which theorem, and what they imply in words.
+
+    ``say`` takes what plays the roles, in their order, and stops if the claims do not imply it.
+    Without a role it takes all premises, those of the sentence first: it repeats what was given.
+    """
+
+    theorem: str
+    roles: tuple[Role, ...]
+    say: Callable[..., str]
+
+    def implied(self, cited: list[Premise], known: list[Premise]) -> str:
+        """What the premises imply.
+
+        Raises
+        ------
+        Refused
+            If one is missing, or if they do not imply what the sentence says.
+        """
+        if not self.roles:
+            return self.say([*cited, *known])
+        casts = [list(self._cast(cited, heard)) for heard in (False, True)]
+        found = max(casts, key=len)
+        if len(found) < len(self.roles):
+            wanted = self.roles[len(found)].words()
+            require(False, "premise", "because", f"expected {wanted}")
+        return self.say(*found)
+
+    def _cast(self, cited: list[Premise], heard: bool) -> Iterator[Any]:
+        """Who plays each role, up to the first that nobody can play."""
+        for role in self.roles:
+            able = [premise for premise in cited if role.fits(premise, heard)]
+            if not able:
+                return
+            yield able if role.many else able[0]
+
+
+RULES: dict[str, Rule] = {}
+"""The rule of each sentence, by the key that the manifest names."""
+
+Say = Callable[..., str]
+
+
+def rule(keys: str, *roles: Role, theorem: str = "") -> Callable[[Say], Say]:
+    """Enter a rule under these keys, with blanks between them."""
+
+    def enter(say: Say) -> Say:
+        RULES.update({key: Rule(theorem, roles, say) for key in keys.split()})
+        return say
+
+    return enter
+
+
+def restate(
+    keys: str,
+    role: Role,
+    holds: Callable[[Premise], Any],
+    theorem: str = "",
+    words: Callable[[Premise], str] = lambda premise: premise.theorem,
+) -> None:
+    """Enter a rule with one premise, by default one that says again what the certificate claims."""
+
+    def say(premise: Premise) -> str:
+        premise.expect(bool(holds(premise)), "the claim is another one")
+        return words(premise)
+
+    rule(keys, role, theorem=theorem)(say)

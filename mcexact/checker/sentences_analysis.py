@@ -1,0 +1,301 @@
+"""What the certificates of an analysis imply: modes, structure, one channel, set-points."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from .arithmetic import exponent
+from .location import in_stability_region
+from .reading import polynomial
+from .sentence import DUAL, PLANT, SYSTEM, Premise, Role, restate, rule
+from .words import channel, channel_set, described, polynomial_text
+
+WANG_DAVISON = "S. H. Wang and E. J. Davison 1973"
+FIXED_DYNAMIC = "evidence.shrunk_subspace_fixed_dynamic"
+PENCIL = "evidence.shrunk_subspace_pencil, joint_controllability.controllable_hautus"
+SPLIT = "component_assignment.component_assignment"
+MOVED = "fixed_spectrum.multiplicity_at_most, spectrum_split.spectrum_split"
+HAUTUS = "joint_controllability.controllable_hautus"
+DAVISON = "setpoint.setpoint_rank; E. J. Davison 1976"
+
+FIXED = Role(("fixed_spectrum",))
+COMPLETE = Role(("completeness",))
+BLOCKS = Role(("assignability",))
+CONTROLLABLE, OBSERVABLE = Role(("controllability",)), Role(("controllability",), DUAL)
+GAINS = Role(("single_channel_gains",))
+SUBSYSTEM = Role(("complementary_subsystem",))
+RANK, RANKS = Role(("pencil_rank",)), Role(("pencil_rank",), many=True)
+SPECTRUM = Role(("closed_loop_spectrum",))
+SETPOINT = Role(("setpoint",), PLANT)
+
+
+def everywhere(found: Premise) -> bool:
+    """Whether a certificate about a set of channels is about all of them."""
+    return bool(found["channels"] == found.system.names)
+
+
+def controls(found: Premise) -> bool:
+    """Whether all channels together control the subject."""
+    found.expect(everywhere(found), "not about all channels together")
+    return bool(found["controllable"])
+
+
+# What is given, and titles that claim nothing.
+
+
+@rule("heading page-heading information controllability-indices-left-out")
+@rule("observability-indices-left-out")
+def given(known: list[Premise]) -> str:
+    """The sizes of the plant, and the names of its channels."""
+    plant = known[0].plant
+    ports = [sum(M.ncols for M in plant.B), sum(M.nrows for M in plant.C)]
+    return (
+        f"given is {described(plant)}, channels {channel_set(plant, range(plant.m))}, "
+        f"{ports[0]} inputs and {ports[1]} outputs in all"
+    )
+
+
+@rule("subsystem channel picture-graphs picture-graphs-outputs picture-dimensions certify-loop")
+@rule("design-measured table-links-limit least-outputs-states-limit least-states-limit")
+def nothing(known: list[Premise]) -> str:
+    """A title, a remark that something is not proved, or that it was not decided."""
+    return f"nothing is claimed of {described(known[0].plant)}"
+
+
+@rule("inactive-channels")
+def inactive(known: list[Premise]) -> str:
+    """The channels that no edge of the transfer graph can touch."""
+    seen = [premise for premise in known if premise.kind == "transfer_graph"]
+    system = seen[0].system if seen else known[0].plant
+    ports = enumerate(zip(system.B, system.C, strict=True))
+    idle = [i for i, (B, C) in ports if B.is_zero() or C.is_zero()]
+    known[0].expect(bool(idle), "no channel is without inputs or outputs that act")
+    return (
+        f"in {described(system)}, B_i = 0 or C_i = 0 for the channels {channel_set(system, idle)}"
+    )
+
+
+@rule("picture-neighbor-graph picture-heard")
+def neighbors(known: list[Premise]) -> str:
+    """Who receives messages from whom."""
+    plant = known[0].plant
+    known[0].expect(plant.neighbors is not None, "the plant has no neighbor graph")
+    arcs = [(j, i) for i, N_i in enumerate(plant.neighbors or []) for j in N_i if i != j]
+    told = ", ".join(f"{channel(plant, j)} -> {channel(plant, i)}" for j, i in arcs)
+    return f"the neighbor graph of {described(plant)}: {told or 'no edges'}"
+
+
+# Fixed modes.
+
+restate("nothing-fixed", FIXED, lambda c: not c["factors"], "fixed_spectrum.absence_all")
+restate("fixed-none latex-nothing-fixed", FIXED, lambda c: not c["factors"])
+restate(
+    "any-rate",
+    FIXED,
+    lambda c: not c["factors"],
+    WANG_DAVISON,
+    lambda c: f"every decay rate is reached by linear time-invariant control: {c.theorem}",
+)
+restate("stabilizable table-stabilizable", FIXED, lambda c: c["stabilizable"], WANG_DAVISON)
+NEVER = "not-stabilizable table-not-stabilizable"
+restate(NEVER, FIXED, lambda c: not c["stabilizable"], FIXED_DYNAMIC)
+LISTED = "fixed-modes-row fixed-modes-note fixed-modes-more latex-fixed-mode picture-obstruction"
+restate(f"fixed slowest more-fixed-modes {LISTED}", FIXED, lambda c: c["factors"])
+restate("fixed-modes", FIXED, lambda c: c["factors"], FIXED_DYNAMIC)
+
+
+def blame(key: str, told: str, wanted: Callable[[int, int], bool]) -> None:
+    """Enter the rule about the fixed modes whose sets have a wanted size, among m channels."""
+
+    def chosen(found: Premise) -> list[Any]:
+        factors, m = found.cited("/claim/factors"), found.system.m
+        return [factor for factor in factors if wanted(len(factor["channels"]), m)]
+
+    def words(found: Premise) -> str:
+        texts = []
+        for factor in chosen(found):
+            s, modes = factor["channels"], polynomial_text(factor["polynomial"])
+            rest = [name for name in found.system.names if name not in s]
+            sets = found.set_of(rest), found.set_of(s)
+            texts.append(f"the roots of {modes} are fixed, {told.format(*sets)}")
+        return f"in {found.about} {'; '.join(texts)}"
+
+    restate(key, FIXED, chosen, PENCIL, words)
+
+
+blame("fixed-mode", "not controlled by {} and not observed by {}", lambda size, m: 0 < size < m)
+blame("fixed-mode-uncontrolled", "not controlled by all of {}", lambda size, m: size == 0)
+blame("fixed-mode-unobserved", "not observed by all of {1}", lambda size, m: size == m)
+
+
+# How the spectrum can be assigned.
+
+restate(
+    "free-through-any-channel",
+    COMPLETE,
+    lambda c: c["complete"],
+    "corollary_1.free_assignment",
+    lambda c: f"channel controllers in any one channel assign the whole spectrum: {c.theorem}",
+)
+
+
+@rule("free spectrum-free", FIXED, BLOCKS, theorem=SPLIT)
+def free(spectrum: Premise, split: Premise) -> str:
+    """Nothing is fixed, and there is one part at most."""
+    spectrum.expect(not spectrum["factors"], "a mode is fixed")
+    split.expect(sum(b["dimension"] > 0 for b in split["blocks"]) <= 1, "the spectrum splits")
+    return f"linear time-invariant channel controllers assign the whole spectrum of {split.about}"
+
+
+@rule("parts spectrum-parts", FIXED, BLOCKS, theorem=SPLIT)
+def parts(spectrum: Premise, split: Premise) -> str:
+    """Nothing is fixed, and strong components have parts of their own."""
+    spectrum.expect(not spectrum["factors"], "a mode is fixed")
+    blocks = [(b["dimension"], split.set_of(b["channels"])) for b in split["blocks"]]
+    told = ", ".join(f"degree {size} by {names}" for size, names in blocks if size)
+    return f"the spectrum of {split.about} is assigned in parts: {told}"
+
+
+def moved(spectrum: Premise, split: Premise) -> tuple[int, int]:
+    """Between which numbers of eigenvalues gains move.
+
+    What belongs to no strong component stays, and so does every fixed mode, at most as often as in
+    the loop of the certificate.
+    """
+    sizes = [(len(f["polynomial"]) - 1, f["multiplicity_at_most"]) for f in spectrum["factors"]]
+    n, stays = spectrum.system.n, sum(size for size, _ in sizes)
+    return n - sum(size * most for size, most in sizes), n - max(stays, split["fixed_degree"])
+
+
+@rule("spectrum-moved", FIXED, BLOCKS, theorem=MOVED)
+def moved_exactly(spectrum: Premise, split: Premise) -> str:
+    """How many eigenvalues gains move."""
+    least, most = moved(spectrum, split)
+    spectrum.expect(least == most, f"only known to be from {least} to {most}")
+    return f"gains move exactly {least} of the {split.system.n} eigenvalues of {split.about}"
+
+
+@rule("spectrum-moved-between", FIXED, BLOCKS, theorem=MOVED)
+def moved_between(spectrum: Premise, split: Premise) -> str:
+    """Bounds on how many eigenvalues gains move."""
+    least, most = moved(spectrum, split)
+    return f"gains move from {least} to {most} of the {split.system.n} eigenvalues of {split.about}"
+
+
+# Structure, a set of channels, one channel.
+
+restate("controllable", CONTROLLABLE, controls)
+restate("uncontrollable", CONTROLLABLE, lambda c: not controls(c))
+restate("observable", OBSERVABLE, controls)
+restate("unobservable", OBSERVABLE, lambda c: not controls(c))
+GRAPH = Role(("transfer_graph",))
+restate("transfer-graph-connected", GRAPH, lambda c: c["strongly_connected"])
+restate("transfer-graph-parts", GRAPH, lambda c: not c["strongly_connected"])
+restate("picture-transfer-graph", GRAPH, lambda c: True)
+restate("complete", COMPLETE, lambda c: True)
+for side, path in (("controllability", SYSTEM), ("observability", DUAL)):
+    INDICES = Role(("controllability_indices",), path)
+    restate(f"{side}-index", INDICES, lambda c: everywhere(c) and c["index"] is not None)
+    restate(f"{side}-indices", INDICES, lambda c: everywhere(c) and c["index"] is None)
+    ALONE = Role(("controllability",), path)
+    restate(f"channel-{side}", ALONE, lambda c: len(c["channels"]) == 1 and c["controllable"])
+    restate(
+        f"channel-no-{side}", ALONE, lambda c: len(c["channels"]) == 1 and not c["controllable"]
+    )
+
+restate("pencil-row", RANK, lambda c: True)
+restate("subsystem-normal-rank subsystem-remnant", SUBSYSTEM, lambda c: True)
+restate("subsystem-zeros", SUBSYSTEM, lambda c: c["invariant_polynomials"])
+restate("subsystem-no-zeros", SUBSYSTEM, lambda c: not c["invariant_polynomials"])
+
+
+def completeness(found: Premise) -> tuple[bool, bool]:
+    """Whether the transfer matrix is zero, and whether the rank drops below n anywhere."""
+    return found["transfer_zero"], len(found["remnant"]) > 1
+
+
+restate("subsystem-complete", SUBSYSTEM, lambda c: completeness(c) == (False, False))
+restate("subsystem-zero", SUBSYSTEM, lambda c: completeness(c) == (True, False))
+restate("subsystem-drops", SUBSYSTEM, lambda c: completeness(c) == (False, True))
+restate("subsystem-zero-and-drops", SUBSYSTEM, lambda c: completeness(c) == (True, True))
+
+
+@rule("pencil", SPECTRUM, RANKS, theorem="closed_loop_spectrum.closed_loop_spectrum")
+def pencil(spectrum: Premise, ranks: list[Premise]) -> str:
+    """The rank of one pencil at every root of the polynomial of A."""
+    left, listed = polynomial(spectrum["polynomial"], spectrum.file), ranks[0]["subset"]
+    for found in ranks:
+        found.expect(found["subset"] == listed, "about another set of channels")
+        left = exponent(polynomial(found["polynomial"], found.file, 1), left)[1]
+    spectrum.expect(len(left) == 1, f"no rank is claimed at the roots of {polynomial_text(left)}")
+    least, s = min(found["rank"] for found in ranks), spectrum.set_of(listed)
+    which = f"[xI - A, B; C, 0] of {spectrum.about}, C of {s} and B of the others"
+    return f"the pencil {which}, has rank {least} or more at every mode of A"
+
+
+def gains(key: str, wanted: str, alone: bool) -> None:
+    """Enter the rules about gains for one channel, or for every channel."""
+
+    def asked(found: Premise) -> bool:
+        right = len(found["channels"]) == 1 if alone else everywhere(found)
+        found.expect(right and found["property"] == wanted, "another question was asked")
+        return bool(found["exists"])
+
+    def stuck(found: Premise) -> bool:
+        return not asked(found) and "polynomial" in found.witness
+
+    def cut(side: str) -> Any:
+        return lambda c: not asked(c) and "zero" in c.witness and c.witness["side"] == side
+
+    restate(f"{key}-gains", GAINS, asked)
+    restate(f"{key}-stuck", GAINS, stuck)
+    for side in ("controllable", "observable"):
+        no_cut = "single_channel_gains.single_channel_no_cut"
+        restate(f"{key}-unreached-{side}", GAINS, cut(side), theorem=no_cut)
+
+
+for each in ("controllable", "observable", "both"):
+    gains(f"channel-{each}", each, alone=True)
+gains("every-channel", "both", alone=False)
+
+
+# Set-points.
+
+HELD = "linear time-invariant centralized control holds all outputs of {} at any set-points"
+
+
+def unreached(c: Premise, o: Premise) -> list[str]:
+    """The uncontrollable and the unobservable polynomials that are not stable."""
+    lost = [polynomial(p["uncontrollable_polynomial"], p.file) for p in (c, o)]
+    c.expect(everywhere(c) and everywhere(o), "not about all channels together")
+    return [polynomial_text(p) for p in lost if not in_stability_region(p, c.system.time)]
+
+
+@rule("setpoint", SETPOINT, CONTROLLABLE, OBSERVABLE, theorem=DAVISON)
+def setpoint(found: Premise, c: Premise, o: Premise, *_: Premise) -> str:
+    """Integrators behind all outputs, and everything within reach."""
+    found.expect(found["solvable"], "the rank of [A, B; C, 0] is not full")
+    c.expect(controls(c) and controls(o), "not jointly controllable and observable")
+    return HELD.format(found.about)
+
+
+@rule("setpoint-stable-rest", SETPOINT, CONTROLLABLE, OBSERVABLE, FIXED, theorem=DAVISON)
+def setpoint_beside(found: Premise, c: Premise, o: Premise, _: Premise) -> str:
+    """Integrators behind all outputs, and what is out of reach is stable."""
+    found.expect(found["solvable"], "the rank of [A, B; C, 0] is not full")
+    c.expect(not unreached(c, o), "what is out of reach is not stable")
+    return f"{HELD.format(found.about)}; every mode out of its reach is stable"
+
+
+@rule("setpoint-unstable-rest", SETPOINT, CONTROLLABLE, OBSERVABLE, FIXED, theorem=HAUTUS)
+def setpoint_lost(found: Premise, c: Premise, o: Premise, _: Premise) -> str:
+    """No loop is stable: a mode out of reach is not."""
+    c.expect(bool(unreached(c, o)), "what is out of reach is stable")
+    lost = f"out of reach are roots of {' and of '.join(unreached(c, o))}"
+    return f"no linear time-invariant loop of {found.about} is stable: {lost}"
+
+
+RANK_RULE = "setpoint.setpoint_rank"
+restate("setpoint-zero", SETPOINT, lambda c: c["invariant_zero"] is True, RANK_RULE)
+restate("setpoint-dependent", SETPOINT, lambda c: c["invariant_zero"] is False, RANK_RULE)

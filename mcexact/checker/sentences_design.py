@@ -1,0 +1,264 @@
+"""What the certificates of a design, of a verdict on a controller and of a refusal imply."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from fractions import Fraction
+from typing import Any
+
+from .location import in_stability_region
+from .reading import polynomial
+from .sentence import Path, Premise, Role, restate, rule
+from .sentences_analysis import FIXED_DYNAMIC, controls
+from .sentences_sharing import Cut, cuts, demands, whole
+from .system import System, read_matrix
+from .words import channel, counted, described
+
+MAPS = ("shared_update", "private_update", "input")
+UNCONTROLLABLE = "controllability.uncontrollable_modes"
+NO_FIXED = "extended_bound.extended_no_fixed, extended_bound.extended_states_no_fixed"
+
+
+def behind(*paths: Path) -> tuple[Path, ...]:
+    """These ways to make a subject, from the plant or from the plant with integrators."""
+    return (*paths, *(("integrators", *path) for path in paths))
+
+
+CLOSED: tuple[Path, ...] = (("closed_loop",),)
+LOOP = Role(("closed_loop_spectrum", "stability", "distributed_observer"), CLOSED)
+STABLE, OBSERVER = Role(("stability",), CLOSED), Role(("distributed_observer",), CLOSED)
+NETWORKS: tuple[Path, ...] = (("extended",), ("lifted",), ("held",))
+KEPT = Role(("fixed_spectrum",), behind((), *NETWORKS))
+DIMENSIONS = Role(("shared_dimensions",), behind(()))
+SETPOINT = Role(("setpoint",), ((),))
+
+
+# What the controller of a loop is: it stands in the subject.
+
+
+def controller(known: list[Premise]) -> tuple[Premise, list[Any]]:
+    """The programs of the agents, out of a certificate about their loop."""
+    for premise in known:
+        if premise.path and premise.path[-1] == "closed_loop":
+            agents: list[Any] = premise.document["subject"][-1]["controller"]["agents"]
+            return premise, agents
+    known[0].expect(False, "expected a certificate about a closed loop")
+    return known[0], []
+
+
+@rule("design-carrier design-carrier-for design-order design-order-integrators design-shared")
+def sizes(known: list[Premise]) -> str:
+    """How many states each agent has, shared and of its own."""
+    found, agents = controller(known)
+    order = sum(agent["shared"] + agent["private"] for agent in agents)
+    told = "; ".join(
+        f"{channel(found.plant, i)}: {agent['shared']} shared, {agent['private']} private"
+        for i, agent in enumerate(agents)
+    )
+    return f"the controller in {found.about} has {counted(order, 'state')} ({told})"
+
+
+@rule("design-observer-order")
+def observer_order(known: list[Premise]) -> str:
+    """The order of the paper's observer for this plant, n m + m − 1."""
+    plant = known[0].plant
+    order = plant.n * plant.m + plant.m - 1
+    return f"the paper's observer for {described(plant)} has {counted(order, 'state')}"
+
+
+@rule("design-longest-number")
+def longest(known: list[Premise]) -> str:
+    """The bits of the longest numerator or denominator in the controller."""
+    found, agents = controller(known)
+    bits = [0]
+    for program in (agent[label] for agent in agents for label in MAPS):
+        parts = [program.get("private"), program.get("reference")]
+        parts += [M for key in ("outputs", "shared") for M in (program.get(key) or {}).values()]
+        numbers = [x for M in parts if M is not None for row in entries(M) for x in row]
+        bits += [number.bit_length() for x in numbers for number in x.as_integer_ratio()]
+    return f"the longest numerator or denominator in {found.about} has {counted(max(bits), 'bit')}"
+
+
+def entries(value: Any) -> list[list[Fraction]]:
+    """The rows of a matrix of a controller."""
+    M = read_matrix(value, "controller", None, None)
+    return [[Fraction(entry, M.denominator) for entry in row] for row in M.rows]
+
+
+@rule("certify-states")
+def states(known: list[Premise]) -> str:
+    """The number of states of the loop."""
+    found, _ = controller(known)
+    return f"{found.about}: {counted(found.system.n, 'state')}"
+
+
+@rule("certify-decided certify-decided-blocks")
+def decided(known: list[Premise]) -> str:
+    """By which evidence it is decided where the eigenvalues of the loop lie."""
+    found, _ = controller([premise for premise in known if STABLE.fits(premise, False)] or known)
+    found.expect(found.kind == "stability", "expected a certificate of the kind stability")
+    blocks = [str(block["size"]) for block in found.witness.get("blocks", [])]
+    sizes = f", blocks of {', '.join(blocks)} states" if blocks else ""
+    return f"{found.theorem}, by the method {found.witness['method']}{sizes}"
+
+
+# The loop.
+
+
+def is_stable(loop: Premise) -> bool:
+    """Whether every eigenvalue of the loop is where it decays."""
+    if loop.kind == "stability":
+        return bool(loop["stable"])
+    keys = ("polynomial",) if loop.kind == "closed_loop_spectrum" else ("feedback", "error")
+    found = [polynomial(loop[key], loop.file) for key in keys]
+    return all(in_stability_region(p, loop.system.time) for p in found)
+
+
+restate("design-observer", OBSERVER, is_stable)
+restate("design-observer-float design-network design-setpoint design-region", LOOP, is_stable)
+restate("design-feedback design-errors", OBSERVER, lambda c: True)
+restate("design-assigned", LOOP, lambda c: True)
+restate("certify-inside", STABLE, lambda c: c["stable"])
+restate("certify-outside refused-outside", STABLE, lambda c: not c["stable"])
+
+
+def bounded(loop: Premise, time: str) -> bool:
+    """Whether the loop was certified with a rate or a radius, in the right time domain."""
+    return bool(loop["stable"] and loop["bound"] is not None and loop.system.time == time)
+
+
+restate("certify-largest", STABLE, lambda c: bounded(c, "continuous"))
+restate("certify-least", STABLE, lambda c: bounded(c, "discrete"))
+
+
+@rule("design-kept", LOOP, KEPT)
+def kept(_: Premise, spectrum: Premise) -> str:
+    """The fixed modes, which every controller leaves where they are."""
+    spectrum.expect(bool(spectrum["factors"]), "no mode is fixed")
+    return spectrum.theorem
+
+
+@rule("design-steady-state", LOOP, theorem="B. A. Francis and W. M. Wonham 1976")
+def steady_state(loop: Premise) -> str:
+    """The loop is stable, and agents integrate the difference of output and set-point."""
+    loop.expect(is_stable(loop), "the loop is not stable")
+    _, agents = controller([loop])
+    for i, agent in enumerate(agents):
+        good = integrates(loop.plant, i, agent)
+        loop.expect(good, f"agent number {i + 1} does not integrate its outputs less set-points")
+    return f"in {loop.about}, every output tends to the set-point of its agent, if that is constant"
+
+
+def integrates(plant: System, i: int, agent: Any) -> bool:
+    """Whether for every output y of agent i some z of it follows z' = y − r or z(t+1) = z + y − r.
+
+    r is the set-point of y: where z is constant, y = r.
+    """
+    update, k, q = agent["private_update"], agent["private"], plant.C[i].nrows
+    outputs, shared = update.get("outputs") or {}, update.get("shared") or {}
+
+    def rows(value: Any, width: int) -> list[list[Fraction]]:
+        return [[Fraction(0)] * width for _ in range(k)] if value is None else entries(value)
+
+    own = rows(outputs.get(plant.names[i]), q)
+    reference, stay = rows(update.get("reference"), q), rows(update.get("private"), k)
+    rest = [M for name, M in outputs.items() if name != plant.names[i]] + [*shared.values()]
+    others = [entries(value) for value in rest]
+    found = set()
+    for z in range(k):
+        kept = [int(plant.time == "discrete" and j == z) for j in range(k)]
+        alone = stay[z] == kept and not any(any(M[z]) for M in others)
+        difference = own[z] == [-entry for entry in reference[z]]
+        if alone and difference and sorted(own[z]) == [0] * (q - 1) + [1]:
+            found.add(own[z].index(Fraction(1)))
+    return found == set(range(q))
+
+
+# Refusals.
+
+
+def lost(keys: str, *paths: Path) -> None:
+    """Enter the rule about modes that all channels together do not control, or observe."""
+    restate(keys, Role(("controllability",), paths), lambda c: not controls(c), UNCONTROLLABLE)
+
+
+lost("refused-not-controllable refused-not-controllable-in refused-uncontrollable", *behind(()))
+lost("refused-unobservable refused-not-observable", *behind(("dual",)))
+lost("refused-integrators-control", ("integrators",))
+lost("refused-integrators-observe", ("integrators", "dual"))
+restate(
+    "refused-errors-not-complete",
+    Role(("completeness",), behind(("error",))),
+    lambda c: not c["complete"],
+    "free_assignment.corfmat_morse_converse",
+)
+
+
+def stuck(key: str, *paths: Path, holds: Callable[[Premise], Any] = lambda c: True) -> None:
+    """Enter the rule about fixed modes."""
+    role = Role(("fixed_spectrum",), paths)
+    restate(key, role, lambda c: c["factors"] and holds(c), FIXED_DYNAMIC)
+
+
+def shares_all(spectrum: Premise) -> bool:
+    """Whether every agent shares as many states as the system has that is extended."""
+    sizes = spectrum.document["subject"][-1]["dimensions"]
+    return all(size >= spectrum.system.n - sum(sizes) for size in sizes)
+
+
+stuck("refused-fixed", *behind(()))
+stuck("refused-fixed-shared", *behind(*NETWORKS))
+stuck("refused-errors-fixed", *behind(("error",)))
+stuck("refused-integrators-fixed", ("integrators", "extended"), holds=shares_all)
+
+
+def refuse(key: str, theorem: str, wanted: Callable[[Premise, Cut], Any]) -> None:
+    """Enter a rule about agents who lack something and hear nobody else, whatever is shared."""
+
+    @rule(key, DIMENSIONS, theorem=theorem)
+    def say(least: Premise) -> str:
+        least.expect(not least["feasible"], "some dimensions suffice")
+        return demands(least, cuts(least, lambda cut: not cut.senders and wanted(least, cut)))
+
+
+refuse(
+    "refused-no-dimensions",
+    NO_FIXED,
+    lambda least, cut: cut.mode and cut.s and not whole(least, cut),
+)
+refuse("refused-sharing-in-vain-control", NO_FIXED, lambda least, cut: cut.mode and not cut.s)
+refuse(
+    "refused-sharing-in-vain-observe", NO_FIXED, lambda least, cut: cut.mode and whole(least, cut)
+)
+refuse("refused-no-connection", "transfer_graph.zero_transfer_cut", lambda least, cut: not cut.mode)
+
+
+def combinations(found: Premise) -> list[str]:
+    """The conditions on r = C x of an equilibrium, out of the left kernel of [A, B; C, 0]."""
+    left, n = found.witness["left"], found.system.n
+    rows = [[Fraction(x, left["denominator"]) for x in row[n:]] for row in left["entries"]]
+    return [f"({', '.join(map(str, row))}) r != 0" for row in rows if any(row)]
+
+
+@rule("refused-no-equilibrium", SETPOINT, theorem="setpoint.setpoint_unreachable")
+def no_equilibrium(found: Premise) -> str:
+    """Some set-points have no equilibrium."""
+    lost = combinations(found)
+    found.expect(bool(lost), "no set-points are excluded")
+    return f"no equilibrium of {found.about} holds outputs r with {' or '.join(lost)}"
+
+
+@rule("refused-no-equilibrium-zero", SETPOINT, theorem="setpoint.setpoint_unreachable")
+def no_equilibrium_zero(found: Premise) -> str:
+    """Some set-points have no equilibrium, because of an invariant zero."""
+    found.expect(found["invariant_zero"] is True, "the defect is no invariant zero")
+    return f"{no_equilibrium(found)}; {int(found.system.time == 'discrete')} is an invariant zero"
+
+
+@rule("refused-mode-of-the-integrators", SETPOINT, theorem="setpoint.setpoint_output_part")
+def mode_of_the_integrators(found: Premise) -> str:
+    """A mode of the plant at the place of the integrators is not controlled."""
+    lost = not found["solvable"] and not combinations(found)
+    found.expect(lost, "every row of the evidence is about the outputs, or there is none")
+    place = int(found.system.time == "discrete")
+    return f"the mode {place} of {found.about} is not controlled by all channels together"

@@ -1,0 +1,197 @@
+"""What the certificates about sharing imply: bounds, least dimensions, links, delays."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from .sentence import HEARD, PLANT, Path, Premise, Role, restate, rule
+from .sentences_analysis import CONTROLLABLE, HAUTUS, OBSERVABLE, controls
+from .words import channel_set, counted, described, polynomial_text
+
+OBSERVABLE_HAUTUS = "joint_controllability.observable_hautus"
+
+CONNECTED = Role(("neighbor_graph",), PLANT)
+LEAST = Role(("shared_dimensions",), PLANT)
+LINKS = Role(("communication",), PLANT)
+HYPOTHESES = (CONNECTED, CONTROLLABLE, OBSERVABLE)
+
+restate("neighbor-graph-connected", CONNECTED, lambda c: c["strongly_connected"])
+restate("neighbor-graph-not-connected", CONNECTED, lambda c: not c["strongly_connected"])
+restate("enough-unknown", CONNECTED, lambda c: not c["strongly_connected"])
+VAIN = "sharing-in-vain-{}ability"
+restate(VAIN.format("controll"), CONTROLLABLE, lambda c: not controls(c), HAUTUS)
+restate(VAIN.format("observ"), OBSERVABLE, lambda c: not controls(c), OBSERVABLE_HAUTUS)
+for delayed in ("lifted", "held"):
+    NETWORK = Role(("fixed_spectrum",), ((delayed,),))
+    restate(f"{delayed}-nothing-fixed", NETWORK, lambda c: not c["factors"])
+    restate(f"{delayed}-fixed", NETWORK, lambda c: c["factors"])
+
+
+def enough(bound: Premise, *hypotheses: Premise) -> str:
+    """So many sub-states of every agent leave no mode fixed, by Theorem 2 or Remark 2."""
+    graph, c, o = hypotheses
+    graph.expect(graph["strongly_connected"], "the neighbor graph is not strongly connected")
+    c.expect(controls(c), "not jointly controllable")
+    o.expect(controls(o), "not jointly observable")
+    what = "outputs and" if bound.path == HEARD[0] else "no outputs and"
+    return (
+        f"no mode is fixed where every agent of {described(bound.plant)} shares {what} at least "
+        f"{counted(bound['deficiency'], 'sub-state')} with its neighbors, without delay"
+    )
+
+
+def enter_bounds(share: str, some: str, none: str, paths: tuple[Path, ...], theorem: str) -> None:
+    """Enter the rules about the bound for one way of sharing."""
+    roles = (Role(("deficiency",), paths), *HYPOTHESES)
+
+    @rule(some, *roles, theorem=theorem)
+    def enough_some(bound: Premise, *hypotheses: Premise) -> str:
+        bound.expect(bound["deficiency"] > 0, "the bound is 0")
+        return enough(bound, *hypotheses)
+
+    @rule(none, *roles, theorem=theorem)
+    def enough_none(bound: Premise, *hypotheses: Premise) -> str:
+        bound.expect(bound["deficiency"] == 0, "the bound is not 0")
+        return enough(bound, *hypotheses)
+
+    @rule(f"picture-bound-{share.replace('+', '-')}", LEAST, *roles, theorem=theorem)
+    def beside(least: Premise, bound: Premise, *hypotheses: Premise) -> str:
+        least.expect(usual(least, share) and least["feasible"], "another question was asked")
+        return f"{least.theorem}; {enough(bound, *hypotheses)}"
+
+
+enter_bounds(
+    "outputs+states",
+    "enough-outputs-states",
+    "enough-outputs",
+    HEARD,
+    "extended_bound.theorem_2",
+)
+enter_bounds("states", "enough-states", "enough-nothing", PLANT, "extended_bound.remark_2")
+
+
+# The least dimensions.
+
+
+def usual(least: Premise, share: str) -> bool:
+    """Whether the least number is asked for, without limits, so that no mode at all is fixed."""
+    asked = least["share"] == share and least["bound"] is None and not least["free_assignability"]
+    prices = all(cost == 1 for cost in least["costs"])
+    return asked and prices and all(most is None for most in least["upper"])
+
+
+def enter_least(share: str, some: str, none: str, impossible: str) -> None:
+    """Enter the rules about the least dimensions for one way of sharing."""
+    restate(some, LEAST, lambda c: usual(c, share) and c["feasible"] and any(c["dimensions"]))
+    restate(none, LEAST, lambda c: usual(c, share) and c["feasible"] and not any(c["dimensions"]))
+    restate(impossible, LEAST, lambda c: usual(c, share) and not c["feasible"])
+    stem = share.replace("+", "-")
+    restate(f"picture-least-{stem}", LEAST, lambda c: usual(c, share) and c["feasible"])
+    restate(f"picture-nothing-{stem}", LEAST, lambda c: usual(c, share) and not c["feasible"])
+
+
+enter_least(
+    "outputs+states",
+    "sharing-removes least-outputs-states",
+    "outputs-remove least-outputs-states-none",
+    "no-sharing least-outputs-states-impossible",
+)
+enter_least("states", "least-states", "least-states-none", "least-states-impossible")
+restate("allocate-least allocate-row allocate-total", LEAST, lambda c: c["feasible"])
+restate("allocate-impossible", LEAST, lambda c: not c["feasible"])
+
+
+@rule(
+    "allocate-row-bound allocate-total-bound",
+    LEAST,
+    Role(("deficiency",), HEARD + PLANT),
+    *HYPOTHESES,
+    theorem="extended_bound.theorem_2, extended_bound.remark_2",
+)
+def allocated(least: Premise, bound: Premise, *hypotheses: Premise) -> str:
+    """What is least, beside the bound for the same way of sharing."""
+    fits = bound.path == (HEARD if least["share"] == "outputs+states" else PLANT)[0]
+    bound.expect(fits, "the bound is for the other way of sharing")
+    least.expect(least["feasible"] and not least["free_assignability"], "more is asked for")
+    return f"{least.theorem}; {enough(bound, *hypotheses)}"
+
+
+@rule("allocate-proof allocate-cost-proof", LEAST)
+@rule("allocate-links-proof", LINKS)
+def proved(least: Premise) -> str:
+    """How long the proof is that nothing costs less."""
+    sizes = [len(least.witness[key]) for key in ("cuts", "tree")]
+    return (
+        f"{least.theorem}, by {counted(sizes[0], 'cut')} and {counted(sizes[1], 'node')} of a tree"
+    )
+
+
+class Cut(NamedTuple):
+    """A set of agents s, N_s∖s, how much these must share, and why: a mode, or no transfer to s."""
+
+    s: list[int]
+    senders: list[int]
+    demand: int
+    mode: Any
+
+
+def cuts(least: Premise, wanted: Callable[[Cut], Any]) -> list[Cut]:
+    """The cuts of the evidence that are wanted, at least one."""
+    system, found = least.system, []
+    N = system.neighbors or [[i] for i in range(system.m)]
+    for cut in least.cited("/witness/cuts"):
+        s = [system.names.index(name) for name in cut["subset"]]
+        senders = sorted({j for i in s for j in N[i]} - set(s))
+        found.append(Cut(s, senders, cut.get("deficiency", 1), cut.get("polynomial")))
+    chosen = [cut for cut in found if wanted(cut)]
+    least.expect(bool(chosen), "no cut of the evidence is so")
+    return chosen
+
+
+def demands(least: Premise, chosen: list[Cut]) -> str:
+    """Cuts in words."""
+    system, told = least.system, []
+    for s, senders, demand, p in chosen:
+        why = "the others do not act on it" if p is None else f"the roots of {polynomial_text(p)}"
+        hears = f"{channel_set(system, s)} hears {channel_set(system, senders)}"
+        told.append(f"{hears}, who must share at least {counted(demand, 'sub-state')}: {why}")
+    return f"in {described(system)} {'; '.join(told)}"
+
+
+def reason(key: str, wanted: Callable[[Premise, Cut], Any]) -> None:
+    """Enter a rule about why some agents need something."""
+    rule(key, LEAST)(lambda least: demands(least, cuts(least, lambda cut: wanted(least, cut))))
+
+
+def whole(least: Premise, cut: Cut) -> bool:
+    """Whether a cut is about all agents together."""
+    return len(cut.s) == least.system.m
+
+
+reason("allocate-reason", lambda least, cut: cut.mode)
+reason("allocate-reason-do-not-control", lambda least, cut: cut.mode and not cut.s)
+reason("allocate-reason-do-not-observe", lambda least, cut: cut.mode and whole(least, cut))
+reason("allocate-reason-cut-off", lambda least, cut: not cut.mode)
+
+
+# Links.
+
+
+def fewest(links: Premise) -> bool:
+    """Whether the fewest links for outputs are asked for, so that no mode at all is fixed."""
+    plant, listed = links.plant, links["candidates"]
+    heard = sum(len(N_i) - 1 for N_i in plant.neighbors or [])
+    everywhere = len(listed) == plant.m * (plant.m - 1) - heard
+    asked = links["share"] == "outputs" and links["bound"] is None
+    return asked and everywhere and all(cost == 1 for *_, cost in listed)
+
+
+restate("links", LINKS, lambda c: fewest(c) and c["added"] and c.plant.neighbors is None)
+restate("links-beside-graph", LINKS, lambda c: fewest(c) and c["added"] and c.plant.neighbors)
+restate("table-links", LINKS, lambda c: fewest(c) and c["added"])
+restate("links-none table-links-none", LINKS, lambda c: fewest(c) and c["added"] == [])
+restate("no-links table-links-impossible", LINKS, lambda c: fewest(c) and not c["feasible"])
+restate("allocate-links allocate-link allocate-links-total", LINKS, lambda c: c["added"])
+restate("allocate-no-links-needed", LINKS, lambda c: c["added"] == [])
+restate("allocate-no-links", LINKS, lambda c: not c["feasible"])
