@@ -8,7 +8,7 @@ from math import isqrt
 
 from mcexact.answer.evidence import RateInterval, RootDisc
 from mcexact.exact.enclosures import decimal, exact_decimal, root_discs
-from mcexact.exact.location import is_hurwitz
+from mcexact.exact.location import is_discrete, is_hurwitz
 from mcexact.exact.polynomial import Polynomial, product
 from mcexact.exact.rational import digits_of
 
@@ -58,7 +58,7 @@ def located(
         rate = best_rate(time, every)
         if rate is None or _is_narrow(rate):
             return discs, rate
-        if time == "continuous" and _ends_on_axis(product(polynomials)):
+        if not is_discrete(time) and _ends_on_axis(product(polynomials)):
             return discs, rate
         decimals = 2 * max(_decimals(disc) for disc in every)
 
@@ -90,14 +90,14 @@ def best_rate(time: str, discs: Sequence[RootDisc]) -> RateInterval | None:
         return None
     numbers = [(exact_decimal(d.re), exact_decimal(d.im), exact_decimal(d.radius)) for d in discs]
     digits = max(map(_decimals, discs))
-    if time == "continuous":
-        lower = -max(re + radius for re, _, radius in numbers)
-        upper = -max(re - radius for re, _, radius in numbers)
-    else:
+    if is_discrete(time):
         digits = max(digits, _decimals_of_moduli(numbers))
         moduli = [(*_root(re, im, digits), radius) for re, im, radius in numbers]
         lower = max(Fraction(0), max(below - radius for below, _, radius in moduli))
         upper = max(above + radius for _, above, radius in moduli)
+    else:
+        lower = -max(re + radius for re, _, radius in numbers)
+        upper = -max(re - radius for re, _, radius in numbers)
     return RateInterval(*(decimal(int(end * 10**digits), digits) for end in (lower, upper)))
 
 

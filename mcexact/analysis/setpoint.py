@@ -14,6 +14,7 @@ from mcexact.exact.linear_algebra import (
     left_nullspace,
     row_echelon,
 )
+from mcexact.exact.location import steady_point
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import primes, residues
 from mcexact.exact.polynomial import Polynomial
@@ -51,7 +52,7 @@ def setpoint_solvability(system: MultiChannelSystem) -> SetpointSolvability:
     True
     """
     n, B, C = system.n, system.input_matrix(), system.output_matrix()
-    place, unit, none = int(system.time == "discrete"), Matrix.identity(n), Matrix.zeros
+    place, unit, none = steady_point(system.time), Matrix.identity(n), Matrix.zeros
     lower = none(C.nrows, B.ncols)
     S = block([[system.A - unit * place, B], [C, lower]])
     M0 = block([[-system.A, B], [C, lower]])

@@ -24,7 +24,7 @@ from mcexact.answer.formats import (
     rounded,
 )
 from mcexact.exact.enclosures import exact_decimal
-from mcexact.exact.location import StabilityRegion
+from mcexact.exact.location import TIMES, StabilityRegion, is_discrete
 from mcexact.exact.polynomial import Polynomial
 
 _INTEGER = r"\d+"
@@ -78,14 +78,14 @@ def _behavior(slowest: tuple[str, RateInterval, bool]) -> str:
     """
     time, rate, stable = slowest
     lower, upper = exact_decimal(rate.lower), exact_decimal(rate.upper)
-    if time == "continuous":
-        if lower > 0:
-            return f"decays at the rate {_end(rate.lower, rate)}"
-        if upper < 0:
-            return f"grows at the rate {_end(rate.upper.removeprefix('-'), rate)}"
-    elif upper < 1 or lower > 1:
-        end = rate.upper if upper < 1 else rate.lower
-        return f"becomes {_end(end, rate)} times as large in each step"
+    if is_discrete(time):
+        if upper < 1 or lower > 1:
+            end = rate.upper if upper < 1 else rate.lower
+            return f"becomes {_end(end, rate)} times as large in each step"
+    elif lower > 0:
+        return f"decays at the rate {_end(rate.lower, rate)}"
+    elif upper < 0:
+        return f"grows at the rate {_end(rate.upper.removeprefix('-'), rate)}"
     return "decays very slowly" if stable else "does not decay"
 
 
@@ -130,8 +130,8 @@ def _scope(counted: tuple[str, Fraction | None, bool]) -> str:
     time, bound, free = counted
     which = "no mode"
     if bound is not None:
-        which += f" with Re λ ≥ {number(-bound)}" if time == "continuous" else ""
-        which += f" with |λ| ≥ {number(bound)}" if time == "discrete" else ""
+        region = StabilityRegion.of(time, bound=bound)
+        which += f" with {region.measure} ≥ {number(region.limit)}"
     return f"{which} is fixed" + (" and the whole spectrum can be assigned" if free else "")
 
 
@@ -156,9 +156,7 @@ def _dimensions(sizes: Sequence[tuple[str, int]]) -> str:
 
 def _region(region: StabilityRegion) -> str:
     """Where eigenvalues have to lie, such as Re λ < -1."""
-    if region.time == "continuous":
-        return f"Re λ < {number(-(region.bound or Fraction(0)))}"
-    return f"|λ| < {number(region.bound or Fraction(1))}"
+    return f"{region.measure} < {number(region.limit)}"
 
 
 def _combinations(rows: Sequence[Sequence[Fraction]]) -> str:
@@ -188,7 +186,7 @@ FORMS: dict[str, Form] = {
     "set": Form(name_set, _SET),
     "edges": Form(edges, rf"(?:no edges|\d+ edges|{_NAME} -> {_NAME}(?:, {_NAME} -> {_NAME})*)"),
     "yes": Form(lambda value: "yes" if value else "no", "(?:yes|no)"),
-    "time": choice(continuous="continuous", discrete="discrete"),
+    "time": choice(**{time: time for time in TIMES}),
     "control": choice(
         own="linear time-invariant decentralized control",
         outputs="linear time-invariant control by the outputs of all neighbors",

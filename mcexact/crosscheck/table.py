@@ -320,14 +320,11 @@ def _strongly_connected(m: int, arcs: frozenset[tuple[int, int]]) -> bool:
 def _stability(system: MultiChannelSystem, floats: _Floats) -> CrossCheck:
     """Whether A itself is stable."""
     region = StabilityRegion(system.time)
-    continuous = system.time == "continuous"
-    found = _answer(
-        lambda: margins.spectral_bound(floats.A, system.time) < (0.0 if continuous else 1.0)
-    )
+    found = _answer(lambda: margins.is_within(floats.A, region))
     call = (
-        "numpy.linalg.eigvals(A).real.max() < 0"
-        if continuous
-        else "abs(numpy.linalg.eigvals(A)).max() < 1"
+        "abs(numpy.linalg.eigvals(A)).max() < 1"
+        if region.discrete
+        else "numpy.linalg.eigvals(A).real.max() < 0"
     )
     truth = region.contains_roots_of(characteristic_polynomial(system.A))
     return _row("stability of A", call, found, truth, _yes)

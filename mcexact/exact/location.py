@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
 import flint
 
@@ -15,6 +15,17 @@ from mcexact.exact.rational import as_fraction, written
 Time = Literal["continuous", "discrete"]
 
 
+TIMES = get_args(Time)
+
+
+def require_time(time: object) -> None:
+    """Refuse what is neither ``"continuous"`` nor ``"discrete"``."""
+    if time not in TIMES:
+        short = isinstance(time, str) and len(time) <= 40
+        found = ascii(time) if short else f"a {type(time).__name__}"
+        raise InputError(f'expected "continuous" or "discrete", found {found}', where="time")
+
+
 def is_discrete(time: str) -> bool:
     """Whether a time domain is the discrete one: whatever depends on the domain asks this.
 
@@ -23,8 +34,7 @@ def is_discrete(time: str) -> bool:
     InputError
         It is neither ``"continuous"`` nor ``"discrete"``.
     """
-    if time not in ("continuous", "discrete"):
-        raise InputError(f'expected time "continuous" or "discrete", found {time!r}')
+    require_time(time)
     return time == "discrete"
 
 
@@ -168,7 +178,7 @@ class StabilityRegion:
         given = {"rate": rate, "radius": radius, "bound": bound}
         given = {name: entry for name, entry in given.items() if entry is not None}
         if other in given:
-            elsewhere = "continuous" if discrete else "discrete"
+            elsewhere = TIMES[not discrete]
             raise UsageError(f"a {other} is for {elsewhere} time; give a {own}")
         if len(given) > 1:
             raise UsageError(f"give a bound or a {own}, not both")
@@ -186,6 +196,11 @@ class StabilityRegion:
     def word(self) -> str:
         """What a bound is called: a rate or a radius."""
         return "radius" if self.discrete else "rate"
+
+    @property
+    def measure(self) -> str:
+        """What of a number says whether it is in the region."""
+        return "|λ|" if self.discrete else "Re λ"
 
     @property
     def edge(self) -> Fraction:
@@ -228,4 +243,4 @@ class StabilityRegion:
         return is_schur(standard) if self.discrete else is_hurwitz(standard)
 
     def __str__(self) -> str:
-        return f"{'|λ|' if self.discrete else 'Re λ'} < {written(self.limit)}"
+        return f"{self.measure} < {written(self.limit)}"

@@ -7,6 +7,7 @@ import os
 from typing import Any
 
 from mcexact.errors import InputError
+from mcexact.exact.location import require_time
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.rational import DEFAULT_LIMITS, Limits
 from mcexact.model.atomic import write_text
@@ -49,10 +50,7 @@ def read_controller(text: bytes | str, limits: Limits = DEFAULT_LIMITS) -> Contr
     """
     document = expect_format(parse(text, limits), FORMAT)
     expect_object(document, None, ("format", "time", "system", "agents"))
-    if document["time"] not in ("continuous", "discrete"):
-        raise InputError(
-            f'expected "continuous" or "discrete", found {quoted(document["time"])}', where="time"
-        )
+    require_time(document["time"])
     if not isinstance(document["system"], str):
         raise InputError("expected the digest of a system, a string", where="system")
     agents = expect_list(document["agents"], "agents")

@@ -10,6 +10,7 @@ from mcexact.exact.floats import Rounding, matrix_from_float
 from mcexact.exact.matrix import Matrix
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.matrix_entry import as_matrix, require_shape, require_square
+from mcexact.model.statespace import sampling
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import digest
 
@@ -61,8 +62,7 @@ def _program(
     """The program of agent i, with all of its state private."""
     p, q = system.p(i), system.q(i)
     if all(hasattr(part, name) for name in ("A", "B", "C", "D", "dt")):
-        discrete = part.dt is True or (part.dt is not None and part.dt > 0)
-        time = "discrete" if discrete else "continuous"
+        time, _ = sampling(part.dt, "decimal")
         if time != system.time:
             raise InputError(f"the controller is in {time} time", where=where)
         given: tuple[Any, ...] = (part.A, part.B, part.C, part.D)

@@ -75,7 +75,7 @@ def from_statespace(
         )
     columns = _split(inputs, B.ncols, getattr(statespace, "input_labels", None), "inputs")
     rows = _split(outputs, C.nrows, getattr(statespace, "output_labels", None), "outputs")
-    time, sample_time = _sampling(statespace.dt, rounding)
+    time, sample_time = sampling(statespace.dt, rounding)
     return MultiChannelSystem(
         A,
         [B.take(cols=chosen) for chosen in columns],
@@ -121,7 +121,7 @@ def loop_from_statespace(statespace: Any, *, rounding: Rounding) -> MultiChannel
             where="statespace",
         )
     A = matrix_from_float(statespace.A, rounding, where="statespace.A")
-    time, sample_time = _sampling(statespace.dt, rounding)
+    time, sample_time = sampling(statespace.dt, rounding)
     N = A.nrows
     return MultiChannelSystem(
         A,
@@ -133,7 +133,7 @@ def loop_from_statespace(statespace: Any, *, rounding: Rounding) -> MultiChannel
     )
 
 
-def _sampling(dt: Any, rounding: Rounding) -> tuple[str, Fraction | None]:
+def sampling(dt: Any, rounding: Rounding) -> tuple[str, Fraction | None]:
     """Time domain and sample time: None and 0 mean continuous, True discrete of unknown step."""
     if dt is True:
         return "discrete", None

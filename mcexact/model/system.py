@@ -10,6 +10,7 @@ from typing import Any, Self
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.blocks import hstack, vstack
 from mcexact.exact.floats import Rounding, matrix_from_float
+from mcexact.exact.location import is_discrete, require_time
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.rational import as_fraction
 from mcexact.model.matrix_entry import as_table, require_shape, require_square
@@ -17,7 +18,6 @@ from mcexact.model.names import checked_names, checked_text, nearest, quoted
 from mcexact.model.neighbor_graph import NeighborGraph, graph_for
 
 Construction = Mapping[str, Any]
-TIMES = ("continuous", "discrete")
 # The constructions whose result depends on the neighbor graph of the plant.
 _GRAPH_IN_USE = frozenset({"augmented_outputs", "arcs", "extended", "lifted", "held", "error"})
 
@@ -110,10 +110,7 @@ class MultiChannelSystem:
         # All shapes are compared before any entry is read.
         channels = _channels(table.shape[0], _listed(B, "B"), _listed(C, "C"), names)
         labels = tuple(channel.name for channel in channels)
-        if time not in TIMES:
-            raise InputError(
-                f'expected "continuous" or "discrete", found {quoted(time)}', where="time"
-            )
+        require_time(time)
         self._fill(
             A=table.matrix(),
             channels=channels,
@@ -316,7 +313,7 @@ def require_discrete(system: MultiChannelSystem) -> None:
     UsageError
         If the system is in continuous time.
     """
-    if system.time != "discrete":
+    if not is_discrete(system.time):
         raise UsageError(
             'delays are analyzed in discrete time only; this system has "time": "continuous"'
         )
@@ -406,7 +403,7 @@ def _checked_sample_time(value: Any, time: str) -> Fraction | None:
     """A positive rational, in discrete time only."""
     if value is None:
         return None
-    if time != "discrete":
+    if not is_discrete(time):
         raise InputError("only discrete time has a sample time; remove it", where="sample_time")
     exact = as_fraction(value, where="sample_time")
     if exact <= 0:

@@ -7,6 +7,7 @@ import os
 from typing import Any
 
 from mcexact.errors import InputError
+from mcexact.exact.location import require_time
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.rational import DEFAULT_LIMITS, Limits, written
 from mcexact.model.atomic import write_text
@@ -32,7 +33,7 @@ from mcexact.model.matrix_json import (
 )
 from mcexact.model.names import checked_names, checked_text, quoted
 from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.system import TIMES, MultiChannelSystem
+from mcexact.model.system import MultiChannelSystem
 
 FORMAT = "mcexact-system/1"
 _REQUIRED = ("format", "time", "A", "channels")
@@ -88,8 +89,7 @@ def read_system(data: bytes | str, *, limits: Limits = DEFAULT_LIMITS) -> MultiC
     document = expect_format(parse(data, limits), FORMAT)
     expect_object(document, None, _REQUIRED, _OPTIONAL)
     time = document["time"]
-    if time not in TIMES:
-        raise InputError(f'expected "continuous" or "discrete", found {quoted(time)}', where="time")
+    require_time(time)
     # All shapes are compared before any number is read.
     A = require_square(unread_matrix(document["A"], "A", limits=limits), "A")
     names, B, C = _read_channels(document["channels"], A.shape[0], limits)

@@ -12,6 +12,7 @@ from mcexact.answer.wording import details
 from mcexact.certificate.single_channel_gains import GainsWitness, StuckWitness
 from mcexact.errors import LimitReached
 from mcexact.exact.enclosures import exact_decimal
+from mcexact.exact.location import steady_point
 from mcexact.exact.polynomial import Polynomial, product
 from mcexact.report.assessment import Assessment, ChannelAnswers
 from mcexact.report.text import Table
@@ -142,7 +143,7 @@ def _setpoint(assessment: Assessment) -> Iterator[Row]:
     """Whether every output can be held, or what stands against it."""
     found = assessment.setpoint
     if found.invariant_zero:
-        yield say.SETPOINT_ZERO.row(place=int(assessment.system.time == "discrete"))
+        yield say.SETPOINT_ZERO.row(place=steady_point(assessment.system.time))
     elif not found.solvable:
         yield say.SETPOINT_DEPENDENT.row()
     elif assessment.controllability.controllable and assessment.observability.controllable:

@@ -9,6 +9,7 @@ from typing import Any
 
 from mcexact.analysis.closed_loop_spectrum import LoopSpectrum
 from mcexact.exact.floats import to_float
+from mcexact.exact.location import StabilityRegion, is_discrete
 from mcexact.report.trajectory import error_norms, state_norms
 from mcexact.simulation.trajectory import Trajectory
 
@@ -70,7 +71,7 @@ def draw_decay(
 ) -> None:
     """Norms on a logarithmic axis, with the certified rate through the largest first value."""
     times = [to_float(t) for t in run.times]
-    marker = "." if run.time == "discrete" else ""
+    marker = "." if is_discrete(run.time) else ""
     shown = [value for values in curves.values() for value in values if 0 < value < float("inf")]
     for name, values in curves.items():
         visible = [value if 0 < value < float("inf") else float("nan") for value in values]
@@ -84,9 +85,14 @@ def draw_decay(
             axis.plot(times, visible, "k--", linewidth=1, label=label_of_line)
     if shown:
         axis.set_yscale("log")
-    axis.set_xlabel("step" if run.time == "discrete" else "time")
+    axis.set_xlabel(elapsed_label(run.time))
     axis.set_title(label, fontsize="medium")
     axis.legend(fontsize="small")
+
+
+def elapsed_label(time: str) -> str:
+    """What the axis of times counts."""
+    return "step" if is_discrete(time) else "time"
 
 
 def _slope(
@@ -102,9 +108,8 @@ def _slope(
     ]
     top = max(tops)
     start = tops.index(top)
-    if time == "continuous":
-        decay = to_float(rate.lower)
-    else:
+    decay = to_float(rate.lower)
+    if is_discrete(time):
         radius = to_float(rate.upper)
         if radius <= 0:
             return []
@@ -119,9 +124,8 @@ def rate_text(time: str, spectrum: LoopSpectrum) -> str:
     """The certified end of the enclosure of the rate."""
     if spectrum.rate is None:
         return ""
-    if time == "continuous":
-        return f"rate {to_float(spectrum.rate.lower):.4g}"
-    return f"radius {to_float(spectrum.rate.upper):.4g}"
+    end = spectrum.rate.upper if is_discrete(time) else spectrum.rate.lower
+    return f"{StabilityRegion(time).word} {to_float(end):.4g}"
 
 
 def draw_eigenvalues(axis: Any, time: str, spectrum: LoopSpectrum) -> None:
@@ -130,17 +134,17 @@ def draw_eigenvalues(axis: Any, time: str, spectrum: LoopSpectrum) -> None:
 
     re = [to_float(disc.re) for disc in spectrum.discs]
     im = [to_float(disc.im) for disc in spectrum.discs]
-    if time == "continuous":
-        left = min([*re, -1.0]) * 1.2 - 0.5
-        axis.axvspan(left, 0, color="0.92", zorder=0)
-        axis.set_xlim(left, max([*re, 0.0]) + 0.1 * abs(left))
-        axis.axvline(0, color="0.6", linewidth=0.8)
-    else:
+    if is_discrete(time):
         axis.add_patch(Circle((0, 0), 1, color="0.92", zorder=0))
         axis.set_aspect("equal")
         reach = 1.1 * max([1.0, *map(abs, re), *map(abs, im)])
         axis.set_xlim(-reach, reach)
         axis.set_ylim(-reach, reach)
+    else:
+        left = min([*re, -1.0]) * 1.2 - 0.5
+        axis.axvspan(left, 0, color="0.92", zorder=0)
+        axis.set_xlim(left, max([*re, 0.0]) + 0.1 * abs(left))
+        axis.axvline(0, color="0.6", linewidth=0.8)
     reach = max([1.0, *map(abs, im)]) * 1.15
     axis.set_ylim(-reach, reach)
     for x, y, disc in zip(re, im, spectrum.discs, strict=True):

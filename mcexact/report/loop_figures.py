@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from mcexact.analysis.closed_loop_spectrum import LoopSpectrum
 from mcexact.exact.floats import to_float
-from mcexact.report.figures import draw_decay, draw_eigenvalues, rate_text
+from mcexact.report.figures import draw_decay, draw_eigenvalues, elapsed_label, rate_text
 from mcexact.report.picture import Picture, empty_figure
 from mcexact.report.trajectory import error_norms, state_norms
 from mcexact.simulation.trajectory import Trajectory
@@ -119,7 +119,7 @@ def setpoint_picture(
         axis.plot([to_float(t) for t in run.times], values, color=f"C{k}", label=name)
         axis.axhline(wanted[k], color=f"C{k}", linestyle="--", linewidth=1)
         words.append(f"{name} ends at {values[-1]:.6g}, its set-point is {wanted[k]:g}")
-    axis.set_xlabel("step" if run.time == "discrete" else "time")
+    axis.set_xlabel(elapsed_label(run.time))
     axis.set_title("outputs and their set-points (dashed)", fontsize="medium")
     axis.legend(fontsize="small")
     return Picture(figure, "Set-point responses", "; ".join(words) + ".")

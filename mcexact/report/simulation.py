@@ -11,6 +11,7 @@ from typing import Any
 from mcexact.analysis.closed_loop_spectrum import LoopSpectrum, closed_loop_spectrum
 from mcexact.errors import InputError
 from mcexact.exact.floats import to_float
+from mcexact.exact.location import is_discrete
 from mcexact.model.closed_loop import closed_loop_matrix
 from mcexact.model.controller import Controller
 from mcexact.model.system import MultiChannelSystem
@@ -51,7 +52,7 @@ class SimulationReport:
         lines = [f"{self.run.time} time, {self.run.arithmetic} arithmetic"]
         if self.spectrum is not None and self.spectrum.rate is not None:
             rate, stable = self.spectrum.rate, "" if self.spectrum.stable else "not "
-            what = "decay rate" if self.run.time == "continuous" else "spectral radius"
+            what = "spectral radius" if is_discrete(self.run.time) else "decay rate"
             lines.append(
                 f"the closed loop is {stable}stable; its {what} is between {rate.lower} and "
                 f"{rate.upper}"
@@ -147,7 +148,7 @@ def run_report(
 def _horizon(time: str, spectrum: LoopSpectrum | None, states: int) -> Fraction:
     """Some time constants, within reason."""
     rate = None if spectrum is None else spectrum.rate
-    if time == "discrete":
+    if is_discrete(time):
         radius = 0.9 if rate is None else min(0.95, to_float(rate.upper))
         steps = states if radius <= 0 else max(states, math.ceil(-10 / math.log(radius)))
         return Fraction(min(steps + 3, 200))

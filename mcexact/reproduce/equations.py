@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from mcexact.exact.blocks import vstack
+from mcexact.exact.location import is_discrete
 from mcexact.exact.matrix import Matrix
 from mcexact.model.system import MultiChannelSystem
 from mcexact.reproduce.material import Numbers
@@ -142,7 +143,7 @@ def integrators_agree(
     w = [numbers.column(plant.q(i)) for i in range(plant.m)]
     u = [numbers.column(plant.p(i)) for i in range(plant.m)]
     y = outputs(plant, x)
-    if plant.time == "discrete":
+    if is_discrete(plant.time):
         y = [a + b for a, b in zip(w, y, strict=True)]
     state = stacked([x, *w])
     return outputs(made, state) == w and driven(made, state, u) == stacked(

@@ -14,7 +14,7 @@ from mcexact.derived.error_system import error_system
 from mcexact.derived.feedback import feedback
 from mcexact.exact.blocks import block, hstack, kronecker, vstack
 from mcexact.exact.linear_algebra import characteristic_polynomial
-from mcexact.exact.location import StabilityRegion
+from mcexact.exact.location import StabilityRegion, is_discrete
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.neighbor_graph import NeighborGraph
@@ -324,18 +324,12 @@ def prescribed_rate(note: Notebook) -> None:
     chosen += [*drawn_plants(1, states=2, channels=2, time="discrete", first=4)]
     for name, plant in chosen:
         note.on(f"{name}, {plant.time} time")
-        if plant.time == "continuous":
-            design = design_observer(plant, rate=5)
-        else:
-            design = design_observer(plant, radius="1/10")
+        rate, radius = (None, "1/10") if is_discrete(plant.time) else (5, None)
+        design = design_observer(plant, rate=rate, radius=radius)
+        wanted = StabilityRegion.of(plant.time, rate, radius)
         spectrum = closed_loop_spectrum(design.loop.matrix, plant.time)
         note.check("the loop is stable", spectrum.stable)
-        rate = spectrum.rate
-        fast = rate is not None and (
-            Fraction(rate.lower) > 5
-            if plant.time == "continuous"
-            else Fraction(rate.upper) < Fraction(1, 10)
-        )
+        fast = wanted.contains_roots_of(characteristic_polynomial(design.loop.matrix))
         note.check("every eigenvalue meets the prescribed rate", fast)
         note.certify(design)
     _in_floating_point(note)

@@ -8,6 +8,7 @@ from fractions import Fraction
 from typing import Any
 
 from mcexact.errors import InputError, UsageError
+from mcexact.exact.location import is_discrete
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.rational import as_fraction
 from mcexact.model.controller import Controller
@@ -124,7 +125,7 @@ def simulate(
     [[Fraction(1, 1)], [Fraction(1, 2)], [Fraction(1, 4)]]
     """
     system, found = with_wires(system, graph)
-    discrete = system.time == "discrete"
+    discrete = is_discrete(system.time)
     numbers = arithmetic_named(arithmetic or ("exact" if discrete else "float"), digits)
     network = Network(system, controller, found, numbers)
     start = default_initial(system, controller) if initial is None else initial

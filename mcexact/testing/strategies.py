@@ -11,6 +11,7 @@ from hypothesis.strategies import DrawFn, SearchStrategy
 from mcexact.derived import drawn, drawn_structure
 from mcexact.derived.drawn import Drawn
 from mcexact.derived.drawn_graph import drawn_graph
+from mcexact.exact.location import TIMES
 from mcexact.model.neighbor_graph import NeighborGraph
 
 T = TypeVar("T")
@@ -46,7 +47,7 @@ class HypothesisChoices:
 
 
 def _time(choices: HypothesisChoices, time: str | None) -> str:
-    return choices.option(("continuous", "discrete")) if time is None else time
+    return choices.option(TIMES) if time is None else time
 
 
 @st.composite

@@ -90,7 +90,7 @@ def test_the_zero_polynomial_is_refused(test):
 
 
 def test_a_region_of_an_unknown_time_is_refused():
-    with pytest.raises(InputError, match='expected time "continuous" or "discrete", found'):
+    with pytest.raises(InputError, match='time: expected "continuous" or "discrete", found'):
         StabilityRegion("sampled")
 
 
