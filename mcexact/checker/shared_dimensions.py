@@ -6,12 +6,10 @@ from fractions import Fraction
 from typing import Any
 
 from . import covering, evidence, reading, region, subspaces
-from .exchange import augmented_outputs, extended, neighbors_of
+from .exchange import SHARED, augmented_outputs, extended, neighbors_of
 from .reading import fields, items, require
 from .system import System
 from .words import described
-
-PAIRS = {"outputs+states": "outputs and sub-states", "states": "sub-states"}
 
 
 def check(claim: Any, witness: Any, system: System) -> str:
@@ -22,7 +20,7 @@ def check(claim: Any, witness: Any, system: System) -> str:
     keys = ("share", "bound", "free_assignability", "costs", "upper", "feasible", "dimensions")
     share, limit, free, prices, most, _, sizes, _ = fields(claim, "claim", *keys, "cost")
     absence, listed, tree = fields(witness, "witness", "absence", "cuts", "tree")
-    reading.string(share, "claim.share", *PAIRS)
+    reading.string(share, "claim.share", *SHARED)
     bound = region.read_bound(limit, system)
     connected = reading.boolean(free, "claim.free_assignability")
     costs = [reading.rational(c, "claim.costs") for c in items(prices, "claim.costs", system.m)]
@@ -32,7 +30,7 @@ def check(claim: Any, witness: Any, system: System) -> str:
     base = augmented_outputs(system, {}, "claim.share") if share == "outputs+states" else system
     N, cuts = neighbors_of(system, "claim"), []
     for k, entry in enumerate(items(listed, "witness.cuts")):
-        s, demand = _cut(entry, f"witness.cuts[{k}]", base, bound, connected)
+        s, demand = read_cut(entry, f"witness.cuts[{k}]", base, bound, connected)
         cuts.append(({j for i in s for j in N[i]} - set(s), demand))
     value = region.claimed_cost(claim, "dimensions", absence)
     if value is not None:
@@ -45,14 +43,14 @@ def check(claim: Any, witness: Any, system: System) -> str:
     covering.Program(costs, cuts, "agent", system.names, value).require_bound(tree, upper)
     modes = "no fixed mode" if limit is None else f"no fixed mode beyond {limit}"
     goal = f"{modes} and a strongly connected graph" if connected else modes
-    start = f"sharing {PAIRS[share]} in {described(system)}, for an extended system with {goal}"
+    start = f"sharing {SHARED[share]} in {described(system)}, for an extended system with {goal}"
     end = f"(upper bounds {most}, costs {prices})"
     if value is None:
         return f"{start}, no dimensions suffice {end}"
     return f"{start}, dimensions {sizes} suffice and nothing of cost below {value} does {end}"
 
 
-def _cut(
+def read_cut(
     entry: Any, place: str, base: System, bound: Fraction | None, free: bool
 ) -> tuple[list[int], int]:
     """A subset s, and how much its boundary N_s∖s has to share at least.
