@@ -156,12 +156,14 @@ def _answer(
 def _bound(time: str, rate: Fraction | None, radius: Fraction | None) -> Fraction | None:
     """The rate or the radius; the one of the other time domain is wrong usage."""
     from mcexact.errors import UsageError
+    from mcexact.exact.location import StabilityRegion
 
-    wrong = radius if time == "continuous" else rate
-    if wrong is not None:
-        name = "--rate" if time == "continuous" else "--radius"
-        raise UsageError(f"the system is in {time} time: give {name}")
-    return rate if time == "continuous" else radius
+    own = StabilityRegion(time).word
+    given = {"rate": rate, "radius": radius}
+    bound = given.pop(own)
+    if any(other is not None for other in given.values()):
+        raise UsageError(f"the system is in {time} time: give --{own}")
+    return bound
 
 
 def _dimensions(
