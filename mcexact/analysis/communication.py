@@ -16,9 +16,9 @@ from mcexact.analysis.separation import least_minimizers, violating_factors
 from mcexact.analysis.shrunk_subspace import ExactSubspace, exact_subspace
 from mcexact.certificate.communication import CommunicationCertificate
 from mcexact.certificate.covering import ArcCut
-from mcexact.derived.arcs import add_arcs
 from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.derived.extended import Share, extended_system, selector
+from mcexact.derived.links import add_links
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.blocks import block_diagonal
 from mcexact.exact.location import StabilityRegion
@@ -27,7 +27,7 @@ from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import Entry, as_fraction
 from mcexact.model.names import quoted
 from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.system import MultiChannelSystem, with_wires
+from mcexact.model.system import MultiChannelSystem, with_links
 from mcexact.model.system_file import canonical_document
 
 Arc = tuple[int, int]
@@ -69,7 +69,7 @@ class _Wires:
     def chosen(self, values: Sequence[int]) -> MultiChannelSystem:
         """The system over the graph with the candidates added whose value is 1."""
         arcs = tuple(itertools.compress(self.candidates, values))
-        wired = add_arcs(self.plant, arcs) if arcs else self.plant
+        wired = add_links(self.plant, arcs) if arcs else self.plant
         if self.dimensions is None:
             return augmented_outputs(wired)
         share: Share = "states" if self.share == "states" else "outputs+states"
@@ -150,7 +150,7 @@ def minimal_communication(
     >>> minimal_communication(plant, NeighborGraph.empty(plant.names)).added
     (('1', '2'),)
     """
-    given, found = with_wires(system, graph)
+    given, found = with_links(system, graph)
     wires = _checked(given.with_neighbors(found), found, dimensions, share, forbidden)
     plant, names = wires.plant, wires.plant.names
     exact = None if bound is None else as_fraction(bound, where="bound")

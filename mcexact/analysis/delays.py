@@ -206,7 +206,7 @@ def connectivity(
     system, found = with_graph(system, graph)
     before, after = transfer_graph(system), transfer_graph(network)
     at = {name: place for place, name in enumerate(system.names)}
-    union = set(found.arcs()) | {(at[j], at[i]) for j, i in before.arcs if j != i}
+    union = set(found.edges()) | {(at[j], at[i]) for j, i in before.arcs if j != i}
     joined = NeighborGraph(
         system.names,
         [[j for j in range(system.m) if (j, i) in union] for i in range(system.m)],

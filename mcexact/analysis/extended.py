@@ -133,7 +133,7 @@ def graph_inclusion(
     before = transfer_graph(system)
     after = transfer_graph(extended_system(system, dimensions, share))
     names = system.names
-    union = {(names[j], names[i]) for j, i in found.arcs()} | set(before.arcs)
+    union = {(names[j], names[i]) for j, i in found.edges()} | set(before.arcs)
     order = {name: place for place, name in enumerate(names)}
     missing = sorted(union - set(after.arcs), key=lambda arc: (order[arc[0]], order[arc[1]]))
     return GraphInclusion(not missing, tuple(missing), before, after)

@@ -16,7 +16,6 @@ from typing import Any
 
 from mcexact.answer.check import checked
 from mcexact.answer.protocol import KINDS, Answer, fields_of, key_of
-from mcexact.derived.arcs import add_arcs
 from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.derived.delayed import held_system, lifted_system
 from mcexact.derived.dual import dual
@@ -24,6 +23,7 @@ from mcexact.derived.error_system import error_system
 from mcexact.derived.extended import extended_system
 from mcexact.derived.feedback import feedback, full_output
 from mcexact.derived.integrators import setpoint_system
+from mcexact.derived.links import add_links
 from mcexact.errors import InputError
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
@@ -105,7 +105,7 @@ _CONSTRUCTIONS: Mapping[
         system, _gains(given, [system.q(i) for i in range(system.m)])
     ),
     "full_output": lambda system, given: full_output(system, system.index(given["channel"])),
-    "arcs": lambda system, given: add_arcs(
+    "arcs": lambda system, given: add_links(
         system, [(system.index(j), system.index(i)) for j, i in given["added"]]
     ),
     "extended": lambda system, given: extended_system(system, given["dimensions"], given["share"]),

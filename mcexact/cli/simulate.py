@@ -57,7 +57,7 @@ def command(
     max_memory: int | None,
     **limits: int | None,
 ) -> None:
-    """Run the CONTROLLER for the system in FILE, one agent each, messages along arcs only."""
+    """Run the CONTROLLER for the system in FILE, one agent each, messages along edges only."""
     from mcexact.cli.deadline import Deadline
     from mcexact.cli.files import place_of, read, require_other, require_writable
     from mcexact.cli.output import emit_json, emit_tables

@@ -22,7 +22,7 @@ from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.location import StabilityRegion
 from mcexact.floating import anderson_clements, controllability, fixed_modes, margins
 from mcexact.floating.fixed_mode_distance import FixedModeDistance, fixed_mode_distance
-from mcexact.floating.transfer_graph import transfer_arcs
+from mcexact.floating.transfer_graph import transfer_edges
 from mcexact.model.system import MultiChannelSystem
 
 if TYPE_CHECKING:
@@ -284,22 +284,22 @@ def _graph(system: MultiChannelSystem, floats: _Floats) -> list[CrossCheck]:
     """The transfer graph, and completeness made of it and of the rounded fixed modes."""
     exact = transfer_graph(system)
     truth = frozenset((system.index(j), system.index(i)) for j, i in exact.arcs)
-    found = _answer(lambda: transfer_arcs(floats.A, floats.B, floats.C))
-    arcs = _row(
+    found = _answer(lambda: transfer_edges(floats.A, floats.B, floats.C))
+    edges = _row(
         "transfer graph",
         "numpy.allclose(scipy.signal.ss2tf(A, B_j, C_i, 0)[0], 0)",
         found,
         truth,
-        lambda arcs: f"{len(arcs)} arcs",
+        lambda edges: f"{len(edges)} edges",
     )
     rounded = _answer(
         lambda: not _rounded(floats, _DIGITS[1]) and _strongly_connected(system.m, found)
     )
     return [
-        arcs,
+        edges,
         _row(
             "completeness",
-            "networkx.is_strongly_connected(arcs) and no mode fixed to 8 digits",
+            "networkx.is_strongly_connected(edges) and no mode fixed to 8 digits",
             found if isinstance(found, _NoAnswer) else rounded,
             completeness(system).complete,
             _yes,
@@ -307,13 +307,13 @@ def _graph(system: MultiChannelSystem, floats: _Floats) -> list[CrossCheck]:
     ]
 
 
-def _strongly_connected(m: int, arcs: frozenset[tuple[int, int]]) -> bool:
+def _strongly_connected(m: int, edges: frozenset[tuple[int, int]]) -> bool:
     """Whether every channel reaches every other one."""
     import networkx as nx
 
     graph = nx.DiGraph()
     graph.add_nodes_from(range(m))
-    graph.add_edges_from(arcs)
+    graph.add_edges_from(edges)
     return bool(nx.is_strongly_connected(graph))
 
 

@@ -1,4 +1,4 @@
-"""The extended system under delays: every message on the wires is a state."""
+"""The extended system under delays: every message on the links is a state."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def lifted_system(
         n_1 … n_m, each ≥ 0.
     share : {"outputs+states", "states"}
     graph : NeighborGraph, optional
-        With the delays d_ij on its arcs; overrides ``system.neighbors``.
+        With the delays d_ij on its edges; overrides ``system.neighbors``.
 
     Returns
     -------
@@ -100,7 +100,7 @@ def held_system(
     dimensions : sequence of m int
         n_1 … n_m, each ≥ 0.
     graph : NeighborGraph, optional
-        With the delays d_ij on its arcs; overrides ``system.neighbors``.
+        With the delays d_ij on its edges; overrides ``system.neighbors``.
 
     Returns
     -------

@@ -27,7 +27,7 @@ def drawn_graph(
         True: by an ear decomposition, which every such graph has; False: with a set of agents that
         hears nobody outside; None: any.
     longest_delay : int
-        Every arc has a delay from 0 to this.
+        Every edge has a delay from 0 to this.
 
     Raises
     ------

@@ -182,14 +182,14 @@ def incomplete_system(
     states, channels : int
         At least 2 each.
     reason : {"fixed mode", "transfer graph"}
-        Because of a fixed mode; or, without any, because no arc of the transfer graph leaves some
+        Because of a fixed mode; or, without any, because no edge of the transfer graph leaves some
         nonempty proper set of channels.
     time : {"continuous", "discrete"}
 
     Returns
     -------
     Drawn
-        With ``complete=False``; ``subset`` is s for the fixed mode, and the set that no arc enters
+        With ``complete=False``; ``subset`` is s for the fixed mode, and the set that no edge enters
         for the transfer graph.
 
     Notes

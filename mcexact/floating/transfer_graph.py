@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 
-def transfer_arcs(A: Array, B: Sequence[Array], C: Sequence[Array]) -> frozenset[tuple[int, int]]:
+def transfer_edges(A: Array, B: Sequence[Array], C: Sequence[Array]) -> frozenset[tuple[int, int]]:
     """The pairs (j, i) for which `scipy.signal.ss2tf` gives a numerator that is not close to 0.
 
     Parameters
@@ -28,7 +28,7 @@ def transfer_arcs(A: Array, B: Sequence[Array], C: Sequence[Array]) -> frozenset
     --------
     >>> B = [np.array([[1.0], [0.0]]), np.array([[0.0], [1.0]])]
     >>> C = [np.array([[1.0, 0.0]]), np.array([[0.0, 1.0]])]
-    >>> sorted(transfer_arcs(np.array([[1.0, 0.0], [1.0, 2.0]]), B, C))
+    >>> sorted(transfer_edges(np.array([[1.0, 0.0], [1.0, 2.0]]), B, C))
     [(0, 0), (0, 1), (1, 1)]
     """
     from scipy.signal import ss2tf
@@ -36,7 +36,7 @@ def transfer_arcs(A: Array, B: Sequence[Array], C: Sequence[Array]) -> frozenset
     sizes = [C_i.shape[0] for C_i in C]
     ends = np.cumsum([0, *sizes])
     outputs = np.vstack([np.zeros((0, A.shape[0])), *C])
-    arcs = set()
+    edges = set()
     with warnings.catch_warnings():
         # Leading coefficients that are nearly 0 are told of; they are part of the answer.
         warnings.simplefilter("ignore")
@@ -48,5 +48,5 @@ def transfer_arcs(A: Array, B: Sequence[Array], C: Sequence[Array]) -> frozenset
                 numerators, _ = ss2tf(A, B_j, outputs, direct, input=k)
                 for i in range(len(C)):
                     if not np.allclose(numerators[ends[i] : ends[i + 1]], 0):
-                        arcs.add((j, i))
-    return frozenset(arcs)
+                        edges.add((j, i))
+    return frozenset(edges)

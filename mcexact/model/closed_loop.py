@@ -11,7 +11,7 @@ from mcexact.exact.blocks import hstack, vstack
 from mcexact.exact.matrix import Matrix
 from mcexact.model.controller import Controller, LinearMap
 from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.system import MultiChannelSystem, require_discrete, with_wires
+from mcexact.model.system import MultiChannelSystem, require_discrete, with_links
 
 
 @dataclass(frozen=True)
@@ -35,8 +35,8 @@ class LoopLayout:
 
     def waits(self, j: int, i: int) -> tuple[int, int]:
         """How old x_j and y_j are when agent i uses them."""
-        wire = self.graph.delay(i, j) if i != j else 0
-        return wire + self.controller.agents[j].hold.get(i, 0), wire
+        link = self.graph.delay(i, j) if i != j else 0
+        return link + self.controller.agents[j].hold.get(i, 0), link
 
     @cached_property
     def oldest(self) -> tuple[tuple[int, int], ...]:
@@ -111,7 +111,7 @@ def loop_layout(
     UsageError, InputError
         If the controller does not fit.
     """
-    system, found = with_wires(system, graph)
+    system, found = with_links(system, graph)
     if found.delays:
         require_discrete(system)
     controller.require_fits(system, found)

@@ -135,8 +135,8 @@ class Controller:
                             )
         return longest
 
-    def arcs(self) -> tuple[tuple[int, int], ...]:
-        """The arcs (j, i), j ≠ i, on which agent i uses something of agent j."""
+    def edges(self) -> tuple[tuple[int, int], ...]:
+        """The edges (j, i), j ≠ i, on which agent i uses something of agent j."""
         return tuple((j, i) for i, agent in enumerate(self.agents) for j in agent.hears() if j != i)
 
     def warnings_for(self, system: MultiChannelSystem) -> tuple[str, ...]:

@@ -1,4 +1,4 @@
-"""Who hears whom: the neighbor graph of the agents, with the delays on its arcs."""
+"""Who hears whom: the neighbor graph of the agents, with the delays on its edges."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from mcexact.model.names import checked_name, checked_names, nearest, quoted
 
 @dataclass(frozen=True)
 class NeighborGraph:
-    """A directed graph on the m agents with an arc j → i just in case i hears j.
+    """A directed graph on the m agents with an edge j → i just in case i hears j.
 
     Agents are addressed by position, 0 … m−1; names stand at the border.  N_i always holds i.
 
@@ -29,7 +29,7 @@ class NeighborGraph:
     Raises
     ------
     InputError
-        If a position is out of range, a delay is negative or stands on no arc.
+        If a position is out of range, a delay is negative or stands on no edge.
 
     Notes
     -----
@@ -77,7 +77,7 @@ class NeighborGraph:
     def _checked_delays(
         self, delays: Iterable[tuple[int, int, int]]
     ) -> tuple[tuple[int, int, int], ...]:
-        """Sort the delays and drop the zeros; refuse what stands on no arc."""
+        """Sort the delays and drop the zeros; refuse what stands on no edge."""
         found: dict[tuple[int, int], int] = {}
         for i, j, delay in delays:
             i, j = _position(i, self.m, "delays"), _position(j, self.m, "delays")
@@ -91,7 +91,7 @@ class NeighborGraph:
                 raise InputError("expected 0: an agent hears itself at once", where=where)
             if j not in self.neighbors[i]:
                 raise InputError(
-                    f"there is no such wire; list {quoted(self.names[j])} among the neighbors "
+                    f"there is no such link; list {quoted(self.names[j])} among the neighbors "
                     f"of {quoted(self.names[i])}, or remove the delay",
                     where=where,
                 )
@@ -124,7 +124,7 @@ class NeighborGraph:
         Examples
         --------
         >>> graph = NeighborGraph.from_names(("a", "b"), {"a": ["b"]}, {"a": {"b": 2}})
-        >>> graph.arcs(), graph.delay(0, 1)
+        >>> graph.edges(), graph.delay(0, 1)
         (((1, 0),), 2)
         """
         names = tuple(names)
@@ -190,8 +190,8 @@ class NeighborGraph:
         """F_j, the agents that hear j; j is in it."""
         return tuple(i for i in range(self.m) if j in self.neighbors[i])
 
-    def arcs(self) -> tuple[tuple[int, int], ...]:
-        """All arcs (j, i), from j to i ≠ j, sorted."""
+    def edges(self) -> tuple[tuple[int, int], ...]:
+        """All edges (j, i), from j to i ≠ j, sorted."""
         return tuple(
             sorted((j, i) for i, heard in enumerate(self.neighbors) for j in heard if i != j)
         )
@@ -208,16 +208,16 @@ class NeighborGraph:
     def _delay_of(self) -> dict[tuple[int, int], int]:
         return {(i, j): d for i, j, d in self.delays}
 
-    def with_arcs(self, added: Iterable[tuple[int, int]]) -> NeighborGraph:
-        """The graph with more arcs (j, i), each without delay: j joins N_i."""
+    def with_edges(self, added: Iterable[tuple[int, int]]) -> NeighborGraph:
+        """The graph with more edges (j, i), each without delay: j joins N_i."""
         sets = [set(heard) for heard in self.neighbors]
         for j, i in added:
-            _position(j, self.m, "arcs")
-            sets[_position(i, self.m, "arcs")].add(j)
+            _position(j, self.m, "edges")
+            sets[_position(i, self.m, "edges")].add(j)
         return NeighborGraph(self.names, sets, self.delays)
 
     def is_strongly_connected(self) -> bool:
-        """Whether every agent can be reached from every other along arcs."""
+        """Whether every agent can be reached from every other along edges."""
         import networkx
 
         return bool(networkx.is_strongly_connected(self._digraph(range(self.m))))
@@ -227,11 +227,11 @@ class NeighborGraph:
 
         graph = networkx.DiGraph()
         graph.add_nodes_from(nodes)
-        graph.add_edges_from((nodes[j], nodes[i]) for j, i in self.arcs())
+        graph.add_edges_from((nodes[j], nodes[i]) for j, i in self.edges())
         return graph
 
     def to_networkx(self) -> Any:
-        """A ``networkx.DiGraph`` on the names, arcs j → i, nonzero delays under ``delay``."""
+        """A ``networkx.DiGraph`` on the names, edges j → i, nonzero delays under ``delay``."""
         graph = self._digraph(self.names)
         for i, j, delay in self.delays:
             graph.edges[self.names[j], self.names[i]]["delay"] = delay
@@ -239,12 +239,12 @@ class NeighborGraph:
 
     @classmethod
     def from_networkx(cls, graph: Any, names: Sequence[str] | None = None) -> NeighborGraph:
-        """Read a directed networkx graph whose arc j → i says that i hears j.
+        """Read a directed networkx graph whose edge j → i says that i hears j.
 
         Parameters
         ----------
         graph : networkx.DiGraph
-            Nodes are strings or integers; an arc may have an integer ``delay``, nothing else that
+            Nodes are strings or integers; an edge may have an integer ``delay``, nothing else that
             would be lost.
         names : sequence of str, optional
             The channels in order; every one must be a node and every node one of them.  By
@@ -253,9 +253,9 @@ class NeighborGraph:
         Raises
         ------
         InputError
-            If the graph is undirected or has parallel arcs, if a node is neither a string nor an
+            If the graph is undirected or has parallel edges, if a node is neither a string nor an
             integer (networkx merges the nodes 1, True and 1.0 silently), if the nodes are not the
-            channels, or if an arc has a weight.
+            channels, or if an edge has a weight.
         FloatRefused
             If a node or a delay is a float.
 
@@ -263,7 +263,7 @@ class NeighborGraph:
         --------
         >>> import networkx
         >>> graph = networkx.DiGraph([("b", "a")])
-        >>> NeighborGraph.from_networkx(graph, names=("a", "b")).arcs()
+        >>> NeighborGraph.from_networkx(graph, names=("a", "b")).edges()
         ((1, 0),)
         >>> NeighborGraph.from_networkx(networkx.Graph([("b", "a")]))  # doctest: +ELLIPSIS
         Traceback (most recent call last):
@@ -278,7 +278,7 @@ class NeighborGraph:
             )
         if graph.is_multigraph():
             raise InputError(
-                "expected at most one arc from an agent to another, found a multigraph; "
+                "expected at most one edge from an agent to another, found a multigraph; "
                 "use networkx.DiGraph(graph)",
                 where="graph",
             )
@@ -300,7 +300,7 @@ class NeighborGraph:
         for sender, receiver, data in graph.edges(data=True):
             j, i = labels[sender], labels[receiver]
             heard[i].append(j)
-            delays[i][j] = _arc_delay(data, f"arc {quoted(j)} -> {quoted(i)}")
+            delays[i][j] = _edge_delay(data, f"edge {quoted(j)} -> {quoted(i)}")
         return cls.from_names(names, heard, delays)
 
 
@@ -320,13 +320,13 @@ def _label(node: object) -> str:
     return str(node)
 
 
-def _arc_delay(data: Mapping[str, object], where: str) -> int:
-    """The delay on a networkx arc; a weight is refused, because it would be lost."""
+def _edge_delay(data: Mapping[str, object], where: str) -> int:
+    """The delay on a networkx edge; a weight is refused, because it would be lost."""
     weight = data.get("weight", 1)
     if isinstance(weight, float):
-        raise FloatRefused(f"an arc has a delay but no weight, found {weight!r}", where=where)
+        raise FloatRefused(f"an edge has a delay but no weight, found {weight!r}", where=where)
     if weight != 1:
-        raise InputError(f"an arc has a delay but no weight, found {weight!r}", where=where)
+        raise InputError(f"an edge has a delay but no weight, found {weight!r}", where=where)
     delay = data.get("delay", 0)
     if isinstance(delay, float):
         raise FloatRefused(f"expected a delay as an integer >= 0, found {delay!r}", where=where)

@@ -51,7 +51,7 @@ class MultiChannelSystem:
     names : sequence of str, optional
         The channels, by default "1" … "m".
     neighbors : NeighborGraph or mapping of names, optional
-        Who hears whom; delays live on its arcs.
+        Who hears whom; delays live on its edges.
     sample_time : rational, optional
         For discrete time.  Carried, never used in a decision.
     name, source : str, optional
@@ -344,7 +344,7 @@ def with_graph(
     return system, system.neighbors
 
 
-def with_wires(
+def with_links(
     system: MultiChannelSystem, graph: NeighborGraph | Mapping[str, Iterable[str]] | None = None
 ) -> tuple[MultiChannelSystem, NeighborGraph]:
     """A system, and the graph on which a controller of it runs.

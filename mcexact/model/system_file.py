@@ -150,7 +150,7 @@ def _read_graph(document: dict[str, Any], names: tuple[str, ...]) -> NeighborGra
     """Read neighbors and delays."""
     if "neighbors" not in document:
         if "delays" in document:
-            raise InputError("there are no wires: the key 'neighbors' is missing", where="delays")
+            raise InputError("there are no links: the key 'neighbors' is missing", where="delays")
         return None
     neighbors = _mapping(document["neighbors"], "neighbors")
     for name, heard in neighbors.items():

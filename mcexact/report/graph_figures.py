@@ -52,7 +52,7 @@ def graph_picture(
     if graph is not None:
         inside = [names.index(name) for name in subset]
         boundary = set(system.named(graph.union(inside))) - subset if subset else set()
-        arcs = [(names[j], names[i]) for j, i in graph.arcs()]
+        arcs = [(names[j], names[i]) for j, i in graph.edges()]
         panels.append(("neighbor graph", arcs))
     panels.append(("transfer graph", [arc for arc in transfer.arcs if arc[0] != arc[1]]))
     figure = empty_figure(4.2 * len(panels), 3.9)

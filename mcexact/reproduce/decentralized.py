@@ -91,22 +91,22 @@ def empty_and_all(note: Notebook) -> None:
 
 
 def transfer(note: Notebook) -> None:
-    """The transfer graph: an arc j → i iff some C_i A^k B_j is not 0, k < n."""
+    """The transfer graph: an edge j → i iff some C_i A^k B_j is not 0, k < n."""
     for name, plant in plants(14):
         note.on(name)
         found = transfer_graph(plant)
         powers = [Matrix.identity(plant.n)]
         for _ in range(plant.n - 1):
             powers.append(powers[-1] @ plant.A)
-        arcs = {
+        edges = {
             (plant.names[j], plant.names[i])
             for j in range(plant.m)
             for i in range(plant.m)
             if i != j and any(not (plant.C(i) @ P @ plant.B(j)).is_zero() for P in powers)
         }
         note.check(
-            "its arcs are the nonzero blocks",
-            set(found.arcs) - {(c, c) for c in plant.names} == arcs,
+            "its edges are the nonzero blocks",
+            set(found.arcs) - {(c, c) for c in plant.names} == edges,
         )
         note.certify(found)
 

@@ -40,7 +40,7 @@ def shifts(note: Notebook) -> None:
 
 
 def lifted(note: Notebook) -> None:
-    """`emcsdd`: the lifted system is what wires with delays bring."""
+    """`emcsdd`: the lifted system is what links with delays bring."""
     numbers = Numbers(15)
     for name, plant in plants(14, time="discrete", longest_delay=3, connected=None):
         sizes = [k % 3 for k in range(1, plant.m + 1)]
@@ -74,9 +74,9 @@ def held(note: Notebook) -> None:
         note.certify(fixed_spectrum(made))
 
 
-def _union(plant_arcs: Sequence[tuple[str, str]], graph: NeighborGraph) -> set[tuple[str, str]]:
-    """The arcs of the neighbor graph and of the plant's transfer graph."""
-    return set(plant_arcs) | {(graph.names[j], graph.names[i]) for j, i in graph.arcs()}
+def _union(plant_edges: Sequence[tuple[str, str]], graph: NeighborGraph) -> set[tuple[str, str]]:
+    """The edges of the neighbor graph and of the plant's transfer graph."""
+    return set(plant_edges) | {(graph.names[j], graph.names[i]) for j, i in graph.edges()}
 
 
 def transfer_of_the_lift(note: Notebook) -> None:
@@ -146,11 +146,11 @@ def theorem_3_states(note: Notebook) -> None:
 
 
 def corollary_2(note: Notebook) -> None:
-    """Corollary 2: a controller for late messages, of any radius, run on the wires themselves."""
+    """Corollary 2: a controller for late messages, of any radius, run on the links themselves."""
     runs = []
     for delay in (0, 1, 2):
         plant = three_channels("discrete", delay)
-        note.on(f"the example of section IV-B, discrete time, delay {delay} on every wire")
+        note.on(f"the example of section IV-B, discrete time, delay {delay} on every link")
         design = design_extended(plant, radius="1/2")
         note.check("radius 1/2 is certified", design.design.stability is not None)
         note.certify(*design.certificates.values())
@@ -174,9 +174,9 @@ def held_joint(note: Notebook) -> None:
 def outputs_lose_controllability(note: Notebook) -> None:
     """Sending y_i under delays can leave 0 fixed; sending x_i alone and holding does not."""
     plant = three_channels("discrete", 1)
-    note.on("the example of section IV-B, discrete time, delay 1 on every wire")
+    note.on("the example of section IV-B, discrete time, delay 1 on every link")
     sent = joint_controllability(lifted_system(plant, [1, 1, 1]))
-    note.check("with outputs on the wires 0 is out of reach", not sent.controllable)
+    note.check("with outputs on the links 0 is out of reach", not sent.controllable)
     kept = fixed_spectrum(held_system(plant, [1, 1, 1]))
     note.check("with holding nothing is fixed", kept.empty)
     note.certify(sent, kept)
@@ -219,7 +219,7 @@ def transfer_of_the_held(note: Notebook) -> None:
 def free_assignment(note: Notebook) -> None:
     """With holding the spectrum is assigned freely in spite of delays."""
     plant = three_channels("discrete", 1)
-    note.on("the example of section IV-B, discrete time, delay 1 on every wire")
+    note.on("the example of section IV-B, discrete time, delay 1 on every link")
     sizes = (1, 1, 1)
     note.certify(completeness(held_system(plant, sizes)))
     least = design_extended(plant, network="held", dimensions=sizes, radius="1/2")

@@ -66,7 +66,7 @@ def delayed_agrees(
     numbers: Numbers,
     steps: int = 7,
 ) -> bool:
-    """Whether a lifted or held system sees what wires with these delays bring, step by step.
+    """Whether a lifted or held system sees what links with these delays bring, step by step.
 
     Starts from rest; x_i(t+1) = v_i(t).  Agent i of the lifted system sees first what arrives at
     once, y_j(t) for d_ij = 0, then y_j(t−d_ij), then x_j(t−d_ij); agent i of the held system sees

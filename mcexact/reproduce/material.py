@@ -27,7 +27,7 @@ def three_channels(time: str = "continuous", delay: int = 0) -> MultiChannelSyst
     ----------
     time : {"continuous", "discrete"}
     delay : int
-        On every wire.
+        On every link.
 
     Examples
     --------
@@ -36,7 +36,7 @@ def three_channels(time: str = "continuous", delay: int = 0) -> MultiChannelSyst
     """
     found = gallery.load("liu2020-3ch-no-communication")
     ring = NeighborGraph.from_names(found.names, {"1": ["2"], "2": ["3"], "3": ["1"]})
-    delays = [(i, j, delay) for j, i in ring.arcs()]
+    delays = [(i, j, delay) for j, i in ring.edges()]
     return MultiChannelSystem(
         found.A,
         [channel.B for channel in found.channels],
@@ -69,7 +69,7 @@ def drawn_plants(
     fixed : bool
         Whether a fixed mode is planted.
     longest_delay : int
-        On the wires.
+        On the links.
     connected : bool or None
         Whether the neighbor graph is strongly connected; None for any.
     first : int

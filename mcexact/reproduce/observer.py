@@ -189,14 +189,14 @@ def _show_example(note: Notebook) -> None:
 
 
 def remark_1(note: Notebook) -> None:
-    """Remark 1: designed in one place, run in m: programs use nothing but what wires bring."""
+    """Remark 1: designed in one place, run in m: programs use nothing but what links bring."""
     for name, plant in small():
         note.on(name)
         controller = designed(name).controller
         graph = graph_of(plant)
         note.check(
             "every signal that a program uses comes along an arc",
-            set(controller.arcs()) <= set(graph.arcs()),
+            set(controller.edges()) <= set(graph.edges()),
         )
         run = simulate(plant, controller, horizon=1, points=4)
         note.check("the agents run", len(run.snapshots) == 5)

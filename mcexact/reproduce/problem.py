@@ -65,7 +65,7 @@ def assumptions(note: Notebook) -> None:
 
 
 def neighbor_sets(note: Notebook) -> None:
-    """Agent i hears j on an arc j → i, and itself."""
+    """Agent i hears j on an edge j → i, and itself."""
     for name, plant in plants(10, connected=None):
         note.on(name)
         graph = plant.neighbors
@@ -73,8 +73,8 @@ def neighbor_sets(note: Notebook) -> None:
             raise ValueError("the instance has a neighbor graph")
         own = all(i in graph.neighborhood(i) for i in range(plant.m))
         note.check("every agent is its own neighbor", own)
-        arcs = {(j, i) for i in range(plant.m) for j in graph.neighborhood(i) if j != i}
-        note.check("the arcs are the neighbors", set(graph.arcs()) == arcs)
+        edges = {(j, i) for i in range(plant.m) for j in graph.neighborhood(i) if j != i}
+        note.check("the edges are the neighbors", set(graph.edges()) == edges)
         x = Numbers(3).column(plant.n)
         y = outputs(plant, x)
         for i in range(plant.m):

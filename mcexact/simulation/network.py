@@ -1,4 +1,4 @@
-"""Agents on a network: each knows its own program, its own output, and what its wires deliver."""
+"""Agents on a network: each knows its own program, its own output, and what its links deliver."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from mcexact.simulation.arithmetic import Arithmetic, Native
 
 
 class SignalNotReceived(InputError):
-    """A program asks for a signal that no wire brings to its agent."""
+    """A program asks for a signal that no link brings to its agent."""
 
 
 @dataclass(frozen=True)
 class Message:
-    """What an agent sends along an arc: its output y_j and its shared sub-state x_j."""
+    """What an agent sends along an edge: its output y_j and its shared sub-state x_j."""
 
     output: Native
     shared: Native
@@ -104,7 +104,7 @@ class Agent:
         return Message(self._output, self._past[self._hold.get(receiver, 0)])
 
     def receive(self, sender: int, message: Message) -> None:
-        """Put what a wire delivers into the inbox."""
+        """Put what a link delivers into the inbox."""
         self._inbox[sender] = message
 
     def input(self) -> Native:
@@ -116,13 +116,13 @@ class Agent:
         return self._applied(self._shared_update), self._applied(self._private_update)
 
     def _heard(self, j: int) -> Message:
-        """The message of an agent; the agent's own signals need no wire."""
+        """The message of an agent; the agent's own signals need no link."""
         if j == self.position:
             return self.message_for(j)
         if j not in self._inbox:
             raise SignalNotReceived(
                 f"agent {quoted(self.name)} asks for a signal of agent number {j + 1}, "
-                "which no wire brings to it"
+                "which no link brings to it"
             )
         return self._inbox[j]
 
@@ -140,8 +140,8 @@ class Agent:
         return result
 
 
-class Wire:
-    """An arc: what is put in comes out after the delay; before that, zeros do.
+class Link:
+    """An edge: what is put in comes out after the delay; before that, zeros do.
 
     Parameters
     ----------
@@ -163,7 +163,7 @@ class Wire:
 
 
 class Network:
-    """A plant, m agents and the wires between them.
+    """A plant, m agents and the links between them.
 
     Parameters
     ----------
@@ -171,7 +171,7 @@ class Network:
         The plant.
     controller : Controller
     graph : NeighborGraph
-        Its arcs are the wires.
+        Its edges are the links.
     arithmetic : Arithmetic
 
     Raises
@@ -203,12 +203,12 @@ class Network:
             Agent(i, program, system.p(i), system.q(i), arithmetic)
             for i, program in enumerate(controller.agents)
         ]
-        self._wires = []
-        for j, i in graph.arcs():
+        self._links = []
+        for j, i in graph.edges():
             if i != j:
                 agent = self.agents[j]
                 silence = Message(agent.reference, agent.shared)
-                self._wires.append(Wire(j, i, graph.delay(i, j), silence))
+                self._links.append(Link(j, i, graph.delay(i, j), silence))
 
     def set_state(self, state: Native, parts: Sequence[tuple[Native, Native]]) -> None:
         """Set x and, agent by agent, (x_i, z_i)."""
@@ -237,9 +237,9 @@ class Network:
         """
         for agent, C in zip(self.agents, self._C, strict=True):
             agent.measure(C @ self.state)
-        for wire in self._wires:
-            message = self.agents[wire.sender].message_for(wire.receiver)
-            self.agents[wire.receiver].receive(wire.sender, wire.carry(message))
+        for link in self._links:
+            message = self.agents[link.sender].message_for(link.receiver)
+            self.agents[link.receiver].receive(link.sender, link.carry(message))
         state = self._A @ self.state
         for agent, B in zip(self.agents, self._B, strict=True):
             state = state + B @ agent.input()

@@ -13,7 +13,7 @@ from mcexact.exact.matrix import Matrix
 from mcexact.exact.rational import as_fraction
 from mcexact.model.controller import Controller
 from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.system import MultiChannelSystem, with_wires
+from mcexact.model.system import MultiChannelSystem, with_links
 from mcexact.simulation.arithmetic import Native, arithmetic_named
 from mcexact.simulation.continuous import integrated, taylor
 from mcexact.simulation.network import Network, Snapshot
@@ -124,7 +124,7 @@ def simulate(
     >>> [snapshot.plant for snapshot in run.snapshots]
     [[Fraction(1, 1)], [Fraction(1, 2)], [Fraction(1, 4)]]
     """
-    system, found = with_wires(system, graph)
+    system, found = with_links(system, graph)
     discrete = is_discrete(system.time)
     numbers = arithmetic_named(arithmetic or ("exact" if discrete else "float"), digits)
     network = Network(system, controller, found, numbers)

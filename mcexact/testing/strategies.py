@@ -219,7 +219,7 @@ def neighbor_graphs(
     strongly_connected : bool, optional
         Any graph by default.
     longest_delay : int
-        Every arc has a delay from 0 to this.
+        Every edge has a delay from 0 to this.
     """
     return _graphs(tuple(names), strongly_connected, longest_delay)
 
@@ -242,7 +242,7 @@ def systems_on_graphs(
     strongly_connected: bool | None = None,
     longest_delay: int = 0,
 ) -> SearchStrategy[Drawn]:
-    """Systems that carry a neighbor graph, with delays on its arcs if wanted.
+    """Systems that carry a neighbor graph, with delays on its edges if wanted.
 
     Parameters
     ----------

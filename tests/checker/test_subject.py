@@ -13,7 +13,6 @@ from mcexact.checker import arithmetic
 from mcexact.checker.reading import Refused
 from mcexact.checker.subject import CONSTRUCTIONS, read_subject
 from mcexact.checker.system import System, digest, read_plant
-from mcexact.derived.arcs import add_arcs
 from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.derived.delayed import held_system, lifted_system
 from mcexact.derived.dual import dual
@@ -21,6 +20,7 @@ from mcexact.derived.error_system import error_system
 from mcexact.derived.extended import extended_system
 from mcexact.derived.feedback import feedback, full_output
 from mcexact.derived.integrators import setpoint_system
+from mcexact.derived.links import add_links
 from mcexact.exact.matrix import Matrix
 from mcexact.model import system_file
 from mcexact.model.canonical import plain
@@ -57,7 +57,7 @@ def sizes(rng: random.Random, system: MultiChannelSystem) -> list[int]:
 
 def missing_arcs(system: MultiChannelSystem) -> list[tuple[int, int]]:
     pairs = [(j, i) for j in range(system.m) for i in range(system.m) if i != j]
-    return [arc for arc in pairs if arc not in system.neighbors.arcs()][:2]  # type: ignore[union-attr]
+    return [arc for arc in pairs if arc not in system.neighbors.edges()][:2]  # type: ignore[union-attr]
 
 
 def controller(rng: random.Random, system: MultiChannelSystem) -> Controller:
@@ -86,7 +86,7 @@ def controller(rng: random.Random, system: MultiChannelSystem) -> Controller:
 Build = Callable[[random.Random, MultiChannelSystem], MultiChannelSystem]
 
 BUILDS: dict[str, list[Build]] = {
-    "arcs": [lambda rng, s: add_arcs(s, missing_arcs(s))],
+    "arcs": [lambda rng, s: add_links(s, missing_arcs(s))],
     "augmented_outputs": [lambda rng, s: augmented_outputs(s)],
     "closed_loop": [lambda rng, s: closed_loop(s, controller(rng, s))],
     "dual": [lambda rng, s: dual(s)],

@@ -61,7 +61,7 @@ ORACLES = {
     "controllability index": index,
     "fixed modes, 8 digits": fixed_modes,
     "any fixed mode, pencils": lambda system: yes(fixed_factors(plain(system))),
-    "transfer graph": lambda system: f"{len(transfer_arcs(plain(system)))} arcs",
+    "transfer graph": lambda system: f"{len(transfer_arcs(plain(system)))} edges",
     "stability of A": stability,
 }
 

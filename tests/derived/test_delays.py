@@ -16,10 +16,10 @@ from mcexact.model.system import MultiChannelSystem
 
 
 def paper(delay):
-    """The paper's example in discrete time, with this delay on every wire."""
+    """The paper's example in discrete time, with this delay on every link."""
     found = gallery.load("liu2020-3ch-no-communication")
     ring = NeighborGraph.ring(found.names)
-    delays = [(i, j, delay) for j, i in ring.arcs()]
+    delays = [(i, j, delay) for j, i in ring.edges()]
     return MultiChannelSystem(
         found.A,
         [channel.B for channel in found.channels],
@@ -32,7 +32,7 @@ def paper(delay):
 def test_the_paper_s_example_with_delay_3_on_every_wire():
     assert lifted_system(paper(3), [0, 0, 1]).n == 19
     assert held_system(paper(3), [1, 0, 1]).n == 11
-    # n + Σ (n_i + d_i n_i), without the outputs on the wires.
+    # n + Σ (n_i + d_i n_i), without the outputs on the links.
     assert lifted_system(paper(3), [0, 0, 1], "states").n == 7
 
 

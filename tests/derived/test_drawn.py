@@ -82,8 +82,8 @@ def test_incomplete_systems_are_incomplete_for_the_given_reason(drawn):
 @given(testing.incomplete_systems(max_states=4, reason="transfer graph"))
 def test_an_incomplete_transfer_graph_comes_without_fixed_modes(drawn):
     assert drawn.fixed_modes is False
-    arcs = oracle.transfer_arcs(oracle.plain(drawn.system))
-    assert not [(j, i) for j, i in arcs if i in drawn.subset and j not in drawn.subset]
+    edges = oracle.transfer_arcs(oracle.plain(drawn.system))
+    assert not [(j, i) for j, i in edges if i in drawn.subset and j not in drawn.subset]
 
 
 @given(testing.systems_with_indices())
@@ -181,7 +181,7 @@ def test_graphs_that_are_not_to_be_strongly_connected_are_not(graph):
 
 
 def test_strongly_connected_graphs_without_a_cycle_through_everybody_are_drawn_too():
-    found = {drawn_graph(SeededChoices(seed), ("a", "b", "c"), True).arcs() for seed in range(200)}
+    found = {drawn_graph(SeededChoices(seed), ("a", "b", "c"), True).edges() for seed in range(200)}
     assert ((0, 1), (0, 2), (1, 0), (2, 0)) in found
 
 

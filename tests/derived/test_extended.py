@@ -5,10 +5,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mcexact import testing
-from mcexact.derived.arcs import add_arcs
 from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.derived.dual import dual
 from mcexact.derived.extended import extended_system
+from mcexact.derived.links import add_links
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.blocks import block
 from mcexact.exact.linear_algebra import rank
@@ -79,9 +79,9 @@ def test_the_rank_of_the_extended_pencil_grows_by_what_crosses_the_cut(drawn, da
     assert after == before + sum(sizes) + crossing
 
 
-def test_added_arcs_join_the_neighborhoods_and_keep_the_plant(plant):
-    made = add_arcs(plant, [(2, 0), (0, 1), (0, 1), (1, 0), (1, 1)])
-    assert made.neighbors.arcs() == tuple(sorted({*plant.neighbors.arcs(), (0, 1), (2, 0)}))
+def test_added_edges_join_the_neighborhoods_and_keep_the_plant(plant):
+    made = add_links(plant, [(2, 0), (0, 1), (0, 1), (1, 0), (1, 1)])
+    assert made.neighbors.edges() == tuple(sorted({*plant.neighbors.edges(), (0, 1), (2, 0)}))
     assert made.subject == ({"construction": "arcs", "added": [["1", "2"], ["3", "1"]]},)
     assert made.plant == plant and made.channels == plant.channels
     assert augmented_outputs(made).C(0) == plant.output_matrix()

@@ -11,7 +11,6 @@ from mcexact import testing
 from mcexact.checker.subject import read_subject
 from mcexact.checker.system import digest as checked_digest
 from mcexact.checker.system import read_plant
-from mcexact.derived.arcs import add_arcs
 from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.derived.delayed import held_system, lifted_system
 from mcexact.derived.dual import dual
@@ -19,6 +18,7 @@ from mcexact.derived.error_system import error_system
 from mcexact.derived.extended import extended_system
 from mcexact.derived.feedback import feedback, full_output
 from mcexact.derived.integrators import setpoint_system
+from mcexact.derived.links import add_links
 from mcexact.exact.matrix import Matrix
 from mcexact.model.canonical import text_of
 from mcexact.model.closed_loop import closed_loop
@@ -66,7 +66,7 @@ def test_checker_and_package_build_the_same_subjects(drawn, seed):
     rebuilt(dual(augmented_outputs(system)))
     rebuilt(full_output(feedback(system, gains(rng, system, outputs)), rng.randrange(m)))
     rebuilt(dual(extended_system(system, sizes, rng.choice(SHARES))))
-    more = add_arcs(system, [(rng.randrange(m), rng.randrange(m)) for _ in range(2)])
+    more = add_links(system, [(rng.randrange(m), rng.randrange(m)) for _ in range(2)])
     rebuilt(augmented_outputs(more))
     rebuilt(extended_system(more, sizes, rng.choice(SHARES)))
     rebuilt(lifted_system(system, sizes, rng.choice(SHARES)))

@@ -149,7 +149,7 @@ def test_static_programs_without_messages_are_decentralized_feedback():
     made = closed_loop(plant, controller)
     assert made.m == 0 and made.plant == plant and made.plant.neighbors is None
     assert made.subject == ({"construction": "closed_loop", "controller": controller.document()},)
-    assert controller.order == 0 and controller.arcs() == () and controller.height() == 3
+    assert controller.order == 0 and controller.edges() == () and controller.height() == 3
 
 
 def test_a_message_that_is_multiplied_by_zero_is_not_under_way():

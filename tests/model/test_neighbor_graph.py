@@ -24,10 +24,10 @@ def test_networkx_and_names_give_the_same_graph_back(graph):
 
 
 @given(neighbor_graphs(NAMES, longest_delay=3))
-def test_followers_unions_arcs_and_delays_agree_with_the_neighborhoods(graph):
+def test_followers_unions_edges_and_delays_agree_with_the_neighborhoods(graph):
     for i, j in itertools.product(range(3), repeat=2):
         assert (j in graph.neighborhood(i)) == (i in graph.followers(j))
-        assert (i != j and j in graph.neighborhood(i)) == ((j, i) in graph.arcs())
+        assert (i != j and j in graph.neighborhood(i)) == ((j, i) in graph.edges())
         assert graph.delay(i, j) <= graph.longest_delay(j)
     assert graph.union([0, 2]) == tuple(sorted({*graph.neighborhood(0), *graph.neighborhood(2)}))
     assert graph.union([]) == ()
@@ -38,7 +38,7 @@ def test_followers_unions_arcs_and_delays_agree_with_the_neighborhoods(graph):
 
 @given(neighbor_graphs(NAMES))
 def test_strong_connectivity_is_reachability_both_ways(graph):
-    reach = {(i, i) for i in range(3)} | set(graph.arcs())
+    reach = {(i, i) for i in range(3)} | set(graph.edges())
     for k, i, j in itertools.product(range(3), repeat=3):
         if (i, k) in reach and (k, j) in reach:
             reach.add((i, j))
@@ -48,14 +48,14 @@ def test_strong_connectivity_is_reachability_both_ways(graph):
 def test_the_ring_is_the_paper_s_cyclic_graph():
     ring = NeighborGraph.ring(("1", "2", "3"))
     assert [ring.neighborhood(i) for i in range(3)] == [(0, 1), (1, 2), (0, 2)]
-    assert NeighborGraph.complete(NAMES).arcs() == tuple(itertools.permutations(range(3), 2))
-    assert NeighborGraph.empty(NAMES).arcs() == ()
+    assert NeighborGraph.complete(NAMES).edges() == tuple(itertools.permutations(range(3), 2))
+    assert NeighborGraph.empty(NAMES).edges() == ()
     assert NeighborGraph.empty(("1",)).is_strongly_connected()
 
 
-def test_added_arcs_keep_the_delays_of_the_others():
-    graph = NeighborGraph(NAMES, [[1], [], []], [(0, 1, 2)]).with_arcs([(2, 0), (1, 0)])
-    assert graph.arcs() == ((1, 0), (2, 0)) and graph.delay(0, 1) == 2 and graph.delay(0, 2) == 0
+def test_added_edges_keep_the_delays_of_the_others():
+    graph = NeighborGraph(NAMES, [[1], [], []], [(0, 1, 2)]).with_edges([(2, 0), (1, 0)])
+    assert graph.edges() == ((1, 0), (2, 0)) and graph.delay(0, 1) == 2 and graph.delay(0, 2) == 0
 
 
 @pytest.mark.parametrize(
@@ -74,7 +74,7 @@ def test_added_arcs_keep_the_delays_of_the_others():
         ((NAMES, [[1], [], []], [(0, 0, 1)]), "an agent hears itself at once"),
         (
             (NAMES, [[1], [], []], [(0, 2, 1)]),
-            "there is no such wire; list 'c' among the neighbors",
+            "there is no such link; list 'c' among the neighbors",
         ),
         ((NAMES, [[1], [], []], [(0, 1, 1), (0, 1, 1)]), "expected one delay, found two"),
     ],
@@ -127,7 +127,7 @@ def test_a_delay_that_is_a_float_is_refused_as_a_float():
         (
             networkx.DiGraph([("a", "b", {"weight": 0.1})]),
             None,
-            "arc 'a' -> 'b': an arc has a delay",
+            "edge 'a' -> 'b': an edge has a delay",
         ),
         (networkx.DiGraph([("a", "b", {"weight": 2})]), None, "no weight, found 2"),
         (networkx.DiGraph([("a", "b", {"delay": 0.5})]), None, "expected a delay as an integer"),
@@ -141,4 +141,4 @@ def test_a_networkx_graph_that_would_lose_something_is_refused(graph, names, mes
 
 def test_integer_nodes_become_names():
     graph = NeighborGraph.from_networkx(networkx.DiGraph([(2, 1)]), ("1", "2"))
-    assert graph.arcs() == ((1, 0),)
+    assert graph.edges() == ((1, 0),)

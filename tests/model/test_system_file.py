@@ -272,11 +272,11 @@ def test_bytes_that_are_no_json_object_are_refused(data, message):
         ({"channels": channel(name="u\u202e1")}, r"remove the character U\+202E"),
         ({"channels": channel(name="")}, r"channels\[0\].name: expected a name"),
         ({"channels": channel(name=1)}, r"channels\[0\].name: expected a name as a string"),
-        ({"neighbors": None}, "delays: there are no wires: the key 'neighbors' is missing"),
+        ({"neighbors": None}, "delays: there are no links: the key 'neighbors' is missing"),
         ({"neighbors": []}, "neighbors: expected an object keyed by agents, found a list"),
         ({"neighbors": {"u3": []}}, r"neighbors: there is no agent 'u3'"),
         ({"neighbors": {"u1": "u2"}}, r"neighbors\['u1'\]: expected a list"),
-        ({"delays": {"u2": {"u1": 1}}}, "there is no such wire"),
+        ({"delays": {"u2": {"u1": 1}}}, "there is no such link"),
         ({"delays": {"u1": {"u2": -1}}}, r"delays\['u1'\]\['u2'\]: expected an integer >= 0"),
         ({"delays": {"u1": {"u2": 0.5}}}, r"delays\['u1'\]\['u2'\]: .* found 0.5"),
         ({"delays": {"u1": [1]}}, r"delays\['u1'\]: expected an object keyed by agents"),
@@ -344,7 +344,7 @@ def test_a_file_is_written_through_a_link_to_the_input_and_keeps_its_mode(tmp_pa
     path.chmod(0o640)
     link.symlink_to(path)
     save_system(load_system(link).with_neighbors(NeighborGraph.empty(("u1", "u2"))), link)
-    assert link.is_symlink() and load_system(path).neighbors.arcs() == ()
+    assert link.is_symlink() and load_system(path).neighbors.edges() == ()
     assert stat.S_IMODE(path.stat().st_mode) == 0o640
     assert sorted(os.listdir(tmp_path)) == ["link.json", "plant.json"]
 

@@ -17,7 +17,7 @@ def test_a_large_graph_is_a_matrix_with_the_obstruction_first() -> None:
     [image] = neighbors.images
     colors = [[to_hex(cell) for cell in row] for row in image.get_array()]
     assert len(colors) == m and system.neighbors is not None
-    arcs = len(system.neighbors.arcs())
+    arcs = len(system.neighbors.edges())
     empty = {"#fbe3cf", "#f4f4f4"}
     assert sum(cell not in empty for row in colors for cell in row) == arcs
     k = len(subset)

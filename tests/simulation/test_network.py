@@ -1,4 +1,4 @@
-"""Agents on a network: only what wires bring is used, and the whole moves like its matrix."""
+"""Agents on a network: only what links bring is used, and the whole moves like its matrix."""
 
 import random
 from fractions import Fraction
@@ -82,28 +82,28 @@ def test_deadbeat_errors_are_exactly_zero_after_eleven_steps(q):
     assert not any(run.snapshots[14].plant)
 
 
-def test_removing_any_arc_in_use_makes_the_agents_refuse(deadbeat):
+def test_removing_any_edge_in_use_makes_the_agents_refuse(deadbeat):
     system = three_channels("discrete")
-    graph, used = system.neighbors, deadbeat.controller.arcs()
+    graph, used = system.neighbors, deadbeat.controller.edges()
     assert set(used) == {(1, 0), (2, 1), (0, 2)}
-    for arc in used:
-        arcs = [(j, i) for j, i in graph.arcs() if (j, i) != arc]
-        fewer = NeighborGraph(graph.names, [[j for j, k in arcs if k == i] for i in range(3)])
-        with pytest.raises(SignalNotReceived, match="no wire brings"):
+    for edge in used:
+        edges = [(j, i) for j, i in graph.edges() if (j, i) != edge]
+        fewer = NeighborGraph(graph.names, [[j for j, k in edges if k == i] for i in range(3)])
+        with pytest.raises(SignalNotReceived, match="no link brings"):
             simulate(system, deadbeat.controller, fewer)
 
 
-def test_removing_any_arc_in_use_of_a_drawn_observer_makes_the_agents_refuse():
+def test_removing_any_edge_in_use_of_a_drawn_observer_makes_the_agents_refuse():
     system, design = one_design(7)
     graph = system.neighbors
-    assert design.controller.arcs()
-    for arc in design.controller.arcs():
-        heard = [[j for j in graph.neighborhood(i) if (j, i) != arc] for i in range(system.m)]
+    assert design.controller.edges()
+    for edge in design.controller.edges():
+        heard = [[j for j in graph.neighborhood(i) if (j, i) != edge] for i in range(system.m)]
         with pytest.raises(SignalNotReceived):
             simulate(system, design.controller, NeighborGraph(graph.names, heard), horizon=1)
 
 
-def test_an_arc_more_changes_nothing(deadbeat):
+def test_an_edge_more_changes_nothing(deadbeat):
     system = three_channels("discrete")
     complete = NeighborGraph.complete(system.names)
     first = simulate(system, deadbeat.controller, horizon=5)

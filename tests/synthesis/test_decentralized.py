@@ -33,7 +33,7 @@ def require_valid(design: NetworkDesign) -> None:
 def test_published_plants_get_a_controller_without_messages(case: str, arithmetic: str) -> None:
     plant = gallery.load(case)
     design = design_decentralized(plant, rate="1/100", arithmetic=arithmetic)  # type: ignore[arg-type]
-    assert not design.controller.arcs()
+    assert not design.controller.edges()
     assert all(agent.shared == 0 for agent in design.controller.agents)
     assert design.stability is not None
     assert design.stability.stable
@@ -87,4 +87,4 @@ def test_what_no_fixed_mode_forbids_is_done(seed: int, time: str) -> None:
     region: StabilityRegion = design.stability.region
     loop = closed_loop_matrix(drawn, design.controller)
     assert region.contains_roots_of(characteristic_polynomial(loop))
-    assert not design.controller.arcs()
+    assert not design.controller.edges()

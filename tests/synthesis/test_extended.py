@@ -30,7 +30,7 @@ def late() -> MultiChannelSystem:
     plant = three_channels("discrete")
     graph = plant.neighbors
     assert graph is not None
-    arcs = [(i, j, 3) for j, i in graph.arcs()]
+    arcs = [(i, j, 3) for j, i in graph.edges()]
     return plant.with_neighbors(NeighborGraph(graph.names, graph.neighbors, arcs))
 
 

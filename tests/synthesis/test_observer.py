@@ -200,7 +200,7 @@ def test_strong_connectivity_is_sufficient_but_not_necessary():
     plant = MultiChannelSystem([[0]], [[[1]]] * 2, [[[1]]] * 2, neighbors={"1": [], "2": []})
     design = design_observer(plant, gains=[[[-1]], [[-1]]], spectrum={"error": [-1, -2, -3]})
     assert verdict_on(design.certificate).verdict == "VALID"
-    assert design.controller.arcs() == ()
+    assert design.controller.edges() == ()
 
 
 def test_no_states_leave_the_channel_controller_alone():

@@ -248,7 +248,7 @@ def confirms_neighbor_graph(document: Document) -> bool:
     graph = subject_of(document).neighbors
     if graph is None:
         return False
-    connected = len(enumeration.strong_components(graph.m, graph.arcs())) <= 1
+    connected = len(enumeration.strong_components(graph.m, graph.edges())) <= 1
     return document["claim"]["strongly_connected"] is connected
 
 

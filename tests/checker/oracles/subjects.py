@@ -6,12 +6,12 @@ import json
 from fractions import Fraction
 from typing import Any
 
-from mcexact.derived.arcs import add_arcs
 from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.derived.dual import dual
 from mcexact.derived.extended import extended_system
 from mcexact.derived.feedback import feedback, full_output
 from mcexact.derived.integrators import setpoint_system
+from mcexact.derived.links import add_links
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.closed_loop import closed_loop
@@ -49,7 +49,7 @@ def _applied(system: MultiChannelSystem, step: Document) -> MultiChannelSystem:
         case "full_output":
             return full_output(system, names.index(step["channel"]))
         case "arcs":
-            return add_arcs(system, [(names.index(j), names.index(i)) for j, i in step["added"]])
+            return add_links(system, [(names.index(j), names.index(i)) for j, i in step["added"]])
         case "feedback":
             return feedback(system, [matrix_of(gain) for gain in step["gains"]])
         case "closed_loop":
