@@ -5,12 +5,14 @@ from __future__ import annotations
 import argparse
 import io
 import json
+import os
 import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict
+from functools import partial
 
-from .kinds import Verdict, check_document
-from .manifest import manifest_verdicts
+from .kinds import Verdict, answer, check_document
+from .manifest import NAME, manifest_verdicts
 from .reading import Limits, Refused
 from .system import digest, read_system_file
 
@@ -31,10 +33,17 @@ def read_file(path: str, limits: Limits) -> bytes:
         ) from error
 
 
+def check_file(path: str, wanted: str | None, limits: Limits) -> Verdict:
+    """The verdict on the certificate in a file."""
+    return check_document(read_file(path, limits), wanted, limits)
+
+
 def verdicts(
     paths: Sequence[str], manifest: str | None, system: str | None, limits: Limits
 ) -> Iterator[tuple[dict[str, str], Verdict]]:
     """What each verdict is about (a ``file``, or the ``text`` of a sentence), and the verdict.
+
+    A path that ends with the usual name of a manifest is one.
 
     Raises
     ------
@@ -43,15 +52,11 @@ def verdicts(
     """
     wanted = None if system is None else digest(read_system_file(read_file(system, limits), limits))
     for path in paths:
-        try:
-            data = read_file(path, limits)
-        except Refused as found:
-            yield (
-                {"file": path},
-                Verdict(found.verdict, "", "", found.code, found.place, found.message),
-            )
+        if os.path.basename(path) == NAME:
+            yield from manifest_verdicts(path, wanted, limits)
         else:
-            yield {"file": path}, check_document(data, wanted, limits)
+            check = partial(check_file, path, wanted, limits)
+            yield {"file": path}, answer(check)
     if manifest is not None:
         yield from manifest_verdicts(manifest, wanted, limits)
 

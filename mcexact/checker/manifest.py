@@ -28,7 +28,7 @@ from .sentence import RULES, Premise
 from .subject import read_subject
 from .system import read_plant
 
-__all__ = ["RULES", "manifest_verdicts"]
+__all__ = ["NAME", "RULES", "manifest_verdicts"]
 
 TOPICS = (sentences_analysis, sentences_sharing, sentences_design)
 """Where the rules are."""

@@ -15,7 +15,7 @@ import pytest
 from mcexact import checker
 from mcexact.checker.system import digest, read_plant
 from tests.checker.handmade import FIXED, FREE, PAPER, changed
-from tests.checker.manifests import SENTENCES, write
+from tests.checker.manifests import EVIDENCE, SENTENCES, write
 from tests.effort import PATIENCE
 
 ENVIRONMENTS = [
@@ -162,6 +162,9 @@ def test_a_manifest_is_checked_beside_files_or_alone(folder: Path) -> None:
     other = run(folder, "--manifest", "evidence", "--system", "other.json")
     assert other.returncode == 1
     assert run(folder, "--manifest", "nowhere").returncode == 3
+    files = [f"evidence/{path.name}" for path in (folder / "evidence").iterdir()]
+    words = [line.split()[0] for line in run(folder, *files).stdout.splitlines()]
+    assert (words.count("VALID"), words.count("IMPLIED")) == (len(EVIDENCE), len(SENTENCES))
 
 
 def test_standard_input_is_a_file_as_well(folder: Path) -> None:
