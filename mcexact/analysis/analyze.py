@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
 from mcexact.analysis.questions import QUESTIONS
+from mcexact.answer.account import Account
+from mcexact.answer.rules import ANALYSIS
+from mcexact.answer.sentence import Given, Sentences
 from mcexact.errors import LimitReached, UsageError
+from mcexact.exact.rational import written
 from mcexact.model.system import MultiChannelSystem
 
 
@@ -189,6 +194,31 @@ class Analysis:
             if isinstance(found, LimitReached)
         }
 
+    @property
+    def account(self) -> Account:
+        """Everything that was asked, decided, with what follows from it."""
+        answers = self.decided()
+        open_ = {*self.left_out, *self.open()} - answers.keys()
+        given = Given(self.system, {"information": self.information})
+        return Account(answers, given, ANALYSIS, open_)
+
+    @property
+    def sentences(self) -> Sentences:
+        """What follows from the answers, each sentence with the claims that it rests on."""
+        return self.account.sentences
+
+    def manifest(self) -> dict[str, Any]:
+        """The sentences, what each rests on, and the digests of the certificates."""
+        return self.account.manifest()
+
+    def as_json(self) -> dict[str, Any]:
+        """Plain data for programs: an entry for each answer, under the name of its question."""
+        open_ = {}
+        for name, reached in self.open().items():
+            bounds = {"lower": _written(reached.lower), "upper": _written(reached.upper)}
+            open_[name] = {"decided": False, "computed_not_certified": bounds}
+        return self.account.as_json(information=self.information, **open_)
+
     def __repr__(self) -> str:
         plant = self.plant
         open_ = sum(name not in self._found for name in self._asked)
@@ -197,11 +227,18 @@ class Analysis:
             f"{len(self._found)} questions decided, {open_} asked and not yet)"
         )
 
+    def _repr_html_(self) -> str:
+        return self.account._repr_html_()
+
     def _outcomes(self) -> dict[str, Any]:
         """Everything that was asked, or needed for it, in the order of the table."""
         for name in self.asked:
             self._answer(name)
         return {name: self._found[name] for name in self.asked}
+
+
+def _written(bound: Fraction | None) -> Any:
+    return None if bound is None else written(bound)
 
 
 def analyze(

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from mcexact.answer.evidence import RateInterval
 from mcexact.answer.formats import (
     channels,
     count,
@@ -23,6 +22,7 @@ from mcexact.answer.formats import (
     polynomial,
     rounded,
 )
+from mcexact.answer.latex import escaped
 from mcexact.exact.enclosures import exact_decimal
 from mcexact.exact.location import TIMES, StabilityRegion, is_discrete
 from mcexact.exact.polynomial import Polynomial
@@ -71,27 +71,23 @@ def _often(multiplicities: tuple[int, int]) -> str:
     return often + (", of which one stays" if stuck == 1 else f", of which at most {stuck} stay")
 
 
-def _behavior(slowest: tuple[str, RateInterval, bool]) -> str:
+def _behavior(slowest: tuple[str, str, str, bool]) -> str:
     """How the slowest fixed mode behaves: from the time, the enclosure of its rate, its stability.
 
     The enclosure can reach the boundary where the mode does not.
     """
-    time, rate, stable = slowest
-    lower, upper = exact_decimal(rate.lower), exact_decimal(rate.upper)
+    time, low, high, stable = slowest
+    lower, upper = exact_decimal(low), exact_decimal(high)
+    limit = 24 if low == high else 0  # an end of an enclosure is rounded, and said to be
     if is_discrete(time):
         if upper < 1 or lower > 1:
-            end = rate.upper if upper < 1 else rate.lower
-            return f"becomes {_end(end, rate)} times as large in each step"
+            end = high if upper < 1 else low
+            return f"becomes {decimal_number(end, limit)} times as large in each step"
     elif lower > 0:
-        return f"decays at the rate {_end(rate.lower, rate)}"
+        return f"decays at the rate {decimal_number(low, limit)}"
     elif upper < 0:
-        return f"grows at the rate {_end(rate.upper.removeprefix('-'), rate)}"
+        return f"grows at the rate {decimal_number(high.removeprefix('-'), limit)}"
     return "decays very slowly" if stable else "does not decay"
-
-
-def _end(text: str, rate: RateInterval) -> str:
-    """An end of an enclosure: rounded, and said to be, unless it is the number itself."""
-    return decimal_number(text, 24 if rate.lower == rate.upper else 0)
 
 
 def _roots(centers: Sequence[tuple[Fraction, Fraction]]) -> str:
@@ -269,7 +265,7 @@ FORMS: dict[str, Form] = {
         instability="by a quadratic form that decreases and is not positive",
     ),
     "latex": Form(Polynomial.latex, r"[-+ x0-9^{}a-z\\]+"),
-    "latex_names": Form(str, r"[^\n]*"),
+    "latex_names": Form(lambda names: ", ".join(map(escaped, names)), r"[^\n]*"),
     "share": choice(**{"outputs+states": "beside outputs", "states": "without outputs"}),
     "carried": Form(
         _carried, r"(?:outputs|(?:outputs and )?states \(dimensions \d+(?:, \d+)*(?: and \d+)?\))"

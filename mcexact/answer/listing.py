@@ -4,16 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
+from types import ModuleType
 
+from mcexact.answer import rules
+from mcexact.answer.sentence import Rulebook
 from mcexact.answer.template import Template, templates
 from mcexact.answer.wording import allocation, analysis, design, details, links, refusals
 
-TOPICS = {
-    "analyze": (analysis, details),
-    "allocate": (allocation,),
-    "allocate --arcs": (links,),
-    "design, certify": (design,),
-    "design, where there is none": (refusals,),
+TOPICS: dict[str, tuple[Rulebook, tuple[ModuleType, ...]]] = {
+    "analyze": (rules.ANALYSIS, (analysis, details)),
+    "allocate": (rules.ALLOCATION, (allocation,)),
+    "allocate --arcs": (rules.LINKS, (links,)),
+    "design, certify": (Rulebook(), (design,)),
+    "design, where there is none": (Rulebook(), (refusals,)),
 }
 FILE = Path(__file__).with_name("SENTENCES.md")
 
@@ -21,9 +24,10 @@ _INTRODUCTION = """\
 # Every sentence about a system
 
 What `mcexact analyze`, `allocate`, `design` and `certify` say about a user's system is made by the
-templates below, in text, JSON, HTML and LaTeX. A premise is a certificate, by the stem of its file
-(`loop` is the one about the closed loop); the sentence is printed only where the claims of its
-premises make it true, and every certificate goes through the independent checker before the command
+templates below, in text, JSON, HTML and LaTeX. A rule of `rules/` says when: it sees the claims of
+its premises and nothing else, and what it reads stands in the manifest, which the independent
+checker verifies with rules of its own. A premise is a certificate, by the stem of its file (`loop`
+is the one about the closed loop); every certificate goes through the checker before the command
 ends. Without a premise a sentence repeats what the user gave or how a proof was found. The theorem
 says why the claims imply it where it does not just repeat them: a machine-checked one of `proofs/`,
 or whose it is. This file is written by `make sentences`.
@@ -32,24 +36,30 @@ or whose it is. This file is written by `make sentences`.
 
 def everything() -> Iterator[Template]:
     """All templates, in the order of the list."""
-    for modules in TOPICS.values():
+    for _, modules in TOPICS.values():
         yield from templates(*modules)
+
+
+def premises_of(template: Template, rulebook: Rulebook) -> tuple[str, ...]:
+    """The answers that the rules see which use a template, by the names of their questions."""
+    seen = (rule.premises.values() for rule in rulebook if template in rule.templates)
+    return tuple(dict.fromkeys(name for names in seen for name in names))
 
 
 def listing() -> str:
     """The text of `SENTENCES.md`."""
     parts = [_INTRODUCTION]
-    for topic, modules in TOPICS.items():
+    for topic, (rulebook, modules) in TOPICS.items():
         parts.append(f"## {topic}\n")
         parts.append("| sentence | text | premises | theorem |\n|---|---|---|---|")
-        parts += [_row(template) for template in templates(*modules)]
+        parts += [_row(template, rulebook) for template in templates(*modules)]
         parts.append("")
     return "\n".join(parts)
 
 
-def _row(template: Template) -> str:
+def _row(template: Template, rulebook: Rulebook) -> str:
     text = f"{template.label}: {template.text}" if template.label else template.text
-    premises = ", ".join(f"`{premise}`" for premise in template.premises)
+    premises = ", ".join(f"`{premise}`" for premise in premises_of(template, rulebook))
     cells = (template.key, f"`{text}`", premises, template.theorem)
     return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
 

@@ -1,4 +1,4 @@
-"""Sentences about a user's system: each made by a template that names what it rests on."""
+"""Sentences about a user's system: the words, with fields for what was decided."""
 
 from __future__ import annotations
 
@@ -11,16 +11,44 @@ from typing import Any
 
 from mcexact.answer.forms import form
 
+Premise = tuple[str, str, Any]
+"""File of a certificate, JSON pointer into it, and what stands there."""
+
 
 class Sentence(str):
-    """A text about a system, and the template that made it."""
+    """A text about a system, the template that made it, and what it rests on.
+
+    Attributes
+    ----------
+    template : Template
+    cells : tuple of str
+        The text as a row of a table: after its label, or in the columns of the template.
+    place : str
+        Where it stands, once a rule has said it.
+    because : tuple of Premise
+        The claims that the rule has read.
+    """
 
     template: Template
+    cells: tuple[str, ...]
+    place: str = ""
+    because: tuple[Premise, ...] = ()
 
-    def __new__(cls, text: str, template: Template) -> Sentence:
+    def __new__(cls, text: str, template: Template, cells: tuple[str, ...]) -> Sentence:
         made = super().__new__(cls, text)
-        made.template = template
+        made.template, made.cells = template, cells
         return made
+
+    def bound(self, place: str, because: tuple[Premise, ...]) -> Sentence:
+        """The sentence as a rule has said it."""
+        made = Sentence(str(self), self.template, self.cells)
+        made.place, made.because = place, because
+        return made
+
+    @property
+    def line(self) -> str:
+        """The text, after its label if it has one."""
+        return f"{self.template.label}: {self}" if self.template.label else str(self)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return (str, (str(self),))
@@ -28,44 +56,36 @@ class Sentence(str):
 
 @dataclass(frozen=True)
 class Template:
-    """A sentence with fields, and what it rests on.
+    """A sentence with fields.
 
     Parameters
     ----------
     key : str
         Its name in the list of all sentences.
     text : str
-        Fields are ``{name:form}``, a form one of `FORMS`, or ``{name:count noun}``.
-    premises : tuple of str
-        The answers whose certified claims make it true, by the stems of their certificates' files;
-        none where it repeats what the user gave.
+        Fields are ``{name:form}``, a form one of `FORMS`, or ``{name:count noun}``.  In a row of a
+        table ``" | "`` separates the columns.
     theorem : str
-        Why the claims imply it, where it does not just repeat one of them: machine-checked theorems
-        of ``proofs/``, or whose theorem it is.
+        Why the claims that a rule reads imply it, where it does not just repeat one of them:
+        machine-checked theorems of ``proofs/``, or whose theorem it is.
     label : str
         What stands before it in a table of names and values.
     """
 
     key: str
     text: str
-    premises: tuple[str, ...] = ()
     theorem: str = ""
     label: str = ""
 
     def __call__(self, **values: Any) -> Sentence:
         """The sentence with these values."""
-        return Sentence(_Writer().vformat(self.text, (), values), self)
+        cells = tuple(_Writer().vformat(part, (), values) for part in self.text.split(" | "))
+        labeled = (self.label, *cells) if self.label else cells
+        return Sentence(" | ".join(cells), self, labeled)
 
-    def row(self, **values: Any) -> tuple[str, str]:
-        """The sentence after its label, as a row of a table."""
-        return (self.label, self(**values))
-
-    def cells(self, **values: Any) -> tuple[str, ...]:
-        """The cells of a row of a table with columns; the text separates them by ``" | "``."""
-        writer = _Writer()
-        return tuple(
-            Sentence(writer.vformat(part, (), values), self) for part in self.text.split(" | ")
-        )
+    def row(self, **values: Any) -> tuple[str, ...]:
+        """The sentence as a row of a table."""
+        return self(**values).cells
 
     @cached_property
     def pattern(self) -> re.Pattern[str]:

@@ -92,12 +92,11 @@ def command(
     with status 1 if nothing suffices.
     """
 
+    from mcexact.cli.concluding import concluded
     from mcexact.cli.deadline import Deadline
-    from mcexact.cli.files import directory, place_of, read, require_writable
-    from mcexact.cli.output import emit, emit_json, emit_tables
-    from mcexact.cli.rechecking import rechecked
+    from mcexact.cli.files import place_of, read, require_writable
+    from mcexact.cli.output import emit_tables
     from mcexact.cli.supervision import supervised
-    from mcexact.model.atomic import write_text
 
     deadline = Deadline(timeout)
     require_writable(None, certificates)
@@ -114,25 +113,20 @@ def command(
         timeout=deadline,
         max_memory=max_memory,
     )
-    if not as_json:
+
+    def show() -> bool:
         emit_tables(answer["tables"])
-    checked = rechecked(
-        answer["certificates"],
-        answer["digest"],
+        return True
+
+    concluded(
+        answer,
+        show,
         doing=f"re-checking the answers about {place}",
+        certificates=certificates,
+        as_json=as_json,
         deadline=deadline,
         max_memory=max_memory,
-    )
-    if certificates is not None:
-        folder = directory(certificates)
-        for name, text in answer["certificates"].items():
-            write_text(folder / f"{name}.json", text)
-        answer["json"]["certificate"] = {name: f"{name}.json" for name in answer["certificates"]}
-    if as_json:
-        emit_json(answer["json"] | {"re_checked": checked.view()})
-    elif checked.missing is None:
-        emit("\n" + checked.line())
-    checked.require_complete()
+    ).require_complete()
     return 0 if answer["feasible"] else DEFINITE_NO
 
 
@@ -140,17 +134,24 @@ def _answer(
     place: str, data: bytes, limits: dict[str, int], question: dict[str, Any]
 ) -> dict[str, Any]:
     """Read, decide, and put the answer into text: what the child process does."""
+    from mcexact.analysis.sharing import account_of_dimensions, account_of_links
+    from mcexact.cli.concluding import told
     from mcexact.cli.files import system_in
-    from mcexact.model.system_file import digest
-    from mcexact.report.allocation import arcs_report, dimensions_report
+    from mcexact.report.account import tables
 
     system = system_in(place, data, limits)
     bound = _bound(system.time, question.pop("rate"), question.pop("radius"))
     if question.pop("arcs"):
-        made = arcs_report(system, _wires(question, bound))
+        account = account_of_links(system, **_wires(question, bound))
+        least = account.answers["minimal_communication"]
     else:
-        made = dimensions_report(system, _dimensions(system.names, question, bound))
-    return made | {"digest": digest(system)}
+        account = account_of_dimensions(system, **_dimensions(system.names, question, bound))
+        least = account.answers["minimal_shared_dimensions"]
+    return told(account) | {
+        "json": account.as_json(),
+        "tables": tables(account.sentences),
+        "feasible": least.feasible,
+    }
 
 
 def _bound(time: str, rate: Fraction | None, radius: Fraction | None) -> Fraction | None:

@@ -11,7 +11,23 @@ from mcexact.cli import options
 from mcexact.cli.failures import DEFINITE_NO
 
 _LINES_OF_WORDS = 5
-_FACTORS = 6
+_MODES = 6
+_BESIDES = {
+    "minimal": ["minimal_shared_dimensions_outputs_states", "minimal_shared_dimensions_states"],
+    "links": ["minimal_communication"],
+    "every-channel": ["every_channel"],
+    "delayed": [
+        f"{network}_{name}"
+        for network in ("lifted", "held")
+        for name in ("fixed_spectrum", "joint_controllability", "joint_observability")
+    ],
+}
+# Options that make no sense without a neighbor graph, by what they ask for.
+_OF_NEIGHBORS = {
+    "outputs": "--information outputs",
+    "minimal": "--minimal",
+    "delayed": "--delayed",
+}
 
 
 @click.command(
@@ -94,10 +110,11 @@ def command(
     transfer graph, completeness, and the parts into which the spectrum splits.
     """
 
+    from mcexact.cli.concluding import concluded
     from mcexact.cli.deadline import Deadline
-    from mcexact.cli.files import directory, place_of, read, require_other, require_writable
-    from mcexact.cli.output import emit, emit_json, emit_tables
-    from mcexact.cli.rechecking import rechecked
+    from mcexact.cli.files import place_of, read, require_other, require_writable
+    from mcexact.cli.output import emit, emit_tables
+    from mcexact.cli.rechecking import Rechecked
     from mcexact.cli.supervision import supervised
     from mcexact.model.atomic import write_text
 
@@ -106,52 +123,46 @@ def command(
     require_other(html, file)
     require_writable(html, certificates)
     moved = options.given(limits)
+    besides = {"minimal": minimal, "links": links, "every-channel": every_channel}
     answer = supervised(
         _answer,
         place,
         read(file, moved, deadline),
         moved,
-        {
-            "information": information,
-            "minimal": minimal,
-            "links": links,
-            "delayed": delayed,
-            "subset": _named(subset),
-            "channel": channel,
-            "every_channel": every_channel,
-        },
-        certificates is not None,
+        [name for name, wanted in (besides | {"delayed": delayed}).items() if wanted],
+        {"information": information, "subset": _named(subset), "channel": channel},
         html is not None,
         doing=f"analyzing {place}",
         timeout=deadline,
         max_memory=max_memory,
     )
-    shown = not as_json
-    if latex and html is None and shown:
-        emit(answer["latex"])
-    elif shown:
-        emit(answer["words"] + "\n")
-        emit_tables(answer["tables"])
-    checked = rechecked(
-        answer["certificates"],
-        answer["digest"],
+    only_latex = latex and html is None
+
+    def show() -> bool:
+        if only_latex:
+            emit(answer["latex"])
+        else:
+            emit(answer["words"] + "\n")
+            emit_tables(answer["tables"])
+        return not only_latex
+
+    def write(checked: Rechecked) -> None:
+        if html is not None:
+            results = answer["latex"] if latex else None
+            page = answer["page"].rendered(answer["certificates"], checked.verdicts, results)
+            write_text(html, page)
+
+    concluded(
+        answer,
+        show,
         doing=f"re-checking the answers about {place}",
+        certificates=certificates,
+        as_json=as_json,
         deadline=deadline,
         max_memory=max_memory,
-    )
-    if certificates is not None:
-        folder = directory(certificates)
-        for name, text in answer["certificates"].items():
-            write_text(folder / name, text)
-    if html is not None:
-        results = answer["latex"] if latex else None
-        write_text(html, answer["page"].rendered(answer["certificates"], checked.verdicts, results))
-    if as_json:
-        emit_json(answer["json"] | {"re_checked": checked.view()})
-    elif checked.missing is None and not (latex and html is None):
-        emit("\n" + checked.line())
-    checked.require_complete()
-    if asserted == "no-fixed-modes" and not answer["json"]["fixed_spectrum"]["empty"]:
+        write=write,
+    ).require_complete()
+    if asserted == "no-fixed-modes" and answer["json"]["fixed_spectrum"]["factors"]:
         return DEFINITE_NO
     return 0
 
@@ -167,35 +178,36 @@ def _answer(
     place: str,
     data: bytes,
     limits: dict[str, int],
+    besides: list[str],
     question: dict[str, Any],
-    names_certificates: bool,
     with_page: bool,
 ) -> dict[str, Any]:
     """Decide, and put the answer into text: what the child process does."""
-    from mcexact.answer import codec
+    from mcexact.analysis.analyze import analyze
+    from mcexact.cli.concluding import told
     from mcexact.cli.files import system_in
-    from mcexact.model.system_file import digest
-    from mcexact.report.assessment import assess
-    from mcexact.report.assessment_tables import assessment_tables
-    from mcexact.report.json_view import assessment_view
-    from mcexact.report.latex import assessment_latex
-    from mcexact.report.words import in_lines
+    from mcexact.errors import UsageError
+    from mcexact.report.account import in_lines, latex, tables
 
     system = system_in(place, data, limits)
-    assessment = assess(system, **question)
+    for name in _OF_NEIGHBORS:
+        if system.neighbors is None and (name in besides or question["information"] == name):
+            raise UsageError(
+                f"{_OF_NEIGHBORS[name]} asks about messages between neighbors, and this system "
+                "names no neighbors: add 'neighbors' to the file"
+            )
+    named = [name for option in besides for name in _BESIDES[option]]
+    found = analyze(system, besides=named, **question)
+    account = found.account
     page = None
     if with_page:
-        from mcexact.report.assessment_page import assessment_page
+        from mcexact.report.account_page import account_page
 
-        page = assessment_page(assessment)
-    return {
-        "json": assessment_view(assessment, with_certificates=names_certificates),
-        "words": in_lines(assessment, _LINES_OF_WORDS),
-        "tables": assessment_tables(assessment, most_factors=_FACTORS),
-        "latex": assessment_latex(assessment),
+        page = account_page(account)
+    return told(account) | {
+        "json": found.as_json(),
+        "words": in_lines(account.sentences, _LINES_OF_WORDS),
+        "tables": tables(account.sentences, most_modes=_MODES),
+        "latex": latex(account),
         "page": page,
-        "certificates": {
-            name: codec.encode(made) for name, made in assessment.certificates().items()
-        },
-        "digest": digest(system.plant),
     }

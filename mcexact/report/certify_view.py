@@ -40,7 +40,7 @@ def verdict_tables(found: ControllerVerdict) -> tuple[Table, ...]:
     return (Table(say.LOOP(), (), tuple(rows)),)
 
 
-def _decided(found: ControllerVerdict) -> tuple[str, str]:
+def _decided(found: ControllerVerdict) -> tuple[str, ...]:
     """How it was decided, and on which blocks."""
     if found.verdict.method == "lyapunov" and len(found.blocks) > 1:
         return say.DECIDED_BLOCKS.row(sizes=found.blocks)

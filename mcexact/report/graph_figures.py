@@ -3,50 +3,43 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import Any
 
-from mcexact.analysis.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.transfer_graph import TransferGraph, transfer_graph
-from mcexact.answer.fixed_spectrum import FixedSpectrum
-from mcexact.answer.wording import details as say
+from mcexact.answer.account import Account
 from mcexact.report.picture import Picture, empty_figure
-
-if TYPE_CHECKING:
-    from mcexact.analysis.allocation import SharedDimensionBound, SharedDimensions
-    from mcexact.derived.extended import Share
-    from mcexact.model.system import MultiChannelSystem
 
 MARKED, SENDERS, PLAIN = "#d95f02", "#7570b3", "#e8e8e8"
 LARGEST = 24
 """Channels beyond which circles and arrows say nothing any more: a matrix is drawn instead."""
 
+LEAST = {
+    "outputs+states": "minimal_shared_dimensions_outputs_states",
+    "states": "minimal_shared_dimensions_states",
+}
+"""The question about each way of sharing."""
+_BOUNDS = {
+    "outputs+states": "shared_dimension_bound_outputs_states",
+    "states": "shared_dimension_bound_states",
+}
+_SHARING = ("enough to share", "least to share")
+
 Arc = tuple[str, str]
 
 
-def graph_picture(
-    system: MultiChannelSystem,
-    *,
-    fixed: FixedSpectrum | None = None,
-    transfer: TransferGraph | None = None,
-    information: str = "own",
-) -> Picture:
+def graph_picture(account: Account) -> Picture:
     """Draw the neighbor graph, where there is one, beside the transfer graph.
 
     Parameters
     ----------
-    system : MultiChannelSystem
-    fixed : FixedSpectrum, optional
-        Its first factor's channels s are colored, and so is N_s∖s, whom s hears; decided here if it
-        is not given.
-    transfer : TransferGraph, optional
-    information : {"own", "outputs"}
-        What the fixed spectrum is about; for the caption.
+    account : Account
+        With the fixed spectrum, whose first factor's channels s are colored, and so is N_s∖s, from
+        whom s receives; and with the transfer graph.
     """
-    fixed = fixed_spectrum(system) if fixed is None else fixed
-    transfer = transfer_graph(system) if transfer is None else transfer
+    system, said = account.given.system, account.sentences
+    fixed, transfer = account.answers["fixed_spectrum"], account.answers["transfer_graph"]
     names, graph = system.names, system.neighbors
-    subset = set() if fixed.empty else set(fixed.factors[0].channels)
+    subset = set(fixed.factors[0].channels) if fixed.factors else set()
     boundary: set[str] = set()
     panels: list[tuple[str, list[Arc]]] = []
     if graph is not None:
@@ -60,17 +53,8 @@ def graph_picture(
         figure.subplots(1, len(panels), squeeze=False)[0], panels, strict=True
     ):
         _draw(axis, title, names, arcs, subset, boundary)
-    words = [say.PICTURE_TRANSFER(arcs=panels[-1][1])]
-    if graph is not None:
-        words.insert(0, say.PICTURE_NEIGHBORS(arcs=panels[0][1]))
-    if subset:
-        s = sorted(subset, key=names.index)
-        words.append(say.PICTURE_OBSTRUCTION(s=s, p=fixed.factors[0].polynomial))
-        if boundary:
-            heard = sorted(boundary, key=names.index)
-            words.append(say.PICTURE_HEARD(s=s, heard=heard))
-    title = say.PICTURE_OUTPUTS() if information == "outputs" else say.PICTURE()
-    return Picture(figure, title, "; ".join(words) + ".")
+    caption = "; ".join(said.at("graphs")) + "."
+    return Picture(figure, "".join(said.at("graphs.title")), caption)
 
 
 def _draw(
@@ -151,29 +135,26 @@ def _draw_matrix(
     axis.set_ylabel(f"to each: {len(arcs)} arcs", fontsize="small")
 
 
-def dimensions_picture(
-    system: MultiChannelSystem,
-    least: Mapping[Share, SharedDimensions],
-    bounds: Mapping[Share, SharedDimensionBound] | None = None,
-) -> Picture:
+def dimensions_picture(account: Account) -> Picture:
     """Bars for every agent: the least for each way of sharing, beside the bound where it holds.
 
     Parameters
     ----------
-    system : MultiChannelSystem
-    least : mapping from the way of sharing to the answer
-    bounds : mapping from the way of sharing to the answer, optional
-        For a plant that meets the hypotheses of Theorem 2.
+    account : Account
+        With the least dimensions for some way of sharing.
     """
-    names = system.names
+    names, said, answers = account.given.names, account.sentences, account.answers
+    least = {share: answers[name] for share, name in LEAST.items() if name in answers}
+    told = [each for each in said.at("table") if each.template.label in _SHARING]
+    read = {file for each in told for file, *_ in each.because}
+    holds = any(file.startswith("shared_dimension_bound") for file in read)
     figure = empty_figure(4.4 * len(least), 3.2)
-    words = []
     for axis, (share, found) in zip(
         figure.subplots(1, len(least), squeeze=False)[0], least.items(), strict=True
     ):
         sizes = (0,) * len(names) if found.dimensions is None else found.dimensions
         places = range(len(names))
-        bound = None if bounds is None else bounds[share].per_agent
+        bound = answers[_BOUNDS[share]].per_agent if holds else None
         if bound is not None:
             axis.bar(
                 [k - 0.2 for k in places],
@@ -190,10 +171,5 @@ def dimensions_picture(
         axis.set_title(share, fontsize="medium")
         axis.legend(fontsize="small", loc="upper center")
         axis.margins(y=0.35)
-        alone, beside, nothing = say.PICTURE_LEAST[share]
-        if found.dimensions is None:
-            words.append(nothing())
-        else:
-            told = alone if bound is None else beside
-            words.append(told(sizes=found.dimensions, bound=bound))
-    return Picture(figure, say.PICTURE_DIMENSIONS(), "; ".join(words) + ".")
+    caption = "; ".join(each.line for each in told) + "."
+    return Picture(figure, "".join(said.at("dimensions.title")), caption)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import reduce
 
+from mcexact.analysis.analyze import analyze
 from mcexact.analysis.completeness import completeness
 from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.analysis.fixed_spectrum import fixed_spectrum
@@ -203,7 +204,8 @@ def example(note: Notebook) -> None:
         note.certify(refused.certificate)
     else:
         note.check("a design is refused", False)
-    note.show(graph_picture(plant, fixed=found, information="outputs"))
+    heard = analyze(plant, ["fixed_spectrum", "transfer_graph"], information="outputs")
+    note.show(graph_picture(heard.account))
 
 
 def shared_outputs(note: Notebook) -> None:

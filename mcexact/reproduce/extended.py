@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from mcexact.analysis.allocation import (
-    SharedDimensionBound,
-    SharedDimensions,
     minimal_shared_dimensions,
     shared_dimension_bound,
 )
+from mcexact.analysis.analyze import analyze
 from mcexact.analysis.completeness import completeness
 from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.analysis.extended import bound_attained, graph_inclusion
 from mcexact.analysis.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.neighbor_graph import neighbor_graph
 from mcexact.analysis.pencil import pencil_rank
+from mcexact.analysis.questions import SHARES
 from mcexact.analysis.single_channel_gains import single_channel_gains
 from mcexact.analysis.transfer_graph import transfer_graph
 from mcexact.derived.augmented_outputs import augmented_outputs
@@ -21,7 +21,7 @@ from mcexact.derived.extended import Share, extended_system
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.report.graph_figures import dimensions_picture
+from mcexact.report.graph_figures import LEAST, dimensions_picture
 from mcexact.report.loop_figures import spectrum_picture
 from mcexact.reproduce.equations import extended_agrees
 from mcexact.reproduce.material import (
@@ -161,15 +161,15 @@ def tightness(note: Notebook) -> None:
     """Whether the bound is tight, which the paper leaves open: on its own example it is not."""
     plant = three_channels()
     note.on(PAPER)
-    bounds: dict[Share, SharedDimensionBound] = {}
-    least: dict[Share, SharedDimensions] = {}
+    found = analyze(plant, besides=LEAST.values())
     for share, total in zip(SHARING, (1, 2), strict=True):
-        bounds[share] = shared_dimension_bound(plant, share=share)
-        least[share] = minimal_shared_dimensions(plant, share=share)
-        note.check(f"{total} shared in all is the least ({share})", least[share].total == total)
-        note.check("the bound asks for more", bounds[share].total > total)
-        note.certify(bounds[share], least[share])
-    note.show(dimensions_picture(plant, least, bounds))
+        stem = SHARES[share]
+        bound = found[f"shared_dimension_bound_{stem}"]
+        least = found[f"minimal_shared_dimensions_{stem}"]
+        note.check(f"{total} shared in all is the least ({share})", least.total == total)
+        note.check("the bound asks for more", bound.total > total)
+        note.certify(bound, least)
+    note.show(dimensions_picture(found.account))
 
 
 def remark_2(note: Notebook) -> None:

@@ -15,6 +15,7 @@ from typing import Any
 
 import pytest
 
+from mcexact.answer.sentence import MANIFEST
 from mcexact.checker.kinds import KINDS, check_document
 from tests.answer.written import DESIGNS, PLANTS
 from tests.kernels import usable_kernels
@@ -45,7 +46,9 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> Written:
             capture_output=True,
         )
         found[kernel] = {
-            path.relative_to(folder): path.read_bytes() for path in folder.glob("*/**/*.json")
+            path.relative_to(folder): path.read_bytes()
+            for path in folder.glob("*/**/*.json")
+            if path.name != MANIFEST
         }
     return found
 

@@ -1,35 +1,35 @@
-"""Every text about a system comes from a template whose premises were certified and checked."""
+"""Every text about a system is in its manifest: said by a rule that read VALID certificates."""
 
 from __future__ import annotations
 
+import hashlib
 import json
 import random
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from mcexact.answer import codec
-from mcexact.answer.listing import FILE, TOPICS, everything, listing
+from mcexact.answer.account import Account
+from mcexact.answer.listing import FILE, TOPICS, everything, listing, premises_of
+from mcexact.answer.sentence import LOOP, Certified
 from mcexact.answer.template import Template, templates
 from mcexact.checker import check_document
 from mcexact.model import gallery
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.report.assessment import Assessment, assess
-from mcexact.report.assessment_page import assessment_page
-from mcexact.report.assessment_tables import assessment_tables
-from mcexact.report.json_view import assessment_view
-from mcexact.report.latex import assessment_latex
+from mcexact.report.account import answer, in_lines, latex, tables
+from mcexact.report.account_page import account_page
 from mcexact.report.picture import EmbeddedPicture, Picture
 from mcexact.report.text import plain
-from mcexact.report.words import answer
+from tests.answer.asking import asked as asking
 from tests.answer.reading import leaves, texts_of_html, texts_of_latex, texts_of_plain
 from tests.oracle.draws import exact, sparse_system
 
 ALL = tuple(everything())
+TEMPLATES = {template.key: template for template in ALL}
 PROOFS = Path(__file__).parents[2] / "proofs" / "theorems.txt"
 DRAWN = 200
 AT_ONCE = 10
@@ -47,8 +47,8 @@ FROM_THE_CHECKER = re.compile(r"VALID .*|[\w.]+\.json: VALID|LaTeX")
 NUMBERS = re.compile(r"-?\d+(/\d+|\.\d+)?")
 # Paths in the JSON of which every leaf is a name or a keyword.
 NAMES = re.compile(
-    r"system\.(name|time|channels)|information|.*\b(arcs|components|dead_channels|channels|subset|"
-    r"added|certificate(\..*)?|name)"
+    r"format|system\.(name|time|channels)|information|sentences\.(rule|theorem)|"
+    r".*\b(arcs|components|dead|channels|subset|share|property|candidates|added|certificate|name)"
 )
 
 
@@ -81,19 +81,27 @@ def question(plant: MultiChannelSystem, rng: random.Random) -> dict[str, Any]:
 
 def match(text: str, topic: str) -> Template:
     """The template of a topic that makes a text."""
-    for template in templates(*TOPICS[topic]):
+    for template in templates(*TOPICS[topic][1]):
         if template.pattern.fullmatch(text):
             return template
     raise AssertionError(f"no template made {text!r}")
 
 
-def matches(texts: Iterator[str] | list[str]) -> Iterator[Template]:
-    """The templates of texts that are about the system."""
+def known_texts(account: Account) -> set[str]:
+    """The texts of the manifest, labels before a bar as in a table, or left out as in JSON."""
+    told = {each["text"] for each in account.manifest()["sentences"]}
+    assert told == {each.line for each in account.sentences}
+    bare = {str(each) for each in account.sentences}
+    return told | bare | {" | ".join(each.cells) for each in account.sentences}
+
+
+def require_known(texts: Iterable[str], known: set[str]) -> None:
+    """Every text that is about the system is one of the manifest's."""
     for text in texts:
         if text in CHROME or FROM_THE_CHECKER.fullmatch(text):
             continue
         for part in re.split(r"(?<=[a-z\d}])\. (?=in A:)", text):
-            yield match(part, "analyze")
+            assert part in known, part
 
 
 def of_figures(texts: list[str]) -> Iterator[str]:
@@ -106,20 +114,34 @@ def of_figures(texts: list[str]) -> Iterator[str]:
             yield text
 
 
-def certified(assessment: Assessment) -> set[str]:
-    """The stems of the certificates, all of them VALID."""
-    for name, made in assessment.certificates().items():
-        said = check_document(codec.encode(made).encode("ascii"))
-        assert said.verdict == "VALID", (name, said.line())
-    return {name.removesuffix(".json") for name in assessment.certificates()}
+def require_certified(account: Account, topic: str = "analyze") -> None:
+    """Every certificate is VALID, and what each sentence rests on stands there.
+
+    A sentence whose rule sees answers rests on some of these; one without premises repeats what was
+    given.
+    """
+    documents = {}
+    for file, text in account.certificates.items():
+        said = check_document(text.encode("ascii"))
+        assert said.verdict == "VALID", (file, said.line())
+        documents[file] = json.loads(text)
+    manifest = account.manifest()
+    for file, text in account.certificates.items():
+        assert manifest["certificates"][file] == hashlib.sha256(text.encode("ascii")).hexdigest()
+    for said in json.loads(json.dumps(manifest))["sentences"]:
+        seen = premises_of(TEMPLATES[said["rule"]], TOPICS[topic][0])
+        assert bool(seen) == bool(said["because"]), said
+        for file, pointer, value in said["because"]:
+            assert at(documents[file], pointer) == value, (said["rule"], pointer)
+            stem = re.sub(r"_\d+$", "", file.removesuffix(".json"))
+            assert stem in seen or (stem in LOOP and "loop" in seen)
 
 
-def require_premises(assessment: Assessment, used: set[Template]) -> None:
-    stems = certified(assessment)
-    numbered = {re.sub(r"_\d+$", "", stem) for stem in stems}
-    for template in used:
-        missing = set(template.premises) - stems - numbered
-        assert not missing, (template.key, missing)
+def at(document: Any, pointer: str) -> Any:
+    """What a JSON pointer points to."""
+    for key in pointer.split("/")[1:]:
+        document = document[int(key)] if isinstance(document, list) else document[key]
+    return document
 
 
 @pytest.fixture
@@ -132,28 +154,23 @@ def _without_images(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Picture, "embedded", caption)
 
 
-def in_all_forms(assessment: Assessment) -> set[Template]:
-    """Every template that some form of the answer uses."""
-    wide = plain(assessment_tables(assessment), width=10**6)
-    used = set(matches(texts_of_plain(wide)))
-    used |= set(matches([str(each) for each in answer(assessment)]))
-    used |= set(matches(texts_of_latex(assessment_latex(assessment))))
-    page = texts_of_html(assessment_page(assessment).rendered({}, {}))
-    titles = {assessment.system.name, "A multi-channel system"}
-    used |= set(matches(of_figures([text for text in page if text not in titles])))
-    view = json.loads(json.dumps(assessment_view(assessment, with_certificates=True)))
-    for path, leaf in leaves(view):
+def require_all_forms(account: Account, view: dict[str, Any]) -> None:
+    """Whatever some form of the answer says stands in the manifest."""
+    known = known_texts(account)
+    said = account.sentences
+    require_known(texts_of_plain(plain(tables(said), width=10**6)), known)
+    require_known(answer(said), known)
+    words = " ".join(in_lines(said, 5).split()).removesuffix(
+        " Further fixed modes are listed below."
+    )
+    assert words in " ".join(answer(said))
+    require_known(texts_of_latex(latex(account)), known)
+    page = texts_of_html(account_page(account).rendered({}, {}))
+    titles = {account.given.system.name, "A multi-channel system"}
+    require_known(of_figures([text for text in page if text not in titles]), known)
+    for path, leaf in leaves(json.loads(json.dumps(view))):
         if isinstance(leaf, str) and not (NAMES.fullmatch(path) or NUMBERS.fullmatch(leaf)):
-            used.add(unlabeled(leaf))
-    return used
-
-
-def unlabeled(text: str) -> Template:
-    """The template of a text that stands under a key, where a table would have its label."""
-    for template in templates(*TOPICS["analyze"]):
-        if template.pattern.fullmatch(f"{template.label} | {text}" if template.label else text):
-            return template
-    raise AssertionError(f"no template made {text!r}")
+            assert leaf in known, (path, leaf)
 
 
 @pytest.mark.usefixtures("_without_images")
@@ -161,8 +178,9 @@ def unlabeled(text: str) -> Template:
 def test_every_text_about_a_published_plant_is_made_by_a_template(name: str) -> None:
     plant = gallery.load(name)
     asked = {"subset": [plant.names[0]], "channel": plant.names[0], "links": plant.n <= 8}
-    assessment = assess(plant, **asked)
-    require_premises(assessment, in_all_forms(assessment))
+    found = asking(plant, **asked)
+    require_certified(found.account)
+    require_all_forms(found.account, found.as_json())
 
 
 @pytest.mark.usefixtures("_without_images")
@@ -170,8 +188,9 @@ def test_every_text_about_a_published_plant_is_made_by_a_template(name: str) -> 
 def test_every_text_about_a_drawn_plant_is_made_by_a_template(start: int) -> None:
     for seed in range(start, start + AT_ONCE):
         plant = drawn(seed)
-        assessment = assess(plant, **question(plant, random.Random(seed)))
-        require_premises(assessment, in_all_forms(assessment))
+        found = asking(plant, **question(plant, random.Random(seed)))
+        require_certified(found.account)
+        require_all_forms(found.account, found.as_json())
 
 
 def test_the_list_of_all_sentences_is_the_one_in_the_file() -> None:
@@ -203,3 +222,31 @@ def test_every_sentence_has_a_name_of_its_own() -> None:
 def test_a_text_that_no_template_made_is_found(text: str) -> None:
     with pytest.raises(AssertionError, match="no template made"):
         match(text, "analyze")
+
+
+def test_every_template_belongs_to_the_rules_of_one_place() -> None:
+    for topic, (rulebook, modules) in TOPICS.items():
+        if not rulebook:
+            continue
+        for template in templates(*modules):
+            places = {rule.place for rule in rulebook if template in rule.templates}
+            assert len(places) == 1, (topic, template.key)
+
+
+def test_a_rule_that_reads_what_is_not_claimed_is_refused() -> None:
+    found = asking(gallery.load("hidden-triple-mode")).account
+    seen = Certified(found.answers["fixed_spectrum"], "fixed_spectrum.json", {})
+    with pytest.raises(AttributeError, match="does not say 'gains' at /claim"):
+        seen.gains  # noqa: B018
+
+
+def test_what_was_read_of_one_member_of_a_list_is_no_premise_of_the_next() -> None:
+    read: Any = {}
+    plant = MultiChannelSystem([[1, 0], [0, 2]], [[[0], [0]]], [[[1, 1]]])
+    seen = Certified(asking(plant).fixed_spectrum, "file", read)
+    places = []
+    for factor in seen.factors:
+        _ = factor.rank
+        places.append([pointer for _, pointer in read])
+    assert places == [["/claim/factors/0/rank"], ["/claim/factors/1/rank"]]
+    assert len(read) == 2

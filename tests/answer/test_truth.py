@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import random
+import re
 from functools import reduce
 
 import pytest
 
 from mcexact.analysis.fixed_spectrum import fixed_spectrum
-from mcexact.derived.extended import extended_system
+from mcexact.answer.account import Account
+from mcexact.derived.extended import Share, extended_system
 from mcexact.derived.feedback import feedback
 from mcexact.derived.integrators import setpoint_system
 from mcexact.exact.linear_algebra import characteristic_polynomial
@@ -16,8 +18,7 @@ from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.report.assessment import Assessment, assess
-from mcexact.report.assessment_tables import assessment_tables, bound_holds, movable
+from tests.answer.asking import account_of
 from tests.answer.test_sentences import drawn
 
 SEEDS = range(0, 120, 10)
@@ -33,8 +34,8 @@ def plants(start: int) -> list[MultiChannelSystem]:
     ]
 
 
-def row(assessment: Assessment, label: str) -> str:
-    [found] = [value for name, value in assessment_tables(assessment)[0].rows if name == label]
+def row(account: Account, label: str) -> str:
+    [found] = [each for each in account.sentences.at("table") if each.template.label == label]
     return found
 
 
@@ -49,7 +50,7 @@ def test_set_points_can_be_held_iff_the_plant_with_integrators_can_be_stabilized
     start: int,
 ) -> None:
     for plant in plants(start):
-        said = row(assess(plant), "set-points")
+        said = row(account_of(plant), "set-points")
         centralized = fixed_spectrum(one_channel(setpoint_system(plant)))
         assert said.startswith("centralized control holds") == centralized.stabilizable, said
 
@@ -66,11 +67,19 @@ def drawn_loop(plant: MultiChannelSystem, rng: random.Random) -> Polynomial:
     return characteristic_polynomial(feedback(plant, F).A)
 
 
+def movable(account: Account) -> tuple[int, int]:
+    """How many eigenvalues are said to move, at least and at most."""
+    said = row(account, "closed-loop spectrum")
+    if numbers := [int(number) for number in re.findall(r"\d+", said.partition(" of ")[0])]:
+        return numbers[0], numbers[-1]
+    return account.given.n, account.given.n
+
+
 @pytest.mark.parametrize("start", SEEDS)
 def test_as_many_eigenvalues_are_said_to_move_as_drawn_gains_do_move(start: int) -> None:
     rng = random.Random(start)
     for plant in plants(start):
-        least, most = movable(assess(plant))
+        least, most = movable(account_of(plant))
         loops = [characteristic_polynomial(plant.A), *(drawn_loop(plant, rng) for _ in range(4))]
         stays = reduce(Polynomial.gcd, loops).degree
         assert least <= plant.n - stays <= most
@@ -79,23 +88,22 @@ def test_as_many_eigenvalues_are_said_to_move_as_drawn_gains_do_move(start: int)
 @pytest.mark.parametrize("start", SEEDS)
 def test_what_is_said_to_be_enough_to_share_leaves_nothing_fixed(start: int) -> None:
     for plant in plants(start):
-        assessment = assess(plant)
-        if not bound_holds(assessment):
-            continue
-        for share, bound in assessment.shared_dimension_bounds.items():
-            sizes = [bound.per_agent] * plant.m
-            assert fixed_spectrum(extended_system(plant, sizes, share)).empty
+        account = account_of(plant)
+        for told in account.sentences:
+            if told.template.key.startswith(("enough-outputs", "enough-states", "enough-nothing")):
+                [(name, _, k), *_] = told.because[-1:]
+                share: Share = "outputs+states" if "outputs" in name else "states"
+                assert fixed_spectrum(extended_system(plant, [k] * plant.m, share)).empty
 
 
 @pytest.mark.parametrize("start", SEEDS)
 def test_what_no_amount_of_sharing_frees_stays_with_much_of_it(start: int) -> None:
     for plant in plants(start):
-        assessment = assess(plant)
-        lost = [
-            found.uncontrollable_polynomial
-            for found in (assessment.controllability, assessment.observability)
-            if not found.controllable
-        ]
+        account = account_of(plant)
+        told = [each for each in account.sentences if "no amount of sharing" in each]
+        reach = (account.answers["joint_controllability"], account.answers["joint_observability"])
+        lost = [found.uncontrollable_polynomial for found in reach if not found.controllable]
+        assert len(told) == len(lost)
         if not lost:
             continue
         names = plant.names

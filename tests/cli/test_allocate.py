@@ -40,14 +40,25 @@ def answer(*arguments: str, status: int = 0) -> Any:
 
 def test_the_papers_example_is_answered_beside_its_bound(ring: str, tmp_path: Path) -> None:
     found = answer(ring, "--certificates", str(tmp_path / "certificates"))
-    assert found["bound"] == {"per_agent": 1, "total": 3}
-    assert found["minimal"]["dimensions"] == {"1": 0, "2": 0, "3": 1}
-    assert found["binding"] == [
-        {"subset": ["2"], "boundary": ["3"], "mode": ["-1", "1"], "deficiency": 1}
-    ]
-    files = [str(tmp_path / "certificates" / name) for name in found["certificate"].values()]
+    assert found["shared_dimension_bound"]["deficiency"] == 1
+    assert least(found)["dimensions"] == [0, 0, 1]
+    assert said(found, "allocate-total-bound") == ["total | 1 | 3"]
+    assert said(found, "allocate-reason") == ["2 | 3 | 1 | the mode 1"]
+    folder = tmp_path / "certificates"
+    files = [str(folder / name) for name in folder.iterdir() if name.name != "manifest.json"]
     checked = run("check", *files, "--system", ring)
     assert checked.status == 0 and checked.stdout.count("VALID") == 5
+    implied = run("check", "--manifest", str(folder), "--system", ring)
+    assert implied.status == 0 and implied.stdout.count("IMPLIED") == len(found["sentences"])
+
+
+def least(found: Any) -> Any:
+    return found["minimal_shared_dimensions"]
+
+
+def said(found: Any, rule: str) -> list[str]:
+    """What is said by a rule."""
+    return [each["text"] for each in found["sentences"] if each["rule"] == rule]
 
 
 def test_the_table_says_who_shares_how_much_and_why(ring: str) -> None:
@@ -56,23 +67,25 @@ def test_the_table_says_who_shares_how_much_and_why(ring: str) -> None:
 
 
 def test_a_price_an_upper_bound_and_a_rate_move_the_answer(ring: str) -> None:
-    assert answer(ring, "--share", "states", "--cost", "3", "1/2")["minimal"]["cost"] == "3/2"
-    assert answer(ring, "--upper", "3", "0", status=1)["minimal"] is None
-    assert answer(ring, "--rate", "1/2", "--free")["minimal"]["total"] == 1
+    priced = least(answer(ring, "--share", "states", "--cost", "3", "1/2"))
+    assert priced["cost"] == "3/2"
+    assert least(answer(ring, "--upper", "3", "0", status=1))["dimensions"] is None
+    assert sum(least(answer(ring, "--rate", "1/2", "--free"))["dimensions"]) == 1
 
 
 def test_a_missing_wire_is_named_and_ends_with_status_1(chain: str) -> None:
     found = answer(chain, status=1)
-    assert found["minimal"] is None and found["binding"][0]["boundary"] == []
+    assert least(found)["dimensions"] is None
+    assert said(found, "allocate-reason")[0].split(" | ")[1] == "nobody"
 
 
 def test_wires_are_added_where_they_help(chain: str, tmp_path: Path) -> None:
     found = answer(chain, "--arcs", "--dimensions", "0,0,1")
-    assert found["added"] == [["3", "2"]]
+    assert found["minimal_communication"]["added"] == [["3", "2"]]
     forbidden = answer(chain, "--arcs", "--dimensions", "0,0,1", "--forbid", "3", "2")
-    assert forbidden["added"] != [["3", "2"]]
+    assert forbidden["minimal_communication"]["added"] != [["3", "2"]]
     priced = answer(chain, "--arcs", "--wire-cost", "1", "2", "7", "--certificates", str(tmp_path))
-    assert priced["share"] == "outputs"
+    assert priced["minimal_communication"]["share"] == "outputs"
     assert run("check", str(tmp_path / "minimal_communication.json")).status == 0
 
 
@@ -106,7 +119,7 @@ def test_theorem_2_has_no_bound_where_its_hypotheses_fail(ring: str, tmp_path: P
     document["neighbors"] = {"2": ["1"], "3": ["1"]}
     chain = tmp_path / "chain.json"
     chain.write_text(json.dumps(document), encoding="utf-8")
-    assert answer(str(chain))["bound"] is None
+    assert said(answer(str(chain)), "allocate-total-bound") == []
     assert "Theorem 2" not in run("allocate", str(chain)).stdout
     assert "Theorem 2" in run("allocate", ring).stdout
 
@@ -114,6 +127,6 @@ def test_theorem_2_has_no_bound_where_its_hypotheses_fail(ring: str, tmp_path: P
 def test_links_are_found_for_a_plant_without_neighbors(tmp_path: Path) -> None:
     plant = str(Path(gallery.__file__).parent / "liu2020-unimodular.json")
     found = answer(plant, "--arcs", "--certificates", str(tmp_path))
-    assert found["added"] == [["3", "2"]]
+    assert found["minimal_communication"]["added"] == [["3", "2"]]
     checked = run("check", str(tmp_path / "minimal_communication.json"), "--system", plant)
     assert checked.status == 0

@@ -7,11 +7,11 @@ from typing import Any
 
 import pytest
 
+from mcexact.answer import check
 from mcexact.checker import Verdict
 from mcexact.cli import main, output
 from mcexact.cli.deadline import Deadline
 from mcexact.model import gallery
-from mcexact.report import verdict
 
 FOLDER = Path(gallery.__file__).parent
 PLANT = str(FOLDER / "lexalutyi-similarity-3x3.json")
@@ -53,7 +53,7 @@ def test_a_certificate_that_is_not_accepted_is_an_internal_error(
     command: tuple[str, ...], call: Call, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     refused = Verdict("INVALID", code="claim", place="claim", message="not so")
-    monkeypatch.setattr(verdict, "check_document", lambda *_: refused)
+    monkeypatch.setattr(check, "check_document", lambda *_: refused)
     status, out, err = call(*command, "--certificates", str(tmp_path / "evidence"))
     assert (status, out) == (70, "")
     assert "not to be believed" in err
@@ -65,7 +65,7 @@ def test_what_a_limit_of_the_checker_leaves_open_is_status_4_and_keeps_the_answe
     form: tuple[str, ...], call: Call, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     large = Verdict("INCOMPLETE", code="size", place="subject", message="too large to build")
-    monkeypatch.setattr(verdict, "check_document", lambda *_: large)
+    monkeypatch.setattr(check, "check_document", lambda *_: large)
     page = tmp_path / "page.html"
     status, out, err = call("analyze", PLANT, *form, "--html", str(page))
     assert status == 4

@@ -120,8 +120,8 @@ def test_set_points_are_reached(folder, tmp_path):
 def test_analyze_says_what_is_fixed_with_delays_and_what_can_be_held(folder, tmp_path):
     done = run("analyze", str(folder / "late.json"), "--delayed", "--json")
     answer = json.loads(done.stdout)
-    assert answer["delayed"]["lifted"]["fixed_polynomial"] == ["0", "1"]
-    assert answer["delayed"]["held"]["fixed_polynomial"] == ["1"]
+    assert answer["lifted_fixed_spectrum"]["polynomial"] == ["0", "1"]
+    assert answer["held_fixed_spectrum"]["polynomial"] == ["1"]
     assert answer["setpoint"]["solvable"] is False
     tanks = json.loads(run("analyze", str(folder / "tanks.json"), "--json").stdout)
     assert tanks["setpoint"]["solvable"] is True

@@ -2,7 +2,7 @@
 
 from matplotlib.colors import to_hex
 
-from mcexact.analysis.fixed_spectrum import fixed_spectrum
+from mcexact.analysis.analyze import analyze
 from mcexact.derived.draw import Draw, drawn_system
 from mcexact.report.graph_figures import LARGEST, MARKED, SENDERS, graph_picture
 
@@ -10,9 +10,9 @@ from mcexact.report.graph_figures import LARGEST, MARKED, SENDERS, graph_picture
 def test_a_large_graph_is_a_matrix_with_the_obstruction_first() -> None:
     m = LARGEST + 2
     system = drawn_system(Draw(3, states=8, channels=m, fixed_degree=1, neighbors=True))
-    fixed = fixed_spectrum(system)
-    subset = fixed.factors[0].channels
-    picture = graph_picture(system, fixed=fixed)
+    found = analyze(system, ["fixed_spectrum", "transfer_graph"])
+    subset = found.fixed_spectrum.factors[0].channels
+    picture = graph_picture(found.account)
     neighbors, transfer = picture.figure.axes
     [image] = neighbors.images
     colors = [[to_hex(cell) for cell in row] for row in image.get_array()]
@@ -30,5 +30,5 @@ def test_a_large_graph_is_a_matrix_with_the_obstruction_first() -> None:
 
 def test_a_small_graph_has_a_circle_for_every_channel() -> None:
     system = drawn_system(Draw(3, states=4, channels=3))
-    [axis] = graph_picture(system).figure.axes
+    [axis] = graph_picture(analyze(system).account).figure.axes
     assert not axis.images and len(axis.texts) == 3

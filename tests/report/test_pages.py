@@ -7,7 +7,6 @@ from pathlib import Path
 
 import pytest
 
-from mcexact.answer import codec
 from mcexact.answer.check import recheck
 from mcexact.answer.latex import matrix
 from mcexact.cli import main
@@ -15,10 +14,10 @@ from mcexact.exact.matrix import Matrix
 from mcexact.model import gallery
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import digest
-from mcexact.report.assessment import assess
-from mcexact.report.assessment_page import assessment_page
+from mcexact.report.account import latex
+from mcexact.report.account_page import account_page
 from mcexact.report.graph_figures import graph_picture
-from mcexact.report.latex import assessment_latex
+from tests.answer.asking import account_of
 from tests.report.strict_html import Page, external_addresses
 
 ATTACK = "<script>alert(1)</script>"
@@ -38,10 +37,9 @@ def hostile() -> MultiChannelSystem:
 
 def page_of(plant: MultiChannelSystem, **question: bool) -> str:
     """The page with all its evidence, checked, and the results as LaTeX."""
-    assessment = assess(plant, **question)
-    texts = {name: codec.encode(made) for name, made in assessment.certificates().items()}
-    verdicts = recheck(texts, digest(plant))
-    return assessment_page(assessment).rendered(texts, verdicts, assessment_latex(assessment))
+    account = account_of(plant, **question)
+    verdicts = recheck(account.certificates, digest(plant))
+    return account_page(account).rendered(account.certificates, verdicts, latex(account))
 
 
 @pytest.mark.parametrize("name", ["hidden-triple-mode", "farina-string-of-vehicles-4"])
@@ -61,15 +59,15 @@ def test_names_that_look_like_html_are_harmless() -> None:
 
 
 def test_pictures_carry_no_script_and_no_link() -> None:
-    uri = graph_picture(hostile()).embedded().uri
+    uri = graph_picture(account_of(hostile())).embedded().uri
     image = base64.b64decode(uri.partition(",")[2]).decode("utf-8")
     assert "<script" not in image and "onerror" not in image and 'href="http' not in image
 
 
 def test_a_picture_is_the_same_bytes_every_time_and_says_what_it_shows() -> None:
     plant = gallery.load("liu2020-3ch-augmented-outputs")
-    drawn = graph_picture(plant)
-    assert drawn.embedded() == graph_picture(plant).embedded()
+    drawn = graph_picture(account_of(plant))
+    assert drawn.embedded() == graph_picture(account_of(plant)).embedded()
     assert "orange: channel 2" in drawn.alternative
 
 
@@ -87,13 +85,13 @@ def test_an_address_in_a_page_is_found() -> None:
 
 
 def test_a_certificate_that_was_not_re_checked_says_so() -> None:
-    page = assessment_page(assess(gallery.load("hidden-triple-mode")))
+    page = account_page(account_of(gallery.load("hidden-triple-mode")))
     text = page.rendered({"fixed_spectrum.json": "{}"}, {})
     assert "not re-checked" in text and "VALID" not in text
 
 
 def test_latex_escapes_names_and_writes_fractions() -> None:
-    text = assessment_latex(assess(hostile()))
+    text = latex(account_of(hostile()))
     assert "\\textbackslash{}frac" in text and "\\&amp;" in text
     assert "\\tfrac{1}{3}" in matrix(Matrix.from_rows([["-1/3"]]))
 

@@ -1,1 +1,1 @@
-"""Every sentence that the commands print about a system: its words, its premises, its theorem."""
+"""The words of every sentence that the commands print about a system, and its theorem."""

@@ -1,24 +1,17 @@
-"""The sentences of `mcexact design` and `certify`.
-
-A premise is a certificate by the stem of its file; ``loop`` stands for the one about the closed
-loop, of the kind `closed_loop_spectrum`, `stability` or `distributed_observer`.
-"""
+"""The words of `mcexact design` and `certify`."""
 
 from __future__ import annotations
 
 from mcexact.answer.template import Template
 
-_LOOP = ("loop",)
-
-OBSERVER = Template("design-observer", "distributed observer; closed loop certified", _LOOP)
+OBSERVER = Template("design-observer", "distributed observer; closed loop certified")
 OBSERVER_FLOAT = Template(
     "design-observer-float",
     "distributed observer, designed in floating point; closed loop certified",
-    _LOOP,
 )
-NETWORK = Template("design-network", "{kind:network} controller; closed loop certified", _LOOP)
+NETWORK = Template("design-network", "{kind:network} controller; closed loop certified")
 SETPOINT = Template(
-    "design-setpoint", "set-point controller ({method:method}); closed loop certified", _LOOP
+    "design-setpoint", "set-point controller ({method:method}); closed loop certified"
 )
 CARRIER = Template(
     "design-carrier",
@@ -36,24 +29,21 @@ ORDER_INTEGRATORS = Template(
     "{order:int}, integrators included",
     label="states of all agents together",
 )
-FEEDBACK = Template(
-    "design-feedback", "{p:polynomial}", ("loop",), label="spectrum of A + sum B_i F_i"
-)
-ERRORS = Template("design-errors", "{p:polynomial}", _LOOP, label="spectrum of the errors")
-REGION = Template("design-region", "{region:region}", _LOOP, label="every eigenvalue of the loop")
+FEEDBACK = Template("design-feedback", "{p:polynomial}", label="spectrum of A + sum B_i F_i")
+ERRORS = Template("design-errors", "{p:polynomial}", label="spectrum of the errors")
+REGION = Template("design-region", "{region:region}", label="every eigenvalue of the loop")
 OBSERVER_ORDER = Template(
     "design-observer-order",
     "{order:int}",
     label="states of the paper's observer",
 )
 SHARED = Template("design-shared", "{sizes:dimensions}", label="shared dimensions")
-ASSIGNED = Template("design-assigned", "{p:polynomial}", _LOOP, label="spectrum that it assigns")
-KEPT = Template("design-kept", "{p:modes}", ("loop", "fixed_spectrum"), label="fixed modes kept")
+ASSIGNED = Template("design-assigned", "{p:polynomial}", label="spectrum that it assigns")
+KEPT = Template("design-kept", "{p:modes}", label="fixed modes kept")
 LONGEST = Template("design-longest-number", "{bits:int} bits", label="longest number")
 STEADY = Template(
     "design-steady-state",
     "the identity, exactly",
-    _LOOP,
     "B. A. Francis and W. M. Wonham 1976",
     "gain from set-points to outputs",
 )
@@ -61,11 +51,9 @@ MEASURED = Template("design-measured", "measured in floating point, not proved")
 
 LOOP = Template("certify-loop", "closed loop")
 LOOP_STATES = Template("certify-states", "{n:int}", label="states of the loop")
-INSIDE = Template(
-    "certify-inside", "every one satisfies {region:region}", _LOOP, label="eigenvalues"
-)
+INSIDE = Template("certify-inside", "every one satisfies {region:region}", label="eigenvalues")
 OUTSIDE = Template(
-    "certify-outside", "not every one satisfies {region:region}", _LOOP, label="eigenvalues"
+    "certify-outside", "not every one satisfies {region:region}", label="eigenvalues"
 )
 DECIDED_BLOCKS = Template(
     "certify-decided-blocks",
@@ -73,5 +61,5 @@ DECIDED_BLOCKS = Template(
     label="decided",
 )
 DECIDED = Template("certify-decided", "{method:decided}", label="decided")
-LARGEST = Template("certify-largest", "{bound:number}", _LOOP, label="largest rate found")
-LEAST = Template("certify-least", "{bound:number}", _LOOP, label="least radius found")
+LARGEST = Template("certify-largest", "{bound:number}", label="largest rate found")
+LEAST = Template("certify-least", "{bound:number}", label="least radius found")

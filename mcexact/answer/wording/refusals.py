@@ -1,23 +1,18 @@
-"""Why there is no design as it was asked for; the premise is the certificate of the refusal."""
+"""Why there is no design as it was asked for."""
 
 from __future__ import annotations
 
 from mcexact.answer.template import Template
 
-_CONTROLLABLE = ("controllability",)
-_FIXED = ("fixed_spectrum",)
-
 NOT_CONTROLLABLE = Template(
     "refused-not-controllable",
     "no state feedback moves {p:modes}: the system is not jointly controllable",
-    _CONTROLLABLE,
     "controllability.uncontrollable_modes",
 )
 NOT_CONTROLLABLE_IN = Template(
     "refused-not-controllable-in",
     "no state feedback moves {p:modes}, {p:escape} {region:region}: the system is not jointly "
     "controllable",
-    _CONTROLLABLE,
     "controllability.uncontrollable_modes",
 )
 UNREACHED = {
@@ -25,42 +20,36 @@ UNREACHED = {
         "refused-uncontrollable",
         "no controller moves {p:modes}, {p:escape} {region:region}: all channels together do not "
         "control {p:them}",
-        _CONTROLLABLE,
         "controllability.uncontrollable_modes",
     ),
     "see": Template(
         "refused-unobservable",
         "no controller sees {p:modes}, {p:escape} {region:region}: all channels together do not "
         "observe {p:them}",
-        _CONTROLLABLE,
         "controllability.uncontrollable_modes",
     ),
 }
 NOT_OBSERVABLE = Template(
     "refused-not-observable",
     "no distributed observer sees {p:modes}: all channels together do not observe {p:them}",
-    _CONTROLLABLE,
     "controllability.uncontrollable_modes",
 )
 ERRORS_NOT_COMPLETE = Template(
     "refused-errors-not-complete",
     "the error system for these F_i is not complete: no constant K_i, H_ij let one agent control "
     "and observe all estimation errors",
-    ("completeness",),
     "free_assignment.corfmat_morse_converse",
 )
 ERRORS_FIXED = Template(
     "refused-errors-fixed",
     "no constant K_i, H_ij and no linear time-invariant channel controller move {p:modes} of the "
     "error system for these F_i, {p:escape} {region:region}",
-    _FIXED,
     "evidence.shrunk_subspace_fixed_dynamic",
 )
 _FIXED_MODES = " control moves {p:modes}, fixed by s = {s:set}, and {p:slow}"
 FIXED = Template(
     "refused-fixed",
     "no linear time-invariant decentralized" + _FIXED_MODES,
-    _FIXED,
     "evidence.shrunk_subspace_fixed_dynamic",
 )
 FIXED_SHARED = Template(
@@ -68,7 +57,6 @@ FIXED_SHARED = Template(
     "no linear time-invariant distributed"
     + _FIXED_MODES
     + " (shared dimensions {sizes:dimensions})",
-    _FIXED,
     "evidence.shrunk_subspace_fixed_dynamic",
 )
 _LACK = ": {agents:agents} can receive from {senders:names} and {agents:lack} {k:count state}"
@@ -76,7 +64,6 @@ NO_DIMENSIONS = Template(
     "refused-no-dimensions",
     "no shared dimensions let linear time-invariant control move the modes that are not fast enough"
     + _LACK,
-    ("shared_dimensions",),
     "extended_bound.extended_no_fixed, extended_bound.extended_states_no_fixed",
 )
 NOT_CONTROLLED, NOT_OBSERVED = (
@@ -84,7 +71,6 @@ NOT_CONTROLLED, NOT_OBSERVED = (
         f"refused-sharing-in-vain-{verb}",
         "no amount of sharing lets linear time-invariant control move {p:modes}: all agents "
         f"together do not {verb} {{p:them}}",
-        ("shared_dimensions",),
         "extended_bound.extended_no_fixed, extended_bound.extended_states_no_fixed",
     )
     for verb in ("control", "observe")
@@ -93,37 +79,30 @@ NO_CONNECTION = Template(
     "refused-no-connection",
     "no shared dimensions make the transfer graph of the extended system strongly connected"
     + _LACK,
-    ("shared_dimensions",),
     "transfer_graph.zero_transfer_cut",
 )
-OUTSIDE = Template(
-    "refused-outside", "not every eigenvalue of the loop satisfies {region:region}", ("stability",)
-)
+OUTSIDE = Template("refused-outside", "not every eigenvalue of the loop satisfies {region:region}")
 NO_EQUILIBRIUM = Template(
     "refused-no-equilibrium",
     "no equilibrium holds set-points r with {w:combinations}",
-    ("setpoint",),
     "setpoint.setpoint_unreachable",
 )
 NO_EQUILIBRIUM_ZERO = Template(
     "refused-no-equilibrium-zero",
     "no equilibrium holds set-points r with {w:combinations}: {place:int} is an invariant zero of "
     "the plant",
-    ("setpoint",),
     "setpoint.setpoint_unreachable",
 )
 MODE_OF_THE_INTEGRATORS = Template(
     "refused-mode-of-the-integrators",
     "no stable loop has integrators behind the outputs: all channels together do not control the "
     "mode {place:int} of the plant",
-    ("setpoint",),
     "setpoint.setpoint_output_part",
 )
 INTEGRATORS_UNREACHED = {
     verb: Template(
         f"refused-integrators-{verb}",
         "the plant with its integrators has {p:modes}, which all channels together do not " + verb,
-        _CONTROLLABLE,
         "controllability.uncontrollable_modes",
     )
     for verb in ("control", "observe")
@@ -132,6 +111,5 @@ INTEGRATORS_FIXED = Template(
     "refused-integrators-fixed",
     "no linear time-invariant distributed control of the plant with its integrators moves "
     "{p:modes}, however many states are shared",
-    _FIXED,
     "evidence.shrunk_subspace_fixed_dynamic",
 )

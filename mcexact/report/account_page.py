@@ -5,20 +5,17 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from mcexact.answer.wording import details as say
+from mcexact.answer.account import Account
 from mcexact.checker import Verdict
-from mcexact.errors import LimitReached
-from mcexact.report.assessment import Assessment
-from mcexact.report.assessment_tables import assessment_tables, bound_holds
-from mcexact.report.graph_figures import dimensions_picture, graph_picture
+from mcexact.report.account import answer, tables
+from mcexact.report.graph_figures import LEAST, dimensions_picture, graph_picture
 from mcexact.report.page import page
-from mcexact.report.picture import EmbeddedPicture
+from mcexact.report.picture import EmbeddedPicture, Picture
 from mcexact.report.text import Table
-from mcexact.report.words import answer
 
 
 @dataclass(frozen=True)
-class AssessmentPage:
+class AccountPage:
     """Everything that was decided about a system, but for the verdicts on its certificates.
 
     Attributes
@@ -68,36 +65,29 @@ class AssessmentPage:
             )
         if latex is not None:
             evidence.append({"title": "LaTeX", "verdict": "", "theorem": "", "text": latex})
-        return page("assessment", **vars(self), evidence=evidence)
+        return page("account", **vars(self), evidence=evidence)
 
 
-def assessment_page(assessment: Assessment) -> AssessmentPage:
+def account_page(account: Account) -> AccountPage:
     """Everything that was decided about a system, the answer in plain words first."""
-    system = assessment.system
-    pictures = [
-        graph_picture(
-            system,
-            fixed=assessment.fixed_spectrum,
-            transfer=assessment.transfer_graph,
-            information=assessment.information,
-        )
-    ]
-    least = {
-        share: found
-        for share, found in (assessment.minimal_shared_dimensions or {}).items()
-        if not isinstance(found, LimitReached)
-    }
-    if least:
-        bounds = assessment.shared_dimension_bounds if bound_holds(assessment) else None
-        pictures.append(dimensions_picture(system, least, bounds))
-    first, *rest = assessment_tables(assessment)
-    return AssessmentPage(
+    system, said = account.given.system, account.sentences
+    first, *rest = tables(said)
+    spectrum = account.answers.get("fixed_spectrum")
+    return AccountPage(
         title=system.name or "A multi-channel system",
-        heading=say.PAGE_HEADING(
-            n=system.n, m=system.m, time=system.time, information=assessment.control
-        ),
-        good=assessment.fixed_spectrum.stabilizable,
-        answer=tuple(answer(assessment)),
-        pictures=tuple(drawn.embedded() for drawn in pictures),
+        heading="".join(said.at("page")),
+        good=spectrum is None or spectrum.stabilizable,
+        answer=tuple(answer(said)),
+        pictures=tuple(drawn.embedded() for drawn in _pictures(account)),
         tables=(replace(first, title="All answers"), *rest),
     )
+
+
+def _pictures(account: Account) -> list[Picture]:
+    """The graphs, and who shares how much, where these were asked for."""
+    drawn = []
+    if {"fixed_spectrum", "transfer_graph"} <= account.answers.keys():
+        drawn.append(graph_picture(account))
+    if set(LEAST.values()) & account.answers.keys():
+        drawn.append(dimensions_picture(account))
+    return drawn

@@ -1,4 +1,4 @@
-"""The table of `analyze`: what it says, and that it stays readable whatever the data."""
+"""The text of `analyze`: what it says in words and tables, and that it stays readable."""
 
 import io
 from typing import Any
@@ -7,9 +7,9 @@ import pytest
 
 from mcexact import MultiChannelSystem, NeighborGraph
 from mcexact.model import gallery
-from mcexact.report.assessment import assess
-from mcexact.report.assessment_tables import assessment_tables
+from mcexact.report.account import answer, in_lines, tables
 from mcexact.report.text import plain, show
+from tests.answer.asking import account_of
 
 EXAMPLE: dict[str, Any] = {
     "A": [[1, 0, 0], [0, 1, 0], [0, 1, 1]],
@@ -20,13 +20,13 @@ WIDE = 10**6
 
 
 def text_of(system: MultiChannelSystem, **question: Any) -> str:
-    return plain(assessment_tables(assess(system, **question)), width=WIDE)
+    return plain(tables(account_of(system, **question).sentences), width=WIDE)
 
 
 def rows_of(system: MultiChannelSystem, **question: Any) -> dict[str, str]:
     """The names and values of the tables without columns; values of one name are joined."""
     found: dict[str, str] = {}
-    for table in assessment_tables(assess(system, **question)):
+    for table in tables(account_of(system, **question).sentences):
         for name, value in table.rows if not table.columns else ():
             found[name] = f"{found[name]}; {value}" if name in found else value
     return found
@@ -141,11 +141,11 @@ def test_an_invariant_zero_and_dependent_outputs_are_told_apart(time: str, place
 
 
 def test_the_ranks_for_a_subset_are_a_table_of_the_modes_of_A_proved_to_be_all() -> None:
-    assessment = assess(MultiChannelSystem(**EXAMPLE), subset=["2"])
-    text = plain(assessment_tables(assessment), width=WIDE)
+    account = account_of(MultiChannelSystem(**EXAMPLE), subset=["2"])
+    text = plain(tables(account.sentences), width=WIDE)
     assert "for s = {2}" in text
     assert "x - 1                2     yes" in text
-    assert "spectrum_of_A.json" in assessment.certificates()
+    assert "spectrum_of_A.json" in account.certificates
 
 
 def test_a_system_without_states_is_readable() -> None:
@@ -162,7 +162,7 @@ def test_long_numbers_are_rounded_and_never_cut() -> None:
 def test_markup_in_a_name_is_shown_and_not_obeyed(name: str) -> None:
     system = MultiChannelSystem([[1]], [[[1]]], [[[0]]], names=[name])
     stream = io.StringIO()
-    show(assessment_tables(assess(system)), stream)
+    show(tables(account_of(system).sentences), stream)
     assert name in text_of(system)
     assert name in stream.getvalue().replace("\n", "")
 
@@ -195,13 +195,14 @@ def test_indices_of_very_long_chains_are_left_out() -> None:
     assert rows_of(system)["controllability indices"].startswith("left out")
 
 
-def test_of_many_factors_the_first_are_listed_and_the_rest_counted() -> None:
+def test_of_many_factors_the_first_are_listed() -> None:
     n = 9
     diagonal = [[(k + 1) * (k == j) for j in range(n)] for k in range(n)]
     plant = MultiChannelSystem(diagonal, [[[0]] * n], [[[1] * n]])
-    table = assessment_tables(assess(plant), most_factors=6)[1]
+    table = tables(account_of(plant).sentences, most_modes=6)[1]
     assert len(table.rows) == 6
-    assert table.note.startswith("3 more factors; --json and --html list all.")
+    assert table.note.startswith("the first 6; --json and --html list all.")
+    assert len(tables(account_of(plant).sentences)[1].rows) == n
 
 
 def test_a_graph_with_delays_is_said_to_be_taken_without_them() -> None:
@@ -221,3 +222,73 @@ def test_links_have_a_row_whenever_they_were_asked_for() -> None:
     assert rows_of(free, links=True)["fewest links to add"] == "none"
     lost = MultiChannelSystem([[1]], [[[0]], [[0]]], [[[1]], [[1]]])
     assert rows_of(lost, links=True)["fewest links to add"] == "no links are enough"
+
+
+def said(system: MultiChannelSystem, **question: Any) -> list[str]:
+    """The answer in sentences."""
+    return answer(account_of(system, **question).sentences)
+
+
+def test_the_answer_says_who_does_not_control_a_mode_and_who_does_not_observe_it() -> None:
+    plant = MultiChannelSystem(
+        [[1]], [[[1]], [[0]]], [[[0]], [[1]]], neighbors={"1": [], "2": ["1"]}
+    )
+    assert said(plant, minimal=True) == [
+        "The plant cannot be stabilized by linear time-invariant decentralized control: the "
+        "slowest fixed mode grows at the rate 1.",
+        "No sharing over the neighbor graph frees every mode.",
+        "The mode 1 (once in A) is fixed: channel 2 does not control it, channel 1 does not "
+        "observe it, and no constant gains help.",
+    ]
+
+
+def test_a_channel_without_effect_on_a_mode_is_not_said_to_reach_it() -> None:
+    # s = {1, 2}, and B_2 misses the mode 1 as well.
+    plant = MultiChannelSystem(
+        [[1, 0], [0, 2]], [[[1], [0]], [[0], [1]], [[0], [0]]], [[[0, 1]], [[0, 1]], [[1, 1]]]
+    )
+    [told] = said(plant)[1:]
+    assert "channel 3 does not control it, channels 1 and 2 do not observe it" in told
+    assert "reach" not in told
+
+
+def test_modes_that_no_channel_controls_or_observes_are_told_apart() -> None:
+    lost = MultiChannelSystem([[1]], [[[0]], [[0]]], [[[1]], [[1]]])
+    assert said(lost)[1].endswith("all channels together do not control it.")
+    unseen = MultiChannelSystem([[1]], [[[1]], [[1]]], [[[0]], [[0]]])
+    assert said(unseen)[1].endswith("all channels together do not observe it.")
+
+
+def test_links_come_with_the_certificate_that_they_suffice_and_that_fewer_do_not() -> None:
+    plant = gallery.load("liu2020-unimodular")
+    assert not any("Sending" in told for told in said(plant))
+    account = account_of(plant, links=True)
+    told = "Sending outputs along 3 → 2 leaves no mode fixed, and no fewer links do."
+    assert told in answer(account.sentences)
+    assert "minimal_communication.json" in account.certificates
+
+
+def test_free_assignment_is_claimed_only_of_what_is_complete() -> None:
+    chain = MultiChannelSystem([[0, 0], [1, 0]], [[[1], [0]], [[0], [1]]], [[[1, 0]], [[0, 1]]])
+    assert "in parts, one for each of 2 strong components" in said(chain)[1]
+    single = MultiChannelSystem([[0]], [[[1]]], [[[1]]])
+    assert "any one channel" in said(single)[1]
+
+
+@pytest.mark.parametrize("most", [1, 2, 3, 5, 9])
+def test_no_sentence_is_cut(most: int) -> None:
+    sentences = account_of(gallery.load("liu2020-3ch-no-communication"), links=True).sentences
+    shown = in_lines(sentences, most)
+    assert len(shown.splitlines()) <= most or not shown.strip()
+    told = " ".join(shown.split())
+    assert told == " ".join(answer(sentences)[: told.count(". ") + told.endswith(".")])
+
+
+@pytest.mark.parametrize("name", gallery.names())
+def test_the_answer_fits_a_terminal_and_five_lines_of_words_come_first(name: str) -> None:
+    sentences = account_of(gallery.load(name)).sentences
+    words = in_lines(sentences, 5).splitlines()
+    table = plain(tables(sentences, most_modes=6)).splitlines()
+    shown = [*words, "", *table, "", "10 certificates re-checked"]
+    assert 1 <= len(words) <= 5
+    assert len(shown) <= 30 and max(map(len, shown)) <= 80

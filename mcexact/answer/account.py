@@ -1,0 +1,104 @@
+"""An account of a system: answers, the sentences that follow from them, and their certificates."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from html import escape
+from typing import Any
+
+from mcexact.answer import codec
+from mcexact.answer.sentence import Given, Rulebook, Sentences, certificate_of, manifest
+from mcexact.answer.showing import plain_view
+
+FORMAT = "mcexact-analysis/1"
+
+
+@dataclass(frozen=True)
+class Account:
+    """Answers about one plant by name, and what they say together.
+
+    Attributes
+    ----------
+    answers : mapping
+        The name of an answer, with ``.json``, is that of its certificate's file.
+    given : Given
+    rules : Rulebook
+    missing : collection of str
+        Questions that were asked and have no answer.
+    """
+
+    answers: Mapping[str, Any]
+    given: Given
+    rules: Rulebook
+    missing: Collection[str] = field(default=())
+
+    @cached_property
+    def sentences(self) -> Sentences:
+        """Everything that follows by a rule, each sentence with its place and its premises."""
+        return self.rules.sentences(self.answers, self.given, self.missing)
+
+    @cached_property
+    def certificates(self) -> dict[str, str]:
+        """The text of every certificate, by the name of its file."""
+        return {
+            f"{name}.json": codec.encode(certificate_of(answer))
+            for name, answer in self.answers.items()
+        }
+
+    def manifest(self) -> dict[str, Any]:
+        """The sentences with what each rests on, and the digests of the certificates."""
+        return manifest(self.sentences, self.certificates)
+
+    def as_json(self, **more: Any) -> dict[str, Any]:
+        """Plain data for programs: an entry for each answer, under its name."""
+        system = self.given.system
+        return {
+            "format": FORMAT,
+            "system": {
+                "name": system.name,
+                "n": system.n,
+                "m": system.m,
+                "time": system.time,
+                "channels": list(system.names),
+            },
+            **more,
+            "answer": [str(each) for each in self.sentences.at("answer", "answer.mode")],
+            "sentences": [
+                {"text": each.line, "rule": each.template.key, "theorem": each.template.theorem}
+                for each in self.sentences
+            ],
+            **{
+                name: view_of(answer) | {"certificate": f"{name}.json"}
+                for name, answer in self.answers.items()
+            },
+        }
+
+    def _repr_html_(self) -> str:
+        """For a notebook: the answer in sentences, and the table, each with its reason."""
+        said = "".join(
+            f'<li title="{escape(_reason(each))}">{escape(each)}</li>'
+            for each in self.sentences.at("answer", "answer.mode")
+        )
+        rows = "".join(
+            f'<tr title="{escape(_reason(each))}"><th>{escape(each.cells[0])}</th>'
+            f"<td>{escape(each)}</td></tr>"
+            for each in self.sentences.at("table")
+        )
+        return f"<ul>{said}</ul><table>{rows}</table>"
+
+
+def _reason(sentence: Any) -> str:
+    """Theorem and premises of a sentence, without their values."""
+    places = [f"{file}#{pointer}" for file, pointer, _ in sentence.because]
+    return "; ".join(filter(None, [sentence.template.theorem, *places]))
+
+
+def view_of(answer: Any) -> dict[str, Any]:
+    """What an answer claims, as plain data."""
+    if hasattr(answer, "view"):
+        view: dict[str, Any] = answer.view()
+        return view
+    claims = certificate_of(answer).claim()
+    return {key: plain_view(value) for key, value in claims.items()}

@@ -1,0 +1,407 @@
+"""When `mcexact analyze` says what: the answer in sentences, and the table of all answers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from mcexact.answer.sentence import Claim, Given, Rulebook
+from mcexact.answer.template import Sentence, Template
+from mcexact.answer.wording import analysis as say
+from mcexact.exact.location import steady_point
+from mcexact.exact.polynomial import product
+
+RULES = Rulebook()
+rule = RULES.rule
+
+Said = Iterator[Sentence]
+
+
+def control(spectrum: Claim, given: Given) -> str:
+    """Which control moves none of the fixed modes that a certificate claims."""
+    made = [each["construction"] for each in spectrum.subject]
+    if made[-1:] != ["augmented_outputs"]:
+        return "own"
+    return "instant" if given.delays == "delays" else "outputs"
+
+
+def slowest(spectrum: Claim, given: Given) -> tuple[str, str, str, bool]:
+    """What is said of the slowest fixed mode is made of this."""
+    rate = spectrum.best_rate
+    return given.time, rate.lower, rate.upper, spectrum.stabilizable
+
+
+def empty(spectrum: Claim) -> bool:
+    """Whether no mode is fixed."""
+    return bool(spectrum.polynomial.degree == 0)
+
+
+# The answer in plain words.
+
+
+@rule("title", say.HEADING)
+def heading(given: Given) -> Said:
+    yield say.HEADING(
+        name=given.name or "system", n=given.n, m=given.m, names=given.names, time=given.time
+    )
+
+
+@rule("answer", say.NOTHING_FIXED)
+def nothing_fixed(fixed_spectrum: Claim, given: Given) -> Said:
+    if empty(fixed_spectrum):
+        yield say.NOTHING_FIXED(control=control(fixed_spectrum, given))
+
+
+@rule("answer", say.FREE_THROUGH_ANY)
+def free_through_any(completeness: Claim, given: Given) -> Said:
+    if given.n and completeness.complete:
+        yield say.FREE_THROUGH_ANY()
+
+
+@rule("answer", say.FREE, say.PARTS)
+def assigned(
+    fixed_spectrum: Claim, assignability: Claim, completeness: Claim, given: Given
+) -> Said:
+    if given.n and empty(fixed_spectrum) and not completeness.complete:
+        parts = [block for block in assignability.blocks if block.dimension]
+        yield say.FREE() if len(parts) <= 1 else say.PARTS(k=len(parts))
+
+
+@rule("answer", say.STABLE, say.UNSTABLE)
+def stabilized(fixed_spectrum: Claim, given: Given) -> Said:
+    if not empty(fixed_spectrum):
+        told = say.STABLE if fixed_spectrum.stabilizable else say.UNSTABLE
+        yield told(control=control(fixed_spectrum, given), slowest=slowest(fixed_spectrum, given))
+
+
+def fewest(links: Claim) -> bool:
+    """Whether as few links as possible were asked for that leave no mode fixed by outputs."""
+    return (
+        links.share == "outputs"
+        and links.bound is None
+        and all(price == 1 for *_, price in links.candidates)
+    )
+
+
+@rule("answer", *say.LINKS.values(), say.LINKS_NONE, say.NO_LINKS)
+def links_remove(minimal_communication: Claim, fixed_spectrum: Claim, given: Given) -> Said:
+    links = minimal_communication
+    if empty(fixed_spectrum) or not fewest(links):
+        return
+    if links.added is None:
+        yield say.NO_LINKS()
+    else:
+        some = say.LINKS[given.neighbors is not None] if links.added else say.LINKS_NONE
+        yield some(added=links.added, time=given.delays)
+
+
+def usual(least: Claim, share: str) -> bool:
+    """Whether as few states as possible were asked for that leave no mode fixed."""
+    return (
+        least.share == share
+        and least.bound is None
+        and not least.free_assignability
+        and all(cost == 1 for cost in least.costs)
+        and all(most is None for most in least.upper)
+    )
+
+
+@rule("answer", say.SHARING_REMOVES, say.OUTPUTS_REMOVE, say.NO_SHARING)
+def sharing_removes(
+    minimal_shared_dimensions_outputs_states: Claim, fixed_spectrum: Claim, given: Given
+) -> Said:
+    least = minimal_shared_dimensions_outputs_states
+    if empty(fixed_spectrum) or not usual(least, "outputs+states"):
+        return
+    if least.dimensions is None:
+        yield say.NO_SHARING()
+    elif any(least.dimensions):
+        sizes = list(zip(given.names, least.dimensions, strict=True))
+        yield say.SHARING_REMOVES(sizes=sizes, time=given.delays)
+    else:
+        yield say.OUTPUTS_REMOVE(time=given.delays)
+
+
+@rule("answer.mode", say.BLAME, say.UNCONTROLLED, say.UNOBSERVED)
+def blame(fixed_spectrum: Claim, given: Given) -> Said:
+    """Who does not control a mode, and who does not observe it.
+
+    rank P_s < n leaves [λI − A, B_T] and [λI − A; C_s] with less than n too, T the rest of s.
+    """
+    for factor in fixed_spectrum.factors.ordered("stable"):
+        inside = factor.channels
+        outside = [name for name in given.names if name not in set(inside)]
+        told = say.BLAME if inside and outside else say.UNOBSERVED if inside else say.UNCONTROLLED
+        yield told(
+            p=factor.polynomial,
+            often=(factor.multiplicity_in_A, factor.multiplicity_at_most),
+            inside=inside,
+            outside=outside,
+        )
+
+
+# The table of all answers.
+
+
+@rule("table", say.INFORMATION)
+def information(given: Given) -> Said:
+    if given.information == "outputs":
+        yield say.INFORMATION(information="outputs" if given.delays == "none" else "instant")
+
+
+def reached(found: Claim, yes: Template, no: Template) -> Said:
+    """Whether channels together control or observe every mode."""
+    yield yes() if found.controllable else no(p=found.uncontrollable_polynomial)
+
+
+@rule("table", say.CONTROLLABLE, say.UNCONTROLLABLE)
+def controllable(joint_controllability: Claim) -> Said:
+    yield from reached(joint_controllability, say.CONTROLLABLE, say.UNCONTROLLABLE)
+
+
+@rule("table", say.OBSERVABLE, say.UNOBSERVABLE)
+def observable(joint_observability: Claim) -> Said:
+    yield from reached(joint_observability, say.OBSERVABLE, say.UNOBSERVABLE)
+
+
+@rule("table", say.GRAPH_CONNECTED, say.GRAPH_PARTS)
+def graph(transfer_graph: Claim) -> Said:
+    told = say.GRAPH_CONNECTED if transfer_graph.strongly_connected else say.GRAPH_PARTS
+    yield told(arcs=transfer_graph.arcs, components=transfer_graph.components)
+
+
+@rule("table", say.INACTIVE)
+def inactive(transfer_graph: Claim, given: Given) -> Said:
+    if given.inactive and transfer_graph.subject == given.system.subject:
+        yield say.INACTIVE(names=given.inactive)
+
+
+@rule("table", say.FIXED_NONE, say.FIXED)
+def fixed(fixed_spectrum: Claim) -> Said:
+    p = fixed_spectrum.polynomial
+    yield say.FIXED(p=p) if p.degree else say.FIXED_NONE()
+
+
+@rule("table", say.STABILIZABLE, say.NOT_STABILIZABLE)
+def stabilizable(fixed_spectrum: Claim, given: Given) -> Said:
+    told = say.STABILIZABLE if fixed_spectrum.stabilizable else say.NOT_STABILIZABLE
+    yield told(control=control(fixed_spectrum, given))
+
+
+@rule("table", say.SLOWEST, say.ANY_RATE)
+def slowest_mode(fixed_spectrum: Claim, given: Given) -> Said:
+    if empty(fixed_spectrum):
+        yield say.ANY_RATE()
+    else:
+        yield say.SLOWEST(slowest=slowest(fixed_spectrum, given))
+
+
+@rule("table", say.COMPLETE)
+def complete(completeness: Claim) -> Said:
+    yield say.COMPLETE(complete=completeness.complete)
+
+
+def index_rules(question: str, one: Template, many: Template, none: Template) -> None:
+    """What is said of controllability or observability indices, or that they are left out."""
+
+    @rule("table", one, many, about={"found": question})
+    def indices(found: Claim) -> Said:
+        told = many if found.index is None else one
+        yield told(indices=found.indices, index=found.index)
+
+    @rule("table", none, missing=question)
+    def left_out() -> Said:
+        yield none()
+
+
+index_rules("controllability_indices", *say.CONTROLLABILITY_INDICES)
+index_rules("observability_indices", *say.OBSERVABILITY_INDICES)
+
+
+@rule("table", say.SPECTRUM_FREE, say.SPECTRUM_PARTS)
+def spectrum_parts(fixed_spectrum: Claim, assignability: Claim) -> Said:
+    if empty(fixed_spectrum):
+        blocks = [(block.dimension, block.channels) for block in assignability.blocks]
+        free = sum(size > 0 for size, _ in blocks) <= 1
+        yield say.SPECTRUM_FREE() if free else say.SPECTRUM_PARTS(blocks=blocks)
+
+
+@rule("table", say.SPECTRUM_MOVED, say.SPECTRUM_MOVED_BETWEEN)
+def spectrum_moved(fixed_spectrum: Claim, assignability: Claim, given: Given) -> Said:
+    """Bounds on the number of eigenvalues, with multiplicity, that gains can move.
+
+    n − deg φ, φ the greatest common divisor of all det(xI − A_F): a factor p of the fixed
+    polynomial is in φ at least once and at most as often as in the loop of the certificate, and
+    what belongs to no strong component of the transfer graph is in φ.
+    """
+    if empty(fixed_spectrum):
+        return
+    stuck = sum(f.polynomial.degree * f.multiplicity_at_most for f in fixed_spectrum.factors)
+    stays = max(fixed_spectrum.polynomial.degree, assignability.fixed_degree)
+    told = say.SPECTRUM_MOVED if stuck == stays else say.SPECTRUM_MOVED_BETWEEN
+    yield told(k=given.n - stuck, most=given.n - stays, n=given.n)
+
+
+# Set-points.
+
+
+@rule("table", say.SETPOINT_ZERO, say.SETPOINT_DEPENDENT)
+def no_setpoints(setpoint: Claim, given: Given) -> Said:
+    if setpoint.invariant_zero:
+        yield say.SETPOINT_ZERO(place=steady_point(given.time))
+    elif not setpoint.solvable:
+        yield say.SETPOINT_DEPENDENT()
+
+
+@rule("table", say.SETPOINT)
+def setpoints(setpoint: Claim, joint_controllability: Claim, joint_observability: Claim) -> Said:
+    if (
+        setpoint.solvable
+        and joint_controllability.controllable
+        and joint_observability.controllable
+    ):
+        yield say.SETPOINT()
+
+
+@rule("table", say.SETPOINT_STABLE_REST, say.SETPOINT_UNSTABLE_REST)
+def setpoints_beside(
+    setpoint: Claim,
+    joint_controllability: Claim,
+    joint_observability: Claim,
+    fixed_spectrum: Claim,
+) -> Said:
+    """What is out of reach is fixed; whether it is stable stands with the fixed modes."""
+    reach = (joint_controllability, joint_observability)
+    if not setpoint.solvable or all(found.controllable for found in reach):
+        return
+    lost = product([found.uncontrollable_polynomial for found in reach])
+    unstable = product(
+        [
+            factor.polynomial
+            for factor in fixed_spectrum.factors
+            if not factor.stable and factor.polynomial.divides(lost)
+        ]
+    )
+    told = say.SETPOINT_UNSTABLE_REST if unstable.degree else say.SETPOINT_STABLE_REST
+    yield told(p=unstable)
+
+
+@rule("table", *say.GAINS["every"].values())
+def every_channel(every_channel: Claim, given: Given) -> Said:
+    yield gains("every", every_channel, given.names)
+
+
+def gains(want: str, found: Claim, names: Sequence[str]) -> Sentence:
+    """The indices that gains reach, or why there are none."""
+    told = say.GAINS[want]
+    if found.exists:
+        return told["reached"](reached=found.indices)
+    why = found.proof
+    if why.has("polynomial"):
+        return told["stuck"](name=why.channel, side=why.side, p=why.polynomial)
+    inside = set(getattr(why.zero, "from"))
+    return told[why.side](name=why.channel, rest=[name for name in names if name not in inside])
+
+
+# Sharing.
+
+
+@rule("table", *[told for key, told in say.TABLE_LINKS.items() if key != "limit"])
+def links(minimal_communication: Claim, given: Given) -> Said:
+    found = minimal_communication
+    if fewest(found):
+        which = "impossible" if found.added is None else "some" if found.added else "none"
+        yield say.TABLE_LINKS[which](added=found.added, time=given.delays)
+
+
+@rule("table", say.TABLE_LINKS["limit"], missing="minimal_communication")
+def links_open() -> Said:
+    yield say.TABLE_LINKS["limit"]()
+
+
+@rule("table", say.CONNECTED, say.NOT_CONNECTED)
+def connected(neighbor_graph: Claim) -> Said:
+    yield say.CONNECTED() if neighbor_graph.strongly_connected else say.NOT_CONNECTED()
+
+
+@rule("table", say.NEVER_CONTROLLED)
+def never_controlled(joint_controllability: Claim, given: Given) -> Said:
+    if given.neighbors is not None and not joint_controllability.controllable:
+        yield say.NEVER_CONTROLLED(p=joint_controllability.uncontrollable_polynomial)
+
+
+@rule("table", say.NEVER_OBSERVED)
+def never_observed(joint_observability: Claim, given: Given) -> Said:
+    if given.neighbors is not None and not joint_observability.controllable:
+        yield say.NEVER_OBSERVED(p=joint_observability.uncontrollable_polynomial)
+
+
+@rule("table", say.NO_BOUND)
+def no_bound(
+    neighbor_graph: Claim, joint_controllability: Claim, joint_observability: Claim
+) -> Said:
+    reach = (joint_controllability, joint_observability)
+    if not neighbor_graph.strongly_connected and all(found.controllable for found in reach):
+        yield say.NO_BOUND()
+
+
+def theorem_2(graph: Claim, *reach: Claim) -> bool:
+    """Whether the hypotheses of Theorem 2 and Remark 2 hold."""
+    return bool(graph.strongly_connected and all(found.controllable for found in reach))
+
+
+def sharing_rules(share: str, stem: str) -> None:
+    """What is said of the bound and of the least for one way of sharing."""
+    some, none = say.ENOUGH[share]
+
+    @rule("table", some, none, about={"bound": f"shared_dimension_bound_{stem}"})
+    def enough(
+        bound: Claim,
+        neighbor_graph: Claim,
+        joint_controllability: Claim,
+        joint_observability: Claim,
+        given: Given,
+    ) -> Said:
+        if theorem_2(neighbor_graph, joint_controllability, joint_observability):
+            k = bound.deficiency
+            yield (some if k else none)(k=k, total=k * given.m, time=given.delays)
+
+
+def least_rules(share: str, stem: str) -> None:
+    """What is said of the least that has to be shared in one way."""
+    some, none, impossible, limit = say.LEAST[share]
+    question = f"minimal_shared_dimensions_{stem}"
+
+    @rule("table", some, none, impossible, about={"least": question})
+    def least_of(least: Claim, given: Given) -> Said:
+        if not usual(least, share):
+            return
+        if least.dimensions is None:
+            yield impossible()
+        else:
+            sizes = list(zip(given.names, least.dimensions, strict=True))
+            yield (some if any(least.dimensions) else none)(sizes=sizes, time=given.delays)
+
+    @rule("table", limit, missing=question)
+    def least_open() -> Said:
+        yield limit()
+
+
+SHARES = {"outputs+states": "outputs_states", "states": "states"}
+for made in (sharing_rules, least_rules):
+    for share, stem in SHARES.items():
+        made(share, stem)
+
+
+def delayed_rules(network: str) -> None:
+    """What is said of the fixed modes of a network with delays."""
+    nothing, something = say.DELAYED[network]
+
+    @rule("table", nothing, something, about={"spectrum": f"{network}_fixed_spectrum"})
+    def delayed(spectrum: Claim) -> Said:
+        [step] = spectrum.subject
+        told = nothing if empty(spectrum) else something
+        yield told(p=spectrum.polynomial, k=step["dimensions"][0])
+
+
+for network in ("lifted", "held"):
+    delayed_rules(network)

@@ -1,0 +1,289 @@
+"""Sentences bound to claims: rules that see certificates alone, and what they read of them."""
+
+from __future__ import annotations
+
+import hashlib
+import inspect
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from types import MappingProxyType
+from typing import Any, TypeVar
+
+from mcexact.answer.template import Sentence, Template
+from mcexact.model.canonical import plain
+from mcexact.model.system import MultiChannelSystem
+
+FORMAT = "mcexact-manifest/1"
+MANIFEST = "manifest.json"
+"""The file beside the certificates."""
+LOOP = ("closed_loop_spectrum", "stability", "distributed_observer")
+"""The kinds of which one is about a closed loop; rules call whichever is there ``loop``."""
+
+Read = dict[tuple[str, str], Any]
+F = TypeVar("F", bound=Callable[..., Iterator[Sentence]])
+
+
+@dataclass(frozen=True)
+class Given:
+    """What the user gave and asked for: a sentence may repeat it without a premise.
+
+    Attributes
+    ----------
+    system : MultiChannelSystem
+        For its sizes, names, time domain and neighbor graph, never for its matrices.
+    asked : mapping
+        What was asked for, and how a proof was found.
+    """
+
+    system: MultiChannelSystem
+    asked: Mapping[str, Any] = field(default_factory=dict)
+
+    def __getattr__(self, name: str) -> Any:
+        if name in {"n", "m", "name", "names", "time", "neighbors"}:
+            return getattr(self.system, name)
+        if name.startswith("_") or name not in self.asked:
+            raise AttributeError(name)
+        return self.asked[name]
+
+    @property
+    def delays(self) -> str:
+        """``"delays"`` where messages take time, of which an answer may know nothing, or "none"."""
+        graph = self.system.plant.neighbors
+        return "delays" if graph is not None and graph.delays else "none"
+
+    @property
+    def inactive(self) -> list[str]:
+        """The channels with B_i = 0 or C_i = 0."""
+        return [c.name for c in self.system.channels if c.B.is_zero() or c.C.is_zero()]
+
+    def senders(self, subset: Sequence[str]) -> list[str]:
+        """N_s∖s by name: from whom some agents of a set receive, and who are not of it."""
+        graph, inside = self.system.neighbors, set(subset)
+        if graph is None:
+            return []
+        heard = self.system.named(graph.union(self.system.indices(subset)))
+        return [name for name in heard if name not in inside]
+
+
+class Claim:
+    """A part of a certificate as a rule sees it, by attribute, item or iteration.
+
+    An object or a list of objects is such a part again; anything else is handed out as it is, and
+    remembered with its place.  What was read of one member of a list is forgotten with the next
+    one, so that a sentence about a member rests on that one, and after the last on all of them.
+    """
+
+    def __init__(self, value: Any, file: str, pointer: str, read: Read) -> None:
+        self._value, self._file, self._pointer, self._read = value, file, pointer, read
+
+    def __getattr__(self, key: str) -> Any:
+        if key.startswith("_") or key not in self._value:
+            raise AttributeError(f"{self._file} does not say {key!r} at {self._pointer or '/'}")
+        return self._part(key)
+
+    def __getitem__(self, key: int) -> Any:
+        return self._part(key)
+
+    def __iter__(self) -> Iterator[Any]:
+        return _each(self._read, [self._part(k) for k in range(len(self._value))])
+
+    def has(self, key: str) -> bool:
+        """Whether it says something about this at all."""
+        return key in self._value
+
+    def ordered(self, by: str) -> Iterator[Any]:
+        """The members in the order of one of their values, which no sentence rests on."""
+        places = sorted(range(len(self._value)), key=lambda k: _keys(self._value[k])[by])
+        return _each(self._read, [self._part(k) for k in places])
+
+    def _part(self, key: str | int) -> Any:
+        value, pointer = self._value[key], f"{self._pointer}/{key}"
+        if isinstance(value, Sequence) and value and _is_object(value[0]):
+            return Claim(value, self._file, pointer, self._read)
+        if _is_object(value):
+            return Claim(_keys(value), self._file, pointer, self._read)
+        self._read[self._file, pointer] = value
+        return _Nothing() if value == () else value
+
+
+class _Nothing(tuple[Any, ...]):
+    """A list without members."""
+
+    def ordered(self, by: str) -> Iterator[Any]:
+        return iter(())
+
+
+def _is_object(value: Any) -> bool:
+    return isinstance(value, Mapping) or hasattr(value, "document")
+
+
+def _keys(value: Any) -> Mapping[str, Any]:
+    found: Mapping[str, Any] = value if isinstance(value, Mapping) else value.document()
+    return found
+
+
+def _each(read: Read, parts: Iterable[Any]) -> Iterator[Any]:
+    """The parts, what is read of each forgotten with the next, and after the last not at all."""
+    before, seen = dict(read), dict(read)
+    for part in parts:
+        read.clear()
+        read.update(before)
+        yield part
+        seen |= read
+    read.update(seen)
+
+
+def certificate_of(answer: Any) -> Any:
+    """The certificate of an answer."""
+    return getattr(answer, "certificate", answer)
+
+
+class Certified(Claim):
+    """The claims of an answer, by name, and what else a rule may read of its certificate."""
+
+    def __init__(self, answer: Any, file: str, read: Read) -> None:
+        self._made = certificate_of(answer)
+        super().__init__(self._made.claim(), file, "/claim", read)
+
+    @property
+    def subject(self) -> Sequence[Mapping[str, Any]]:
+        """The constructions that lead from the plant to what the answer is about."""
+        self._read[self._file, "/subject"] = self._made.subject
+        return tuple(self._made.subject)
+
+    @property
+    def proof(self) -> Claim:
+        """What the checker verifies of the witness by itself, such as the cuts of an allocation."""
+        return Claim(self._made.witness(), self._file, "/witness", self._read)
+
+
+@dataclass(frozen=True)
+class Rule:
+    """How sentences follow from answers.
+
+    Attributes
+    ----------
+    place : str
+        Where its sentences stand, such as ``"answer"`` or ``"table"``.
+    templates : tuple of Template
+        Those that it may use.
+    says : callable
+        Its parameters are questions, and ``given``; it yields sentences.
+    about : mapping
+        The question of a parameter that has another name.
+    missing : str
+        A question that was asked and not decided, if that is what the rule tells.
+    """
+
+    place: str
+    templates: tuple[Template, ...]
+    says: Callable[..., Iterator[Sentence]]
+    about: Mapping[str, str]
+    missing: str
+
+    @cached_property
+    def premises(self) -> dict[str, str]:
+        """The questions whose answers it sees, by its parameters."""
+        names = inspect.signature(self.says).parameters
+        return {name: self.about.get(name, name) for name in names if name != "given"}
+
+    def apply(
+        self, answers: Mapping[str, Any], given: Given, missing: Collection[str]
+    ) -> Iterator[Sentence]:
+        """What follows, each with its premises."""
+        if self.missing and self.missing not in missing:
+            return
+        read: Read = {}
+        arguments: dict[str, Any] = {}
+        for name, question in self.premises.items():
+            arguments[name] = _found(question, answers, read)
+            if arguments[name] is None:
+                return
+        if "given" in inspect.signature(self.says).parameters:
+            arguments["given"] = given
+        for sentence in self.says(**arguments):
+            because = tuple((*at, plain(value)) for at, value in read.items())
+            yield sentence.bound(self.place, because)
+
+
+def _found(name: str, answers: Mapping[str, Any], read: Read) -> Any:
+    """The answer of this name as a rule sees it, or the numbered ones; None if there is none."""
+    for each in LOOP if name == "loop" else (name,):
+        if each in answers:
+            return Certified(answers[each], f"{each}.json", read)
+    several: list[Certified] = []
+    while (each := f"{name}_{len(several) + 1}") in answers:
+        several.append(Certified(answers[each], f"{each}.json", read))
+    return _Several(read, several) if several else None
+
+
+@dataclass(frozen=True)
+class _Several:
+    """Several answers to one question."""
+
+    read: Read
+    answers: Sequence[Certified]
+
+    def __iter__(self) -> Iterator[Claim]:
+        return _each(self.read, self.answers)
+
+
+class Rulebook(list[Rule]):
+    """Rules, in the order in which their sentences stand."""
+
+    def rule(
+        self,
+        place: str,
+        *templates: Template,
+        about: Mapping[str, str] = MappingProxyType({}),
+        missing: str = "",
+    ) -> Callable[[F], F]:
+        """Make a function that yields sentences a rule."""
+
+        def made(says: F) -> F:
+            self.append(Rule(place, templates, says, about, missing))
+            return says
+
+        return made
+
+    def sentences(
+        self, answers: Mapping[str, Any], given: Given, missing: Collection[str] = ()
+    ) -> Sentences:
+        """All that follows from answers, by the names of their questions."""
+        return Sentences(said for rule in self for said in rule.apply(answers, given, missing))
+
+
+class Sentences(tuple[Sentence, ...]):
+    """Sentences, each with its place."""
+
+    def at(self, *places: str) -> list[Sentence]:
+        """Those that stand there."""
+        return [sentence for sentence in self if sentence.place in places]
+
+
+def manifest(sentences: Iterable[Sentence], certificates: Mapping[str, str]) -> dict[str, Any]:
+    """What the sentences rest on, for the checker.
+
+    Parameters
+    ----------
+    sentences : iterable of Sentence
+    certificates : mapping from names of files to texts
+    """
+    digests = {
+        name: hashlib.sha256(text.encode("ascii")).hexdigest()
+        for name, text in certificates.items()
+    }
+    return {
+        "format": FORMAT,
+        "certificates": digests,
+        "sentences": [
+            {
+                "text": sentence.line,
+                "rule": sentence.template.key,
+                "theorem": sentence.template.theorem,
+                "because": [list(premise) for premise in sentence.because],
+            }
+            for sentence in sentences
+        ],
+    }

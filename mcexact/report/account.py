@@ -1,0 +1,103 @@
+"""An account of a system as text: the answer in sentences, and tables."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from mcexact.answer.account import Account
+from mcexact.answer.latex import escaped, matrix
+from mcexact.answer.sentence import Sentences
+from mcexact.answer.template import Sentence
+from mcexact.report.text import WIDTH, Table, wrapped
+
+_COLUMNS = {
+    "fixed-modes": ("factor", "roots, about", "stable", "in A", "stay", "s", "rank"),
+    "pencil": ("factor of det(xI-A)", "rank", "below n"),
+    "why": ("these agents", "can receive from", "need", "because of"),
+}
+_COLUMNS_OF_ROWS = {
+    "allocate-row": ("agent", "least"),
+    "allocate-link": ("from", "to", "cost"),
+}
+_BOUNDS = {"outputs+states": "Theorem 2's bound", "states": "Remark 2's bound"}
+_MORE = "Further fixed modes are listed below."
+_SHOWN = "the first {}; --json and --html list all. "
+
+
+def answer(sentences: Sentences) -> list[str]:
+    """What a user wants to know first, one sentence after the other."""
+    return [*sentences.at("answer", "answer.mode")]
+
+
+def in_lines(sentences: Sentences, most: int, width: int = WIDTH) -> str:
+    """The answer in so many lines; whole sentences are left out, which the table tells as well."""
+    said, modes = sentences.at("answer"), sentences.at("answer.mode")
+    for shown in range(len(modes), -1, -1):
+        more = [_MORE] if 0 < shown < len(modes) else []
+        lines = [line for each in (*said, *modes[:shown], *more) for line in wrapped(each, width)]
+        if len(lines) <= most:
+            return "\n".join(lines) + "\n"
+    lines = []
+    for each in said:
+        if len(lines) + len(wrapped(each, width)) > most:
+            break
+        lines += wrapped(each, width)
+    return "\n".join(lines) + "\n"
+
+
+def tables(sentences: Sentences, *, most_modes: int | None = None) -> tuple[Table, ...]:
+    """All answers, then the tables about what was asked besides.
+
+    Parameters
+    ----------
+    sentences : Sentences
+    most_modes : int, optional
+        How many fixed modes are listed; all of them by default.
+    """
+    rows = sentences.at("table")
+    columns = _columns(rows[0]) if rows else ()
+    made = [_table(sentences, "table", columns, "".join(sentences.at("title")))]
+    for place in ("fixed-modes", "pencil", "subsystem", "channel", "why"):
+        if sentences.at(place):
+            made.append(_table(sentences, place, _COLUMNS.get(place, ()), most=most_modes))
+    return tuple(made)
+
+
+def _columns(row: Sentence) -> tuple[str, ...]:
+    """The names of the columns of a table that has some; a bound is called by its theorem."""
+    if row.template.key == "allocate-row-bound":
+        read = {pointer: value for _, pointer, value in row.because}
+        return ("agent", "least", _BOUNDS[read["/claim/share"]])
+    return _COLUMNS_OF_ROWS.get(row.template.key, ())
+
+
+def _table(
+    sentences: Sentences,
+    place: str,
+    columns: Sequence[str],
+    title: str = "",
+    most: int | None = None,
+) -> Table:
+    """The sentences that stand at a place, under the title and over the notes that go with it."""
+    rows = [sentence.cells for sentence in sentences.at(place)]
+    note = "".join(sentences.at(f"{place}.note"))
+    if place == "fixed-modes" and most is not None and len(rows) > most:
+        rows, note = rows[:most], _SHOWN.format(most) + note
+    title = title or "".join(sentences.at(f"{place}.title")) or place
+    return Table(title, tuple(columns), tuple(rows), note)
+
+
+def latex(account: Account) -> str:
+    """The system and its fixed modes."""
+    system = account.given.system
+    lines = [f"% {escaped(system.name or 'system')}", r"\begin{align*}"]
+    lines.append(rf"A &= {matrix(system.A)} \\")
+    for k, channel in enumerate(system.channels, start=1):
+        last = r" \\" if k < system.m else ""
+        lines.append(rf"B_{{{k}}} &= {matrix(channel.B)}, & C_{{{k}}} &= {matrix(channel.C)}{last}")
+    lines.append(r"\end{align*}")
+    said: list[str] = [*account.sentences.at("latex")]
+    if any(sentence.template.key == "latex-fixed-mode" for sentence in account.sentences):
+        head = r"mode & in $A$ & $\operatorname{rank} P_{\mathbf s}$ & $\mathbf s$ \\ \hline"
+        said = [r"\begin{tabular}{lrrl}", head, *said, r"\end{tabular}"]
+    return "\n".join([*lines, *said]) + "\n"

@@ -1,0 +1,103 @@
+"""The JSON of an account has the names of the questions, and plain exact values."""
+
+import json
+from fractions import Fraction
+from typing import Any
+
+import pytest
+
+from mcexact import MultiChannelSystem, NeighborGraph, analyze
+from mcexact.analysis.questions import QUESTIONS, Question
+from mcexact.errors import LimitReached
+from mcexact.model import gallery
+from tests.answer.asking import asked
+from tests.report.test_account import EXAMPLE
+
+
+def view_of(system: MultiChannelSystem, **question: Any) -> dict[str, Any]:
+    view = asked(system, **question).as_json()
+    assert json.loads(json.dumps(view)) == view
+    return view
+
+
+def test_every_answer_stands_under_its_name_and_names_its_certificate() -> None:
+    view = view_of(MultiChannelSystem(**EXAMPLE))
+    assert view["format"] == "mcexact-analysis/1"
+    assert view["system"].items() >= {"n": 3, "m": 3, "time": "continuous"}.items()
+    plain = {name for name, question in QUESTIONS.items() if question.unbidden}
+    plain = {name for name in plain if not QUESTIONS[name].needs}
+    assert plain == view.keys() & QUESTIONS.keys()
+    for name in plain:
+        assert view[name]["certificate"] == f"{name}.json"
+    assert view["fixed_spectrum"]["stabilizable"] is False
+    assert view["joint_controllability"]["controllable"] is True
+    assert view["answer"][0].startswith("The plant cannot be stabilized")
+    assert {"text", "rule", "theorem"} == view["sentences"][0].keys()
+
+
+def test_polynomials_are_lists_of_strings_and_channels_are_names() -> None:
+    plant = MultiChannelSystem(
+        [["1/3", 0], [0, 2]], [[[1], [0]]] * 2, [[[1, 0]]] * 2, names=["left", "right"]
+    )
+    spectrum = view_of(plant)["fixed_spectrum"]
+    assert spectrum["polynomial"] == ["-2", "1"]
+    (factor,) = spectrum["factors"]
+    assert factor["channels"] == ["left", "right"]
+    assert factor["roots"] == [{"re": "2", "im": "0", "radius": "0"}]
+    assert view_of(plant)["transfer_graph"]["arcs"][1] == ["left", "right"]
+
+
+def test_with_neighbors_sharing_is_answered_and_least_sharing_only_when_asked() -> None:
+    plant = MultiChannelSystem(**EXAMPLE)
+    heard = plant.with_neighbors(NeighborGraph.ring(plant.names))
+    view = view_of(heard)
+    assert view["neighbor_graph"]["strongly_connected"] is True
+    assert view["shared_dimension_bound_outputs_states"]["deficiency"] == 1
+    assert "minimal_shared_dimensions_states" not in view
+    least = view_of(heard, minimal=True)
+    assert least["minimal_shared_dimensions_outputs_states"]["dimensions"] == [0, 0, 1]
+    assert sum(least["minimal_shared_dimensions_states"]["dimensions"]) == 2
+
+
+def test_the_bounds_that_a_limit_leaves_are_numbers_of_json(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def ended(self: Question, *arguments: Any, **keywords: Any) -> Any:
+        raise LimitReached("a limit", lower=Fraction(2), upper=Fraction(7, 2))
+
+    monkeypatch.setattr(Question, "decide", ended)
+    view = analyze(MultiChannelSystem(**EXAMPLE), ["minimal_communication"]).as_json()
+    bounds = {"lower": 2, "upper": "7/2"}
+    assert view["minimal_communication"] == {"decided": False, "computed_not_certified": bounds}
+    [told] = [each["text"] for each in view["sentences"] if each["rule"] == "table-links-limit"]
+    assert told == "fewest links to add: not decided within the node limit"
+
+
+def test_a_subset_and_a_channel_are_answered_when_they_are_asked_about() -> None:
+    plant = MultiChannelSystem(**EXAMPLE)
+    view = view_of(plant, subset=["2", "3"], channel="1", every_channel=True)
+    subsystem = view["complementary_subsystem"]
+    assert subsystem["normal_rank"] == 3
+    assert subsystem["remnant"] == ["-1", "1"]
+    assert view["channel_observability"]["controllable"] is True
+    assert view["channel_gains_observable"]["indices"] == [[2]]
+    assert view["channel_gains_both"]["exists"] is False
+    assert view["every_channel"]["exists"] is False
+    assert view["pencil_rank_1"]["rank"] == 2
+    assert "complementary_subsystem" not in view_of(plant, subset=[])
+
+
+def test_the_spectrum_is_split_over_the_components() -> None:
+    dead = MultiChannelSystem([[0]], [[[1]], [[0]]], [[[1]], [[1]]])
+    view = view_of(dead)
+    assert view["assignability"]["blocks"][1] == {"channels": ["2"], "dimension": 0}
+    assert view["completeness"]["complete"] is False
+
+
+def test_a_notebook_shows_the_sentences_with_their_reasons() -> None:
+    plant = MultiChannelSystem(**EXAMPLE, name="<b>")
+    html = analyze(plant)._repr_html_()
+    assert "cannot be stabilized" in html and "fixed_spectrum.json#/claim/stabilizable" in html
+    assert "<th>fixed modes</th><td>the mode 1</td>" in html
+    hostile = gallery.load("hidden-triple-mode")
+    assert "<script" not in analyze(hostile)._repr_html_()
