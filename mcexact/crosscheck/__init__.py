@@ -1,7 +1,8 @@
-"""Floating-point verdicts beside exact ones: what practice answers, and what is true.
+"""Comparison of floating-point verdicts on structural questions with exact ones.
 
-Takes systems; gives tables in which each floating-point verdict is quoted as the library's own call
-with its default tolerance.  Refuses nothing: where a library gives no answer, that is the answer.
+This stage takes systems and gives tables of verdicts.  Each floating-point verdict comes from a
+library's own function at its default tolerance, and the table quotes the call.  No system is
+refused: where a library raises an error, the table says that it gives no answer.
 """
 
 import sys
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class _Stage(ModuleType):
-    """This package, which can be called: `mcexact.crosscheck` names the function as well."""
+    """A package that can be called, since `mcexact.crosscheck` is also the name of its function."""
 
     def __call__(self, system: "MultiChannelSystem") -> "CrossChecks":
         from mcexact.crosscheck.table import crosscheck

@@ -1,4 +1,4 @@
-"""Two questions that floating point answers wrongly: recorded answers, answers here, exact ones."""
+"""Two questions that floating point answers wrongly: recorded, local and exact answers."""
 
 from __future__ import annotations
 
@@ -23,16 +23,16 @@ _PLANT = "hidden-triple-mode"
 
 @dataclass(frozen=True)
 class FloatingAnswers:
-    """What floating point answers to both questions.
+    """The answers of floating point to both questions.
 
     Attributes
     ----------
     rank : int
-        Of [B AB … A^(n−1)B] for A = diag(1, …, n), B = (1, …, 1)'.
+        The computed rank of [B AB … A^(n−1)B] for A = diag(1, …, n), B = (1, …, 1)'.
     none_found : tuple of (int, int)
-        Digits kept, and in how many of the `SEEDS` runs no fixed mode was found.
+        For several numbers of digits, in how many of the `SEEDS` runs no fixed mode was found.
     libraries : Libraries
-        That answered.
+        The libraries that computed the answers.
     """
 
     rank: int
@@ -41,11 +41,11 @@ class FloatingAnswers:
 
     @property
     def misleading(self) -> bool:
-        """Whether the rank is too small, and every number of digits hides the fixed modes."""
+        """Whether the rank is too small, and no number of digits shows the fixed modes."""
         return self.rank < STATES and all(none for _, none in self.none_found)
 
     def document(self) -> dict[str, Any]:
-        """As plain data."""
+        """The answers as plain data of a JSON document."""
         found = [
             {"digits": digits, "runs_that_found_none": none} for digits, none in self.none_found
         ]
@@ -53,7 +53,7 @@ class FloatingAnswers:
 
     @classmethod
     def from_document(cls, document: Mapping[str, Any]) -> FloatingAnswers:
-        """From what `document` gives."""
+        """Read the answers from the data that `document` returns."""
         none_found = tuple(
             (row["digits"], row["runs_that_found_none"]) for row in document["fixed_modes"]
         )
@@ -62,18 +62,18 @@ class FloatingAnswers:
 
 @dataclass(frozen=True)
 class Demonstration:
-    """What `mcexact demo` shows.
+    """The recorded, local and exact answers that `mcexact demo` shows.
 
     Attributes
     ----------
     rank : int
-        Of the controllability matrix of the first system, exactly.
+        The exact rank of the controllability matrix of the first system.
     name : str
-        Of the second system.
+        The name of the second system.
     fixed : tuple of (str, int)
-        Its fixed factors and the multiplicity that no gain removes, exactly.
+        Its fixed factors and their multiplicities under all gains, computed exactly.
     recorded, here : FloatingAnswers
-        As they ship with the package, and from this machine.
+        The answers of floating point that ship with the package, and those of this machine.
     """
 
     rank: int
@@ -84,7 +84,7 @@ class Demonstration:
 
 
 def demonstration() -> Demonstration:
-    """Ask both questions exactly and in floating point, and read what was recorded.
+    """Answer both questions exactly and in floating point, and load the recorded answers.
 
     Examples
     --------
@@ -104,7 +104,7 @@ def demonstration() -> Demonstration:
 
 
 def floating_answers() -> FloatingAnswers:
-    """Ask both questions in floating point, on this machine."""
+    """Answer both questions in floating point on this machine."""
     A, B, _ = _arrays(_diagonal())
     hidden = _arrays(gallery.load(_PLANT))
     return FloatingAnswers(
@@ -115,13 +115,13 @@ def floating_answers() -> FloatingAnswers:
 
 
 def _diagonal() -> MultiChannelSystem:
-    """diag(1, …, n) with one input on every state."""
+    """The system A = diag(1, …, n) with one input that acts on every state."""
     A = [[(i + 1) * (i == j) for j in range(STATES)] for i in range(STATES)]
     return MultiChannelSystem(A, [[[1]] * STATES], [[[1] * STATES]])
 
 
 def _none_found(A: Any, B: Sequence[Any], C: Sequence[Any], digits: int) -> int:
-    """In how many runs rounding finds no fixed mode."""
+    """The number of runs in which comparing rounded eigenvalues finds no fixed mode."""
     runs = (rounded_fixed_modes(A, B, C, digits=digits, seed=seed) for seed in range(SEEDS))
     return sum(not found for found in runs)
 

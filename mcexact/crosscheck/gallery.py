@@ -1,7 +1,7 @@
-"""Systems on which floating point was recorded with a wrong structural verdict, and why it erred.
+"""Systems for which a wrong floating-point verdict was recorded, each with the cause of the error.
 
-Some of these verdicts are the sign of a rounding error, which other processors round otherwise: an
-exhibit is shown with the record, and beside it with what this machine says now.
+Some verdicts depend on the sign of a rounding error, which differs between processors.  Therefore
+an exhibit is shown with the recorded answer beside the answer of this machine.
 """
 
 from __future__ import annotations
@@ -23,16 +23,16 @@ from mcexact.model.system_file import digest
 
 @dataclass(frozen=True)
 class Exhibit:
-    """A system, a question that floating point was seen to answer wrongly, and the reason.
+    """A system, a question that floating point answered wrongly, and the cause of the error.
 
     Attributes
     ----------
     name : str
     question : str
-        As in a `CrossCheck`.
+        The question, worded as in a `CrossCheck`.
     why : str
     make : callable
-        Gives the system.
+        Returns the system.
     """
 
     name: str
@@ -42,23 +42,23 @@ class Exhibit:
 
     @property
     def record(self) -> Record:
-        """What floating point answered where it was recorded."""
+        """The recorded floating-point answer."""
         found = recorded()["exhibits"][self.name]
         return Record(found["floating"], libraries_of(found["libraries"]))
 
 
 @dataclass(frozen=True)
 class Shown:
-    """An exhibit beside what this machine says.
+    """An exhibit beside the answers of this machine.
 
     Attributes
     ----------
     exhibit : Exhibit
-        With the record.
+        The exhibit, with its record.
     here : CrossCheck
-        Its question, answered exactly and, on this machine, in floating point.
+        The answers to its question on this machine, exact and in floating point.
     libraries : Libraries
-        That answered here.
+        The libraries of this machine.
     """
 
     exhibit: Exhibit
@@ -67,7 +67,7 @@ class Shown:
 
 
 def shown(exhibit: Exhibit) -> Shown:
-    """Ask an exhibit's question on this machine, exactly and in floating point.
+    """Answer an exhibit's question on this machine, exactly and in floating point.
 
     Examples
     --------
@@ -79,7 +79,7 @@ def shown(exhibit: Exhibit) -> Shown:
 
 
 def shown_in(found: CrossChecks) -> tuple[Shown, ...]:
-    """The exhibits that are about the system of these cross-checks."""
+    """Return the exhibits about the system of a table of cross-checks."""
     asked = digest(found.system)
     return tuple(_shown(each, found) for each in exhibits() if digest(each.make()) == asked)
 
@@ -90,7 +90,7 @@ def _shown(exhibit: Exhibit, found: CrossChecks) -> Shown:
 
 
 def exhibits() -> tuple[Exhibit, ...]:
-    """All of them, published plants first.
+    """Return all exhibits, published plants first.
 
     Examples
     --------
@@ -101,12 +101,12 @@ def exhibits() -> tuple[Exhibit, ...]:
 
 
 def exhibit(name: str) -> Exhibit:
-    """The exhibit of this name.
+    """Return the exhibit with a name.
 
     Raises
     ------
     UsageError
-        If there is none.
+        If no exhibit has this name.
     """
     found = {each.name: each for each in exhibits()}
     if name not in found:
@@ -115,7 +115,7 @@ def exhibit(name: str) -> Exhibit:
 
 
 def _from_gallery(name: str) -> Callable[[], MultiChannelSystem]:
-    """A published system, loaded when it is asked for."""
+    """An exhibit about a system of the gallery, loaded when it is needed."""
     return lambda: published.load(name)
 
 
@@ -174,13 +174,13 @@ _PUBLISHED = (
 
 
 def _integers_to_twenty() -> MultiChannelSystem:
-    """diag(1, …, 20) with one input on every state."""
+    """The system A = diag(1, …, 20) with one input that acts on every state."""
     A = [[(i + 1) * (i == j) for j in range(20)] for i in range(20)]
     return MultiChannelSystem(A, [[[1]] * 20], [[[1] * 20]], name="diag(1, ..., 20)")
 
 
 def _hidden_block() -> MultiChannelSystem:
-    """A Jordan block of size 6 at 2 whose first state no input reaches, in other coordinates."""
+    """A transformed Jordan block of size 6 for the eigenvalue 2, its first state uncontrollable."""
     J = [[2 * (i == j) + (i == j + 1) for j in range(6)] for i in range(6)]
     S = _unimodular(6)
     back = inverse(S)
@@ -218,7 +218,7 @@ def _tenfold_pole() -> MultiChannelSystem:
 
 
 def _stiff_chain() -> MultiChannelSystem:
-    """Six states in a row, each a thousand times faster than the one before."""
+    """A chain of six states, each a thousand times faster than the one before."""
     A = [[-(1000**i) * (i == j) + (i == j + 1) for j in range(6)] for i in range(6)]
     return MultiChannelSystem(
         A, [[[1], [0], [0], [0], [0], [0]]], [[[0, 0, 0, 0, 0, 1]]], name="a stiff chain"

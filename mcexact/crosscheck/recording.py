@@ -1,7 +1,7 @@
-"""Recording what floating point answers here: `python -m mcexact.crosscheck.recording`.
+"""Record wrong floating-point answers of this machine: `python -m mcexact.crosscheck.recording`.
 
-An answer is recorded where it is wrong; where this machine happens to round the right way, the
-older record, with the machine that it names, is kept.
+Only wrong answers are recorded.  Where this machine answers correctly, the older record is kept,
+with the machine that it names.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ _PLACE = Path(__file__).with_name(RECORDS)
 
 
 def record(known: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:
-    """The document of the records brought up to date, and what is answered rightly here.
+    """Return the updated document of records, and the names of exhibits answered correctly here.
 
     Parameters
     ----------
     known : dict
-        The document as it was; empty at first.
+        The document so far, which may be empty.
     """
     libraries = libraries_here().document()
     shown: dict[str, Any] = {}
@@ -46,12 +46,12 @@ def record(known: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:
 
 
 def main() -> None:
-    """Write the records of this machine into the package."""
+    """Write the records of this machine into the package's file."""
     known = json.loads(_PLACE.read_text("utf-8")) if _PLACE.exists() else {}
     document, right = record(known)
     write_text(_PLACE, json.dumps(document, indent=1) + "\n")
     for name in right:
-        print(f"{name}: floating point answers rightly here, so nothing is recorded")
+        print(f"{name}: floating point answers correctly here, so nothing is recorded")
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
-"""What floating point answered where it was recorded: the answers, the libraries, the kernel.
+"""Recorded floating-point answers, with the libraries and the BLAS kernel that computed them.
 
-A wrong answer of floating point is often the sign of a rounding error, and other processors round
-otherwise.  The records ship with the package; `recording` makes them.
+A wrong answer often depends on the sign of a rounding error, which differs between processors.  The
+records ship with the package; `recording` writes them.
 """
 
 from __future__ import annotations
@@ -19,14 +19,14 @@ _LIBRARIES = ("numpy", "scipy", "control")
 
 @dataclass(frozen=True)
 class Libraries:
-    """The libraries that answer in floating point, and the kernel that they multiply with.
+    """The libraries that compute in floating point, and the BLAS kernel that multiplies matrices.
 
     Attributes
     ----------
     versions : tuple of (str, str)
-        Names and versions, the one that carries the kernel last.
+        Names and versions; the last library contains the kernel.
     kernel : str or None
-        What that library chose for the processor; None if it does not say.
+        The kernel that this library chose for the processor; None if it is unknown.
 
     Examples
     --------
@@ -42,18 +42,18 @@ class Libraries:
         return f"{listed} (kernel {self.kernel or 'unknown'})"
 
     def document(self) -> dict[str, Any]:
-        """As plain data."""
+        """The libraries as plain data of a JSON document."""
         return {"versions": dict(self.versions), "kernel": self.kernel}
 
 
 @dataclass(frozen=True)
 class Record:
-    """What floating point answered, and where.
+    """A floating-point answer and the libraries that computed it.
 
     Attributes
     ----------
     floating : str
-        The answer, in the words of `CrossCheck`.
+        The answer, worded as in `CrossCheck`.
     libraries : Libraries
     """
 
@@ -62,7 +62,7 @@ class Record:
 
 
 def libraries_here() -> Libraries:
-    """The libraries of this process.
+    """Return the libraries of this process.
 
     Examples
     --------
@@ -74,7 +74,7 @@ def libraries_here() -> Libraries:
 
     versions = [(name, version) for name in _LIBRARIES if (version := _version(name))]
     products = [each for each in threadpool_info() if each["user_api"] == "blas"]
-    # scipy may carry a library of its own; numpy's answers most of the questions.
+    # scipy may contain a BLAS library of its own; numpy's computes most of the answers.
     products.sort(key=lambda each: np.__name__ not in each["filepath"])
     if not products:
         return Libraries(tuple(versions), None)
@@ -86,7 +86,7 @@ def libraries_here() -> Libraries:
 
 
 def _version(distribution: str) -> str | None:
-    """The version that is installed."""
+    """The installed version of a package."""
     try:
         return metadata.version(distribution)
     except metadata.PackageNotFoundError:
@@ -95,12 +95,12 @@ def _version(distribution: str) -> str | None:
 
 @cache
 def recorded() -> Mapping[str, Any]:
-    """The document of the records, by what was answered."""
+    """Return the document of records, keyed by what was answered."""
     text = resources.files("mcexact.crosscheck").joinpath(RECORDS).read_text("utf-8")
     document: dict[str, Any] = json.loads(text)
     return document
 
 
 def libraries_of(document: Mapping[str, Any]) -> Libraries:
-    """The libraries that a record names."""
+    """Return the libraries that a record names."""
     return Libraries(tuple(document["versions"].items()), document["kernel"])

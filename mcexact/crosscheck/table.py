@@ -1,4 +1,4 @@
-"""Every floating-point verdict about a system beside the exact one, disagreements named."""
+"""`crosscheck`, which compares each floating-point verdict on a system with the exact one."""
 
 from __future__ import annotations
 
@@ -37,15 +37,15 @@ _DIGITS = (6, 8, 10)
 
 @dataclass(frozen=True)
 class CrossCheck:
-    """One question, answered twice.
+    """One question with its floating-point and its exact answer.
 
     Attributes
     ----------
     question : str
     call : str
-        What was called, with its default tolerance.
+        The library function that was called, with its default tolerance.
     floating, exact : str
-        The two answers in words.
+        Both answers in words.
     agree : bool or None
         None if the floating-point call gave no answer.
     """
@@ -59,7 +59,7 @@ class CrossCheck:
 
 @dataclass(frozen=True)
 class CrossChecks:
-    """The table of a system.
+    """The cross-checks of one system.
 
     Attributes
     ----------
@@ -68,7 +68,7 @@ class CrossChecks:
     distance : FixedModeDistance or None
         An upper bound, in floating point, on the distance to having a fixed mode.
     libraries : Libraries
-        That answered in floating point.
+        The libraries that computed the floating-point answers.
     """
 
     system: MultiChannelSystem
@@ -78,13 +78,13 @@ class CrossChecks:
 
     @property
     def disagreements(self) -> tuple[CrossCheck, ...]:
-        """The rows in which floating point answered, and wrongly."""
+        """The rows with a wrong floating-point answer."""
         return tuple(row for row in self.rows if row.agree is False)
 
 
 @dataclass(frozen=True)
 class _Floats:
-    """The matrices of a system as arrays."""
+    """The matrices of a system as arrays of floats."""
 
     A: Array
     B: tuple[Array, ...]
@@ -106,7 +106,7 @@ class _Floats:
 
 
 def crosscheck(system: MultiChannelSystem) -> CrossChecks:
-    """Answer structural questions in floating point, as practice does, and exactly.
+    """Answer structural questions about a system in floating point and exactly.
 
     Parameters
     ----------
@@ -115,12 +115,13 @@ def crosscheck(system: MultiChannelSystem) -> CrossChecks:
     Notes
     -----
     The floating-point functions are those of numpy, scipy and python-control at their default
-    tolerances, on the floats nearest to the entries.  Draws are seeded.  Where a verdict hangs on
-    rounding errors it is other on other processors: `libraries` says what answered.
+    tolerances, applied to the floats nearest to the entries.  Random gains are drawn from a fixed
+    seed.  A verdict that depends on rounding errors can differ between processors, so `libraries`
+    names the libraries and the kernel.
 
     Examples
     --------
-    An input of 10⁻²⁰ is an input, but any tolerance takes it for none:
+    An input matrix of 10⁻²⁰ is not zero, but any tolerance treats it as zero:
 
     >>> plant = MultiChannelSystem([[1, 0], [0, 2]], [[[1], ["1e-20"]]], [[[1, 1]]])
     >>> row = crosscheck(plant).disagreements[0]
@@ -151,7 +152,7 @@ def crosscheck(system: MultiChannelSystem) -> CrossChecks:
 
 @dataclass(frozen=True)
 class _NoAnswer:
-    """A call that raised."""
+    """A library call that raised an error."""
 
     reason: str
 
@@ -160,13 +161,13 @@ class _NoAnswer:
 
 
 def _answer(call: Callable[[], Any]) -> Any:
-    """What a call of a library returns, or that it does not."""
+    """The value that a library call returns, or the reason why it returns none."""
     import warnings
 
     import numpy as np
 
     with warnings.catch_warnings():
-        # A default call may warn and answer all the same: the answer is what is compared.
+        # A call may warn and still return an answer, and the answer is what is compared.
         warnings.simplefilter("ignore")
         try:
             return call()
@@ -179,7 +180,7 @@ def _answer(call: Callable[[], Any]) -> Any:
 def _row(
     question: str, call: str, found: Any, truth: Any, words: Callable[[Any], str]
 ) -> CrossCheck:
-    """Compare an answer with the truth."""
+    """Compare a floating-point answer with the exact one."""
     if isinstance(found, _NoAnswer):
         return CrossCheck(question, call, str(found), words(truth), None)
     return CrossCheck(question, call, words(found), words(truth), bool(found == truth))
@@ -190,7 +191,7 @@ def _yes(answer: Any) -> str:
 
 
 def _controllability(system: MultiChannelSystem, floats: _Floats) -> list[CrossCheck]:
-    """Ranks of python-control's matrices, and the Hautus test."""
+    """Joint controllability or observability from ranks, and from the Hautus test."""
     n, A, rows = system.n, floats.A, []
     for name, truth, letter, call, matrix in (
         ("controllability", joint_controllability(system), "B", "ctrb", floats.inputs),
@@ -221,7 +222,7 @@ def _controllability(system: MultiChannelSystem, floats: _Floats) -> list[CrossC
 
 
 def _indices(system: MultiChannelSystem, floats: _Floats) -> list[CrossCheck]:
-    """Indices from the ranks of the first blocks."""
+    """The controllability or observability index, from the ranks of the first blocks."""
     rows = []
     for name, truth, blocks, pair in (
         (
@@ -252,7 +253,7 @@ def _indices(system: MultiChannelSystem, floats: _Floats) -> list[CrossCheck]:
 def _fixed_modes(
     system: MultiChannelSystem, floats: _Floats, spectrum: FixedSpectrum
 ) -> list[CrossCheck]:
-    """Rounding to several digits, and the numerical ranks of pencils."""
+    """Fixed modes from rounded eigenvalues of drawn loops, and from numerical ranks of pencils."""
     count, rows = spectrum.polynomial.degree, []
 
     def words(number: int) -> str:
@@ -276,12 +277,12 @@ def _fixed_modes(
 
 
 def _rounded(floats: _Floats, digits: int) -> tuple[complex, ...]:
-    """The fixed modes of drawn gains, to so many digits."""
+    """The eigenvalues that the loops of drawn gains have in common when rounded to some digits."""
     return fixed_modes.rounded_fixed_modes(floats.A, floats.B, floats.C, digits=digits, seed=_SEED)
 
 
 def _graph(system: MultiChannelSystem, floats: _Floats) -> list[CrossCheck]:
-    """The transfer graph, and completeness made of it and of the rounded fixed modes."""
+    """The transfer graph, and completeness decided from it and from the rounded fixed modes."""
     exact = transfer_graph(system)
     truth = frozenset((system.index(j), system.index(i)) for j, i in exact.arcs)
     found = _answer(lambda: transfer_edges(floats.A, floats.B, floats.C))
@@ -308,7 +309,7 @@ def _graph(system: MultiChannelSystem, floats: _Floats) -> list[CrossCheck]:
 
 
 def _strongly_connected(m: int, edges: frozenset[tuple[int, int]]) -> bool:
-    """Whether every channel reaches every other one."""
+    """Whether a graph on m nodes is strongly connected."""
     import networkx as nx
 
     graph = nx.DiGraph()
@@ -318,7 +319,7 @@ def _strongly_connected(m: int, edges: frozenset[tuple[int, int]]) -> bool:
 
 
 def _stability(system: MultiChannelSystem, floats: _Floats) -> CrossCheck:
-    """Whether A itself is stable."""
+    """Whether A is stable."""
     region = StabilityRegion(system.time)
     found = _answer(lambda: margins.is_within(floats.A, region))
     call = (

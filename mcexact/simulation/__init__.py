@@ -1,6 +1,6 @@
-"""Running a controller as a network: one object per agent, messages along edges only.
+"""Controllers run as a network of agents, which send messages along the edges of a graph only.
 
-Takes a plant, a controller and a neighbor graph, gives trajectories, and refuses a program that
-asks for a signal which its agent does not receive.  The matrix of the whole loop is never used
-here; that it predicts the same trajectory is what the tests compare.
+This stage takes a plant, a controller and a neighbor graph, and gives trajectories.  It refuses a
+program that uses a signal which its agent does not receive.  It never uses the matrix of the closed
+loop, so the tests can compare its trajectories with those that this matrix predicts.
 """

@@ -1,7 +1,7 @@
-"""The numbers that a simulation runs in: rationals, multiple precision, or double precision.
+"""The arithmetics of a simulation: rational numbers, multiple precision, or double precision.
 
-Vectors are columns that can be added, scaled and multiplied by matrices from the left; the agents
-and the plant are written once, over any of these.
+Vectors are columns that can be added, scaled and multiplied by matrices from the left.  The code of
+the agents and of the plant uses these operations alone, so it is the same for all arithmetics.
 """
 
 from __future__ import annotations
@@ -18,19 +18,19 @@ Native = Any
 
 
 class Arithmetic(Protocol):
-    """How an exact matrix becomes a native one, and how entries come back."""
+    """The numbers of a simulation, into which exact matrices are converted."""
 
     @property
     def name(self) -> str:
-        """What `simulate` calls it."""
+        """The name that `simulate` takes for it."""
         ...
 
     def convert(self, M: Matrix) -> Native:
         """A matrix or column in native numbers."""
         ...
 
-    def scalar(self, q: Fraction) -> Any:
-        """A factor for native matrices."""
+    def scalar(self, value: Fraction) -> Any:
+        """A number by which native matrices can be multiplied."""
         ...
 
     def entries(self, column: Native) -> list[Any]:
@@ -52,16 +52,16 @@ class ExactArithmetic:
         """The matrix itself."""
         return M
 
-    def scalar(self, q: Fraction) -> Fraction:
+    def scalar(self, value: Fraction) -> Fraction:
         """The number itself."""
-        return q
+        return value
 
     def entries(self, column: Matrix) -> list[Any]:
         """Fractions."""
         return [Fraction(row[0], column.denominator) for row in column.numerators]
 
     def largest(self, column: Matrix) -> float:
-        """The largest absolute value; inf beyond the floats."""
+        """The largest absolute value; infinity where it exceeds every float."""
         return to_float(max(map(abs, self.entries(column)), default=0))
 
 
@@ -71,7 +71,7 @@ class MultiprecisionArithmetic:
     Parameters
     ----------
     digits : int
-        Of the results; half as many more are carried.
+        The number of digits that the results should have; half as many more are computed.
     """
 
     name = "multiprecision"
@@ -80,7 +80,7 @@ class MultiprecisionArithmetic:
         from mpmath import MPContext  # type: ignore[import-untyped]
 
         self.context = MPContext()
-        # Taylor terms may be larger than their sum by some digits; these are spare ones.
+        # The terms of a Taylor series may exceed their sum by some digits, which these make up for.
         self.context.dps = digits + digits // 2 + 10
 
     def convert(self, M: Matrix) -> Native:
@@ -92,9 +92,9 @@ class MultiprecisionArithmetic:
                     converted[i, j] = self.context.mpf(entry) / M.denominator
         return converted
 
-    def scalar(self, q: Fraction) -> Any:
+    def scalar(self, value: Fraction) -> Any:
         """A multiple-precision number."""
-        return self.context.mpf(q.numerator) / q.denominator
+        return self.context.mpf(value.numerator) / value.denominator
 
     def entries(self, column: Native) -> list[Any]:
         """Multiple-precision numbers."""
@@ -115,10 +115,9 @@ class DoubleArithmetic:
         """An array of floats, every entry rounded once."""
         return matrix_to_float(M)
 
-    def scalar(self, q: Fraction) -> float:
+    def scalar(self, value: Fraction) -> float:
         """A float."""
-
-        return to_float(q)
+        return to_float(value)
 
     def entries(self, column: Native) -> list[Any]:
         """Floats."""
@@ -130,12 +129,12 @@ class DoubleArithmetic:
 
 
 def arithmetic_named(name: str, digits: int = 60) -> Arithmetic:
-    """The arithmetic of this name: "exact", "multiprecision" or "float".
+    """Return the arithmetic with a name: "exact", "multiprecision" or "float".
 
     Raises
     ------
     UsageError
-        If there is none.
+        If the name is none of these.
     """
     from mcexact.errors import UsageError
 

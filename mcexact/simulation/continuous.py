@@ -1,4 +1,4 @@
-"""Continuous time: the agents' equations integrated, never the matrix of the loop."""
+"""Trajectories in continuous time, integrated from the equations of the plant and of each agent."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from mcexact.simulation.network import Network, Snapshot
 
 
 def integrated(network: Network, times: Sequence[Fraction]) -> list[Snapshot]:
-    """Continuous time in double precision: scipy integrates what the agents compute.
+    """Integrate the derivatives that the plant and the agents compute, in double precision.
 
     Raises
     ------
     LimitReached
-        Where the numbers are beyond double precision, or scipy gives up.
+        If a number exceeds the range of double precision, or scipy's integration stops early.
     """
     import numpy as np
     from scipy.integrate import solve_ivp
@@ -71,7 +71,7 @@ def integrated(network: Network, times: Sequence[Fraction]) -> list[Snapshot]:
 
 
 def taylor(network: Network, times: Sequence[Fraction], digits: int) -> list[Snapshot]:
-    """Continuous time in multiple precision: Taylor series, summed until nothing changes."""
+    """Sum Taylor series in multiple precision until further terms change nothing."""
     snapshots = [network.snapshot()]
     for before, after in pairwise(times):
         rest = after - before
@@ -87,10 +87,10 @@ def taylor(network: Network, times: Sequence[Fraction], digits: int) -> list[Sna
 
 
 def _taylor_step(network: Network, step: Fraction, digits: int) -> bool:
-    """x(t + h) = Σ h^k x^(k) / k!; False, with nothing changed, if the series grows too far.
+    """Take a step x(t + h) = Σ h^k x^(k) / k!; return False and change nothing if the terms grow.
 
-    The derivatives come from the agents: x' is one round of the network at x, and, the programs
-    being linear, x^(k+1) is one round at x^(k) with the set-points at 0.
+    The network computes the derivatives: one round at x gives x'.  Since the programs are linear,
+    one round at x^(k) with all set-points 0 gives x^(k+1).
     """
     numbers = network.arithmetic
     parts = [(agent.shared, agent.private) for agent in network.agents]

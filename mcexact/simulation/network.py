@@ -1,4 +1,4 @@
-"""Agents on a network: each knows its own program, its own output, and what its links deliver."""
+"""Agents on a network: each knows its own program, its own output, and the messages it receives."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from mcexact.simulation.arithmetic import Arithmetic, Native
 
 
 class SignalNotReceived(InputError):
-    """A program asks for a signal that no link brings to its agent."""
+    """A program uses a signal that its agent does not receive."""
 
 
 @dataclass(frozen=True)
@@ -30,14 +30,14 @@ class Message:
 
 @dataclass(frozen=True)
 class Snapshot:
-    """The whole state at one time, in native numbers."""
+    """The state of the plant and of all agents at one time, in native numbers."""
 
     plant: list[Any]
     shared: list[list[Any]]
     private: list[list[Any]]
 
     def flat(self) -> list[Any]:
-        """(x, x_1, z_1, …, x_m, z_m), as the matrix of the loop orders it."""
+        """The entries of (x, x_1, z_1, …, x_m, z_m), the order of the closed loop's state."""
         result = list(self.plant)
         for x_i, z_i in zip(self.shared, self.private, strict=True):
             result += [*x_i, *z_i]
@@ -59,7 +59,7 @@ class _Map:
 
 
 class Agent:
-    """One agent: a program, its own state, and an inbox.  It sees nothing else.
+    """One agent: a program, its own state and an inbox, without access to anything else.
 
     Parameters
     ----------
@@ -94,17 +94,17 @@ class Agent:
         self._inbox: dict[int, Message] = {}
 
     def measure(self, output: Native) -> None:
-        """Take the measurement y_i; what was heard before is forgotten."""
+        """Take the measurement y_i, and record x_i for messages that are held."""
         self._output = output
         self._past.appendleft(self.shared)
         self._inbox = {}
 
     def message_for(self, receiver: int) -> Message:
-        """What goes to a follower now: y_i, and x_i after the time that it is held."""
+        """The message to a follower now: y_i, and x_i from as many steps ago as it is held."""
         return Message(self._output, self._past[self._hold.get(receiver, 0)])
 
     def receive(self, sender: int, message: Message) -> None:
-        """Put what a link delivers into the inbox."""
+        """Put a message that arrives into the inbox."""
         self._inbox[sender] = message
 
     def input(self) -> Native:
@@ -112,22 +112,22 @@ class Agent:
         return self._applied(self._input)
 
     def update(self) -> tuple[Native, Native]:
-        """What the program makes of x_i and z_i: the next values, or the derivatives."""
+        """The next values of x_i and z_i, or in continuous time their derivatives."""
         return self._applied(self._shared_update), self._applied(self._private_update)
 
     def _heard(self, j: int) -> Message:
-        """The message of an agent; the agent's own signals need no link."""
+        """The latest message of agent j; an agent has its own signals without a link."""
         if j == self.position:
             return self.message_for(j)
         if j not in self._inbox:
             raise SignalNotReceived(
-                f"agent {quoted(self.name)} asks for a signal of agent number {j + 1}, "
-                "which no link brings to it"
+                f"agent {quoted(self.name)} uses a signal of agent number {j + 1}, "
+                "which it does not receive"
             )
         return self._inbox[j]
 
     def _applied(self, each: _Map) -> Native:
-        """Σ_j outputs[j] y_j + Σ_j shared[j] x_j + private z_i + reference r_i."""
+        """Compute Σ_j outputs[j] y_j + Σ_j shared[j] x_j + private z_i + reference r_i."""
         result = each.zero
         for j, M in each.outputs.items():
             result = result + M @ self._heard(j).output
@@ -141,7 +141,7 @@ class Agent:
 
 
 class Link:
-    """An edge: what is put in comes out after the delay; before that, zeros do.
+    """A communication link from one agent to another, which delivers each message after its delay.
 
     Parameters
     ----------
@@ -149,7 +149,7 @@ class Link:
     delay : int
         In steps.
     silence : Message
-        What is heard before the first message arrives.
+        The message delivered until the first one arrives: zeros.
     """
 
     def __init__(self, sender: int, receiver: int, delay: int, silence: Message) -> None:
@@ -157,13 +157,13 @@ class Link:
         self._under_way: deque[Message] = deque([silence] * delay)
 
     def carry(self, message: Message) -> Message:
-        """Send a message and take the one that arrives now."""
+        """Send a message, and return the one that arrives now."""
         self._under_way.append(message)
         return self._under_way.popleft()
 
 
 class Network:
-    """A plant, m agents and the links between them.
+    """A plant, m agents and the communication links between them.
 
     Parameters
     ----------
@@ -171,7 +171,7 @@ class Network:
         The plant.
     controller : Controller
     graph : NeighborGraph
-        Its edges are the links.
+        Its edges are the communication links.
     arithmetic : Arithmetic
 
     Raises
@@ -181,8 +181,8 @@ class Network:
 
     Notes
     -----
-    Whether a program uses only what its agent receives is not checked here: the agent finds out,
-    and `SignalNotReceived` is raised, when it runs.
+    Whether each program uses only signals that its agent receives is not checked here.  An agent
+    that uses another signal raises `SignalNotReceived` when it runs.
     """
 
     def __init__(
@@ -192,7 +192,7 @@ class Network:
         graph: NeighborGraph,
         arithmetic: Arithmetic,
     ) -> None:
-        # Shapes only: over the complete graph everybody hears everybody.
+        # This checks shapes only: over the complete graph every agent receives every signal.
         controller.require_fits(system, NeighborGraph.complete(system.names))
         self.arithmetic = arithmetic
         self._A = arithmetic.convert(system.A)
@@ -211,7 +211,7 @@ class Network:
                 self._links.append(Link(j, i, graph.delay(i, j), silence))
 
     def set_state(self, state: Native, parts: Sequence[tuple[Native, Native]]) -> None:
-        """Set x and, agent by agent, (x_i, z_i)."""
+        """Set the state x of the plant and the states (x_i, z_i) of the agents."""
         self.state = state
         for agent, (shared, private) in zip(self.agents, parts, strict=True):
             agent.shared, agent.private = shared, private
@@ -226,14 +226,14 @@ class Network:
         )
 
     def evolution(self) -> tuple[Native, list[tuple[Native, Native]]]:
-        """One round: measure, send, receive, compute.
+        """Run one round of measuring, sending, receiving and computing.
 
         Returns
         -------
         state : column
-            A x + Σ B_i u_i: the plant's next state, or its derivative.
+            A x + Σ B_i u_i, the plant's next state, or in continuous time its derivative.
         parts : list of (column, column)
-            The same of x_i and z_i, agent by agent.
+            The same for x_i and z_i of each agent.
         """
         for agent, C in zip(self.agents, self._C, strict=True):
             agent.measure(C @ self.state)

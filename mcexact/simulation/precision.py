@@ -1,4 +1,4 @@
-"""Whether double precision can show an exact design."""
+"""A warning where double precision cannot represent a closed loop well enough to simulate it."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ LARGEST_FOR_DOUBLES = 10**5
 
 
 def largest_entry(M: Matrix) -> Fraction:
-    """The largest absolute value of an entry; 0 without entries."""
+    """Return the largest absolute value of an entry, 0 if there are none."""
     top = max((abs(entry) for row in M.numerators for entry in row), default=0)
     return Fraction(top, M.denominator)
 
@@ -22,7 +22,7 @@ def largest_entry(M: Matrix) -> Fraction:
 def double_precision_warning(
     system: MultiChannelSystem, controller: Controller, graph: NeighborGraph | None = None
 ) -> str | None:
-    """A sentence if the loop has entries of 10⁵ or more, else None.
+    """Return a warning if the closed loop has an entry of 10⁵ or more, else None.
 
     Parameters
     ----------
@@ -32,20 +32,20 @@ def double_precision_warning(
 
     Notes
     -----
-    Rounding every entry once moves the eigenvalues of a matrix that is far from normal, and
-    matrices with large entries and small eigenvalues are: at n = 6, m = 5 an exact abscissa of −1
-    was seen as +9.
+    A matrix with large entries and small eigenvalues is far from normal, so rounding its entries
+    moves its eigenvalues far.  In one example with n = 6 and m = 5 the spectral abscissa is −1, but
+    +9 once the entries are rounded to double precision.
     """
     largest = largest_entry(closed_loop_matrix(system, controller, graph))
     if largest < LARGEST_FOR_DOUBLES:
         return None
     return (
-        f"the closed loop has entries up to {_power(largest)}: the double-precision picture is not "
-        "the exact design; use exact or multiprecision arithmetic"
+        f"the closed loop has entries up to {_power(largest)}, so that double precision does not "
+        "show how the exact design behaves; use exact or multiprecision arithmetic"
     )
 
 
 def _power(value: Fraction) -> str:
-    """The size of a number of 1 or more, such as 3e+20."""
+    """The order of magnitude of a number of 1 or more, such as 3e+20."""
     digits = str(int(value))
     return f"{digits[0]}e+{len(digits) - 1:02d}"

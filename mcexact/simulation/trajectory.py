@@ -1,4 +1,4 @@
-"""Trajectories of a network: discrete time by steps, continuous time from the agents' equations."""
+"""`simulate` runs a controller as a network of agents and returns the trajectory."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ from mcexact.simulation.precision import double_precision_warning
 
 @dataclass(frozen=True)
 class InitialState:
-    """Where a simulation starts.
+    """The state in which a simulation starts.
 
     Attributes
     ----------
     plant : tuple of Fraction
         x(0).
     shared, private : tuple of tuples of Fraction
-        x_i(0) and z_i(0), agent by agent.
+        x_i(0) and z_i(0) of each agent.
     """
 
     plant: tuple[Fraction, ...]
@@ -39,7 +39,7 @@ class InitialState:
 
 @dataclass(frozen=True)
 class Trajectory:
-    """What a simulation gives.
+    """The trajectory of a plant and its agents.
 
     Attributes
     ----------
@@ -50,7 +50,8 @@ class Trajectory:
     snapshots : tuple of Snapshot
         One for each time.
     warning : str or None
-        In double precision: a sentence if the loop has entries too large for it.
+        A warning if the closed loop has entries too large for double precision, where that was
+        used.
     """
 
     time: str
@@ -61,12 +62,12 @@ class Trajectory:
     warning: str | None = None
 
     def has_estimates(self) -> bool:
-        """Whether every agent shares as many numbers as the plant has states."""
+        """Whether each agent's shared sub-state has the dimension of the plant's state."""
         first = self.snapshots[0]
         return all(len(x_i) == len(first.plant) for x_i in first.shared)
 
     def errors(self, k: int) -> list[list[Any]]:
-        """e_i = x_i − x at the k-th time, for a controller whose agents share estimates."""
+        """The errors e_i = x_i − x at the k-th time, where agents share state estimates."""
         snapshot = self.snapshots[k]
         return [
             [a - b for a, b in zip(x_i, snapshot.plant, strict=True)] for x_i in snapshot.shared
@@ -85,7 +86,7 @@ def simulate(
     arithmetic: str | None = None,
     digits: int = 60,
 ) -> Trajectory:
-    """Run the agents' programs on a network, with real messages and real delays.
+    """Run a controller as a network of agents that exchange messages, with their delays.
 
     Parameters
     ----------
@@ -99,21 +100,22 @@ def simulate(
     horizon : int or rational, optional
         Steps in discrete time (40 by default), the final time in continuous time (10 by default).
     points : int
-        In continuous time, into how many equal intervals the horizon is divided.
+        The number of equal intervals into which the horizon is divided, in continuous time.
     reference : sequence of sequences, optional
-        Set-points r_i, one number for each output of each channel; 0 by default.
+        The set-points r_i, one number for each output of each channel; 0 by default.
     arithmetic : {"exact", "multiprecision", "float"}, optional
-        Discrete time: exact by default.  Continuous time: float (an adaptive Runge–Kutta method of
-        order 8 from scipy) by default, or multiprecision (Taylor series of the linear equations).
+        By default exact in discrete time, and in continuous time float, which is an adaptive
+        Runge–Kutta method of order 8 from scipy.  Continuous time also has multiprecision, which
+        sums Taylor series of the linear equations.
     digits : int
-        Decimal digits in multiple precision.
+        The number of decimal digits in multiple precision.
 
     Raises
     ------
     SignalNotReceived
         If a program uses a signal that its agent does not receive.
     UsageError
-        If the arithmetic does not go with the time domain.
+        If the time domain does not have this arithmetic, or the horizon is not as expected.
 
     Examples
     --------
@@ -155,7 +157,7 @@ def simulate(
 
 
 def default_initial(system: MultiChannelSystem, controller: Controller) -> InitialState:
-    """x(0) = (1, …, 1) and agents at rest."""
+    """Return the initial state in which x(0) = (1, …, 1) and all agents are at 0."""
     zero, one = Fraction(0), Fraction(1)
     return InitialState(
         (one,) * system.n,
@@ -165,7 +167,7 @@ def default_initial(system: MultiChannelSystem, controller: Controller) -> Initi
 
 
 def _steps(horizon: Any) -> int:
-    """The number of steps."""
+    """The number of steps that a horizon gives in discrete time."""
     steps = 40 if horizon is None else as_fraction(horizon, where="horizon")
     if steps != int(steps) or steps < 0:
         raise UsageError(f"expected a number of steps, found {steps}", where="horizon")
@@ -175,7 +177,7 @@ def _steps(horizon: Any) -> int:
 def _set_initial(
     network: Network, start: InitialState, system: MultiChannelSystem, controller: Controller
 ) -> None:
-    """Convert and set the initial state, its sizes checked."""
+    """Check the sizes of an initial state, convert it and set it."""
     if not len(start.shared) == len(start.private) == system.m:
         raise InputError(
             f"expected shared and private states of {system.m} agents, "
@@ -206,7 +208,7 @@ def _set_initial(
 def _set_reference(
     network: Network, reference: Sequence[Sequence[Any]] | None, system: MultiChannelSystem
 ) -> None:
-    """Tell every agent its own set-point."""
+    """Give every agent its own set-point."""
     if reference is None:
         return
     if len(reference) != system.m:
@@ -220,7 +222,7 @@ def _set_reference(
 
 
 def _stepped(network: Network, steps: int) -> tuple[list[Fraction], list[Snapshot]]:
-    """Discrete time."""
+    """Run a number of steps in discrete time."""
     snapshots = [network.snapshot()]
     for _ in range(steps):
         network.step()

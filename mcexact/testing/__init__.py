@@ -1,6 +1,6 @@
 """Hypothesis strategies that draw exact systems of known structure.
 
-For this package's own tests, and for the tests of anybody who writes control algorithms::
+They serve the tests of this package, and the tests of other control algorithms::
 
     from hypothesis import given
     from mcexact.testing import jointly_controllable_systems
@@ -10,9 +10,9 @@ For this package's own tests, and for the tests of anybody who writes control al
         A = drawn.system.A
         ...
 
-A strategy draws a `Drawn`: a system, and what is known about it *by construction*, so nothing is
-filtered away and examples shrink to few states, few channels and small entries.  The systems are
-exact; ``mcexact.exact.floats.matrix_to_float`` makes arrays of their matrices.
+A strategy draws a `Drawn`: a system, and what is known about it *by construction*.  No example is
+filtered away, and examples shrink to few states, few channels and small entries.  The systems are
+exact; ``mcexact.exact.floats.matrix_to_float`` converts their matrices to arrays of floats.
 """
 
 from mcexact.derived.drawn import Drawn

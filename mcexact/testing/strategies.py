@@ -1,4 +1,4 @@
-"""The strategies: Hypothesis as the source of choices for `mcexact.derived.drawn`."""
+"""Hypothesis strategies for systems with known structure and for neighbor graphs."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ T = TypeVar("T")
 
 
 class HypothesisChoices:
-    """Hypothesis as a source of choices: what it draws, it can shrink.
+    """A source of choices for `mcexact.derived.drawn` that lets Hypothesis draw and shrink them.
 
     Parameters
     ----------
     draw : callable
-        As a composite strategy gets it, or the ``draw`` of ``st.data()``.
+        The argument of a composite strategy, or the ``draw`` of ``st.data()``.
 
     Examples
     --------
-    Any function of `mcexact.derived.drawn` inside a test of one's own::
+    A test can call any function of `mcexact.derived.drawn`::
 
         @given(st.data())
         def test_something(data):
@@ -38,11 +38,11 @@ class HypothesisChoices:
         self._draw = draw
 
     def integer(self, low: int, high: int) -> int:
-        """An integer from ``low`` to ``high``; shrinks towards 0, or the end nearest to it."""
+        """Draw an integer from ``low`` to ``high``; it shrinks towards 0 where possible."""
         return self._draw(st.integers(low, high))
 
     def option(self, options: Sequence[T]) -> T:
-        """One of the options; shrinks towards the first."""
+        """Draw one of the options; it shrinks towards the first."""
         return options[self._draw(st.integers(0, len(options) - 1))]
 
 
@@ -62,13 +62,13 @@ def _systems(
 def systems(
     max_states: int = 5, max_channels: int = 4, *, min_states: int = 0, time: str | None = None
 ) -> SearchStrategy[Drawn]:
-    """Systems of every kind: sparse, minimal, with dead channels, with fixed modes, uncontrollable.
+    """Draw systems of all kinds: sparse, minimal, inactive channels, fixed modes, uncontrollable.
 
     Parameters
     ----------
     max_states, max_channels, min_states : int
     time : {"continuous", "discrete"}, optional
-        Either, by default.
+        Both are drawn by default.
 
     Returns
     -------
@@ -315,7 +315,7 @@ def incomplete_systems(
     max_states, max_channels : int
         At least 2.
     reason : {"fixed mode", "transfer graph"}, optional
-        Either, by default.
+        Both are drawn by default.
     time : {"continuous", "discrete"}, optional
     """
     return _incomplete(reason, max_states, max_channels, time)
