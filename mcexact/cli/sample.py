@@ -11,7 +11,7 @@ from mcexact.cli import options
 from mcexact.cli.options import FOLDER, as_json
 
 if TYPE_CHECKING:
-    from mcexact.derived.draw import Draw
+    from mcexact.derived.drawn.draw import Draw
 
 
 @click.command(name="sample", short_help="Draw systems with known structure.")
@@ -48,7 +48,7 @@ def command(
     from mcexact.cli.files import directory, require_writable
     from mcexact.cli.output import emit
     from mcexact.cli.supervision import supervised
-    from mcexact.derived.draw import Draw
+    from mcexact.derived.drawn.draw import Draw
     from mcexact.model.atomic import write_text
 
     if count > 1 and output is None:
@@ -72,7 +72,7 @@ def command(
 
 def _drawn(draw: Draw) -> str:
     """Draw, and write it down: what the child process does."""
-    from mcexact.derived.draw import drawn_system
+    from mcexact.derived.drawn.draw import drawn_system
     from mcexact.model.system_file import system_text
 
     return system_text(drawn_system(draw))

@@ -88,7 +88,7 @@ def command(
 
     from mcexact.cli.files import directory, require_writable
     from mcexact.cli.output import emit_json, emit_tables
-    from mcexact.derived.draw import Draw
+    from mcexact.derived.drawn.draw import Draw
     from mcexact.errors import InputError
     from mcexact.exact.rational import Limits
     from mcexact.report.sweep_view import skipped_table, sweep_tables, sweep_view

@@ -5,9 +5,9 @@ from __future__ import annotations
 import random
 from collections.abc import Iterator
 
-from mcexact.derived.choices import SeededChoices
-from mcexact.derived.drawn import jointly_controllable_system, system_with_fixed_mode
-from mcexact.derived.drawn_graph import drawn_graph
+from mcexact.derived.drawn.choices import SeededChoices
+from mcexact.derived.drawn.graph import drawn_graph
+from mcexact.derived.drawn.systems import jointly_controllable_system, system_with_fixed_mode
 from mcexact.exact.matrix import Matrix
 from mcexact.model import gallery
 from mcexact.model.neighbor_graph import NeighborGraph

@@ -10,7 +10,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from mcexact.answer import codec
-from mcexact.derived.draw import Draw, drawn_system
+from mcexact.derived.drawn.draw import Draw, drawn_system
 from mcexact.errors import InputError, LimitReached, McexactError, OtherFormat, UsageError
 from mcexact.exact.rational import DEFAULT_LIMITS, Limits
 from mcexact.model.canonical import canonical

@@ -15,7 +15,7 @@ filtered away, and examples shrink to few states, few channels and small entries
 exact; ``mcexact.exact.floats.matrix_to_float`` converts their matrices to arrays of floats.
 """
 
-from mcexact.derived.drawn import Drawn
+from mcexact.derived.drawn.systems import Drawn
 from mcexact.testing.strategies import (
     HypothesisChoices,
     incomplete_systems,

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TypeVar
 
 from hypothesis import strategies as st
 from hypothesis.strategies import DrawFn, SearchStrategy
 
-from mcexact.derived import drawn, drawn_structure
-from mcexact.derived.drawn import Drawn
-from mcexact.derived.drawn_graph import drawn_graph
+from mcexact.derived.drawn import structure
+from mcexact.derived.drawn import systems as drawn
+from mcexact.derived.drawn.graph import drawn_graph
+from mcexact.derived.drawn.systems import Drawn
 from mcexact.exact.location import TIMES
 from mcexact.model.neighbor_graph import NeighborGraph
 
@@ -56,7 +58,7 @@ def _systems(
 ) -> Drawn:
     choices = HypothesisChoices(draw)
     n, m = choices.integer(min_states, max_states), choices.integer(1, max_channels)
-    return drawn.drawn_system(choices, n, m, time=_time(choices, time))
+    return drawn.any_system(choices, n, m, time=_time(choices, time))
 
 
 def systems(
@@ -233,7 +235,7 @@ def _on_graphs(
 ) -> Drawn:
     found = draw(base)
     graph = draw(_graphs(found.system.names, strongly_connected, longest_delay))
-    return drawn.on_graph(found, graph)
+    return replace(found, system=found.system.with_neighbors(graph))
 
 
 def systems_on_graphs(
@@ -265,7 +267,7 @@ def _with_indices(draw: DrawFn, max_states: int, max_channels: int, time: str | 
     while left:
         indices.append(choices.integer(1, left))
         left -= indices[-1]
-    return drawn_structure.system_with_indices(choices, indices, m, time=_time(choices, time))
+    return structure.system_with_indices(choices, indices, m, time=_time(choices, time))
 
 
 def systems_with_indices(
@@ -279,7 +281,7 @@ def systems_with_indices(
 def _with_remnant(draw: DrawFn, max_states: int, max_channels: int, time: str | None) -> Drawn:
     choices = HypothesisChoices(draw)
     n, m = choices.integer(3, max_states), choices.integer(2, max_channels)
-    return drawn_structure.system_with_remnant(
+    return structure.system_with_remnant(
         choices, n, m, nonzero_transfer=choices.option((False, True)), time=_time(choices, time)
     )
 
@@ -298,7 +300,7 @@ def _incomplete(
     choices = HypothesisChoices(draw)
     why = choices.option(("transfer graph", "fixed mode")) if reason is None else reason
     n, m = choices.integer(2, max_states), choices.integer(2, max_channels)
-    return drawn_structure.incomplete_system(choices, n, m, why, time=_time(choices, time))
+    return structure.incomplete_system(choices, n, m, why, time=_time(choices, time))
 
 
 def incomplete_systems(

@@ -12,7 +12,7 @@ from mcexact import MultiChannelSystem, complementary_subsystem, completeness, d
 from mcexact.analysis.invariant_form import companions, invariant_form
 from mcexact.answer.codec import encode
 from mcexact.checker import check_document
-from mcexact.derived.drawn import Drawn
+from mcexact.derived.drawn.systems import Drawn
 from mcexact.errors import UsageError
 from mcexact.exact.linear_algebra import characteristic_polynomial, rank
 from mcexact.exact.matrix import Matrix

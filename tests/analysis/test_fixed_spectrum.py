@@ -10,8 +10,8 @@ from mcexact.analysis.obstructions import CommonFactor, decide
 from mcexact.answer import codec
 from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.checker import check_document
-from mcexact.derived.choices import SeededChoices
-from mcexact.derived.drawn import system_with_fixed_mode
+from mcexact.derived.drawn.choices import SeededChoices
+from mcexact.derived.drawn.systems import system_with_fixed_mode
 from mcexact.derived.dual import dual
 from mcexact.exact.linear_algebra import characteristic_polynomial, inverse
 from mcexact.exact.location import StabilityRegion

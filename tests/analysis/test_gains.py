@@ -6,9 +6,9 @@ import pytest
 
 from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.analysis.gains import error_gain_draws, reaching_gains
-from mcexact.derived.choices import SeededChoices
-from mcexact.derived.drawn import jointly_controllable_system
-from mcexact.derived.drawn_graph import drawn_graph
+from mcexact.derived.drawn.choices import SeededChoices
+from mcexact.derived.drawn.graph import drawn_graph
+from mcexact.derived.drawn.systems import jointly_controllable_system
 from mcexact.derived.error_system import error_system
 from mcexact.derived.feedback import feedback
 from mcexact.exact.blocks import hstack

@@ -15,8 +15,8 @@ from mcexact.analysis.modular_system import (
 )
 from mcexact.answer import codec
 from mcexact.checker import check_document
-from mcexact.derived.choices import SeededChoices
-from mcexact.derived.drawn import system_with_fixed_mode
+from mcexact.derived.drawn.choices import SeededChoices
+from mcexact.derived.drawn.systems import system_with_fixed_mode
 from mcexact.exact.matrix import Matrix
 from mcexact.model.system import MultiChannelSystem
 

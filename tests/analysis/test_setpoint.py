@@ -11,8 +11,8 @@ from mcexact.analysis.controllability import joint_controllability
 from mcexact.analysis.setpoint import setpoint_solvability
 from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
-from mcexact.derived.choices import SeededChoices
-from mcexact.derived.drawn import drawn_system
+from mcexact.derived.drawn.choices import SeededChoices
+from mcexact.derived.drawn.systems import any_system
 from mcexact.derived.integrators import setpoint_system
 from mcexact.exact.matrix import Matrix
 from mcexact.model.system import MultiChannelSystem
@@ -35,7 +35,7 @@ def pencil(system: MultiChannelSystem, x: sympy.Expr) -> sympy.Matrix:
 @pytest.mark.parametrize("seed", range(40))
 def test_rank_and_normal_rank_agree_with_sympy(seed: int, time: str) -> None:
     rng = random.Random(seed)
-    system = drawn_system(
+    system = any_system(
         SeededChoices(f"solvability {seed}"), rng.randint(1, 4), rng.randint(1, 3), time=time
     ).system
     found = setpoint_solvability(system)
@@ -56,7 +56,7 @@ def test_rank_and_normal_rank_agree_with_sympy(seed: int, time: str) -> None:
 def test_solvable_is_joint_controllability_of_the_plant_with_integrators(
     seed: int, time: str
 ) -> None:
-    system = drawn_system(SeededChoices(f"integrators {seed}"), 3, 2, time=time).system
+    system = any_system(SeededChoices(f"integrators {seed}"), 3, 2, time=time).system
     both = joint_controllability(system).controllable and setpoint_solvability(system).solvable
     assert joint_controllability(setpoint_system(system)).controllable == both
 

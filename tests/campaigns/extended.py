@@ -21,9 +21,9 @@ from mcexact.analysis.extended import graph_inclusion
 from mcexact.analysis.setpoint import setpoint_solvability
 from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
-from mcexact.derived.choices import SeededChoices
-from mcexact.derived.drawn import jointly_controllable_system, system_with_fixed_mode
-from mcexact.derived.drawn_graph import drawn_graph
+from mcexact.derived.drawn.choices import SeededChoices
+from mcexact.derived.drawn.graph import drawn_graph
+from mcexact.derived.drawn.systems import jointly_controllable_system, system_with_fixed_mode
 from mcexact.derived.extended import extended_system
 from mcexact.errors import Impossible, LimitReached
 from mcexact.exact.linear_algebra import left_nullspace

@@ -29,8 +29,8 @@ from mcexact.analysis.single_channel_gains import single_channel_gains
 from mcexact.analysis.transfer_graph import transfer_graph
 from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
-from mcexact.derived.choices import SeededChoices
-from mcexact.derived.drawn import jointly_controllable_system
+from mcexact.derived.drawn.choices import SeededChoices
+from mcexact.derived.drawn.systems import jointly_controllable_system
 from mcexact.errors import Impossible
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.model import gallery

@@ -9,21 +9,21 @@ import sympy
 from hypothesis import given, settings
 
 from mcexact import testing
-from mcexact.derived.choices import SeededChoices
-from mcexact.derived.drawn import (
+from mcexact.derived.drawn.choices import SeededChoices
+from mcexact.derived.drawn.graph import drawn_graph
+from mcexact.derived.drawn.structure import (
+    incomplete_system,
+    system_with_indices,
+    system_with_remnant,
+)
+from mcexact.derived.drawn.systems import (
     Drawn,
-    drawn_system,
+    any_system,
     irreducible,
     jointly_controllable_system,
     sparse_system,
     system_with_fixed_mode,
     uncontrollable_system,
-)
-from mcexact.derived.drawn_graph import drawn_graph
-from mcexact.derived.drawn_structure import (
-    incomplete_system,
-    system_with_indices,
-    system_with_remnant,
 )
 from mcexact.errors import UsageError
 from mcexact.exact.blocks import hstack
@@ -160,13 +160,13 @@ def test_a_large_planted_system_is_mixed_and_has_small_integers(degree):
 
 
 def test_the_same_seed_draws_the_same_system_and_another_seed_another():
-    first, second, other = (drawn_system(SeededChoices(s), 4, 3).system for s in (5, 5, 6))
+    first, second, other = (any_system(SeededChoices(s), 4, 3).system for s in (5, 5, 6))
     assert first == second != other
 
 
 def test_systems_without_states_are_drawn():
     assert jointly_controllable_system(SeededChoices(0), 0, 2).system.n == 0
-    assert drawn_system(SeededChoices(0), 0, 1).system.m == 1
+    assert any_system(SeededChoices(0), 0, 1).system.m == 1
 
 
 @given(testing.neighbor_graphs(("a", "b", "c", "d"), strongly_connected=True, longest_delay=3))

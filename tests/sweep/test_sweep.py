@@ -14,7 +14,7 @@ import pytest
 
 from mcexact.analysis.controllability import joint_controllability
 from mcexact.answer import codec
-from mcexact.derived.draw import Draw, drawn_system
+from mcexact.derived.drawn.draw import Draw, drawn_system
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.rational import Limits
 from mcexact.model import gallery

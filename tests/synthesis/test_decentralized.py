@@ -6,8 +6,8 @@ import pytest
 
 from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
-from mcexact.derived.choices import SeededChoices
-from mcexact.derived.drawn import drawn_system
+from mcexact.derived.drawn.choices import SeededChoices
+from mcexact.derived.drawn.systems import any_system
 from mcexact.errors import Impossible
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.location import StabilityRegion
@@ -74,7 +74,7 @@ def test_no_states_and_dead_channels_need_nothing() -> None:
 @pytest.mark.parametrize("time", ["continuous", "discrete"])
 @pytest.mark.parametrize("seed", range(20))
 def test_what_no_fixed_mode_forbids_is_done(seed: int, time: str) -> None:
-    drawn = drawn_system(SeededChoices(f"decentralized {seed}"), 4, 3, time=time).system
+    drawn = any_system(SeededChoices(f"decentralized {seed}"), 4, 3, time=time).system
     bound = {"rate": 1} if time == "continuous" else {"radius": "1/2"}
     try:
         design = design_decentralized(drawn, **bound)

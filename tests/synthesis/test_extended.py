@@ -10,9 +10,9 @@ import pytest
 from mcexact.analysis.stability import certify_stability
 from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
-from mcexact.derived.choices import SeededChoices
-from mcexact.derived.drawn import jointly_controllable_system
-from mcexact.derived.drawn_graph import drawn_graph
+from mcexact.derived.drawn.choices import SeededChoices
+from mcexact.derived.drawn.graph import drawn_graph
+from mcexact.derived.drawn.systems import jointly_controllable_system
 from mcexact.errors import Impossible, InputError, UsageError
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.polynomial import Polynomial

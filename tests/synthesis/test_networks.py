@@ -7,9 +7,9 @@ from random import Random
 import pytest
 
 from mcexact.analysis.delays import is_power_of_x
-from mcexact.derived.choices import SeededChoices
-from mcexact.derived.drawn import drawn_system, jointly_controllable_system
-from mcexact.derived.drawn_graph import drawn_graph
+from mcexact.derived.drawn.choices import SeededChoices
+from mcexact.derived.drawn.graph import drawn_graph
+from mcexact.derived.drawn.systems import any_system, jointly_controllable_system
 from mcexact.derived.feedback import closed_by
 from mcexact.exact.blocks import hstack, vstack
 from mcexact.exact.linear_algebra import characteristic_polynomial, rank
@@ -28,7 +28,7 @@ def markov(A: Matrix, B: Matrix, C: Matrix, count: int) -> list[Matrix]:
 
 @pytest.mark.parametrize("seed", range(20))
 def test_a_part_is_minimal_and_has_the_same_transfer_matrix(seed: int) -> None:
-    system = drawn_system(SeededChoices(f"part {seed}"), 4, 2).system
+    system = any_system(SeededChoices(f"part {seed}"), 4, 2).system
     A, B, C = system.A, system.B(0), system.C(0)
     part = channel_part(A, B, C, Random(seed))
     d = part.A.nrows

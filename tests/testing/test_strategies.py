@@ -5,7 +5,7 @@ from hypothesis import HealthCheck, find, given, settings
 from hypothesis import strategies as st
 
 from mcexact import testing
-from mcexact.derived.drawn import jointly_controllable_system
+from mcexact.derived.drawn.systems import jointly_controllable_system
 
 QUICK = settings(max_examples=300, database=None, suppress_health_check=list(HealthCheck))
 

@@ -25,7 +25,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from mcexact.derived.choices import Choices, shuffled
+from mcexact.derived.drawn.choices import Choices, shuffled
 from mcexact.exact.matrix import Matrix
 
 Coefficients = tuple[int, ...]

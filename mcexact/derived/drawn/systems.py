@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from mcexact.derived.choices import Choices, shuffled
-from mcexact.derived.drawn_parts import (
+from mcexact.derived.drawn.choices import Choices, shuffled
+from mcexact.derived.drawn.parts import (
     as_polynomial,
     draw_chains,
     draw_ports,
@@ -13,11 +13,10 @@ from mcexact.derived.drawn_parts import (
     irreducible,
     live,
 )
-from mcexact.derived.primary_form import Chain, Coefficients, lay_out
+from mcexact.derived.drawn.primary_form import Chain, Coefficients, lay_out
 from mcexact.errors import UsageError
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
-from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 
 
@@ -86,7 +85,7 @@ def jointly_controllable_system(
 
     Examples
     --------
-    >>> from mcexact.derived.choices import SeededChoices
+    >>> from mcexact.derived.drawn.choices import SeededChoices
     >>> drawn = jointly_controllable_system(SeededChoices(1), states=4, channels=2)
     >>> drawn.system.n, drawn.jointly_controllable
     (4, True)
@@ -135,7 +134,7 @@ def system_with_fixed_mode(
 
     Examples
     --------
-    >>> from mcexact.derived.choices import SeededChoices
+    >>> from mcexact.derived.drawn.choices import SeededChoices
     >>> drawn = system_with_fixed_mode(SeededChoices(2), states=5, channels=3, degree=2)
     >>> drawn.fixed_mode.degree, drawn.complete
     (2, False)
@@ -192,7 +191,7 @@ def uncontrollable_system(
 
     Examples
     --------
-    >>> from mcexact.derived.choices import SeededChoices
+    >>> from mcexact.derived.drawn.choices import SeededChoices
     >>> uncontrollable_system(SeededChoices(3), states=3, channels=2).jointly_controllable
     False
     """
@@ -260,15 +259,13 @@ def sparse_system(
     )
 
 
-def drawn_system(
-    choices: Choices, states: int, channels: int, *, time: str = "continuous"
-) -> Drawn:
+def any_system(choices: Choices, states: int, channels: int, *, time: str = "continuous") -> Drawn:
     """Draw a system of any of the kinds in this module.
 
     Examples
     --------
-    >>> from mcexact.derived.choices import SeededChoices
-    >>> drawn_system(SeededChoices(4), states=3, channels=2).system.m
+    >>> from mcexact.derived.drawn.choices import SeededChoices
+    >>> any_system(SeededChoices(4), states=3, channels=2).system.m
     2
     """
     kind = choices.option(("sparse", "minimal", "dead", "fixed", "uncontrollable", "unobservable"))
@@ -298,8 +295,3 @@ def _planted(choices: Choices, polynomial: Coefficients, longest: int) -> Chain:
     before = choices.integer(0, min(longest - middle, 2))
     after = choices.integer(0, min(longest - middle - before, 2))
     return Chain(polynomial, (1,) * before + (2,) * middle + (3,) * after)
-
-
-def on_graph(drawn: Drawn, graph: NeighborGraph) -> Drawn:
-    """The same drawn system with a neighbor graph; what is known about it stays."""
-    return replace(drawn, system=drawn.system.with_neighbors(graph))

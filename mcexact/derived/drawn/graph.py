@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Sequence
 
-from mcexact.derived.choices import Choices, shuffled
+from mcexact.derived.drawn.choices import Choices, shuffled
 from mcexact.errors import UsageError
 from mcexact.model.neighbor_graph import NeighborGraph
 
@@ -36,7 +36,7 @@ def drawn_graph(
 
     Examples
     --------
-    >>> from mcexact.derived.choices import SeededChoices
+    >>> from mcexact.derived.drawn.choices import SeededChoices
     >>> drawn_graph(SeededChoices(5), ("1", "2", "3"), True).is_strongly_connected()
     True
     >>> drawn_graph(SeededChoices(5), ("1", "2", "3"), False).is_strongly_connected()

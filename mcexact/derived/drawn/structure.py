@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from mcexact.derived.choices import Choices, shuffled
-from mcexact.derived.drawn import Drawn, system_with_fixed_mode
-from mcexact.derived.drawn_parts import (
+from mcexact.derived.drawn.choices import Choices, shuffled
+from mcexact.derived.drawn.parts import (
     as_polynomial,
     draw_chains,
     draw_ports,
@@ -15,7 +14,8 @@ from mcexact.derived.drawn_parts import (
     irreducible,
     live,
 )
-from mcexact.derived.primary_form import Chain, Coefficients, Draft, Ports, lay_out
+from mcexact.derived.drawn.primary_form import Chain, Coefficients, Draft, Ports, lay_out
+from mcexact.derived.drawn.systems import Drawn, system_with_fixed_mode
 from mcexact.errors import UsageError
 
 
@@ -44,7 +44,7 @@ def system_with_indices(
 
     Examples
     --------
-    >>> from mcexact.derived.choices import SeededChoices
+    >>> from mcexact.derived.drawn.choices import SeededChoices
     >>> system_with_indices(SeededChoices(0), [1, 3], channels=2).indices
     (3, 1)
     """
@@ -112,15 +112,15 @@ def system_with_remnant(
 
     Notes
     -----
-    Zones as in `mcexact.derived.primary_form`.  When zone 1 is controlled by T and zone 3 observed
-    by s, P_s is equivalent to diag(I, xI − A_22, 0), and its remnant polynomial is that of zone 2.
+    Zones as in `primary_form`.  When zone 1 is controlled by T and zone 3 observed by s, P_s is
+    equivalent to diag(I, xI − A_22, 0), and its remnant polynomial is that of zone 2.
     When besides a chain of integrators leads from one input of T through zones 1 and 3 to one
     output of s, P_s is equivalent to diag(I, xI − A_22, 1, 0): then the first n invariant
     polynomials leave out the last one of xI − A_22.
 
     Examples
     --------
-    >>> from mcexact.derived.choices import SeededChoices
+    >>> from mcexact.derived.drawn.choices import SeededChoices
     >>> drawn = system_with_remnant(SeededChoices(1), states=4, channels=2)
     >>> drawn.remnant.degree <= 4, len(drawn.subset)
     (True, 1)
@@ -199,7 +199,7 @@ def incomplete_system(
 
     Examples
     --------
-    >>> from mcexact.derived.choices import SeededChoices
+    >>> from mcexact.derived.drawn.choices import SeededChoices
     >>> incomplete_system(SeededChoices(0), 3, 2, "transfer graph").fixed_modes
     False
     """

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from mcexact.derived.choices import SeededChoices
-from mcexact.derived.drawn import jointly_controllable_system, system_with_fixed_mode
-from mcexact.derived.drawn_graph import drawn_graph
+from mcexact.derived.drawn.choices import SeededChoices
+from mcexact.derived.drawn.graph import drawn_graph
+from mcexact.derived.drawn.systems import jointly_controllable_system, system_with_fixed_mode
 from mcexact.errors import LimitReached
 from mcexact.exact.location import Time
 from mcexact.exact.rational import DEFAULT_LIMITS

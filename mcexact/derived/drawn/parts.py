@@ -8,8 +8,8 @@ from collections.abc import Collection, Sequence
 from dataclasses import replace
 from fractions import Fraction
 
-from mcexact.derived.choices import Choices, shuffled
-from mcexact.derived.primary_form import Chain, Coefficients, Draft, Ports
+from mcexact.derived.drawn.choices import Choices, shuffled
+from mcexact.derived.drawn.primary_form import Chain, Coefficients, Draft, Ports
 from mcexact.errors import UsageError
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.system import MultiChannelSystem
@@ -31,7 +31,7 @@ def irreducible(choices: Choices, degree: int) -> Coefficients:
 
     Examples
     --------
-    >>> from mcexact.derived.choices import SeededChoices
+    >>> from mcexact.derived.drawn.choices import SeededChoices
     >>> len(irreducible(SeededChoices(0), 3)) - 1
     3
     """
