@@ -100,8 +100,8 @@ restate(
 restate("stabilizable table-stabilizable", FIXED, lambda c: c["stabilizable"], WANG_DAVISON)
 NEVER = "not-stabilizable table-not-stabilizable"
 restate(NEVER, FIXED, lambda c: not c["stabilizable"], FIXED_DYNAMIC)
-LISTED = "fixed-modes-row fixed-modes-note fixed-modes-more latex-fixed-mode picture-obstruction"
-restate(f"fixed slowest more-fixed-modes {LISTED}", FIXED, lambda c: c["factors"])
+LISTED = "fixed-modes-row fixed-modes-note latex-fixed-mode picture-obstruction"
+restate(f"fixed slowest {LISTED}", FIXED, lambda c: c["factors"])
 restate("fixed-modes", FIXED, lambda c: c["factors"], FIXED_DYNAMIC)
 
 

@@ -36,12 +36,12 @@ def enough(bound: Premise, *hypotheses: Premise) -> str:
     o.expect(controls(o), "not jointly observable")
     what = "outputs and" if bound.path == HEARD[0] else "no outputs and"
     return (
-        f"no mode is fixed where every agent of {described(bound.plant)} shares {what} at least "
+        f"no mode is fixed where every agent of {graph.about} shares {what} at least "
         f"{counted(bound['deficiency'], 'sub-state')} with its neighbors, without delay"
     )
 
 
-def enter_bounds(share: str, some: str, none: str, paths: tuple[Path, ...], theorem: str) -> None:
+def enter_bound(some: str, none: str, paths: tuple[Path, ...], theorem: str) -> None:
     """Enter the rules about the bound for one way of sharing."""
     roles = (Role(("deficiency",), paths), *HYPOTHESES)
 
@@ -55,20 +55,9 @@ def enter_bounds(share: str, some: str, none: str, paths: tuple[Path, ...], theo
         bound.expect(bound["deficiency"] == 0, "the bound is not 0")
         return enough(bound, *hypotheses)
 
-    @rule(f"picture-bound-{share.replace('+', '-')}", LEAST, *roles, theorem=theorem)
-    def beside(least: Premise, bound: Premise, *hypotheses: Premise) -> str:
-        least.expect(usual(least, share) and least["feasible"], "another question was asked")
-        return f"{least.theorem}; {enough(bound, *hypotheses)}"
 
-
-enter_bounds(
-    "outputs+states",
-    "enough-outputs-states",
-    "enough-outputs",
-    HEARD,
-    "extended_bound.theorem_2",
-)
-enter_bounds("states", "enough-states", "enough-nothing", PLANT, "extended_bound.remark_2")
+enter_bound("enough-outputs-states", "enough-outputs", HEARD, "extended_bound.theorem_2")
+enter_bound("enough-states", "enough-nothing", PLANT, "extended_bound.remark_2")
 
 
 # The least dimensions.
@@ -86,9 +75,6 @@ def enter_least(share: str, some: str, none: str, impossible: str) -> None:
     restate(some, LEAST, lambda c: usual(c, share) and c["feasible"] and any(c["dimensions"]))
     restate(none, LEAST, lambda c: usual(c, share) and c["feasible"] and not any(c["dimensions"]))
     restate(impossible, LEAST, lambda c: usual(c, share) and not c["feasible"])
-    stem = share.replace("+", "-")
-    restate(f"picture-least-{stem}", LEAST, lambda c: usual(c, share) and c["feasible"])
-    restate(f"picture-nothing-{stem}", LEAST, lambda c: usual(c, share) and not c["feasible"])
 
 
 enter_least(
@@ -180,15 +166,15 @@ reason("allocate-reason-cut-off", lambda least, cut: not cut.mode)
 
 def fewest(links: Premise) -> bool:
     """Whether the fewest links for outputs are asked for, so that no mode at all is fixed."""
-    plant, listed = links.plant, links["candidates"]
-    heard = sum(len(N_i) - 1 for N_i in plant.neighbors or [])
-    everywhere = len(listed) == plant.m * (plant.m - 1) - heard
+    system, listed = links.system, links["candidates"]
+    heard = sum(len(N_i) - 1 for N_i in system.neighbors or [])
+    everywhere = len(listed) == system.m * (system.m - 1) - heard
     asked = links["share"] == "outputs" and links["bound"] is None
     return asked and everywhere and all(cost == 1 for *_, cost in listed)
 
 
-restate("links", LINKS, lambda c: fewest(c) and c["added"] and c.plant.neighbors is None)
-restate("links-beside-graph", LINKS, lambda c: fewest(c) and c["added"] and c.plant.neighbors)
+restate("links", LINKS, lambda c: fewest(c) and c["added"] and c.system.neighbors is None)
+restate("links-beside-graph", LINKS, lambda c: fewest(c) and c["added"] and c.system.neighbors)
 restate("table-links", LINKS, lambda c: fewest(c) and c["added"])
 restate("links-none table-links-none", LINKS, lambda c: fewest(c) and c["added"] == [])
 restate("no-links table-links-impossible", LINKS, lambda c: fewest(c) and not c["feasible"])
