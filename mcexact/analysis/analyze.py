@@ -9,7 +9,7 @@ from typing import Any
 
 from mcexact.analysis.questions import QUESTIONS
 from mcexact.answer.account import Account
-from mcexact.answer.rules import ANALYSIS
+from mcexact.answer.rules import ANALYSIS, with_own
 from mcexact.answer.sentence import Given, Sentences
 from mcexact.errors import LimitReached, UsageError
 from mcexact.exact.rational import written
@@ -200,7 +200,7 @@ class Analysis:
         answers = self.decided()
         open_ = {*self.left_out, *self.open()} - answers.keys()
         given = Given(self.system, {"information": self.information})
-        return Account(answers, given, ANALYSIS, open_)
+        return Account(answers, given, with_own(ANALYSIS, answers), open_)
 
     @property
     def sentences(self) -> Sentences:

@@ -30,6 +30,8 @@ class Question:
         about; the last three are the function's second argument, ``channels`` is a list of one.
     unbidden : bool
         Whether it is asked when nobody names it; what is NP-hard or slow never is.
+    option : str
+        The option of `mcexact analyze` that asks it.
     ports : {"", "inputs", "outputs"}
         If not empty, it is asked unbidden only where n² ≤ 10⁴ times the number of these: the
         evidence is a Krylov sequence, which fewer ports make longer.
@@ -48,6 +50,7 @@ class Question:
     about: str = "system"
     needs: str = ""
     unbidden: bool = True
+    option: str = ""
     ports: str = ""
     given: Mapping[str, Any] = field(default_factory=dict)
     reuses: Mapping[str, str] = field(default_factory=dict)
@@ -70,7 +73,7 @@ class Question:
         return getattr(module, self.function)(*arguments, **self.given, **keywords)
 
 
-def _joint(about: str = "system", needs: str = "", unbidden: bool = True) -> dict[str, Question]:
+def _joint(about: str = "system", needs: str = "", option: str = "") -> dict[str, Question]:
     """What all channels together, or one of them, reach and see."""
     return {
         f"{what}ability": Question(
@@ -78,7 +81,8 @@ def _joint(about: str = "system", needs: str = "", unbidden: bool = True) -> dic
             f"which modes the channels {verb}",
             about=about,
             needs=needs,
-            unbidden=unbidden,
+            unbidden=not option,
+            option=option,
             kind="controllability",
             dual=what == "observ",
         )
@@ -162,6 +166,7 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
             "single_channel_gains:single_channel_gains",
             "gains with which every channel controls and observes the whole plant",
             unbidden=False,
+            option="every-channel",
             kind="single_channel_gains",
         ),
         "neighbor_graph": Question(
@@ -188,6 +193,7 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
                 about="plant",
                 needs="neighbors",
                 unbidden=False,
+                option="minimal",
                 given={"share": share},
                 kind="shared_dimensions",
             )
@@ -198,6 +204,7 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
             "the fewest links over which sending outputs leaves no mode fixed",
             about="plant",
             unbidden=False,
+            option="links",
             kind="communication",
         ),
         **{
@@ -210,11 +217,12 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
                     about=network,
                     needs="neighbors",
                     unbidden=False,
+                    option="delayed",
                     kind="fixed_spectrum",
                 ),
                 **{
                     f"joint_{what}": found
-                    for what, found in _joint(network, "neighbors", False).items()
+                    for what, found in _joint(network, "neighbors", "delayed").items()
                 },
             }.items()
         },
@@ -222,3 +230,8 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
 )
 """All questions by name. The name is also that of the answer in Python and JSON, and, with
 ``.json``, that of its certificate's file; what has several answers numbers them."""
+
+
+def asked_by(*options: str) -> list[str]:
+    """The names of the questions that options of `mcexact analyze` ask."""
+    return [name for name, question in QUESTIONS.items() if question.option in options]

@@ -2,17 +2,31 @@
 
 from __future__ import annotations
 
+import importlib
+import pkgutil
 from collections.abc import Iterator
 from pathlib import Path
 from types import ModuleType
 
+from mcexact import answer
 from mcexact.answer import rules
 from mcexact.answer.sentence import Rulebook
 from mcexact.answer.template import Template, templates
 from mcexact.answer.wording import allocation, analysis, design, details, links, refusals
 
+_OWN = [
+    module
+    for info in pkgutil.iter_modules(answer.__path__)
+    if info.name != "listing"
+    and hasattr(module := importlib.import_module(f"mcexact.answer.{info.name}"), "RULES")
+]
+# The kinds of answers that bring their words and rules with them.
+
 TOPICS: dict[str, tuple[Rulebook, tuple[ModuleType, ...]]] = {
-    "analyze": (rules.ANALYSIS, (analysis, details)),
+    "analyze": (
+        Rulebook([*rules.ANALYSIS, *(rule for kind in _OWN for rule in kind.RULES)]),
+        (analysis, details, *_OWN),
+    ),
     "allocate": (rules.ALLOCATION, (allocation,)),
     "allocate --arcs": (rules.LINKS, (links,)),
     "design, certify": (Rulebook(), (design,)),

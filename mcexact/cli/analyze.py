@@ -12,16 +12,6 @@ from mcexact.cli.failures import DEFINITE_NO
 
 _LINES_OF_WORDS = 5
 _MODES = 6
-_BESIDES = {
-    "minimal": ["minimal_shared_dimensions_outputs_states", "minimal_shared_dimensions_states"],
-    "links": ["minimal_communication"],
-    "every-channel": ["every_channel"],
-    "delayed": [
-        f"{network}_{name}"
-        for network in ("lifted", "held")
-        for name in ("fixed_spectrum", "joint_controllability", "joint_observability")
-    ],
-}
 # Options that make no sense without a neighbor graph, by what they ask for.
 _OF_NEIGHBORS = {
     "outputs": "--information outputs",
@@ -184,6 +174,7 @@ def _answer(
 ) -> dict[str, Any]:
     """Decide, and put the answer into text: what the child process does."""
     from mcexact.analysis.analyze import analyze
+    from mcexact.analysis.questions import asked_by
     from mcexact.cli.concluding import told
     from mcexact.cli.files import system_in
     from mcexact.errors import UsageError
@@ -196,8 +187,7 @@ def _answer(
                 f"{_OF_NEIGHBORS[name]} asks about messages between neighbors, and this system "
                 "names no neighbors: add 'neighbors' to the file"
             )
-    named = [name for option in besides for name in _BESIDES[option]]
-    found = analyze(system, besides=named, **question)
+    found = analyze(system, besides=asked_by(*besides), **question)
     account = found.account
     page = None
     if with_page:

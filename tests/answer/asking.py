@@ -5,16 +5,16 @@ from __future__ import annotations
 from typing import Any
 
 from mcexact.analysis.analyze import Analysis, analyze
+from mcexact.analysis.questions import asked_by
 from mcexact.answer.account import Account
-from mcexact.cli.analyze import _BESIDES
 from mcexact.model.system import MultiChannelSystem
 
 
 def asked(plant: MultiChannelSystem, **question: Any) -> Analysis:
     """As the command asks, with ``minimal=True`` and so on."""
-    options = {option: question.pop(option.replace("-", "_"), False) for option in _BESIDES}
-    named = [name for option, wanted in options.items() if wanted for name in _BESIDES[option]]
-    return analyze(plant, besides=named, **question)
+    options = [name for name in ("minimal", "links", "delayed") if question.pop(name, False)]
+    options += ["every-channel"] * question.pop("every_channel", False)
+    return analyze(plant, besides=asked_by(*options), **question)
 
 
 def account_of(plant: MultiChannelSystem, **question: Any) -> Account:

@@ -1,8 +1,19 @@
 """When each sentence about a system is said: rules that read certified claims and nothing else."""
 
+import sys
+from collections.abc import Mapping
+from typing import Any
+
 from mcexact.answer.rules import allocation, analysis, details, links
 from mcexact.answer.sentence import Rulebook
 
 ANALYSIS = Rulebook([*analysis.RULES, *details.RULES])
 ALLOCATION = allocation.RULES
 LINKS = links.RULES
+
+
+def with_own(rules: Rulebook, answers: Mapping[str, Any]) -> Rulebook:
+    """These rules, and the ``RULES`` that the kinds of the answers bring with them."""
+    homes = dict.fromkeys(type(answer).__module__ for answer in answers.values())
+    own = (getattr(sys.modules[home], "RULES", ()) for home in homes)
+    return Rulebook([*rules, *(rule for brought in own for rule in brought)])
