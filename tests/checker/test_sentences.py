@@ -14,6 +14,7 @@ from mcexact.analysis.analyze import analyze
 from mcexact.analysis.completeness import completeness
 from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.analysis.fixed_spectrum import fixed_spectrum
+from mcexact.analysis.questions import asked_by
 from mcexact.analysis.setpoint import setpoint_solvability
 from mcexact.answer.codec import document
 from mcexact.answer.listing import everything
@@ -65,11 +66,11 @@ def made(answer: Any) -> Document:
 def answers(system: MultiChannelSystem) -> dict[str, Document]:
     """The certificates of everything that can be asked, of each channel."""
     found: dict[str, Document] = {}
-    asked = ["minimal_communication", "every_channel"]
+    asked = asked_by("links", "every-channel")
     if system.neighbors is not None:
-        asked += [f"minimal_shared_dimensions_{share}" for share in ("outputs_states", "states")]
+        asked += asked_by("minimal")
         if system.time == "discrete":
-            asked += ["lifted_fixed_spectrum", "held_fixed_spectrum"]
+            asked += asked_by("delayed")
     for name in system.names:
         analysis = analyze(system, besides=asked, subset=[name], channel=name)
         for question, answer in analysis.decided().items():
