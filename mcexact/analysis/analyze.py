@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 from functools import cached_property
@@ -210,6 +211,16 @@ class Analysis:
     def manifest(self) -> dict[str, Any]:
         """The sentences, what each rests on, and the digests of the certificates."""
         return self.account.manifest()
+
+    def save(self, folder: str | os.PathLike[str]) -> None:
+        """Write the certificates, and a manifest of the sentences, for `mcexact check --manifest`.
+
+        Parameters
+        ----------
+        folder : path
+            It is made if it is missing.
+        """
+        self.account.save(folder)
 
     def as_json(self) -> dict[str, Any]:
         """Plain data for programs: an entry for each answer, under the name of its question."""

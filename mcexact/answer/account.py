@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -9,8 +10,10 @@ from html import escape
 from typing import Any
 
 from mcexact.answer import codec
-from mcexact.answer.sentence import Given, Rulebook, Sentences, certificate_of, manifest
+from mcexact.answer.sentence import MANIFEST, Given, Rulebook, Sentences, certificate_of, manifest
 from mcexact.answer.showing import plain_view
+from mcexact.model.atomic import write_text
+from mcexact.model.canonical import canonical
 
 FORMAT = "mcexact-analysis/1"
 
@@ -50,6 +53,16 @@ class Account:
     def manifest(self) -> dict[str, Any]:
         """The sentences with what each rests on, and the digests of the certificates."""
         return manifest(self.sentences, self.certificates)
+
+    def files(self) -> dict[str, str]:
+        """The certificates and the manifest, by the names of their files."""
+        return self.certificates | {MANIFEST: canonical(self.manifest()) + "\n"}
+
+    def save(self, folder: str | os.PathLike[str]) -> None:
+        """Write the certificates and the manifest into a folder, which is made if it is missing."""
+        os.makedirs(folder, exist_ok=True)
+        for name, text in self.files().items():
+            write_text(os.path.join(folder, name), text)
 
     def as_json(self, **more: Any) -> dict[str, Any]:
         """Plain data for programs: an entry for each answer, under its name."""

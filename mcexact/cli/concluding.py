@@ -15,13 +15,11 @@ if TYPE_CHECKING:
 
 def told(account: Account) -> dict[str, Any]:
     """What a child process hands back of an account."""
-    from mcexact.answer.sentence import MANIFEST
-    from mcexact.model.canonical import canonical
     from mcexact.model.system_file import digest
 
     return {
         "certificates": account.certificates,
-        "files": {MANIFEST: canonical(account.manifest()) + "\n"},
+        "files": account.files(),
         "digest": digest(account.given.system.plant),
     }
 
@@ -42,7 +40,7 @@ def concluded(
     Parameters
     ----------
     answer : mapping
-        ``certificates`` and ``files`` by names, the ``digest`` of the plant, ``json``.
+        ``certificates`` and all ``files`` by names, the ``digest`` of the plant, ``json``.
     show : callable
         Prints the answer for people; whether a line about the checker may follow.
     doing : str
@@ -76,7 +74,7 @@ def concluded(
     )
     if certificates is not None and answer["certificates"]:
         folder = directory(certificates)
-        for name, text in {**answer["certificates"], **answer.get("files", {})}.items():
+        for name, text in answer["files"].items():
             write_text(folder / name, text)
     if write is not None:
         write(checked)

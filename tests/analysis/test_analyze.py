@@ -1,6 +1,7 @@
 """Everything about one system: asked for lazily, decided once, and nothing slow unless named."""
 
 import inspect
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -8,6 +9,7 @@ import pytest
 import mcexact
 from mcexact.analysis.analyze import Analysis, analyze
 from mcexact.analysis.questions import QUESTIONS, Question
+from mcexact.checker.manifest import manifest_verdicts
 from mcexact.errors import LimitReached, UsageError
 from mcexact.model import gallery
 from mcexact.model.neighbor_graph import NeighborGraph
@@ -133,3 +135,15 @@ def test_every_question_is_answered_by_a_public_function() -> None:
     functions = {question.function for question in QUESTIONS.values()} - {"neighbor_graph"}
     assert functions | {"analyze"} <= set(mcexact.__all__)
     assert isinstance(mcexact.analyze(PAPER), Analysis)
+
+
+def test_what_is_saved_is_what_the_checker_verifies(tmp_path: Path) -> None:
+    analyze(RING).save(tmp_path / "new" / "evidence")
+    said = [verdict for _, verdict in manifest_verdicts(str(tmp_path / "new" / "evidence"))]
+    assert {verdict.verdict for verdict in said} == {"IMPLIED"}
+    assert len(said) == len(analyze(RING).sentences)
+
+
+def test_the_line_of_an_analysis_is_short() -> None:
+    for name in gallery.names():
+        assert len(repr(analyze(gallery.load(name)))) < 200

@@ -11,7 +11,7 @@ rule = RULES.rule
 
 
 @rule("title", say.LEAST, say.IMPOSSIBLE)
-def least(minimal_shared_dimensions: Claim, given: Given) -> Said:
+def _least(minimal_shared_dimensions: Claim, given: Given) -> Said:
     found = minimal_shared_dimensions
     told = say.IMPOSSIBLE if found.dimensions is None else say.LEAST
     yield told(
@@ -25,7 +25,7 @@ def least(minimal_shared_dimensions: Claim, given: Given) -> Said:
 
 
 @rule("table", say.ROW, say.TOTAL, say.ROW_BOUND, say.TOTAL_BOUND)
-def rows(
+def _rows(
     minimal_shared_dimensions: Claim,
     shared_dimension_bound: Claim,
     neighbor_graph: Claim,
@@ -55,7 +55,7 @@ def rows(
 
 
 @rule("table.note", say.PROOF, say.COST_PROOF)
-def proof(minimal_shared_dimensions: Claim, given: Given) -> Said:
+def _proof(minimal_shared_dimensions: Claim, given: Given) -> Said:
     found = minimal_shared_dimensions
     if found.dimensions is not None:
         told = say.PROOF if all(cost == 1 for cost in found.costs) else say.COST_PROOF
@@ -63,7 +63,7 @@ def proof(minimal_shared_dimensions: Claim, given: Given) -> Said:
 
 
 @rule("why", say.REASON, say.REASON_CUT_OFF, *say.REASON_UNREACHED.values())
-def reasons(minimal_shared_dimensions: Claim, given: Given) -> Said:
+def _reasons(minimal_shared_dimensions: Claim, given: Given) -> Said:
     """The cuts that the dimensions meet with equality; of those that none meet, all.
 
     Of no agents and of all of them it is not a matter of sharing.

@@ -39,26 +39,26 @@ def empty(spectrum: Claim) -> bool:
 
 
 @rule("title", say.HEADING)
-def heading(given: Given) -> Said:
+def _heading(given: Given) -> Said:
     yield say.HEADING(
         name=given.name or "system", n=given.n, m=given.m, names=given.names, time=given.time
     )
 
 
 @rule("answer", say.NOTHING_FIXED)
-def nothing_fixed(fixed_spectrum: Claim, given: Given) -> Said:
+def _nothing_fixed(fixed_spectrum: Claim, given: Given) -> Said:
     if empty(fixed_spectrum):
         yield say.NOTHING_FIXED(control=control(fixed_spectrum, given))
 
 
 @rule("answer", say.FREE_THROUGH_ANY)
-def free_through_any(completeness: Claim, given: Given) -> Said:
+def _free_through_any(completeness: Claim, given: Given) -> Said:
     if given.n and completeness.complete:
         yield say.FREE_THROUGH_ANY()
 
 
 @rule("answer", say.FREE, say.PARTS)
-def assigned(
+def _assigned(
     fixed_spectrum: Claim, assignability: Claim, completeness: Claim, given: Given
 ) -> Said:
     if given.n and empty(fixed_spectrum) and not completeness.complete:
@@ -67,7 +67,7 @@ def assigned(
 
 
 @rule("answer", say.STABLE, say.UNSTABLE)
-def stabilized(fixed_spectrum: Claim, given: Given) -> Said:
+def _stabilized(fixed_spectrum: Claim, given: Given) -> Said:
     if not empty(fixed_spectrum):
         told = say.STABLE if fixed_spectrum.stabilizable else say.UNSTABLE
         yield told(control=control(fixed_spectrum, given), slowest=slowest(fixed_spectrum, given))
@@ -83,7 +83,7 @@ def fewest(links: Claim) -> bool:
 
 
 @rule("answer", *say.LINKS.values(), say.LINKS_NONE, say.NO_LINKS)
-def links_remove(minimal_communication: Claim, fixed_spectrum: Claim, given: Given) -> Said:
+def _links_remove(minimal_communication: Claim, fixed_spectrum: Claim, given: Given) -> Said:
     links = minimal_communication
     if empty(fixed_spectrum) or not fewest(links):
         return
@@ -106,7 +106,7 @@ def usual(least: Claim, share: str) -> bool:
 
 
 @rule("answer", say.SHARING_REMOVES, say.OUTPUTS_REMOVE, say.NO_SHARING)
-def sharing_removes(
+def _sharing_removes(
     minimal_shared_dimensions_outputs_states: Claim, fixed_spectrum: Claim, given: Given
 ) -> Said:
     least = minimal_shared_dimensions_outputs_states
@@ -122,7 +122,7 @@ def sharing_removes(
 
 
 @rule("answer.mode", say.BLAME, say.UNCONTROLLED, say.UNOBSERVED)
-def blame(fixed_spectrum: Claim, given: Given) -> Said:
+def _blame(fixed_spectrum: Claim, given: Given) -> Said:
     """Who does not control a mode, and who does not observe it.
 
     rank P_s < n leaves [λI − A, B_T] and [λI − A; C_s] with less than n too, T the rest of s.
@@ -143,7 +143,7 @@ def blame(fixed_spectrum: Claim, given: Given) -> Said:
 
 
 @rule("table", say.INFORMATION)
-def information(given: Given) -> Said:
+def _information(given: Given) -> Said:
     if given.information == "outputs":
         yield say.INFORMATION(information="outputs" if given.delays == "none" else "instant")
 
@@ -154,41 +154,41 @@ def reached(found: Claim, yes: Template, no: Template) -> Said:
 
 
 @rule("table", say.CONTROLLABLE, say.UNCONTROLLABLE)
-def controllable(joint_controllability: Claim) -> Said:
+def _controllable(joint_controllability: Claim) -> Said:
     yield from reached(joint_controllability, say.CONTROLLABLE, say.UNCONTROLLABLE)
 
 
 @rule("table", say.OBSERVABLE, say.UNOBSERVABLE)
-def observable(joint_observability: Claim) -> Said:
+def _observable(joint_observability: Claim) -> Said:
     yield from reached(joint_observability, say.OBSERVABLE, say.UNOBSERVABLE)
 
 
 @rule("table", say.GRAPH_CONNECTED, say.GRAPH_PARTS)
-def graph(transfer_graph: Claim) -> Said:
+def _graph(transfer_graph: Claim) -> Said:
     told = say.GRAPH_CONNECTED if transfer_graph.strongly_connected else say.GRAPH_PARTS
     yield told(arcs=transfer_graph.arcs, components=transfer_graph.components)
 
 
 @rule("table", say.INACTIVE)
-def inactive(transfer_graph: Claim, given: Given) -> Said:
+def _inactive(transfer_graph: Claim, given: Given) -> Said:
     if given.inactive and transfer_graph.subject == given.system.subject:
         yield say.INACTIVE(names=given.inactive)
 
 
 @rule("table", say.FIXED_NONE, say.FIXED)
-def fixed(fixed_spectrum: Claim) -> Said:
+def _fixed(fixed_spectrum: Claim) -> Said:
     p = fixed_spectrum.polynomial
     yield say.FIXED(p=p) if p.degree else say.FIXED_NONE()
 
 
 @rule("table", say.STABILIZABLE, say.NOT_STABILIZABLE)
-def stabilizable(fixed_spectrum: Claim, given: Given) -> Said:
+def _stabilizable(fixed_spectrum: Claim, given: Given) -> Said:
     told = say.STABILIZABLE if fixed_spectrum.stabilizable else say.NOT_STABILIZABLE
     yield told(control=control(fixed_spectrum, given))
 
 
 @rule("table", say.SLOWEST, say.ANY_RATE)
-def slowest_mode(fixed_spectrum: Claim, given: Given) -> Said:
+def _slowest_mode(fixed_spectrum: Claim, given: Given) -> Said:
     if empty(fixed_spectrum):
         yield say.ANY_RATE()
     else:
@@ -196,7 +196,7 @@ def slowest_mode(fixed_spectrum: Claim, given: Given) -> Said:
 
 
 @rule("table", say.COMPLETE)
-def complete(completeness: Claim) -> Said:
+def _complete(completeness: Claim) -> Said:
     yield say.COMPLETE(complete=completeness.complete)
 
 
@@ -204,12 +204,12 @@ def index_rules(question: str, one: Template, many: Template, none: Template) ->
     """What is said of controllability or observability indices, or that they are left out."""
 
     @rule("table", one, many, about={"found": question})
-    def indices(found: Claim) -> Said:
+    def _indices(found: Claim) -> Said:
         told = many if found.index is None else one
         yield told(indices=found.indices, index=found.index)
 
     @rule("table", none, missing=question)
-    def left_out() -> Said:
+    def _left_out() -> Said:
         yield none()
 
 
@@ -218,7 +218,7 @@ index_rules("observability_indices", *say.OBSERVABILITY_INDICES)
 
 
 @rule("table", say.SPECTRUM_FREE, say.SPECTRUM_PARTS)
-def spectrum_parts(fixed_spectrum: Claim, assignability: Claim) -> Said:
+def _spectrum_parts(fixed_spectrum: Claim, assignability: Claim) -> Said:
     if empty(fixed_spectrum):
         blocks = [(block.dimension, block.channels) for block in assignability.blocks]
         free = sum(size > 0 for size, _ in blocks) <= 1
@@ -226,7 +226,7 @@ def spectrum_parts(fixed_spectrum: Claim, assignability: Claim) -> Said:
 
 
 @rule("table", say.SPECTRUM_MOVED, say.SPECTRUM_MOVED_BETWEEN)
-def spectrum_moved(fixed_spectrum: Claim, assignability: Claim, given: Given) -> Said:
+def _spectrum_moved(fixed_spectrum: Claim, assignability: Claim, given: Given) -> Said:
     """Bounds on the number of eigenvalues, with multiplicity, that gains can move.
 
     n − deg φ, φ the greatest common divisor of all det(xI − A_F): a factor p of the fixed
@@ -245,7 +245,7 @@ def spectrum_moved(fixed_spectrum: Claim, assignability: Claim, given: Given) ->
 
 
 @rule("table", say.SETPOINT_ZERO, say.SETPOINT_DEPENDENT)
-def no_setpoints(setpoint: Claim, given: Given) -> Said:
+def _no_setpoints(setpoint: Claim, given: Given) -> Said:
     if setpoint.invariant_zero:
         yield say.SETPOINT_ZERO(place=steady_point(given.time))
     elif not setpoint.solvable:
@@ -253,7 +253,7 @@ def no_setpoints(setpoint: Claim, given: Given) -> Said:
 
 
 @rule("table", say.SETPOINT)
-def setpoints(setpoint: Claim, joint_controllability: Claim, joint_observability: Claim) -> Said:
+def _setpoints(setpoint: Claim, joint_controllability: Claim, joint_observability: Claim) -> Said:
     if (
         setpoint.solvable
         and joint_controllability.controllable
@@ -263,7 +263,7 @@ def setpoints(setpoint: Claim, joint_controllability: Claim, joint_observability
 
 
 @rule("table", say.SETPOINT_STABLE_REST, say.SETPOINT_UNSTABLE_REST)
-def setpoints_beside(
+def _setpoints_beside(
     setpoint: Claim,
     joint_controllability: Claim,
     joint_observability: Claim,
@@ -286,7 +286,7 @@ def setpoints_beside(
 
 
 @rule("table", *say.GAINS["every"].values())
-def every_channel(every_channel: Claim, given: Given) -> Said:
+def _every_channel(every_channel: Claim, given: Given) -> Said:
     yield gains("every", every_channel, given.names)
 
 
@@ -306,7 +306,7 @@ def gains(want: str, found: Claim, names: Sequence[str]) -> Sentence:
 
 
 @rule("table", *[told for key, told in say.TABLE_LINKS.items() if key != "limit"])
-def links(minimal_communication: Claim, given: Given) -> Said:
+def _links(minimal_communication: Claim, given: Given) -> Said:
     found = minimal_communication
     if fewest(found):
         which = "impossible" if found.added is None else "some" if found.added else "none"
@@ -314,29 +314,29 @@ def links(minimal_communication: Claim, given: Given) -> Said:
 
 
 @rule("table", say.TABLE_LINKS["limit"], missing="minimal_communication")
-def links_open() -> Said:
+def _links_open() -> Said:
     yield say.TABLE_LINKS["limit"]()
 
 
 @rule("table", say.CONNECTED, say.NOT_CONNECTED)
-def connected(neighbor_graph: Claim) -> Said:
+def _connected(neighbor_graph: Claim) -> Said:
     yield say.CONNECTED() if neighbor_graph.strongly_connected else say.NOT_CONNECTED()
 
 
 @rule("table", say.NEVER_CONTROLLED)
-def never_controlled(joint_controllability: Claim, given: Given) -> Said:
+def _never_controlled(joint_controllability: Claim, given: Given) -> Said:
     if given.neighbors is not None and not joint_controllability.controllable:
         yield say.NEVER_CONTROLLED(p=joint_controllability.uncontrollable_polynomial)
 
 
 @rule("table", say.NEVER_OBSERVED)
-def never_observed(joint_observability: Claim, given: Given) -> Said:
+def _never_observed(joint_observability: Claim, given: Given) -> Said:
     if given.neighbors is not None and not joint_observability.controllable:
         yield say.NEVER_OBSERVED(p=joint_observability.uncontrollable_polynomial)
 
 
 @rule("table", say.NO_BOUND)
-def no_bound(
+def _no_bound(
     neighbor_graph: Claim, joint_controllability: Claim, joint_observability: Claim
 ) -> Said:
     reach = (joint_controllability, joint_observability)
@@ -354,7 +354,7 @@ def sharing_rules(share: str, stem: str) -> None:
     some, none = say.ENOUGH[share]
 
     @rule("table", some, none, about={"bound": f"shared_dimension_bound_{stem}"})
-    def enough(
+    def _enough(
         bound: Claim,
         neighbor_graph: Claim,
         joint_controllability: Claim,
@@ -372,7 +372,7 @@ def least_rules(share: str, stem: str) -> None:
     question = f"minimal_shared_dimensions_{stem}"
 
     @rule("table", some, none, impossible, about={"least": question})
-    def least_of(least: Claim, given: Given) -> Said:
+    def _least_of(least: Claim, given: Given) -> Said:
         if not usual(least, share):
             return
         if least.dimensions is None:
@@ -382,7 +382,7 @@ def least_rules(share: str, stem: str) -> None:
             yield (some if any(least.dimensions) else none)(sizes=sizes, time=given.delays)
 
     @rule("table", limit, missing=question)
-    def least_open() -> Said:
+    def _least_open() -> Said:
         yield limit()
 
 
@@ -397,7 +397,7 @@ def delayed_rules(network: str) -> None:
     nothing, something = say.DELAYED[network]
 
     @rule("table", nothing, something, about={"spectrum": f"{network}_fixed_spectrum"})
-    def delayed(spectrum: Claim) -> Said:
+    def _delayed(spectrum: Claim) -> Said:
         [step] = spectrum.subject
         told = nothing if empty(spectrum) else something
         yield told(p=spectrum.polynomial, k=step["dimensions"][0])

@@ -18,13 +18,13 @@ rule = RULES.rule
 
 
 @rule("fixed-modes.title", say.FIXED_MODES)
-def fixed_modes(fixed_spectrum: Claim, given: Given) -> Said:
+def _fixed_modes(fixed_spectrum: Claim, given: Given) -> Said:
     if not empty(fixed_spectrum):
         yield say.FIXED_MODES(control=control(fixed_spectrum, given))
 
 
 @rule("fixed-modes", say.FIXED_MODE)
-def fixed_mode(fixed_spectrum: Claim) -> Said:
+def _fixed_mode(fixed_spectrum: Claim) -> Said:
     for factor in fixed_spectrum.factors.ordered("stable"):
         yield say.FIXED_MODE(
             p=factor.polynomial,
@@ -45,7 +45,7 @@ def _centers(factor: Claim) -> list[tuple[Fraction, Fraction]]:
 
 
 @rule("fixed-modes.note", say.FIXED_MODES_NOTE)
-def columns(fixed_spectrum: Claim, given: Given) -> Said:
+def _columns(fixed_spectrum: Claim, given: Given) -> Said:
     if not empty(fixed_spectrum):
         yield say.FIXED_MODES_NOTE(n=given.n)
 
@@ -54,31 +54,31 @@ def columns(fixed_spectrum: Claim, given: Given) -> Said:
 
 
 @rule("pencil.title", say.PENCIL)
-def pencil(spectrum_of_A: Claim, pencil_rank: Iterable[Claim]) -> Said:
+def _pencil(spectrum_of_A: Claim, pencil_rank: Iterable[Claim]) -> Said:
     subsets = [found.subset for found in pencil_rank if found.polynomial.degree]
     if subsets and spectrum_of_A.polynomial.degree:
         yield say.PENCIL(s=subsets[0])
 
 
 @rule("pencil", say.PENCIL_ROW)
-def ranks(pencil_rank: Iterable[Claim], given: Given) -> Said:
+def _ranks(pencil_rank: Iterable[Claim], given: Given) -> Said:
     for found in pencil_rank:
         rank = found.rank
         yield say.PENCIL_ROW(p=found.polynomial, rank=rank, below=rank < given.n)
 
 
 @rule("subsystem.title", say.SUBSYSTEM)
-def subsystem(complementary_subsystem: Claim) -> Said:
+def _subsystem(complementary_subsystem: Claim) -> Said:
     yield say.SUBSYSTEM(s=complementary_subsystem.subset)
 
 
 @rule("subsystem", say.NORMAL_RANK)
-def normal_rank(complementary_subsystem: Claim) -> Said:
+def _normal_rank(complementary_subsystem: Claim) -> Said:
     yield say.NORMAL_RANK(rank=complementary_subsystem.normal_rank)
 
 
 @rule("subsystem", say.ZEROS, say.NO_ZEROS)
-def zeros(complementary_subsystem: Claim) -> Said:
+def _zeros(complementary_subsystem: Claim) -> Said:
     """The largest invariant polynomial has all zeros: each of the others divides it."""
     polynomials = complementary_subsystem.invariant_polynomials
     if polynomials:
@@ -88,7 +88,7 @@ def zeros(complementary_subsystem: Claim) -> Said:
 
 
 @rule("subsystem", say.REMNANT)
-def remnant(complementary_subsystem: Claim) -> Said:
+def _remnant(complementary_subsystem: Claim) -> Said:
     yield say.REMNANT(p=complementary_subsystem.remnant)
 
 
@@ -96,7 +96,7 @@ def remnant(complementary_subsystem: Claim) -> Said:
     "subsystem",
     *(say.SUBSYSTEM_COMPLETE, say.SUBSYSTEM_ZERO, say.SUBSYSTEM_DROPS, say.SUBSYSTEM_BOTH),
 )
-def subsystem_complete(complementary_subsystem: Claim) -> Said:
+def _subsystem_complete(complementary_subsystem: Claim) -> Said:
     """The remnant polynomial vanishes where the rank is below n."""
     found = complementary_subsystem
     drops = [p for p, _ in found.remnant.factor()]
@@ -112,18 +112,18 @@ def subsystem_complete(complementary_subsystem: Claim) -> Said:
 
 
 @rule("channel.title", say.CHANNEL)
-def channel(channel_controllability: Claim) -> Said:
+def _channel(channel_controllability: Claim) -> Said:
     [name] = channel_controllability.channels
     yield say.CHANNEL(name=name)
 
 
 @rule("channel", *say.ALONE["controllability"])
-def controlled_alone(channel_controllability: Claim) -> Said:
+def _controlled_alone(channel_controllability: Claim) -> Said:
     yield from reached(channel_controllability, *say.ALONE["controllability"])
 
 
 @rule("channel", *say.ALONE["observability"])
-def observed_alone(channel_observability: Claim) -> Said:
+def _observed_alone(channel_observability: Claim) -> Said:
     yield from reached(channel_observability, *say.ALONE["observability"])
 
 
@@ -131,7 +131,7 @@ def gains_rules(want: str) -> None:
     """What is said of the gains that make one channel control or observe everything."""
 
     @rule("channel", *GAINS[want].values(), about={"found": f"channel_gains_{want}"})
-    def with_gains(found: Claim, given: Given) -> Said:
+    def _with_gains(found: Claim, given: Given) -> Said:
         yield gains(want, found, given.names)
 
 
@@ -143,19 +143,19 @@ for want in ("controllable", "observable", "both"):
 
 
 @rule("page", say.PAGE_HEADING)
-def page_heading(given: Given) -> Said:
+def _page_heading(given: Given) -> Said:
     heard = "outputs" if given.delays == "none" else "instant"
     information = heard if given.information == "outputs" else "own"
     yield say.PAGE_HEADING(n=given.n, m=given.m, time=given.time, information=information)
 
 
 @rule("graphs.title", say.PICTURE, say.PICTURE_OUTPUTS)
-def picture(given: Given) -> Said:
+def _picture(given: Given) -> Said:
     yield say.PICTURE_OUTPUTS() if given.information == "outputs" else say.PICTURE()
 
 
 @rule("graphs", say.PICTURE_NEIGHBORS)
-def neighbor_arcs(given: Given) -> Said:
+def _neighbor_arcs(given: Given) -> Said:
     if given.neighbors is not None:
         names = given.names
         arcs = [(names[j], names[i]) for j, i in given.neighbors.edges()]
@@ -163,12 +163,12 @@ def neighbor_arcs(given: Given) -> Said:
 
 
 @rule("graphs", say.PICTURE_TRANSFER)
-def transfer_arcs(transfer_graph: Claim) -> Said:
+def _transfer_arcs(transfer_graph: Claim) -> Said:
     yield say.PICTURE_TRANSFER(arcs=[arc for arc in transfer_graph.arcs if arc[0] != arc[1]])
 
 
 @rule("graphs", say.PICTURE_OBSTRUCTION, say.PICTURE_HEARD)
-def obstruction(fixed_spectrum: Claim, given: Given) -> Said:
+def _obstruction(fixed_spectrum: Claim, given: Given) -> Said:
     """The picture marks the set of the first mode, and those outside it from whom it receives."""
     for factor in fixed_spectrum.factors:
         subset = factor.channels
@@ -181,19 +181,19 @@ def obstruction(fixed_spectrum: Claim, given: Given) -> Said:
 
 
 @rule("dimensions.title", say.PICTURE_DIMENSIONS)
-def dimensions_title(minimal_shared_dimensions_outputs_states: Claim) -> Said:
+def _dimensions_title(minimal_shared_dimensions_outputs_states: Claim) -> Said:
     if minimal_shared_dimensions_outputs_states.share == "outputs+states":
         yield say.PICTURE_DIMENSIONS()
 
 
 @rule("latex", say.LATEX_NOTHING_FIXED)
-def latex_nothing(fixed_spectrum: Claim) -> Said:
+def _latex_nothing(fixed_spectrum: Claim) -> Said:
     if empty(fixed_spectrum):
         yield say.LATEX_NOTHING_FIXED()
 
 
 @rule("latex", say.LATEX_FIXED_MODE)
-def latex_modes(fixed_spectrum: Claim) -> Said:
+def _latex_modes(fixed_spectrum: Claim) -> Said:
     for factor in fixed_spectrum.factors:
         yield say.LATEX_FIXED_MODE(
             p=factor.polynomial,

@@ -11,7 +11,7 @@ rule = RULES.rule
 
 
 @rule("title", say.LEAST, say.IMPOSSIBLE, say.NONE_NEEDED)
-def links(minimal_communication: Claim, given: Given) -> Said:
+def _links(minimal_communication: Claim, given: Given) -> Said:
     found = minimal_communication
     told = say.LEAST if found.added else say.NONE_NEEDED
     yield (say.IMPOSSIBLE if found.added is None else told)(
@@ -24,7 +24,7 @@ def links(minimal_communication: Claim, given: Given) -> Said:
 
 
 @rule("table", say.ROW, say.TOTAL)
-def added(minimal_communication: Claim) -> Said:
+def _added(minimal_communication: Claim) -> Said:
     found = minimal_communication
     if found.added:
         prices = {(j, i): price for j, i, price in found.candidates}
@@ -34,7 +34,7 @@ def added(minimal_communication: Claim) -> Said:
 
 
 @rule("table.note", say.PROOF)
-def proof(minimal_communication: Claim, given: Given) -> Said:
+def _proof(minimal_communication: Claim, given: Given) -> Said:
     """The proof of what the certificate claims, feasible or not."""
     _ = minimal_communication.feasible
     yield say.PROOF(cuts=given.cuts, nodes=given.nodes)
