@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from fractions import Fraction
 
 from mcexact.analysis.covering import DEFAULT_NODE_LIMIT, CoveringCut, CoveringProgram
 from mcexact.analysis.cut_generation import CoveringProblem, Progress, covering_optimum
@@ -13,94 +11,16 @@ from mcexact.analysis.invariant_subspace import controllable_subspace
 from mcexact.analysis.modular_system import generator
 from mcexact.analysis.separation import boundary, complement, violated_subsets, violating_factors
 from mcexact.analysis.transfer_graph import transfer_graph, zero_transfer
-from mcexact.certificate.covering import ConnectivityCut
-from mcexact.certificate.deficiency import DeficiencyCertificate
-from mcexact.certificate.shared_dimensions import SharedDimensionsCertificate
+from mcexact.answer.covering import ConnectivityCut
+from mcexact.answer.deficiency import Deficiency
+from mcexact.answer.shared_dimensions import SharedDimensions
 from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.derived.extended import Share, checked_share, extended_system
 from mcexact.errors import UsageError
 from mcexact.exact.location import StabilityRegion
-from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import Entry, as_fraction
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_graph
-from mcexact.model.system_file import canonical_document
-
-
-@dataclass(frozen=True)
-class SharedDimensionBound:
-    """Theorem 2's bound (Remark 2's, when only sub-states are shared).
-
-    Attributes
-    ----------
-    share : str
-    per_agent : int
-        ρ, the largest n − rank P_s(λ) over all s and λ.  With n_i ≥ ρ for every agent the extended
-        system has no fixed mode, if the neighbor graph is strongly connected and the plant
-        jointly controllable and observable.
-    total : int
-        m ρ.
-    certificate : DeficiencyCertificate
-    """
-
-    share: str
-    per_agent: int
-    total: int
-    certificate: DeficiencyCertificate
-
-
-@dataclass(frozen=True)
-class BindingSubset:
-    """A subset that holds its boundary to its deficiency.
-
-    Attributes
-    ----------
-    subset : tuple of str
-        s, by name.
-    boundary : tuple of str
-        N_s∖s: the agents that must share.
-    mode : Polynomial or None
-        p, at whose roots P_s loses rank; None if s is cut off in the transfer graph instead.
-    deficiency : int
-        Σ n_i over the boundary must be at least this.
-    """
-
-    subset: tuple[str, ...]
-    boundary: tuple[str, ...]
-    mode: Polynomial | None
-    deficiency: int
-
-
-@dataclass(frozen=True)
-class SharedDimensions:
-    """The least that must be shared, or that nothing suffices.
-
-    Attributes
-    ----------
-    share : str
-    feasible : bool
-    dimensions : tuple of int, or None
-        n_1 … n_m in the order of the channels; None when nothing suffices.
-    total : int or None
-        Σ n_i.
-    cost : Fraction or None
-        Σ c_i n_i.
-    binding : tuple of BindingSubset
-        The cuts that the answer meets with equality; when infeasible, those that cannot be met.
-    cuts, nodes : int
-        Number of cuts that the proof uses, and of nodes of its branch tree.
-    certificate : SharedDimensionsCertificate
-    """
-
-    share: str
-    feasible: bool
-    dimensions: tuple[int, ...] | None
-    total: int | None
-    cost: Fraction | None
-    binding: tuple[BindingSubset, ...]
-    cuts: int
-    nodes: int
-    certificate: SharedDimensionsCertificate
 
 
 def base_system(system: MultiChannelSystem, share: str) -> MultiChannelSystem:
@@ -110,7 +30,7 @@ def base_system(system: MultiChannelSystem, share: str) -> MultiChannelSystem:
 
 def shared_dimension_bound(
     system: MultiChannelSystem, graph: NeighborGraph | None = None, share: Share = "outputs+states"
-) -> SharedDimensionBound:
+) -> Deficiency:
     """Theorem 2's bound on the dimension that every agent must share.
 
     Parameters
@@ -136,13 +56,11 @@ def shared_dimension_bound(
     --------
     >>> from mcexact.model import gallery
     >>> plant = gallery.load("liu2020-3ch-no-communication")
-    >>> shared_dimension_bound(plant, NeighborGraph.ring(plant.names)).per_agent
+    >>> shared_dimension_bound(plant, NeighborGraph.ring(plant.names)).deficiency
     1
     """
     system, _ = with_graph(system, graph)
-    found = deficiency(base_system(system, checked_share(share)))
-    per_agent = found.deficiency
-    return SharedDimensionBound(share, per_agent, per_agent * system.m, found.certificate)
+    return deficiency(base_system(system, checked_share(share)))
 
 
 def minimal_shared_dimensions(
@@ -216,14 +134,14 @@ def minimal_shared_dimensions(
     exact = None if bound is None else as_fraction(bound, where="bound")
     region = None if exact is None else StabilityRegion.of(system.time, bound=exact)
     base, factors = base_system(system, share), violating_factors(system, region)
-    rng = generator(base, SharedDimensionsCertificate.kind)
+    rng = generator(base, SharedDimensions.kind)
 
     def violated(sizes: Sequence[int], extended: MultiChannelSystem) -> list[CoveringCut]:
         cuts = violated_subsets(base, extended, factors, sizes, found, rng)
         return cuts or (_connectivity_cuts(base, extended, found) if free_assignability else [])
 
     problem = CoveringProblem(
-        SharedDimensionsCertificate.kind,
+        SharedDimensions.kind,
         program,
         lambda sizes: extended_system(system, sizes, share),
         violated,
@@ -231,31 +149,19 @@ def minimal_shared_dimensions(
         free_assignability,
     )
     least = covering_optimum(problem, node_limit, progress).with_cuts_of_leaves()
-    certificate = SharedDimensionsCertificate(
-        system=canonical_document(system),
-        subject=(),
+    return SharedDimensions(
+        system,
         share=share,
         bound=exact,
         free_assignability=free_assignability,
         costs=program.costs,
         upper=program.upper,
+        feasible=least.values is not None,
         dimensions=least.values,
         cost=least.cost,
         absence=least.absence,
         cuts=tuple(cut.evidence for cut in least.cuts),
         tree=least.tree("agent", system.names),
-    )
-    binding = (_binding(system, cut, least.values) for cut in least.cuts)
-    return SharedDimensions(
-        share=share,
-        feasible=least.values is not None,
-        dimensions=least.values,
-        total=None if least.values is None else sum(least.values),
-        cost=least.cost,
-        binding=tuple(b for b in binding if b is not None),
-        cuts=len(least.cuts),
-        nodes=len(least.nodes),
-        certificate=certificate,
     )
 
 
@@ -296,20 +202,6 @@ def _connectivity_cuts(
     )
     T = base.indices(closed)
     s = complement(base.m, T)
-    rng = generator(base, SharedDimensionsCertificate.kind)
+    rng = generator(base, SharedDimensions.kind)
     zero = zero_transfer(base, T, controllable_subspace(base.A, base.input_matrix(T), rng))
     return [CoveringCut(boundary(graph, s), 1, ConnectivityCut(base.named(s), zero))]
-
-
-def _binding(
-    plant: MultiChannelSystem, cut: CoveringCut, dimensions: Sequence[int] | None
-) -> BindingSubset | None:
-    """What a cut says, if the dimensions meet it with equality (or cannot meet it at all)."""
-    if dimensions is not None and sum(dimensions[i] for i in cut.support) > cut.demand:
-        return None
-    return BindingSubset(
-        subset=cut.evidence.subset,
-        boundary=plant.named(cut.support),
-        mode=getattr(cut.evidence, "polynomial", None),
-        deficiency=cut.demand,
-    )

@@ -136,7 +136,7 @@ class Analysis:
         return held_system(self.plant, self._shared("states"))
 
     def _shared(self, stem: str) -> tuple[int, ...]:
-        return (self._answer(f"shared_dimension_bound_{stem}").per_agent,) * self.plant.m
+        return (self._answer(f"shared_dimension_bound_{stem}").deficiency,) * self.plant.m
 
     def __getitem__(self, name: str) -> Any:
         """The answer to a question, decided if it is not known yet.

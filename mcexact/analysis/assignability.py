@@ -2,75 +2,26 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
-from mcexact.analysis.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.invariant_subspace import controllable_subspace, krylov_rows
 from mcexact.analysis.modular_system import generator, residue_systems
-from mcexact.analysis.transfer_graph import TransferGraph, transfer_graph
-from mcexact.answer.fixed_spectrum import FixedSpectrum
-from mcexact.certificate.assignability import AssignabilityCertificate, MinimalRealization
+from mcexact.analysis.transfer_graph import transfer_graph
+from mcexact.answer.assignability import Assignability, MinimalRealization, SpectrumBlock
+from mcexact.answer.transfer_graph import TransferGraph
 from mcexact.errors import InternalError
 from mcexact.exact.matrix import Matrix
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import canonical_document
-
-
-@dataclass(frozen=True)
-class SpectrumBlock:
-    """A strong component of the transfer graph and its part of the spectrum.
-
-    Attributes
-    ----------
-    channels : tuple of str
-        c.
-    dimension : int
-        How many eigenvalues, a symmetric set, depend on the gains of c, and on no others: the
-        McMillan degree of C_c (xI − A)⁻¹ B_c.
-    """
-
-    channels: tuple[str, ...]
-    dimension: int
-
-
-@dataclass(frozen=True)
-class Assignability:
-    """How the spectrum of A_F depends on the gains.
-
-    Attributes
-    ----------
-    free : bool
-        No mode is fixed, and at most one block has a dimension above 0: with dynamic linear
-        time-invariant channel controllers every symmetric spectrum can be assigned.
-    blocks : tuple of SpectrumBlock
-        One for each strong component.  Without fixed modes each can be assigned by itself, to
-        every symmetric set of its dimension and of the states of its controllers; where the
-        number of all of them is odd, one is real.
-    fixed_degree : int
-        How many eigenvalues, with multiplicity, belong to no block and depend on no gain; 0 if no
-        mode is fixed.
-    certificate : AssignabilityCertificate
-    """
-
-    free: bool
-    blocks: tuple[SpectrumBlock, ...]
-    fixed_degree: int
-    certificate: AssignabilityCertificate
 
 
 def assignability(
-    system: MultiChannelSystem,
-    *,
-    spectrum: FixedSpectrum | None = None,
-    graph: TransferGraph | None = None,
+    system: MultiChannelSystem, *, graph: TransferGraph | None = None
 ) -> Assignability:
     """Compute the degrees into which det(xI − A_F) splits over the strong components.
 
     Parameters
     ----------
     system : MultiChannelSystem
-    spectrum, graph : optional
-        ``fixed_spectrum(system)`` and ``transfer_graph(system)``, where they are known already.
+    graph : TransferGraph, optional
+        ``transfer_graph(system)``, where it is known already.
 
     Notes
     -----
@@ -85,10 +36,9 @@ def assignability(
     >>> from mcexact import MultiChannelSystem
     >>> B, C = [[[1], [0]], [[0], [1]]], [[[1, 0]], [[0, 1]]]
     >>> found = assignability(MultiChannelSystem([[0, 0], [1, 0]], B, C))
-    >>> found.free, [(block.channels, block.dimension) for block in found.blocks]
+    >>> found.undivided, [(block.channels, block.dimension) for block in found.blocks]
     (False, [(('1',), 1), (('2',), 1)])
     """
-    spectrum = fixed_spectrum(system) if spectrum is None else spectrum
     graph = transfer_graph(system) if graph is None else graph
     rng = generator(system, "assignability")
     realizations, degrees = [], []
@@ -105,17 +55,14 @@ def assignability(
     blocks = tuple(
         SpectrumBlock(c, d) for c, (d, *_) in zip(graph.components, degrees, strict=True)
     )
-    certificate = AssignabilityCertificate(
-        system=canonical_document(system.plant),
-        subject=system.subject,
-        blocks=tuple((block.channels, block.dimension) for block in blocks),
+    return Assignability(
+        system,
+        blocks=blocks,
         fixed_degree=system.n - sum(block.dimension for block in blocks),
         modulus=_modulus(system, degrees),
-        transfer_graph=graph.certificate,
+        transfer_graph=graph,
         realizations=tuple(realizations),
     )
-    free = spectrum.empty and sum(block.dimension > 0 for block in blocks) <= 1
-    return Assignability(free, blocks, certificate.fixed_degree, certificate)
 
 
 def _modulus(system: MultiChannelSystem, parts: list[tuple[int, Matrix, Matrix, Matrix]]) -> int:

@@ -7,8 +7,8 @@ from math import lcm, prod
 
 from mcexact.analysis.modular_system import generator
 from mcexact.analysis.rate import located
+from mcexact.answer.closed_loop_spectrum import ClosedLoopSpectrum
 from mcexact.answer.evidence import RateInterval, RootDisc
-from mcexact.certificate.closed_loop_spectrum import ClosedLoopSpectrumCertificate
 from mcexact.errors import InternalError
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.location import StabilityRegion
@@ -16,7 +16,6 @@ from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import polynomial_residues, primes, residues_modulo_each
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import canonical_document
 
 _MODULUS_BITS = 61
 _AT_ONCE = 16
@@ -73,23 +72,7 @@ def closed_loop_spectrum(M: Matrix, time: str) -> LoopSpectrum:
     return LoopSpectrum(polynomial, discs[0] if discs else (), stable, rate)
 
 
-@dataclass(frozen=True)
-class OpenLoopSpectrum:
-    """The spectrum of A, as a polynomial with evidence.
-
-    Attributes
-    ----------
-    polynomial : Polynomial
-        det(xI − A).
-    certificate : ClosedLoopSpectrumCertificate
-        Of the system itself: its A is a loop that nothing closes.
-    """
-
-    polynomial: Polynomial
-    certificate: ClosedLoopSpectrumCertificate
-
-
-def open_loop_spectrum(system: MultiChannelSystem) -> OpenLoopSpectrum:
+def open_loop_spectrum(system: MultiChannelSystem) -> ClosedLoopSpectrum:
     """Compute det(xI − A), with a certificate.
 
     Parameters
@@ -104,12 +87,9 @@ def open_loop_spectrum(system: MultiChannelSystem) -> OpenLoopSpectrum:
     'x^2 + 3*x + 2'
     """
     polynomial = characteristic_polynomial(system.A)
-    seed = generator(system, ClosedLoopSpectrumCertificate.kind).getrandbits(64)
+    seed = generator(system, ClosedLoopSpectrum.kind).getrandbits(64)
     moduli = agreeing_moduli([(system.A, polynomial)], seed)
-    certificate = ClosedLoopSpectrumCertificate(
-        canonical_document(system.plant), system.subject, polynomial, moduli
-    )
-    return OpenLoopSpectrum(polynomial, certificate)
+    return ClosedLoopSpectrum(system, polynomial=polynomial, moduli=moduli)
 
 
 def agreeing_moduli(claims: list[tuple[Matrix, Polynomial]], seed: int) -> tuple[int, ...]:

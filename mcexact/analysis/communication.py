@@ -14,8 +14,8 @@ from mcexact.analysis.fixed_spectrum import evidence
 from mcexact.analysis.modular_system import generator
 from mcexact.analysis.separation import least_minimizers, violating_factors
 from mcexact.analysis.shrunk_subspace import ExactSubspace, exact_subspace
-from mcexact.certificate.communication import CommunicationCertificate
-from mcexact.certificate.covering import ArcCut
+from mcexact.answer.communication import MinimalCommunication
+from mcexact.answer.covering import ArcCut
 from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.derived.extended import Share, extended_system, selector
 from mcexact.derived.links import add_links
@@ -28,33 +28,9 @@ from mcexact.exact.rational import Entry, as_fraction
 from mcexact.model.names import quoted
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_links
-from mcexact.model.system_file import canonical_document
 
 Arc = tuple[int, int]
 Carried = Literal["outputs", "outputs+states", "states"]
-
-
-@dataclass(frozen=True)
-class MinimalCommunication:
-    """The cheapest arcs that leave no mode fixed, or that no candidates do.
-
-    Attributes
-    ----------
-    feasible : bool
-    added : tuple of (str, str), or None
-        The arcs (from, to) to add; None when all candidates together do not suffice.
-    cost : Fraction or None
-    cuts, nodes : int
-        Number of cuts that the proof uses, and of nodes of its branch tree.
-    certificate : CommunicationCertificate
-    """
-
-    feasible: bool
-    added: tuple[tuple[str, str], ...] | None
-    cost: Fraction | None
-    cuts: int
-    nodes: int
-    certificate: CommunicationCertificate
 
 
 @dataclass(frozen=True)
@@ -156,7 +132,7 @@ def minimal_communication(
     exact = None if bound is None else as_fraction(bound, where="bound")
     region = None if exact is None else StabilityRegion.of(plant.time, bound=exact)
     factors = violating_factors(plant, region)
-    rng = generator(wires.chosen(()), CommunicationCertificate.kind)
+    rng = generator(wires.chosen(()), MinimalCommunication.kind)
 
     def violated(_: Sequence[int], system: MultiChannelSystem) -> list[CoveringCut]:
         cuts = []
@@ -168,32 +144,22 @@ def minimal_communication(
         return cuts
 
     program = CoveringProgram(_prices(wires, costs or {}), (1,) * len(wires.candidates))
-    problem = CoveringProblem(
-        CommunicationCertificate.kind, program, wires.chosen, violated, region
-    )
+    problem = CoveringProblem(MinimalCommunication.kind, program, wires.chosen, violated, region)
     least = covering_optimum(problem, node_limit)
     arcs = [(names[j], names[i]) for j, i in wires.candidates]
     added = None if least.values is None else tuple(itertools.compress(arcs, least.values))
-    certificate = CommunicationCertificate(
-        system=canonical_document(given),
-        subject=(),
+    return MinimalCommunication(
+        given,
         share=wires.share,
         dimensions=wires.dimensions,
         bound=exact,
         candidates=tuple((*arc, c) for arc, c in zip(arcs, program.costs, strict=True)),
+        feasible=added is not None,
         added=added,
         cost=least.cost,
         absence=least.absence,
         cuts=tuple(cut.evidence for cut in least.cuts),
         tree=least.tree("arc", arcs),
-    )
-    return MinimalCommunication(
-        feasible=added is not None,
-        added=added,
-        cost=least.cost,
-        cuts=len(least.cuts),
-        nodes=len(least.nodes),
-        certificate=certificate,
     )
 
 

@@ -9,76 +9,15 @@ from random import Random
 from mcexact.analysis.invariant_form import companions, invariant_form
 from mcexact.analysis.invariant_subspace import controllable_subspace
 from mcexact.analysis.modular_system import generator, residue_systems
-from mcexact.answer.evidence import RootDisc
-from mcexact.certificate.complementary_subsystem import ComplementarySubsystemCertificate
+from mcexact.answer.complementary_subsystem import ComplementarySubsystem
 from mcexact.errors import InternalError, UsageError
 from mcexact.exact.blocks import hstack, vstack
-from mcexact.exact.enclosures import root_discs
 from mcexact.exact.linear_algebra import inverse, kernel, left_nullspace, nullspace, solve
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import hstack as modular_hstack
 from mcexact.exact.modular import residues
 from mcexact.exact.polynomial import Polynomial, product
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import canonical_document
-
-
-@dataclass(frozen=True)
-class InvariantZeros:
-    """An irreducible polynomial whose roots are invariant zeros, and where they are.
-
-    Attributes
-    ----------
-    polynomial : Polynomial
-        p, monic and irreducible over Q.
-    multiplicity : int
-        The exponent of p in the product of all invariant polynomials.
-    rank : int
-        The rank of P_s at every root of p, below the normal rank.
-    roots : tuple of RootDisc
-        Disjoint discs, each with exactly one root of p.
-    """
-
-    polynomial: Polynomial
-    multiplicity: int
-    rank: int
-    roots: tuple[RootDisc, ...]
-
-
-@dataclass(frozen=True)
-class ComplementarySubsystem:
-    """What the pencil P_s(x) = [xI − A, B_{m−s}; C_s, 0] says of the subsystem (C_s, A, B_{m−s}).
-
-    Attributes
-    ----------
-    subset : tuple of str
-        s.
-    normal_rank : int
-        The rank of P_s over Q(x), at least n.
-    invariant_polynomials : tuple of Polynomial
-        Those of degree at least 1, each dividing the next.
-    zeros : tuple of InvariantZeros
-    remnant : Polynomial
-        The product of the first n invariant polynomials: the greatest common divisor of the n × n
-        minors of P_s.
-    transfer_zero : bool
-        Whether C_s (xI − A)⁻¹ B_{m−s} = 0.
-    complete : bool
-        The transfer matrix is not 0 and rank P_s(λ) ≥ n for every λ.
-    reason : str
-        In words, why it is complete or not.
-    certificate : ComplementarySubsystemCertificate
-    """
-
-    subset: tuple[str, ...]
-    normal_rank: int
-    invariant_polynomials: tuple[Polynomial, ...]
-    zeros: tuple[InvariantZeros, ...]
-    remnant: Polynomial
-    transfer_zero: bool
-    complete: bool
-    reason: str
-    certificate: ComplementarySubsystemCertificate
 
 
 @dataclass(frozen=True)
@@ -130,8 +69,8 @@ def complementary_subsystem(system: MultiChannelSystem, s: Iterable[str]) -> Com
     >>> found = complementary_subsystem(MultiChannelSystem(A, B, C), ["2", "3"])
     >>> found.complete, str(found.remnant)
     (False, 'x - 1')
-    >>> print(found.reason)
-    the transfer matrix is zero, and the pencil has rank 2 < 3 at the roots of x - 1
+    >>> found.transfer_zero, [(str(zeros.polynomial), zeros.rank) for zeros in found.zeros]
+    (True, [('x - 1', 2)])
     """
     inside = system.indices(s)
     if not 0 < len(inside) < system.m:
@@ -256,41 +195,15 @@ def _result(
 ) -> ComplementarySubsystem:
     extra = k - system.n
     remnant = product(polynomials[: max(len(polynomials) - extra, 0)])
-    zeros = tuple(
-        InvariantZeros(
-            polynomial=p,
-            multiplicity=e,
-            rank=k - sum(p.divides(f) for f in polynomials),
-            roots=tuple(RootDisc(d.re, d.im, d.radius) for d in root_discs(p)),
-        )
-        for p, e in product(polynomials).factor()
-    )
-    complete = extra > 0 and remnant.degree == 0
-    certificate = ComplementarySubsystemCertificate(
-        system=canonical_document(system.plant),
-        subject=system.subject,
+    return ComplementarySubsystem(
+        system,
         subset=names,
         normal_rank=k,
         invariant_polynomials=polynomials,
         remnant=remnant,
         transfer_zero=extra == 0,
-        complete=complete,
+        complete=extra > 0 and remnant.degree == 0,
         reachable=reachable,
         modulus=modulus,
-        evidence=dict(evidence),
+        **evidence,
     )
-    reason = _reason(system.n, extra == 0, [z for z in zeros if z.rank < system.n])
-    return ComplementarySubsystem(
-        names, k, polynomials, zeros, remnant, extra == 0, complete, reason, certificate
-    )
-
-
-def _reason(n: int, transfer_zero: bool, drops: list[InvariantZeros]) -> str:
-    """Why the subsystem is complete or not."""
-    listed = ", ".join(f"rank {z.rank} < {n} at the roots of {z.polynomial}" for z in drops)
-    reasons = ["the transfer matrix is zero"] if transfer_zero else []
-    if drops:
-        reasons.append(f"the pencil has {listed}")
-    if reasons:
-        return ", and ".join(reasons)
-    return f"the transfer matrix is not zero, and the pencil has rank at least {n} everywhere"

@@ -3,40 +3,20 @@
 from __future__ import annotations
 
 import random
-from dataclasses import dataclass
 
 from mcexact.analysis.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.invariant_subspace import controllable_subspace
 from mcexact.analysis.modular_system import ModularSystem, generator, lifted_gains
 from mcexact.analysis.obstructions import decide
 from mcexact.analysis.transfer_graph import Arc, suspected_arcs, witnessed_powers, zero_transfer
-from mcexact.answer.fixed_spectrum import FixedSpectrum
-from mcexact.certificate.completeness import (
-    CompletenessCertificate,
+from mcexact.answer.completeness import (
+    Completeness,
     CutWitness,
     FixedModeWitness,
     FreedomWitness,
 )
+from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import canonical_document
-
-
-@dataclass(frozen=True)
-class Completeness:
-    """Whether every complementary subsystem lets the spectrum be assigned freely.
-
-    Attributes
-    ----------
-    complete : bool
-        The transfer graph is strongly connected and the fixed spectrum is empty, all subsets of
-        channels included.  With a state, then and only then some F makes the system controllable
-        and observable through any one channel.  Without states every F does, but of several
-        channels none reaches another: the system is not complete.
-    certificate : CompletenessCertificate
-    """
-
-    complete: bool
-    certificate: CompletenessCertificate
 
 
 def completeness(
@@ -73,13 +53,8 @@ def completeness(
         spectrum = fixed_spectrum(system)
     rng = generator(system, "completeness")
     evidence = _evidence(system, spectrum, rng)
-    certificate = CompletenessCertificate(
-        system=canonical_document(system.plant),
-        subject=system.subject,
-        complete=isinstance(evidence, FreedomWitness),
-        evidence=evidence,
-    )
-    return Completeness(certificate.complete, certificate)
+    complete = isinstance(evidence, FreedomWitness)
+    return Completeness(system, complete=complete, evidence=evidence)
 
 
 def _evidence(

@@ -3,41 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 
 from mcexact.analysis.invariant_subspace import controllable_subspace
 from mcexact.analysis.modular_system import generator
-from mcexact.certificate.controllability import ControllabilityCertificate
+from mcexact.answer.controllability import JointControllability
 from mcexact.derived.dual import dual
 from mcexact.exact.linear_algebra import characteristic_polynomial
-from mcexact.exact.polynomial import Polynomial
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import canonical_document
-
-
-@dataclass(frozen=True)
-class JointControllability:
-    """What a set T of channels controls; for observability, the same of the dual.
-
-    Attributes
-    ----------
-    controllable : bool
-        Whether ⟨A | B_T⟩ is the whole state space.
-    channels : tuple of str
-        T, by name.
-    dimension : int
-        dim ⟨A | B_T⟩.
-    uncontrollable_polynomial : Polynomial
-        Monic, of degree n − dimension: the characteristic polynomial of A on the quotient by
-        ⟨A | B_T⟩.  Its roots are the modes that T does not control.
-    certificate : ControllabilityCertificate
-    """
-
-    controllable: bool
-    channels: tuple[str, ...]
-    dimension: int
-    uncontrollable_polynomial: Polynomial
-    certificate: ControllabilityCertificate
 
 
 def joint_controllability(
@@ -68,25 +40,20 @@ def joint_controllability(
     (False, 'x - 2')
     """
     T = range(system.m) if channels is None else system.indices(channels)
-    names = system.named(T)
     found = controllable_subspace(
         system.A, system.input_matrix(T), generator(system, "controllability")
     )
     W = found.annihilator()
-    polynomial = characteristic_polynomial((W @ system.A).take(cols=found.free))
-    controllable = found.dimension == system.n
-    certificate = ControllabilityCertificate(
-        system=canonical_document(system.plant),
-        subject=system.subject,
-        channels=names,
+    return JointControllability(
+        system,
+        channels=system.named(T),
         dimension=found.dimension,
-        controllable=controllable,
-        uncontrollable_polynomial=polynomial,
+        controllable=found.dimension == system.n,
+        uncontrollable_polynomial=characteristic_polynomial((W @ system.A).take(cols=found.free)),
         modulus=found.modulus,
         annihilator=W,
         pivots=found.free,
     )
-    return JointControllability(controllable, names, found.dimension, polynomial, certificate)
 
 
 def joint_observability(
@@ -103,7 +70,7 @@ def joint_observability(
     Returns
     -------
     JointControllability
-        Of ``dual(system)``: ``controllable`` is whether (C_T, A) is observable, ``dimension`` the
-        rank of [C_T; C_T A; …], ``uncontrollable_polynomial`` holds the unobservable modes.
+        Of ``dual(system)``: ``observable`` is whether (C_T, A) is, ``dimension`` the rank of
+        [C_T; C_T A; …], ``uncontrollable_polynomial`` holds the unobservable modes.
     """
     return joint_controllability(dual(system), channels)

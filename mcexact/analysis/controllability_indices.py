@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from mcexact.analysis.modular_system import generator, residue_systems
-from mcexact.certificate.controllability_indices import ControllabilityIndicesCertificate
+from mcexact.answer.controllability_indices import ControllabilityIndices
 from mcexact.derived.dual import dual
 from mcexact.errors import InternalError
 from mcexact.exact.blocks import hstack, vstack
@@ -16,32 +16,6 @@ from mcexact.exact.linear_algebra import solve_nonsingular
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import ModularMatrix, residues
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import canonical_document
-
-
-@dataclass(frozen=True)
-class ControllabilityIndices:
-    """The ranks r_k of [B_T, AB_T, …, A^{k−1}B_T], and the indices that follow from them.
-
-    Attributes
-    ----------
-    channels : tuple of str
-        T, by name.
-    ranks : tuple of int
-        r_1 < … < r_ν, until they stop growing; empty if B_T = 0.
-    index : int or None
-        The controllability index ν, the smallest with r_ν = n; None if there is none.
-    indices : tuple of int
-        The controllability (Brunovsky) indices κ_1 ≥ κ_2 ≥ …, the conjugate partition of
-        r_1, r_2 − r_1, …; they sum to r_ν.
-    certificate : ControllabilityIndicesCertificate
-    """
-
-    channels: tuple[str, ...]
-    ranks: tuple[int, ...]
-    index: int | None
-    indices: tuple[int, ...]
-    certificate: ControllabilityIndicesCertificate
 
 
 @dataclass(frozen=True)
@@ -180,19 +154,14 @@ def _result(
     modulus: int,
     W: Matrix,
 ) -> ControllabilityIndices:
-    names = system.named(T)
     reached = ranks[-1] if ranks else 0
-    index = len(ranks) if reached == system.n else None
     steps = [b - a for a, b in pairwise((0, *ranks))]
-    indices = tuple(sum(step > i for step in steps) for i in range(max(steps, default=0)))
-    certificate = ControllabilityIndicesCertificate(
-        system=canonical_document(system.plant),
-        subject=system.subject,
-        channels=names,
+    return ControllabilityIndices(
+        system,
+        channels=system.named(T),
         ranks=ranks,
-        index=index,
-        indices=indices,
+        index=len(ranks) if reached == system.n else None,
+        indices=tuple(sum(step > i for step in steps) for i in range(max(steps, default=0))),
         modulus=modulus,
         annihilator=W,
     )
-    return ControllabilityIndices(names, ranks, index, indices, certificate)

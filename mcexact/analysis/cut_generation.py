@@ -17,7 +17,7 @@ from mcexact.analysis.covering import (
 )
 from mcexact.analysis.modular_system import generator
 from mcexact.analysis.separation import absence
-from mcexact.certificate.covering import Absence
+from mcexact.answer.covering import Absence
 from mcexact.errors import LimitReached, UsageError
 from mcexact.exact.location import StabilityRegion
 from mcexact.model.system import MultiChannelSystem

@@ -2,37 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from mcexact.analysis.fixed_spectrum import evidence
 from mcexact.analysis.modular_system import closed_loop, generator, lifted, lifted_gains
 from mcexact.analysis.obstructions import Obstruction, decide
-from mcexact.certificate.deficiency import DeficiencyCertificate
+from mcexact.answer.deficiency import Deficiency
 from mcexact.exact.modular import random_matrix
-from mcexact.exact.polynomial import Polynomial
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import canonical_document
-
-
-@dataclass(frozen=True)
-class Deficiency:
-    """The largest n − rank P_s(λ) over all subsets s of channels and all λ.
-
-    Attributes
-    ----------
-    deficiency : int
-        ρ; 0 iff no mode is fixed.
-    polynomial : Polynomial or None
-        An irreducible polynomial at whose roots ρ is reached; None if ρ = 0.
-    channels : tuple of str or None
-        The largest s that reaches it there.
-    certificate : DeficiencyCertificate
-    """
-
-    deficiency: int
-    polynomial: Polynomial | None
-    channels: tuple[str, ...] | None
-    certificate: DeficiencyCertificate
 
 
 def deficiency(system: MultiChannelSystem) -> Deficiency:
@@ -69,9 +44,8 @@ def deficiency(system: MultiChannelSystem) -> Deficiency:
         B0, C0 = random_matrix(n, rho, ell, rng), random_matrix(rho, n, ell, rng)
         if (closed + B0 @ C0).characteristic_polynomial().gcd(modes).degree == 0:
             break
-    certificate = DeficiencyCertificate(
-        system=canonical_document(system.plant),
-        subject=system.subject,
+    return Deficiency(
+        system,
         deficiency=rho,
         modulus=ell,
         gains=lifted_gains(modular, decision.gains),
@@ -80,8 +54,3 @@ def deficiency(system: MultiChannelSystem) -> Deficiency:
         polynomial=worst.polynomial if worst else None,
         subspace=evidence(system, worst.subspace) if worst else None,
     )
-    if worst is None:
-        return Deficiency(0, None, None, certificate)
-    T = set(worst.subspace.channels_T)
-    channels = system.named(i for i in range(system.m) if i not in T)
-    return Deficiency(rho, worst.polynomial, channels, certificate)

@@ -6,14 +6,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from mcexact.analysis.controllability import (
-    JointControllability,
-    joint_controllability,
-    joint_observability,
-)
+from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.analysis.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.transfer_graph import TransferGraph, transfer_graph
+from mcexact.analysis.transfer_graph import transfer_graph
+from mcexact.answer.controllability import JointControllability
 from mcexact.answer.fixed_spectrum import FixedSpectrum
+from mcexact.answer.transfer_graph import TransferGraph
 from mcexact.derived.delayed import held_system, lifted_system
 from mcexact.derived.extended import Share, extended_system
 from mcexact.exact.polynomial import Polynomial

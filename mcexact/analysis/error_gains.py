@@ -8,7 +8,8 @@ from fractions import Fraction
 from typing import Any
 
 from mcexact.analysis.gains import error_gain_draws
-from mcexact.analysis.single_channel_gains import SingleChannelGains, single_channel_gains
+from mcexact.analysis.single_channel_gains import single_channel_gains
+from mcexact.answer.single_channel_gains import SingleChannelGains
 from mcexact.derived.error_system import error_system
 from mcexact.derived.feedback import checked_gains
 from mcexact.exact.matrix import Matrix

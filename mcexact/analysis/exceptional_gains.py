@@ -4,58 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from fractions import Fraction
 from random import Random
 from typing import Any
 
 from mcexact.analysis.controllability import joint_controllability
 from mcexact.analysis.controllability_indices import controllability_indices
 from mcexact.analysis.modular_system import generator
+from mcexact.answer.controllability_indices import ControllabilityIndices
 from mcexact.answer.evidence import RootDisc
-from mcexact.certificate.controllability_indices import ControllabilityIndicesCertificate
-from mcexact.certificate.exceptional_gains import ExceptionalFactor, ExceptionalGainsCertificate
+from mcexact.answer.exceptional_gains import ExceptionalFactor, ExceptionalSet
 from mcexact.errors import Impossible, InternalError
 from mcexact.exact.blocks import hstack
-from mcexact.exact.enclosures import real_root_intervals, root_discs
+from mcexact.exact.enclosures import root_discs
 from mcexact.exact.linear_algebra import determinant
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import polynomial_residues, primes
 from mcexact.exact.number_field import kernel
 from mcexact.exact.polynomial import Polynomial, product
 from mcexact.exact.polynomial_matrix import PolynomialMatrix
-from mcexact.exact.rational import as_fraction
 from mcexact.model.matrix_entry import as_matrix, require_shape
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import canonical_document
-
-
-@dataclass(frozen=True)
-class ExceptionalSet:
-    """Where the first blocks of [B, (M+gA)B, …] lose rank n.
-
-    Attributes
-    ----------
-    blocks : int
-        How many blocks are looked at.
-    polynomial : Polynomial
-        In g, monic and squarefree: the exceptional g, complex ones included, are its roots.
-    factors : tuple of Polynomial
-        Its monic irreducible factors.
-    real_roots : tuple of (Fraction, Fraction)
-        Disjoint intervals, ascending, with one exceptional real g each; equal ends where it is a
-        short decimal.
-    certificate : ExceptionalGainsCertificate
-    """
-
-    blocks: int
-    polynomial: Polynomial
-    factors: tuple[Polynomial, ...]
-    real_roots: tuple[tuple[Fraction, Fraction], ...]
-    certificate: ExceptionalGainsCertificate
-
-    def __contains__(self, g: Any) -> bool:
-        """Whether a rational g is exceptional, exactly."""
-        return self.polynomial(as_fraction(g)) == 0
 
 
 @dataclass(frozen=True)
@@ -64,20 +32,22 @@ class ExceptionalGains:
 
     Attributes
     ----------
-    index : int
-        m, the controllability index of (A, B).
+    indices : ControllabilityIndices
+        That (A, B) is controllable with index m.
     index_set : ExceptionalSet
         E_index: the first m blocks of [B, (M+gA)B, …] lose rank n.
     controllability_set : ExceptionalSet
         E_ctrl ⊂ E_index: all n blocks do, (M+gA, B) is not controllable.
-    certificate : ControllabilityIndicesCertificate
-        That (A, B) is controllable with index m; each set has a certificate of its own.
     """
 
-    index: int
+    indices: ControllabilityIndices
     index_set: ExceptionalSet
     controllability_set: ExceptionalSet
-    certificate: ControllabilityIndicesCertificate
+
+    @property
+    def index(self) -> int:
+        """m, the controllability index of (A, B)."""
+        return len(self.indices.ranks)
 
 
 def exceptional_gains(M: Any, A: Any, B: Any) -> ExceptionalGains:
@@ -123,14 +93,14 @@ def exceptional_gains(M: Any, A: Any, B: Any) -> ExceptionalGains:
     if indices.index is None:
         raise Impossible(
             "(A, B) is not controllable, which Lemma 3 asks for",
-            joint_controllability(system).certificate,
+            joint_controllability(system),
         )
     rng = generator(system, "exceptional_gains")
     within = exceptional_set(system, M, max(indices.index, 1), rng)
     everything = within
     if system.n > within.blocks:
         everything = exceptional_set(system, M, system.n, rng)
-    return ExceptionalGains(indices.index, within, everything, indices.certificate)
+    return ExceptionalGains(indices, within, everything)
 
 
 def blocks_of_g(M: Matrix, A: Matrix, B: Matrix, blocks: int) -> PolynomialMatrix:
@@ -171,14 +141,14 @@ def exceptional_set(
         first, second = _determinant(K @ R), _determinant(K @ S)
         if first.is_zero() or second.is_zero():
             continue
-        confirmed: list[tuple[Polynomial, ExceptionalFactor]] = []
+        confirmed: list[ExceptionalFactor] = []
         left = first
         for f, _ in first.gcd(second).factor():
             rows, pivots = kernel(K.T, f)
             if rows.ncols:
                 left = left // f ** f.multiplicity_in(left)
                 row = rows.take(cols=[0]).T
-                confirmed.append((f, ExceptionalFactor(f, row, pivots[0])))
+                confirmed.append(ExceptionalFactor(f, row, pivots[0]))
         if left.gcd(second).degree == 0:
             return _result(system, M, blocks, confirmed, (R, S), left, second)
     raise InternalError("compressions that share no other root were not found")
@@ -224,24 +194,20 @@ def _result(
     system: MultiChannelSystem,
     M: Matrix,
     blocks: int,
-    confirmed: list[tuple[Polynomial, ExceptionalFactor]],
+    confirmed: list[ExceptionalFactor],
     compressions: tuple[Matrix, Matrix],
     left: Polynomial,
     second: Polynomial,
 ) -> ExceptionalSet:
-    factors = tuple(f for f, _ in confirmed)
-    polynomial = product(factors)
-    discs = root_discs(polynomial) if factors else ()
-    rng = generator(system, "exceptional_gains")
-    certificate = ExceptionalGainsCertificate(
-        system=canonical_document(system.plant),
-        subject=system.subject,
+    polynomial = product(evidence.polynomial for evidence in confirmed)
+    discs = root_discs(polynomial) if confirmed else ()
+    return ExceptionalSet(
+        system,
         M=M,
         blocks=blocks,
         polynomial=polynomial,
         roots=tuple(RootDisc(d.re, d.im, d.radius) for d in discs),
-        modulus=_modulus(left, second, rng),
-        factors=tuple(evidence for _, evidence in confirmed),
+        modulus=_modulus(left, second, generator(system, "exceptional_gains")),
+        factors=tuple(confirmed),
         compressions=compressions,
     )
-    return ExceptionalSet(blocks, polynomial, factors, real_root_intervals(polynomial), certificate)

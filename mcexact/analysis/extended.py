@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 from mcexact.analysis.allocation import shared_dimension_bound
 from mcexact.analysis.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.transfer_graph import TransferGraph, transfer_graph
+from mcexact.analysis.transfer_graph import transfer_graph
 from mcexact.answer.fixed_spectrum import FixedSpectrum
+from mcexact.answer.transfer_graph import TransferGraph
 from mcexact.derived.extended import Share, extended_system
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_graph
@@ -73,7 +74,7 @@ def bound_attained(
     [('1', False), ('2', False), ('3', True)]
     """
     system, _ = with_graph(system, graph)
-    bound = shared_dimension_bound(system, share=share).per_agent
+    bound = shared_dimension_bound(system, share=share).deficiency
     if bound == 0:
         return ()
     found = []

@@ -2,26 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
-from mcexact.certificate.neighbor_graph import NeighborGraphCertificate
+from mcexact.answer.neighbor_graph import NeighborGraphVerdict
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_graph
-from mcexact.model.system_file import canonical_document
-
-
-@dataclass(frozen=True)
-class NeighborGraphVerdict:
-    """Whether the neighbor graph is strongly connected.
-
-    Attributes
-    ----------
-    strongly_connected : bool
-    certificate : NeighborGraphCertificate
-    """
-
-    strongly_connected: bool
-    certificate: NeighborGraphCertificate
 
 
 def neighbor_graph(
@@ -41,10 +24,4 @@ def neighbor_graph(
         If there is no neighbor graph.
     """
     system, graph = with_graph(system, graph)
-    connected = graph.is_strongly_connected()
-    certificate = NeighborGraphCertificate(
-        system=canonical_document(system.plant),
-        subject=system.subject,
-        strongly_connected=connected,
-    )
-    return NeighborGraphVerdict(connected, certificate)
+    return NeighborGraphVerdict(system, strongly_connected=graph.is_strongly_connected())

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from typing import Any
 
-from mcexact.analysis.closed_loop_spectrum import OpenLoopSpectrum, open_loop_spectrum
+from mcexact.analysis.closed_loop_spectrum import open_loop_spectrum
 from mcexact.analysis.modular_system import generator
-from mcexact.certificate.pencil_rank import PencilRankCertificate
+from mcexact.answer.closed_loop_spectrum import ClosedLoopSpectrum
+from mcexact.answer.pencil_rank import PencilRank
 from mcexact.errors import InputError, InternalError
 from mcexact.exact.blocks import block
 from mcexact.exact.matrix import Matrix
@@ -18,31 +18,6 @@ from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.polynomial_matrix import PolynomialMatrix
 from mcexact.exact.rational import as_fraction
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import canonical_document
-
-
-@dataclass(frozen=True)
-class PencilRank:
-    """The rank of P_s(λ) at every root λ of an irreducible polynomial.
-
-    Attributes
-    ----------
-    subset : tuple of str
-        s, in the order of the system.
-    polynomial : Polynomial
-        p, monic and irreducible over Q.
-    rank : int
-        Below n: the roots of p are fixed modes, and s says why.
-    deficiency : int
-        max(0, n − rank).
-    certificate : PencilRankCertificate
-    """
-
-    subset: tuple[str, ...]
-    polynomial: Polynomial
-    rank: int
-    deficiency: int
-    certificate: PencilRankCertificate
 
 
 def pencil(system: MultiChannelSystem, s: Iterable[int]) -> tuple[Matrix, Matrix]:
@@ -113,22 +88,19 @@ def pencil_rank(system: MultiChannelSystem, s: Iterable[str], mode: Any) -> Penc
     M0, M1 = pencil(system, inside)
     kernel, pivots = kernel_at(M0, M1, p)
     rank = M0.ncols - len(pivots)
-    names = system.named(inside)
-    certificate = PencilRankCertificate(
-        system=canonical_document(system.plant),
-        subject=system.subject,
-        subset=names,
+    return PencilRank(
+        system,
+        subset=system.named(inside),
         polynomial=p,
         rank=rank,
         modulus=_modulus(system, M0, M1, p, rank),
         kernel=kernel,
         pivots=pivots,
     )
-    return PencilRank(names, p, rank, max(0, system.n - rank), certificate)
 
 
 def pencil_ranks(
-    system: MultiChannelSystem, s: Iterable[str], *, spectrum: OpenLoopSpectrum | None = None
+    system: MultiChannelSystem, s: Iterable[str], *, spectrum: ClosedLoopSpectrum | None = None
 ) -> tuple[PencilRank, ...]:
     """The rank of P_s at every mode of A, one for each irreducible factor of det(xI − A).
 
@@ -137,7 +109,7 @@ def pencil_ranks(
     system : MultiChannelSystem
     s : iterable of str
         Names of channels.
-    spectrum : OpenLoopSpectrum, optional
+    spectrum : ClosedLoopSpectrum, optional
         ``open_loop_spectrum(system)``, where it is known already.
     """
     subset = list(s)

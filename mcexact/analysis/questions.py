@@ -123,7 +123,7 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
         "assignability": Question(
             "assignability:assignability",
             "into which parts the closed-loop spectrum splits",
-            reuses=_SPECTRUM | {"graph": "transfer_graph"},
+            reuses={"graph": "transfer_graph"},
         ),
         "setpoint": Question(
             "setpoint:setpoint_solvability",

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 from mcexact.analysis.lyapunov import QuadraticForm, decrease, is_dominant
-from mcexact.certificate.stability import InstabilityMethod
+from mcexact.answer.stability import InstabilityMethod
 from mcexact.exact.blocks import block_diagonal, vstack
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix

@@ -20,7 +20,7 @@ from mcexact.analysis.transfer_graph import (
     suspected_arcs,
     witnessed_powers,
 )
-from mcexact.certificate.covering import Absence, DeficiencyCut
+from mcexact.answer.covering import Absence, DeficiencyCut
 from mcexact.derived.dual import dual
 from mcexact.errors import InternalError
 from mcexact.exact.linear_algebra import characteristic_polynomial

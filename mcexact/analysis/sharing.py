@@ -36,7 +36,7 @@ def account_of_dimensions(
         "joint_controllability": joint_controllability(system),
         "joint_observability": joint_observability(system),
     }
-    given = Given(system, {"cuts": least.cuts, "nodes": least.nodes})
+    given = Given(system, {"cuts": len(least.cuts), "nodes": len(least.tree)})
     return Account(answers, given, ALLOCATION)
 
 
@@ -51,5 +51,5 @@ def account_of_links(system: MultiChannelSystem, **options: Any) -> Account:
         The keywords of `minimal_communication`.
     """
     least = minimal_communication(system, **options)
-    given = Given(system, {"cuts": least.cuts, "nodes": least.nodes})
+    given = Given(system, {"cuts": len(least.cuts), "nodes": len(least.tree)})
     return Account({"minimal_communication": least}, given, LINKS)

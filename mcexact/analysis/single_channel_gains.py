@@ -18,9 +18,9 @@ from mcexact.analysis.modular_system import (
 )
 from mcexact.analysis.obstructions import decide
 from mcexact.analysis.transfer_graph import suspected_arcs, zero_transfer
-from mcexact.certificate.single_channel_gains import (
+from mcexact.answer.single_channel_gains import (
     GainsWitness,
-    SingleChannelGainsCertificate,
+    SingleChannelGains,
     StuckWitness,
     UnreachedWitness,
 )
@@ -32,7 +32,6 @@ from mcexact.exact.linear_algebra import solve_nonsingular
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import ModularMatrix, residues
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import canonical_document
 
 SIDES = {
     "controllable": ("controllable",),
@@ -40,36 +39,6 @@ SIDES = {
     "both": ("controllable", "observable"),
 }
 Indices = tuple[int, ...]
-
-
-@dataclass(frozen=True)
-class SingleChannelGains:
-    """Whether one list of decentralized gains lets every channel named control and observe.
-
-    Attributes
-    ----------
-    exists : bool
-    channels : tuple of str
-        The q that were asked about.
-    wanted : str
-        ``"controllable"``, ``"observable"`` or ``"both"``.
-    gains : tuple of Matrix or None
-        F_i, p_i × q_i; None if there are none.
-    indices : tuple of tuple of int, or None
-        For each channel the controllability index of (A_F, B_q) and the observability index of
-        (C_q, A_F), whichever was asked for.
-    reason : str
-        Empty, or why there are none, in words.
-    certificate : SingleChannelGainsCertificate
-    """
-
-    exists: bool
-    channels: tuple[str, ...]
-    wanted: str
-    gains: tuple[Matrix, ...] | None
-    indices: tuple[Indices, ...] | None
-    reason: str
-    certificate: SingleChannelGainsCertificate
 
 
 @dataclass(frozen=True)
@@ -148,7 +117,15 @@ def single_channel_gains(
         for channel, side in failing:
             found = _obstruction(system, channel, side, rng)
             if found is not None:
-                return _without_gains(question, *found)
+                return SingleChannelGains(
+                    system,
+                    channels=system.named(channels),
+                    wanted=want,
+                    exists=False,
+                    cyclic=False,
+                    indices=None,
+                    evidence=found,
+                )
     raise InternalError("the stream of primes is endless")
 
 
@@ -172,14 +149,12 @@ def _failing(
 
 def _obstruction(
     system: MultiChannelSystem, q: int, side: str, rng: Random
-) -> tuple[StuckWitness | UnreachedWitness, str] | None:
+) -> StuckWitness | UnreachedWitness | None:
     """Why no gains make channel q control, or observe, if that is so."""
     target = system if side == "controllable" else dual(system)
     name = system.names[q]
     for found in decide(full_output(target, q), rng).obstructions:
-        subspace = evidence(target, found.subspace)
-        reason = f"channel {name} cannot be made {side} at the roots of {found.polynomial}"
-        return StuckWitness(name, side, found.polynomial, subspace), reason
+        return StuckWitness(name, side, found.polynomial, evidence(target, found.subspace))
     modular = next(residue_systems(target, rng))
     arcs = suspected_arcs(modular, rng)
     reached = {q}
@@ -190,27 +165,7 @@ def _obstruction(
     space = controllable_subspace(target.A, target.input_matrix(T), rng)
     if C.is_zero() or not (C @ space.X).is_zero():
         return None
-    listed = ", ".join(system.named(rest))
-    reason = f"channel {name} cannot be made {side}: nothing leads between it and {listed}"
-    return UnreachedWitness(name, side, zero_transfer(target, T, space)), reason
-
-
-def _without_gains(
-    question: _Question, found: StuckWitness | UnreachedWitness, reason: str
-) -> SingleChannelGains:
-    system = question.system
-    names = system.named(question.channels)
-    certificate = SingleChannelGainsCertificate(
-        system=canonical_document(system.plant),
-        subject=system.subject,
-        channels=names,
-        wanted=question.wanted,
-        exists=False,
-        cyclic=False,
-        indices=None,
-        evidence=found,
-    )
-    return SingleChannelGains(False, names, question.wanted, None, None, reason, certificate)
+    return UnreachedWitness(name, side, zero_transfer(target, T, space))
 
 
 def growing_draws(system: MultiChannelSystem) -> Draw:
@@ -284,19 +239,14 @@ def _served(
     rows = _annihilators(question, gains, indices, ell)
     if rows is None:
         return None
-    names = system.named(question.channels)
-    certificate = SingleChannelGainsCertificate(
-        system=canonical_document(system.plant),
-        subject=system.subject,
-        channels=names,
+    return SingleChannelGains(
+        system,
+        channels=system.named(question.channels),
         wanted=question.wanted,
         exists=True,
         cyclic=question.cyclic,
         indices=tuple(indices),
         evidence=GainsWitness(tuple(gains), ell, rows, spun),
-    )
-    return SingleChannelGains(
-        True, names, question.wanted, tuple(gains), tuple(indices), "", certificate
     )
 
 

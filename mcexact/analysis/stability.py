@@ -11,12 +11,12 @@ from typing import Any, Literal
 from mcexact.analysis.lyapunov import QuadraticForm, quadratic_form
 from mcexact.analysis.modular_system import generator
 from mcexact.analysis.separated_instability import separated_instability
-from mcexact.certificate.stability import (
+from mcexact.answer.stability import (
     InstabilityMethod,
     LyapunovBlock,
     LyapunovMethod,
     PolynomialMethod,
-    StabilityCertificate,
+    StabilityVerdict,
     Transformation,
 )
 from mcexact.errors import UsageError
@@ -27,7 +27,6 @@ from mcexact.exact.modular import primes, residues
 from mcexact.exact.rational import Entry, as_fraction
 from mcexact.model.matrix_entry import as_matrix
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import canonical_document
 
 Method = Literal["polynomial", "lyapunov"]
 
@@ -61,26 +60,6 @@ class Separation:
         ends = [0, *accumulate(self.sizes)]
         ranges = [range(a, b) for a, b in pairwise(ends)]
         return tuple(self.Delta.take(rows=r, cols=r) for r in ranges)
-
-
-@dataclass(frozen=True)
-class StabilityVerdict:
-    """Whether every eigenvalue meets the bound.
-
-    Attributes
-    ----------
-    stable : bool
-    region : StabilityRegion
-        Where the eigenvalues were asked to lie.
-    method : str
-        ``"polynomial"``, ``"lyapunov"`` or ``"instability"``: the road that decided.
-    certificate : StabilityCertificate
-    """
-
-    stable: bool
-    region: StabilityRegion
-    method: str
-    certificate: StabilityCertificate
 
 
 def matrix_system(M: Any, time: str = "continuous") -> MultiChannelSystem:
@@ -160,14 +139,7 @@ def certify_stability(
             found = _lyapunov(loop, region, separation)
             stable = isinstance(found, LyapunovMethod)
         if found is not None:
-            certificate = StabilityCertificate(
-                system=canonical_document(loop.plant),
-                subject=loop.subject,
-                bound=region.bound,
-                stable=stable,
-                evidence=found,
-            )
-            return StabilityVerdict(stable, region, found.document()["method"], certificate)
+            return StabilityVerdict(loop, bound=region.bound, stable=stable, evidence=found)
     raise UsageError("Lyapunov matrices do not decide here: leave the method open", where="method")
 
 
@@ -206,7 +178,7 @@ def _lyapunov(
         forms.append(form)
     if any(form.R is None for form in forms):
         return _instability(loop, region, separation, forms)
-    blocks = [LyapunovBlock(f.P, f.R, f.R2) for f in forms if f.R is not None]
+    blocks = [LyapunovBlock(f.P.nrows, f.P, f.R, f.R2) for f in forms if f.R is not None]
     transformation = None
     if separation is not None:
         modulus = _nonsingular_modulus(loop, separation.T)
@@ -241,7 +213,7 @@ def _nonsingular_modulus(loop: MultiChannelSystem, T: Matrix) -> int:
     UsageError
         If no prime tried does: T is singular, as far as can be told.
     """
-    rng = generator(loop, StabilityCertificate.kind)
+    rng = generator(loop, StabilityVerdict.kind)
     for attempt, ell in enumerate(primes(rng.getrandbits(64))):
         if T.denominator % ell and residues(T, ell).rank() == T.nrows:
             return ell

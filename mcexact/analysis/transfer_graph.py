@@ -4,51 +4,16 @@ from __future__ import annotations
 
 import random
 from collections.abc import Sequence
-from dataclasses import dataclass
-from functools import cached_property
 
 from mcexact.analysis.invariant_subspace import InvariantSubspace, controllable_subspace
 from mcexact.analysis.modular_system import ModularSystem, generator, residue_systems
 from mcexact.answer.evidence import ZeroTransfer
-from mcexact.certificate.transfer_graph import TransferGraphCertificate
+from mcexact.answer.transfer_graph import TransferGraph
 from mcexact.errors import InternalError
 from mcexact.exact.modular import ModularMatrix
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import canonical_document
 
 Arc = tuple[int, int]
-
-
-@dataclass(frozen=True)
-class TransferGraph:
-    """All arcs j → i with C_i (xI − A)⁻¹ B_j ≠ 0.
-
-    Attributes
-    ----------
-    arcs : tuple of (str, str)
-        (from, to), sorted by their places in the order of the channels.
-    components : tuple of tuple of str
-        Strong components, sorted by first member.
-    strongly_connected : bool
-        Whether there is at most one component.
-    dead : tuple of str
-        Channels with B_i = 0 or C_i = 0: they cannot take part in any feedback.
-    certificate : TransferGraphCertificate
-    """
-
-    arcs: tuple[tuple[str, str], ...]
-    components: tuple[tuple[str, ...], ...]
-    strongly_connected: bool
-    dead: tuple[str, ...]
-    certificate: TransferGraphCertificate
-
-    @cached_property
-    def successors(self) -> dict[str, tuple[str, ...]]:
-        """For each channel that an arc leaves, the channels it reaches directly."""
-        found: dict[str, list[str]] = {}
-        for j, i in self.arcs:
-            found.setdefault(j, []).append(i)
-        return {j: tuple(reached) for j, reached in found.items()}
 
 
 def transfer_graph(system: MultiChannelSystem) -> TransferGraph:
@@ -171,17 +136,13 @@ def _result(
 ) -> TransferGraph:
     arcs = sorted(powers)
     names = system.names
-    named_arcs = tuple((names[j], names[i]) for j, i in arcs)
     components = tuple(system.named(c) for c in strong_components(system.m, arcs))
-    certificate = TransferGraphCertificate(
-        system=canonical_document(system.plant),
-        subject=system.subject,
-        arcs=named_arcs,
+    return TransferGraph(
+        system,
+        arcs=tuple((names[j], names[i]) for j, i in arcs),
         components=components,
         strongly_connected=len(components) <= 1,
         modulus=modulus,
         powers=tuple(powers[arc] for arc in arcs),
         zeros=tuple(zero_transfer(system, sources, found) for sources, found in zeros),
     )
-    dead = tuple(c.name for c in system.channels if c.B.is_zero() or c.C.is_zero())
-    return TransferGraph(named_arcs, components, len(components) <= 1, dead, certificate)

@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from mcexact.answer.protocol import Answer
-from mcexact.certificate import Certificate
 from mcexact.checker import Limits, Verdict, check_document
 from mcexact.errors import InputError, InternalError
 
@@ -17,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def check(
-    certificate: Answer | Certificate | str | os.PathLike[str],
+    certificate: Answer | str | os.PathLike[str],
     system: MultiChannelSystem | None = None,
 ) -> Verdict:
     """Check a certificate with the independent checker.
@@ -112,7 +111,7 @@ def _text(certificate: Any) -> bytes:
             return read_bytes(Path(certificate))
         except InputError as error:
             raise error.within(str(certificate)) from None
-    if not isinstance(certificate, Answer | Certificate):
+    if not isinstance(certificate, Answer):
         raise InputError(
             "expected an answer, such as fixed_spectrum(system), or the name of a certificate "
             f"file, found {type(certificate).__name__}",

@@ -11,14 +11,13 @@ import os
 from typing import Any
 
 from mcexact.answer.protocol import Answer
-from mcexact.certificate import Certificate
 from mcexact.model.atomic import write_text
 from mcexact.model.canonical import PlainObject, plain, text_of
 
 FORMAT = "mcexact-certificate/1"
 
 
-def document(answer: Answer | Certificate) -> dict[str, Any]:
+def document(answer: Answer) -> dict[str, Any]:
     """The certificate as one JSON object of plain data, with the six keys of ``FORMAT.md``."""
     system = answer.system
     return {
@@ -31,7 +30,7 @@ def document(answer: Answer | Certificate) -> dict[str, Any]:
     }
 
 
-def encode(answer: Answer | Certificate) -> str:
+def encode(answer: Answer) -> str:
     """The certificate as JSON text with a final line feed; equal answers give equal text.
 
     Notes
@@ -51,7 +50,7 @@ def encode(answer: Answer | Certificate) -> str:
     return "{" + ",".join(f'"{key}":{text_of(value)}' for key, value in parts.items()) + "}\n"
 
 
-def save_certificate(answer: Answer | Certificate, path: str | os.PathLike[str]) -> None:
+def save_certificate(answer: Answer, path: str | os.PathLike[str]) -> None:
     """Write an answer as a certificate file, whole or not at all.
 
     Raises

@@ -8,7 +8,7 @@ import os
 import sys
 import types
 import typing
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import fields, is_dataclass
 from fractions import Fraction
 from pathlib import Path
@@ -70,11 +70,18 @@ def load_certificate(path: str | os.PathLike[str]) -> Answer:
 
 def answer_of(document: Mapping[str, Any]) -> Answer:
     """The answer whose certificate a valid document is."""
-    about = _plant(document["system"])
-    for construction in document["subject"]:
-        about = _CONSTRUCTIONS[construction["construction"]](about, construction)
+    about = constructed(_plant(document["system"]), document["subject"])
     importlib.import_module(f"mcexact.answer.{document['kind']}")
     return _answer(KINDS[document["kind"]], document, about)
+
+
+def constructed(
+    system: MultiChannelSystem, subject: Iterable[Mapping[str, Any]]
+) -> MultiChannelSystem:
+    """The system to which constructions lead, each as plain data of a certificate."""
+    for construction in subject:
+        system = _CONSTRUCTIONS[construction["construction"]](system, construction)
+    return system
 
 
 def _plant(document: Mapping[str, Any]) -> MultiChannelSystem:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import re
+from collections.abc import Sequence
 from fractions import Fraction
 from html import escape
 from typing import TYPE_CHECKING, Any
@@ -51,12 +52,12 @@ def fitted(value: Any, room: int) -> str:
 
     Examples
     --------
-    >>> fitted(("1", "2", "3", "4"), 15), fitted(("1", "2"), 0)
+    >>> fitted(("1", "2", "3", "4"), 18), fitted(("1", "2"), 0)
     ("('1', … 3 more)", '(… 2 more)')
     >>> fitted(Polynomial.of(7, 0, -3, 1), 30), fitted(Polynomial.of(7, 0, -3, 1), 12)
     ('x^3 - 3*x^2 + 7', '… (degree 3)')
     """
-    if isinstance(value, tuple | list):
+    if isinstance(value, (tuple, list)):
         return _sequence(value, room)
     if isinstance(value, Polynomial):
         return _polynomial(value, room)
@@ -71,20 +72,22 @@ def fitted(value: Any, room: int) -> str:
     return text if short or len(text) <= room else "…"
 
 
-def _sequence(values: tuple[Any, ...] | list[Any], room: int) -> str:
-    """The first few items, and how many more there are."""
+def _sequence(values: Sequence[Any], room: int) -> str:
+    """The first few items, each whole, and how many more there are."""
     kept: list[str] = []
-    used = len("()")
+    used = len("(,)")
     for place, value in enumerate(values):
         left = len(values) - place - 1
         more = len(f", … {left} more") if left else 0
-        text = fitted(value, room - used - more)
+        text = fitted(value, LINE)
         if used + len(text) + more > room:
             break
         kept.append(text)
         used += len(text) + len(", ")
     left = len(values) - len(kept)
-    return "(" + ", ".join([*kept, f"… {left} more"] if left else kept) + ")"
+    if left:
+        kept.append(f"… {left} more")
+    return f"({', '.join(kept)}{',' if len(kept) == 1 and not left else ''})"
 
 
 def _polynomial(p: Polynomial, room: int) -> str:
@@ -109,7 +112,7 @@ def plain_view(value: Any) -> Any:
         return [[str(entry) for entry in row] for row in value.rows()]
     if hasattr(value, "document"):
         return {key: plain_view(item) for key, item in value.document().items()}
-    if isinstance(value, tuple | list):
+    if isinstance(value, (tuple, list)):
         return [plain_view(item) for item in value]
     return plain(value)
 

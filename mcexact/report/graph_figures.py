@@ -154,7 +154,7 @@ def dimensions_picture(account: Account) -> Picture:
     ):
         sizes = (0,) * len(names) if found.dimensions is None else found.dimensions
         places = range(len(names))
-        bound = answers[_BOUNDS[share]].per_agent if holds else None
+        bound = answers[_BOUNDS[share]].deficiency if holds else None
         if bound is not None:
             axis.bar(
                 [k - 0.2 for k in places],

@@ -129,7 +129,7 @@ def theorem_3(note: Notebook) -> None:
     ):
         note.on(name)
         bound = shared_dimension_bound(plant)
-        found = fixed_spectrum(lifted_system(plant, [bound.per_agent] * plant.m))
+        found = fixed_spectrum(lifted_system(plant, [bound.deficiency] * plant.m))
         note.check("nothing but 0 is fixed", found.polynomial in (Polynomial.of(1), X))
         note.certify(bound, found)
 
@@ -139,7 +139,7 @@ def theorem_3_states(note: Notebook) -> None:
     for name, plant in plants(8, time="discrete", longest_delay=2):
         note.on(name)
         bound = shared_dimension_bound(plant, share="states")
-        made = lifted_system(plant, [bound.per_agent] * plant.m, "states")
+        made = lifted_system(plant, [bound.deficiency] * plant.m, "states")
         found = fixed_spectrum(made)
         note.check("nothing but 0 is fixed", found.polynomial in (Polynomial.of(1), X))
         note.certify(bound, found)
@@ -190,7 +190,7 @@ def theorem_4(note: Notebook) -> None:
     ):
         note.on(name)
         bound = shared_dimension_bound(plant, share="states")
-        found = fixed_spectrum(held_system(plant, [bound.per_agent] * plant.m))
+        found = fixed_spectrum(held_system(plant, [bound.deficiency] * plant.m))
         note.check("nothing is fixed", found.empty)
         note.certify(bound, found)
 

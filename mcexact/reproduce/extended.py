@@ -115,8 +115,8 @@ def theorem_2(note: Notebook) -> None:
     for name, plant in (*plants(8), *drawn_plants(3, fixed=True, states=4, first=41)):
         note.on(name)
         bound = shared_dimension_bound(plant)
-        found = fixed_spectrum(extended_system(plant, [bound.per_agent] * plant.m))
-        note.check(f"nothing is fixed with n_i = {bound.per_agent}", found.empty)
+        found = fixed_spectrum(extended_system(plant, [bound.deficiency] * plant.m))
+        note.check(f"nothing is fixed with n_i = {bound.deficiency}", found.empty)
         note.certify(neighbor_graph(plant), bound, found)
 
 
@@ -129,7 +129,7 @@ def bound_zero(note: Notebook) -> None:
         note.on(name)
         for share in SHARING:
             bound = shared_dimension_bound(plant, share=share)
-            note.check(f"nothing is fixed, and the bound is 0 ({share})", bound.per_agent == 0)
+            note.check(f"nothing is fixed, and the bound is 0 ({share})", bound.deficiency == 0)
             note.certify(bound)
         note.certify(found)
 
@@ -177,12 +177,12 @@ def remark_2(note: Notebook) -> None:
     for name, plant in (*plants(8), *drawn_plants(2, fixed=True, states=4, first=41)):
         note.on(name)
         bound = shared_dimension_bound(plant, share="states")
-        made = extended_system(plant, [bound.per_agent] * plant.m, "states")
+        made = extended_system(plant, [bound.deficiency] * plant.m, "states")
         found, sight = fixed_spectrum(made), joint_observability(made)
         note.check("nothing is fixed at the bound of the remark", found.empty)
         note.check("it is jointly observable", sight.controllable)
         weaker = shared_dimension_bound(plant)
-        note.check("which is at least that of Theorem 2", bound.per_agent >= weaker.per_agent)
+        note.check("which is at least that of Theorem 2", bound.deficiency >= weaker.deficiency)
         note.certify(bound, weaker, found, sight)
 
 
@@ -236,7 +236,7 @@ def corollary_1(note: Notebook) -> None:
     """Corollary 1, for n_i ≥ 1; with n_i = 0 the instance of the erratum splits."""
     for name, plant in plants(8):
         note.on(name)
-        size = max(1, shared_dimension_bound(plant).per_agent)
+        size = max(1, shared_dimension_bound(plant).deficiency)
         found = completeness(extended_system(plant, [size] * plant.m))
         note.check("the extended system is complete", found.complete)
         note.certify(found)
@@ -265,7 +265,7 @@ def through_any_channel(note: Notebook) -> None:
     """`sys:contr-obs-thru-q`: one list F̄ serves every channel of the extended system."""
     for name, plant in plants(5):
         note.on(name)
-        size = max(1, shared_dimension_bound(plant).per_agent)
+        size = max(1, shared_dimension_bound(plant).deficiency)
         found = single_channel_gains(extended_system(plant, [size] * plant.m))
         note.check("controllable and observable through every channel", found.exists)
         note.certify(found)

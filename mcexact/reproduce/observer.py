@@ -234,7 +234,7 @@ def lifted_scalars(plant: MultiChannelSystem) -> tuple[list[Matrix], list[Matrix
     scalars = graph_scalars(graph_of(plant))
     found = single_channel_gains(scalars, want="controllable")
     if found.gains is None:
-        raise ValueError(found.reason)
+        raise ValueError("the neighbor graph is not strongly connected")
     wide = [
         hstack(
             [
@@ -279,7 +279,7 @@ def lemma_3(note: Notebook) -> None:
             "finitely many g lose the first m blocks",
             not found.index_set.polynomial.is_zero(),
         )
-        note.certify(found.index_set, found.controllability_set, found)
+        note.certify(found.index_set, found.controllability_set, found.indices)
         g = next(g for g in range(1, 1000) if g not in found.index_set)
         pair = MultiChannelSystem(M + A * g, [B], [Matrix.zeros(0, n)])
         indices = controllability_indices(pair)

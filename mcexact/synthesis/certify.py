@@ -10,10 +10,10 @@ from mcexact.analysis.stability import (
     POLYNOMIAL_LIMIT,
     Method,
     Separation,
-    StabilityVerdict,
     certify_stability,
     fastest_region,
 )
+from mcexact.answer.stability import StabilityVerdict
 from mcexact.errors import LimitReached, UsageError
 from mcexact.exact.floats import matrix_to_float, to_float
 from mcexact.exact.location import StabilityRegion

@@ -7,12 +7,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Literal
 
-from mcexact.analysis.allocation import (
-    SharedDimensionBound,
-    SharedDimensions,
-    minimal_shared_dimensions,
-    shared_dimension_bound,
-)
+from mcexact.analysis.allocation import minimal_shared_dimensions, shared_dimension_bound
+from mcexact.answer.deficiency import Deficiency
+from mcexact.answer.shared_dimensions import SharedDimensions
 from mcexact.answer.wording import refusals as say
 from mcexact.derived.extended import Share, checked_dimensions
 from mcexact.errors import Impossible, InputError, UsageError
@@ -39,12 +36,12 @@ class ExtendedDesign:
     ----------
     design : NetworkDesign
         The controller, its loop and their certificates.
-    allocation : SharedDimensions or SharedDimensionBound or None
+    allocation : SharedDimensions or Deficiency or None
         Where the n_i come from; None if they were given.
     """
 
     design: NetworkDesign
-    allocation: SharedDimensions | SharedDimensionBound | None
+    allocation: SharedDimensions | Deficiency | None
 
     @property
     def controller(self) -> Controller:
@@ -194,11 +191,11 @@ def _sizes(
     share: Share,
     region: StabilityRegion,
     free_assignability: bool,
-) -> tuple[SharedDimensions | SharedDimensionBound | None, tuple[int, ...]]:
+) -> tuple[SharedDimensions | Deficiency | None, tuple[int, ...]]:
     """n_1 … n_m, and where they come from."""
     if dimensions == "bound":
         most = shared_dimension_bound(system, share=share)
-        return most, (most.per_agent,) * system.m
+        return most, (most.deficiency,) * system.m
     if not isinstance(dimensions, str):
         return None, checked_dimensions(system, dimensions)
     if dimensions != "minimal":

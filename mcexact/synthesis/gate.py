@@ -8,9 +8,9 @@ from typing import Any
 from mcexact.analysis.closed_loop_spectrum import agreeing_moduli
 from mcexact.analysis.modular_system import generator
 from mcexact.analysis.stability import Method, Separation, certify_stability
+from mcexact.answer.closed_loop_spectrum import ClosedLoopSpectrum
+from mcexact.answer.distributed_observer import DistributedObserver
 from mcexact.answer.wording import refusals as say
-from mcexact.certificate.closed_loop_spectrum import ClosedLoopSpectrumCertificate
-from mcexact.certificate.distributed_observer import DistributedObserverCertificate
 from mcexact.errors import Impossible, InternalError
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
@@ -19,7 +19,6 @@ from mcexact.model.closed_loop import closed_loop
 from mcexact.model.controller import Controller
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import canonical_document
 
 _KEY = object()
 
@@ -90,9 +89,7 @@ def certify_spectrum(
     loop = closed_loop(system, controller, graph)
     seed = generator(loop, "closed_loop_spectrum").getrandbits(64)
     moduli = agreeing_moduli([(loop.A, polynomial)], seed)
-    certificate = ClosedLoopSpectrumCertificate(
-        canonical_document(loop.plant), loop.subject, polynomial, moduli
-    )
+    certificate = ClosedLoopSpectrum(loop, polynomial=polynomial, moduli=moduli)
     return CertifiedClosedLoop(loop, controller, polynomial, certificate, _KEY)
 
 
@@ -142,8 +139,8 @@ def certify_observer(
             raise InternalError(f"a root is not in the region {region}")
     seed = generator(loop, "distributed_observer").getrandbits(64)
     moduli = agreeing_moduli([(M_F, feedback), (M_E, error)], seed)
-    certificate = DistributedObserverCertificate(
-        canonical_document(loop.plant), loop.subject, feedback, error, bound, moduli
+    certificate = DistributedObserver(
+        loop, feedback=feedback, error=error, bound=bound, moduli=moduli
     )
     return CertifiedClosedLoop(loop, controller, feedback * error, certificate, _KEY)
 

@@ -8,10 +8,12 @@ from functools import cached_property
 from typing import Any
 
 from mcexact.analysis.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.single_channel_gains import SingleChannelGains, single_channel_gains
-from mcexact.analysis.stability import StabilityVerdict, certify_stability
+from mcexact.analysis.single_channel_gains import single_channel_gains
+from mcexact.analysis.stability import certify_stability
 from mcexact.analysis.transfer_graph import transfer_graph
 from mcexact.answer.fixed_spectrum import FixedSpectrum
+from mcexact.answer.single_channel_gains import SingleChannelGains
+from mcexact.answer.stability import StabilityVerdict
 from mcexact.answer.wording import refusals as say
 from mcexact.errors import Impossible, InputError, InternalError, LimitReached, UsageError
 from mcexact.exact.location import StabilityRegion

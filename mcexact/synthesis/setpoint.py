@@ -9,8 +9,10 @@ from typing import Any, Literal
 from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.analysis.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.setpoint import setpoint_solvability
-from mcexact.analysis.stability import StabilityVerdict, certify_stability
+from mcexact.analysis.stability import certify_stability
+from mcexact.answer.reading import constructed
 from mcexact.answer.setpoint import SetpointSolvability
+from mcexact.answer.stability import StabilityVerdict
 from mcexact.answer.wording import refusals as say
 from mcexact.derived.extended import extended_system
 from mcexact.derived.integrators import setpoint_system
@@ -20,11 +22,12 @@ from mcexact.exact.linear_algebra import solve
 from mcexact.exact.location import StabilityRegion, steady_point
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
+from mcexact.model.canonical import plain
 from mcexact.model.closed_loop import closed_loop_matrix, loop_layout, reference_matrix
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_graph
-from mcexact.model.system_file import canonical_document, digest
+from mcexact.model.system_file import digest
 from mcexact.synthesis.extended import Dimensions, design_extended
 from mcexact.synthesis.gate import CertifiedClosedLoop, certify_rate, certify_spectrum
 from mcexact.synthesis.network_candidates import ArithmeticKind, Progress
@@ -232,9 +235,8 @@ def _about_the_plant(refused: Impossible, augmented: MultiChannelSystem) -> Impo
         sizes = (augmented.n,) * augmented.m
         stuck = fixed_spectrum(extended_system(augmented, sizes, "states"))
         return Impossible(say.INTEGRATORS_FIXED(p=stuck.polynomial), stuck.certificate)
-    plant = canonical_document(augmented.plant)
-    subject = (*augmented.subject, *found.subject)
-    return Impossible(refused.message, replace(found, system=plant, subject=subject))
+    about = constructed(augmented, plain(found.subject))
+    return Impossible(refused.message, replace(found, about=about))
 
 
 def _required(system: MultiChannelSystem) -> SetpointSolvability:

@@ -8,14 +8,11 @@ from typing import Any
 
 import pytest
 
-from mcexact.analysis.allocation import (
-    SharedDimensions,
-    minimal_shared_dimensions,
-    shared_dimension_bound,
-)
+from mcexact.analysis.allocation import minimal_shared_dimensions, shared_dimension_bound
 from mcexact.analysis.communication import minimal_communication
 from mcexact.answer.codec import encode
 from mcexact.answer.protocol import Answer
+from mcexact.answer.shared_dimensions import SharedDimensions
 from mcexact.checker.kinds import check_document
 from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.derived.extended import extended_system
@@ -81,7 +78,7 @@ def test_the_papers_example_needs_less_than_its_bound(
     share: str, dimensions: tuple[int, ...]
 ) -> None:
     bound = shared_dimension_bound(PLANT, RING, share)  # type: ignore[arg-type]
-    assert (bound.per_agent, bound.total) == (1, 3)
+    assert (bound.deficiency, bound.total) == (1, 3)
     assert_valid(bound.certificate)
     found = minimal_shared_dimensions(PLANT, RING, share)  # type: ignore[arg-type]
     assert found.dimensions == dimensions
@@ -123,13 +120,13 @@ def test_rounding_up_the_relaxation_is_not_enough(
     halves = [[number, Fraction(1, 2)] for number in range(3 * copies)]
     bound = sum((y for _, y in halves), Fraction(0))
     assert bound == relaxed
-    assert (found.nodes > 1) == (copies > 1)
+    assert (len(found.tree) > 1) == (copies > 1)
     assert_valid(found.certificate)
 
 
 def test_sharing_sub_states_alone_adds_one_for_every_sensor() -> None:
     found = minimal_shared_dimensions(triangles(2), share="states")
-    assert found.total == 10 and found.nodes > 1
+    assert found.total == 10 and len(found.tree) > 1
     assert_valid(found.certificate)
 
 

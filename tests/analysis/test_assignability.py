@@ -78,13 +78,13 @@ def test_a_state_that_two_channels_drive_and_none_measures_is_in_no_block() -> N
     found = assignability(system)
     assert [block.dimension for block in found.blocks] == [0, 0]
     assert found.fixed_degree == 1
-    assert not found.free
+    assert found.undivided and not fixed_spectrum(system).empty
 
 
 def test_one_channel_that_does_everything_is_free() -> None:
-    assert assignability(MultiChannelSystem([[0]], [[[1]]], [[[1]]])).free
+    assert assignability(MultiChannelSystem([[0]], [[[1]]], [[[1]]])).undivided
     dead = MultiChannelSystem([[0]], [[[1]], [[0]]], [[[1]], [[1]]])
-    assert assignability(dead).free
+    assert assignability(dead).undivided
 
 
 def test_without_states_there_is_nothing_to_move() -> None:

@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import pytest
 
-from mcexact.analysis.completeness import Completeness, completeness
+from mcexact.analysis.completeness import completeness
 from mcexact.analysis.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.single_channel_gains import single_channel_gains
 from mcexact.answer import codec
-from mcexact.certificate.completeness import CutWitness, FixedModeWitness, FreedomWitness
+from mcexact.answer.completeness import Completeness, CutWitness, FixedModeWitness, FreedomWitness
 from mcexact.checker import check_document
 from mcexact.model import gallery
 from mcexact.model.system import MultiChannelSystem

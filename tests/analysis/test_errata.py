@@ -59,7 +59,7 @@ def test_a_bound_below_one_is_attained_by_nobody() -> None:
     plant = MultiChannelSystem([[0]], [one] * 2, [one] * 2)
     graph = NeighborGraph.complete(plant.names)
     bound = shared_dimension_bound(plant, graph)
-    assert bound.per_agent == 0 and bound_attained(plant, graph) == ()
+    assert bound.deficiency == 0 and bound_attained(plant, graph) == ()
     assert_valid(bound.certificate)
 
 
@@ -73,7 +73,7 @@ def test_no_fixed_mode_and_no_shared_state_can_leave_the_spectrum_split() -> Non
         neighbors={"1": ["2"], "2": ["3"], "3": ["1"]},
     )
     assert plant.neighbors is not None and plant.neighbors.is_strongly_connected()
-    assert shared_dimension_bound(plant).per_agent == 0
+    assert shared_dimension_bound(plant).deficiency == 0
     alone = extended_system(plant, [0, 0, 0])
     spectrum, graph, freedom = fixed_spectrum(alone), transfer_graph(alone), completeness(alone)
     assert spectrum.empty and not freedom.complete

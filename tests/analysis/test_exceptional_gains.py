@@ -66,7 +66,7 @@ def test_an_irrational_gain_is_enclosed_and_no_rational_one_is_in_the_set() -> N
     assert found.index_set.polynomial.degree == 0
     single = exceptional_gains([[0, 1], [2, 0]], [[0, 1], [-1, 0]], [[1], [0]])
     assert [int(low) for low, _ in single.index_set.real_roots] == [2]
-    for answer in (found.index_set, single.index_set, found):
+    for answer in (found.index_set, single.index_set, found.indices):
         assert check_document(encode(answer.certificate).encode()).verdict == "VALID"
 
 

@@ -8,14 +8,9 @@ from fractions import Fraction
 import pytest
 
 from mcexact.analysis.lyapunov import is_dominant, quadratic_form
-from mcexact.analysis.stability import (
-    Separation,
-    StabilityVerdict,
-    certify_stability,
-    fastest_region,
-    matrix_system,
-)
+from mcexact.analysis.stability import Separation, certify_stability, fastest_region, matrix_system
 from mcexact.answer.codec import encode
+from mcexact.answer.stability import StabilityVerdict
 from mcexact.checker.kinds import check_document
 from mcexact.errors import FloatRefused, UsageError
 from mcexact.exact.blocks import block_diagonal

@@ -132,8 +132,8 @@ def of_its_graph(plant: MultiChannelSystem) -> Answers:
         )
     if plant.time == "discrete":
         for name, verdict in (
-            ("lifted", lifted_verdict(plant, [bound.per_agent] * plant.m)),
-            ("held", held_verdict(plant, [bound.per_agent] * plant.m)),
+            ("lifted", lifted_verdict(plant, [bound.deficiency] * plant.m)),
+            ("held", held_verdict(plant, [bound.deficiency] * plant.m)),
         ):
             yield f"{name}_fixed_spectrum", verdict.spectrum
             yield f"{name}_joint_controllability", verdict.controllability

@@ -24,8 +24,8 @@ STAGE = {
     "sweep": 7,
     "reproduce": 8,
 }
-BESIDE = {"certificate", "checker", "testing", "cli", "errors"}
-EXACT_STAGES = {"exact", "model", "derived", "answer", "analysis", "certificate", "checker"}
+BESIDE = {"checker", "testing", "cli", "errors"}
+EXACT_STAGES = {"exact", "model", "derived", "answer", "analysis", "checker"}
 MODULES = sorted(PACKAGE.rglob("*.py"))
 
 
@@ -68,10 +68,6 @@ def may_import(importer: str, imported: str) -> bool:
         return True
     if imported == "errors":
         return importer != "checker"
-    if imported == "certificate":
-        return importer in STAGE
-    if importer == "certificate":
-        return STAGE[imported] <= STAGE["answer"]
     if imported == "checker":
         # The independent checker is called, never built upon.
         return importer in {"answer", "report", "sweep", "reproduce"}

@@ -101,7 +101,7 @@ def compare_dimensions(count: int, seed: int) -> Counter[str]:
         if expected is not None and connected:
             bound = shared_dimension_bound(system, graph, share)
             seen["something to share, connected graph"] += found.total != 0
-            seen["largest deficiency 2 or more"] += bound.per_agent > 1
+            seen["largest deficiency 2 or more"] += bound.deficiency > 1
             if not weighted:
                 seen["unit costs, connected, feasible"] += 1
                 seen["uniform bound strictly larger"] += bound.total > (found.total or 0)

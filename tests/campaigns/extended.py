@@ -95,8 +95,8 @@ def statements(count: int, seed: int) -> Counter[str]:
         seen["systems"] += 1
         seen["strongly connected graphs"] += graph.is_strongly_connected()
         seen["with delays"] += bool(graph.delays)
-        both = shared_dimension_bound(plain).per_agent
-        alone = shared_dimension_bound(plain, share="states").per_agent
+        both = shared_dimension_bound(plain).deficiency
+        alone = shared_dimension_bound(plain, share="states").deficiency
         seen["bound positive, outputs sent"] += both > 0
         seen["bound positive, sub-states alone"] += alone > 0
         made = _smaller_claims(system, plain, random.Random(number), where)

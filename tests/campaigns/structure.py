@@ -165,11 +165,11 @@ def compare_exceptional(count: int, seed: int, states: int = 5) -> Seen:
             agree(what, answer.polynomial.coefficients, wanted)
             _compare_real_roots(what, answer)
             require_valid(what, [answer])
-        require_valid(what, [found])
+        require_valid(what, [found.indices])
         first, second = found.index_set, found.controllability_set
         seen["with a real root"] += bool(first.real_roots)
         seen["with an irrational real root"] += any(
-            _real_roots(f.coefficients) for f in first.factors if f.degree > 1
+            _real_roots(f.polynomial.coefficients) for f in first.factors if f.polynomial.degree > 1
         )
         seen["two different sets"] += first.real_roots != second.real_roots
     return seen

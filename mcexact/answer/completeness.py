@@ -1,18 +1,17 @@
-"""Certificate: whether the transfer graph is strongly connected and no mode is fixed."""
+"""Answer: whether the transfer graph is strongly connected and no mode is fixed."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, ClassVar
 
 from mcexact.answer.evidence import ShrunkSubspace, ZeroTransfer
-from mcexact.certificate import Certificate
+from mcexact.answer.protocol import Answer, Part, answer, claim, witness
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 
 
 @dataclass(frozen=True)
-class FreedomWitness:
+class FreedomWitness(Part):
     """Evidence for yes: gains that leave no mode of A in place, and arcs that connect all channels.
 
     Attributes
@@ -30,13 +29,9 @@ class FreedomWitness:
     gains: tuple[Matrix, ...]
     arcs: tuple[tuple[str, str, int], ...]
 
-    def document(self) -> dict[str, Any]:
-        """The object of ``FORMAT.md``, its values still exact objects."""
-        return {"modulus": self.modulus, "gains": self.gains, "arcs": self.arcs}
-
 
 @dataclass(frozen=True)
-class FixedModeWitness:
+class FixedModeWitness(Part):
     """Evidence for no: a polynomial whose roots are fixed modes.
 
     Attributes
@@ -50,13 +45,9 @@ class FixedModeWitness:
     polynomial: Polynomial
     subspace: ShrunkSubspace
 
-    def document(self) -> dict[str, Any]:
-        """The object of ``FORMAT.md``, its values still exact objects."""
-        return {"polynomial": self.polynomial, "subspace": self.subspace}
-
 
 @dataclass(frozen=True)
-class CutWitness:
+class CutWitness(Part):
     """Evidence for no: a nonempty proper set of channels that reaches no channel outside it.
 
     Attributes
@@ -67,31 +58,21 @@ class CutWitness:
 
     zero: ZeroTransfer
 
-    def document(self) -> dict[str, Any]:
-        """The object of ``FORMAT.md``, its values still exact objects."""
-        return {"zero": self.zero}
 
-
-@dataclass(frozen=True)
-class CompletenessCertificate(Certificate):
-    """The system is complete (its spectrum is freely assignable through any one channel), or not.
+@answer("completeness")
+class Completeness(Answer):
+    """Whether every complementary subsystem lets the spectrum be assigned freely.
 
     Attributes
     ----------
     complete : bool
+        The transfer graph is strongly connected and the fixed spectrum is empty, all subsets of
+        channels included.  With a state, then and only then some F makes the system controllable
+        and observable through any one channel.  Without states every F does, but of several
+        channels none reaches another: the system is not complete.
     evidence : FreedomWitness, FixedModeWitness or CutWitness
         The first for yes, one of the others for no.
     """
 
-    kind: ClassVar[str] = "completeness"
-
-    complete: bool
-    evidence: FreedomWitness | FixedModeWitness | CutWitness
-
-    def claim(self) -> dict[str, Any]:
-        """The statement, as the keys of the kind's ``claim``."""
-        return {"complete": self.complete}
-
-    def witness(self) -> dict[str, Any]:
-        """The evidence, as the keys of the kind's ``witness``."""
-        return self.evidence.document()
+    complete: bool = claim()
+    evidence: FreedomWitness | FixedModeWitness | CutWitness = witness(whole=True)

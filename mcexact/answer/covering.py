@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from mcexact.answer.evidence import ShrunkSubspace, ZeroTransfer
+from mcexact.answer.protocol import Part
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 
@@ -15,7 +16,7 @@ Tree = Sequence[Mapping[str, Any]]
 
 
 @dataclass(frozen=True)
-class Absence:
+class Absence(Part):
     """No fixed mode is left outside the region; for free assignability, the graph is connected.
 
     Attributes
@@ -35,18 +36,9 @@ class Absence:
     allowed: tuple[tuple[Polynomial, int], ...] = ()
     arcs: tuple[tuple[str, str, int], ...] | None = None
 
-    def document(self) -> dict[str, Any]:
-        """The object of ``FORMAT.md``, its values still exact objects."""
-        return {
-            "gains": self.gains,
-            "modulus": self.modulus,
-            "allowed": self.allowed,
-            "arcs": self.arcs,
-        }
-
 
 @dataclass(frozen=True)
-class DeficiencyCut:
+class DeficiencyCut(Part):
     """Σ n_i over N_s∖s is at least the deficiency of P_s at every root of p.
 
     Attributes
@@ -66,18 +58,9 @@ class DeficiencyCut:
     deficiency: int
     subspace: ShrunkSubspace
 
-    def document(self) -> dict[str, Any]:
-        """The object of ``FORMAT.md``, its values still exact objects."""
-        return {
-            "subset": self.subset,
-            "polynomial": self.polynomial,
-            "deficiency": self.deficiency,
-            "subspace": self.subspace,
-        }
-
 
 @dataclass(frozen=True)
-class ConnectivityCut:
+class ConnectivityCut(Part):
     """Nothing passes from the complement of s to s, so that Σ n_i over N_s∖s is at least 1.
 
     Attributes
@@ -91,13 +74,9 @@ class ConnectivityCut:
     subset: tuple[str, ...]
     zero: ZeroTransfer
 
-    def document(self) -> dict[str, Any]:
-        """The object of ``FORMAT.md``, its values still exact objects."""
-        return {"subset": self.subset, "zero": self.zero}
-
 
 @dataclass(frozen=True)
-class ArcCut:
+class ArcCut(Part):
     """One of the arcs that carry something of U across the boundary of T must be added.
 
     Attributes
@@ -110,7 +89,3 @@ class ArcCut:
 
     polynomial: Polynomial
     subspace: ShrunkSubspace
-
-    def document(self) -> dict[str, Any]:
-        """The object of ``FORMAT.md``, its values still exact objects."""
-        return {"polynomial": self.polynomial, "subspace": self.subspace}

@@ -1,18 +1,17 @@
-"""Certificate: gains with which single channels control or observe a system, or why none do."""
+"""Answer: gains with which single channels control or observe a system, or why none do."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, ClassVar
 
 from mcexact.answer.evidence import ShrunkSubspace, ZeroTransfer
-from mcexact.certificate import Certificate
+from mcexact.answer.protocol import Answer, Part, answer, claim, shown, witness
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 
 
 @dataclass(frozen=True)
-class GainsWitness:
+class GainsWitness(Part):
     """Evidence for yes: the gains, and rows that no index can be smaller for.
 
     Attributes
@@ -33,18 +32,9 @@ class GainsWitness:
     annihilators: tuple[tuple[Matrix, ...], ...]
     generator: Matrix | None
 
-    def document(self) -> dict[str, Any]:
-        """The object of ``FORMAT.md``, its values still exact objects."""
-        return {
-            "gains": self.gains,
-            "modulus": self.modulus,
-            "annihilators": self.annihilators,
-            "generator": self.generator,
-        }
-
 
 @dataclass(frozen=True)
-class StuckWitness:
+class StuckWitness(Part):
     """Evidence for no: a mode that no gains let the channel control or observe.
 
     Attributes
@@ -64,18 +54,9 @@ class StuckWitness:
     polynomial: Polynomial
     subspace: ShrunkSubspace
 
-    def document(self) -> dict[str, Any]:
-        """The object of ``FORMAT.md``, its values still exact objects."""
-        return {
-            "channel": self.channel,
-            "side": self.side,
-            "polynomial": self.polynomial,
-            "subspace": self.subspace,
-        }
-
 
 @dataclass(frozen=True)
-class UnreachedWitness:
+class UnreachedWitness(Part):
     """Evidence for no: channels that nothing leads to from the channel in question.
 
     Attributes
@@ -92,14 +73,10 @@ class UnreachedWitness:
     side: str
     zero: ZeroTransfer
 
-    def document(self) -> dict[str, Any]:
-        """The object of ``FORMAT.md``, its values still exact objects."""
-        return {"channel": self.channel, "side": self.side, "zero": self.zero}
 
-
-@dataclass(frozen=True)
-class SingleChannelGainsCertificate(Certificate):
-    """One list of decentralized gains serves every channel named, or none serves one of them.
+@answer("single_channel_gains")
+class SingleChannelGains(Answer):
+    """Whether one list of decentralized gains lets every channel named control and observe.
 
     Attributes
     ----------
@@ -117,25 +94,15 @@ class SingleChannelGainsCertificate(Certificate):
         The first for yes, one of the others for no.
     """
 
-    kind: ClassVar[str] = "single_channel_gains"
+    channels: tuple[str, ...] = claim()
+    wanted: str = claim(key="property")
+    exists: bool = claim()
+    cyclic: bool = claim()
+    indices: tuple[tuple[int, ...], ...] | None = claim()
+    evidence: GainsWitness | StuckWitness | UnreachedWitness = witness(whole=True)
 
-    channels: tuple[str, ...]
-    wanted: str
-    exists: bool
-    cyclic: bool
-    indices: tuple[tuple[int, ...], ...] | None
-    evidence: GainsWitness | StuckWitness | UnreachedWitness
-
-    def claim(self) -> dict[str, Any]:
-        """The statement, as the keys of the kind's ``claim``."""
-        return {
-            "channels": self.channels,
-            "property": self.wanted,
-            "exists": self.exists,
-            "cyclic": self.cyclic,
-            "indices": self.indices,
-        }
-
-    def witness(self) -> dict[str, Any]:
-        """The evidence, as the keys of the kind's ``witness``."""
-        return self.evidence.document()
+    @property
+    @shown()
+    def gains(self) -> tuple[Matrix, ...] | None:
+        """F_i, p_i × q_i; None if there are none."""
+        return self.evidence.gains if isinstance(self.evidence, GainsWitness) else None

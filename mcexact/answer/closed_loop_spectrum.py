@@ -1,0 +1,23 @@
+"""Answer: the characteristic polynomial of a closed loop, coefficient by coefficient."""
+
+from __future__ import annotations
+
+from mcexact.answer.protocol import Answer, answer, claim, witness
+from mcexact.exact.polynomial import Polynomial
+
+
+@answer("closed_loop_spectrum")
+class ClosedLoopSpectrum(Answer):
+    """The characteristic polynomial of the A of a system, which is mostly a closed loop.
+
+    Attributes
+    ----------
+    polynomial : Polynomial
+        Monic, of degree n.
+    moduli : tuple of int
+        Pairwise coprime, modulo each of which the polynomials agree; their product exceeds twice a
+        bound on the coefficients.
+    """
+
+    polynomial: Polynomial = claim()
+    moduli: tuple[int, ...] = witness()

@@ -1,0 +1,105 @@
+"""Answer: whether all eigenvalues of a matrix lie within a rate or a radius."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Literal
+
+from mcexact.answer.protocol import Answer, Part, answer, claim, witness
+from mcexact.exact.location import StabilityRegion
+from mcexact.exact.matrix import Matrix
+
+
+@dataclass(frozen=True)
+class PolynomialMethod(Part):
+    """The checker recomputes the characteristic polynomial over Q and places its roots exactly."""
+
+    method: Literal["polynomial"] = "polynomial"
+
+
+@dataclass(frozen=True)
+class LyapunovBlock(Part):
+    """A Lyapunov matrix of one diagonal block D, k × k, proposed in floating point.
+
+    Its numbers depend on the processor and on the versions of numpy and scipy; they are verified
+    exactly.
+
+    Attributes
+    ----------
+    size : int
+        k.
+    P : Matrix
+        Symmetric.
+    R, R2 : Matrix
+        RᵀPR and −R2ᵀ(DᵀP + PD + 2·bound·P)R2 (discrete time: R2ᵀ(bound²P − DᵀPD)R2) are strictly
+        diagonally dominant with positive diagonal.
+    """
+
+    size: int
+    P: Matrix
+    R: Matrix
+    R2: Matrix
+
+
+@dataclass(frozen=True)
+class Transformation(Part):
+    """M T = T Δ, T nonsingular modulo ℓ and Δ block upper triangular."""
+
+    T: Matrix
+    Delta: Matrix
+    modulus: int
+
+
+@dataclass(frozen=True)
+class LyapunovMethod(Part):
+    """One Lyapunov matrix for each diagonal block, after a transformation if there is one."""
+
+    transformation: Transformation | None
+    blocks: tuple[LyapunovBlock, ...]
+    method: Literal["lyapunov"] = "lyapunov"
+
+
+@dataclass(frozen=True)
+class InstabilityMethod(Part):
+    """A P whose derivative along the loop is negative, and a v with vᵀPv ≤ 0.
+
+    Attributes
+    ----------
+    P, R2 : Matrix
+        As in `LyapunovBlock`, for the whole matrix.
+    v : Matrix
+        One column, not 0.
+    """
+
+    P: Matrix
+    R2: Matrix
+    v: Matrix
+    method: Literal["instability"] = "instability"
+
+
+@answer("stability")
+class StabilityVerdict(Answer):
+    """Whether every eigenvalue of the A of a system, which is mostly a loop, meets a bound.
+
+    Attributes
+    ----------
+    bound : Fraction or None
+        A rate ≥ 0 (continuous time) or a radius in (0, 1] (discrete time); None: 0 or 1.
+    stable : bool
+    evidence : PolynomialMethod, LyapunovMethod or InstabilityMethod
+    """
+
+    bound: Fraction | None = claim()
+    stable: bool = claim()
+    evidence: PolynomialMethod | LyapunovMethod | InstabilityMethod = witness(whole=True)
+
+    @property
+    def region(self) -> StabilityRegion:
+        """Where the eigenvalues were asked to lie."""
+        return StabilityRegion(self.about.time, self.bound)
+
+    @property
+    def method(self) -> str:
+        """``"polynomial"``, ``"lyapunov"`` or ``"instability"``: what decided."""
+        return self.evidence.method

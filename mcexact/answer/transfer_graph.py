@@ -1,0 +1,50 @@
+"""Answer: which channels reach which, and the strong components of that graph."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+from mcexact.answer.evidence import ZeroTransfer
+from mcexact.answer.protocol import Answer, answer, claim, shown, witness
+
+
+@answer("transfer_graph")
+class TransferGraph(Answer):
+    """All arcs j → i of the transfer graph, C_i (xI − A)⁻¹ B_j ≠ 0, and no others.
+
+    Attributes
+    ----------
+    arcs : tuple of (str, str)
+        (from, to) by name, sorted by their places in the order of the channels.
+    components : tuple of tuple of str
+        The strong components, each in the order of the channels, sorted by first member.
+    strongly_connected : bool
+        Whether there is at most one component.
+    modulus : int
+        ℓ ≥ 2, modulo which each arc has a nonzero C_i A^k B_j.
+    powers : tuple of int
+        k < n, one for each arc.
+    zeros : tuple of ZeroTransfer
+        They cover each pair that is not an arc.
+    """
+
+    arcs: tuple[tuple[str, str], ...] = claim()
+    components: tuple[tuple[str, ...], ...] = claim()
+    strongly_connected: bool = claim()
+    modulus: int = witness()
+    powers: tuple[int, ...] = witness()
+    zeros: tuple[ZeroTransfer, ...] = witness()
+
+    @cached_property
+    @shown("channels that take part in no feedback")
+    def dead(self) -> tuple[str, ...]:
+        """Channels with B_i = 0 or C_i = 0: they cannot take part in any feedback."""
+        return tuple(c.name for c in self.about.channels if c.B.is_zero() or c.C.is_zero())
+
+    @cached_property
+    def successors(self) -> dict[str, tuple[str, ...]]:
+        """For each channel that an arc leaves, the channels it reaches directly."""
+        found: dict[str, list[str]] = {}
+        for j, i in self.arcs:
+            found.setdefault(j, []).append(i)
+        return {j: tuple(reached) for j, reached in found.items()}
