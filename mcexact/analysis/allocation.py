@@ -129,7 +129,7 @@ def minimal_shared_dimensions(
     >>> minimal_shared_dimensions(plant, NeighborGraph.empty(plant.names)).feasible
     False
     """
-    system, found = _plant_with_graph(system, graph, share)
+    system, found = plant_with_graph(system, graph, share)
     program = _program(system.m, costs, upper)
     exact = None if bound is None else as_fraction(bound, where="bound")
     region = None if exact is None else StabilityRegion.of(system.time, bound=exact)
@@ -165,9 +165,16 @@ def minimal_shared_dimensions(
     )
 
 
-def _plant_with_graph(
+def plant_with_graph(
     system: MultiChannelSystem, graph: NeighborGraph | None, share: Share
 ) -> tuple[MultiChannelSystem, NeighborGraph]:
+    """A plant over its graph, where it and the way of sharing are such.
+
+    Raises
+    ------
+    UsageError
+        If there is no neighbor graph, or the system is a derived one.
+    """
     checked_share(share)
     system, found = with_graph(system, graph)
     if system.subject:
