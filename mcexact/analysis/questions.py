@@ -90,6 +90,11 @@ def _joint(about: str = "system", needs: str = "", option: str = "") -> dict[str
     }
 
 
+# The question, the file of its function, the kind of its certificate, its option, what is decided.
+_SHARING = (
+    ("shared_dimension_bound", "allocation", "deficiency", "", "how much sharing is enough"),
+    ("minimal_shared_dimensions", "allocation", "shared_dimensions", "minimal", "the least in all"),
+)
 _JOINT, _ALONE = _joint(), _joint(needs="channels")
 _SPECTRUM = {"spectrum": "fixed_spectrum"}
 
@@ -176,27 +181,17 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
             needs="neighbors",
         ),
         **{
-            f"shared_dimension_bound_{stem}": Question(
-                "allocation:shared_dimension_bound",
-                "how many states are enough for every agent to share",
+            f"{name}_{stem}": Question(
+                f"{file}:{name}",
+                help,
                 about="plant",
                 needs="neighbors",
+                unbidden=not option,
+                option=option,
                 given={"share": share},
-                kind="deficiency",
+                kind=kind,
             )
-            for share, stem in SHARES.items()
-        },
-        **{
-            f"minimal_shared_dimensions_{stem}": Question(
-                "allocation:minimal_shared_dimensions",
-                "the least that the agents must share",
-                about="plant",
-                needs="neighbors",
-                unbidden=False,
-                option="minimal",
-                given={"share": share},
-                kind="shared_dimensions",
-            )
+            for name, file, kind, option, help in _SHARING
             for share, stem in SHARES.items()
         },
         "minimal_communication": Question(
