@@ -3,12 +3,6 @@
 from __future__ import annotations
 
 from mcexact.analysis.completeness import completeness
-from mcexact.analysis.delays import (
-    connectivity,
-    extended_verdict,
-    held_verdict,
-    lifted_verdict,
-)
 from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
 from mcexact.derived.delayed import held_system
@@ -17,6 +11,12 @@ from mcexact.exact.polynomial import Polynomial
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from tests.campaigns import extended as campaign
+from tests.campaigns.networks import (
+    connectivity,
+    extended_verdict,
+    held_verdict,
+    lifted_verdict,
+)
 from tests.synthesis.test_extended import late
 
 

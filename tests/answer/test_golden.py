@@ -15,7 +15,6 @@ from typing import Any
 
 import mcexact
 from mcexact.analysis.closed_loop_spectrum import open_loop_spectrum
-from mcexact.analysis.delays import held_verdict, lifted_verdict
 from mcexact.analysis.neighbor_graph import neighbor_graph
 from mcexact.analysis.setpoint import setpoint_solvability
 from mcexact.answer.codec import encode
@@ -25,6 +24,7 @@ from mcexact.exact.matrix import Matrix
 from mcexact.model import gallery
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
+from tests.campaigns.networks import held_verdict, lifted_verdict
 from tests.oracle.draws import exact, sparse_system
 
 GOLDEN = Path(__file__).with_name("golden.json")

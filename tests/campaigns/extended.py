@@ -16,7 +16,6 @@ from typing import Any
 from mcexact.analysis.allocation import shared_dimension_bound
 from mcexact.analysis.completeness import completeness
 from mcexact.analysis.controllability import joint_controllability, joint_observability
-from mcexact.analysis.delays import connectivity, extended_verdict, held_verdict, lifted_verdict
 from mcexact.analysis.extended import graph_inclusion
 from mcexact.analysis.setpoint import setpoint_solvability
 from mcexact.answer.codec import encode
@@ -34,6 +33,7 @@ from mcexact.simulation.trajectory import simulate
 from mcexact.synthesis.extended import design_extended
 from mcexact.synthesis.network_candidates import ArithmeticKind
 from mcexact.synthesis.setpoint import Road, design_setpoint
+from tests.campaigns.networks import connectivity, extended_verdict, held_verdict, lifted_verdict
 
 RADIUS = Fraction(1, 2)
 

@@ -6,7 +6,6 @@ from random import Random
 
 import pytest
 
-from mcexact.analysis.delays import is_power_of_x
 from mcexact.derived.drawn.choices import SeededChoices
 from mcexact.derived.drawn.graph import drawn_graph
 from mcexact.derived.drawn.systems import any_system, jointly_controllable_system
@@ -19,6 +18,7 @@ from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.channel_parts import channel_part, drawn_gains
 from mcexact.synthesis.networks import NetworkKind, network_programs, shared_network
+from tests.campaigns.networks import is_power_of_x
 
 
 def markov(A: Matrix, B: Matrix, C: Matrix, count: int) -> list[Matrix]:

@@ -1,4 +1,4 @@
-"""The paper's statements about extended systems under delays, as decisions: section V."""
+"""Networks with delays: what is fixed, controllable and connected, for section V of the paper."""
 
 from __future__ import annotations
 
