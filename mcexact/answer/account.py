@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from html import escape
@@ -30,12 +30,15 @@ class Account:
     rules : Rulebook
     missing : collection of str
         Questions that were asked and have no answer.
+    subject : sequence of mapping
+        The constructions that lead from the user's plant to the one that is meant here.
     """
 
     answers: Mapping[str, Any]
     given: Given
     rules: Rulebook
     missing: Collection[str] = field(default=())
+    subject: Sequence[Mapping[str, Any]] = field(default=())
 
     @cached_property
     def sentences(self) -> Sentences:
@@ -52,7 +55,7 @@ class Account:
 
     def manifest(self) -> dict[str, Any]:
         """The sentences with what each rests on, and the digests of the certificates."""
-        return manifest(self.sentences, self.certificates)
+        return manifest(self.sentences, self.certificates, self.subject)
 
     def files(self) -> dict[str, str]:
         """The certificates and the manifest, by the names of their files."""

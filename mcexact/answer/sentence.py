@@ -262,13 +262,19 @@ class Sentences(tuple[Sentence, ...]):
         return [sentence for sentence in self if sentence.place in places]
 
 
-def manifest(sentences: Iterable[Sentence], certificates: Mapping[str, str]) -> dict[str, Any]:
+def manifest(
+    sentences: Iterable[Sentence],
+    certificates: Mapping[str, str],
+    subject: Sequence[Mapping[str, Any]] = (),
+) -> dict[str, Any]:
     """What the sentences rest on, for the checker.
 
     Parameters
     ----------
     sentences : iterable of Sentence
     certificates : mapping from names of files to texts
+    subject : sequence of mapping
+        The constructions that lead from the plant to what the sentences are about.
     """
     digests = {
         name: hashlib.sha256(text.encode("ascii")).hexdigest()
@@ -276,6 +282,7 @@ def manifest(sentences: Iterable[Sentence], certificates: Mapping[str, str]) -> 
     }
     return {
         "format": FORMAT,
+        **({"subject": plain(subject)} if subject else {}),
         "certificates": digests,
         "sentences": [
             {

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from . import sentences_analysis, sentences_design, sentences_sharing
-from .kinds import Verdict, answer, check_document
+from .kinds import KINDS, Verdict, answer, check_document
 from .reading import (
     Limits,
     Refused,
@@ -24,14 +24,16 @@ from .reading import (
     shown,
     string,
 )
-from .sentence import RULES, Premise
+from .sentence import RULES, Premise, enter_own
 from .subject import read_subject
 from .system import read_plant
 
 __all__ = ["NAME", "RULES", "manifest_verdicts"]
 
 TOPICS = (sentences_analysis, sentences_sharing, sentences_design)
-"""Where the rules are."""
+"""Where the rules are that no kind brings with it."""
+for kind, rule in KINDS.items():
+    enter_own(kind, rule)
 FORMAT = "mcexact-manifest/1"
 NAME = "manifest.json"
 FILE = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_+-]{0,99}\.json")

@@ -10,6 +10,13 @@ from .reading import boolean, fields, require
 from .system import System
 from .words import described
 
+SENTENCES = {
+    "neighbor-graph-connected": ("", lambda claim: claim["strongly_connected"]),
+    "neighbor-graph-not-connected": ("", lambda claim: not claim["strongly_connected"]),
+    "enough-unknown": ("", lambda claim: not claim["strongly_connected"]),
+}
+"""Sentences that say again what is claimed of the plant: theorem, and what has to be claimed."""
+
 
 def check(claim: Any, witness: Any, system: System) -> str:
     """Recompute the answer from the sets of neighbors.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from .reading import require
@@ -179,3 +180,13 @@ def restate(
         return words(premise)
 
     rule(keys, role, theorem=theorem)(say)
+
+
+def enter_own(kind: str, check: Callable[..., str]) -> None:
+    """Enter the ``SENTENCES`` beside the rule of a kind: what they say is claimed of the plant."""
+
+    def claimed(holds: Callable[[Any], Any], premise: Premise) -> Any:
+        return holds(premise.document["claim"])
+
+    for key, (theorem, holds) in check.__globals__.get("SENTENCES", {}).items():
+        restate(key, Role((kind,), PLANT), partial(claimed, holds), theorem)

@@ -9,6 +9,7 @@ from .arithmetic import exponent
 from .location import in_stability_region
 from .reading import polynomial
 from .sentence import DUAL, PLANT, SYSTEM, Premise, Role, restate, rule
+from .system import System
 from .words import channel, channel_set, described, polynomial_text
 
 WANG_DAVISON = "S. H. Wang and E. J. Davison 1973"
@@ -44,11 +45,16 @@ def controls(found: Premise) -> bool:
 # What is given, and titles that claim nothing.
 
 
+def meant(known: list[Premise]) -> System:
+    """The system that the manifest is about; the plant, if no premise is about just that."""
+    return next((premise.system for premise in known if premise.path == ()), known[0].plant)
+
+
 @rule("heading page-heading information controllability-indices-left-out")
 @rule("observability-indices-left-out")
 def given(known: list[Premise]) -> str:
-    """The sizes of the plant, and the names of its channels."""
-    plant = known[0].plant
+    """The sizes of what the manifest is about, and the names of its channels."""
+    plant = meant(known)
     ports = [sum(M.ncols for M in plant.B), sum(M.nrows for M in plant.C)]
     return (
         f"given is {described(plant)}, channels {channel_set(plant, range(plant.m))}, "
@@ -60,14 +66,14 @@ def given(known: list[Premise]) -> str:
 @rule("design-measured table-links-limit least-outputs-states-limit least-states-limit")
 def nothing(known: list[Premise]) -> str:
     """A title, a remark that something is not proved, or that it was not decided."""
-    return f"nothing is claimed of {described(known[0].plant)}"
+    return f"nothing is claimed of {described(meant(known))}"
 
 
 @rule("inactive-channels")
 def inactive(known: list[Premise]) -> str:
     """The channels that no edge of the transfer graph can touch."""
     seen = [premise for premise in known if premise.kind == "transfer_graph"]
-    system = seen[0].system if seen else known[0].plant
+    system = seen[0].system if seen else meant(known)
     ports = enumerate(zip(system.B, system.C, strict=True))
     idle = [i for i, (B, C) in ports if B.is_zero() or C.is_zero()]
     known[0].expect(bool(idle), "no channel is without inputs or outputs that act")
@@ -79,7 +85,7 @@ def inactive(known: list[Premise]) -> str:
 @rule("picture-neighbor-graph picture-heard")
 def neighbors(known: list[Premise]) -> str:
     """Who receives messages from whom."""
-    plant = known[0].plant
+    plant = meant(known)
     known[0].expect(plant.neighbors is not None, "the plant has no neighbor graph")
     arcs = [(j, i) for i, N_i in enumerate(plant.neighbors or []) for j in N_i if i != j]
     told = ", ".join(f"{channel(plant, j)} -> {channel(plant, i)}" for j, i in arcs)

@@ -16,9 +16,6 @@ LEAST = Role(("shared_dimensions",), PLANT)
 LINKS = Role(("communication",), PLANT)
 HYPOTHESES = (CONNECTED, CONTROLLABLE, OBSERVABLE)
 
-restate("neighbor-graph-connected", CONNECTED, lambda c: c["strongly_connected"])
-restate("neighbor-graph-not-connected", CONNECTED, lambda c: not c["strongly_connected"])
-restate("enough-unknown", CONNECTED, lambda c: not c["strongly_connected"])
 VAIN = "sharing-in-vain-{}ability"
 restate(VAIN.format("controll"), CONTROLLABLE, lambda c: not controls(c), HAUTUS)
 restate(VAIN.format("observ"), OBSERVABLE, lambda c: not controls(c), OBSERVABLE_HAUTUS)

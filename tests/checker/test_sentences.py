@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import itertools
+import random
 from collections.abc import Iterator
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +18,8 @@ from mcexact.analysis.controllability import joint_controllability, joint_observ
 from mcexact.analysis.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.questions import asked_by
 from mcexact.analysis.setpoint import setpoint_solvability
+from mcexact.analysis.sharing import account_of_dimensions, account_of_links
+from mcexact.answer.account import Account
 from mcexact.answer.codec import document
 from mcexact.answer.listing import everything
 from mcexact.answer.template import Template
@@ -29,12 +33,14 @@ from mcexact.derived.extended import extended_system
 from mcexact.derived.integrators import setpoint_system
 from mcexact.exact.matrix import Matrix
 from mcexact.model import gallery
+from mcexact.model.canonical import canonical, plain
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from tests.answer.test_sentences import drawn
+from tests.answer.asking import asked as asking
+from tests.answer.test_sentences import drawn, question
 from tests.checker import test_setpoint
 from tests.checker.handmade import INTEGRATOR, Document, certificate, changed, matrix
-from tests.checker.manifests import manifest, one, sentence, write
+from tests.checker.manifests import manifest, one, said, sentence, write
 from tests.checker.test_closed_loop_spectrum import LOOP
 from tests.checker.test_complementary_subsystem import TWICE
 from tests.checker.test_distributed_observer import ONE as OBSERVER
@@ -73,9 +79,9 @@ def answers(system: MultiChannelSystem) -> dict[str, Document]:
             asked += asked_by("delayed")
     for name in system.names:
         analysis = analyze(system, besides=asked, subset=[name], channel=name)
-        for question, answer in analysis.decided().items():
-            number = "" if question in found else f"_of_{system.names.index(name)}"
-            found[question + number] = made(answer)
+        for name_of, answer in analysis.decided().items():
+            number = "" if name_of in found else f"_of_{system.names.index(name)}"
+            found[name_of + number] = made(answer)
         asked = []
     return found
 
@@ -164,6 +170,74 @@ def test_each_rule_is_implied_by_some_certificates_and_not_by_all(tmp_path: Path
     }
     assert {key for key in about if not implied[key]} == NEVER
     assert {key for key in about if not denied[key]} == ALWAYS
+
+
+# What the package says of systems.
+
+
+def accounts(start: int, stop: int) -> Iterator[Account]:
+    """What is said of drawn plants when a lot is asked, and of what their agents have to share."""
+    for seed in range(start, stop):
+        system, rng = drawn(seed), random.Random(seed)
+        yield asking(system, **question(system, rng)).account
+        if system.neighbors is None:
+            system = system.with_neighbors(NeighborGraph.ring(system.names))
+        share, bound = rng.choice(["outputs+states", "states"]), rng.choice([None, Fraction(1, 2)])
+        free, costs = rng.random() < 0.3, [rng.randint(1, 2) for _ in system.names]
+        yield account_of_dimensions(
+            system, share=share, bound=bound, free_assignability=free, costs=costs
+        )
+        yield account_of_links(system, bound=bound)
+
+
+def told(folder: Path, account: Account, listed: Any) -> list[Verdict]:
+    """The verdicts on a manifest beside the certificates of an account."""
+    folder.mkdir(exist_ok=True)
+    for name, text in account.certificates.items():
+        (folder / name).write_text(text, encoding="ascii")
+    (folder / "manifest.json").write_text(canonical(listed), encoding="ascii")
+    return said(folder)
+
+
+@pytest.mark.parametrize("start", range(0, 60, 10))
+def test_everything_that_is_said_is_implied(tmp_path: Path, start: int) -> None:
+    for number, account in enumerate(accounts(start, start + 10)):
+        found = told(tmp_path / str(number), account, account.manifest())
+        assert len(found) == len(account.sentences)
+        assert not [verdict.line() for verdict in found if verdict.verdict != "IMPLIED"]
+
+
+def test_what_is_said_of_derived_systems_is_implied(tmp_path: Path) -> None:
+    system = extended_system(PAPER.with_neighbors(RING), [0, 0, 1], "outputs+states")
+    for number, information in enumerate(("own", "outputs")):
+        account = analyze(system, information=information).account
+        found = told(tmp_path / str(number), account, account.manifest())
+        assert {verdict.verdict for verdict in found} == {"IMPLIED"}
+        assert all("the extended system of the plant" in verdict.theorem for verdict in found)
+        bare = {key: value for key, value in account.manifest().items() if key != "subject"}
+        found = told(tmp_path / str(number), account, bare)
+        assert {verdict.verdict for verdict in found} == {"IMPLIED", "INVALID"}
+
+
+def test_no_sentence_is_implied_on_fewer_grounds_or_on_false_ones(tmp_path: Path) -> None:
+    """Without a premise it is not, or says the same without it; with another value it is not."""
+    for number, account in enumerate(accounts(0, 4)):
+        whole = plain(account.manifest())
+        told(tmp_path / str(number), account, whole)
+        found = Evidence(str(tmp_path / str(number)), [], Limits(), None)
+        for name, digest in whole["certificates"].items():
+            assert found.taken(name, digest).verdict == "VALID"
+        for what in whole["sentences"]:
+            words = found.judged(what, "").theorem.rpartition(" from ")[0]
+            for name in {name for name, *_ in what["because"]}:
+                rest = [entry for entry in what["because"] if entry[0] != name]
+                left = found.judged(what | {"because": rest}, "")
+                same = left.theorem.rpartition(" from ")[0] == words
+                assert left.verdict == "INVALID" or same or not RULES[what["rule"]].roles
+            for k, (name, pointer, value) in enumerate(what["because"]):
+                false = [name, pointer, 7 if value != 7 else 8]
+                because = [*what["because"][:k], false, *what["because"][k + 1 :]]
+                assert found.judged(what | {"because": because}, "").code == "value"
 
 
 # Designs, verdicts on controllers, refusals.
