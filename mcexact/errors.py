@@ -2,8 +2,16 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from fractions import Fraction
 from typing import Any
+
+
+def place_of(path: str | os.PathLike[str]) -> str:
+    """What messages call a file."""
+    return "standard input" if os.fspath(path) == "-" else os.fspath(path)
 
 
 class McexactError(Exception):
@@ -57,6 +65,15 @@ def _rebuilt(
 
 class InputError(McexactError, ValueError):
     """The input is missing, unreadable or malformed."""
+
+    @staticmethod
+    @contextmanager
+    def inside(place: str) -> Iterator[None]:
+        """Name a place in every such error that is raised in the block."""
+        try:
+            yield
+        except InputError as error:
+            raise error.within(place) from None
 
     exit_status = 3
 

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from mcexact.answer.protocol import Answer
 from mcexact.checker import Limits, Verdict, check_document
-from mcexact.errors import InputError, InternalError
+from mcexact.errors import InputError, InternalError, place_of
 
 if TYPE_CHECKING:
     from mcexact.model.system import MultiChannelSystem
@@ -107,10 +106,8 @@ def _text(certificate: Any) -> bytes:
     if isinstance(certificate, str | os.PathLike):
         from mcexact.model.json_text import read_bytes
 
-        try:
-            return read_bytes(Path(certificate))
-        except InputError as error:
-            raise error.within(str(certificate)) from None
+        with InputError.inside(place_of(certificate)):
+            return read_bytes(certificate)
     if not isinstance(certificate, Answer):
         raise InputError(
             "expected an answer, such as fixed_spectrum(system), or the name of a certificate "

@@ -11,7 +11,6 @@ import typing
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import fields, is_dataclass
 from fractions import Fraction
-from pathlib import Path
 from typing import Any
 
 from mcexact.answer.check import checked
@@ -24,7 +23,7 @@ from mcexact.derived.extended import extended_system
 from mcexact.derived.feedback import feedback, full_output
 from mcexact.derived.integrators import setpoint_system
 from mcexact.derived.links import add_links
-from mcexact.errors import InputError
+from mcexact.errors import InputError, place_of
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.polynomial_matrix import PolynomialMatrix
@@ -52,10 +51,8 @@ def load_certificate(path: str | os.PathLike[str]) -> Answer:
     -----
     A matrix without rows is written without its number of columns, and read with none.
     """
-    try:
-        data = read_bytes(Path(path))
-    except InputError as error:
-        raise error.within(str(path)) from None
+    with InputError.inside(place_of(path)):
+        data = read_bytes(path)
     verdict = checked(data)
     if verdict.verdict != "VALID":
         raise InputError(f"the checker does not accept it ({verdict.line()})", where=str(path))

@@ -108,11 +108,9 @@ def _certified(
     from mcexact.synthesis.certify import certify_controller
 
     system = system_in(*plant, limits)
-    try:
+    with InputError.inside(program[0]):
         controller = read_controller(program[1], Limits(**limits))
         found = certify_controller(system, controller, **wanted)
-    except InputError as error:
-        raise error.within(program[0]) from None
     made = found.verdict.certificate
     return {
         "json": verdict_view(found, controller.warnings_for(system)),

@@ -10,15 +10,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from mcexact.errors import InputError
+from mcexact.errors import place_of as place_of
 
 if TYPE_CHECKING:
     from mcexact.cli.deadline import Deadline
     from mcexact.model.system import MultiChannelSystem
-
-
-def place_of(file: str) -> str:
-    """What messages call a file."""
-    return "standard input" if file == "-" else file
 
 
 def read(file: str, limits: Mapping[str, int], deadline: Deadline) -> bytes:
@@ -37,11 +33,9 @@ def read(file: str, limits: Mapping[str, int], deadline: Deadline) -> bytes:
     from mcexact.exact.rational import Limits
     from mcexact.model.json_text import read_bytes
 
-    try:
-        with deadline.interrupting(f"reading {place_of(file)}"):
-            return read_bytes(file, Limits(**limits))
-    except InputError as error:
-        raise error.within(place_of(file)) from None
+    place = place_of(file)
+    with InputError.inside(place), deadline.interrupting(f"reading {place}"):
+        return read_bytes(file, Limits(**limits))
 
 
 def system_in(place: str, data: bytes, limits: Mapping[str, int]) -> MultiChannelSystem:
@@ -55,10 +49,8 @@ def system_in(place: str, data: bytes, limits: Mapping[str, int]) -> MultiChanne
     from mcexact.exact.rational import Limits
     from mcexact.model.system_file import read_system
 
-    try:
+    with InputError.inside(place):
         return read_system(data, limits=Limits(**limits))
-    except InputError as error:
-        raise error.within(place) from None
 
 
 def require_other(output: Path | None, *inputs: str | None) -> None:

@@ -122,10 +122,8 @@ def _simulated(
     from mcexact.report.simulation import run_report
 
     system = system_in(*plant, limits)
-    try:
+    with InputError.inside(program[0]):
         controller = read_controller(program[1], Limits(**limits))
-    except InputError as error:
-        raise error.within(program[0]) from None
     report = run_report(system, controller, **wanted)
     return {
         "warnings": report.warnings,

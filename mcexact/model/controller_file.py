@@ -6,7 +6,7 @@ import json
 import os
 from typing import Any
 
-from mcexact.errors import InputError
+from mcexact.errors import InputError, place_of
 from mcexact.exact.location import require_time
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.rational import DEFAULT_LIMITS, Limits
@@ -34,10 +34,8 @@ def load_controller(path: str | os.PathLike[str], limits: Limits = DEFAULT_LIMIT
     InputError
         If it is missing, unreadable or malformed; the message says where.
     """
-    try:
+    with InputError.inside(place_of(path)):
         return read_controller(read_bytes(path, limits), limits)
-    except InputError as error:
-        raise error.within(os.fspath(path)) from None
 
 
 def read_controller(text: bytes | str, limits: Limits = DEFAULT_LIMITS) -> Controller:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, Protocol, TypeVar
 
 from mcexact.errors import FloatRefused, InputError
 from mcexact.exact.matrix import Matrix
-from mcexact.exact.rational import as_fraction
 
 _TWO_WAYS_IN = (
     "write the numbers as integers, fractions or strings, or use "
@@ -32,33 +32,13 @@ class Table:
 
     Attributes
     ----------
-    where : str
-        Its place, for messages.
     shape : (int, int)
-    rows : Matrix or sequence of tuples
+    matrix : function
+        Reads the entries.
     """
 
-    where: str
     shape: tuple[int, int]
-    rows: Matrix | Sequence[tuple[Any, ...]]
-
-    def matrix(self) -> Matrix:
-        """Read the entries.
-
-        Raises
-        ------
-        FloatRefused, InputError
-            As `as_matrix` does.
-        """
-        if isinstance(self.rows, Matrix):
-            return self.rows
-        if all(set(map(type, row)) <= {int} for row in self.rows):
-            return Matrix.from_integers(self.rows, ncols=self.shape[1])
-        exact = [
-            [as_fraction(entry, where=f"{self.where}[{i}][{j}]") for j, entry in enumerate(row)]
-            for i, row in enumerate(self.rows)
-        ]
-        return Matrix.from_rows(exact, ncols=self.shape[1])
+    matrix: Callable[[], Matrix]
 
 
 def as_matrix(value: Any, where: str, ncols: int | None = None) -> Matrix:
@@ -103,17 +83,29 @@ def as_table(value: Any, where: str, ncols: int | None = None) -> Table:
         If it is no matrix, or ragged.
     """
     if isinstance(value, Matrix):
-        return Table(where, value.shape, value)
+        return Table(value.shape, lambda: value)
     rows = _rows(value, where)
-    if not rows:
-        return Table(where, (0, int(getattr(value, "shape", (0, ncols or 0))[1])), rows)
-    width = len(rows[0])
+    width = common_width(rows, where)
+    if width is None:
+        width = int(getattr(value, "shape", (0, ncols or 0))[1])
+    return Table((len(rows), width), partial(Matrix.from_rows, rows, width, where=where))
+
+
+def common_width(rows: Sequence[Sequence[Any]], where: str) -> int | None:
+    """The number of entries of each row; None if there are no rows.
+
+    Raises
+    ------
+    InputError
+        If they differ.
+    """
     for k, row in enumerate(rows):
-        if len(row) != width:
+        if len(row) != len(rows[0]):
             raise InputError(
-                f"expected {width} entries as in row 0, found {len(row)}", where=f"{where}[{k}]"
+                f"expected {len(rows[0])} entries as in row 0, found {len(row)}",
+                where=f"{where}[{k}]",
             )
-    return Table(where, (len(rows), width), rows)
+    return len(rows[0]) if rows else None
 
 
 def _rows(value: Any, where: str) -> list[tuple[Any, ...]]:

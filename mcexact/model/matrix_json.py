@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 from typing import Any
 
 from mcexact.errors import InputError
@@ -24,7 +24,7 @@ from mcexact.model.json_text import (
     expect_object,
     kind_of,
 )
-from mcexact.model.matrix_entry import require_shape
+from mcexact.model.matrix_entry import Table, common_width, require_shape
 
 _BITS_PER_DIGIT = math.log2(10)
 
@@ -90,69 +90,13 @@ def read_matrix(
     return unread_matrix(value, where, nrows, ncols, limits).matrix()
 
 
-@dataclass(frozen=True)
-class UnreadMatrix:
-    """A matrix of a file whose shape is known and none of whose numbers is read.
-
-    Attributes
-    ----------
-    where : str
-        Its place, for messages.
-    shape : (int, int)
-    rows : list
-        The rows, or the entries of a sparse matrix.
-    sparse : bool
-    limits : Limits
-    """
-
-    where: str
-    shape: tuple[int, int]
-    rows: list[Any]
-    sparse: bool
-    limits: Limits
-
-    def matrix(self) -> Matrix:
-        """Read the numbers.
-
-        Raises
-        ------
-        InputError
-            If one of them is none.
-        """
-        if self.sparse:
-            return _sparse(self)
-        if all(set(map(type, row)) <= {int} for row in self.rows):
-            return Matrix.from_integers(self.rows, ncols=self.shape[1])
-        # What occurs again, as 0.0 does, is read once.
-        known: dict[str, Fraction] = {}
-        return Matrix.from_rows(
-            [
-                [
-                    entry if type(entry) is int else self._number(known, entry, i, j)
-                    for j, entry in enumerate(row)
-                ]
-                for i, row in enumerate(self.rows)
-            ],
-            ncols=self.shape[1],
-        )
-
-    def _number(self, known: dict[str, Fraction], entry: Any, i: int, j: int) -> Fraction:
-        """Read the number at a position, or recall it."""
-        if isinstance(entry, str) and entry in known:
-            return known[entry]
-        number = read_number(entry, f"{self.where}[{i}][{j}]", self.limits)
-        if isinstance(entry, str) and len(known) < REMEMBERED:
-            known[entry] = number
-        return number
-
-
 def unread_matrix(
     value: Any,
     where: str,
     nrows: int | None = None,
     ncols: int | None = None,
     limits: Limits = DEFAULT_LIMITS,
-) -> UnreadMatrix:
+) -> Table:
     """Take a matrix over as `read_matrix` does, its shape alone: it is quick to compare.
 
     Raises
@@ -169,6 +113,7 @@ def unread_matrix(
         expect_object(value, where, ("shape", "entries"))
         shape = _sparse_shape(value["shape"], where, limits)
         rows = expect_list(value["entries"], f"{where}.entries")
+        table = Table(shape, partial(_sparse, rows, shape, where, limits))
     else:
         rows = expect_list(value, where)
         for k, row in enumerate(rows):
@@ -178,14 +123,29 @@ def unread_matrix(
                     "write a column as [[1], [2]] and a row as [[1, 2]]",
                     where=f"{where}[{k}]",
                 )
-            if len(row) != len(rows[0]):
-                raise InputError(
-                    f"expected {len(rows[0])} entries as in row 0, found {len(row)}",
-                    where=f"{where}[{k}]",
-                )
-        shape = len(rows), len(rows[0]) if rows else ncols or 0
-    unread = UnreadMatrix(where, shape, rows, isinstance(value, dict), limits)
-    return require_shape(unread, where, nrows, ncols)
+        width = common_width(rows, where)
+        width = ncols or 0 if width is None else width
+        table = Table((len(rows), width), partial(_dense, rows, width, where, limits))
+    return require_shape(table, where, nrows, ncols)
+
+
+def _dense(rows: list[list[Any]], width: int, where: str, limits: Limits) -> Matrix:
+    """Read the numbers of all rows; what occurs again, as 0.0 does, is read once."""
+    known: dict[str, Fraction] = {}
+
+    def number(entry: Any, i: int, j: int) -> Fraction | int:
+        if type(entry) is int:
+            return entry
+        if isinstance(entry, str) and entry in known:
+            return known[entry]
+        found = read_number(entry, f"{where}[{i}][{j}]", limits)
+        if isinstance(entry, str) and len(known) < REMEMBERED:
+            known[entry] = found
+        return found
+
+    if not all(set(map(type, row)) <= {int} for row in rows):
+        rows = [[number(entry, i, j) for j, entry in enumerate(row)] for i, row in enumerate(rows)]
+    return Matrix.from_rows(rows, ncols=width)
 
 
 def _sparse_shape(value: Any, where: str, limits: Limits) -> tuple[int, int]:
@@ -205,11 +165,11 @@ def _sparse_shape(value: Any, where: str, limits: Limits) -> tuple[int, int]:
     return r, c
 
 
-def _sparse(unread: UnreadMatrix) -> Matrix:
+def _sparse(entries: list[Any], shape: tuple[int, int], where: str, limits: Limits) -> Matrix:
     """Read the entries that a matrix lists."""
-    (r, c), where = unread.shape, unread.where
+    r, c = shape
     values: dict[tuple[int, int], Fraction] = {}
-    for k, entry in enumerate(unread.rows):
+    for k, entry in enumerate(entries):
         place = f"{where}.entries[{k}]"
         if len(expect_list(entry, place)) != 3:
             raise InputError(
@@ -220,7 +180,7 @@ def _sparse(unread: UnreadMatrix) -> Matrix:
             raise InputError(f"expected a position inside {r} × {c}, found [{i}, {j}]", where=place)
         if (i, j) in values:
             raise InputError(f"the position [{i}, {j}] is listed twice", where=place)
-        values[i, j] = read_number(entry[2], f"{place}[2]", unread.limits)
+        values[i, j] = read_number(entry[2], f"{place}[2]", limits)
     denominator = math.lcm(*(number.denominator for number in values.values()))
     touched: dict[int, list[int]] = {}
     for (i, j), number in values.items():

@@ -45,12 +45,18 @@ def checked_text(text: object, where: str, *, longest: int = 10_000) -> str:
         raise InputError(f"expected a string, found {quoted(text)}", where=where)
     if len(text) > longest:
         raise InputError(f"expected at most {longest} characters, found {len(text)}", where=where)
-    for character in text:
-        if unicodedata.category(character) in _REFUSED_CATEGORIES and character not in "\n\t":
-            raise InputError(
-                f"remove the character U+{ord(character):04X}, which does not print", where=where
-            )
+    _require_printable(text, where, "", allowed="\n\t")
     return text
+
+
+def _require_printable(text: str, where: str, place: str, allowed: str = "") -> None:
+    """Refuse a character that does not print, with the place that it is to be removed from."""
+    for character in text:
+        if unicodedata.category(character) in _REFUSED_CATEGORIES and character not in allowed:
+            raise InputError(
+                f"remove the character U+{ord(character):04X}{place}: it does not print",
+                where=where,
+            )
 
 
 def checked_name(name: object, where: str) -> str:
@@ -72,13 +78,7 @@ def checked_name(name: object, where: str) -> str:
         raise InputError(
             f"expected a name of at most {LONGEST_NAME} characters, found {len(name)}", where=where
         )
-    for character in name:
-        if unicodedata.category(character) in _REFUSED_CATEGORIES:
-            raise InputError(
-                f"remove the character U+{ord(character):04X} from the name {quoted(name)}: "
-                "it does not print",
-                where=where,
-            )
+    _require_printable(name, where, f" from the name {quoted(name)}")
     return name
 
 

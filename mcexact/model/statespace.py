@@ -57,16 +57,7 @@ def from_statespace(
     >>> from_statespace(plant, inputs=[[0]], outputs=[[0]], rounding="decimal").A[1, 1]
     Fraction(-1, 10)
     """
-    if not all(hasattr(statespace, part) for part in ("A", "B", "C", "D", "dt")):
-        raise InputError(
-            f"expected a control.StateSpace, found {type(statespace).__name__}; "
-            "control.ss makes one of a transfer function",
-            where="statespace",
-        )
-    A, B, C, D = (
-        matrix_from_float(getattr(statespace, part), rounding, where=f"statespace.{part}")
-        for part in "ABCD"
-    )
+    A, B, C, D = _matrices(statespace, "ABCD", rounding)
     if not D.is_zero():
         raise InputError(
             "expected D = 0: outputs are y_i = C_i x, without direct feedthrough of an input; "
@@ -114,13 +105,7 @@ def loop_from_statespace(statespace: Any, *, rounding: Rounding) -> MultiChannel
     >>> loop_from_statespace(loop, rounding="decimal").A.rows()
     ((Fraction(-2, 1),),)
     """
-    if not (hasattr(statespace, "A") and hasattr(statespace, "dt")):
-        raise InputError(
-            f"expected a control.StateSpace, found {type(statespace).__name__}; "
-            "control.ss makes one of a transfer function",
-            where="statespace",
-        )
-    A = matrix_from_float(statespace.A, rounding, where="statespace.A")
+    (A,) = _matrices(statespace, "A", rounding)
     time, sample_time = sampling(statespace.dt, rounding)
     N = A.nrows
     return MultiChannelSystem(
@@ -131,6 +116,20 @@ def loop_from_statespace(statespace: Any, *, rounding: Rounding) -> MultiChannel
         names=["loop"],
         sample_time=sample_time,
     )
+
+
+def _matrices(statespace: Any, parts: str, rounding: Rounding) -> list[Matrix]:
+    """Some matrices of a state-space system."""
+    if not all(hasattr(statespace, part) for part in (*parts, "dt")):
+        raise InputError(
+            f"expected a control.StateSpace, found {type(statespace).__name__}; "
+            "control.ss makes one of a transfer function",
+            where="statespace",
+        )
+    return [
+        matrix_from_float(getattr(statespace, part), rounding, where=f"statespace.{part}")
+        for part in parts
+    ]
 
 
 def sampling(dt: Any, rounding: Rounding) -> tuple[str, Fraction | None]:

@@ -6,7 +6,7 @@ import json
 import os
 from typing import Any
 
-from mcexact.errors import InputError
+from mcexact.errors import InputError, place_of
 from mcexact.exact.location import require_time
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.rational import DEFAULT_LIMITS, Limits, written
@@ -21,9 +21,8 @@ from mcexact.model.json_text import (
     parse,
     read_bytes,
 )
-from mcexact.model.matrix_entry import require_square
+from mcexact.model.matrix_entry import Table, require_square
 from mcexact.model.matrix_json import (
-    UnreadMatrix,
     json_text_of_number,
     matrix_json,
     number_json,
@@ -56,11 +55,8 @@ def load_system(
     InputError
         If the file is missing, unreadable, too large or malformed; the message says where.
     """
-    try:
+    with InputError.inside(place_of(path)):
         return read_system(read_bytes(path, limits), limits=limits)
-    except InputError as error:
-        place = "standard input" if os.fspath(path) == "-" else os.fspath(path)
-        raise error.within(place) from None
 
 
 def read_system(data: bytes | str, *, limits: Limits = DEFAULT_LIMITS) -> MultiChannelSystem:
@@ -120,7 +116,7 @@ def _optional_text(document: dict[str, Any], key: str) -> str | None:
 
 def _read_channels(
     value: Any, n: int, limits: Limits
-) -> tuple[tuple[str, ...], list[UnreadMatrix], list[UnreadMatrix]]:
+) -> tuple[tuple[str, ...], list[Table], list[Table]]:
     """Read the names of all channels and the shapes of their matrices."""
     channels = expect_list(value, "channels")
     if not channels:

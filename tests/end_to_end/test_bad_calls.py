@@ -62,12 +62,12 @@ CALLS: dict[str, tuple[Callable[[], Any], type[McexactError], tuple[str, ...]]] 
         InputError,
         ("directed", "to_directed()"),
     ),
-    "B167 an arc with a float as weight": (
+    "B167 an edge with a float as weight": (
         lambda: graph(("0", "1", {"weight": 0.1})),
         FloatRefused,
-        ("arc '0' -> '1'", "0.1"),
+        ("edge '0' -> '1'", "0.1"),
     ),
-    "B167 an arc with a float as delay": (
+    "B167 an edge with a float as delay": (
         lambda: graph(("0", "1", {"delay": 0.1})),
         FloatRefused,
         ("delay", "0.1"),

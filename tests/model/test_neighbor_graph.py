@@ -130,8 +130,8 @@ def test_a_delay_that_is_a_float_is_refused_as_a_float():
             "edge 'a' -> 'b': an edge has a delay",
         ),
         (networkx.DiGraph([("a", "b", {"weight": 2})]), None, "no weight, found 2"),
-        (networkx.DiGraph([("a", "b", {"delay": 0.5})]), None, "expected a delay as an integer"),
-        (networkx.DiGraph([("a", "b", {"delay": "1"})]), None, "expected a delay as an integer"),
+        (networkx.DiGraph([("a", "b", {"delay": 0.5})]), None, "expected an integer >= 0"),
+        (networkx.DiGraph([("a", "b", {"delay": "1"})]), None, "expected an integer >= 0"),
     ],
 )
 def test_a_networkx_graph_that_would_lose_something_is_refused(graph, names, message):

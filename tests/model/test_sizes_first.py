@@ -2,13 +2,14 @@
 
 import json
 from collections.abc import Callable
+from fractions import Fraction
 from typing import Any
 
 import pytest
 
 from mcexact.errors import InputError
 from mcexact.exact.matrix import Matrix
-from mcexact.model import matrix_entry, matrix_json
+from mcexact.model import matrix_json
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import read_system
 
@@ -30,13 +31,13 @@ def entries_read(monkeypatch: pytest.MonkeyPatch) -> Callable[[], int]:
 
     def counted_rows(rows: Any, *arguments: Any, **options: Any) -> Matrix:
         nonlocal read
-        read += sum(map(len, rows))
-        return from_integers(rows, *arguments, **options)
+        # A Fraction comes from `read_number`, which has counted it.
+        read += sum(type(entry) is not Fraction for row in rows for entry in row)
+        return from_rows(rows, *arguments, **options)
 
-    from_integers = Matrix.from_integers
+    from_rows = Matrix.from_rows
     monkeypatch.setattr(matrix_json, "read_number", counted(matrix_json.read_number))
-    monkeypatch.setattr(matrix_entry, "as_fraction", counted(matrix_entry.as_fraction))
-    monkeypatch.setattr(Matrix, "from_integers", counted_rows)
+    monkeypatch.setattr(Matrix, "from_rows", counted_rows)
     return lambda: read
 
 
