@@ -1,6 +1,6 @@
-"""The command line: one module per command, each of them thin.
+"""The command line, with one module for each command.
 
-This package imports whatever it likes, but inside the commands only, so that ``--help`` is quick.
+The modules import the rest of mcexact inside functions only, so that ``--help`` is quick.
 """
 
 from __future__ import annotations
@@ -17,16 +17,17 @@ from mcexact.cli.failures import exit_status, one_message
 @click.group(
     cls=Commands,
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
-    epilog="Exit status: 0 done, 1 a definite no, 2 wrong usage, 3 malformed or missing input, "
-    "4 a limit was reached, 5 a certificate that this checker does not handle, 70 a bug here, "
+    epilog="Exit status: 0 done, 1 the answer is no, 2 wrong usage, 3 malformed or missing input, "
+    "4 a limit was reached, 5 the checker cannot handle a certificate, 70 a bug in mcexact, "
     "130 interrupted.",
 )
 @click.version_option(package_name="mcexact")
 def command_line() -> None:
     """Exact, certified answers about multi-channel linear systems.
 
-    Which modes can no linear time-invariant decentralized controller move, which channels are to
-    blame, and what sharing would free them? Start with `mcexact analyze plant.json`.
+    Which modes can no linear time-invariant decentralized controller move, which channels cause
+    that, and what must agents share so that a controller can move them? Start with `mcexact analyze
+    plant.json`.
     """
 
 
@@ -43,7 +44,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     SystemExit
         Always.
     """
-    # What is read is limited by its own grammar; what is printed may be longer.
+    # The readers limit the length of numbers themselves, and printed numbers may be longer.
     sys.set_int_max_str_digits(0)
     try:
         returned = command_line.main(arguments, prog_name="mcexact", standalone_mode=False)

@@ -1,4 +1,4 @@
-"""`mcexact certify`: whether a controller, from anywhere, makes a loop as fast as asked."""
+"""`mcexact certify`: decide whether a controller makes the closed loop stable, or fast enough."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ from mcexact.cli.failures import DEFINITE_NO
 @options.rate
 @options.radius
 @click.option(
-    "--largest", is_flag=True, help="Look for the largest rate (least radius) and certify that."
+    "--largest", is_flag=True, help="Search for the largest rate (least radius) and certify it."
 )
 @click.option(
     "--method",
     type=click.Choice(["polynomial", "lyapunov"]),
-    help="The characteristic polynomial, or Lyapunov matrices; by default what suits the size.",
+    help="Decide by the characteristic polynomial or by Lyapunov matrices; by default by size.",
 )
 @options.certificates
 @options.as_json
@@ -42,11 +42,12 @@ def command(
     max_memory: int | None,
     **limits: int | None,
 ) -> int:
-    """Decide whether the loop of the system in FILE and the CONTROLLER is stable, or fast enough.
+    """Decide whether CONTROLLER stabilizes the system in FILE, or makes it fast enough.
 
-    The controller is linear and time-invariant, as every controller file is. The decision is exact,
-    whatever it was designed with. A no ends with status 1; with --certificates it is proved as
-    well. A controller that was made for another plant is warned of.
+    The controller is linear and time-invariant, as in every controller file. The decision is exact,
+    also for a controller designed in floating point. If the answer is no, the exit status is 1, and
+    --certificates writes a proof of that as well. A warning is given if the controller was designed
+    for another plant.
     """
     from mcexact.cli.deadline import Deadline
     from mcexact.cli.files import directory, place_of, read, require_writable
@@ -97,7 +98,7 @@ def _certified(
     limits: dict[str, int],
     wanted: dict[str, Any],
 ) -> dict[str, Any]:
-    """Decide, and put the answer into text: what the child process does."""
+    """Decide and format the answer, in the child process."""
     from mcexact.answer import codec
     from mcexact.cli.files import system_in
     from mcexact.errors import InputError

@@ -7,18 +7,18 @@ import click
 from mcexact.cli import options
 
 
-@click.command(name="check", short_help="Check certificates, independently of what made them.")
+@click.command(name="check", short_help="Verify certificates with the independent checker.")
 @click.argument("certificates", nargs=-1, metavar="CERTIFICATE...")
 @click.option(
     "--manifest",
     metavar="FILE",
-    help="Check the certificates of this manifest, or of the one in this folder, and say for each "
-    "of its sentences what they imply.",
+    help="Check the certificates named in this manifest (or in the manifest of this folder), and "
+    "verify each of its sentences from them.",
 )
 @click.option(
     "--system",
     metavar="FILE",
-    help="Insist that each certificate is about the system in this file.",
+    help="Require that each certificate is about the system in this file.",
 )
 @options.as_json
 @options.file_limits
@@ -29,11 +29,12 @@ def command(
     as_json: bool,
     **limits: int | None,
 ) -> int:
-    """Check each CERTIFICATE and print one line: the verdict and the theorem that was checked.
+    """Verify each CERTIFICATE and print one line with the verdict and the verified statement.
 
-    VALID names the theorem and the digest of the system; INVALID, MALFORMED and INCOMPLETE name a
-    code and a place. Of a sentence it is IMPLIED instead of VALID, and what is printed follows from
-    the certificates: it is made from them, not from the text of the sentence.
+    VALID is followed by the statement that the certificate proves and the digest of the system.
+    INVALID, MALFORMED and INCOMPLETE are followed by a code and a place. A sentence of a manifest
+    is IMPLIED instead of VALID; the statement printed for it is made from the certificates, not
+    from the text of the sentence.
     """
     from dataclasses import asdict
 

@@ -1,4 +1,4 @@
-"""Groups of commands: loaded one by one, and a near miss is answered with the nearest name."""
+"""Groups of commands, which load a command when it is named and suggest the nearest name."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 
 import click
 
-# In the order in which a user meets them; each is the module of that name in this package.
+# The order is that of the help text; each command is the module of that name in this package.
 COMMANDS = (
     "analyze",
     "check",
@@ -25,7 +25,7 @@ COMMANDS = (
 
 
 class NoCommand(click.UsageError):
-    """A group is called without a command; the message is its help, which lists them."""
+    """A group was called without a command; the message is its help."""
 
 
 class Commands(click.Group):
@@ -36,9 +36,9 @@ class Commands(click.Group):
     names : tuple of str
         The commands, in the order in which help lists them.
     prefix : str
-        What stands before a command's name in the name of its module.
+        The prefix of a command's name in the name of its module.
     **attributes
-        Of `click.Group`.
+        Arguments of `click.Group`.
     """
 
     def __init__(
@@ -49,11 +49,11 @@ class Commands(click.Group):
         self.prefix = prefix
 
     def list_commands(self, ctx: click.Context) -> list[str]:
-        """The commands in the order of the table."""
+        """Return the names of the commands in the order of help."""
         return list(self.names)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
-        """The command of this name, or None."""
+        """Return the command with a name, or None."""
         if cmd_name not in self.names:
             return None
         module = importlib.import_module(f"mcexact.cli.{self.prefix}{cmd_name}")
@@ -63,12 +63,13 @@ class Commands(click.Group):
         return command
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Read the options of the group.
+        """Parse the options of the group.
 
         Raises
         ------
         NoCommand
-            If nothing follows the group; of this, versions of click make different statuses.
+            If no command follows the group, for which versions of click end with different
+            statuses.
         """
         if not args and not ctx.resilient_parsing:
             raise NoCommand(ctx.get_help(), ctx)
@@ -77,12 +78,12 @@ class Commands(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """Find the command that is meant; suggest the nearest one if there is none.
+        """Find the command with the given name.
 
         Raises
         ------
         click.UsageError
-            If no command has this name.
+            If no command has this name; the message suggests the nearest one.
         """
         name = args[0]
         if name not in self.names and not name.startswith("-"):

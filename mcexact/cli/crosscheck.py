@@ -1,4 +1,4 @@
-"""`mcexact crosscheck`: what floating point says about a system, beside what is true."""
+"""`mcexact crosscheck`: compare floating-point verdicts on a system with the exact ones."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ import click
 from mcexact.cli import options
 
 
-@click.command(name="crosscheck", short_help="Floating-point verdicts beside the exact ones.")
+@click.command(name="crosscheck", short_help="Compare floating-point verdicts with the exact ones.")
 @click.argument("file", required=False)
 @click.option(
     "--exhibits",
     is_flag=True,
-    help="Instead of FILE: systems on which floating point was recorded to be wrong, with what it "
-    "answered there and what it answers on this machine.",
+    help="Instead of FILE, show systems for which a wrong floating-point answer was recorded, with "
+    "the recorded answer and the answer on this machine.",
 )
 @click.option(
     "--html",
     type=click.Path(dir_okay=False, path_type=Path),
     metavar="FILE",
-    help="With --exhibits: write them as a page for a browser.",
+    help="With --exhibits: write the exhibits as an HTML page.",
 )
 @options.as_json
 @options.work_limits
@@ -36,10 +36,11 @@ def command(
     max_memory: int | None,
     **limits: int | None,
 ) -> None:
-    """Answer structural questions about the system in FILE twice: in floating point, and exactly.
+    """Answer structural questions about the system in FILE in floating point and exactly.
 
-    Each floating-point verdict is the library's own call with its default tolerance, and is quoted.
-    At the end stands an upper bound on the distance to having a fixed mode, in floating point.
+    Each floating-point verdict comes from a library's own function with its default tolerance; the
+    table quotes the call. The last line gives an upper limit, computed in floating point, on the
+    distance to a system with a fixed mode.
     """
     from mcexact.cli.deadline import Deadline
     from mcexact.cli.files import place_of, read, require_writable
@@ -77,7 +78,7 @@ def command(
 
 
 def _crosschecked(place: str, data: bytes, limits: dict[str, int]) -> dict[str, Any]:
-    """Answer, and put the answers into text: what the child process does."""
+    """Answer and format the answers, in the child process."""
     from mcexact.cli.files import system_in
     from mcexact.crosscheck.table import crosscheck
     from mcexact.report.crosscheck_view import crosscheck_tables, crosscheck_view
@@ -88,7 +89,7 @@ def _crosschecked(place: str, data: bytes, limits: dict[str, int]) -> dict[str, 
 
 
 def _exhibited() -> dict[str, Any]:
-    """Ask every exhibit's question here: what the child process does."""
+    """Answer every exhibit's question on this machine, in the child process."""
     from mcexact.crosscheck.gallery import exhibits, shown
     from mcexact.report.crosscheck_view import exhibit_tables, exhibits_page, exhibits_view
 

@@ -1,4 +1,4 @@
-"""A limit on time, over everything that one command does."""
+"""A time limit for everything that one command does."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from mcexact.errors import LimitReached
 
 
 class Deadline:
-    """A number of seconds from now, or none.
+    """A time limit of some seconds from now, or no limit.
 
     Parameters
     ----------
     seconds : float or None
-        None: there is no limit.
+        None means that there is no limit.
     """
 
     def __init__(self, seconds: float | None) -> None:
@@ -26,13 +26,13 @@ class Deadline:
         self._start = time.monotonic()
 
     def left(self) -> float | None:
-        """The seconds that are left, at least 0; None without a limit."""
+        """Return the seconds that are left, at least 0; None without a limit."""
         if self.seconds is None:
             return None
         return max(0.0, self.seconds - (time.monotonic() - self._start))
 
     def missed(self, doing: str) -> LimitReached:
-        """What to raise when it is over."""
+        """Return the error to raise when the time is over."""
         return LimitReached(
             f"the time limit of {self.seconds:g} s was reached while {doing}; "
             "nothing has been decided (--timeout allows more)"
@@ -40,12 +40,12 @@ class Deadline:
 
     @contextlib.contextmanager
     def interrupting(self, doing: str) -> Iterator[None]:
-        """End what waits for the system, such as a pipe into which nobody writes, when it is over.
+        """Interrupt an operation that waits, such as reading an idle pipe, when the time is over.
 
         Raises
         ------
         LimitReached
-            At the deadline, where the platform has alarms and this is the main thread.
+            When the time is over, if the platform has alarms and this is the main thread.
         """
         left = self.left()
         here = threading.current_thread() is threading.main_thread()

@@ -7,10 +7,12 @@ import click
 from mcexact.cli.options import as_json
 
 
-@click.command(name="demo", short_help="Show two failures of floating point beside exact answers.")
+@click.command(
+    name="demo", short_help="Show two wrong answers of floating point with the exact ones."
+)
 @as_json
 def command(as_json: bool) -> None:
-    """Show two failures of floating point, as recorded and as computed now, beside the truth."""
+    """Show two wrong answers of floating point, recorded and recomputed, with the exact ones."""
     from mcexact.cli.output import emit, emit_json
     from mcexact.crosscheck.demonstration import demonstration
     from mcexact.report.demonstration_view import demonstration_text, demonstration_view

@@ -1,4 +1,4 @@
-"""What a failure looks like to the user: one message and one exit status."""
+"""The message and the exit status that a failure gives the user."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ INTERRUPTED = 130
 
 
 def exit_status(error: BaseException) -> int:
-    """The exit status that belongs to an error."""
+    """Return the exit status of an error."""
     if isinstance(error, McexactError):
         return error.exit_status
     if isinstance(error, click.UsageError):
@@ -30,9 +30,9 @@ def exit_status(error: BaseException) -> int:
 
 
 def one_message(error: BaseException) -> str:
-    """What to tell the user about an error, in one line without control characters.
+    """Return the message of an error in one line without control characters.
 
-    A group of commands that is called without one is no error to explain: its help is the answer.
+    For a group called without a command the message is the group's help.
     """
     if isinstance(error, NoCommand):
         return error.format_message()
@@ -45,7 +45,8 @@ def one_message(error: BaseException) -> str:
     elif isinstance(error, click.ClickException):
         text = f"mcexact: {error.format_message()}"
     elif isinstance(error, McexactError) and error.exit_status != INTERNAL_ERROR:
-        # Messages name a limit as Python does; here it is an option.
+        # A library message names a limit as an attribute of Limits; on the command line it is an
+        # option.
         text = re.sub(r"\bLimits\.(\w+)", r"--max-\1", f"mcexact: {error}")
     elif isinstance(error, OSError):
         place = f"{error.filename}: " if error.filename is not None else ""
@@ -59,12 +60,12 @@ def one_message(error: BaseException) -> str:
 
 
 def _described(error: BaseException) -> str:
-    """The error with its kind, unless it comes with it."""
+    """The text of an error, with its type unless it is an InternalError."""
     return str(error) if isinstance(error, InternalError) else f"{type(error).__name__}: {error}"
 
 
 def printable(text: str, limit: int = 2000) -> str:
-    """The text in one line: control and direction-changing characters escaped, the middle cut out.
+    """Return a text in one line, with control and bidirectional characters escaped and shortened.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""What commands read, and the folders that results go to."""
+"""Reading input files, and checking where results can be written."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ if TYPE_CHECKING:
 
 
 def read(file: str, limits: Mapping[str, int], deadline: Deadline) -> bytes:
-    """The bytes of a file, or of the standard input for ``-``.
+    """Read the bytes of a file, or of standard input for ``-``.
 
-    This is done before a child process is started, which has no standard input.  A pipe into which
-    nobody writes is waited for, until the deadline.
+    The parent process reads, since the child process has no standard input.  An idle pipe is waited
+    for until the deadline.
 
     Raises
     ------
     InputError
-        If it is missing, unreadable or too large.
+        If the file is missing, unreadable or too large.
     LimitReached
-        If the deadline is missed.
+        If the deadline passes.
     """
     from mcexact.exact.rational import Limits
     from mcexact.model.json_text import read_bytes
@@ -39,7 +39,7 @@ def read(file: str, limits: Mapping[str, int], deadline: Deadline) -> bytes:
 
 
 def system_in(place: str, data: bytes, limits: Mapping[str, int]) -> MultiChannelSystem:
-    """The system in the bytes of a file, the place named in whatever is wrong with it.
+    """Read the system from the bytes of a file; error messages name the file.
 
     Raises
     ------
@@ -54,7 +54,7 @@ def system_in(place: str, data: bytes, limits: Mapping[str, int]) -> MultiChanne
 
 
 def require_other(output: Path | None, *inputs: str | None) -> None:
-    """Refuse to write a result over what it is made of, also by way of a link.
+    """Refuse an output file that is also an input file, possibly through a symbolic link.
 
     Raises
     ------
@@ -63,7 +63,9 @@ def require_other(output: Path | None, *inputs: str | None) -> None:
     """
     for file in inputs:
         if output is not None and file is not None and _is_same(output, file):
-            raise InputError("is read as well: write to another file", where=str(output))
+            raise InputError(
+                "the output file is also an input: choose another name", where=str(output)
+            )
 
 
 def _is_same(output: Path, file: str) -> bool:
@@ -74,19 +76,19 @@ def _is_same(output: Path, file: str) -> bool:
 
 
 def require_writable(file: Path | None, folder: Path | None = None) -> None:
-    """Refuse, before the work, what could not be written after it; nothing is made or changed.
+    """Check before the work that its results can be written, without creating or changing anything.
 
     Parameters
     ----------
     file : Path or None
-        Where a result goes; its folder exists, or is made for the other results.
+        The file for a result; its folder exists, or will be made for the other results.
     folder : Path or None
-        Where other results go; it is made, with the folders above it, where it is missing.
+        The folder for other results; it will be made, with the folders above it, if it is missing.
 
     Raises
     ------
     InputError
-        If a new file cannot be made there, or something else stands there.
+        If a new file cannot be made there, or something else has that name.
     """
     if folder is not None:
         with _refusing(folder):
@@ -109,7 +111,7 @@ def require_writable(file: Path | None, folder: Path | None = None) -> None:
 
 @contextlib.contextmanager
 def _refusing(path: Path) -> Iterator[None]:
-    """What the system says against writing, as an error of the input."""
+    """Turn an operating-system error about writing into an InputError."""
     try:
         yield
     except OSError as error:
@@ -121,7 +123,7 @@ def _refusing(path: Path) -> Iterator[None]:
 
 
 def _exists(path: Path) -> bool:
-    """Whether something stands there; an OSError if nothing ever could."""
+    """Whether a path exists; an OSError is raised if no file can have this name."""
     try:
         path.stat()
     except FileNotFoundError:
@@ -130,26 +132,26 @@ def _exists(path: Path) -> bool:
 
 
 def _nearest(folder: Path) -> Path:
-    """The folder, or the nearest one above it that exists."""
+    """Return the folder, or the nearest existing one above it."""
     while not _exists(folder):
         folder = folder.parent
     return folder
 
 
 def _try(folder: Path) -> None:
-    """Make a file without a lasting name in a folder; an OSError if that is impossible."""
+    """Make a temporary file in a folder; an OSError is raised if that is impossible."""
     handle, name = tempfile.mkstemp(prefix=".mcexact-", dir=folder)
     os.close(handle)
     os.unlink(name)
 
 
 def directory(path: Path) -> Path:
-    """The directory at this path, made if it is missing.
+    """Make the directory at a path if it is missing, and return the path.
 
     Raises
     ------
     InputError
-        If it cannot be made, or if something else stands there.
+        If it cannot be made, or something else has that name.
     """
     try:
         path.mkdir(parents=True, exist_ok=True)

@@ -1,4 +1,4 @@
-"""Writing a folder of files whole or not at all."""
+"""Write a folder of files completely or not at all."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ from mcexact.errors import InputError
 
 
 def require_replaceable(folder: Path, mark: str) -> None:
-    """Refuse a folder that holds something else than an earlier result, or cannot be replaced.
+    """Refuse an output folder that does not contain an earlier result, or cannot be replaced.
 
     Parameters
     ----------
     folder : Path
-        Missing, empty, or with the mark in it.
+        It must be missing, be empty, or contain the mark.
     mark : str
-        The file by which an earlier result is known.
+        The name of a file that every earlier result contains.
 
     Raises
     ------
     InputError
-        If it is something else, or nothing can be written beside it.
+        If the folder contains something else, or nothing can be written beside it.
     """
     require_writable(None, Path(os.path.realpath(folder)).parent)
     if not folder.exists():
@@ -39,12 +39,12 @@ def require_replaceable(folder: Path, mark: str) -> None:
 
 
 def write_folder(folder: Path, files: Mapping[str, str]) -> None:
-    """Write the files beside the folder, then put them in its place.
+    """Write files into a new folder, then rename it to the folder's name.
 
     Parameters
     ----------
     folder : Path
-        What stands there is replaced.
+        An earlier result there is replaced.
     files : mapping from relative paths to texts
 
     Raises

@@ -1,4 +1,4 @@
-"""A limit on the memory of a process, and how to tell that it was too little."""
+"""A limit on the memory of a process, and recognition of errors that it causes."""
 
 from __future__ import annotations
 
@@ -12,29 +12,29 @@ from collections.abc import Iterator, Sequence
 from mcexact.errors import InternalError, LimitReached, McexactError
 
 _MEBIBYTE = 1 << 20
-# An error that nobody raised on purpose this close to the limit is blamed on the limit.
+# An unexpected error this close to the limit is attributed to the limit.
 _NEAR = 16 * _MEBIBYTE
-# How compiled libraries die of too little memory; OpenBLAS interrupts its own process.
+# Compiled libraries end by these signals without memory; OpenBLAS interrupts its own process.
 _DEATHS = frozenset({signal.SIGABRT, signal.SIGSEGV, signal.SIGINT}) | {
     getattr(signal, name) for name in ("SIGBUS", "SIGILL", "SIGTRAP") if hasattr(signal, name)
 }
 
 
 class MemoryLimit:
-    """A limit that this process keeps until it is lifted.
+    """A limit on the memory of this process, in force until it is lifted.
 
     Parameters
     ----------
     mebibytes : int
-        What may be added to the address space that the process occupies now.
+        The amount that may be added to the address space that the process occupies now.
     libraries : sequence of str
-        Compiled libraries that are loaded before that: where memory is short they fail in ways that
-        are hard to tell from bugs, or wait for ever.
+        Compiled libraries to load before the limit: if memory runs out while they load, they fail
+        in ways that look like bugs, or wait forever.
 
     Raises
     ------
     McexactError
-        If the platform has no such limit.
+        If the platform cannot limit memory.
     """
 
     def __init__(self, mebibytes: int, libraries: Sequence[str]) -> None:
@@ -54,13 +54,13 @@ class MemoryLimit:
         resource.setrlimit(resource.RLIMIT_AS, (self._bytes, hard))
 
     def lift(self) -> None:
-        """Take the limit away, so that what happened can be told."""
+        """Remove the limit, so that an error can be reported."""
         self._resource.setrlimit(self._resource.RLIMIT_AS, self._before)
 
     def explains(self, error: BaseException) -> bool:
-        """Whether an error, or one that led to it, comes from this limit."""
+        """Whether this limit caused an error, or one that led to it."""
         for cause in _causes(error):
-            # This is what a library says that could not be mapped or set up.
+            # These are the messages of a library that could not be mapped or initialized.
             missing = isinstance(cause, ModuleNotFoundError)
             if isinstance(cause, ImportError | SystemError) and not missing:
                 return True
@@ -69,7 +69,7 @@ class MemoryLimit:
 
 
 def ran_out(error: BaseException) -> bool:
-    """Whether an error, or one that led to it, says that there is no more memory."""
+    """Whether an error, or one that led to it, reports that memory ran out."""
     return any(
         isinstance(cause, MemoryError) or getattr(cause, "errno", None) == errno.ENOMEM
         for cause in _causes(error)
@@ -77,10 +77,10 @@ def ran_out(error: BaseException) -> bool:
 
 
 def died_of_memory(exit_code: int | None, max_memory: int | None) -> bool:
-    """Whether a process that ended without a word had too little memory.
+    """Whether a process that ended without a message had too little memory.
 
-    SIGKILL comes from the system, which ends what takes too much.  Under a limit a library that
-    gets no memory aborts, or ends the process with a status of its own.
+    The operating system sends SIGKILL to a process that takes too much.  Under a limit, a library
+    that gets no memory aborts or ends the process with a status of its own.
     """
     if exit_code is None:
         return False
@@ -90,7 +90,7 @@ def died_of_memory(exit_code: int | None, max_memory: int | None) -> bool:
 
 
 def out_of_memory(doing: str, max_memory: int | None) -> LimitReached:
-    """What to say when memory was not enough."""
+    """Return the error to raise when memory ran out."""
     if max_memory is None:
         return LimitReached(f"the memory was exhausted while {doing}; nothing has been decided")
     return LimitReached(
@@ -100,7 +100,7 @@ def out_of_memory(doing: str, max_memory: int | None) -> LimitReached:
 
 
 def _claim_working_memory(libraries: Sequence[str]) -> None:
-    """Multiply matrices once: OpenBLAS then has the buffers without which it waits for ever."""
+    """Multiply matrices once, so that OpenBLAS allocates buffers without which it waits forever."""
     import numpy as np
 
     M = np.ones((128, 128))
@@ -112,7 +112,7 @@ def _claim_working_memory(libraries: Sequence[str]) -> None:
 
 
 def _causes(error: BaseException) -> Iterator[BaseException]:
-    """An error and those that led to it."""
+    """Yield an error and those that led to it."""
     found: BaseException | None = error
     while found is not None:
         yield found
@@ -120,7 +120,7 @@ def _causes(error: BaseException) -> Iterator[BaseException]:
 
 
 def _kibibytes(name: str) -> int:
-    """A size from the kernel's account of this process; 0 where there is none."""
+    """A size from the kernel's status of this process; 0 where the platform has none."""
     with contextlib.suppress(OSError), open("/proc/self/status", encoding="ascii") as status:
         found = re.search(rf"^{name}:\s*(\d+) kB$", status.read(), re.MULTILINE)
         return int(found[1]) if found else 0

@@ -1,4 +1,4 @@
-"""Options that several commands share, and the types of their values."""
+"""Options of several commands, and the types of their values."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 
 def rational(text: str) -> Fraction:
-    """An exact number on the command line, in the number grammar of the files.
+    """Parse an exact number, in the grammar of numbers in files.
 
     Examples
     --------
@@ -30,14 +30,14 @@ def rational(text: str) -> Fraction:
 
 
 def count(text: str) -> int:
-    """An integer of at least 0, in digits and nothing else; what is not one is a ValueError."""
+    """Parse an integer that is written in digits alone; other texts raise a ValueError."""
     if not (text.isascii() and text.isdigit()):
         raise ValueError(text)
     return int(text)
 
 
 def seconds(text: str) -> float:
-    """A time limit: a finite number of seconds above 0."""
+    """Parse a time limit, a finite number of seconds above 0."""
     try:
         number = float(text)
     except ValueError:
@@ -49,17 +49,21 @@ def seconds(text: str) -> float:
 
 FOLDER = click.Path(path_type=Path)
 
-rate = click.option("--rate", type=rational, help="Continuous time: every real part below -RATE.")
+rate = click.option(
+    "--rate", type=rational, help="In continuous time: every real part is below -RATE."
+)
 
-radius = click.option("--radius", type=rational, help="Discrete time: every modulus below RADIUS.")
+radius = click.option(
+    "--radius", type=rational, help="In discrete time: every modulus is below RADIUS."
+)
 
 arithmetic = click.option(
     "--arithmetic",
     type=click.Choice(["exact", "float"]),
     default="exact",
     show_default=True,
-    help="Exact assigns every number, for small systems; float meets a rate or radius. "
-    "The proof is exact either way; the gains of float differ a little between processors.",
+    help="`exact` assigns the whole spectrum, for small systems; `float` meets a rate or radius. "
+    "The proof is exact in both cases; float gains differ slightly between processors.",
 )
 
 controller_output = click.option(
@@ -67,7 +71,7 @@ controller_output = click.option(
     "--output",
     type=FOLDER,
     metavar="FILE",
-    help="Write the controller here; else it goes to standard output.",
+    help="Write the controller to this file; by default to standard output.",
 )
 
 as_json = click.option("--json", "as_json", is_flag=True, help="Print one JSON document.")
@@ -77,14 +81,15 @@ certificates = click.option(
     "certificates",
     type=FOLDER,
     metavar="DIR",
-    help="Write a certificate for every answer into this directory.",
+    help="Write a certificate of every answer into this directory.",
 )
 
 
 def file_limits(function: F) -> F:
-    """Add the options that move the limits on what a file may ask for.
+    """Add the options that change the limits on input files.
 
-    The command gets them as keywords, ``bytes`` and so on; see `given`.
+    The command receives them as the keywords ``bytes``, ``depth``, ``digits`` and ``exponent``; see
+    `given`.
     """
     for name, what in (
         ("exponent", "exponent of a decimal"),
@@ -103,7 +108,7 @@ def file_limits(function: F) -> F:
 
 
 def given(limits: Mapping[str, int | None]) -> dict[str, int]:
-    """The limits that were moved."""
+    """Return the limits that were given."""
     return {name: limit for name, limit in limits.items() if limit is not None}
 
 
@@ -114,13 +119,13 @@ def work_limits(function: F) -> F:
             "--max-memory",
             type=click.IntRange(min=1),
             metavar="MIB",
-            help="Memory that the computation may use, in MiB; beyond it, status 4.",
+            help="Limit on memory in MiB; if it is reached, the status is 4.",
         ),
         click.option(
             "--timeout",
             type=seconds,
             metavar="SECONDS",
-            help="Time that the computation may take; beyond it, status 4.",
+            help="Limit on time in seconds; if it is reached, the status is 4.",
         ),
     ):
         function = option(function)
@@ -128,7 +133,7 @@ def work_limits(function: F) -> F:
 
 
 def draws(function: F) -> F:
-    """Add the options that say what systems are drawn: the fields of a `Draw` but its seed."""
+    """Add the options that describe drawn systems: the fields of a `Draw` except its seed."""
     for option in (
         click.option(
             "--neighbors", is_flag=True, help="Draw a strongly connected neighbor graph as well."
@@ -146,8 +151,8 @@ def draws(function: F) -> F:
             is_flag=False,
             flag_value=1,
             metavar="[DEGREE]",
-            help="Hide a fixed mode in it: the roots of an irreducible factor of this degree, "
-            "or of 1.",
+            help="Plant a fixed mode: the roots of an irreducible factor of this degree, by "
+            "default 1.",
         ),
         click.option("--channels", type=click.IntRange(min=1), default=2, show_default=True),
         click.option("--states", type=click.IntRange(min=0), default=4, show_default=True),

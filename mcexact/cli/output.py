@@ -1,4 +1,4 @@
-"""Standard output that survives a closed pipe."""
+"""Writing to standard output, also when the reader closes the pipe."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ if TYPE_CHECKING:
 
 
 def emit(text: str) -> None:
-    """Write text to standard output, and stop quietly if nobody reads it any more.
+    """Write text to standard output, and stop without an error if its reader has closed it.
 
-    Characters that the terminal's encoding does not have are written as escapes.
+    A character that the terminal's encoding lacks is written as an escape.
     """
     stream = sys.stdout
     try:
@@ -26,7 +26,7 @@ def emit(text: str) -> None:
             stream.write(text.encode(encoding, "backslashreplace").decode(encoding))
         stream.flush()
     except BrokenPipeError:
-        # The interpreter flushes once more on its way out; let that go nowhere.
+        # The interpreter flushes again when it exits, which must not raise another error.
         os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
@@ -36,13 +36,13 @@ def emit_json(document: Any) -> None:
 
 
 def emit_tables(tables: Sequence[Table], width: int | None = None) -> None:
-    """Draw tables where a person reads standard output as it comes, else write plain lines.
+    """Draw tables if standard output is a terminal, otherwise write plain lines.
 
     Parameters
     ----------
     tables : sequence of Table
     width : int, optional
-        Columns of the plain lines.
+        The width of plain lines in characters.
     """
     from mcexact.report.text import WIDTH, plain, show
 

@@ -1,4 +1,4 @@
-"""Every answer's certificate goes through the independent checker, whether it is kept or not."""
+"""Verification of every answer's certificate by the independent checker."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Rechecked:
-    """What the checker said of the certificates of one run.
+    """The checker's verdicts on the certificates of one run.
 
     Attributes
     ----------
     verdicts : mapping from names of certificates to Verdict
-        Those that are VALID.
+        The verdicts of the certificates that are VALID.
     open : tuple of str
-        The names of the others.
+        The names of the other certificates.
     missing : LimitReached or None
-        Why not all are: a limit on time or memory, or one of the checker's own.
+        The reason if not all are VALID: a limit on time or memory, or a limit of the checker.
     """
 
     verdicts: Mapping[str, Verdict]
@@ -31,18 +31,18 @@ class Rechecked:
     missing: LimitReached | None
 
     def view(self) -> dict[str, Any]:
-        """For programs: how many were found VALID, and which were not re-checked."""
+        """Return the number of VALID certificates and the names of the others, as plain data."""
         return {"valid": len(self.verdicts), "open": list(self.open)}
 
     def line(self) -> str:
-        """For people."""
+        """Return a line of text that gives the number of VALID certificates."""
         from mcexact.answer.formats import count
 
         number = count(len(self.verdicts), "certificate")
         return f"{number} re-checked by the independent checker: VALID\n"
 
     def require_complete(self) -> None:
-        """End with status 4 where something was not re-checked.
+        """Raise an error if a certificate was not re-checked.
 
         Raises
         ------
@@ -60,23 +60,23 @@ def rechecked(
     deadline: Deadline,
     max_memory: int | None,
 ) -> Rechecked:
-    """Let the independent checker decide on certificates, within what is left of the limits.
+    """Let the independent checker verify certificates, within the limits on time and memory.
 
     Parameters
     ----------
     certificates : mapping from names to texts
     system_digest : str
-        Of the plant that all of them must be about.
+        The digest of the plant that all certificates must be about.
     doing : str
-        For progress: what is being done.
+        A description of the work, for progress.
     deadline : Deadline
     max_memory : int or None
-        MiB.
+        The limit on memory in MiB.
 
     Raises
     ------
     InternalError
-        If one is not accepted.
+        If the checker rejects a certificate.
     """
     from mcexact.answer.check import recheck
     from mcexact.cli.supervision import supervised

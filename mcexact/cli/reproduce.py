@@ -17,14 +17,14 @@ from mcexact.cli.failures import DEFINITE_NO
     "--output",
     type=options.FOLDER,
     metavar="DIR",
-    help="Write report.html and the certificates into this folder, whole or not at all.",
+    help="Write report.html and the certificates into this folder.",
 )
 @click.option(
     "--statement",
     "wanted",
     multiple=True,
     metavar="NAME",
-    help="Only this one, such as 'Theorem 2'. May be repeated.",
+    help="Check only this statement, such as 'Theorem 2'. May be repeated.",
 )
 @click.option("--latex", is_flag=True, help="Print the table in LaTeX.")
 @options.as_json
@@ -37,9 +37,9 @@ def command(
     timeout: float | None,
     max_memory: int | None,
 ) -> int:
-    """Check the paper's statements on its own example and on drawn systems, with certificates.
+    """Check the statements of the paper on its own example and on drawn systems, with certificates.
 
-    Ends with status 1 if a statement does not hold, and says which.
+    If a statement does not hold, the status is 1, and the statement is named.
     """
 
     from mcexact.cli.folders import require_replaceable, write_folder
@@ -83,7 +83,7 @@ def command(
 
 
 def _tell(name: str, findings: tuple[Any, ...]) -> None:
-    """One line of progress for a section that is done."""
+    """Print one line of progress for a finished section."""
     held = sum(finding.holds for finding in findings)
     made = sum(len(finding.certificates) for finding in findings)
     click.echo(

@@ -16,7 +16,11 @@ if TYPE_CHECKING:
 
 @click.command(name="sample", short_help="Draw systems with known structure.")
 @click.option(
-    "--seed", type=int, default=0, show_default=True, help="The same seed, the same system."
+    "--seed",
+    type=int,
+    default=0,
+    show_default=True,
+    help="Seed of the draw; the same seed draws the same system.",
 )
 @options.draws
 @click.option(
@@ -24,7 +28,7 @@ if TYPE_CHECKING:
     type=click.IntRange(min=1),
     default=1,
     show_default=True,
-    help="How many systems, with seeds that follow one another; needs --output.",
+    help="Number of systems, drawn from consecutive seeds; more than 1 needs --output.",
 )
 @click.option(
     "-o", "--output", type=FOLDER, metavar="DIR", help="Write system files into this directory."
@@ -42,7 +46,7 @@ def command(
 ) -> None:
     """Draw a system that is jointly controllable and observable, and print its system file.
 
-    A system file is JSON, so --json changes nothing here.
+    The output is JSON with and without --json, since a system file is JSON.
     """
     from mcexact.cli.deadline import Deadline
     from mcexact.cli.files import directory, require_writable
@@ -52,7 +56,7 @@ def command(
     from mcexact.model.atomic import write_text
 
     if count > 1 and output is None:
-        raise click.UsageError("--count needs --output, a directory for the files")
+        raise click.UsageError("--count needs --output, the directory for the files")
     require_writable(None, output)
     deadline = Deadline(timeout)
     for number in range(seed, seed + count):
@@ -71,7 +75,7 @@ def command(
 
 
 def _drawn(draw: Draw) -> str:
-    """Draw, and write it down: what the child process does."""
+    """Draw a system and return its file's text, in the child process."""
     from mcexact.derived.drawn.draw import drawn_system
     from mcexact.model.system_file import system_text
 

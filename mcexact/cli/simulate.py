@@ -17,12 +17,12 @@ from mcexact.cli import options
 @click.option(
     "--initial",
     metavar="NUMBERS",
-    help="The plant's initial state, such as 1,0,-1/2; ones by default. The agents start at 0.",
+    help="Initial state of the plant, such as 1,0,-1/2; all ones by default. Agents start at 0.",
 )
 @click.option(
     "--horizon",
     type=options.rational,
-    help="Steps in discrete time, the final time in continuous time; by default from the spectrum.",
+    help="Number of steps, or final time in continuous time; by default chosen from the spectrum.",
 )
 @click.option(
     "--reference",
@@ -32,14 +32,14 @@ from mcexact.cli import options
 @click.option(
     "--arithmetic",
     type=click.Choice(["exact", "multiprecision", "float"]),
-    help="Exact by default in discrete time, float in continuous time.",
+    help="By default exact in discrete time and float in continuous time.",
 )
 @click.option(
     "-o",
     "--output",
     type=click.Path(path_type=Path),
     metavar="FILE",
-    help="Write the trajectory here: .csv, .png or .html.",
+    help="Write the trajectory to this file, which ends in .csv, .png or .html.",
 )
 @options.as_json
 @options.work_limits
@@ -57,7 +57,7 @@ def command(
     max_memory: int | None,
     **limits: int | None,
 ) -> None:
-    """Run the CONTROLLER for the system in FILE, one agent each, messages along edges only."""
+    """Run CONTROLLER on the system in FILE, as agents that receive messages from neighbors only."""
     from mcexact.cli.deadline import Deadline
     from mcexact.cli.files import place_of, read, require_other, require_writable
     from mcexact.cli.output import emit_json, emit_tables
@@ -98,7 +98,7 @@ def command(
 
 
 def _numbers(text: str | None, name: str) -> list[Fraction] | None:
-    """Numbers separated by commas."""
+    """Parse numbers separated by commas."""
     if text is None:
         return None
     try:
@@ -114,7 +114,7 @@ def _simulated(
     wanted: dict[str, Any],
     suffix: str,
 ) -> dict[str, Any]:
-    """Run, and put the answer into text and bytes: what the child process does."""
+    """Simulate and format the results, in the child process."""
     from mcexact.cli.files import system_in
     from mcexact.errors import InputError
     from mcexact.exact.rational import Limits

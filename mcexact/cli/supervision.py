@@ -1,8 +1,7 @@
-"""Long work in a process of its own, so that it can be limited and interrupted at any moment.
+"""Work in a child process, which can be limited and interrupted at any moment.
 
-Compiled arithmetic does not listen to signals.  The parent waits, shows progress, and is the only
-one that writes results; the child computes and sends them.  A child that is ended leaves nothing
-behind.
+Compiled arithmetic does not respond to signals.  Therefore the child computes, and the parent
+waits, shows progress and writes the results.  A child that is ended leaves no files behind.
 """
 
 from __future__ import annotations
@@ -45,19 +44,19 @@ def supervised(
     Parameters
     ----------
     work : callable
-        A function of a module; its arguments and its result can be pickled.
+        A function of a module whose arguments and result can be pickled.
     *arguments
-        What it is called with.
+        The arguments of the function.
     doing : str
-        What is being done, for progress and for the message at a limit.
+        A description of the work, for progress and for the message at a limit.
     timeout : float or Deadline, optional
         Seconds for the work, or the deadline of the whole command.
     max_memory : int, optional
         MiB that the child may add to what the program and the libraries occupy.
     libraries : sequence of str
-        Compiled libraries that are loaded before memory is limited.
+        Compiled libraries to load before memory is limited.
     quiet : bool
-        Show no progress.
+        Whether to show no progress.
 
     Returns
     -------
@@ -66,11 +65,11 @@ def supervised(
     Raises
     ------
     LimitReached
-        If the work was ended at a limit.
+        If a limit on time or memory ended the work.
     McexactError
-        Whatever the work raised on purpose.
+        The error that the work raised.
     InternalError
-        If the work failed in a way that it did not intend.
+        If the work failed unexpectedly.
     """
     methods = multiprocessing.get_all_start_methods()
     context: Any = multiprocessing.get_context("fork" if "fork" in methods else "spawn")
@@ -104,7 +103,7 @@ def supervised(
 
 
 def _await(receiver: Connection, doing: str, deadline: Deadline, quiet: bool) -> Any:
-    """Wait for the child's message, and show what it is doing if that takes long."""
+    """Wait for the child's result, and show progress if that takes long."""
     start = time.monotonic()
     with _terminable(), _progress(doing) as show:
         while not receiver.poll(0.1 if (left := deadline.left()) is None else min(0.1, left)):
@@ -121,11 +120,11 @@ def _child(
     work: Callable[..., Any],
     arguments: Any,
 ) -> None:
-    """Do the work and send its result, or the error that it ended with."""
+    """Do the work and send its result, or the error that ended it."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     end_with_parent()
-    # What compiled code says before it aborts is not for the user, who gets one message.
+    # The user gets one message, without what compiled code prints before it aborts.
     faulthandler.disable()
     silence = os.open(os.devnull, os.O_WRONLY)
     os.dup2(silence, 1)
@@ -145,7 +144,7 @@ def _child(
 
 
 def _told(error: Exception, limit: MemoryLimit | None) -> Exception:
-    """What the parent is told about an error: of those that were not intended, only the words."""
+    """The form in which an error is sent to the parent: an unexpected one as text."""
     if ran_out(error) or (limit is not None and limit.explains(error)):
         return MemoryError()
     if isinstance(error, McexactError):
@@ -157,14 +156,14 @@ def _told(error: Exception, limit: MemoryLimit | None) -> Exception:
 
 @contextlib.contextmanager
 def _terminable() -> Iterator[None]:
-    """Turn a request to end into an exception, so that the child is ended too."""
+    """Turn a signal that ends this process into an exception, so that the child is ended too."""
 
     def end(number: int, frame: object) -> None:
         sys.exit(128 + number)
 
     try:
         before = signal.signal(signal.SIGTERM, end)
-    except ValueError:  # not the main thread: nobody sends us signals
+    except ValueError:  # signals only reach the main thread
         yield
         return
     try:
@@ -175,7 +174,7 @@ def _terminable() -> Iterator[None]:
 
 @contextlib.contextmanager
 def _progress(doing: str) -> Iterator[Callable[[float], None]]:
-    """Say on standard error what takes longer than a second."""
+    """Show on standard error what is being done, once it has taken a second."""
     if sys.stderr.isatty():
         from rich.console import Console
 

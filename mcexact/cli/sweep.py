@@ -1,4 +1,4 @@
-"""`mcexact sweep`: the same questions about many systems."""
+"""`mcexact sweep`: answer the same questions about many systems."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ if TYPE_CHECKING:
     from mcexact.sweep.jobs import Job, Source
     from mcexact.sweep.records import Record
 
-# What a sweep ends with: the first of these that some system ended with.
+# The status of a sweep is the first of these with which some system ended.
 _PRECEDENCE = (70, 3, 2, 4, 0)
 _SAY_EVERY = 10.0  # seconds
 
 
-@click.command(name="sweep", short_help="The same questions about many files or draws.")
+@click.command(name="sweep", short_help="Answer the same questions about many systems.")
 @click.argument("files", nargs=-1, metavar="[FILE|DIRECTORY]...")
 @click.option(
     "--question",
@@ -34,29 +34,29 @@ _SAY_EVERY = 10.0  # seconds
     type=click.Choice(QUESTIONS),
     multiple=True,
     metavar="NAME",
-    help=f"What to decide, again for more: {', '.join(QUESTIONS)}; the first if there is none.",
+    help=f"A question to decide: {', '.join(QUESTIONS)}; by default the first. May be repeated.",
 )
 @click.option(
     "--draws",
     type=click.IntRange(min=1),
     metavar="N",
-    help="Also N drawn systems, as `mcexact sample` draws them.",
+    help="Add N drawn systems, as `mcexact sample` draws them.",
 )
-@click.option("--seed", type=int, default=0, show_default=True, help="The seed of the first one.")
+@click.option("--seed", type=int, default=0, show_default=True, help="Seed of the first draw.")
 @options.draws
 @click.option(
     "-o",
     "--output",
     type=click.Path(path_type=Path),
     metavar="FILE",
-    help="Keep every answer in this file, a line of JSON each. What is in it is not done again: "
-    "after an interruption the same command goes on.",
+    help="Write every answer to this file, one line of JSON for each system. Finished systems are "
+    "skipped: run the same command again to resume.",
 )
 @click.option(
     "--workers",
     type=click.IntRange(1, 256),
     metavar="N",
-    help="How many processes; by default as many as there are processors.",
+    help="Number of processes; by default the number of processors.",
 )
 @options.certificates
 @options.as_json
@@ -75,14 +75,14 @@ def command(
     max_memory: int | None,
     **rest: Any,
 ) -> int:
-    """Ask the same questions about every system in the FILEs.
+    """Answer the same questions about every system in the FILEs.
 
-    Of a DIRECTORY, those *.json files are taken that by their key "format" are system files; the
-    others are skipped, and named in the summary.
+    In a DIRECTORY, a *.json file is read if its key "format" says that it is a system file; other
+    files are skipped and named in the summary.
 
-    Every certificate is checked by the independent checker before it counts. What cannot be read
-    or decided is named and stops nothing; the limits on time and memory are for each system. With
-    --output, certificates are written of what is decided in this run.
+    The independent checker verifies every certificate before an answer counts. Files that fail are
+    reported; the sweep continues. The limits on time and memory apply to each system. With
+    --certificates, only the systems decided in this run give certificates, not those skipped.
     """
     from functools import partial
 
@@ -101,7 +101,7 @@ def command(
     sources: list[Source] = list(listed.paths)
     sources += [Draw(number, **rest) for number in range(seed, seed + (draws or 0))]
     if not sources:
-        raise click.UsageError("there is nothing to sweep over: name files, or --draws N")
+        raise click.UsageError("there are no systems to sweep over: name files, or give --draws N")
     asked = tuple(name for name in QUESTIONS if name in (questions or {"fixed_spectrum"}))
     require_writable(output, certificates)
     limited = timeout is not None or max_memory is not None
@@ -123,14 +123,14 @@ def command(
                 if certificates is not None:
                     _write(directory(certificates), record, len(sources))
     except KeyboardInterrupt:
-        kept = f"; the same command goes on from {output}" if output is not None else ""
+        kept = f"; run the same command again to resume from {output}" if output is not None else ""
         said = f"interrupted after {len(documents)} of {len(sources)} systems{kept}"
         click.echo(f"mcexact: {said}", err=True)
         return INTERRUPTED
     documents.sort(key=lambda document: int(document["number"]))
     documents, skipped = listed.separated(documents)
     if not documents:
-        raise InputError("there is no system file in it", where=", ".join(files))
+        raise InputError("found no system file", where=", ".join(files))
     if as_json:
         emit_json(sweep_view(documents, skipped))
     else:
@@ -141,7 +141,7 @@ def command(
 
 
 class _Listed:
-    """The files that were named, and those in the directories that may be system files.
+    """The named files, and the files in named directories that may be system files.
 
     Attributes
     ----------
@@ -165,7 +165,7 @@ class _Listed:
                 raise InputError("there are no *.json files in this directory", where=file)
 
     def _take(self, path: Path) -> None:
-        """Take a file of a directory, unless its name says that it is something else."""
+        """Add a file of a directory, unless its name or type excludes it."""
         if path.is_dir() or path.name.startswith("."):
             return
         if path.suffix != ".json":
@@ -179,7 +179,7 @@ class _Listed:
     def separated(
         self, documents: list[dict[str, Any]]
     ) -> tuple[list[dict[str, Any]], list[tuple[str, str]]]:
-        """The records, and what was skipped in the directories: a file that was named counts."""
+        """Separate records from skipped files of directories; a named file is never skipped."""
         kept, skipped = [], list(self._skipped)
         for document in documents:
             error = document.get("error", {})
@@ -191,14 +191,14 @@ class _Listed:
 
 
 def _processors() -> int:
-    """How many processes can run at once."""
+    """Return the number of processes that can run at once."""
     if hasattr(os, "sched_getaffinity"):
         return min(256, len(os.sched_getaffinity(0)))
     return min(256, os.cpu_count() or 1)
 
 
 def _limited(job: Job, timeout: float | None, max_memory: int | None) -> dict[str, Any]:
-    """Decide in a process of its own, which is ended at a limit."""
+    """Decide a job in a child process, which is ended at a limit."""
     from mcexact.cli.supervision import supervised
     from mcexact.errors import McexactError
     from mcexact.sweep.jobs import decide, failure
@@ -218,7 +218,7 @@ def _limited(job: Job, timeout: float | None, max_memory: int | None) -> dict[st
 
 
 def _read(path: str | os.PathLike[str], limits: Limits, timeout: float | None) -> bytes:
-    """Read a file; a pipe is waited for no longer than a system may take."""
+    """Read a file; waiting for a pipe is limited to the time allowed for a system."""
     from mcexact.cli.deadline import Deadline
     from mcexact.model.json_text import read_bytes
 
@@ -229,7 +229,7 @@ def _read(path: str | os.PathLike[str], limits: Limits, timeout: float | None) -
 
 
 def _write(folder: Path, record: Record, total: int) -> None:
-    """Write the certificates of one system, under its number, its name and the question."""
+    """Write the certificates of one system; file names give its number, name and question."""
     from mcexact.model.atomic import write_text
 
     number = str(record.number + 1).zfill(len(str(total)))
@@ -240,7 +240,7 @@ def _write(folder: Path, record: Record, total: int) -> None:
 
 @contextlib.contextmanager
 def _progress(total: int) -> Iterator[Any]:
-    """Say on standard error how far it is: a bar on a terminal, else a line now and then."""
+    """Show progress on standard error: a bar on a terminal, otherwise a line at intervals."""
     import sys
 
     if sys.stderr.isatty():

@@ -171,7 +171,7 @@ def test_of_a_folder_only_system_files_are_read_and_the_others_are_named(
     call: Call, folder: Path, tmp_path: Path
 ) -> None:
     plant = gallery.load("hidden-triple-mode")
-    codec.write(fixed_spectrum(plant).certificate, folder / "certificate.json")
+    codec.save_certificate(fixed_spectrum(plant), folder / "certificate.json")
     gains = [[[0] * plant.q(i)] * plant.p(i) for i in range(plant.m)]
     save_controller(local_controllers(plant, gains), folder / "controller.json")
     (folder / "other.json").write_text("[1, 2]", encoding="ascii")
@@ -219,4 +219,4 @@ def test_a_folder_without_any_system_file_is_bad_input(call: Call, tmp_path: Pat
     (tmp_path / "other.json").write_text("{}", encoding="ascii")
     status, _, err = call(str(tmp_path))
     assert status == 3
-    assert f"{tmp_path}: there is no system file in it" in err
+    assert f"{tmp_path}: found no system file" in err

@@ -46,8 +46,8 @@ def system(A: Any, B: Any = ONE, C: Any = ONE, **rest: Any) -> MultiChannelSyste
     return MultiChannelSystem(A, B, C, **rest)
 
 
-def graph(*arcs: tuple[Any, ...]) -> NeighborGraph:
-    return NeighborGraph.from_networkx(networkx.DiGraph(list(arcs)))
+def graph(*edges: tuple[Any, ...]) -> NeighborGraph:
+    return NeighborGraph.from_networkx(networkx.DiGraph(list(edges)))
 
 
 CALLS: dict[str, tuple[Callable[[], Any], type[McexactError], tuple[str, ...]]] = {
