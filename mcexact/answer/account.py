@@ -10,8 +10,7 @@ from html import escape
 from typing import Any
 
 from mcexact.answer import codec
-from mcexact.answer.sentence import MANIFEST, Given, Rulebook, Sentences, certificate_of, manifest
-from mcexact.answer.showing import plain_view
+from mcexact.answer.sentence import MANIFEST, Given, Rulebook, Sentences, manifest
 from mcexact.model.atomic import write_text
 from mcexact.model.canonical import canonical
 
@@ -48,10 +47,7 @@ class Account:
     @cached_property
     def certificates(self) -> dict[str, str]:
         """The text of every certificate, by the name of its file."""
-        return {
-            f"{name}.json": codec.encode(certificate_of(answer))
-            for name, answer in self.answers.items()
-        }
+        return {f"{name}.json": codec.encode(answer) for name, answer in self.answers.items()}
 
     def manifest(self) -> dict[str, Any]:
         """The sentences with what each rests on, and the digests of the certificates."""
@@ -86,7 +82,7 @@ class Account:
                 for each in self.sentences
             ],
             **{
-                name: view_of(answer) | {"certificate": f"{name}.json"}
+                name: answer.view() | {"certificate": f"{name}.json"}
                 for name, answer in self.answers.items()
             },
         }
@@ -109,12 +105,3 @@ def _reason(sentence: Any) -> str:
     """Theorem and premises of a sentence, without their values."""
     places = [f"{file}#{pointer}" for file, pointer, _ in sentence.because]
     return "; ".join(filter(None, [sentence.template.theorem, *places]))
-
-
-def view_of(answer: Any) -> dict[str, Any]:
-    """What an answer claims, as plain data."""
-    if hasattr(answer, "view"):
-        view: dict[str, Any] = answer.view()
-        return view
-    claims = certificate_of(answer).claim()
-    return {key: plain_view(value) for key, value in claims.items()}

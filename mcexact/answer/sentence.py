@@ -10,6 +10,7 @@ from functools import cached_property
 from types import MappingProxyType
 from typing import Any, TypeVar
 
+from mcexact.answer.protocol import Answer
 from mcexact.answer.template import Sentence, Template
 from mcexact.model.canonical import plain
 from mcexact.model.system import MultiChannelSystem
@@ -134,16 +135,11 @@ def _each(read: Read, parts: Iterable[Any]) -> Iterator[Any]:
     read.update(seen)
 
 
-def certificate_of(answer: Any) -> Any:
-    """The certificate of an answer."""
-    return getattr(answer, "certificate", answer)
-
-
 class Certified(Claim):
     """The claims of an answer, by name, and what else a rule may read of its certificate."""
 
-    def __init__(self, answer: Any, file: str, read: Read) -> None:
-        self._made = certificate_of(answer)
+    def __init__(self, answer: Answer, file: str, read: Read) -> None:
+        self._made = answer
         super().__init__(self._made.claim(), file, "/claim", read)
 
     @property
@@ -189,7 +185,7 @@ class Rule:
         return {name: self.about.get(name, name) for name in names if name != "given"}
 
     def apply(
-        self, answers: Mapping[str, Any], given: Given, missing: Collection[str]
+        self, answers: Mapping[str, Answer], given: Given, missing: Collection[str]
     ) -> Iterator[Sentence]:
         """What follows, each with its premises."""
         if self.missing and self.missing not in missing:
@@ -207,7 +203,7 @@ class Rule:
             yield sentence.bound(self.place, because)
 
 
-def _found(name: str, answers: Mapping[str, Any], read: Read) -> Any:
+def _found(name: str, answers: Mapping[str, Answer], read: Read) -> Any:
     """The answer of this name as a rule sees it, or the numbered ones; None if there is none."""
     for each in LOOP if name == "loop" else (name,):
         if each in answers:
@@ -248,7 +244,7 @@ class Rulebook(list[Rule]):
         return made
 
     def sentences(
-        self, answers: Mapping[str, Any], given: Given, missing: Collection[str] = ()
+        self, answers: Mapping[str, Answer], given: Given, missing: Collection[str] = ()
     ) -> Sentences:
         """All that follows from answers, by the names of their questions."""
         return Sentences(said for rule in self for said in rule.apply(answers, given, missing))

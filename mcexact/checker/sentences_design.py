@@ -233,7 +233,7 @@ refuse(
 refuse("refused-no-connection", "transfer_graph.zero_transfer_cut", lambda least, cut: not cut.mode)
 
 
-def combinations(found: Premise) -> list[str]:
+def conditions(found: Premise) -> list[str]:
     """The conditions on r = C x of an equilibrium, out of the left kernel of [A, B; C, 0]."""
     left, n = found.witness["left"], found.system.n
     rows = [[Fraction(x, left["denominator"]) for x in row[n:]] for row in left["entries"]]
@@ -243,7 +243,7 @@ def combinations(found: Premise) -> list[str]:
 @rule("refused-no-equilibrium", SETPOINT, theorem="setpoint.setpoint_unreachable")
 def no_equilibrium(found: Premise) -> str:
     """Some set-points have no equilibrium."""
-    lost = combinations(found)
+    lost = conditions(found)
     found.expect(bool(lost), "no set-points are excluded")
     return f"no equilibrium of {found.about} holds outputs r with {' or '.join(lost)}"
 
@@ -258,7 +258,7 @@ def no_equilibrium_zero(found: Premise) -> str:
 @rule("refused-mode-of-the-integrators", SETPOINT, theorem="setpoint.setpoint_output_part")
 def mode_of_the_integrators(found: Premise) -> str:
     """A mode of the plant at the place of the integrators is not controlled."""
-    lost = not found["solvable"] and not combinations(found)
+    lost = not found["solvable"] and not conditions(found)
     found.expect(lost, "every row of the evidence is about the outputs, or there is none")
     place = int(found.system.time == "discrete")
     return f"the mode {place} of {found.about} is not controlled by all channels together"
