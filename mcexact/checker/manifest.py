@@ -12,18 +12,7 @@ from typing import Any
 
 from . import sentences_analysis, sentences_design, sentences_sharing
 from .kinds import KINDS, Verdict, answer, check_document
-from .reading import (
-    Limits,
-    Refused,
-    fields,
-    incomplete,
-    items,
-    malformed,
-    parse,
-    require,
-    shown,
-    string,
-)
+from .reading import Limits, Refused, fields, items, malformed, parse, require, shown, string
 from .sentence import RULES, Premise, enter_own
 from .subject import read_subject
 from .system import read_plant
@@ -58,10 +47,10 @@ def manifest_verdicts(
         For the manifest and for each certificate.
     """
     path = os.path.join(path, NAME) if os.path.isdir(path) else path
-    parts: list[Any] = []
+    most, parts = limits or Limits(), list[Any]()
 
     def read() -> Verdict:
-        parts.extend(_parts(parse(_bytes(path, limits or Limits()), limits or Limits())))
+        parts.extend(_parts(parse(_bytes(path, most), most)))
         return Verdict("READ")
 
     verdict = answer(read)
@@ -69,7 +58,7 @@ def manifest_verdicts(
         yield {"file": NAME}, verdict
         return
     digests, sentences, base = parts
-    known = Evidence(os.path.dirname(path), base, limits or Limits(), system_digest)
+    known = Evidence(os.path.dirname(path), base, most, system_digest)
     for name in sorted(digests):
         verdict = known.taken(name, digests[name])
         if verdict.verdict != "VALID":
@@ -171,31 +160,28 @@ class Evidence:
 
         def check() -> Verdict:
             if key not in RULES:
-                incomplete("rule", "rule", f"{shown(key)} is not a rule known here")
+                raise Refused("INCOMPLETE", "rule", "rule", "not a rule known here")
             theorem = RULES[key].theorem
             named = sentence["theorem"] == theorem
             require(named, "theorem", "theorem", f"expected {theorem or 'none'}")
             cited = list(dict.fromkeys(name for name, *_ in because))
             for name in cited:
-                if self.verdicts[name].verdict == "INCOMPLETE":
-                    incomplete("premise", name, "this certificate could not be checked")
-                require(name in self.premises, "premise", name, "this certificate is not VALID")
+                open_ = "INCOMPLETE" if self.verdicts[name].status == 5 else "INVALID"
+                if name not in self.premises:
+                    raise Refused(open_, "premise", name, "this certificate is not VALID")
             for name, pointer, value in because:
                 found = pointed(self.premises[name].document, pointer, name)
                 require(same(found, value), "value", name, f"another value at {shown(pointer)}")
             require(bool(self.premises), "premise", "because", "nothing tells of the plant")
-            told = [
-                replace(self.premises[name], pointers=tuple(p for n, p, _ in because if n == name))
-                for name in cited
-            ]
+            pointers = {name: tuple(p for n, p, _ in because if n == name) for name in cited}
+            told = [replace(self.premises[name], pointers=pointers[name]) for name in cited]
             words = RULES[key].implied(told, [*self.premises.values()])
             words += f" [{theorem}]" if theorem else ""
             return Verdict("IMPLIED", f"{words} from {', '.join(cited)}" if cited else words)
 
         verdict = answer(check)
-        if verdict.verdict == "IMPLIED":
-            return verdict
-        return replace(verdict, place=f"{place} {shown(key)} {verdict.place}")
+        where = f"{place} {shown(key)} {verdict.place}" if verdict.status else ""
+        return replace(verdict, place=where)
 
 
 def pointed(document: Any, pointer: str, place: str) -> Any:

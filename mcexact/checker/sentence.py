@@ -74,9 +74,8 @@ class Premise:
         members: Any = self.document
         for key in pointer.split("/")[1:]:
             members = members[key]
-        inside = [
-            p.removeprefix(f"{pointer}/") for p in self.pointers if p.startswith(f"{pointer}/")
-        ]
+        place = f"{pointer}/"
+        inside = [each.removeprefix(place) for each in self.pointers if each.startswith(place)]
         numbers = {int(rest.split("/")[0]) for rest in inside}
         return [member for k, member in enumerate(members) if k in numbers or not numbers]
 

@@ -55,11 +55,9 @@ def meant(known: list[Premise]) -> System:
 def given(known: list[Premise]) -> str:
     """The sizes of what the manifest is about, and the names of its channels."""
     plant = meant(known)
-    ports = [sum(M.ncols for M in plant.B), sum(M.nrows for M in plant.C)]
-    return (
-        f"given is {described(plant)}, channels {channel_set(plant, range(plant.m))}, "
-        f"{ports[0]} inputs and {ports[1]} outputs in all"
-    )
+    p, q = sum(M.ncols for M in plant.B), sum(M.nrows for M in plant.C)
+    ports = f"{p} inputs and {q} outputs in all"
+    return f"given is {described(plant)}, channels {channel_set(plant, range(plant.m))}, {ports}"
 
 
 @rule("subsystem channel picture-graphs picture-graphs-outputs picture-dimensions certify-loop")
@@ -77,9 +75,7 @@ def inactive(known: list[Premise]) -> str:
     ports = enumerate(zip(system.B, system.C, strict=True))
     idle = [i for i, (B, C) in ports if B.is_zero() or C.is_zero()]
     known[0].expect(bool(idle), "no channel is without inputs or outputs that act")
-    return (
-        f"in {described(system)}, B_i = 0 or C_i = 0 for the channels {channel_set(system, idle)}"
-    )
+    return f"B_i = 0 or C_i = 0 for the channels {channel_set(system, idle)} of {described(system)}"
 
 
 @rule("picture-neighbor-graph picture-heard")
@@ -174,19 +170,19 @@ def moved(spectrum: Premise, split: Premise) -> tuple[int, int]:
     return n - sum(size * most for size, most in sizes), n - max(stays, split["fixed_degree"])
 
 
-@rule("spectrum-moved", FIXED, BLOCKS, theorem=MOVED)
-def moved_exactly(spectrum: Premise, split: Premise) -> str:
-    """How many eigenvalues gains move."""
-    least, most = moved(spectrum, split)
-    spectrum.expect(least == most, f"only known to be from {least} to {most}")
-    return f"gains move exactly {least} of the {split.system.n} eigenvalues of {split.about}"
-
-
 @rule("spectrum-moved-between", FIXED, BLOCKS, theorem=MOVED)
 def moved_between(spectrum: Premise, split: Premise) -> str:
     """Bounds on how many eigenvalues gains move."""
     least, most = moved(spectrum, split)
     return f"gains move from {least} to {most} of the {split.system.n} eigenvalues of {split.about}"
+
+
+@rule("spectrum-moved", FIXED, BLOCKS, theorem=MOVED)
+def moved_exactly(spectrum: Premise, split: Premise) -> str:
+    """How many eigenvalues gains move, where the bounds meet."""
+    least, most = moved(spectrum, split)
+    spectrum.expect(least == most, f"only known to be from {least} to {most}")
+    return moved_between(spectrum, split)
 
 
 # Structure, a set of channels, one channel.

@@ -104,10 +104,8 @@ def allocated(least: Premise, bound: Premise, *hypotheses: Premise) -> str:
 @rule("allocate-links-proof", LINKS)
 def proved(least: Premise) -> str:
     """How long the proof is that nothing costs less."""
-    sizes = [len(least.witness[key]) for key in ("cuts", "tree")]
-    return (
-        f"{least.theorem}, by {counted(sizes[0], 'cut')} and {counted(sizes[1], 'node')} of a tree"
-    )
+    cuts, nodes = (len(least.witness[key]) for key in ("cuts", "tree"))
+    return f"{least.theorem}, by {counted(cuts, 'cut')} and {counted(nodes, 'node')} of a tree"
 
 
 class Cut(NamedTuple):
