@@ -168,7 +168,7 @@ def _compression(rng: Random, nrows: int, ncols: int, bound: int) -> Matrix:
 def _determinant(N: PolynomialMatrix) -> Polynomial:
     """The determinant of a square polynomial matrix, through its values at 0, 1, … (Newton)."""
     parts = N.matrices
-    result, basis = Polynomial.constant(0), Polynomial.of(1)
+    result, basis = Polynomial.of(), Polynomial.of(1)
     for g in range(N.nrows * (len(parts) - 1) + 1):
         value = parts[-1]
         for part in reversed(parts[:-1]):

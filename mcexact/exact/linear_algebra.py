@@ -58,20 +58,6 @@ def row_echelon(M: Matrix) -> tuple[Matrix, tuple[int, ...]]:
     return whole.take(rows=range(r)), tuple(pivots)
 
 
-def column_echelon(M: Matrix) -> tuple[Matrix, tuple[int, ...]]:
-    """A basis of the column space whose rows `pivots` form the identity.
-
-    Returns
-    -------
-    X : Matrix, nrows × r
-        r = rank M.
-    pivots : tuple of int
-        Ascending rows.
-    """
-    reduced, pivots = row_echelon(M.T)
-    return reduced.T, pivots
-
-
 def kernel(M: Matrix) -> tuple[Matrix, tuple[int, ...]]:
     """A basis of {x : Mx = 0} and the rows of it that form the identity.
 
@@ -193,13 +179,3 @@ def _unscaled(p: flint.fmpz_poly, d: int) -> Polynomial:
 def _require_square(M: Matrix) -> None:
     if not M.is_square():
         raise InputError(f"expected a square matrix, found {M.nrows} × {M.ncols}")
-
-
-def evaluate_at(p: Polynomial, M: Matrix) -> Matrix:
-    """p(M) of a square matrix."""
-    _require_square(M)
-    result = Matrix.zeros(M.nrows, M.nrows)
-    unit = Matrix.identity(M.nrows)
-    for c in reversed(p.coefficients):
-        result = result @ M + unit * c
-    return result

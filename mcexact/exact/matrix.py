@@ -258,12 +258,6 @@ class Matrix:
         k = require_power(k, max(self.denominator.bit_length(), *lengths, 1))
         return from_flint(self._integer**k, self.denominator**k)
 
-    def trace(self) -> Fraction:
-        """The sum of the diagonal entries of a square matrix."""
-        if not self.is_square():
-            raise InputError(f"expected a square matrix, found {self.nrows} × {self.ncols}")
-        return Fraction(sum(self.numerators[i][i] for i in range(self.nrows)), self.denominator)
-
     def __reduce__(self) -> tuple[Any, ...]:
         return Matrix.from_integers, (self.numerators, self.denominator, self.ncols)
 

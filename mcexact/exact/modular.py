@@ -35,7 +35,7 @@ class ModularMatrix:
     Examples
     --------
     >>> M = ModularMatrix.from_rows([[1, 2], [2, 4]], 7)
-    >>> M.rank(), M.nullspace().rows()
+    >>> M.rank(), M.kernel()[0].rows()
     (1, [[5], [1]])
     """
 
@@ -78,42 +78,6 @@ class ModularMatrix:
     def identity(cls, n: int, modulus: int) -> ModularMatrix:
         """The n × n identity matrix."""
         return cls.scalar(n, 1, modulus)
-
-    @classmethod
-    def block_diagonal(
-        cls, blocks: Sequence[Sequence[Sequence[int]] | Matrix], modulus: int, *, ncols: int
-    ) -> ModularMatrix:
-        """The matrix diag(F_1, F_2, …) of integer blocks, only nonzero entries being touched.
-
-        Parameters
-        ----------
-        blocks : sequence of matrices
-            Rows of integers, or rational matrices.
-        modulus : int
-        ncols : int
-            Total number of columns; a block of rows without length takes none.
-        """
-        tables = [
-            [[residue(entry, modulus) for entry in row] for row in block.rows()]
-            if isinstance(block, Matrix)
-            else block
-            for block in blocks
-        ]
-        widths = [
-            block.ncols if isinstance(block, Matrix) else (len(block[0]) if block else 0)
-            for block in blocks
-        ]
-        if sum(widths) > ncols:
-            raise InputError(f"expected blocks of {ncols} columns in all, found {sum(widths)}")
-        made = cls.zeros(sum(map(len, tables)), ncols, modulus)
-        top = left = 0
-        for table, width in zip(tables, widths, strict=True):
-            for i, row in enumerate(table):
-                for j, entry in enumerate(row):
-                    if entry:
-                        made._table[top + i, left + j] = entry % modulus
-            top, left = top + len(table), left + width
-        return made
 
     @property
     def nrows(self) -> int:
@@ -217,11 +181,6 @@ class ModularMatrix:
         """The rank over the field with ℓ elements."""
         return int(self._table.rank())
 
-    def determinant(self) -> int:
-        """The determinant of a square matrix."""
-        self._require_square()
-        return int(self._table.det())
-
     def characteristic_polynomial(self) -> ModularPolynomial:
         """det(xI − M) of a square matrix."""
         self._require_square()
@@ -241,12 +200,8 @@ class ModularMatrix:
         reduced, rank = self._table.rref()
         return ModularMatrix(self.modulus, reduced), _pivots(reduced, rank)
 
-    def nullspace(self) -> ModularMatrix:
-        """A basis of {x : Mx = 0} as columns, the identity in its rows at the free columns of M."""
-        return self.kernel()[0]
-
     def kernel(self) -> tuple[ModularMatrix, tuple[int, ...]]:
-        """`nullspace` and the rows of it that form the identity."""
+        """A basis of {x : Mx = 0} as columns, and its rows that form the identity."""
         reduced, rank = self._table.rref()
         pivots = _pivots(reduced, rank)
         bound = set(pivots)
@@ -259,18 +214,6 @@ class ModularMatrix:
                     break
                 basis._table[pivot, k] = -reduced[i, j]
         return basis, free
-
-    def solve(self, right: ModularMatrix) -> ModularMatrix | None:
-        """One X with MX = right, free unknowns 0; None if there is none."""
-        self._like(right, "against", self.nrows == right.nrows)
-        reduced, pivots = hstack([self, right]).rref()
-        if pivots and pivots[-1] >= self.ncols:
-            return None
-        X = ModularMatrix.zeros(self.ncols, right.ncols, self.modulus)
-        for i, pivot in enumerate(pivots):
-            for j in range(right.ncols):
-                X._table[pivot, j] = reduced._table[i, self.ncols + j]
-        return X
 
     def inverse(self) -> ModularMatrix | None:
         """The inverse of a square matrix; None if it is singular."""

@@ -72,11 +72,6 @@ class Polynomial:
         return product(cls((-as_fraction(root), Fraction(1))) for root in roots)
 
     @classmethod
-    def constant(cls, value: Entry) -> Polynomial:
-        """A constant."""
-        return cls.of(value)
-
-    @classmethod
     def x(cls) -> Polynomial:
         """The variable."""
         return cls.of(0, 1)
@@ -94,10 +89,6 @@ class Polynomial:
     def is_zero(self) -> bool:
         """Whether this is the zero polynomial."""
         return not self.coefficients
-
-    def is_monic(self) -> bool:
-        """Whether the leading coefficient is 1."""
-        return self.leading == 1
 
     @cached_property
     def denominator(self) -> int:
@@ -274,14 +265,6 @@ class Polynomial:
             scaled.append(c * power)
             power *= a
         return Polynomial.from_coefficients(scaled)
-
-    def compose(self, other: Polynomial) -> Polynomial:
-        """p(q(x)) for q the other polynomial."""
-        return _from_rational(self._rational(other._rational))
-
-    def reversed(self) -> Polynomial:
-        """x^d p(1/x), d the degree: the coefficients in the opposite order."""
-        return Polynomial.from_coefficients(self.coefficients[::-1])
 
     def as_json(self) -> list[int | str]:
         """The coefficients as certificates write them: integers or ``"p/q"``.

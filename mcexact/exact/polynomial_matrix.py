@@ -9,7 +9,6 @@ from functools import cached_property
 from itertools import zip_longest
 
 from mcexact.errors import InputError
-from mcexact.exact import blocks
 from mcexact.exact.matrix import Matrix, Rows
 from mcexact.exact.modular import ModularMatrix, residues
 from mcexact.exact.polynomial import Polynomial
@@ -189,23 +188,3 @@ def monic_modulus(p: Polynomial) -> Polynomial:
     if p.degree < 1:
         raise InputError(f"expected a polynomial of degree at least 1, found {p}")
     return p.monic()
-
-
-def vstack(matrices: Sequence[PolynomialMatrix]) -> PolynomialMatrix:
-    """Polynomial matrices below each other, at least one, equally wide."""
-    if not matrices or len({M.ncols for M in matrices}) != 1:
-        raise InputError("expected at least one matrix, all equally wide")
-    layers = zip_longest(*(M.matrices for M in matrices))
-    return PolynomialMatrix.from_matrices(
-        *(
-            blocks.vstack(
-                [part or Matrix.zeros(*M.shape) for part, M in zip(layer, matrices, strict=True)]
-            )
-            for layer in layers
-        )
-    )
-
-
-def hstack(matrices: Sequence[PolynomialMatrix]) -> PolynomialMatrix:
-    """Polynomial matrices beside each other, at least one, equally high."""
-    return vstack([M.T for M in matrices]).T

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from fractions import Fraction
 from math import isqrt
 
 
@@ -98,12 +97,3 @@ def rationals(rows: Sequence[Sequence[int]], modulus: int) -> tuple[list[list[in
 def integers(residues: Sequence[int], modulus: int) -> list[int]:
     """The representatives in −modulus/2 … modulus/2."""
     return [value - modulus if 2 * value > modulus else value for value in residues]
-
-
-def rational_coefficients(residues: Sequence[int], modulus: int) -> list[Fraction] | None:
-    """Fractions with the given residues, or None if some residue has none."""
-    found = rationals([residues], modulus)
-    if found is None:
-        return None
-    numerators, denominator = found
-    return [Fraction(value, denominator) for value in numerators[0]]

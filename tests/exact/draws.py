@@ -66,3 +66,11 @@ def sympy_polynomial(p: Polynomial) -> sympy.Poly:
 def from_sympy_polynomial(p: sympy.Poly) -> Polynomial:
     """And back."""
     return Polynomial.from_coefficients(reversed(p.all_coeffs()))
+
+
+def evaluated(p, M):
+    """p(M) of a square matrix."""
+    result = Matrix.zeros(M.nrows, M.nrows)
+    for c in reversed(p.coefficients):
+        result = result @ M + Matrix.identity(M.nrows) * c
+    return result

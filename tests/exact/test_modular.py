@@ -4,6 +4,7 @@ import itertools
 import pickle
 import random
 from fractions import Fraction
+from math import prod
 
 import pytest
 import sympy
@@ -129,33 +130,30 @@ def test_echelon_forms_and_kernels(M):
     assert (M @ X).is_zero()
     assert X.shape == (M.ncols, M.ncols - r)
     assert X.take(rows=free) == ModularMatrix.identity(X.ncols, SMALL_PRIME)
-    assert M.nullspace() == X
 
 
-@given(st.data())
-def test_solutions_exist_exactly_when_the_rank_does_not_grow(data):
-    r, k, c = (data.draw(st.integers(0, 3)) for _ in range(3))
-    M, right = data.draw(modular_matrices(r, k)), data.draw(modular_matrices(r, c))
-    X = M.solve(right)
-    if X is None:
-        assert hstack([M, right]).rank() > M.rank()
-    else:
-        assert right == M @ X
+def determinant(M):
+    """The sum of the products along all permutations, with their signs."""
+    total = 0
+    for order in itertools.permutations(range(M.nrows)):
+        inversions = sum(a > b for a, b in itertools.combinations(order, 2))
+        total += (-1) ** inversions * prod(M[i, j] for i, j in enumerate(order))
+    return total % M.modulus
 
 
 @given(st.integers(0, 3).flatmap(lambda n: modular_matrices(n, n)))
 def test_square_matrices(M):
     n = M.nrows
     chi = M.characteristic_polynomial()
-    assert chi(0) == (-1) ** n * M.determinant() % SMALL_PRIME
+    assert chi(0) == (-1) ** n * determinant(M) % SMALL_PRIME
     assert M.minimal_polynomial().divides(chi)
     found = M.inverse()
     if found is None:
-        assert M.determinant() == 0
+        assert determinant(M) == 0
     else:
         assert found @ M == ModularMatrix.identity(n, SMALL_PRIME)
     shifted = ModularMatrix.scalar(n, 2, SMALL_PRIME) - M
-    assert chi(2) == shifted.determinant()
+    assert chi(2) == determinant(shifted)
     assert (shifted.rank() < n) == (2 in chi.roots())
 
 
@@ -164,7 +162,7 @@ def test_matrices_without_entries(shape):
     Z = ModularMatrix.zeros(*shape, ELL)
     assert Z.rank() == 0
     assert Z.rows() == [[]] * shape[0]
-    assert Z.nullspace() == ModularMatrix.identity(shape[1], ELL)
+    assert Z.kernel()[0] == ModularMatrix.identity(shape[1], ELL)
     assert (Z @ Z.T).shape == (shape[0], shape[0])
     assert hstack([Z, Z]).shape == (shape[0], 2 * shape[1])
     assert pickle.loads(pickle.dumps(Z)) == Z
@@ -177,14 +175,6 @@ def test_a_closed_loop_modulo_a_prime_is_the_residue_of_the_closed_loop(data):
     F, C = data.draw(matrices(p, q)), data.draw(matrices(q, n))
     parts = [residues(M, ELL) for M in (A, B, F, C)]
     assert low_rank_update(*parts) == residues(A + B @ F @ C, ELL)
-
-
-def test_block_diagonal_gains_keep_the_place_of_every_channel():
-    blocks = [[[1, 2]], Matrix.from_rows([["1/2"], [3]]), [], Matrix.zeros(1, 0)]
-    found = ModularMatrix.block_diagonal(blocks, 7, ncols=3)
-    assert found.rows() == [[1, 2, 0], [0, 0, 4], [0, 0, 3], [0, 0, 0]]
-    with pytest.raises(InputError, match="expected blocks of 2 columns in all, found 3"):
-        ModularMatrix.block_diagonal(blocks, 7, ncols=2)
 
 
 def test_random_matrices_come_from_the_given_source():
@@ -207,11 +197,10 @@ I2 = ModularMatrix.identity(2, 7)
         (lambda: I2 + ModularMatrix.identity(3, 7), r"2 × 2 \+ 3 × 3"),
         (lambda: I2 - ModularMatrix.identity(3, 7), r"2 × 2 - 3 × 3"),
         (lambda: I2 @ ModularMatrix.identity(3, 7), r"2 × 2 @ 3 × 3"),
-        (lambda: I2.solve(ModularMatrix.identity(3, 7)), "2 × 2 against 3 × 3"),
         (lambda: hstack([I2, ModularMatrix.identity(3, 7)]), "2 × 2 stacked with 3 × 3"),
         (lambda: hstack([]), "expected at least one matrix to stack"),
         (lambda: vstack([]), "expected at least one matrix to stack"),
-        (lambda: ModularMatrix.zeros(2, 3, 7).determinant(), "expected a square matrix"),
+        (lambda: ModularMatrix.zeros(2, 3, 7).inverse(), "expected a square matrix"),
         (lambda: ModularMatrix.zeros(-1, 3, 7), "number of rows that is at least 0"),
         (lambda: ModularMatrix.from_rows([[1], [1, 2]], 7), "expected rows of 1 entries"),
         (lambda: ModularMatrix.from_rows([[0.5]], 7), "expected integer entries"),
