@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import lcm, prod
 
 from mcexact.analysis.modular_system import generator
 from mcexact.analysis.rate import located
 from mcexact.answer.closed_loop_spectrum import ClosedLoopSpectrum
-from mcexact.answer.evidence import RateInterval, RootDisc
+from mcexact.answer.loop_spectrum import LoopSpectrum
 from mcexact.errors import InternalError
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.location import StabilityRegion
@@ -19,29 +18,6 @@ from mcexact.model.system import MultiChannelSystem
 
 _MODULUS_BITS = 61
 _AT_ONCE = 16
-
-
-@dataclass(frozen=True)
-class LoopSpectrum:
-    """The eigenvalues of a closed loop.
-
-    Attributes
-    ----------
-    polynomial : Polynomial
-        The characteristic polynomial.
-    discs : tuple of RootDisc
-        One around each distinct eigenvalue.
-    stable : bool
-        Whether all lie in the stability region, decided on the polynomial.
-    rate : RateInterval or None
-        Encloses minus the largest real part (continuous time) or the largest modulus (discrete
-        time); None if there are no eigenvalues.
-    """
-
-    polynomial: Polynomial
-    discs: tuple[RootDisc, ...]
-    stable: bool
-    rate: RateInterval | None
 
 
 def closed_loop_spectrum(M: Matrix, time: str) -> LoopSpectrum:

@@ -81,7 +81,7 @@ def _crosschecked(place: str, data: bytes, limits: dict[str, int]) -> dict[str, 
     """Answer and format the answers, in the child process."""
     from mcexact.cli.files import system_in
     from mcexact.crosscheck.table import crosscheck
-    from mcexact.report.crosscheck_view import crosscheck_tables, crosscheck_view
+    from mcexact.crosscheck.view import crosscheck_tables, crosscheck_view
 
     system = system_in(place, data, limits)
     found = crosscheck(system)
@@ -91,7 +91,7 @@ def _crosschecked(place: str, data: bytes, limits: dict[str, int]) -> dict[str, 
 def _exhibited() -> dict[str, Any]:
     """Answer every exhibit's question on this machine, in the child process."""
     from mcexact.crosscheck.gallery import exhibits, shown
-    from mcexact.report.crosscheck_view import exhibit_tables, exhibits_page, exhibits_view
+    from mcexact.crosscheck.view import exhibit_tables, exhibits_page, exhibits_view
 
     found = [shown(each) for each in exhibits()]
     return {

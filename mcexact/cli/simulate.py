@@ -119,14 +119,16 @@ def _simulated(
     from mcexact.errors import InputError
     from mcexact.exact.rational import Limits
     from mcexact.model.controller_file import read_controller
-    from mcexact.report.simulation import run_report
+    from mcexact.report.simulation import SimulationReport
+    from mcexact.simulation.run import simulated_loop
 
     system = system_in(*plant, limits)
     with InputError.inside(program[0]):
         controller = read_controller(program[1], Limits(**limits))
-    report = run_report(system, controller, **wanted)
+    done = simulated_loop(system, controller, **wanted)
+    report = SimulationReport(done)
     return {
-        "warnings": report.warnings,
+        "warnings": done.warnings,
         "json": report.as_json(),
         "tables": report.tables(),
         "file": report.file(suffix),

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 from mcexact.answer.account import Account
-from mcexact.checker import Verdict
 from mcexact.report.account import answer, tables
 from mcexact.report.graph_figures import LEAST, dimensions_picture, graph_picture
 from mcexact.report.page import page
@@ -38,7 +38,7 @@ class AccountPage:
     def rendered(
         self,
         certificates: Mapping[str, str],
-        verdicts: Mapping[str, Verdict],
+        verdicts: Mapping[str, Any],
         latex: str | None = None,
     ) -> str:
         """The whole page.

@@ -7,7 +7,7 @@ import math
 from fractions import Fraction
 from typing import Any
 
-from mcexact.analysis.closed_loop_spectrum import LoopSpectrum
+from mcexact.answer.loop_spectrum import LoopSpectrum
 from mcexact.exact.floats import to_float
 from mcexact.exact.location import StabilityRegion, is_discrete
 from mcexact.report.trajectory import error_norms, state_norms

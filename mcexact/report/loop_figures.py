@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from mcexact.analysis.closed_loop_spectrum import LoopSpectrum
+from mcexact.answer.loop_spectrum import LoopSpectrum
 from mcexact.exact.floats import to_float
 from mcexact.report.figures import draw_decay, draw_eigenvalues, elapsed_label, rate_text
 from mcexact.report.picture import Picture, empty_figure

@@ -1,6 +1,7 @@
 """Controllers run as a network of agents, which send messages along the edges of a graph only.
 
 This stage takes a plant, a controller and a neighbor graph, and gives trajectories.  It refuses a
-program that uses a signal which its agent does not receive.  It never uses the matrix of the closed
-loop, so the tests can compare its trajectories with those that this matrix predicts.
+program that uses a signal which its agent does not receive.  No run uses the matrix of the closed
+loop, so the tests can compare trajectories with those that this matrix predicts; `run` sets its
+spectrum beside a trajectory.
 """

@@ -5,21 +5,21 @@ import json
 import pytest
 
 from mcexact.crosscheck.demonstration import Demonstration, FloatingAnswers
+from mcexact.crosscheck.demonstration_view import demonstration_text, demonstration_view
 from mcexact.crosscheck.gallery import exhibit, shown
 from mcexact.crosscheck.records import Libraries
 from mcexact.crosscheck.table import crosscheck
-from mcexact.model import gallery
-from mcexact.model.local_controllers import local_controllers
-from mcexact.model.system import MultiChannelSystem
-from mcexact.report.certify_view import verdict_tables, verdict_view
-from mcexact.report.crosscheck_view import (
+from mcexact.crosscheck.view import (
     crosscheck_tables,
     crosscheck_view,
     exhibit_tables,
     exhibits_page,
     exhibits_view,
 )
-from mcexact.report.demonstration_view import demonstration_text, demonstration_view
+from mcexact.model import gallery
+from mcexact.model.local_controllers import local_controllers
+from mcexact.model.system import MultiChannelSystem
+from mcexact.report.certify_view import verdict_tables, verdict_view
 from mcexact.report.observer_float_view import (
     design_margins,
     observer_float_tables,

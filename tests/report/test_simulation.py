@@ -10,9 +10,10 @@ from mcexact.exact.matrix import Matrix
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.system import MultiChannelSystem
 from mcexact.report.figures import simulation_png
-from mcexact.report.simulation import run_report
+from mcexact.report.simulation import SimulationReport
 from mcexact.report.simulation_page import simulation_page
 from mcexact.report.trajectory import error_norms, state_norms, trajectory_csv, trajectory_rows
+from mcexact.simulation.run import simulated_loop
 from mcexact.simulation.trajectory import simulate
 
 
@@ -60,32 +61,34 @@ def test_errors_are_those_of_agents_that_share_estimates():
 
 @pytest.mark.parametrize("time", ["continuous", "discrete"])
 def test_a_picture_has_the_same_bytes_again(time):
-    report = run_report(*halving(time, "-3/2"), horizon=Fraction(4))
-    first, second = (simulation_png(report.run, report.spectrum, report.title) for _ in range(2))
+    done = simulated_loop(*halving(time, "-3/2"), horizon=Fraction(4))
+    first, second = (simulation_png(done.run, done.spectrum, done.title) for _ in range(2))
     assert first == second and first.startswith(b"\x89PNG")
 
 
 def test_a_run_that_stays_at_zero_can_be_drawn():
-    report = run_report(*halving(), initial=[Fraction(0)], horizon=Fraction(3))
+    report = SimulationReport(
+        simulated_loop(*halving(), initial=[Fraction(0)], horizon=Fraction(3))
+    )
     assert report.file(".png").startswith(b"\x89PNG")
 
 
 def test_a_loop_beyond_floats_is_drawn_without_its_spectrum():
     plant = MultiChannelSystem([["1e400"]], [[[1]]], [[[1]]], time="discrete")
     controller = Controller("discrete", "", (AgentProgram("1", 0, 0),))
-    report = run_report(plant, controller, horizon=Fraction(3))
+    report = SimulationReport(simulated_loop(plant, controller, horizon=Fraction(3)))
     assert report.file(".png").startswith(b"\x89PNG")
 
 
 def test_an_unstable_loop_is_called_so():
-    report = run_report(*halving(gain=1))
+    report = SimulationReport(simulated_loop(*halving(gain=1)))
     assert "not stable" in " ".join(report.facts())
     assert report.as_json()["stable"] is False
 
 
 def test_the_default_horizon_follows_the_spectrum():
-    slow = run_report(*halving(gain="-1/10")).run
-    fast = run_report(*halving(gain="-9/10")).run
+    slow = simulated_loop(*halving(gain="-1/10")).run
+    fast = simulated_loop(*halving(gain="-9/10")).run
     assert len(slow.times) > len(fast.times)
 
 

@@ -1,0 +1,31 @@
+"""The spectrum of one matrix, every eigenvalue enclosed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from mcexact.answer.evidence import RateInterval, RootDisc
+from mcexact.exact.polynomial import Polynomial
+
+
+@dataclass(frozen=True)
+class LoopSpectrum:
+    """The eigenvalues of a closed loop.
+
+    Attributes
+    ----------
+    polynomial : Polynomial
+        The characteristic polynomial.
+    discs : tuple of RootDisc
+        One around each distinct eigenvalue.
+    stable : bool
+        Whether all lie in the stability region, decided on the polynomial.
+    rate : RateInterval or None
+        Encloses minus the largest real part (continuous time) or the largest modulus (discrete
+        time); None if there are no eigenvalues.
+    """
+
+    polynomial: Polynomial
+    discs: tuple[RootDisc, ...]
+    stable: bool
+    rate: RateInterval | None
