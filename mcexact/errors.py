@@ -1,4 +1,4 @@
-"""The errors that a caller may want to tell apart, each with its exit status."""
+"""The errors that this package raises, each with the exit status of the command line."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ def place_of(path: str | os.PathLike[str]) -> str:
 
 
 class McexactError(Exception):
-    """Whatever this package raises on purpose.
+    """The base class of all errors that this package raises.
 
     Parameters
     ----------
     message : str
-        One sentence: what was expected, what was found, how to mend it.
+        One sentence that says what was expected, what was found, and how to correct it.
     where : str, optional
         The place, such as ``channels[2].B`` or a file name; it is put before the message.
 
     Attributes
     ----------
     exit_status : int
-        What the command line ends with.
+        The exit status of the command line.
 
     Examples
     --------
@@ -46,7 +46,7 @@ class McexactError(Exception):
         return self.message if self.where is None else f"{self.where}: {self.message}"
 
     def within(self, place: str) -> McexactError:
-        """The same error, with a place put before the one that it names."""
+        """Put a place before the one that the error names, and return the error."""
         self.where = place if self.where is None else f"{place}: {self.where}"
         return self
 
@@ -57,7 +57,7 @@ class McexactError(Exception):
 def _rebuilt(
     kind: type[McexactError], message: str, where: str | None, state: dict[str, Any]
 ) -> McexactError:
-    """Make an error again in another process."""
+    """Rebuild an error in another process."""
     error = kind(message, where=where)
     error.__dict__.update(state)
     return error
@@ -83,23 +83,23 @@ class FloatRefused(InputError):
 
 
 class OtherFormat(InputError):
-    """The file is well formed, but by its own word of another format than the one expected."""
+    """The file says that it has another format than the expected one."""
 
 
 class UsageError(McexactError, ValueError):
-    """The arguments do not make sense together, whatever the input holds."""
+    """The arguments contradict each other."""
 
     exit_status = 2
 
 
 class Impossible(McexactError):
-    """What was asked for does not exist.
+    """What was requested does not exist, which is proved.
 
     Parameters
     ----------
     message : str
     certificate : object, optional
-        The certificate that says why.
+        The certificate that proves this.
     where : str, optional
     """
 
@@ -111,14 +111,14 @@ class Impossible(McexactError):
 
 
 class LimitReached(McexactError):
-    """A limit on time, memory or work was reached: nothing has been decided.
+    """A limit on time, memory or work was reached before a decision.
 
     Parameters
     ----------
     message : str
     where : str, optional
     lower, upper : Fraction, optional
-        What is proved of the number asked for.
+        The proved lower and upper limits of the requested number.
     """
 
     exit_status = 4
@@ -136,6 +136,6 @@ class LimitReached(McexactError):
 
 
 class InternalError(McexactError):
-    """A statement that must hold does not: a bug in this package."""
+    """A check inside this package failed, which is a bug in it."""
 
     exit_status = 70

@@ -121,7 +121,9 @@ def _with_graph(plant: System, heard: Any, waits: Any) -> System:
     for i, row in enumerate(fields(waits, "delays", optional=known)):
         for j, steps in enumerate(fields(row or {}, "delays", optional=known)):
             if integer(steps or 0, "delays") and (i == j or j not in sets[i]):
-                malformed("delays", f"{shown(known[i])} does not hear {shown(known[j])}")
+                malformed(
+                    "delays", f"{shown(known[i])} does not receive messages of {shown(known[j])}"
+                )
             if steps:
                 delays[i, j] = steps
     return System(plant.time, plant.names, plant.A, plant.B, plant.C, sets, delays)

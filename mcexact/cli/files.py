@@ -119,7 +119,7 @@ def _refusing(path: Path) -> Iterator[None]:
     except ValueError as error:
         if isinstance(error, InputError):
             raise
-        raise InputError(f"is no file name: {error}", where=repr(str(path))) from None
+        raise InputError(f"is not a file name: {error}", where=repr(str(path))) from None
 
 
 def _exists(path: Path) -> bool:

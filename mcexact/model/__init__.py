@@ -1,5 +1,6 @@
-"""Stage 1: what things are.  Frozen data, read strictly, written canonically.
+"""Systems, neighbor graphs and controllers: immutable, read strictly and written canonically.
 
-Takes files, exact numbers and graphs; gives `MultiChannelSystem`, `NeighborGraph` and `Controller`;
-refuses floats that were not let in by name, anything malformed, and says where it is.
+This stage takes files, exact numbers and graphs, and gives `MultiChannelSystem`, `NeighborGraph`
+and `Controller`.  It refuses malformed input, and floats unless the caller says how to round them;
+the error message names the place.
 """

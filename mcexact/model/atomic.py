@@ -1,4 +1,4 @@
-"""Writing a file whole or not at all."""
+"""Write a file completely or not at all."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ def write_text(path: str | os.PathLike[str], text: str) -> None:
     Parameters
     ----------
     path : path
-        Where a link stands, the file that it points to is replaced, in its own folder.  What is no
-        regular file, such as ``/dev/stdout``, is written to as it is.
+        If this is a symbolic link, the file that it points to is replaced.  A path that is not a
+        regular file, such as ``/dev/stdout``, is opened and written to.
     text : str
 
     Raises
@@ -37,7 +37,7 @@ def write_bytes(path: str | os.PathLike[str], data: bytes) -> None:
     """
     try:
         target = Path(os.path.realpath(path))
-        # Where a stream stands, the target of the link is no name that could be opened.
+        # For a stream, the target of the link is not a name that can be opened.
         if os.path.exists(path) and not os.path.isfile(path):
             with open(path, "wb") as stream:
                 stream.write(data)
@@ -46,11 +46,11 @@ def write_bytes(path: str | os.PathLike[str], data: bytes) -> None:
     except OSError as error:
         raise InputError(f"cannot write: {error.strerror or error}", where=str(path)) from error
     except ValueError as error:
-        raise InputError(f"is no file name: {error}", where=repr(path)) from error
+        raise InputError(f"is not a file name: {error}", where=repr(path)) from error
 
 
 def _replace(target: Path, data: bytes) -> None:
-    """Write beside the target, then rename."""
+    """Write a temporary file beside the target, then rename it."""
     handle, temporary = tempfile.mkstemp(prefix=".mcexact-", dir=target.parent)
     try:
         with os.fdopen(handle, "wb") as stream:
@@ -58,7 +58,7 @@ def _replace(target: Path, data: bytes) -> None:
         if target.exists():
             mode = target.stat().st_mode & 0o777
         else:
-            # mkstemp makes files private; this one is as readable as any other new file.
+            # mkstemp makes files private; this file should be as readable as other new files.
             mask = os.umask(0)
             os.umask(mask)
             mode = 0o666 & ~mask

@@ -1,4 +1,4 @@
-"""Exact objects as plain data, the one JSON text of plain data, and its digest."""
+"""Exact objects as plain JSON data, the canonical JSON text of plain data, and its digest."""
 
 from __future__ import annotations
 
@@ -20,9 +20,10 @@ Document = Mapping[str, Any]
 
 
 class PlainObject(dict[str, Any]):
-    """A JSON object made of plain data, not to be changed; its canonical text is made once.
+    """A JSON object of plain data that must not be changed, so that its text is made once.
 
-    The system is most of a certificate, and all certificates about it share it.
+    The system is the largest part of a certificate, and all certificates about it share this
+    object.
     """
 
     @cached_property
@@ -85,10 +86,10 @@ def _integers(rows: Sequence[Sequence[int]]) -> list[list[int]]:
 
 
 def canonical(value: Any) -> str:
-    """The one JSON text of plain data: sorted keys, no blanks, non-ASCII characters escaped."""
+    """Return the canonical JSON text: sorted keys, no blanks, non-ASCII characters escaped."""
     digits = sys.get_int_max_str_digits()
     try:
-        # Exact evidence may have longer numbers than the interpreter prints by default.
+        # A certificate may contain longer numbers than the interpreter prints by default.
         sys.set_int_max_str_digits(0)
         return json.dumps(
             value, sort_keys=True, separators=(",", ":"), ensure_ascii=True, check_circular=False
@@ -98,10 +99,10 @@ def canonical(value: Any) -> str:
 
 
 def text_of(value: Any) -> str:
-    """The canonical JSON text of exact objects."""
+    """Return the canonical JSON text of exact objects."""
     return value.text if isinstance(value, PlainObject) else canonical(plain(value))
 
 
 def sha256(value: Any) -> str:
-    """The SHA-256 of the canonical JSON of exact objects, in lower-case hexadecimal."""
+    """Return the SHA-256 of the canonical JSON of exact objects, in lower-case hexadecimal."""
     return hashlib.sha256(text_of(value).encode("ascii")).hexdigest()

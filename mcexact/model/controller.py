@@ -1,4 +1,4 @@
-"""A controller: one linear time-invariant program per agent, of what that agent receives."""
+"""Controllers: one linear time-invariant program for each agent, of the signals it receives."""
 
 from __future__ import annotations
 
@@ -20,18 +20,18 @@ MAPS = ("shared_update", "private_update", "input")
 
 @dataclass(frozen=True)
 class LinearMap:
-    """Σ_j outputs[j] y_j + Σ_j shared[j] x_j + private z_i + reference r_i, by agent i.
+    """A map Σ_j outputs[j] y_j + Σ_j shared[j] x_j + private z_i + reference r_i of agent i.
 
     Attributes
     ----------
     outputs : mapping of int to Matrix
-        What multiplies y_j, k×q_j, for the agents j that are used.
+        The coefficients of y_j, k×q_j, for each agent j whose output is used.
     shared : mapping of int to Matrix
-        What multiplies the shared sub-state x_j, k×n_j.
+        The coefficients of the shared sub-state x_j, k×n_j, for each agent j where it is used.
     private : Matrix or None
-        What multiplies z_i.
+        The coefficients of z_i.
     reference : Matrix or None
-        What multiplies the set-point r_i of the agent's own outputs, k×q_i.
+        The coefficients of the set-point r_i of the agent's own outputs, k×q_i.
     """
 
     outputs: Mapping[int, Matrix] = field(default_factory=dict)
@@ -40,7 +40,7 @@ class LinearMap:
     reference: Matrix | None = None
 
     def without_zeros(self) -> LinearMap:
-        """The same map, listing only what it uses."""
+        """Return the same map without the matrices that are zero."""
         return LinearMap(
             {j: M for j, M in sorted(self.outputs.items()) if not M.is_zero()},
             {j: M for j, M in sorted(self.shared.items()) if not M.is_zero()},
@@ -60,20 +60,20 @@ class LinearMap:
 
 @dataclass(frozen=True)
 class AgentProgram:
-    """What one agent computes: updates (or derivatives) of x_i and z_i, and its input u_i.
+    """The equations of one agent for x_i, z_i and its input u_i.
 
     Attributes
     ----------
     name : str
     shared : int
-        Dimension of x_i, which the agent sends to its followers.
+        The dimension of x_i, which the agent sends to its followers.
     private : int
-        Dimension of z_i, which it keeps.
+        The dimension of z_i, which the agent does not send.
     shared_update, private_update, input : LinearMap
         ẋ_i, ż_i (in discrete time x_i(t+1), z_i(t+1)) and u_i.
     hold : mapping of int to int
-        Steps for which the agent holds x_i before it sends it to a follower j, or, under its own
-        position, before it uses it itself; discrete time only.
+        The number of steps for which the agent holds x_i before it sends it to follower j; under
+        the agent's own position, before it uses x_i itself.  Only in discrete time.
     """
 
     name: str
@@ -89,7 +89,7 @@ class AgentProgram:
         return self.shared_update, self.private_update, self.input
 
     def hears(self) -> tuple[int, ...]:
-        """The agents whose outputs or sub-states the program uses, ascending."""
+        """The positions of the agents whose outputs or sub-states the program uses, ascending."""
         heard = {j for each in self.maps() for used in (each.outputs, each.shared) for j in used}
         return tuple(sorted(heard))
 
@@ -102,7 +102,7 @@ class Controller:
     ----------
     time : {"continuous", "discrete"}
     system : str
-        The digest of the plant that it was made for; empty if that is not known.
+        The digest of the plant that the controller was made for; empty if it is unknown.
     agents : tuple of AgentProgram
         In the order of the channels.
 
@@ -117,11 +117,11 @@ class Controller:
 
     @property
     def order(self) -> int:
-        """The dimension of all agents' states together."""
+        """The sum of the dimensions of all agents' states."""
         return sum(agent.shared + agent.private for agent in self.agents)
 
     def height(self) -> int:
-        """Bits of the longest numerator or denominator of an entry."""
+        """The number of bits of the longest numerator or denominator of an entry."""
         longest = 0
         for agent in self.agents:
             for each in agent.maps():
@@ -136,13 +136,14 @@ class Controller:
         return longest
 
     def edges(self) -> tuple[tuple[int, int], ...]:
-        """The edges (j, i), j ≠ i, on which agent i uses something of agent j."""
+        """The edges (j, i), j ≠ i, for which agent i uses a signal of agent j."""
         return tuple((j, i) for i, agent in enumerate(self.agents) for j in agent.hears() if j != i)
 
     def warnings_for(self, system: MultiChannelSystem) -> tuple[str, ...]:
-        """What a user should know before trusting a loop of the controller with this plant.
+        """Return a warning if the controller was made for another plant, else None.
 
-        A controller fits many plants; it was designed for the numbers of one.
+        A controller can run on every plant with the same shapes, but it was designed for one of
+        them.
         """
         found = digest(system)
         if self.system in ("", found):
@@ -153,7 +154,7 @@ class Controller:
         )
 
     def require_fits(self, system: MultiChannelSystem, graph: NeighborGraph) -> None:
-        """Refuse a controller that this system cannot run over this graph.
+        """Check that this controller can run on a system over a graph.
 
         Raises
         ------
@@ -183,10 +184,10 @@ class Controller:
         for j in agent.hold:
             if i not in graph.neighborhood(j):
                 raise InputError(
-                    f"agent {quoted(names[j])} is no follower", where=f"agents[{i}].hold"
+                    f"agent {quoted(names[j])} is not a follower", where=f"agents[{i}].hold"
                 )
         if agent.hold and not is_discrete(self.time):
-            raise InputError("only discrete time can hold a signal", where=f"agents[{i}].hold")
+            raise InputError("signals can be held in discrete time only", where=f"agents[{i}].hold")
         sizes = (agent.shared, agent.private, system.p(i))
         for label, each, nrows in zip(MAPS, agent.maps(), sizes, strict=True):
             where = f"agents[{i}].{label}"
@@ -194,7 +195,8 @@ class Controller:
                 for j, M in used.items():
                     if j not in heard:
                         raise InputError(
-                            f"agent {quoted(names[i])} does not hear agent {quoted(names[j])}",
+                            f"agent {quoted(names[i])} does not receive the signals of "
+                            f"agent {quoted(names[j])}",
                             where=f"{where}.{what}",
                         )
                     width = system.q(j) if what == "outputs" else self.agents[j].shared

@@ -1,4 +1,4 @@
-"""Controller files: one readable program per agent, read strictly, written whole or not at all."""
+"""Controller files: one program for each agent, read strictly, written completely or not at all."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ FORMAT = "mcexact-controller/1"
 
 
 def load_controller(path: str | os.PathLike[str], limits: Limits = DEFAULT_LIMITS) -> Controller:
-    """Read a controller file, or standard input for ``-``.
+    """Read a controller from a file, or from standard input for ``-``.
 
     Raises
     ------
@@ -44,7 +44,7 @@ def read_controller(text: bytes | str, limits: Limits = DEFAULT_LIMITS) -> Contr
     Raises
     ------
     InputError
-        Naming the place, what was expected and what was found.
+        If the text is malformed; the message says where, what was expected and what was found.
     """
     document = expect_format(parse(text, limits), FORMAT)
     expect_object(document, None, ("format", "time", "system", "agents"))
@@ -101,7 +101,7 @@ def _read_map(
 
 
 def _by_agent(value: Any, where: str, names: tuple[str, ...]) -> dict[int, Any]:
-    """An object keyed by agents, by position, ascending."""
+    """Read an object keyed by agents' names, and return it keyed by positions, ascending."""
     if not isinstance(value, dict):
         raise InputError("expected an object keyed by agents", where=where)
     for name in value:
@@ -117,7 +117,7 @@ def controller_text(controller: Controller) -> str:
 
 
 def save_controller(controller: Controller, path: str | os.PathLike[str]) -> None:
-    """Write a controller file, whole or not at all.
+    """Write a controller file, completely or not at all.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""JSON read strictly: sizes, encoding, depth, repeated keys, and numbers kept as typed."""
+"""A strict JSON reader: limits on size and depth, no repeated keys, numbers kept as typed."""
 
 from __future__ import annotations
 
@@ -15,21 +15,21 @@ from mcexact.exact.rational import DEFAULT_LIMITS, Limits
 from mcexact.model.names import nearest, quoted
 
 _BYTE_ORDER_MARK = b"\xef\xbb\xbf"
-# Integers of up to this many characters are converted at once; the rest wait for the grammar.
+# Integers of up to this many characters are converted here, longer numbers by the number grammar.
 _SHORT = 18
 REMEMBERED = 10_000
-"""How many different numbers are kept to be recognized when they occur again."""
+"""The number of different numbers that are kept to be recognized when they occur again."""
 _LONG = re.compile(rf"[0-9]{{{_SHORT + 1}}}")
 
 
 class NumberText(str):
-    """A JSON number as it was typed."""
+    """The text of a JSON number as it was typed."""
 
     __slots__ = ()
 
 
 class _NumberTexts(dict[str, NumberText]):
-    """The number texts of one document: what occurs again, as 0.0 does, is kept once."""
+    """The number texts of one document; a text that occurs again, such as 0.0, is stored once."""
 
     def __missing__(self, text: str) -> NumberText:
         found = NumberText(text)
@@ -39,13 +39,13 @@ class _NumberTexts(dict[str, NumberText]):
 
 
 class JsonObject(dict[str, Any]):
-    """A JSON object that remembers the first key it was given twice."""
+    """A JSON object that records the first repeated key."""
 
     repeated: str | None = None
 
 
 def read_bytes(path: str | os.PathLike[str], limits: Limits = DEFAULT_LIMITS) -> bytes:
-    """Read a file, or the standard input for ``-``, never more than the limit and one byte.
+    """Read a file, or standard input for ``-``, up to one byte more than the limit.
 
     Raises
     ------
@@ -55,7 +55,7 @@ def read_bytes(path: str | os.PathLike[str], limits: Limits = DEFAULT_LIMITS) ->
     try:
         if os.fspath(path) == "-":
             if sys.stdin is None:
-                raise InputError("cannot be read: it is closed")
+                raise InputError("cannot be read: standard input is closed")
             data = sys.stdin.buffer.read(limits.bytes + 1)
         else:
             with open(path, "rb") as stream:
@@ -70,7 +70,7 @@ def read_bytes(path: str | os.PathLike[str], limits: Limits = DEFAULT_LIMITS) ->
     except ValueError as error:
         if isinstance(error, InputError):
             raise
-        raise InputError(f"is no file name: {error}") from error
+        raise InputError(f"is not a file name: {error}") from error
     if len(data) > limits.bytes:
         raise _too_large(limits)
     return data
@@ -92,13 +92,14 @@ def parse(data: bytes | str, limits: Limits = DEFAULT_LIMITS) -> Any:
     Returns
     -------
     object
-        Made of `JsonObject`, list, str, int, `NumberText` (any number that is not a short integer,
-        and NaN and Infinity, which no number grammar accepts), bool and None.
+        Made of `JsonObject`, list, str, int, `NumberText`, bool and None.  `NumberText` stands for
+        every number that is not a short integer, and for NaN and Infinity, which the number grammar
+        refuses.
 
     Raises
     ------
     InputError
-        With the line and column, the byte, or the repeated key.
+        If it is malformed; the message names the line and column, the byte, or the repeated key.
     """
     text = _decoded(data, limits) if isinstance(data, bytes) else data
     if not text.strip(" \t\r\n"):
@@ -106,7 +107,7 @@ def parse(data: bytes | str, limits: Limits = DEFAULT_LIMITS) -> Any:
     try:
         document = json.loads(
             text,
-            # Without a long number the parser's own conversion, which is quicker, will do.
+            # Without long numbers the parser's own conversion is used, which is faster.
             parse_int=_integer if _LONG.search(text) else None,
             parse_float=_NumberTexts().__getitem__,
             parse_constant=NumberText,
@@ -125,7 +126,7 @@ def parse(data: bytes | str, limits: Limits = DEFAULT_LIMITS) -> Any:
             if isinstance(container, JsonObject) and container.repeated is not None:
                 raise InputError(
                     f"the key {quoted(container.repeated)} is given twice; "
-                    "two readers would see two different things, keep one"
+                    "programs would read different values; keep one of them"
                 )
     return document
 
@@ -165,7 +166,7 @@ def _too_deep(limits: Limits) -> InputError:
 
 
 def _levels(document: Any) -> Iterator[list[Any]]:
-    """The containers of each depth, outermost first, without recursion."""
+    """Yield the containers of each depth, outermost first, without recursion."""
     level = [document] if isinstance(document, (list, dict)) else []
     while level:
         yield level
@@ -178,7 +179,7 @@ def _levels(document: Any) -> Iterator[list[Any]]:
 
 
 def _children(container: Any) -> Iterable[Any]:
-    """What a container holds; nothing if there is no container in it."""
+    """The items of a container, or none if no item is a container."""
     if isinstance(container, dict):
         return container.values()
     return () if {list, JsonObject}.isdisjoint(map(type, container)) else container
@@ -192,7 +193,7 @@ def expect_object(
     Raises
     ------
     InputError
-        Naming the missing or unknown key, and the known key that is nearest to it.
+        If a key is missing or unknown; the message names it, and the nearest known key.
     """
     if not isinstance(value, dict):
         raise InputError(f"expected a JSON object, found {kind_of(value)}", where=where)
@@ -214,7 +215,7 @@ def expect_list(value: Any, where: str) -> list[Any]:
 
 
 def expect_integer(value: Any, where: str) -> int:
-    """Return a nonnegative integer of moderate size."""
+    """Return a nonnegative integer that is not too large."""
     if type(value) is not int or value < 0:
         shown = str(value)[:40] if isinstance(value, (int, NumberText)) else kind_of(value)
         raise InputError(f"expected an integer >= 0, found {shown}", where=where)
@@ -222,14 +223,14 @@ def expect_integer(value: Any, where: str) -> int:
 
 
 def expect_format(document: Any, expected: str) -> dict[str, Any]:
-    """Return a document that says it is of the expected format.
+    """Return a document whose key ``format`` is the expected one.
 
     Raises
     ------
     OtherFormat
-        Saying which kind of file was given instead.
+        If the file has another format, which the message names.
     InputError
-        If the version is unknown.
+        If the key is missing, or the version is unknown.
     """
     if not isinstance(document, dict):
         raise OtherFormat(
@@ -262,7 +263,7 @@ _KINDS = {
 
 
 def kind_of(value: Any) -> str:
-    """Name a JSON value by its kind, for a message."""
+    """Name the type of a JSON value, for a message."""
     if value is None:
         return "null"
     if isinstance(value, bool):

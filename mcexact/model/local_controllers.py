@@ -1,4 +1,4 @@
-"""A decentralized controller from matrices or python-control systems, one for each channel."""
+"""Decentralized controllers from matrices or python-control systems, one for each channel."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ from mcexact.model.system_file import digest
 def local_controllers(
     system: MultiChannelSystem, parts: Sequence[Any], *, rounding: Rounding | None = None
 ) -> Controller:
-    """Write local controllers, z_i' = A z_i + B y_i, u_i = C z_i + D y_i, as agent programs.
+    """Make a controller from local controllers z_i' = A z_i + B y_i, u_i = C z_i + D y_i.
 
     Parameters
     ----------
     system : MultiChannelSystem
         m channels.
     parts : sequence of m parts
-        Each four matrices (A, B, C, D), of shapes k×k, k×q_i, p_i×k and p_i×q_i; or a
+        Each part is four matrices (A, B, C, D) of shapes k×k, k×q_i, p_i×k and p_i×q_i; or a
         `control.StateSpace`; or one matrix D, a static gain.  The sign is u_i = +K y_i: negate a
         controller made for negative feedback.
     rounding : {"decimal", "dyadic"}, optional
-        How floats are meant; needed where there are any.
+        How floats become exact numbers; required if there are floats.
 
     Returns
     -------
@@ -59,7 +59,7 @@ def local_controllers(
 def _program(
     system: MultiChannelSystem, i: int, part: Any, where: str, rounding: Rounding | None
 ) -> AgentProgram:
-    """The program of agent i, with all of its state private."""
+    """Make the program of agent i, whose state is private."""
     p, q = system.p(i), system.q(i)
     if all(hasattr(part, name) for name in ("A", "B", "C", "D", "dt")):
         time, _ = sampling(part.dt, "decimal")

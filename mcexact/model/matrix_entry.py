@@ -1,4 +1,4 @@
-"""Matrices as users hand them over in Python: nested lists, numpy integers, sympy, strings."""
+"""Conversion of matrices from Python callers: nested lists, numpy integers, sympy, strings."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _TWO_WAYS_IN = (
 
 
 class Shaped(Protocol):
-    """Whatever has numbers of rows and columns."""
+    """An object with numbers of rows and columns."""
 
     @property
     def shape(self) -> tuple[int, int]: ...
@@ -28,7 +28,7 @@ S = TypeVar("S", bound=Shaped)
 
 @dataclass(frozen=True)
 class Table:
-    """A matrix as it was handed over: its shape is known, its entries are not read yet.
+    """A matrix from a caller whose shape is known and whose entries are not converted yet.
 
     Attributes
     ----------
@@ -42,14 +42,14 @@ class Table:
 
 
 def as_matrix(value: Any, where: str, ncols: int | None = None) -> Matrix:
-    """Return an exact matrix from whatever a user may reasonably write.
+    """Convert a matrix-like value to an exact matrix.
 
     Parameters
     ----------
     value : Matrix, sequence of rows, numpy or scipy array of integers or objects, sympy matrix
         Entries as `as_fraction` takes them.
     where : str
-        Its place, for messages.
+        The place of the matrix, for messages.
     ncols : int, optional
         The number of columns when there are no rows to tell it.
 
@@ -58,7 +58,7 @@ def as_matrix(value: Any, where: str, ncols: int | None = None) -> Matrix:
     FloatRefused
         If an entry is a float.
     InputError
-        If it is no matrix, ragged, or an entry is not a rational number.
+        If the value is not a matrix, its rows have different lengths, or an entry is not rational.
 
     Examples
     --------
@@ -73,14 +73,14 @@ def as_matrix(value: Any, where: str, ncols: int | None = None) -> Matrix:
 
 
 def as_table(value: Any, where: str, ncols: int | None = None) -> Table:
-    """Take a matrix over as `as_matrix` does, its shape alone, so that shapes can be compared.
+    """Determine the shape of a matrix-like value, and leave its entries to be converted later.
 
     Raises
     ------
     FloatRefused
         If it is an array of floats.
     InputError
-        If it is no matrix, or ragged.
+        If the value is not a matrix, or its rows have different lengths.
     """
     if isinstance(value, Matrix):
         return Table(value.shape, lambda: value)
@@ -109,7 +109,7 @@ def common_width(rows: Sequence[Sequence[Any]], where: str) -> int | None:
 
 
 def _rows(value: Any, where: str) -> list[tuple[Any, ...]]:
-    """Copy a matrix-like value as tuples, so that nothing can change under our hands."""
+    """Copy a matrix-like value as tuples, so that the caller cannot change it."""
     if isinstance(value, (str, bytes)):
         raise InputError(
             "expected a matrix as a list of rows, found a string; write [[1, 2], [3, 4]]",
@@ -132,7 +132,7 @@ def _rows(value: Any, where: str) -> list[tuple[Any, ...]]:
     if hasattr(value, "tolist"):
         value = value.tolist()
     try:
-        # By way of an iterator: a length that a subclass claims would be reserved at once.
+        # An iterator is used, since list() would reserve the length that a subclass claims to have.
         rows = tuple(iter(value))
     except TypeError:
         raise InputError(
@@ -156,7 +156,7 @@ def require_shape(M: S, where: str, nrows: int | None, ncols: int | None) -> S:
     Raises
     ------
     InputError
-        Such as ``channels[2].B: expected 4 rows, found 3``.
+        If it does not, such as ``channels[2].B: expected 4 rows, found 3``.
     """
     for expected, found, what in (
         (nrows, M.shape[0], "row"),

@@ -1,4 +1,4 @@
-"""Matrices in files: dense rows or sparse entries, read strictly, written in lowest terms."""
+"""Matrices in files: read strictly from dense rows or sparse entries, written in lowest terms."""
 
 from __future__ import annotations
 
@@ -35,14 +35,14 @@ def read_number(value: Any, where: str, limits: Limits = DEFAULT_LIMITS) -> Frac
     Raises
     ------
     InputError
-        If it is none of them, or too long.
+        If the value is not such a number, or is too long.
     """
     if type(value) is int:
         return Fraction(value)
     if not isinstance(value, str):
         raise InputError(f"expected a number, found {kind_of(value)}", where=where)
     number = parse_rational(str(value), limits, where=where)
-    # A decimal can be longer written out than it is as typed.
+    # A decimal with an exponent can have more digits when it is written out.
     bits = max(number.numerator.bit_length(), number.denominator.bit_length())
     if bits > limits.digits * _BITS_PER_DIGIT + 1:
         raise InputError(
@@ -65,18 +65,18 @@ def read_matrix(
     Parameters
     ----------
     value : list of rows, or object
-        Dense: a list of rows.  Sparse: ``{"shape": [r, c], "entries": [[i, j, value], …]}``,
-        positions from 0, what is not listed is 0.
+        A dense matrix is a list of rows.  A sparse matrix is ``{"shape": [r, c], "entries": [[i, j,
+        value], …]}`` with positions from 0; other entries are 0.
     where : str
         Its place, for messages.
     nrows, ncols : int, optional
-        The expected shape where it is known.
+        The expected shape, if it is known.
     limits : Limits
 
     Raises
     ------
     InputError
-        If it is malformed or of another shape.
+        If the matrix is malformed or has another shape.
 
     Examples
     --------
@@ -97,12 +97,12 @@ def unread_matrix(
     ncols: int | None = None,
     limits: Limits = DEFAULT_LIMITS,
 ) -> Table:
-    """Take a matrix over as `read_matrix` does, its shape alone: it is quick to compare.
+    """Determine the shape of a matrix in a file, and leave its numbers to be read later.
 
     Raises
     ------
     InputError
-        If it is no matrix, ragged, too large, or of another shape.
+        If the value is not a matrix, its rows have different lengths, or it is too large.
 
     Examples
     --------
@@ -149,14 +149,15 @@ def _dense(rows: list[list[Any]], width: int, where: str, limits: Limits) -> Mat
 
 
 def _sparse_shape(value: Any, where: str, limits: Limits) -> tuple[int, int]:
-    """The shape that a matrix which lists its entries says."""
+    """Read the shape of a sparse matrix."""
     sizes = expect_list(value, f"{where}.shape")
     if len(sizes) != 2:
         raise InputError(
             f"expected [rows, columns], found {len(sizes)} numbers", where=f"{where}.shape"
         )
     r, c = (expect_integer(size, f"{where}.shape[{k}]") for k, size in enumerate(sizes))
-    # Each cell of a dense matrix takes two bytes or more; a sparse one may not ask for much more.
+    # Each cell of a dense matrix takes two bytes or more; the size of a sparse matrix is limited
+    # alike.
     if max(r, c) * max(min(r, c), 1) > limits.bytes // 4:
         raise InputError(
             f"expected at most {limits.bytes // 4} cells (Limits.bytes / 4), found {r} × {c}",
@@ -166,7 +167,7 @@ def _sparse_shape(value: Any, where: str, limits: Limits) -> tuple[int, int]:
 
 
 def _sparse(entries: list[Any], shape: tuple[int, int], where: str, limits: Limits) -> Matrix:
-    """Read the entries that a matrix lists."""
+    """Read the entries of a sparse matrix."""
     r, c = shape
     values: dict[tuple[int, int], Fraction] = {}
     for k, entry in enumerate(entries):
@@ -195,7 +196,8 @@ def _sparse(entries: list[Any], shape: tuple[int, int], where: str, limits: Limi
 def number_json(value: Fraction) -> int | str:
     """Write a rational as a JSON integer, or as a string "p/q" in lowest terms.
 
-    An integer of thousands of digits, which no default limit lets in again, becomes a string too.
+    An integer of thousands of digits, which exceeds the default limit of readers, becomes a string
+    too.
     """
     if value.denominator == 1 and value.numerator.bit_length() < PRINTABLE_BITS:
         return value.numerator
@@ -209,7 +211,7 @@ def matrix_json(M: Matrix, number: Callable[[Fraction], int | str] = number_json
     ----------
     M : Matrix
     number : callable
-        How an entry is written: as in a file, or as in the canonical object of a certificate.
+        The form of an entry, as in a file or as in a certificate.
     """
     r, c = M.shape
     if not r and c:

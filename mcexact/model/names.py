@@ -1,4 +1,4 @@
-"""What a channel may be called, and how a name is quoted in a message."""
+"""The names of channels: which texts are valid, and how messages quote them."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _REFUSED_CATEGORIES = frozenset({"Cc", "Cf", "Cs", "Zl", "Zp"})
 
 
 def quoted(text: object, width: int = 40) -> str:
-    """Quote a text that came from outside: ASCII only, shortened.
+    """Quote a text of the user in ASCII, shortened.
 
     Examples
     --------
@@ -28,18 +28,18 @@ def quoted(text: object, width: int = 40) -> str:
 
 
 def nearest(name: str, known: Collection[str]) -> str:
-    """The end of a message that says which known name may be meant, or nothing."""
+    """Return the end of a message that suggests the nearest known name, or an empty text."""
     close = difflib.get_close_matches(name[:LONGEST_NAME], list(known), n=1)
     return f" (did you mean {quoted(close[0])}?)" if close else ""
 
 
 def checked_text(text: object, where: str, *, longest: int = 10_000) -> str:
-    """Return a line or paragraph of prose, such as a system's name or source.
+    """Check and return a text such as a system's name or source.
 
     Raises
     ------
     InputError
-        If it is no string, too long, or holds characters that do not print.
+        If the value is not a string, is too long, or contains characters that do not print.
     """
     if not isinstance(text, str):
         raise InputError(f"expected a string, found {quoted(text)}", where=where)
@@ -60,13 +60,14 @@ def _require_printable(text: str, where: str, place: str, allowed: str = "") -> 
 
 
 def checked_name(name: object, where: str) -> str:
-    """Return the name of a channel or agent.
+    """Check and return the name of a channel or agent.
 
     Raises
     ------
     InputError
-        If it is no string, empty, longer than 256 characters, or holds control or invisible
-        characters (text that reorders itself would show another channel than is meant).
+        If the value is not a string, is empty or longer than 256 characters, or contains control or
+        invisible characters.  (Characters that reorder text would show the name of another
+        channel.)
     """
     if not isinstance(name, str):
         raise InputError(
@@ -83,19 +84,19 @@ def checked_name(name: object, where: str) -> str:
 
 
 def checked_names(names: Sequence[object], places: Sequence[str]) -> tuple[str, ...]:
-    """Return the names of all channels, in order.
+    """Check and return the names of all channels, in order.
 
     Parameters
     ----------
     names : sequence
         One name for each channel.
     places : sequence of str
-        Where each of them stands, for messages.
+        The place of each name, for messages.
 
     Raises
     ------
     InputError
-        If one is no name, or two channels have names that look the same.
+        If a name is invalid, or two channels have names that look the same.
     """
     seen: dict[str, str] = {}
     checked = []

@@ -1,4 +1,4 @@
-"""Who hears whom: the neighbor graph of the agents, with the delays on its edges."""
+"""The neighbor graph: the directed graph of who receives whose messages, with delays."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from mcexact.model.names import checked_name, checked_names, nearest, quoted
 
 @dataclass(frozen=True)
 class NeighborGraph:
-    """A directed graph on the m agents with an edge j → i just in case i hears j.
+    """A directed graph on m agents with an edge j → i if and only if i receives messages of j.
 
-    Agents are addressed by position, 0 … m−1; names stand at the border.  N_i always holds i.
+    Methods take and return positions 0 … m−1 of agents.  The neighbor set N_i always contains i.
 
     Parameters
     ----------
@@ -24,17 +24,17 @@ class NeighborGraph:
     neighbors : sequence of iterables of int
         ``neighbors[i]`` is N_i; i itself may be left out and is added.
     delays : iterable of (i, j, d), optional
-        d_ij ≥ 0, the time units that a message takes from j to i; 0 where not given, and d_ii = 0.
+        d_ij ≥ 0, the number of steps that a message takes from j to i; by default 0.  d_ii = 0.
 
     Raises
     ------
     InputError
-        If a position is out of range, a delay is negative or stands on no edge.
+        If a position is out of range, or a delay is negative or not on an edge.
 
     Notes
     -----
-    Paper, sections I and V-A.  ``neighbors`` and ``delays`` are kept sorted, zero delays are
-    dropped, so equal graphs compare equal.
+    Paper, sections I and V-A.  ``neighbors`` and ``delays`` are sorted and delays of 0 are dropped,
+    so equal graphs compare equal.
 
     Examples
     --------
@@ -77,7 +77,7 @@ class NeighborGraph:
     def _checked_delays(
         self, delays: Iterable[tuple[int, int, int]]
     ) -> tuple[tuple[int, int, int], ...]:
-        """Sort the delays and drop the zeros; refuse what stands on no edge."""
+        """Sort the delays and drop those of 0; refuse a delay that is not on an edge."""
         found: dict[tuple[int, int], int] = {}
         for i, j, delay in delays:
             i, j = _position(i, self.m, "delays"), _position(j, self.m, "delays")
@@ -88,10 +88,12 @@ class NeighborGraph:
             if (i, j) in found:
                 raise InputError("expected one delay, found two", where=where)
             if delay and i == j:
-                raise InputError("expected 0: an agent hears itself at once", where=where)
+                raise InputError(
+                    "expected 0: an agent has its own signals without delay", where=where
+                )
             if j not in self.neighbors[i]:
                 raise InputError(
-                    f"there is no such link; list {quoted(self.names[j])} among the neighbors "
+                    f"there is no such link: list {quoted(self.names[j])} among the neighbors "
                     f"of {quoted(self.names[i])}, or remove the delay",
                     where=where,
                 )
@@ -105,14 +107,15 @@ class NeighborGraph:
         neighbors: Mapping[str, Iterable[str]],
         delays: Mapping[str, Mapping[str, int]] | None = None,
     ) -> NeighborGraph:
-        """Build a graph from the names of who hears whom, as a system file lists them.
+        """Build a graph from neighbor sets of names, as in a system file.
 
         Parameters
         ----------
         names : sequence of str
             The agents, in the order of the channels.
         neighbors : mapping
-            ``neighbors[i]`` lists whom i hears; an agent without an entry hears itself only.
+            ``neighbors[i]`` lists the agents whose messages i receives; an agent without an entry
+            receives no messages.
         delays : mapping, optional
             ``delays[i][j]`` is d_ij.
 
@@ -159,49 +162,49 @@ class NeighborGraph:
 
     @classmethod
     def complete(cls, names: Sequence[str]) -> NeighborGraph:
-        """The graph in which everybody hears everybody, at once."""
+        """Return the complete graph without delays."""
         return cls(names, [range(len(names))] * len(names))
 
     @classmethod
     def ring(cls, names: Sequence[str]) -> NeighborGraph:
-        """The cyclic graph N_i = {i, i+1}, N_m = {m, 1}, as in the paper's example."""
+        """Return the cyclic graph N_i = {i, i+1}, N_m = {m, 1}, as in the paper's example."""
         m = len(names)
         return cls(names, [[(i + 1) % m] for i in range(m)])
 
     @classmethod
     def empty(cls, names: Sequence[str]) -> NeighborGraph:
-        """The graph in which everybody hears only itself: decentralized control."""
+        """Return the graph without edges, the case of decentralized control."""
         return cls(names, [[] for _ in names])
 
     @property
     def m(self) -> int:
-        """Number of agents."""
+        """The number of agents."""
         return len(self.names)
 
     def neighborhood(self, i: int) -> tuple[int, ...]:
-        """N_i, in the order of the channels; i is in it."""
+        """Return N_i, which contains i, in the order of the channels."""
         return self.neighbors[i]
 
     def union(self, channels: Iterable[int]) -> tuple[int, ...]:
-        """N_s, the union of the N_i over i in s, in the order of the channels."""
+        """Return N_s, the union of the N_i over i in s, in the order of the channels."""
         return tuple(sorted({j for i in channels for j in self.neighbors[i]}))
 
     def followers(self, j: int) -> tuple[int, ...]:
-        """F_j, the agents that hear j; j is in it."""
+        """Return F_j, the agents that receive messages of j, and j itself."""
         return tuple(i for i in range(self.m) if j in self.neighbors[i])
 
     def edges(self) -> tuple[tuple[int, int], ...]:
-        """All edges (j, i), from j to i ≠ j, sorted."""
+        """Return all edges (j, i), from j to i ≠ j, sorted."""
         return tuple(
             sorted((j, i) for i, heard in enumerate(self.neighbors) for j in heard if i != j)
         )
 
     def delay(self, i: int, j: int) -> int:
-        """d_ij, the time units that a message takes from j to i."""
+        """Return d_ij, the number of steps that a message takes from j to i."""
         return self._delay_of.get((i, j), 0)
 
     def longest_delay(self, j: int) -> int:
-        """d_j, the largest d_ij over the followers i of j."""
+        """Return d_j, the largest d_ij over the followers i of j."""
         return max((d for (_, sender), d in self._delay_of.items() if sender == j), default=0)
 
     @cached_property
@@ -209,7 +212,7 @@ class NeighborGraph:
         return {(i, j): d for i, j, d in self.delays}
 
     def with_edges(self, added: Iterable[tuple[int, int]]) -> NeighborGraph:
-        """The graph with more edges (j, i), each without delay: j joins N_i."""
+        """Return the graph with further edges (j, i) without delay: j joins N_i."""
         sets = [set(heard) for heard in self.neighbors]
         for j, i in added:
             _position(j, self.m, "edges")
@@ -217,7 +220,7 @@ class NeighborGraph:
         return NeighborGraph(self.names, sets, self.delays)
 
     def is_strongly_connected(self) -> bool:
-        """Whether every agent can be reached from every other along edges."""
+        """Whether the graph is strongly connected."""
         import networkx
 
         return bool(networkx.is_strongly_connected(self._digraph(range(self.m))))
@@ -231,7 +234,7 @@ class NeighborGraph:
         return graph
 
     def to_networkx(self) -> Any:
-        """A ``networkx.DiGraph`` on the names, edges j → i, nonzero delays under ``delay``."""
+        """Return a ``networkx.DiGraph`` on the names; nonzero delays are edge attributes."""
         graph = self._digraph(self.names)
         for i, j, delay in self.delays:
             graph.edges[self.names[j], self.names[i]]["delay"] = delay
@@ -239,16 +242,15 @@ class NeighborGraph:
 
     @classmethod
     def from_networkx(cls, graph: Any, names: Sequence[str] | None = None) -> NeighborGraph:
-        """Read a directed networkx graph whose edge j → i says that i hears j.
+        """Convert a directed networkx graph; an edge j → i means that i receives messages of j.
 
         Parameters
         ----------
         graph : networkx.DiGraph
-            Nodes are strings or integers; an edge may have an integer ``delay``, nothing else that
-            would be lost.
+            Nodes are strings or integers.  An edge may have an integer ``delay``, but no weight.
         names : sequence of str, optional
-            The channels in order; every one must be a node and every node one of them.  By
-            default the nodes in the graph's own order.
+            The channels in order, which must be the nodes; by default the nodes in the graph's
+            order.
 
         Raises
         ------
@@ -305,14 +307,14 @@ class NeighborGraph:
 
 
 def _position(value: object, m: int, where: str) -> int:
-    """The position of an agent, checked."""
+    """Check and return the position of an agent."""
     if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value < m:
         raise InputError(f"expected positions of agents 0 … {m - 1}, found {value!r}", where=where)
     return value
 
 
 def _label(node: object) -> str:
-    """The name of a networkx node."""
+    """Return the name of a networkx node."""
     if isinstance(node, float):
         raise FloatRefused(f"expected names or integers as nodes, found {node!r}", where="graph")
     if isinstance(node, bool) or not isinstance(node, (str, int)):
@@ -321,7 +323,7 @@ def _label(node: object) -> str:
 
 
 def _edge_delay(data: Mapping[str, Any], where: str) -> Any:
-    """The delay on a networkx edge; a weight is refused, because it would be lost."""
+    """Return the delay of a networkx edge; a weight is refused, because it would be lost."""
     weight = data.get("weight", 1)
     if isinstance(weight, float):
         raise FloatRefused(f"an edge has a delay but no weight, found {weight!r}", where=where)
@@ -333,12 +335,12 @@ def _edge_delay(data: Mapping[str, Any], where: str) -> Any:
 def graph_for(
     graph: NeighborGraph | Mapping[str, Iterable[str]] | None, names: tuple[str, ...]
 ) -> NeighborGraph | None:
-    """A graph that is about exactly these channels, from a graph or a mapping of names.
+    """Return a graph on the given channels, from a graph or a mapping of names.
 
     Raises
     ------
     UsageError
-        If the graph is about other agents, or about the same in another order.
+        If the graph has other agents, or the same agents in another order.
     """
     if graph is None:
         return None

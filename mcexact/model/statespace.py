@@ -1,4 +1,4 @@
-"""The way in from python-control: a plant, whose signals belong to channels, or a whole loop."""
+"""Conversion of python-control systems to plants with channels, and to closed loops."""
 
 from __future__ import annotations
 
@@ -25,25 +25,25 @@ def from_statespace(
     names: Sequence[str] | None = None,
     neighbors: NeighborGraph | Mapping[str, Iterable[str]] | None = None,
 ) -> MultiChannelSystem:
-    """Read a python-control state-space system as a multi-channel one.
+    """Convert a python-control state-space system to a multi-channel system.
 
     Parameters
     ----------
     statespace : control.StateSpace
         With D = 0.
     inputs, outputs : sequence of m iterables of int or str
-        The signals of each channel, by position or by label; every signal is used once at most.
-        A signal that is left out belongs to nobody.
+        The signals of each channel, by position or by label.  A signal belongs to at most one
+        channel.
     rounding : {"decimal", "dyadic"}
-        How its floats are meant, as in `MultiChannelSystem.from_float`.  There is no default:
-        python-control has already rounded integers above 2**53 and every fraction.
+        How its floats become exact numbers, as in `MultiChannelSystem.from_float`.  There is no
+        default, since python-control has already rounded fractions, and integers above 2**53.
     names, neighbors : optional
         As in `MultiChannelSystem`.
 
     Returns
     -------
     MultiChannelSystem
-        In discrete time if ``statespace.dt`` says so.
+        A system in discrete time if ``statespace.dt`` is True or positive.
 
     Raises
     ------
@@ -79,19 +79,19 @@ def from_statespace(
 
 
 def loop_from_statespace(statespace: Any, *, rounding: Rounding) -> MultiChannelSystem:
-    """Read a closed loop made with python-control, such as ``control.feedback(P, K)``.
+    """Convert a closed loop made with python-control, such as ``control.feedback(P, K)``.
 
     Parameters
     ----------
     statespace : control.StateSpace
-        What counts is its A; inputs, outputs and D may be anything.
+        Only its matrix A is used; inputs, outputs and D may be arbitrary.
     rounding : {"decimal", "dyadic"}
-        How its floats are meant, as in `MultiChannelSystem.from_float`.
+        How its floats become exact numbers, as in `MultiChannelSystem.from_float`.
 
     Returns
     -------
     MultiChannelSystem
-        One channel without inputs and outputs, for `certify_stability`.
+        A system with one channel without inputs and outputs, for `certify_stability`.
 
     Raises
     ------
@@ -133,7 +133,7 @@ def _matrices(statespace: Any, parts: str, rounding: Rounding) -> list[Matrix]:
 
 
 def sampling(dt: Any, rounding: Rounding) -> tuple[str, Fraction | None]:
-    """Time domain and sample time: None and 0 mean continuous, True discrete of unknown step."""
+    """Time domain and sample time; None and 0 mean continuous time, True an unknown sample time."""
     if dt is True:
         return "discrete", None
     if dt is None or dt == 0:
@@ -144,7 +144,7 @@ def sampling(dt: Any, rounding: Rounding) -> tuple[str, Fraction | None]:
 def _split(
     signals: Signals, count: int, labels: Sequence[str] | None, where: str
 ) -> list[list[int]]:
-    """The positions of each channel's signals."""
+    """Return the positions of each channel's signals."""
     known = list(labels or ())
     used: set[int] = set()
     split = []

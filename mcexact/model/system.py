@@ -1,4 +1,4 @@
-"""The multi-channel system: what everything else in this package is about."""
+"""Multi-channel systems, the subject of everything else in this package."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from mcexact.model.names import checked_names, checked_text, nearest, quoted
 from mcexact.model.neighbor_graph import NeighborGraph, graph_for
 
 Construction = Mapping[str, Any]
-# The constructions whose result depends on the neighbor graph of the plant.
+# These constructions depend on the neighbor graph of the plant.
 _GRAPH_IN_USE = frozenset({"augmented_outputs", "arcs", "extended", "lifted", "held", "error"})
 
 
@@ -33,10 +33,10 @@ class Channel:
 
 @dataclass(frozen=True, init=False, repr=False)
 class MultiChannelSystem:
-    """A linear system with m channels, exact over the rationals.
+    """A linear time-invariant system with m channels and rational matrices.
 
-    In continuous time ẋ = A x + Σ B_i u_i, y_i = C_i x; in discrete time x(t+1) in place of ẋ.
-    Agent i measures y_i and sets u_i.  (Paper, section I; equations `mcs` and `mcsd`.)
+    In continuous time ẋ = A x + Σ B_i u_i, y_i = C_i x; in discrete time x(t+1) replaces ẋ. Agent i
+    measures y_i and sets u_i.  (Paper, section I; equations `mcs` and `mcsd`.)
 
     Parameters
     ----------
@@ -51,24 +51,24 @@ class MultiChannelSystem:
     names : sequence of str, optional
         The channels, by default "1" … "m".
     neighbors : NeighborGraph or mapping of names, optional
-        Who hears whom; delays live on its edges.
+        The directed graph of who receives whose messages, with its delays.
     sample_time : rational, optional
-        For discrete time.  Carried, never used in a decision.
+        The sample time in discrete time, which no decision uses.
     name, source : str, optional
-        Carried, never used in a decision.
+        A name and a source, which no decision uses.
 
     Attributes
     ----------
     plant : MultiChannelSystem
-        The user's system: this one, or the one that this was made from.
+        The system from which this one was constructed, or this one.
     subject : tuple of mappings
-        The constructions that made this system from the plant, in order, as the certificate
-        format names them; empty for a plant.
+        The constructions that lead from the plant to this system, in order, in the words of the
+        certificate format; empty for a plant.
 
     Raises
     ------
     FloatRefused
-        If an entry is a float: `from_float` says how floats are meant.
+        If an entry is a float; use `from_float` for floats.
     InputError
         If there are no channels, or a shape, an entry, a name or the graph is not as expected.
 
@@ -107,7 +107,7 @@ class MultiChannelSystem:
         source: str | None = None,
     ) -> None:
         table = require_square(as_table(A, "A"), "A")
-        # All shapes are compared before any entry is read.
+        # All shapes are compared before any entry is converted.
         channels = _channels(table.shape[0], _listed(B, "B"), _listed(C, "C"), names)
         labels = tuple(channel.name for channel in channels)
         require_time(time)
@@ -138,8 +138,9 @@ class MultiChannelSystem:
         A, B, C : matrices of floats
             Shapes as in the constructor.
         rounding : {"decimal", "dyadic"}
-            How a float is meant: as the shortest decimal that prints it (0.1 becomes 1/10), or as
-            the binary fraction that it is (0.1 becomes 3602879701896397/36028797018963968).
+            How a float becomes exact: "decimal" takes the shortest decimal that prints it (0.1
+            becomes 1/10), and "dyadic" its exact binary value (0.1 becomes
+            3602879701896397/36028797018963968).
         **options
             As in the constructor.
 
@@ -162,12 +163,12 @@ class MultiChannelSystem:
 
     @property
     def n(self) -> int:
-        """Number of states."""
+        """The number of states."""
         return self.A.shape[0]
 
     @property
     def m(self) -> int:
-        """Number of channels."""
+        """The number of channels."""
         return len(self.channels)
 
     @property
@@ -177,37 +178,37 @@ class MultiChannelSystem:
 
     @property
     def plant(self) -> MultiChannelSystem:
-        """The user's system: this one, or the one that this was made from."""
+        """The system from which this one was constructed, or this one."""
         return self if self._plant is None else self._plant
 
     def B(self, i: int) -> Matrix:
-        """B_i, n×p_i."""
+        """Return B_i, n×p_i."""
         return self.channels[i].B
 
     def C(self, i: int) -> Matrix:
-        """C_i, q_i×n."""
+        """Return C_i, q_i×n."""
         return self.channels[i].C
 
     def p(self, i: int) -> int:
-        """Number of inputs of channel i."""
+        """Return p_i, the number of inputs of channel i."""
         return self.channels[i].B.shape[1]
 
     def q(self, i: int) -> int:
-        """Number of outputs of channel i."""
+        """Return q_i, the number of outputs of channel i."""
         return self.channels[i].C.shape[0]
 
     def input_matrix(self, channels: Iterable[int] | None = None) -> Matrix:
-        """B_T = [B_i, i ∈ T], in the order of the channels; T is every channel by default."""
+        """Return B_T = [B_i, i ∈ T], in the order of the channels; T is all channels by default."""
         chosen = range(self.m) if channels is None else sorted(set(channels))
         return hstack([self.B(i) for i in chosen], nrows=self.n)
 
     def output_matrix(self, channels: Iterable[int] | None = None) -> Matrix:
-        """C_T, the C_i, i ∈ T, below each other; T is every channel by default."""
+        """Return C_T, which stacks the C_i, i ∈ T; T is all channels by default."""
         chosen = range(self.m) if channels is None else sorted(set(channels))
         return vstack([self.C(i) for i in chosen], ncols=self.n)
 
     def index(self, name: str) -> int:
-        """The position of a channel.
+        """Return the position of a channel.
 
         Raises
         ------
@@ -222,19 +223,19 @@ class MultiChannelSystem:
         return self.names.index(name)
 
     def indices(self, names: Iterable[str]) -> tuple[int, ...]:
-        """The positions of some channels, in the order of the system.
+        """Return the positions of some channels, in the order of the system.
 
         Raises
         ------
         UsageError
-            If no channel has one of the names, or a single name stands in place of a list.
+            If no channel has one of the names, or a single name is given instead of a list.
         """
         if isinstance(names, str):
             raise UsageError(f"expected a list of names, found a string; write [{quoted(names)}]")
         return tuple(sorted({self.index(name) for name in names}))
 
     def named(self, channels: Iterable[int]) -> tuple[str, ...]:
-        """The names of some channels, in the order of the system."""
+        """Return the names of some channels, in the order of the system."""
         return tuple(self.channels[i].name for i in sorted(set(channels)))
 
     def derived(
@@ -246,15 +247,15 @@ class MultiChannelSystem:
         *,
         neighbors: NeighborGraph | None = None,
     ) -> MultiChannelSystem:
-        """A system made from this one, which remembers the plant and how it was made.
+        """Return a system constructed from this one, which records the plant and the construction.
 
         Parameters
         ----------
         A : Matrix, N×N
         B, C : sequences of Matrix
-            One for each channel of this system, N×r_i and s_i×N; or none at all, for a closed loop.
+            One for each channel of this system, N×r_i and s_i×N; or none, for a closed loop.
         construction : mapping
-            As the certificate format names it; it is appended to ``subject``.
+            The construction in the words of the certificate format, appended to ``subject``.
         neighbors : NeighborGraph, optional
             The neighbor graph of the result.
         """
@@ -274,12 +275,12 @@ class MultiChannelSystem:
         return made
 
     def with_neighbors(self, graph: NeighborGraph | Mapping[str, Iterable[str]]) -> Self:
-        """The same system with another neighbor graph, also on the plant that it was made from.
+        """Return the same system with another neighbor graph, which its plant gets as well.
 
         Raises
         ------
         UsageError
-            If the graph is about other agents, or this system was made with its own graph.
+            If the graph has other agents, or the construction of this system used another graph.
         """
         found = graph_for(graph, self.names)
         if found == self.neighbors:
@@ -306,7 +307,7 @@ class MultiChannelSystem:
 
 
 def require_discrete(system: MultiChannelSystem) -> None:
-    """Refuse continuous time.
+    """Raise an error for a system in continuous time.
 
     Raises
     ------
@@ -322,7 +323,7 @@ def require_discrete(system: MultiChannelSystem) -> None:
 def with_graph(
     system: MultiChannelSystem, graph: NeighborGraph | Mapping[str, Iterable[str]] | None = None
 ) -> tuple[MultiChannelSystem, NeighborGraph]:
-    """A system that carries the graph in question, and that graph.
+    """Return a system with a neighbor graph, and the graph.
 
     Parameters
     ----------
@@ -333,7 +334,7 @@ def with_graph(
     Raises
     ------
     UsageError
-        If there is no neighbor graph anywhere.
+        If neither the system nor the argument gives a neighbor graph.
     """
     if graph is not None:
         system = system.with_neighbors(graph)
@@ -347,14 +348,15 @@ def with_graph(
 def with_links(
     system: MultiChannelSystem, graph: NeighborGraph | Mapping[str, Iterable[str]] | None = None
 ) -> tuple[MultiChannelSystem, NeighborGraph]:
-    """A system, and the graph on which a controller of it runs.
+    """Return a system, and the graph over which its controllers communicate.
 
     Parameters
     ----------
     system : MultiChannelSystem
     graph : NeighborGraph or mapping of names, optional
-        Overrides ``system.neighbors``.  Without either nobody hears anybody, and the system stays
-        one without a graph, so that certificates about its loop are about the user's plant.
+        Overrides ``system.neighbors``.  Without either, the controller graph has no edges; the
+        system itself stays without a graph, so that certificates about the closed loop are about
+        the user's plant.
     """
     if graph is None and system.neighbors is None:
         return system, NeighborGraph.empty(system.names)
@@ -362,7 +364,7 @@ def with_links(
 
 
 def _listed(value: Any, where: str) -> list[Any]:
-    """The matrices of all channels."""
+    """Return the matrices of all channels as a list."""
     if isinstance(value, (str, bytes, Mapping)) or not hasattr(value, "__iter__"):
         raise InputError(
             f"expected a list of matrices, one for each channel, found {type(value).__name__}",
@@ -374,7 +376,7 @@ def _listed(value: Any, where: str) -> list[Any]:
 def _channels(
     n: int, B: list[Any], C: list[Any], names: Sequence[str] | None
 ) -> tuple[Channel, ...]:
-    """Check the matrices of all channels."""
+    """Convert the matrices of all channels and check their shapes."""
     m = len(B)
     if m != len(C):
         raise InputError(f"expected as many matrices as in B, {m}, found {len(C)}", where="C")
@@ -400,7 +402,7 @@ def _channels(
 
 
 def _checked_sample_time(value: Any, time: str) -> Fraction | None:
-    """A positive rational, in discrete time only."""
+    """Check and return a sample time: a positive rational, in discrete time only."""
     if value is None:
         return None
     if not is_discrete(time):

@@ -86,7 +86,7 @@ def read_system(data: bytes | str, *, limits: Limits = DEFAULT_LIMITS) -> MultiC
     expect_object(document, None, _REQUIRED, _OPTIONAL)
     time = document["time"]
     require_time(time)
-    # All shapes are compared before any number is read.
+    # All shapes are compared before numbers are read.
     A = require_square(unread_matrix(document["A"], "A", limits=limits), "A")
     names, B, C = _read_channels(document["channels"], A.shape[0], limits)
     if "D" in document:
@@ -117,7 +117,7 @@ def _optional_text(document: dict[str, Any], key: str) -> str | None:
 def _read_channels(
     value: Any, n: int, limits: Limits
 ) -> tuple[tuple[str, ...], list[Table], list[Table]]:
-    """Read the names of all channels and the shapes of their matrices."""
+    """Read the channels' names and the shapes of their matrices."""
     channels = expect_list(value, "channels")
     if not channels:
         raise InputError("expected at least one channel, found none", where="channels")
@@ -133,7 +133,7 @@ def _read_channels(
 
 
 def _refuse_feedthrough(value: Any, where: str, limits: Limits) -> None:
-    """Accept a feedthrough of zeros only."""
+    """Raise an error unless a feedthrough matrix is zero."""
     if not read_matrix(value, where, limits=limits).is_zero():
         raise InputError(
             "expected zeros: outputs are y_i = C_i x, without direct feedthrough of an input; "
@@ -143,10 +143,10 @@ def _refuse_feedthrough(value: Any, where: str, limits: Limits) -> None:
 
 
 def _read_graph(document: dict[str, Any], names: tuple[str, ...]) -> NeighborGraph | None:
-    """Read neighbors and delays."""
+    """Read the neighbor graph with its delays."""
     if "neighbors" not in document:
         if "delays" in document:
-            raise InputError("there are no links: the key 'neighbors' is missing", where="delays")
+            raise InputError("delays need links: the key 'neighbors' is missing", where="delays")
         return None
     neighbors = _mapping(document["neighbors"], "neighbors")
     for name, heard in neighbors.items():
@@ -173,13 +173,13 @@ def canonical_document(system: MultiChannelSystem) -> PlainObject:
     Parameters
     ----------
     system : MultiChannelSystem
-        Of a derived system the plant is written.
+        For a derived system, its plant is written.
 
     Returns
     -------
     dict
-        Plain data, not to be changed; matrices are rows of reduced rationals.  Without name and
-        source.
+        Plain data that must not be changed.  Matrices are rows of reduced rationals; name and
+        source are left out.
     """
     plant = system.plant
     known: PlainObject | None = plant.__dict__.get("_canonical_document")
@@ -200,13 +200,13 @@ def canonical_document(system: MultiChannelSystem) -> PlainObject:
     }
     if plant.neighbors is not None:
         document.update(graph_json(plant.neighbors))
-    # Systems are immutable, so this is made once; every certificate about the plant holds it.
+    # Systems are immutable, so the document is made once and shared by all certificates.
     object.__setattr__(plant, "_canonical_document", document)
     return document
 
 
 def graph_json(graph: NeighborGraph) -> dict[str, Any]:
-    """The keys ``neighbors`` and, where there are any, ``delays``, by names."""
+    """Return the keys ``neighbors`` and, if there are delays, ``delays``, by names."""
     names = graph.names
     document: dict[str, Any] = {
         "neighbors": {
@@ -222,12 +222,12 @@ def graph_json(graph: NeighborGraph) -> dict[str, Any]:
 
 
 def digest(system: MultiChannelSystem) -> str:
-    """The SHA-256 of the plant's canonical JSON, in lower-case hexadecimal.
+    """Return the SHA-256 of the plant's canonical JSON, in lower-case hexadecimal.
 
     Examples
     --------
-    Names, order, graph and every number count; how they are written, ``name`` and ``source`` do
-    not:
+    Names, order, graph and every number change the digest.  The form in which a number is written,
+    ``name`` and ``source`` do not:
 
     >>> first = MultiChannelSystem([["1/2"]], [[[1]]], [[[1]]], name="a")
     >>> second = MultiChannelSystem([["0.50"]], [[[1]]], [[[1]]], source="b")
@@ -238,12 +238,12 @@ def digest(system: MultiChannelSystem) -> str:
 
 
 def save_system(system: MultiChannelSystem, path: str | os.PathLike[str]) -> None:
-    """Write a system as a system file, whole or not at all.
+    """Write a system as a system file, completely or not at all.
 
     Parameters
     ----------
     system : MultiChannelSystem
-        A derived system is written by its own matrices, as a plant of its own.
+        A derived system is written with its own matrices, as a plant.
     path : path
 
     Raises
@@ -255,7 +255,7 @@ def save_system(system: MultiChannelSystem, path: str | os.PathLike[str]) -> Non
 
 
 def system_text(system: MultiChannelSystem) -> str:
-    """The text of a system file: one row of a matrix a line."""
+    """Return the text of a system file, with one line for each row of a matrix."""
     head: list[tuple[str, str]] = [("format", json.dumps(FORMAT))]
     for key, text in (("name", system.name), ("source", system.source)):
         if text is not None:
@@ -283,7 +283,7 @@ def _channels_text(system: MultiChannelSystem) -> str:
 
 
 def matrix_text(M: Matrix, indent: str) -> str:
-    """The JSON text of a matrix, on one line where it is short, else one row a line."""
+    """Return the JSON text of a matrix, on one line if it is short, else one line for each row."""
     value = matrix_json(M)
     if isinstance(value, dict) or not value:
         return json.dumps(value)

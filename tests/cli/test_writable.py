@@ -112,7 +112,7 @@ def test_an_existing_file_is_not_touched(tmp_path: Path) -> None:
         ("folder", "cannot write: it is no file"),
         ("x" * 1000, "cannot write: File name too long"),
         ("loop/result", "cannot write: Too many levels of symbolic links"),
-        ("a\0b", "is no file name"),
+        ("a\0b", "is not a file name"),
     ],
 )
 def test_a_file_that_cannot_be_made_is_refused_with_the_reason(

@@ -143,7 +143,7 @@ def test_an_arc_that_is_missing_in_the_plant_stops_the_run(folder, tmp_path):
     file = tmp_path / "cut.json"
     file.write_text(json.dumps(plant))
     done = run("simulate", str(file), str(folder / "discrete-controller.json"))
-    assert done.status == 3 and "does not hear" in done.stderr
+    assert done.status == 3 and "does not receive" in done.stderr
 
 
 @pytest.mark.parametrize(

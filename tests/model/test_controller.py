@@ -185,7 +185,7 @@ def plain(**changes):
         (
             (AgentProgram("1", 0, 0), AgentProgram("2", 0, 0, input=LinearMap({0: ONE}))),
             InputError,
-            r"agents\[1\].input.outputs: agent '2' does not hear agent '1'",
+            r"agents\[1\].input.outputs: agent '2' does not receive the signals of agent '1'",
         ),
         (
             (AgentProgram("1", 0, 0, input=LinearMap({1: Matrix.zeros(1, 2)})),) * 1
@@ -209,7 +209,7 @@ def plain(**changes):
         (
             (AgentProgram("1", 0, 0, hold={1: 1}), AgentProgram("2", 0, 0)),
             InputError,
-            r"agents\[0\].hold: agent '2' is no follower",
+            r"agents\[0\].hold: agent '2' is not a follower",
         ),
     ],
 )
@@ -228,7 +228,7 @@ def test_time_domains_have_to_agree_and_continuous_time_knows_no_delays():
             plain(time="continuous", neighbors=late), Controller("continuous", "", agents)
         )
     held = (AgentProgram("1", 0, 0, hold={0: 1}), AgentProgram("2", 0, 0))
-    with pytest.raises(InputError, match="only discrete time can hold a signal"):
+    with pytest.raises(InputError, match="signals can be held in discrete time only"):
         closed_loop_matrix(plain(time="continuous"), Controller("continuous", "", held))
 
 

@@ -71,7 +71,7 @@ def test_added_edges_keep_the_delays_of_the_others():
         ((("a" * 257,), [[]]), "at most 256 characters, found 257"),
         ((NAMES, [[1], [], []], [(0, 1, -1)]), r"delays\['a'\]\['b'\]: expected an integer >= 0"),
         ((NAMES, [[1], [], []], [(0, 1, True)]), "expected an integer >= 0, found True"),
-        ((NAMES, [[1], [], []], [(0, 0, 1)]), "an agent hears itself at once"),
+        ((NAMES, [[1], [], []], [(0, 0, 1)]), "an agent has its own signals without delay"),
         (
             (NAMES, [[1], [], []], [(0, 2, 1)]),
             "there is no such link; list 'c' among the neighbors",

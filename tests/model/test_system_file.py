@@ -272,7 +272,7 @@ def test_bytes_that_are_no_json_object_are_refused(data, message):
         ({"channels": channel(name="u\u202e1")}, r"remove the character U\+202E"),
         ({"channels": channel(name="")}, r"channels\[0\].name: expected a name"),
         ({"channels": channel(name=1)}, r"channels\[0\].name: expected a name as a string"),
-        ({"neighbors": None}, "delays: there are no links: the key 'neighbors' is missing"),
+        ({"neighbors": None}, "delays: delays need links: the key 'neighbors' is missing"),
         ({"neighbors": []}, "neighbors: expected an object keyed by agents, found a list"),
         ({"neighbors": {"u3": []}}, r"neighbors: there is no agent 'u3'"),
         ({"neighbors": {"u1": "u2"}}, r"neighbors\['u1'\]: expected a list"),
@@ -310,7 +310,7 @@ def test_missing_unreadable_and_large_files_are_refused(tmp_path):
         load_system(tmp_path / "nothing.json")
     with pytest.raises(InputError, match="cannot be read: Is a directory"):
         load_system(tmp_path)
-    with pytest.raises(InputError, match="is no file name"):
+    with pytest.raises(InputError, match="is not a file name"):
         load_system("a\0b")
     large = tmp_path / "large.json"
     with large.open("wb") as stream:
@@ -374,7 +374,7 @@ def test_a_name_as_long_as_the_file_system_allows_can_be_written(tmp_path):
 
 
 def test_what_no_file_can_be_called_is_refused():
-    with pytest.raises(InputError, match=r"is no file name: .*embedded null"):
+    with pytest.raises(InputError, match=r"is not a file name: .*embedded null"):
         write_text("a\0b", "{}")
 
 

@@ -1,7 +1,7 @@
-"""Published systems with their sources, a few constructed ones, and what is known about them.
+"""Published systems with their sources, some constructed systems, and answers known about them.
 
 Every file names its source, or says that it is constructed.  Decimals are exact as typed.
-``expected.json`` holds answers that two independent programs computed exactly.
+``expected.json`` contains answers that two independent programs computed exactly.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ def load(name: str) -> MultiChannelSystem:
     Raises
     ------
     UsageError
-        If there is none of this name.
+        If no system has this name.
 
     Examples
     --------
@@ -59,7 +59,7 @@ def text(name: str) -> str:
 
 
 def expected(name: str) -> dict[str, Any]:
-    """What is known about a system of the gallery, as ``expected.json`` says it.
+    """Return the answers in ``expected.json`` about a system of the gallery.
 
     Examples
     --------
