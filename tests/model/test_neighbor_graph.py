@@ -74,7 +74,7 @@ def test_added_edges_keep_the_delays_of_the_others():
         ((NAMES, [[1], [], []], [(0, 0, 1)]), "an agent has its own signals without delay"),
         (
             (NAMES, [[1], [], []], [(0, 2, 1)]),
-            "there is no such link; list 'c' among the neighbors",
+            "there is no such link: list 'c' among the neighbors",
         ),
         ((NAMES, [[1], [], []], [(0, 1, 1), (0, 1, 1)]), "expected one delay, found two"),
     ],
