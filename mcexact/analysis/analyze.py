@@ -56,7 +56,9 @@ class Analysis:
         if information not in {"own", "outputs"}:
             raise UsageError(f"expected the information 'own' or 'outputs', found {information!r}")
         if information == "outputs":
-            self._require("neighbors", "information 'outputs' is about what the agents receive")
+            self._require(
+                "neighbors", "the information 'outputs' is about messages between neighbors"
+            )
         self._asked = set(self.unbidden if questions is None else questions)
         for name in sorted(self._asked):
             self._require_known(name)

@@ -21,7 +21,7 @@ class Question:
     home : str
         Module of `mcexact.analysis` and function, with a colon between.
     help : str
-        What is decided, as a clause after "whether", "which" or "what".
+        What is decided, as a clause that "also" can stand before.
     about : {"system", "plant", "lifted", "held"}
         The plant; the system that the agents see, which is the plant or the plant with the outputs
         that they receive; or the plant with sub-states shared over its delayed wires.
@@ -31,7 +31,7 @@ class Question:
     unbidden : bool
         Whether it is asked when nobody names it; what is NP-hard or slow never is.
     option : str
-        The option of `mcexact analyze` that asks it.
+        The option of `mcexact analyze` that asks it; its help is that of its first question.
     ports : {"", "inputs", "outputs"}
         If not empty, it is asked unbidden only where n² ≤ 10⁴ times the number of these: the
         evidence is a Krylov sequence, which fewer ports make longer.
@@ -93,7 +93,13 @@ def _joint(about: str = "system", needs: str = "", option: str = "") -> dict[str
 # The question, the file of its function, the kind of its certificate, its option, what is decided.
 _SHARING = (
     ("shared_dimension_bound", "allocation", "deficiency", "", "how much sharing is enough"),
-    ("minimal_shared_dimensions", "allocation", "shared_dimensions", "minimal", "the least in all"),
+    (
+        "minimal_shared_dimensions",
+        "allocation",
+        "shared_dimensions",
+        "minimal",
+        "the least to share",
+    ),
 )
 _JOINT, _ALONE = _joint(), _joint(needs="channels")
 _SPECTRUM = {"spectrum": "fixed_spectrum"}
@@ -208,7 +214,7 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
             for name, question in {
                 "fixed_spectrum": Question(
                     "fixed_spectrum:fixed_spectrum",
-                    f"which modes stay with the delays of the wires, {network}",
+                    "what is fixed with the delays of the neighbor graph, lifted and held",
                     about=network,
                     needs="neighbors",
                     unbidden=False,

@@ -2,22 +2,28 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import click
 
+from mcexact.analysis.questions import QUESTIONS, asked_by
 from mcexact.cli import options
 from mcexact.cli.failures import DEFINITE_NO
 
 _LINES_OF_WORDS = 5
 _MODES = 6
-# Options that make no sense without a neighbor graph, by what they ask for.
-_OF_NEIGHBORS = {
-    "outputs": "--information outputs",
-    "minimal": "--minimal",
-    "delayed": "--delayed",
-}
+_ASKED = {question.option: question.help for question in reversed([*QUESTIONS.values()])}
+_BESIDES = {option: told for option, told in reversed(_ASKED.items()) if option}
+"""Options that ask something besides, with what that is: one for each in the table of questions."""
+
+
+def _besides(function: Callable[..., int]) -> Callable[..., int]:
+    """Add these options."""
+    for option, told in reversed(_BESIDES.items()):
+        function = click.option(f"--{option}", is_flag=True, help=f"Also {told}.")(function)
+    return function
 
 
 @click.command(
@@ -31,14 +37,7 @@ _OF_NEIGHBORS = {
     show_default=True,
     help="What agent i feeds back: its own output, or those of all its neighbors.",
 )
-@click.option(
-    "--minimal", is_flag=True, help="Find the least that the agents must share, both ways."
-)
-@click.option(
-    "--links",
-    is_flag=True,
-    help="Find the fewest links over which sending outputs leaves no mode fixed.",
-)
+@_besides
 @click.option(
     "--subset",
     metavar="NAMES",
@@ -49,14 +48,6 @@ _OF_NEIGHBORS = {
     "--channel",
     metavar="NAME",
     help="Also what this channel controls and observes, alone and with gains.",
-)
-@click.option(
-    "--every-channel",
-    is_flag=True,
-    help="Also gains with which every channel controls and observes the whole plant.",
-)
-@click.option(
-    "--delayed", is_flag=True, help="Also what is fixed with the delays in FILE, lifted and held."
 )
 @click.option(
     "--assert",
@@ -78,12 +69,8 @@ _OF_NEIGHBORS = {
 def command(
     file: str,
     information: str,
-    minimal: bool,
-    links: bool,
-    delayed: bool,
     subset: str | None,
     channel: str | None,
-    every_channel: bool,
     asserted: str | None,
     html: Path | None,
     latex: bool,
@@ -91,7 +78,7 @@ def command(
     as_json: bool,
     timeout: float | None,
     max_memory: int | None,
-    **limits: int | None,
+    **rest: Any,
 ) -> int:
     """Decide everything about the system in FILE (- for standard input).
 
@@ -112,14 +99,14 @@ def command(
     place = place_of(file)
     require_other(html, file)
     require_writable(html, certificates)
-    moved = options.given(limits)
-    besides = {"minimal": minimal, "links": links, "every-channel": every_channel}
+    besides = [option for option in _BESIDES if rest.pop(option.replace("-", "_"))]
+    moved = options.given(rest)
     answer = supervised(
         _answer,
         place,
         read(file, moved, deadline),
         moved,
-        [name for name, wanted in (besides | {"delayed": delayed}).items() if wanted],
+        besides,
         {"information": information, "subset": _named(subset), "channel": channel},
         html is not None,
         doing=f"analyzing {place}",
@@ -174,19 +161,11 @@ def _answer(
 ) -> dict[str, Any]:
     """Decide, and put the answer into text: what the child process does."""
     from mcexact.analysis.analyze import analyze
-    from mcexact.analysis.questions import asked_by
     from mcexact.cli.concluding import told
     from mcexact.cli.files import system_in
-    from mcexact.errors import UsageError
     from mcexact.report.account import in_lines, latex, tables
 
     system = system_in(place, data, limits)
-    for name in _OF_NEIGHBORS:
-        if system.neighbors is None and (name in besides or question["information"] == name):
-            raise UsageError(
-                f"{_OF_NEIGHBORS[name]} asks about messages between neighbors, and this system "
-                "names no neighbors: add 'neighbors' to the file"
-            )
     found = analyze(system, besides=asked_by(*besides), **question)
     account = found.account
     page = None

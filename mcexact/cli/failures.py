@@ -6,6 +6,7 @@ import re
 
 import click
 
+from mcexact.analysis.questions import QUESTIONS
 from mcexact.cli.commands import NoCommand
 from mcexact.errors import InternalError, McexactError
 
@@ -45,9 +46,10 @@ def one_message(error: BaseException) -> str:
     elif isinstance(error, click.ClickException):
         text = f"mcexact: {error.format_message()}"
     elif isinstance(error, McexactError) and error.exit_status != INTERNAL_ERROR:
-        # A library message names a limit as an attribute of Limits; on the command line it is an
-        # option.
+        # A library message names a limit as an attribute of Limits, and a question as the table
+        # has it; on the command line they are options.
         text = re.sub(r"\bLimits\.(\w+)", r"--max-\1", f"mcexact: {error}")
+        text = re.sub(r"\bthe question '(\w+)'", _option, text)
     elif isinstance(error, OSError):
         place = f"{error.filename}: " if error.filename is not None else ""
         text = f"mcexact: {place}{error.strerror or error}"
@@ -57,6 +59,11 @@ def one_message(error: BaseException) -> str:
             "not in your input: please report it with the command and the file"
         )
     return printable(text)
+
+
+def _option(question: re.Match[str]) -> str:
+    """The option that asks a question."""
+    return f"--{QUESTIONS[question[1]].option}"
 
 
 def _described(error: BaseException) -> str:

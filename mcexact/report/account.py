@@ -15,10 +15,7 @@ _COLUMNS = {
     "pencil": ("factor of det(xI-A)", "rank", "below n"),
     "why": ("these agents", "can receive from", "need", "because of"),
 }
-_COLUMNS_OF_ROWS = {
-    "allocate-row": ("agent", "least"),
-    "allocate-link": ("from", "to", "cost"),
-}
+_COLUMNS_OF_ROWS = {"allocate-row": ("agent", "least"), "allocate-link": ("from", "to", "cost")}
 _BOUNDS = {"outputs+states": "Theorem 2's bound", "states": "Remark 2's bound"}
 _MORE = "Further fixed modes are listed below."
 _SHOWN = "the first {}; --json and --html list all. "

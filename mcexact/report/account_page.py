@@ -36,10 +36,7 @@ class AccountPage:
     tables: tuple[Table, ...]
 
     def rendered(
-        self,
-        certificates: Mapping[str, str],
-        verdicts: Mapping[str, Any],
-        latex: str | None = None,
+        self, certificates: Mapping[str, str], verdicts: Mapping[str, Any], latex: str | None = None
     ) -> str:
         """The whole page.
 

@@ -264,10 +264,7 @@ def _setpoints(setpoint: Claim, joint_controllability: Claim, joint_observabilit
 
 @rule("table", say.SETPOINT_STABLE_REST, say.SETPOINT_UNSTABLE_REST)
 def _setpoints_beside(
-    setpoint: Claim,
-    joint_controllability: Claim,
-    joint_observability: Claim,
-    fixed_spectrum: Claim,
+    setpoint: Claim, joint_controllability: Claim, joint_observability: Claim, fixed_spectrum: Claim
 ) -> Said:
     """What is out of reach is fixed; whether it is stable stands with the fixed modes."""
     reach = (joint_controllability, joint_observability)

@@ -196,8 +196,5 @@ def _latex_nothing(fixed_spectrum: Claim) -> Said:
 def _latex_modes(fixed_spectrum: Claim) -> Said:
     for factor in fixed_spectrum.factors:
         yield say.LATEX_FIXED_MODE(
-            p=factor.polynomial,
-            in_A=factor.multiplicity_in_A,
-            rank=factor.rank,
-            s=factor.channels,
+            p=factor.polynomial, in_A=factor.multiplicity_in_A, rank=factor.rank, s=factor.channels
         )

@@ -19,8 +19,7 @@ _THEOREM_2 = "extended_bound.theorem_2, extended_bound.remark_2"
 ROW_BOUND = Template("allocate-row-bound", "{agent:name} | {size:int} | {bound:int}", _THEOREM_2)
 TOTAL_BOUND = Template("allocate-total-bound", "total | {size:int} | {bound:int}", _THEOREM_2)
 PROOF = Template(
-    "allocate-proof",
-    "proved with {cuts:count subset} and a branch tree of {nodes:count node}",
+    "allocate-proof", "proved with {cuts:count subset} and a branch tree of {nodes:count node}"
 )
 COST_PROOF = Template(
     "allocate-cost-proof",

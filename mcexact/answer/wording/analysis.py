@@ -9,8 +9,7 @@ _WANG_DAVISON = "S. H. Wang and E. J. Davison 1973"
 # What the user gave.
 
 HEADING = Template(
-    "heading",
-    "{name:name}: {n:count state}, {m:count channel} {names:set}, {time:time} time",
+    "heading", "{name:name}: {n:count state}, {m:count channel} {names:set}, {time:time} time"
 )
 INFORMATION = Template("information", "{information:information}", label="information")
 
@@ -60,14 +59,10 @@ BLAME = Template(
     _PBH,
 )
 UNCONTROLLED = Template(
-    "fixed-mode-uncontrolled",
-    _BLAME + ": all channels together do not control {p:them}.",
-    _PBH,
+    "fixed-mode-uncontrolled", _BLAME + ": all channels together do not control {p:them}.", _PBH
 )
 UNOBSERVED = Template(
-    "fixed-mode-unobserved",
-    _BLAME + ": all channels together do not observe {p:them}.",
-    _PBH,
+    "fixed-mode-unobserved", _BLAME + ": all channels together do not observe {p:them}.", _PBH
 )
 LINKS = {
     False: Template(
@@ -82,8 +77,7 @@ LINKS = {
     ),
 }
 LINKS_NONE = Template(
-    "links-none",
-    "Sending outputs over the neighbor graph leaves no mode fixed{time:instant}.",
+    "links-none", "Sending outputs over the neighbor graph leaves no mode fixed{time:instant}."
 )
 NO_LINKS = Template("no-links", "Sending outputs between all agents does not free every mode.")
 SHARING_REMOVES = Template(
@@ -92,32 +86,18 @@ SHARING_REMOVES = Template(
     "{time:instant}, and no smaller number of states is.",
 )
 OUTPUTS_REMOVE = Template(
-    "outputs-remove",
-    "Over the neighbor graph it is enough to send outputs{time:instant}.",
+    "outputs-remove", "Over the neighbor graph it is enough to send outputs{time:instant}."
 )
-NO_SHARING = Template(
-    "no-sharing",
-    "No sharing over the neighbor graph frees every mode.",
-)
+NO_SHARING = Template("no-sharing", "No sharing over the neighbor graph frees every mode.")
 
 # The table of all answers.
 
 CONTROLLABLE = Template("controllable", "every mode", label="jointly controllable")
-UNCONTROLLABLE = Template(
-    "uncontrollable",
-    "all but {p:modes}",
-    label="jointly controllable",
-)
+UNCONTROLLABLE = Template("uncontrollable", "all but {p:modes}", label="jointly controllable")
 OBSERVABLE = Template("observable", "every mode", label="jointly observable")
-UNOBSERVABLE = Template(
-    "unobservable",
-    "all but {p:modes}",
-    label="jointly observable",
-)
+UNOBSERVABLE = Template("unobservable", "all but {p:modes}", label="jointly observable")
 GRAPH_CONNECTED = Template(
-    "transfer-graph-connected",
-    "{arcs:edges}; strongly connected",
-    label="transfer graph",
+    "transfer-graph-connected", "{arcs:edges}; strongly connected", label="transfer graph"
 )
 GRAPH_PARTS = Template(
     "transfer-graph-parts",
@@ -140,10 +120,7 @@ NOT_STABILIZABLE = Template(
 )
 SLOWEST = Template("slowest", "{slowest:behavior}", label="slowest fixed mode")
 ANY_RATE = Template(
-    "any-rate",
-    "none: every decay rate can be reached",
-    _WANG_DAVISON,
-    "slowest fixed mode",
+    "any-rate", "none: every decay rate can be reached", _WANG_DAVISON, "slowest fixed mode"
 )
 COMPLETE = Template("complete", "{complete:yes}", label="complete")
 
@@ -190,10 +167,7 @@ SPECTRUM_MOVED_BETWEEN = Template(
 )
 _INTEGRATORS = "setpoint.setpoint_rank; E. J. Davison 1976"
 SETPOINT = Template(
-    "setpoint",
-    "centralized control holds every output at any value",
-    _INTEGRATORS,
-    "set-points",
+    "setpoint", "centralized control holds every output at any value", _INTEGRATORS, "set-points"
 )
 SETPOINT_STABLE_REST = Template(
     "setpoint-stable-rest",
@@ -222,9 +196,7 @@ SETPOINT_DEPENDENT = Template(
 )
 CONNECTED = Template("neighbor-graph-connected", "strongly connected", label="neighbor graph")
 NOT_CONNECTED = Template(
-    "neighbor-graph-not-connected",
-    "not strongly connected",
-    label="neighbor graph",
+    "neighbor-graph-not-connected", "not strongly connected", label="neighbor graph"
 )
 _ENOUGH = "enough to share"
 ENOUGH = {
@@ -236,10 +208,7 @@ ENOUGH = {
             _ENOUGH,
         ),
         Template(
-            "enough-outputs",
-            "outputs alone{time:instant}",
-            "extended_bound.theorem_2",
-            _ENOUGH,
+            "enough-outputs", "outputs alone{time:instant}", "extended_bound.theorem_2", _ENOUGH
         ),
     ),
     "states": (
@@ -249,18 +218,11 @@ ENOUGH = {
             "extended_bound.remark_2",
             _ENOUGH,
         ),
-        Template(
-            "enough-nothing",
-            "nothing",
-            "extended_bound.remark_2",
-            _ENOUGH,
-        ),
+        Template("enough-nothing", "nothing", "extended_bound.remark_2", _ENOUGH),
     ),
 }
 NO_BOUND = Template(
-    "enough-unknown",
-    "no bound: the neighbor graph is not strongly connected",
-    label=_ENOUGH,
+    "enough-unknown", "no bound: the neighbor graph is not strongly connected", label=_ENOUGH
 )
 NEVER_CONTROLLED = Template(
     "sharing-in-vain-controllability",
@@ -298,11 +260,7 @@ TABLE_LINKS = {
     ),
 }
 LEAST = {
-    "outputs+states": _least_templates(
-        "outputs-states",
-        "beside outputs, ",
-        "outputs alone",
-    ),
+    "outputs+states": _least_templates("outputs-states", "beside outputs, ", "outputs alone"),
     "states": _least_templates("states", "without outputs, ", "nothing"),
 }
 

@@ -33,9 +33,7 @@ FEEDBACK = Template("design-feedback", "{p:polynomial}", label="spectrum of A + 
 ERRORS = Template("design-errors", "{p:polynomial}", label="spectrum of the errors")
 REGION = Template("design-region", "{region:region}", label="every eigenvalue of the loop")
 OBSERVER_ORDER = Template(
-    "design-observer-order",
-    "{order:int}",
-    label="states of the paper's observer",
+    "design-observer-order", "{order:int}", label="states of the paper's observer"
 )
 SHARED = Template("design-shared", "{sizes:dimensions}", label="shared dimensions")
 ASSIGNED = Template("design-assigned", "{p:polynomial}", label="spectrum that it assigns")
@@ -56,9 +54,7 @@ OUTSIDE = Template(
     "certify-outside", "not every one satisfies {region:region}", label="eigenvalues"
 )
 DECIDED_BLOCKS = Template(
-    "certify-decided-blocks",
-    "by Lyapunov matrices, blocks of {sizes:list} states",
-    label="decided",
+    "certify-decided-blocks", "by Lyapunov matrices, blocks of {sizes:list} states", label="decided"
 )
 DECIDED = Template("certify-decided", "{method:decided}", label="decided")
 LARGEST = Template("certify-largest", "{bound:number}", label="largest rate found")

@@ -42,9 +42,7 @@ SUBSYSTEM_COMPLETE = Template(
 )
 SUBSYSTEM_ZERO = Template("subsystem-zero", "no: its transfer matrix is zero", label="complete")
 SUBSYSTEM_DROPS = Template(
-    "subsystem-drops",
-    "no: the rank is below n at the roots of {zeros:factors}",
-    label="complete",
+    "subsystem-drops", "no: the rank is below n at the roots of {zeros:factors}", label="complete"
 )
 SUBSYSTEM_BOTH = Template(
     "subsystem-zero-and-drops",
@@ -59,11 +57,7 @@ _ALONE = {"controllability": "controllable alone", "observability": "observable 
 ALONE = {
     what: (
         Template(f"channel-{what}", "every mode", label=label),
-        Template(
-            f"channel-no-{what}",
-            "all but {p:modes}",
-            label=label,
-        ),
+        Template(f"channel-no-{what}", "all but {p:modes}", label=label),
     )
     for what, label in _ALONE.items()
 }
@@ -75,12 +69,10 @@ PICTURE = Template("picture-graphs", "Graphs")
 PICTURE_OUTPUTS = Template("picture-graphs-outputs", "Graphs (agents share outputs)")
 PICTURE_NEIGHBORS = Template("picture-neighbor-graph", "neighbor graph: {arcs:arrows}")
 PICTURE_TRANSFER = Template(
-    "picture-transfer-graph",
-    "transfer graph, between different channels: {arcs:arrows}",
+    "picture-transfer-graph", "transfer graph, between different channels: {arcs:arrows}"
 )
 PICTURE_OBSTRUCTION = Template(
-    "picture-obstruction",
-    "orange: {s:channels}, the set s of {p:modes}",
+    "picture-obstruction", "orange: {s:channels}, the set s of {p:modes}"
 )
 PICTURE_HEARD = Template(
     "picture-heard", "purple: {heard:channels}, from whom some of them receive"
