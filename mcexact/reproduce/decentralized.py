@@ -6,7 +6,6 @@ from functools import reduce
 
 from mcexact.analysis.analyze import analyze
 from mcexact.analysis.completeness import completeness
-from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.analysis.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.pencil import pencil_rank
 from mcexact.analysis.single_channel_gains import single_channel_gains
@@ -35,8 +34,7 @@ from mcexact.synthesis.decentralized import design_decentralized
 def definition(note: Notebook) -> None:
     """Λ_fixed is what no F moves: it divides every loop's polynomial, and drawn loops share it."""
     numbers = Numbers(11)
-    for name, plant in [*drawn_plants(8, states=4), *drawn_plants(3, states=4, fixed=True)]:
-        note.on(name)
+    for plant in note.each(drawn_plants(8, states=4), drawn_plants(3, states=4, fixed=True)):
         found = fixed_spectrum(plant)
         loops = [characteristic_polynomial(closed_by(plant, numbers.gains(plant))) for _ in "1234"]
         note.check(
@@ -53,8 +51,7 @@ def definition(note: Notebook) -> None:
 
 def proposition_2(note: Notebook) -> None:
     """Proposition 2: every fixed mode has its subset; for the example all six subsets are tried."""
-    for name, plant in drawn_plants(10, states=4, fixed=True, first=11):
-        note.on(name)
+    for plant in note.each(drawn_plants(10, states=4, fixed=True, first=11)):
         found = fixed_spectrum(plant)
         note.check("a planted fixed mode is found", not found.empty)
         for factor in found.factors:
@@ -80,8 +77,7 @@ def proposition_2(note: Notebook) -> None:
 
 def empty_and_all(note: Notebook) -> None:
     """The footnote: rank n for s = ∅ and s = m, by joint controllability and observability."""
-    for name, plant in plants(8):
-        note.on(name)
+    for plant in note.each(plants(8)):
         for mode, _ in characteristic_polynomial(plant.A).factor():
             for s in ((), plant.names):
                 found = pencil_rank(plant, s, mode)
@@ -93,8 +89,7 @@ def empty_and_all(note: Notebook) -> None:
 
 def transfer(note: Notebook) -> None:
     """The transfer graph: an edge j → i iff some C_i A^k B_j is not 0, k < n."""
-    for name, plant in plants(14):
-        note.on(name)
+    for plant in note.each(plants(14)):
         found = transfer_graph(plant)
         powers = [Matrix.identity(plant.n)]
         for _ in range(plant.n - 1):
@@ -114,8 +109,7 @@ def transfer(note: Notebook) -> None:
 
 def corfmat_morse(note: Notebook) -> None:
     """Strongly connected and nothing fixed: some F serves every single channel."""
-    for name, plant in plants(14):
-        note.on(name)
+    for plant in note.each(plants(14)):
         whole = completeness(plant)
         found = single_channel_gains(plant)
         note.check(
@@ -159,11 +153,10 @@ def partition(note: Notebook) -> None:
 
 def wang_davison(note: Notebook) -> None:
     """Any rate by linear time-invariant control iff nothing is fixed."""
-    for name, plant in [
-        *drawn_plants(8, states=3, channels=2, first=21),
-        *drawn_plants(5, states=3, channels=2, fixed=True, first=21),
-    ]:
-        note.on(name)
+    for plant in note.each(
+        drawn_plants(8, states=3, channels=2, first=21),
+        drawn_plants(5, states=3, channels=2, fixed=True, first=21),
+    ):
         found = fixed_spectrum(plant)
         note.certify(found)
         fast = 1000
@@ -182,9 +175,7 @@ def example(note: Notebook) -> None:
     plant = three_channels()
     system = augmented_outputs(plant)
     note.on(PAPER)
-    for verdict in (joint_controllability(plant), joint_observability(plant)):
-        note.check("jointly controllable and observable", verdict.controllable)
-        note.certify(verdict)
+    note.joint(plant)
     rank = pencil_rank(system, ["2"], 1)
     note.check("rank [I − A, B_1, B_3; C_{N_2}, 0] is 2", rank.rank == 2)
     found = fixed_spectrum(system)
@@ -211,8 +202,7 @@ def example(note: Notebook) -> None:
 def shared_outputs(note: Notebook) -> None:
     """`mss`: agent i sees the y_j of its neighbors."""
     numbers = Numbers(12)
-    for name, plant in plants(10, connected=None):
-        note.on(name)
+    for plant in note.each(plants(10, connected=None)):
         made = augmented_outputs(plant)
         x = numbers.column(plant.n)
         y = outputs(plant, x)

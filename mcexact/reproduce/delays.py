@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from fractions import Fraction
+from functools import partial
 
 from mcexact.analysis.allocation import shared_dimension_bound
 from mcexact.analysis.closed_loop_spectrum import closed_loop_spectrum
@@ -17,16 +17,16 @@ from mcexact.exact.blocks import vstack
 from mcexact.exact.linear_algebra import rank
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
-from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.report.loop_figures import delays_picture
-from mcexact.reproduce.equations import delayed_agrees
-from mcexact.reproduce.material import Numbers, drawn_plants, plants, three_channels
+from mcexact.reproduce.equations import messages_agree, positions, union_of_graphs
+from mcexact.reproduce.material import Numbers, drawn_plants, graph_of, plants, three_channels
 from mcexact.reproduce.notebook import Notebook, Procedure
-from mcexact.reproduce.observer import graph_of
 from mcexact.simulation.trajectory import simulate
 from mcexact.synthesis.extended import design_extended
 
 X = Polynomial.x()
+late = partial(plants, time="discrete", longest_delay=2)
+late_drawn = partial(drawn_plants, time="discrete", longest_delay=2)
 
 
 def shifts(note: Notebook) -> None:
@@ -48,11 +48,12 @@ def lifted(note: Notebook) -> None:
         made = lifted_system(plant, sizes)
         graph = graph_of(plant)
         d = [graph.longest_delay(i) for i in range(plant.m)]
+        delays = {(i, j): d_ij for i, j, d_ij in graph.delays}
         size = plant.n + sum(sizes[i] + d[i] * (sizes[i] + plant.q(i)) for i in range(plant.m))
         note.check("it has ñ = n + Σ (n_i + d_i n_i + d_i q_i) states", made.n == size)
         note.check(
             "agents see what comes late, step by step",
-            delayed_agrees(plant, made, sizes, False, numbers),
+            messages_agree(plant, made, sizes, "outputs+states", delays, numbers),
         )
         note.certify(fixed_spectrum(made))
 
@@ -65,28 +66,23 @@ def held(note: Notebook) -> None:
         note.on(f"{name}, n_i = {sizes}")
         made = held_system(plant, sizes)
         graph = graph_of(plant)
-        size = plant.n + sum((1 + graph.longest_delay(i)) * sizes[i] for i in range(plant.m))
+        d = [graph.longest_delay(i) for i in range(plant.m)]
+        delays = {(i, j): d[j] for i in range(plant.m) for j in graph.neighborhood(i)}
+        size = plant.n + sum((1 + d[i]) * sizes[i] for i in range(plant.m))
         note.check("it has n̂ = n + Σ (n_i + d_i n_i) states", made.n == size)
         note.check(
             "agents see what is released, step by step",
-            delayed_agrees(plant, made, sizes, True, numbers),
+            messages_agree(plant, made, sizes, "states", delays, numbers),
         )
         note.certify(fixed_spectrum(made))
 
 
-def _union(plant_edges: Sequence[tuple[str, str]], graph: NeighborGraph) -> set[tuple[str, str]]:
-    """The edges of the neighbor graph and of the plant's transfer graph."""
-    return set(plant_edges) | {(graph.names[j], graph.names[i]) for j, i in graph.edges()}
-
-
 def transfer_of_the_lift(note: Notebook) -> None:
     """n_i > 0: both graphs lie in the transfer graph of the lifted system."""
-    for name, plant in plants(8, time="discrete", longest_delay=2):
-        note.on(name)
+    for plant in note.each(late(8)):
         before, after = transfer_graph(plant), transfer_graph(lifted_system(plant, [1] * plant.m))
-        note.check(
-            "the union is a subgraph", _union(before.arcs, graph_of(plant)) <= set(after.arcs)
-        )
+        union = union_of_graphs(plant, before)
+        note.check("the union is a subgraph", set(union.edges()) <= positions(plant, after))
         note.certify(before, after)
 
 
@@ -109,8 +105,7 @@ def block_ranks(note: Notebook) -> None:
 
 def only_zero_is_lost(note: Notebook) -> None:
     """The lifted system is jointly observable; what is out of reach is at 0."""
-    for name, plant in plants(10, time="discrete", longest_delay=2):
-        note.on(name)
+    for plant in note.each(late(10)):
         made = lifted_system(plant, [1] * plant.m)
         sight, reach = joint_observability(made), joint_controllability(made)
         note.check("jointly observable", sight.controllable)
@@ -123,11 +118,10 @@ def only_zero_is_lost(note: Notebook) -> None:
 
 def theorem_3(note: Notebook) -> None:
     """Theorem 3: at Theorem 2's bound nothing but 0 is fixed."""
-    for name, plant in (
-        *plants(8, time="discrete", longest_delay=2),
-        *drawn_plants(5, time="discrete", longest_delay=2, fixed=True, first=71),
+    for plant in note.each(
+        late(8),
+        late_drawn(5, fixed=True, first=71),
     ):
-        note.on(name)
         bound = shared_dimension_bound(plant)
         found = fixed_spectrum(lifted_system(plant, [bound.deficiency] * plant.m))
         note.check("nothing but 0 is fixed", found.polynomial in (Polynomial.of(1), X))
@@ -136,8 +130,7 @@ def theorem_3(note: Notebook) -> None:
 
 def theorem_3_states(note: Notebook) -> None:
     """The same for sub-states alone, with the bound of Remark 2."""
-    for name, plant in plants(8, time="discrete", longest_delay=2):
-        note.on(name)
+    for plant in note.each(late(8)):
         bound = shared_dimension_bound(plant, share="states")
         made = lifted_system(plant, [bound.deficiency] * plant.m, "states")
         found = fixed_spectrum(made)
@@ -163,12 +156,9 @@ def corollary_2(note: Notebook) -> None:
 
 def held_joint(note: Notebook) -> None:
     """The held system is jointly controllable and observable."""
-    for name, plant in plants(10, time="discrete", longest_delay=2):
-        note.on(name)
+    for plant in note.each(late(10)):
         made = held_system(plant, [1] * plant.m)
-        for found in (joint_controllability(made), joint_observability(made)):
-            note.check("jointly controllable and observable", found.controllable)
-            note.certify(found)
+        note.joint(made)
 
 
 def outputs_lose_controllability(note: Notebook) -> None:
@@ -184,11 +174,10 @@ def outputs_lose_controllability(note: Notebook) -> None:
 
 def theorem_4(note: Notebook) -> None:
     """Theorem 4: at Remark 2's bound nothing is fixed in the held system."""
-    for name, plant in (
-        *plants(8, time="discrete", longest_delay=2),
-        *drawn_plants(5, time="discrete", longest_delay=2, fixed=True, first=71),
+    for plant in note.each(
+        late(8),
+        late_drawn(5, fixed=True, first=71),
     ):
-        note.on(name)
         bound = shared_dimension_bound(plant, share="states")
         found = fixed_spectrum(held_system(plant, [bound.deficiency] * plant.m))
         note.check("nothing is fixed", found.empty)
@@ -197,18 +186,12 @@ def theorem_4(note: Notebook) -> None:
 
 def transfer_of_the_held(note: Notebook) -> None:
     """n_i > 0: strongly connected iff the union of neighbor and transfer graphs is."""
-    for name, plant in (
-        *plants(5, time="discrete", longest_delay=2),
-        *drawn_plants(8, time="discrete", longest_delay=2, connected=False),
+    for plant in note.each(
+        late(5),
+        late_drawn(8, connected=False),
     ):
-        note.on(name)
         before, after = transfer_graph(plant), transfer_graph(held_system(plant, [1] * plant.m))
-        places = {agent: i for i, agent in enumerate(plant.names)}
-        heard: list[list[int]] = [[] for _ in plant.names]
-        for j, i in _union(before.arcs, graph_of(plant)):
-            if i != j:
-                heard[places[i]].append(places[j])
-        union = NeighborGraph(plant.names, heard)
+        union = union_of_graphs(plant, before)
         note.check(
             "strongly connected just when the union is",
             after.strongly_connected == union.is_strongly_connected(),

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
+from mcexact.answer.transfer_graph import TransferGraph
 from mcexact.exact.blocks import vstack
 from mcexact.exact.location import is_discrete
 from mcexact.exact.matrix import Matrix
+from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.reproduce.material import Numbers
+from mcexact.reproduce.material import Numbers, graph_of
 
 
 def driven(system: MultiChannelSystem, x: Matrix, inputs: Sequence[Matrix]) -> Matrix:
@@ -29,72 +31,49 @@ def stacked(parts: Sequence[Matrix]) -> Matrix:
     return vstack(list(parts), ncols=1)
 
 
-def extended_agrees(
+def positions(plant: MultiChannelSystem, graph: TransferGraph) -> set[tuple[int, int]]:
+    """The edges of a transfer graph from one channel to another, by position."""
+    at = {name: i for i, name in enumerate(plant.names)}
+    return {(at[j], at[i]) for j, i in graph.arcs if j != i}
+
+
+def union_of_graphs(plant: MultiChannelSystem, transfer: TransferGraph) -> NeighborGraph:
+    """The union of the neighbor graph and the transfer graph."""
+    return graph_of(plant).with_edges(positions(plant, transfer))
+
+
+def messages_agree(
     plant: MultiChannelSystem,
     made: MultiChannelSystem,
     sizes: Sequence[int],
     share: str,
-    numbers: Numbers,
-) -> bool:
-    """Whether `emcs` holds at drawn x, x_i, u_i, v_i.
-
-    ẋ = Ax + Σ B_i u_i, ẋ_i = v_i, and agent i sees y_j (y_i alone for sub-states) and x_j, j ∈ N_i.
-    """
-    graph = plant.neighbors
-    if graph is None or made.n != plant.n + sum(sizes):
-        return False
-    x = numbers.column(plant.n)
-    shared = [numbers.column(size) for size in sizes]
-    u = [numbers.column(plant.p(i)) for i in range(plant.m)]
-    v = [numbers.column(size) for size in sizes]
-    state = stacked([x, *shared])
-    inputs = [stacked([u[i], v[i]]) for i in range(plant.m)]
-    y = outputs(plant, x)
-    for i in range(plant.m):
-        heard = graph.neighborhood(i)
-        seen = [y[j] for j in heard] if share == "outputs+states" else [y[i]]
-        if made.C(i) @ state != stacked([*seen, *(shared[j] for j in heard)]):
-            return False
-    return driven(made, state, inputs) == stacked([driven(plant, x, u), *v])
-
-
-def delayed_agrees(
-    plant: MultiChannelSystem,
-    made: MultiChannelSystem,
-    sizes: Sequence[int],
-    held: bool,
+    delays: Mapping[tuple[int, int], int],
     numbers: Numbers,
     steps: int = 7,
 ) -> bool:
-    """Whether a lifted or held system sees what links with these delays bring, step by step.
+    """Whether agents of an extended system see what links with these delays bring, step by step.
 
-    Starts from rest; x_i(t+1) = v_i(t).  Agent i of the lifted system sees first what arrives at
-    once, y_j(t) for d_ij = 0, then y_j(t−d_ij), then x_j(t−d_ij); agent i of the held system sees
-    y_i(t) and x_j(t−d_j), j ∈ N_i.
+    Starts from a drawn x with nothing sent before, x_i(t+1) = v_i(t); without delays that says the
+    same of ẋ_i = v_i.  Agent i sees y_j(t) for the delay 0, then y_j late (y_i(t) alone where only
+    sub-states are shared), then x_j late, j ∈ N_i.
     """
-    graph = plant.neighbors
-    if graph is None:
-        return False
-    x, state = Matrix.zeros(plant.n, 1), Matrix.zeros(made.n, 1)
-    shared = [Matrix.zeros(size, 1) for size in sizes]
+    graph, both = graph_of(plant), share == "outputs+states"
+    x, shared = numbers.column(plant.n), [Matrix.zeros(size, 1) for size in sizes]
+    state = stacked([x, Matrix.zeros(made.n - plant.n, 1)])
     sent: list[tuple[list[Matrix], list[Matrix]]] = []
 
-    def past(delay: int, which: int, j: int) -> Matrix:
-        if delay < len(sent):
-            return sent[-1 - delay][which][j]
+    def past(late: int, which: int, j: int) -> Matrix:
+        if late < len(sent):
+            return sent[-1 - late][which][j]
         return Matrix.zeros((plant.q(j), sizes[j])[which], 1)
 
     for _ in range(steps):
         sent.append((outputs(plant, x), shared))
         for i in range(plant.m):
-            heard = graph.neighborhood(i)
-            late = {j: graph.delay(i, j) for j in heard}
-            if held:
-                seen = [past(0, 0, i), *(past(graph.longest_delay(j), 1, j) for j in heard)]
-            else:
-                seen = [past(0, 0, j) for j in heard if not late[j]]
-                seen += [past(late[j], 0, j) for j in heard if late[j]]
-                seen += [past(late[j], 1, j) for j in heard]
+            late = {j: delays.get((i, j), 0) for j in graph.neighborhood(i)}
+            measured = sorted(late, key=lambda j: late[j] > 0) if both else [i]
+            seen = [past(late[j] if both else 0, 0, j) for j in measured]
+            seen += [past(late[j], 1, j) for j in late]
             if made.C(i) @ state != stacked(seen):
                 return False
         u = [numbers.column(plant.p(i)) for i in range(plant.m)]
@@ -115,9 +94,7 @@ def errors_agree(
     ẋ = Ax + Σ B_j F_j x_j and ẋ_i = Ax_i + (Σ B_j F_j) x_i + ṽ_i; agent i sees C_i e_i and
     e_i − e_j, j ∈ N_i∖{i}.
     """
-    graph = plant.neighbors
-    if graph is None or made.n != plant.n * plant.m:
-        return False
+    graph = graph_of(plant)
     x = numbers.column(plant.n)
     estimates = [numbers.column(plant.n) for _ in range(plant.m)]
     v = [numbers.column(plant.n) for _ in range(plant.m)]

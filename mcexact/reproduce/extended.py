@@ -8,14 +8,14 @@ from mcexact.analysis.allocation import (
 )
 from mcexact.analysis.analyze import analyze
 from mcexact.analysis.completeness import completeness
-from mcexact.analysis.controllability import joint_controllability, joint_observability
-from mcexact.analysis.extended import bound_attained, graph_inclusion
+from mcexact.analysis.controllability import joint_observability
 from mcexact.analysis.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.neighbor_graph import neighbor_graph
 from mcexact.analysis.pencil import pencil_rank
 from mcexact.analysis.questions import SHARES
 from mcexact.analysis.single_channel_gains import single_channel_gains
 from mcexact.analysis.transfer_graph import transfer_graph
+from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.derived.extended import Share, extended_system
 from mcexact.exact.polynomial import Polynomial
@@ -23,18 +23,18 @@ from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.report.graph_figures import LEAST, dimensions_picture
 from mcexact.report.loop_figures import spectrum_picture
-from mcexact.reproduce.equations import extended_agrees
+from mcexact.reproduce.equations import messages_agree, positions, union_of_graphs
 from mcexact.reproduce.material import (
     PAPER,
     SUBSETS_OF_THREE,
     Instance,
     Numbers,
     drawn_plants,
+    graph_of,
     plants,
     three_channels,
 )
 from mcexact.reproduce.notebook import Notebook, Procedure
-from mcexact.reproduce.observer import graph_of
 from mcexact.synthesis.extended import design_extended
 
 SHARING: tuple[Share, ...] = ("outputs+states", "states")
@@ -67,9 +67,10 @@ def construction(note: Notebook) -> None:
         for share in SHARING:
             note.on(f"{name}, n_i = {sizes}, {share}")
             made = extended_system(plant, sizes, share)
+            note.check("there are n + Σ n_i states", made.n == plant.n + sum(sizes))
             note.check(
                 "ẋ_i = v_i, and agents see what `emcs` says",
-                extended_agrees(plant, made, sizes, share, numbers),
+                messages_agree(plant, made, sizes, share, {}, numbers),
             )
             note.certify(fixed_spectrum(made))
 
@@ -80,9 +81,7 @@ def any_graph(note: Notebook) -> None:
         for share in SHARING:
             note.on(f"{name}, {share}")
             made = extended_system(plant, [1] * plant.m, share)
-            for found in (joint_controllability(made), joint_observability(made)):
-                note.check("jointly controllable and observable", found.controllable)
-                note.certify(found)
+            note.joint(made)
 
 
 def rank_identity(note: Notebook) -> None:
@@ -112,8 +111,7 @@ def rank_identity(note: Notebook) -> None:
 
 def theorem_2(note: Notebook) -> None:
     """Theorem 2, with every n_i at the bound."""
-    for name, plant in (*plants(8), *drawn_plants(3, fixed=True, states=4, first=41)):
-        note.on(name)
+    for plant in note.each(plants(8), drawn_plants(3, fixed=True, states=4, first=41)):
         bound = shared_dimension_bound(plant)
         found = fixed_spectrum(extended_system(plant, [bound.deficiency] * plant.m))
         note.check(f"nothing is fixed with n_i = {bound.deficiency}", found.empty)
@@ -134,6 +132,17 @@ def bound_zero(note: Notebook) -> None:
         note.certify(found)
 
 
+def falls_short(plant: MultiChannelSystem, agent: int) -> FixedSpectrum:
+    """The fixed spectrum where one agent shares one state less than the bound, all others meet it.
+
+    A subset s violates that iff Σ n_i over N_s∖s is below its deficiency, which is at most ρ: iff
+    N_s∖s holds no other agent and the deficiency is ρ.  So it is empty iff the bound, if it is at
+    least 1, is not reached for this agent.
+    """
+    bound = shared_dimension_bound(plant).deficiency
+    return fixed_spectrum(extended_system(plant, [bound - (i == agent) for i in range(plant.m)]))
+
+
 def bound_reached(note: Notebook) -> None:
     """The bound is reached for agent i iff some s has N_s∖s = {i} and the least rank."""
     plant = three_channels()
@@ -141,20 +150,20 @@ def bound_reached(note: Notebook) -> None:
     note.on(PAPER)
     ranks = {s: pencil_rank(before, s, 1) for s in SUBSETS_OF_THREE}
     least = min(each.rank for each in ranks.values())
-    for verdict in bound_attained(plant):
-        i = plant.index(verdict.agent)
+    for i, agent in enumerate(plant.names):
         some = any(
             ranks[s].rank == least
             and set(graph.union(plant.indices(s))) - set(plant.indices(s)) == {i}
             for s in SUBSETS_OF_THREE
         )
-        note.check(f"agent {verdict.agent}: the criterion decides", verdict.attained == some)
-        note.certify(verdict)
+        short = falls_short(plant, i)
+        note.check(f"agent {agent}: the criterion decides", some != short.empty)
+        note.certify(short)
     note.certify(*ranks.values())
-    name, pair = still_pair()
-    note.on(name)
-    note.check("a bound below 1 is attained by nobody", bound_attained(pair) == ())
-    note.certify(shared_dimension_bound(pair))
+    pair = note.at(still_pair())
+    bound = shared_dimension_bound(pair)
+    note.check("a bound of 0 is reached, and nobody could share less", bound.deficiency == 0)
+    note.certify(bound)
 
 
 def tightness(note: Notebook) -> None:
@@ -174,8 +183,7 @@ def tightness(note: Notebook) -> None:
 
 def remark_2(note: Notebook) -> None:
     """Remark 2: sub-states alone, with its own bound."""
-    for name, plant in (*plants(8), *drawn_plants(2, fixed=True, states=4, first=41)):
-        note.on(name)
+    for plant in note.each(plants(8), drawn_plants(2, fixed=True, states=4, first=41)):
         bound = shared_dimension_bound(plant, share="states")
         made = extended_system(plant, [bound.deficiency] * plant.m, "states")
         found, sight = fixed_spectrum(made), joint_observability(made)
@@ -210,8 +218,7 @@ def every_subset_hears(note: Notebook) -> None:
 
 def sub_states_needed(note: Notebook) -> None:
     """Sub-states have to be shared iff sharing outputs leaves something fixed."""
-    for name, plant in (*plants(8), *drawn_plants(3, fixed=True, states=4, first=44)):
-        note.on(name)
+    for plant in note.each(plants(8), drawn_plants(3, fixed=True, states=4, first=44)):
         alone, least = fixed_spectrum(augmented_outputs(plant)), minimal_shared_dimensions(plant)
         note.check("some dimensions suffice", least.feasible)
         note.check("none are needed just when nothing is fixed", (least.total == 0) == alone.empty)
@@ -220,22 +227,21 @@ def sub_states_needed(note: Notebook) -> None:
 
 def proposition_3(note: Notebook) -> None:
     """Proposition 3, and strong connectivity that follows."""
-    for name, plant in (*plants(8), *drawn_plants(2, connected=False)):
-        note.on(name)
-        found = graph_inclusion(plant, [1] * plant.m)
-        note.check("the extended transfer graph contains both graphs", found.holds)
-        note.certify(found.plant, found.extended)
+    for plant in note.each(plants(8), drawn_plants(2, connected=False)):
+        before = transfer_graph(plant)
+        after = transfer_graph(extended_system(plant, [1] * plant.m))
+        union = set(union_of_graphs(plant, before).edges())
+        note.check("the extended transfer graph contains both", union <= positions(plant, after))
+        note.certify(before, after)
         if graph_of(plant).is_strongly_connected():
             note.check(
-                "and is strongly connected with the neighbor graph",
-                found.extended.strongly_connected,
+                "and is strongly connected with the neighbor graph", after.strongly_connected
             )
 
 
 def corollary_1(note: Notebook) -> None:
     """Corollary 1, for n_i ≥ 1; with n_i = 0 the instance of the erratum splits."""
-    for name, plant in plants(8):
-        note.on(name)
+    for plant in note.each(plants(8)):
         size = max(1, shared_dimension_bound(plant).deficiency)
         found = completeness(extended_system(plant, [size] * plant.m))
         note.check("the extended system is complete", found.complete)
@@ -252,8 +258,7 @@ def corollary_1(note: Notebook) -> None:
 
     spectrum = closed_loop_spectrum(design.design.loop.matrix, plant.time)
     note.show(spectrum_picture(spectrum, plant.time, "One shared scalar, spectrum −1, −1, −2, −2"))
-    name, plant = split_spectrum()
-    note.on(name)
+    plant = note.at(split_spectrum())
     alone = extended_system(plant, [0, 0, 0])
     graph = transfer_graph(alone)
     note.check("nothing is fixed", fixed_spectrum(alone).empty)
@@ -263,8 +268,7 @@ def corollary_1(note: Notebook) -> None:
 
 def through_any_channel(note: Notebook) -> None:
     """`sys:contr-obs-thru-q`: one list F̄ serves every channel of the extended system."""
-    for name, plant in plants(5):
-        note.on(name)
+    for plant in note.each(plants(5)):
         size = max(1, shared_dimension_bound(plant).deficiency)
         found = single_channel_gains(extended_system(plant, [size] * plant.m))
         note.check("controllable and observable through every channel", found.exists)
@@ -273,8 +277,7 @@ def through_any_channel(note: Notebook) -> None:
 
 def total_dimension(note: Notebook) -> None:
     """The total dimension is k_q + Σ n_i, beside nm + m − 1 of the observer."""
-    for name, plant in plants(1, states=2, channels=2):
-        note.on(name)
+    for plant in note.each(plants(1, states=2, channels=2)):
         found = design_extended(plant, rate=1)
         orders = sum(each.order for each in found.design.blocks)
         note.check("the order is k_q + Σ n_i", found.design.order == orders + sum(found.dimensions))

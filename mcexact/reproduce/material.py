@@ -95,6 +95,13 @@ def plants(count: int, **options: object) -> Iterator[Instance]:
     yield from drawn_plants(count, **options)  # type: ignore[arg-type]
 
 
+def graph_of(plant: MultiChannelSystem) -> NeighborGraph:
+    """The neighbor graph, which every instance here has."""
+    if plant.neighbors is None:
+        raise ValueError("the instance has a neighbor graph")
+    return plant.neighbors
+
+
 class Numbers:
     """Small integers from a seed: vectors and gains to evaluate equations at.
 

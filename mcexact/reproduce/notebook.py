@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
+from itertools import chain
 from typing import Any
 
+from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.answer import codec
 from mcexact.checker import check_document
+from mcexact.model.system import MultiChannelSystem
 from mcexact.report.picture import EmbeddedPicture, Picture
+from mcexact.reproduce.material import Instance
 
 
 @dataclass(frozen=True)
@@ -96,6 +100,16 @@ class Notebook:
         if instance not in self.instances:
             self.instances.append(instance)
 
+    def at(self, instance: Instance) -> MultiChannelSystem:
+        """The plant of an instance, which the next entries are about."""
+        name, plant = instance
+        self.on(name)
+        return plant
+
+    def each(self, *groups: Iterable[Instance]) -> Iterator[MultiChannelSystem]:
+        """The plants of some instances, one after another."""
+        return map(self.at, chain.from_iterable(groups))
+
     def check(self, text: str, holds: bool) -> None:
         """Write down whether something holds."""
         self.checks.append(Check(text, self.here, bool(holds)))
@@ -111,6 +125,12 @@ class Notebook:
             self.certificates.append(
                 CheckedCertificate(name, made.kind, self.here, text, said.verdict, said.line())
             )
+
+    def joint(self, system: MultiChannelSystem) -> None:
+        """Decide whether all channels together control and observe a system, and write it down."""
+        for found in (joint_controllability(system), joint_observability(system)):
+            self.check("jointly controllable and observable", found.controllable)
+            self.certify(found)
 
     def show(self, picture: Picture) -> None:
         """Add a picture."""

@@ -6,7 +6,6 @@ from fractions import Fraction
 from functools import cache
 
 from mcexact.analysis.closed_loop_spectrum import closed_loop_spectrum
-from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.analysis.controllability_indices import controllability_indices
 from mcexact.analysis.exceptional_gains import exceptional_gains
 from mcexact.analysis.single_channel_gains import single_channel_gains
@@ -26,6 +25,7 @@ from mcexact.reproduce.material import (
     Instance,
     Numbers,
     drawn_plants,
+    graph_of,
     plants,
     three_channels,
 )
@@ -34,13 +34,6 @@ from mcexact.simulation.trajectory import simulate
 from mcexact.synthesis.observer import ObserverDesign, design_observer
 from mcexact.synthesis.spectrum import default_polynomial
 from mcexact.synthesis.state_feedback import state_feedback
-
-
-def graph_of(plant: MultiChannelSystem) -> NeighborGraph:
-    """The neighbor graph, which every instance here has."""
-    if plant.neighbors is None:
-        raise ValueError("the instance has a neighbor graph")
-    return plant.neighbors
 
 
 def zeros(plant: MultiChannelSystem) -> list[Matrix]:
@@ -69,8 +62,7 @@ def designed(name: str) -> ObserverDesign:
 def cancellation(note: Notebook) -> None:
     """II-A: with one agent the spectrum is that of A + BF and that of A + KC."""
     numbers = Numbers(4)
-    for name, plant in plants(8):
-        note.on(name)
+    for plant in note.each(plants(8)):
         B, C = plant.input_matrix(), plant.output_matrix()
         F, K = numbers.matrix(B.ncols, plant.n), numbers.matrix(plant.n, C.nrows)
         loop = block([[plant.A, B @ F], [-(K @ C), plant.A + K @ C + B @ F]])
@@ -83,8 +75,7 @@ def cancellation(note: Notebook) -> None:
 def errors_without_feedback(note: Notebook) -> None:
     """II-B: `mm1` and `mm2` give the error system with F = 0."""
     numbers = Numbers(5)
-    for name, plant in plants(10):
-        note.on(name)
+    for plant in note.each(plants(10)):
         made = error_system(plant, zeros(plant))
         note.check(
             "x_i − x obeys the error system without F",
@@ -94,8 +85,7 @@ def errors_without_feedback(note: Notebook) -> None:
 
 def almost_any_choice(note: Notebook) -> None:
     """II-B: some K̃_i, H̃_ij make `ppe1` controllable and observable through channel q."""
-    for name, plant in plants(5):
-        note.on(name)
+    for plant in note.each(plants(5)):
         found = single_channel_gains(error_system(plant, zeros(plant)))
         note.check("one list serves every q", found.exists)
         note.certify(found)
@@ -103,8 +93,7 @@ def almost_any_choice(note: Notebook) -> None:
 
 def centralized_feedback(note: Notebook) -> None:
     """II-C: A + Σ B_i F_i gets any spectrum by one F split into the F_i."""
-    for name, plant in plants(10):
-        note.on(name)
+    for plant in note.each(plants(10)):
         wanted = default_polynomial(StabilityRegion.of("continuous", rate=1), plant.n)
         found = state_feedback(plant, wanted)
         B, F = plant.input_matrix(), vstack(list(found.gains), ncols=plant.n)
@@ -122,8 +111,7 @@ def centralized_feedback(note: Notebook) -> None:
 def errors_with_feedback(note: Notebook) -> None:
     """`eme1` and `auditt`, `com.o`, `anal`: the substitution rule makes the errors autonomous."""
     numbers = Numbers(6)
-    for name, plant in plants(14):
-        note.on(name)
+    for plant in note.each(plants(14)):
         F = numbers.feedbacks(plant)
         made = error_system(plant, F)
         note.check("x_i − x obeys the error system", errors_agree(plant, made, F, numbers))
@@ -145,8 +133,7 @@ def whole_loop(note: Notebook) -> None:
 def proposition_1(note: Notebook) -> None:
     """Proposition 1, for drawn F_i."""
     numbers = Numbers(7)
-    for name, plant in plants(8):
-        note.on(name)
+    for plant in note.each(plants(8)):
         F = numbers.feedbacks(plant)
         found = single_channel_gains(error_system(plant, F), want="both", index=plant.m)
         note.check("one list serves every q", found.exists)
@@ -166,8 +153,7 @@ def theorem_1(note: Notebook) -> None:
         wanted = Polynomial.from_roots([-2 - k % 2 for k in range(size)])
         note.check("the error system has the prescribed polynomial", design.error == wanted)
         note.certify(design)
-    name, plant = small()[1]
-    note.on(name)
+    plant = note.at(small()[1])
     other = plant.names[-1]
     design = design_observer(plant, q=other, rate=1)
     note.check(f"channel {other} can carry the channel controller", design.agent == other)
@@ -205,16 +191,13 @@ def remark_1(note: Notebook) -> None:
 def lemma_1(note: Notebook) -> None:
     """Lemma 1: the error system is jointly controllable and observable."""
     numbers = Numbers(8)
-    for name, plant in plants(10):
-        note.on(name)
+    for plant in note.each(plants(10)):
         made = error_system(plant, numbers.feedbacks(plant))
         note.check(
             "[B̃_1 … B̃_m] is the identity",
             hstack([made.B(i) for i in range(made.m)]) == Matrix.identity(made.n),
         )
-        for found in (joint_controllability(made), joint_observability(made)):
-            note.check("all channels together suffice", found.controllable)
-            note.certify(found)
+        note.joint(made)
 
 
 def graph_scalars(graph: NeighborGraph) -> MultiChannelSystem:
@@ -249,8 +232,7 @@ def lifted_scalars(plant: MultiChannelSystem) -> tuple[list[Matrix], list[Matrix
 
 def lemma_2(note: Notebook) -> None:
     """Lemma 2: Σ B̃_i Ĥ_i C̃_i = D ⊗ I reaches everything from every B̃_q, with index m."""
-    for name, plant in plants(10):
-        note.on(name)
+    for plant in note.each(plants(10)):
         note.certify(single_channel_gains(graph_scalars(graph_of(plant)), want="controllable"))
         wide, _, D = lifted_scalars(plant)
         still = MultiChannelSystem(
@@ -293,8 +275,7 @@ def lemma_3(note: Notebook) -> None:
 def lemma_4(note: Notebook) -> None:
     """Lemma 4: for given K_i, H_i = g Ĥ_i with g outside finitely many values."""
     numbers = Numbers(10)
-    for name, plant in plants(5):
-        note.on(name)
+    for plant in note.each(plants(5)):
         made = error_system(plant, numbers.feedbacks(plant))
         wide, _, _ = lifted_scalars(plant)
         given = [

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.derived.feedback import feedback
 from mcexact.exact.matrix import Matrix
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.system_file import digest
 from mcexact.reproduce.equations import driven, outputs, stacked
-from mcexact.reproduce.material import Numbers, plants
+from mcexact.reproduce.material import Numbers, graph_of, plants
 from mcexact.reproduce.notebook import Notebook, Procedure
 from mcexact.simulation.trajectory import InitialState, simulate
 
@@ -16,8 +15,7 @@ from mcexact.simulation.trajectory import InitialState, simulate
 def continuous(note: Notebook) -> None:
     """Equation (1): u_i = F_i y_i gives the matrix A + Σ B_i F_i C_i."""
     numbers = Numbers(1)
-    for name, plant in plants(10):
-        note.on(name)
+    for plant in note.each(plants(10)):
         gains = numbers.gains(plant)
         x = numbers.column(plant.n)
         y = outputs(plant, x)
@@ -29,8 +27,7 @@ def continuous(note: Notebook) -> None:
 def discrete(note: Notebook) -> None:
     """Equation (2): the same, run by one agent for each channel."""
     numbers = Numbers(2)
-    for name, plant in plants(10, time="discrete"):
-        note.on(name)
+    for plant in note.each(plants(10, time="discrete")):
         gains = numbers.gains(plant)
         agents = tuple(
             AgentProgram(agent, 0, 0, input=LinearMap({i: gains[i]}))
@@ -54,23 +51,16 @@ def discrete(note: Notebook) -> None:
 
 def assumptions(note: Notebook) -> None:
     """Joint controllability and observability; B_i ≠ 0 and C_i ≠ 0."""
-    for name, plant in plants(10):
-        note.on(name)
-        reach, sight = joint_controllability(plant), joint_observability(plant)
-        note.check("all channels together control the state", reach.controllable)
-        note.check("all channels together observe the state", sight.controllable)
+    for plant in note.each(plants(10)):
+        note.joint(plant)
         live = all(not c.B.is_zero() and not c.C.is_zero() for c in plant.channels)
         note.check("B_i and C_i are not zero", live)
-        note.certify(reach, sight)
 
 
 def neighbor_sets(note: Notebook) -> None:
     """Agent i hears j on an edge j → i, and itself."""
-    for name, plant in plants(10, connected=None):
-        note.on(name)
-        graph = plant.neighbors
-        if graph is None:
-            raise ValueError("the instance has a neighbor graph")
+    for plant in note.each(plants(10, connected=None)):
+        graph = graph_of(plant)
         own = all(i in graph.neighborhood(i) for i in range(plant.m))
         note.check("every agent is its own neighbor", own)
         edges = {(j, i) for i in range(plant.m) for j in graph.neighborhood(i) if j != i}

@@ -88,8 +88,7 @@ def any_stabilizing_control(note: Notebook) -> None:
 
 def always_observable(note: Notebook) -> None:
     """`ober`: joint observability through the w_i needs nothing but that of the plant."""
-    for name, plant in (*plants(8), washed_out(), hidden_zero()):
-        note.on(name)
+    for plant in note.each(plants(8), (washed_out(), hidden_zero())):
         found = joint_observability(setpoint_system(plant))
         note.check("jointly observable through the w_i", found.controllable)
         note.certify(found)
@@ -97,8 +96,7 @@ def always_observable(note: Notebook) -> None:
 
 def only_zero_matters(note: Notebook) -> None:
     """`thy` holds at every s ≠ 0."""
-    for name, plant in (*plants(8), washed_out(), hidden_zero()):
-        note.on(name)
+    for plant in note.each(plants(8), (washed_out(), hidden_zero())):
         found = joint_controllability(setpoint_system(plant))
         lost = found.uncontrollable_polynomial
         note.check("what is out of reach is at 0", not any(lost.coefficients[:-1]))
@@ -107,8 +105,7 @@ def only_zero_matters(note: Notebook) -> None:
 
 def condition(note: Notebook) -> None:
     """`gnd` is joint controllability of `b1`."""
-    for name, plant in (*plants(10), two_channels(), washed_out(), hidden_zero()):
-        note.on(name)
+    for plant in note.each(plants(10), (two_channels(), washed_out(), hidden_zero())):
         found = setpoint_solvability(plant)
         B, C = plant.input_matrix(), plant.output_matrix()
         S = block([[plant.A, B], [C, Matrix.zeros(C.nrows, B.ncols)]])
@@ -123,16 +120,14 @@ def condition(note: Notebook) -> None:
 
 def determinant_at_zero(note: Notebook) -> None:
     """Square, 0 ∉ σ(A): `gnd` iff det C A⁻¹ B ≠ 0.  With a pole at 0 the instance refutes it."""
-    for name, plant in (two_channels(), washed_out()):
-        note.on(name)
+    for plant in note.each((two_channels(), washed_out())):
         B, C = plant.input_matrix(), plant.output_matrix()
         inside = solve(plant.A, B)
         nonzero = inside is not None and determinant(C @ inside) != 0
         found = setpoint_solvability(plant)
         note.check("no pole at 0: solvable just when det C A⁻¹ B ≠ 0", found.solvable == nonzero)
         note.certify(found)
-    name, plant = hidden_zero()
-    note.on(name)
+    plant = note.at(hidden_zero())
     found = setpoint_solvability(plant)
     note.check("0 is a pole", characteristic_polynomial(plant.A)(0) == 0)
     # det [sI − A, B; −C, 0] = det(sI − A) det G(s) = s here: det G = 1/(s + 1)² hides the zero.
@@ -146,8 +141,7 @@ def determinant_at_zero(note: Notebook) -> None:
 
 def distributed_setpoints(note: Notebook) -> None:
     """Both roads lead every output to the set-point of its agent; run on the network."""
-    name, plant = two_channels()
-    note.on(name)
+    plant = note.at(two_channels())
     for road in ROADS:
         design = design_setpoint(plant, rate=1, road=road)
         note.check(f"a stable loop by the road of the {road}", design.stability.stable)
@@ -162,8 +156,7 @@ def distributed_setpoints(note: Notebook) -> None:
     near = all(abs(y[-1] - r) < 1e-3 for y, r in zip(outputs, goals, strict=True))
     note.check("the run ends at the set-points 1 and −2", near)
     note.show(setpoint_picture(run, outputs, goals, ["y of agent 1", "y of agent 2"]))
-    name, plant = washed_out()
-    note.on(name)
+    plant = note.at(washed_out())
     try:
         design_setpoint(plant.with_neighbors({plant.names[0]: []}), rate=1)
     except Impossible as refused:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from mcexact.analysis.allocation import shared_dimension_bound
 from mcexact.analysis.completeness import completeness
 from mcexact.analysis.controllability import joint_controllability, joint_observability
-from mcexact.analysis.extended import bound_attained, graph_inclusion
 from mcexact.analysis.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.transfer_graph import transfer_graph
 from mcexact.answer.codec import encode
@@ -18,6 +17,7 @@ from mcexact.exact.linear_algebra import rank
 from mcexact.exact.matrix import Matrix
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
+from tests.campaigns.networks import connectivity
 from tests.oracle.enumeration import pencil_rank, plain
 
 
@@ -54,12 +54,12 @@ def test_a_neighbor_that_two_members_hear_counts_once() -> None:
     assert loss == outside + once
 
 
-def test_a_bound_below_one_is_attained_by_nobody() -> None:
+def test_a_bound_below_one_is_reached_without_any_subset() -> None:
     one = [[1]]
     plant = MultiChannelSystem([[0]], [one] * 2, [one] * 2)
     graph = NeighborGraph.complete(plant.names)
     bound = shared_dimension_bound(plant, graph)
-    assert bound.deficiency == 0 and bound_attained(plant, graph) == ()
+    assert bound.deficiency == 0
     assert_valid(bound.certificate)
 
 
@@ -80,6 +80,6 @@ def test_no_fixed_mode_and_no_shared_state_can_leave_the_spectrum_split() -> Non
     assert graph.components == (("1",), ("2", "3"))
     shared = extended_system(plant, [1, 1, 1])
     assert completeness(shared).complete
-    assert graph_inclusion(plant, [1, 1, 1]).holds
+    assert connectivity(plant, shared).union_contained
     for evidence in (spectrum, graph, freedom, completeness(shared)):
         assert_valid(evidence.certificate)

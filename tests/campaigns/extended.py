@@ -16,7 +16,6 @@ from typing import Any
 from mcexact.analysis.allocation import shared_dimension_bound
 from mcexact.analysis.completeness import completeness
 from mcexact.analysis.controllability import joint_controllability, joint_observability
-from mcexact.analysis.extended import graph_inclusion
 from mcexact.analysis.setpoint import setpoint_solvability
 from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
@@ -138,13 +137,13 @@ def _smaller_claims(
         required(verdict.observability.controllable, f"{name}: jointly observable", where)
     required(lifted.only_zero_uncontrollable, "lifted: only 0 uncontrollable", where)
     required(lifted.observability.controllable, "lifted: jointly observable", where)
-    inclusion = graph_inclusion(plain, positive)
-    required(inclusion.holds, "Proposition 3", where)
+    inclusion = connectivity(plain, extended_system(plain, positive))
+    required(inclusion.union_contained, "Proposition 3", where)
     later = connectivity(system, lifted_verdict(system, positive).system)
     required(later.union_contained, "the union lies in the lifted transfer graph", where)
     joined = connectivity(system, held.system)
     required(joined.union_connected == joined.network_connected, "held connected iff union", where)
-    graphs = [inclusion.plant, inclusion.extended, later.network, joined.network]
+    graphs = [inclusion.plant, inclusion.network, later.network, joined.network]
     made = valid((g.certificate for g in graphs), where)
     return made + sum(valid(v.certificates, where) for v in (extended, lifted, held))
 
