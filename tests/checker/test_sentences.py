@@ -63,7 +63,7 @@ def test_the_checker_knows_no_sentence_that_is_never_said() -> None:
 
 def made(answer: Any) -> Document:
     """The certificate of an answer."""
-    return document(getattr(answer, "certificate", answer))
+    return document(answer)
 
 
 # Analyses and allocations, of plants that have every property somewhere.
