@@ -17,8 +17,8 @@ from mcexact.exact.blocks import vstack
 from mcexact.exact.linear_algebra import rank
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
-from mcexact.report.loop_figures import delays_picture
 from mcexact.reproduce.equations import messages_agree, positions, union_of_graphs
+from mcexact.reproduce.figures import delays_picture
 from mcexact.reproduce.material import Numbers, drawn_plants, graph_of, plants, three_channels
 from mcexact.reproduce.notebook import Notebook, Procedure
 from mcexact.simulation.trajectory import simulate

@@ -22,8 +22,8 @@ from mcexact.exact.polynomial import Polynomial
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.report.graph_figures import LEAST, dimensions_picture
-from mcexact.report.loop_figures import spectrum_picture
 from mcexact.reproduce.equations import messages_agree, positions, union_of_graphs
+from mcexact.reproduce.figures import spectrum_picture
 from mcexact.reproduce.material import (
     PAPER,
     SUBSETS_OF_THREE,

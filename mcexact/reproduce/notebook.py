@@ -56,36 +56,23 @@ class CheckedCertificate:
     theorem: str
 
 
-@dataclass(frozen=True)
-class Finding:
-    """What came out for one statement.
+@dataclass
+class Notebook:
+    """The evidence for one statement.
 
     Attributes
     ----------
     key : str
         Of the statement in the ledger.
-    holds : bool
-        Every check holds, every certificate is VALID, and there is at least one of either.
-    instances : tuple of str
-    checks : tuple of Check
-    certificates : tuple of CheckedCertificate
-    pictures : tuple of EmbeddedPicture
-    failure : str
-        Empty, or why it does not hold: the first thing that went wrong.
+    here : str
+        What the next entries are about.
+    instances : list of str
+    checks : list of Check
+    certificates : list of CheckedCertificate
+    pictures : list of EmbeddedPicture
+    broken : str
+        Empty, or why the examination came to no end.
     """
-
-    key: str
-    holds: bool
-    instances: tuple[str, ...]
-    checks: tuple[Check, ...]
-    certificates: tuple[CheckedCertificate, ...]
-    pictures: tuple[EmbeddedPicture, ...]
-    failure: str
-
-
-@dataclass
-class Notebook:
-    """Collects the evidence for one statement."""
 
     key: str
     here: str = ""
@@ -93,6 +80,7 @@ class Notebook:
     checks: list[Check] = field(default_factory=list)
     certificates: list[CheckedCertificate] = field(default_factory=list)
     pictures: list[EmbeddedPicture] = field(default_factory=list)
+    broken: str = ""
 
     def on(self, instance: str) -> None:
         """Say what the next entries are about."""
@@ -136,8 +124,11 @@ class Notebook:
         """Add a picture."""
         self.pictures.append(picture.embedded())
 
+    @property
     def failure(self) -> str:
-        """The first thing that went wrong; empty if nothing did."""
+        """Empty, or why the statement does not hold: the first thing that went wrong."""
+        if self.broken:
+            return self.broken
         for check in self.checks:
             if not check.holds:
                 return f"{check.instance}: it is not so that {check.text}"
@@ -146,24 +137,16 @@ class Notebook:
                 return f"{made.instance}: the certificate {made.name}: {made.theorem}"
         return "" if self.checks or self.certificates else "nothing was checked"
 
-    def finding(self, failure: str = "") -> Finding:
-        """Close the notebook."""
-        failure = failure or self.failure()
-        return Finding(
-            self.key,
-            not failure,
-            tuple(self.instances),
-            tuple(self.checks),
-            tuple(self.certificates),
-            tuple(self.pictures),
-            failure,
-        )
+    @property
+    def holds(self) -> bool:
+        """Whether all checks hold, all certificates are VALID, and there is one of either."""
+        return not self.failure
 
 
 Procedure = Callable[[Notebook], None]
 
 
-def examined(key: str, procedure: Procedure) -> Finding:
+def examined(key: str, procedure: Procedure) -> Notebook:
     """Run the procedure of one statement; an error is a statement that does not hold.
 
     Parameters
@@ -177,5 +160,5 @@ def examined(key: str, procedure: Procedure) -> Finding:
         procedure(notebook)
     except Exception as error:
         first = str(error).splitlines()[0] if str(error) else ""
-        return notebook.finding(f"{notebook.here}: {type(error).__name__}: {first}")
-    return notebook.finding()
+        notebook.broken = f"{notebook.here}: {type(error).__name__}: {first}"
+    return notebook

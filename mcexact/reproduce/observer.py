@@ -18,8 +18,8 @@ from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.report.loop_figures import decay_picture, spectrum_picture
 from mcexact.reproduce.equations import errors_agree
+from mcexact.reproduce.figures import decay_picture, spectrum_picture
 from mcexact.reproduce.material import (
     PAPER,
     Instance,

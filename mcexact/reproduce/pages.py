@@ -11,6 +11,7 @@ from mcexact.report.text import Table
 from mcexact.reproduce.reproduction import SECTIONS, Reproduction, Row
 
 _LARGEST_SAMPLE = 6000
+_OF_STATEMENT = ("key", "title", "section", "proofs", "erratum")
 
 
 def reproduction_page(found: Reproduction) -> str:
@@ -72,22 +73,14 @@ def _shown(row: Row) -> dict[str, Any]:
     sample = next((made for made in finding.certificates if len(made.text) < _LARGEST_SAMPLE), None)
     return {
         "anchor": said.key.replace(":", "-"),
-        "title": said.title,
-        "section": said.section,
-        "says": said.says,
-        "holds": finding.holds,
+        **{name: getattr(said, name) for name in (*_OF_STATEMENT, "says", "part", "code")},
+        **{name: getattr(finding, name) for name in ("holds", "failure", "pictures")},
         "standing": row.standing,
-        "failure": finding.failure,
-        "erratum": said.erratum,
-        "proofs": said.proofs,
-        "part": said.part,
-        "code": said.code,
         "checks": [
             (check.instance, check.text, "yes" if check.holds else "NO") for check in finding.checks
         ],
         "certificates": [(made.instance, made.name, made.verdict) for made in finding.certificates],
         "sample": sample,
-        "pictures": finding.pictures,
     }
 
 
@@ -115,17 +108,11 @@ def reproduction_view(found: Reproduction) -> dict[str, Any]:
         "holds": found.holds,
         "statements": [
             {
-                "key": row.statement.key,
-                "title": row.statement.title,
-                "section": row.statement.section,
-                "holds": row.finding.holds,
+                **{name: getattr(row.statement, name) for name in _OF_STATEMENT},
+                **{name: getattr(row.finding, name) for name in ("holds", "instances", "failure")},
                 "standing": row.standing,
-                "proofs": list(row.statement.proofs),
-                "instances": list(row.finding.instances),
                 "checks": len(row.finding.checks),
                 "certificates": [made.name for made in row.finding.certificates],
-                "failure": row.finding.failure,
-                "erratum": row.statement.erratum,
             }
             for row in found.rows
         ],

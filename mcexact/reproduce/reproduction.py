@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from mcexact.errors import UsageError
 from mcexact.reproduce import decentralized, delays, extended, observer, problem, setpoint
 from mcexact.reproduce.ledger import Statement, statements
-from mcexact.reproduce.notebook import Finding, Procedure, examined
+from mcexact.reproduce.notebook import Notebook, Procedure, examined
 
 SECTIONS: tuple[tuple[str, dict[str, Procedure]], ...] = (
     ("I, the problem", problem.PROCEDURES),
@@ -26,7 +26,7 @@ class Row:
     """A statement with its finding."""
 
     statement: Statement
-    finding: Finding
+    finding: Notebook
 
     @property
     def standing(self) -> str:
@@ -92,12 +92,12 @@ def chosen(wanted: Iterable[str]) -> tuple[str, ...]:
     return tuple(keys) or tuple(each.key for each in statements())
 
 
-def examine(section: int, keys: tuple[str, ...]) -> tuple[Finding, ...]:
+def examine(section: int, keys: tuple[str, ...]) -> tuple[Notebook, ...]:
     """Examine the statements of one section that are among the keys."""
     return tuple(examined(key, made) for key, made in SECTIONS[section][1].items() if key in keys)
 
 
-def assembled(findings: Iterable[Finding]) -> Reproduction:
+def assembled(findings: Iterable[Notebook]) -> Reproduction:
     """The findings beside their statements, in the order of the ledger."""
     by_key = {finding.key: finding for finding in findings}
     return Reproduction(

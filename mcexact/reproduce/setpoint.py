@@ -17,8 +17,8 @@ from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.system import MultiChannelSystem
-from mcexact.report.loop_figures import setpoint_picture
 from mcexact.reproduce.equations import integrators_agree
+from mcexact.reproduce.figures import setpoint_picture
 from mcexact.reproduce.material import Instance, Numbers, drawn_plants, plants
 from mcexact.reproduce.notebook import Notebook, Procedure
 from mcexact.simulation.trajectory import simulate
