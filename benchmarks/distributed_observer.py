@@ -21,6 +21,7 @@ from pathlib import Path
 import mcexact.checker
 from mcexact.answer.codec import encode
 from mcexact.exact.floats import matrix_to_float
+from mcexact.exact.size import largest_entry
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.observer import design_observer
@@ -68,12 +69,13 @@ def measure(n: int, m: int) -> None:
     began = time.perf_counter()
     spectrum = {"feedback": [-1] * n, "error": [-1] * degree}
     design = design_observer(system, spectrum=spectrum)
-    text = encode(design.certificate)
+    text = encode(design.loop.proof)
     designed = time.perf_counter() - began
     seen = np.linalg.eigvals(matrix_to_float(design.loop.matrix)).real.max()
     print(
-        f"n={n} m={m}: {degree} numbers, {design.height} bits, "
-        f"entries up to {float(design.largest_entry):.1e}, design {designed:.1f} s, "
+        f"n={n} m={m}: {degree} numbers, {design.controller.bit_length()} bits, "
+        f"entries up to {float(largest_entry([design.loop.matrix])):.1e}, "
+        f"design {designed:.1f} s, "
         f"check {checked(text):.1f} s, certificate {len(text) // 1000} kB, "
         f"numpy's abscissa {seen:+.2g}"
     )

@@ -24,6 +24,7 @@ from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import primes, residues
+from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import Entry, as_fraction
 from mcexact.model.matrix_entry import as_matrix
 from mcexact.model.system import MultiChannelSystem
@@ -86,6 +87,7 @@ def certify_stability(
     radius: Entry | None = None,
     method: Method | None = None,
     separation: Separation | None = None,
+    polynomial: Polynomial | None = None,
 ) -> StabilityVerdict:
     """Decide whether every eigenvalue of a closed loop is fast enough.
 
@@ -104,6 +106,8 @@ def certify_stability(
         ones, and the polynomial again where these do not decide.
     separation : Separation, optional
         Certify diagonal block by diagonal block.
+    polynomial : Polynomial, optional
+        The characteristic polynomial of the loop, where it is at hand.
 
     Raises
     ------
@@ -133,7 +137,8 @@ def certify_stability(
     for each in tried:
         found: PolynomialMethod | LyapunovMethod | InstabilityMethod | None
         if each == "polynomial":
-            stable = region.contains_roots_of(characteristic_polynomial(loop.A))
+            polynomial = polynomial or characteristic_polynomial(loop.A)
+            stable = region.contains_roots_of(polynomial)
             found = PolynomialMethod()
         else:
             found = _lyapunov(loop, region, separation)

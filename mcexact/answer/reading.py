@@ -30,8 +30,8 @@ from mcexact.exact.polynomial_matrix import PolynomialMatrix
 from mcexact.exact.rational import Limits
 from mcexact.model import controller_file, system_file
 from mcexact.model.canonical import canonical
-from mcexact.model.closed_loop import closed_loop
 from mcexact.model.json_text import read_bytes
+from mcexact.model.loop import closed_loop
 from mcexact.model.system import MultiChannelSystem
 
 
@@ -88,7 +88,7 @@ def _plant(document: Mapping[str, Any]) -> MultiChannelSystem:
 
 def _closed_loop(system: MultiChannelSystem, given: Mapping[str, Any]) -> MultiChannelSystem:
     text = canonical({"format": controller_file.FORMAT, "system": "", **given["controller"]})
-    return closed_loop(system, controller_file.read_controller(text, _roomy(text)))
+    return closed_loop(system, controller_file.read_controller(text, _roomy(text))).system
 
 
 def _roomy(text: str) -> Limits:

@@ -100,6 +100,13 @@ class StabilityVerdict(Answer):
         return StabilityRegion(self.about.time, self.bound)
 
     @property
+    def blocks(self) -> tuple[int, ...]:
+        """The sizes of the diagonal blocks that were decided one by one, or of the whole loop."""
+        if isinstance(self.evidence, LyapunovMethod):
+            return tuple(block.size for block in self.evidence.blocks)
+        return (self.about.n,)
+
+    @property
     def method(self) -> str:
         """``"polynomial"``, ``"lyapunov"`` or ``"instability"``: what decided."""
         return self.evidence.method

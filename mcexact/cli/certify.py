@@ -105,17 +105,17 @@ def _certified(
     from mcexact.exact.rational import Limits
     from mcexact.model.controller_file import read_controller
     from mcexact.model.system_file import digest
-    from mcexact.report.certify_view import verdict_tables, verdict_view
+    from mcexact.report.design_view import verdict_tables, verdict_view
     from mcexact.synthesis.certify import certify_controller
 
     system = system_in(*plant, limits)
     with InputError.inside(program[0]):
         controller = read_controller(program[1], Limits(**limits))
         found = certify_controller(system, controller, **wanted)
-    made = found.verdict.certificate
+    largest = wanted["largest"]
     return {
-        "json": verdict_view(found, controller.warnings_for(system)),
-        "tables": verdict_tables(found),
-        "certificate": (f"{made.kind}.json", codec.encode(made)),
+        "json": verdict_view(found, largest=largest, warnings=controller.warnings_for(system)),
+        "tables": verdict_tables(found, largest=largest),
+        "certificate": (f"{found.kind}.json", codec.encode(found)),
         "digest": digest(system),
     }

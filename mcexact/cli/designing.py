@@ -69,7 +69,7 @@ def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any
     require_other(given["output"], file, spectrum)
     require_writable(given["output"], given["certificates"])
     prescribed = None if spectrum is None else (place_of(spectrum), read(spectrum, moved, deadline))
-    keywords = {**wanted, "q": given["agent"], **{key: given[key] for key in HOW}}
+    keywords = {**wanted, "agent": given["agent"], **{key: given[key] for key in HOW}}
     done = supervised(
         _designed,
         name,
@@ -129,6 +129,7 @@ def _designed(
     from mcexact.model.controller_file import controller_text
     from mcexact.model.json_text import parse
     from mcexact.model.system_file import digest
+    from mcexact.report.design_view import design_tables
     from mcexact.synthesis.spectrum import require_numbers
 
     spectrum = None
@@ -150,33 +151,10 @@ def _designed(
             "digest": digest(system),
             "json": {"design": name, "possible": False, "reason": str(refused)},
         }
-    view, tables = _described(name, found)
     return {
         "controller": controller_text(found.controller),
         "certificates": {f"{k}.json": codec.encode(c) for k, c in found.certificates.items()},
         "digest": digest(system),
-        "json": view,
-        "tables": tables,
+        "json": found.view(),
+        "tables": design_tables(found),
     }
-
-
-def _described(name: str, design: Any) -> tuple[dict[str, Any], Any]:
-    """The design as plain data and as tables."""
-    from mcexact.synthesis.observer import ObserverDesign
-
-    if name != "observer":
-        from mcexact.report.network_view import design_tables, design_view
-
-        return design_view(name, design), design_tables(design)
-    if isinstance(design, ObserverDesign):
-        from mcexact.report.design_view import observer_tables, observer_view
-
-        return observer_view(design), observer_tables(design)
-    from mcexact.report.observer_float_view import (
-        design_margins,
-        observer_float_tables,
-        observer_float_view,
-    )
-
-    margins = design_margins(design)
-    return observer_float_view(design, margins), observer_float_tables(design, margins)

@@ -8,7 +8,7 @@ from typing import Any
 from mcexact.crosscheck.gallery import Shown, shown_in
 from mcexact.crosscheck.records import Libraries
 from mcexact.crosscheck.table import CrossChecks
-from mcexact.report.observer_float_view import finite
+from mcexact.exact.floats import finite
 from mcexact.report.page import page
 from mcexact.report.text import Table
 

@@ -20,6 +20,11 @@ Rounding = Literal["decimal", "dyadic"]
 _EXACT = 2**53
 
 
+def finite(number: float) -> float | None:
+    """The number; None for what JSON does not have, an infinity or NaN."""
+    return number if math.isfinite(number) else None
+
+
 def from_float(x: float, rounding: Rounding, *, where: str | None = None) -> Fraction:
     """The rational number that a float is taken for: one of the two crossings.
 

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from fractions import Fraction
 from typing import Any
 
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.location import is_discrete
 from mcexact.exact.matrix import Matrix
+from mcexact.exact.size import bit_length, largest_entry
 from mcexact.model.matrix_json import matrix_json
 from mcexact.model.names import quoted
 from mcexact.model.neighbor_graph import NeighborGraph
@@ -120,20 +122,17 @@ class Controller:
         """The sum of the dimensions of all agents' states."""
         return sum(agent.shared + agent.private for agent in self.agents)
 
-    def height(self) -> int:
+    def matrices(self) -> Iterator[Matrix]:
+        """All matrices of all programs."""
+        return (M for agent in self.agents for each in agent.maps() for M in each.matrices())
+
+    def bit_length(self) -> int:
         """The number of bits of the longest numerator or denominator of an entry."""
-        longest = 0
-        for agent in self.agents:
-            for each in agent.maps():
-                for M in each.matrices():
-                    for row in M.rows():
-                        for entry in row:
-                            longest = max(
-                                longest,
-                                entry.numerator.bit_length(),
-                                entry.denominator.bit_length(),
-                            )
-        return longest
+        return bit_length(self.matrices())
+
+    def largest_entry(self) -> Fraction:
+        """The largest absolute value of an entry."""
+        return largest_entry(self.matrices())
 
     def edges(self) -> tuple[tuple[int, int], ...]:
         """The edges (j, i), j ≠ i, for which agent i uses a signal of agent j."""

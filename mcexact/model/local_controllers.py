@@ -42,10 +42,10 @@ def local_controllers(
 
     Examples
     --------
-    >>> from mcexact.model.closed_loop import closed_loop_matrix
+    >>> from mcexact.model.loop import closed_loop
     >>> plant = MultiChannelSystem([[0]], [[[1]]], [[[1]]])
     >>> controller = local_controllers(plant, [([[-5]], [[1]], [[-6]], [[0]])])
-    >>> closed_loop_matrix(plant, controller).numerators
+    >>> closed_loop(plant, controller).matrix.numerators
     ((0, -6), (1, -5))
     """
     if len(parts) != system.m:

@@ -320,6 +320,18 @@ def require_discrete(system: MultiChannelSystem) -> None:
         )
 
 
+def as_plant(system: MultiChannelSystem) -> MultiChannelSystem:
+    """A derived system, as if it were a plant: it forgets what it was made from."""
+    return MultiChannelSystem(
+        system.A,
+        [channel.B for channel in system.channels],
+        [channel.C for channel in system.channels],
+        time=system.time,
+        names=system.names,
+        neighbors=system.neighbors,
+    )
+
+
 def with_graph(
     system: MultiChannelSystem, graph: NeighborGraph | Mapping[str, Iterable[str]] | None = None
 ) -> tuple[MultiChannelSystem, NeighborGraph]:

@@ -131,7 +131,7 @@ def free_assignment(note: Notebook) -> None:
             "the loop has the prescribed spectrum",
             design.loop.polynomial == Polynomial.from_roots(wanted),
         )
-        note.certify(design)
+        note.certify(design.loop.proof)
 
 
 def partition(note: Notebook) -> None:
@@ -145,10 +145,10 @@ def partition(note: Notebook) -> None:
     note.check("there are two strong components", len(found.components) == 2)
     note.check("nothing is fixed", fixed_spectrum(plant).empty)
     design = design_decentralized(plant, rate=2)
-    note.check("one set for each component", len(design.blocks) == 2)
-    sizes = [each.polynomial.degree - each.order for each in design.blocks]
+    note.check("one set for each component", len(design.parts["blocks"]) == 2)
+    sizes = [each.polynomial.degree - each.order for each in design.parts["blocks"]]
     note.check("of the dimensions of the components, 2 and 1", sorted(sizes) == [1, 2])
-    note.certify(found, fixed_spectrum(plant), design)
+    note.certify(found, fixed_spectrum(plant), design.loop.proof)
 
 
 def wang_davison(note: Notebook) -> None:
@@ -167,7 +167,7 @@ def wang_davison(note: Notebook) -> None:
             note.certify(refused.certificate)
         else:
             note.check("a rate of 1000 is reached because nothing is fixed", found.empty)
-            note.certify(design)
+            note.certify(design.loop.proof)
 
 
 def example(note: Notebook) -> None:

@@ -251,12 +251,12 @@ def corollary_1(note: Notebook) -> None:
     design = design_extended(plant, spectrum=wanted)
     note.check(
         "a spectrum without a partition is assigned",
-        design.design.loop.polynomial == Polynomial.from_roots(wanted),
+        design.loop.polynomial == Polynomial.from_roots(wanted),
     )
     note.certify(*design.certificates.values())
     from mcexact.analysis.closed_loop_spectrum import closed_loop_spectrum
 
-    spectrum = closed_loop_spectrum(design.design.loop.matrix, plant.time)
+    spectrum = closed_loop_spectrum(design.loop.matrix, plant.time)
     note.show(spectrum_picture(spectrum, plant.time, "One shared scalar, spectrum −1, −1, −2, −2"))
     plant = note.at(split_spectrum())
     alone = extended_system(plant, [0, 0, 0])
@@ -279,9 +279,10 @@ def total_dimension(note: Notebook) -> None:
     """The total dimension is k_q + Σ n_i, beside nm + m − 1 of the observer."""
     for plant in note.each(plants(1, states=2, channels=2)):
         found = design_extended(plant, rate=1)
-        orders = sum(each.order for each in found.design.blocks)
-        note.check("the order is k_q + Σ n_i", found.design.order == orders + sum(found.dimensions))
-        note.check("less than the observer's", found.design.order < found.design.observer_order)
+        orders = sum(each.order for each in found.parts["blocks"])
+        sizes = found.parts["shared_dimensions"]
+        note.check("the order is k_q + Σ n_i", found.order == orders + sum(sizes.values()))
+        note.check("less than the observer's", found.order < found.parts["observer_order"])
         note.certify(*found.certificates.values())
 
 

@@ -22,11 +22,11 @@ from mcexact.reproduce.figures import setpoint_picture
 from mcexact.reproduce.material import Instance, Numbers, drawn_plants, plants
 from mcexact.reproduce.notebook import Notebook, Procedure
 from mcexact.simulation.trajectory import simulate
-from mcexact.synthesis.setpoint import Road, design_setpoint
+from mcexact.synthesis.setpoint import SetpointMethod, design_setpoint
 from mcexact.synthesis.spectrum import default_polynomial
 from mcexact.synthesis.state_feedback import state_feedback
 
-ROADS: tuple[Road, ...] = ("observer", "extended")
+METHODS: tuple[SetpointMethod, ...] = ("observer", "extended")
 
 
 def washed_out() -> Instance:
@@ -140,11 +140,11 @@ def determinant_at_zero(note: Notebook) -> None:
 
 
 def distributed_setpoints(note: Notebook) -> None:
-    """Both roads lead every output to the set-point of its agent; run on the network."""
+    """Both methods lead every output to the set-point of its agent; run on the network."""
     plant = note.at(two_channels())
-    for road in ROADS:
-        design = design_setpoint(plant, rate=1, road=road)
-        note.check(f"a stable loop by the road of the {road}", design.stability.stable)
+    for method in METHODS:
+        design = design_setpoint(plant, rate=1, method=method)
+        note.check(f"a stable loop by the method {method}", "stability" in design.certificates)
         note.certify(*design.certificates.values())
     wanted = [Fraction(1), Fraction(-2)]
     design = design_setpoint(plant, rate=1)

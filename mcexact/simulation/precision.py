@@ -4,19 +4,13 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from mcexact.exact.matrix import Matrix
-from mcexact.model.closed_loop import closed_loop_matrix
+from mcexact.exact.size import largest_entry
 from mcexact.model.controller import Controller
+from mcexact.model.loop import closed_loop
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 
 LARGEST_FOR_DOUBLES = 10**5
-
-
-def largest_entry(M: Matrix) -> Fraction:
-    """Return the largest absolute value of an entry, 0 if there are none."""
-    top = max((abs(entry) for row in M.numerators for entry in row), default=0)
-    return Fraction(top, M.denominator)
 
 
 def double_precision_warning(
@@ -36,7 +30,7 @@ def double_precision_warning(
     moves its eigenvalues far.  In one example with n = 6 and m = 5 the spectral abscissa is −1, but
     +9 once the entries are rounded to double precision.
     """
-    largest = largest_entry(closed_loop_matrix(system, controller, graph))
+    largest = largest_entry([closed_loop(system, controller, graph).matrix])
     if largest < LARGEST_FOR_DOUBLES:
         return None
     return (

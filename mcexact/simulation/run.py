@@ -12,8 +12,8 @@ from mcexact.answer.loop_spectrum import LoopSpectrum
 from mcexact.errors import InputError
 from mcexact.exact.floats import to_float
 from mcexact.exact.location import is_discrete
-from mcexact.model.closed_loop import closed_loop_matrix
 from mcexact.model.controller import Controller
+from mcexact.model.loop import closed_loop
 from mcexact.model.system import MultiChannelSystem
 from mcexact.simulation.trajectory import InitialState, Trajectory, default_initial, simulate
 
@@ -63,7 +63,7 @@ def simulated_loop(
     arithmetic : str, optional
         As in `simulate`.
     """
-    M = closed_loop_matrix(system, controller)
+    M = closed_loop(system, controller).matrix
     spectrum = None
     if M.nrows <= _LARGEST_SPECTRUM:
         spectrum = closed_loop_spectrum(M, system.time)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
 from fractions import Fraction
 
 from mcexact.analysis.stability import (
@@ -19,37 +17,15 @@ from mcexact.exact.floats import matrix_to_float, to_float
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.rational import Entry
 from mcexact.floating.margins import spectral_bound
-from mcexact.model.closed_loop import closed_loop
 from mcexact.model.controller import Controller
+from mcexact.model.loop import closed_loop
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.observer_separation import observer_separation
+from mcexact.synthesis.gate import Progress
+from mcexact.synthesis.observer_coordinates import observer_coordinates
 
 _PARTS_TRIED = 32
 _POLYNOMIAL_UNASKED = 90
-Progress = Callable[[str], None]
-
-
-@dataclass(frozen=True)
-class ControllerVerdict:
-    """Whether the loop of a plant and a controller is as fast as asked.
-
-    Attributes
-    ----------
-    verdict : StabilityVerdict
-    loop : MultiChannelSystem
-        The whole loop.
-    blocks : tuple of int
-        The sizes of the diagonal blocks that were decided one by one; one number if the loop was
-        decided as a whole.
-    largest : Fraction or None
-        The largest rate (least radius) certified, where it was asked for and there is one.
-    """
-
-    verdict: StabilityVerdict
-    loop: MultiChannelSystem
-    blocks: tuple[int, ...]
-    largest: Fraction | None
 
 
 def certify_controller(
@@ -62,7 +38,7 @@ def certify_controller(
     method: Method | None = None,
     largest: bool = False,
     progress: Progress | None = None,
-) -> ControllerVerdict:
+) -> StabilityVerdict:
     """Decide whether every eigenvalue of the loop around a plant meets a rate or a radius.
 
     Parameters
@@ -82,6 +58,12 @@ def certify_controller(
     progress : callable, optional
         Is told, in a few words, what is being done.
 
+    Returns
+    -------
+    StabilityVerdict
+        About the closed loop; with ``largest``, for the region that was found, or for stability
+        if there is none.
+
     Raises
     ------
     UsageError
@@ -93,15 +75,15 @@ def certify_controller(
     Notes
     -----
     Exact, both ways.  The loop of a distributed observer is recognized and goes block by block
-    (`observer_separation`).
+    (`observer_coordinates`).
 
     Examples
     --------
     >>> from mcexact.model.local_controllers import local_controllers
     >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
-    >>> certify_controller(plant, local_controllers(plant, [[[-3]]]), rate=1).verdict.stable
+    >>> certify_controller(plant, local_controllers(plant, [[[-3]]]), rate=1).stable
     True
-    >>> certify_controller(plant, local_controllers(plant, [[[-3]]]), rate=2).verdict.stable
+    >>> certify_controller(plant, local_controllers(plant, [[[-3]]]), rate=2).stable
     False
     """
     tell = progress or (lambda _: None)
@@ -109,18 +91,16 @@ def certify_controller(
     if largest and region.bound is not None:
         raise UsageError("either look for the largest rate or give one")
     tell("the closed loop")
-    loop = closed_loop(system, controller, graph)
+    loop = closed_loop(system, controller, graph).system
     separation = None
     if method != "polynomial" and (method is not None or loop.n > POLYNOMIAL_LIMIT):
-        separation = observer_separation(loop.A, system.n, controller)
-    best = None
+        coordinates = observer_coordinates(system.n, controller)
+        separation = next(filter(None, (each.separation(loop.A) for each in coordinates)), None)
     if largest:
         tell("the largest rate")
-        best = _largest(loop, separation)
+        region = _largest(loop, separation) or region
     tell("the decision")
-    verdict = _decided(loop, best or region, method, separation)
-    used = separation.sizes if separation is not None and verdict.method == "lyapunov" else None
-    return ControllerVerdict(verdict, loop, used or (loop.n,), None if best is None else best.bound)
+    return _decided(loop, region, method, separation)
 
 
 def _decided(

@@ -13,6 +13,7 @@ from mcexact.exact.linear_algebra import characteristic_polynomial, solve
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import primes, residues
 from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.size import bit_length, largest_entry
 
 _ROWS_TRIED = 200
 
@@ -45,14 +46,19 @@ class ChannelController:
         return self.A.nrows
 
     @property
-    def height(self) -> int:
+    def matrices(self) -> tuple[Matrix, Matrix, Matrix, Matrix]:
+        """A, B, C, D."""
+        return self.A, self.B, self.C, self.D
+
+    @property
+    def bit_length(self) -> int:
         """Bits of the longest numerator or denominator."""
-        return height(self.A, self.B, self.C, self.D)
+        return bit_length(self.matrices)
 
     @property
     def largest(self) -> Fraction:
         """The largest absolute value of an entry."""
-        return largest(self.A, self.B, self.C, self.D)
+        return largest_entry(self.matrices)
 
     def closed_loop(self, A: Matrix, B: Matrix, C: Matrix) -> Matrix:
         """The matrix of the loop around ẋ = Ax + Bu, y = Cx, state (x, z):
@@ -61,30 +67,6 @@ class ChannelController:
         [    B_c C     A_c  ]
         """
         return block([[A + B @ self.D @ C, B @ self.C], [self.B @ C, self.A]])
-
-
-def height(*matrices: Matrix) -> int:
-    """Bits of the longest reduced numerator or denominator among the entries."""
-    longest = 0
-    for M in matrices:
-        d = M.denominator
-        for entry in {x for row in M.numerators for x in row}:
-            # Most entries would not be longer even if nothing canceled.
-            if max(entry.bit_length(), d.bit_length()) > longest:
-                p, q = Fraction(entry, d).as_integer_ratio()
-                longest = max(longest, p.bit_length(), q.bit_length())
-    return longest
-
-
-def largest(*matrices: Matrix) -> Fraction:
-    """The largest absolute value among the entries."""
-    return max(
-        (
-            Fraction(max((abs(x) for row in M.numerators for x in row), default=0), M.denominator)
-            for M in matrices
-        ),
-        default=Fraction(0),
-    )
 
 
 def channel_controller(

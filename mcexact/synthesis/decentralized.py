@@ -4,39 +4,45 @@ from __future__ import annotations
 
 from typing import Any
 
-from mcexact.errors import UsageError
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.network_candidates import ArithmeticKind, Progress
-from mcexact.synthesis.network_design import NetworkDesign, design_network
+from mcexact.synthesis.design import Arithmetic, Design
+from mcexact.synthesis.gate import Progress
+from mcexact.synthesis.network_design import network_design
 from mcexact.synthesis.networks import decentralized_network
+from mcexact.synthesis.spectrum import wanted_region
 
 
 def design_decentralized(
     system: MultiChannelSystem,
-    q: str | None = None,
+    agent: str | None = None,
     *,
     spectrum: Any = None,
     rate: Any = None,
     radius: Any = None,
-    arithmetic: ArithmeticKind = "exact",
+    arithmetic: Arithmetic = "exact",
     progress: Progress | None = None,
-) -> NetworkDesign:
+) -> Design:
     """Design a linear time-invariant controller without communication: u_i is made of y_i alone.
 
     Parameters
     ----------
     system : MultiChannelSystem
-        A plant.  Its neighbor graph is not used.
-    q : str, optional
-        An agent that is to carry a channel controller; by default those that need the least order.
+        A plant, or a system made from one.  Its neighbor graph is not used.
+    agent : str, optional
+        Who is to carry a channel controller; by default those that need the least order.
     spectrum : polynomial, list of roots, or mapping ``{"closed_loop": …}``, optional
-        See `design_network`.
+        See `network_proposals`.
     rate, radius : rational, optional
         Every eigenvalue gets real part below −rate (continuous time) or modulus below radius
         (discrete time).
     arithmetic : {"exact", "float"}
         In floating point only a rate or radius can be asked for.
     progress : callable, optional
+
+    Returns
+    -------
+    Design
+        See its ``parts``.
 
     Raises
     ------
@@ -48,7 +54,7 @@ def design_decentralized(
     --------
     >>> system = MultiChannelSystem([[0, 1], [0, 0]], [[[0], [1]]], [[[1, 0]]])
     >>> design = design_decentralized(system, spectrum=[-1, -2, -3])
-    >>> design.order, str(design.kept)
+    >>> design.order, str(design.parts["kept"])
     (1, '1')
     >>> apart = MultiChannelSystem([[1]], [[[1]], [[0]]], [[[0]], [[1]]])
     >>> design_decentralized(apart, rate=1)
@@ -57,14 +63,13 @@ def design_decentralized(
     mcexact.errors.Impossible: no linear time-invariant decentralized control moves the mode 1, \
 fixed by s = {1}, and it is not fast enough
     """
-    if system.subject:
-        raise UsageError("a controller is designed for a plant, not for a derived system")
-    return design_network(
+    region = wanted_region(system.time, rate, radius, spectrum=spectrum)
+    return network_design(
+        "decentralized",
         decentralized_network(system),
-        q,
+        agent,
+        region,
         spectrum=spectrum,
-        rate=rate,
-        radius=radius,
         arithmetic=arithmetic,
         progress=progress,
     )

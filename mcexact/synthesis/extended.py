@@ -1,9 +1,9 @@
-"""The second road: share sub-states, and control the extended system channel by channel."""
+"""Distributed control by sharing sub-states: the extended system, channel by channel."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any, Literal
 
@@ -15,82 +15,22 @@ from mcexact.derived.extended import Share, checked_dimensions
 from mcexact.errors import Impossible, InputError, UsageError
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.location import StabilityRegion
-from mcexact.model.controller import Controller
 from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.system import MultiChannelSystem, with_graph
-from mcexact.synthesis.gate import CertifiedClosedLoop
-from mcexact.synthesis.network_candidates import ArithmeticKind, Progress
-from mcexact.synthesis.network_design import NetworkDesign, design_network
-from mcexact.synthesis.networks import NetworkKind, shared_network
+from mcexact.model.system import MultiChannelSystem, as_plant, with_graph
+from mcexact.synthesis.design import Arithmetic, Design
+from mcexact.synthesis.gate import Progress
+from mcexact.synthesis.network_design import network_design
+from mcexact.synthesis.networks import DerivedNetwork, NetworkKind, shared_network
 from mcexact.synthesis.spectrum import wanted_region
 
 Dimensions = str | Sequence[int]
 """``"minimal"``, ``"bound"``, or n_1 … n_m."""
 
 
-@dataclass(frozen=True, eq=False)
-class ExtendedDesign:
-    """A distributed controller by way of the extended system.
-
-    Attributes
-    ----------
-    design : NetworkDesign
-        The controller, its loop and their certificates.
-    allocation : SharedDimensions or Deficiency or None
-        Where the n_i come from; None if they were given.
-    """
-
-    design: NetworkDesign
-    allocation: SharedDimensions | Deficiency | None
-
-    @property
-    def controller(self) -> Controller:
-        """m agent programs."""
-        return self.design.controller
-
-    @property
-    def loop(self) -> CertifiedClosedLoop:
-        """The loop with the proof of its spectrum."""
-        return self.design.loop
-
-    @property
-    def order(self) -> int:
-        """Σ n_i + Σ k_q."""
-        return self.design.order
-
-    @property
-    def height(self) -> int:
-        """Bits of the longest numerator or denominator in the controller."""
-        return self.design.height
-
-    @property
-    def arithmetic(self) -> str:
-        """``"exact"`` or ``"float"``."""
-        return self.design.arithmetic
-
-    @property
-    def dimensions(self) -> tuple[int, ...]:
-        """n_1 … n_m."""
-        return self.design.network.dimensions
-
-    @property
-    def certificate(self) -> Any:
-        """The certificate of the closed-loop spectrum."""
-        return self.design.certificate
-
-    @property
-    def certificates(self) -> dict[str, Any]:
-        """All that was proved, by the name of a file."""
-        found = dict(self.design.certificates)
-        if self.allocation is not None:
-            found[self.allocation.certificate.kind] = self.allocation.certificate
-        return found
-
-
 def design_extended(
     system: MultiChannelSystem,
     graph: NeighborGraph | None = None,
-    q: str | None = None,
+    agent: str | None = None,
     *,
     dimensions: Dimensions = "minimal",
     share: Share | None = None,
@@ -99,19 +39,19 @@ def design_extended(
     rate: Any = None,
     radius: Any = None,
     free_assignability: bool = False,
-    arithmetic: ArithmeticKind = "exact",
+    arithmetic: Arithmetic = "exact",
     progress: Progress | None = None,
-) -> ExtendedDesign:
+) -> Design:
     """Design a linear time-invariant distributed controller of least order on an extended system.
 
     Parameters
     ----------
     system : MultiChannelSystem
-        A plant, n states, m channels.
+        A plant, or a system made from one, n states, m channels.
     graph : NeighborGraph, optional
         With delays, in discrete time; overrides ``system.neighbors``.
-    q : str, optional
-        The agent that carries the channel controller; by default the one that needs the least
+    agent : str, optional
+        Who carries the channel controller; by default the one that needs the least
         order.
     dimensions : {"minimal", "bound"} or sequence of m int
         n_1 … n_m: the least that suffice, Theorem 2's bound for every agent, or given ones.
@@ -121,8 +61,8 @@ def design_extended(
         With delays: the lifted system, in which only 0 stays fixed (the default), or the held one,
         in which nothing does.
     spectrum : polynomial, list of roots, or mapping, optional
-        n̄ + k_q numbers, freely; see `design_network`.  Every mode is freed then, or where that is
-        impossible every mode that is not stable.
+        n̄ + k_q numbers, freely; see `network_proposals`.  Every mode is freed then, or where that
+        is impossible every mode that is not stable.
     rate, radius : rational, optional
         Instead of a spectrum, or besides it, to be certified.  Only modes that violate it need to
         be freed; fixed modes that meet it stay, and are reported.
@@ -134,8 +74,8 @@ def design_extended(
 
     Returns
     -------
-    ExtendedDesign
-        Its order is k_q + Σ n_i; the distributed observer's is nm + m − 1.
+    Design
+        Of order k_q + Σ n_i; the distributed observer's is nm + m − 1.
 
     Raises
     ------
@@ -153,36 +93,63 @@ def design_extended(
     >>> plant = gallery.load("liu2020-3ch-no-communication")
     >>> ring = NeighborGraph.ring(plant.names)
     >>> found = design_extended(plant, ring, spectrum=[-1, -1, -2, -2])
-    >>> found.dimensions, found.design.order, found.design.observer_order
-    ((0, 0, 1), 1, 11)
+    >>> found.parts["shared_dimensions"], found.order, found.parts["observer_order"]
+    ({'1': 0, '2': 0, '3': 1}, 1, 11)
     >>> design_extended(plant, NeighborGraph.empty(plant.names), rate=1)
     Traceback (most recent call last):
         ...
     mcexact.errors.Impossible: no shared dimensions let linear time-invariant control move the \
 modes that are not fast enough: agents 2 and 3 can receive from nobody and lack 1 state
     """
+    region = wanted_region(system.time, rate, radius, spectrum=spectrum)
+    tell = progress or (lambda _: None)
+    derived, allocation = sharing_network(
+        system,
+        graph,
+        region,
+        dimensions=dimensions,
+        share=share,
+        network=network,
+        free_assignability=free_assignability,
+        tell=tell,
+    )
+    made = network_design(
+        "extended",
+        derived,
+        agent,
+        region,
+        spectrum=spectrum,
+        arithmetic=arithmetic,
+        progress=progress,
+    )
+    if allocation is None:
+        return made
+    parts = {**made.parts, "allocation": allocation}
+    return replace(
+        made, certificates={**made.certificates, allocation.kind: allocation}, parts=parts
+    )
+
+
+def sharing_network(
+    system: MultiChannelSystem,
+    graph: NeighborGraph | None,
+    region: StabilityRegion,
+    *,
+    dimensions: Dimensions = "minimal",
+    share: Share | None = None,
+    network: Literal["extended", "lifted", "held"] | None = None,
+    free_assignability: bool = False,
+    tell: Progress,
+) -> tuple[DerivedNetwork, SharedDimensions | Deficiency | None]:
+    """The network that `design_extended` controls, of the same arguments, and why of this size."""
     system, found = with_graph(system, graph)
-    if system.subject:
-        raise UsageError("a controller is designed for a plant, not for a derived system")
     kind: NetworkKind = network or ("lifted" if found.delays else "extended")
     if kind not in ("extended", "lifted", "held"):
         raise UsageError(f'expected "extended", "lifted" or "held", found {kind!r}')
     sharing: Share = share or ("states" if kind == "held" else "outputs+states")
-    region = wanted_region(system.time, rate, radius, spectrum=spectrum)
-    tell = progress or (lambda _: None)
     tell("shared dimensions")
     allocation, sizes = _sizes(system, dimensions, sharing, region, free_assignability)
-    derived = shared_network(system, found, sizes, sharing, kind)
-    design = design_network(
-        derived,
-        q,
-        spectrum=spectrum,
-        rate=rate,
-        radius=radius,
-        arithmetic=arithmetic,
-        progress=progress,
-    )
-    return ExtendedDesign(design, allocation)
+    return shared_network(system, found, sizes, sharing, kind), allocation
 
 
 def _sizes(
@@ -203,15 +170,20 @@ def _sizes(
             f'expected "minimal", "bound" or {system.m} numbers, found {dimensions!r}',
             where="dimensions",
         )
+    plant = system if not system.subject else as_plant(system)
     least = minimal_shared_dimensions(
-        system, share=share, bound=region.bound, free_assignability=free_assignability
+        plant, share=share, bound=region.bound, free_assignability=free_assignability
     )
     if least.dimensions is None and region.bound is None:
         # Not every mode can be freed; the stable ones may stay.
         stable = _rate_of_stable_modes(system)
         least = minimal_shared_dimensions(
-            system, share=share, bound=stable, free_assignability=free_assignability
+            plant, share=share, bound=stable, free_assignability=free_assignability
         )
+    if system.subject:
+        # The answer is about the system taken for a plant, so it is only followed.  Where no
+        # dimensions are enough, neither are as many as there are states.
+        return None, least.dimensions or (system.n,) * system.m
     if least.dimensions is None:
         worst = least.binding[0]
         if worst.mode is None:
@@ -223,7 +195,7 @@ def _sizes(
         message = told(
             agents=worst.subset, senders=worst.boundary, k=worst.deficiency, p=worst.mode
         )
-        raise Impossible(message, least.certificate)
+        raise Impossible(message, least)
     return least, least.dimensions
 
 

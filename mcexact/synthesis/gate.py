@@ -1,8 +1,10 @@
-"""The gate: the one way to a certified closed loop."""
+"""The gate: the one way from agent programs to a certified closed loop."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from itertools import accumulate
 from typing import Any
 
 from mcexact.analysis.closed_loop_spectrum import agreeing_moduli
@@ -10,43 +12,103 @@ from mcexact.analysis.modular_system import generator
 from mcexact.analysis.stability import Method, Separation, certify_stability
 from mcexact.answer.closed_loop_spectrum import ClosedLoopSpectrum
 from mcexact.answer.distributed_observer import DistributedObserver
+from mcexact.answer.protocol import Answer
 from mcexact.answer.wording import refusals as say
-from mcexact.errors import Impossible, InternalError
+from mcexact.errors import Impossible, InternalError, LimitReached, UsageError
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
-from mcexact.exact.polynomial import Polynomial
-from mcexact.model.closed_loop import closed_loop
+from mcexact.exact.polynomial import Polynomial, product
 from mcexact.model.controller import Controller
+from mcexact.model.loop import ClosedLoop, closed_loop
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
+
+Progress = Callable[[str], None]
 
 _KEY = object()
 
 
-@dataclass(frozen=True, eq=False)
-class CertifiedClosedLoop:
-    """A loop whose claim was verified exactly; holding one is the proof that it was.
+@dataclass(frozen=True)
+class Coordinates:
+    """New coordinates for the state of a loop, in which it may be block upper triangular.
 
     Attributes
     ----------
-    loop : MultiChannelSystem
-        The whole loop, a system without channels that remembers plant and controller.
+    T, inverse : Matrix, N×N
+        The state is T times the new one.
+    sizes : tuple of int
+        Of the diagonal blocks.
+    """
+
+    T: Matrix
+    inverse: Matrix
+    sizes: tuple[int, ...]
+
+    def separation(self, M: Matrix) -> Separation | None:
+        """The loop in these coordinates; None if something below the diagonal blocks is not 0."""
+        if M.shape != self.T.shape:
+            return None
+        Delta = self.inverse @ (M @ self.T)
+        for stop, size in zip(accumulate(self.sizes), self.sizes, strict=True):
+            below, columns = range(stop, M.nrows), range(stop - size, stop)
+            if not Delta.take(rows=below, cols=columns).is_zero():
+                return None
+        return Separation(self.T, Delta, tuple(filter(None, self.sizes)), self.inverse)
+
+    def of_states(self, places: tuple[int, ...]) -> Coordinates:
+        """The same for a loop whose k-th state was the one at ``places[k]``."""
+        T, inverse = self.T.take(rows=places), self.inverse.take(cols=places)
+        return Coordinates(T, inverse, self.sizes)
+
+
+@dataclass(frozen=True)
+class Proposal:
+    """Agent programs that a designer puts before the gate, and what it promises of their loop.
+
+    Attributes
+    ----------
     controller : Controller
+    polynomials : tuple of Polynomial
+        The characteristic polynomials of the diagonal blocks in the coordinates, of which there
+        are those of a distributed observer; or the one of the whole loop; or none.
+    coordinates : tuple of Coordinates
+        In which the loop may separate, the finest first.
+    parts : mapping
+        What the controller is made of, by names.
+    """
+
+    controller: Controller
+    polynomials: tuple[Polynomial, ...] = ()
+    coordinates: tuple[Coordinates, ...] = ()
+    parts: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def is_tentative(self) -> bool:
+        """Whether Lyapunov matrices of diagonal blocks may fail to prove it: a next one may do."""
+        return bool(self.coordinates) and not self.polynomials
+
+
+@dataclass(frozen=True, eq=False)
+class CertifiedLoop:
+    """A loop whose claims were verified exactly; holding one is the proof that they were.
+
+    Attributes
+    ----------
+    closed : ClosedLoop
     polynomial : Polynomial or None
-        The characteristic polynomial of the whole loop, where the certificate states it.
-    certificate : Certificate
-        What an independent checker needs.
+        The characteristic polynomial of the whole loop, where a certificate states it.
+    proofs : tuple of Answer
+        The first one is about all eigenvalues.
 
     Raises
     ------
     InternalError
-        If it is made anywhere but in the functions of this module.
+        If it is made anywhere but in this module.
     """
 
-    loop: MultiChannelSystem
-    controller: Controller
+    closed: ClosedLoop
     polynomial: Polynomial | None
-    certificate: Any
+    proofs: tuple[Answer, ...]
     key: object
 
     def __post_init__(self) -> None:
@@ -54,160 +116,137 @@ class CertifiedClosedLoop:
             raise InternalError("a certified closed loop is made by the functions of the gate")
 
     @property
+    def controller(self) -> Controller:
+        """m agent programs."""
+        return self.closed.controller
+
+    @property
     def matrix(self) -> Matrix:
         """The matrix of the loop, state (x, x_1, z_1, …)."""
-        return self.loop.A
+        return self.closed.matrix
+
+    @property
+    def proof(self) -> Answer:
+        """The one about all eigenvalues."""
+        return self.proofs[0]
 
 
-def certify_spectrum(
+def certify(
     system: MultiChannelSystem,
-    controller: Controller,
-    polynomial: Polynomial,
+    proposal: Proposal,
+    region: StabilityRegion,
     graph: NeighborGraph | None = None,
-) -> CertifiedClosedLoop:
-    """Verify that the loop, assembled from the agents' programs, has a characteristic polynomial.
-
-    Parameters
-    ----------
-    system : MultiChannelSystem
-        A plant.
-    controller : Controller
-    polynomial : Polynomial
-        Monic, of the dimension of the loop.
-    graph : NeighborGraph, optional
-
-    Raises
-    ------
-    InternalError
-        If it has another: the design that promised it is wrong.
-
-    Notes
-    -----
-    Exact: the coefficients agree modulo primes whose product exceeds twice a bound on them
-    (`proofs/closed_loop_spectrum.md`).
-    """
-    loop = closed_loop(system, controller, graph)
-    seed = generator(loop, "closed_loop_spectrum").getrandbits(64)
-    moduli = agreeing_moduli([(loop.A, polynomial)], seed)
-    certificate = ClosedLoopSpectrum(loop, polynomial=polynomial, moduli=moduli)
-    return CertifiedClosedLoop(loop, controller, polynomial, certificate, _KEY)
-
-
-def certify_observer(
-    system: MultiChannelSystem,
-    controller: Controller,
-    feedback: Polynomial,
-    error: Polynomial,
     *,
-    region: StabilityRegion | None = None,
-    graph: NeighborGraph | None = None,
-) -> CertifiedClosedLoop:
-    """Verify the separation of a distributed observer, and the spectra of both parts.
+    stable: bool = False,
+) -> CertifiedLoop:
+    """Assemble the loop of a proposal, and verify what it promises.
 
     Parameters
     ----------
     system : MultiChannelSystem
-        A plant with n states.
-    controller : Controller
-        Every agent shares an estimate of the n states.
-    feedback, error : Polynomial
-        The characteristic polynomials of A + Σ B_i F_i and of the error system.
-    region : StabilityRegion, optional
-        Where every root of both lies.
+        A plant, or a system made from one.
+    proposal : Proposal
+    region : StabilityRegion
+        Where every eigenvalue is asked to lie, if it has a bound.
     graph : NeighborGraph, optional
-
-    Raises
-    ------
-    InternalError
-        If one of the statements fails: the design that promised it is wrong.
-
-    Notes
-    -----
-    With e_i = x_i − x the loop becomes, in the coordinates (x, e_1, z_1, …)::
-
-        ⎡ A + Σ B_i F_i    *  ⎤
-        ⎣       0         M_E ⎦
-
-    Soundness: `proofs/distributed_observer.md`.
-    """
-    loop = closed_loop(system, controller, graph)
-    M_F, M_E = separated(loop.A, system.n, [agent.private for agent in controller.agents])
-    bound = None
-    if region is not None and region.bound is not None:
-        bound = region.bound
-        if not all(map(region.contains_roots_of, (feedback, error))):
-            raise InternalError(f"a root is not in the region {region}")
-    seed = generator(loop, "distributed_observer").getrandbits(64)
-    moduli = agreeing_moduli([(M_F, feedback), (M_E, error)], seed)
-    certificate = DistributedObserver(
-        loop, feedback=feedback, error=error, bound=bound, moduli=moduli
-    )
-    return CertifiedClosedLoop(loop, controller, feedback * error, certificate, _KEY)
-
-
-def certify_rate(
-    system: MultiChannelSystem,
-    controller: Controller,
-    *,
-    region: StabilityRegion | None = None,
-    graph: NeighborGraph | None = None,
-    separation: Separation | None = None,
-    method: Method | None = None,
-) -> CertifiedClosedLoop:
-    """Verify that every eigenvalue of a loop lies in a region.
-
-    Parameters
-    ----------
-    system : MultiChannelSystem
-        A plant.
-    controller : Controller
-        Any one, from anywhere.
-    region : StabilityRegion, optional
-        By default that of stability.
-    graph : NeighborGraph, optional
-    separation : Separation, optional
-        To go block by block; see `observer_separation`.
-    method : {"polynomial", "lyapunov"}, optional
-        See `certify_stability`.
+    stable : bool
+        Ask for stability where the region has no bound.
 
     Raises
     ------
     Impossible
-        If an eigenvalue lies outside; the certificate proves it.
+        If nothing is promised and an eigenvalue lies outside; the certificate proves it.
     UsageError
-        If the method asked for does not decide.
+        If a promised eigenvalue lies outside, or Lyapunov matrices do not decide.
+    InternalError
+        If a promise does not hold: the design that made it is wrong.
 
     Notes
     -----
-    Exact (`proofs/stability.md`), whatever arithmetic the controller was designed in.
+    Exact, whatever arithmetic the controller was designed in.  The loop is assembled once, and
+    whether it is stable is decided once: of the promised polynomials, where there are some, which
+    agree with those of the loop modulo primes whose product exceeds twice a bound on their
+    coefficients (`proofs/closed_loop_spectrum.md`, `proofs/distributed_observer.md`,
+    `proofs/stability.md`).
     """
-    loop = closed_loop(system, controller, graph)
-    verdict = certify_stability(loop, region, method=method, separation=separation)
-    if not verdict.stable:
-        raise Impossible(say.OUTSIDE(region=verdict.region), verdict.certificate)
-    return CertifiedClosedLoop(loop, controller, None, verdict.certificate, _KEY)
+    loop = closed_loop(system, proposal.controller, graph)
+    if not proposal.polynomials:
+        return _decided(loop, proposal, region)
+    asked = stable or region.bound is not None
+    if asked and not all(map(region.contains_roots_of, proposal.polynomials)):
+        raise UsageError(
+            f"the spectrum that was prescribed, or that the given gains lead to, violates {region}:"
+            " give one of the two"
+        )
+    if proposal.coordinates:
+        return _observer(loop, proposal, region)
+    polynomial = _of_the_messages_in_use(product(proposal.polynomials), loop.dimension)
+    seed = generator(loop.system, "closed_loop_spectrum").getrandbits(64)
+    moduli = agreeing_moduli([(loop.matrix, polynomial)], seed)
+    proofs: list[Answer] = [ClosedLoopSpectrum(loop.system, polynomial=polynomial, moduli=moduli)]
+    if asked:
+        proofs.append(certify_stability(loop.system, region, polynomial=polynomial))
+    return CertifiedLoop(loop, polynomial, tuple(proofs), _KEY)
 
 
-def separated(M: Matrix, n: int, private: list[int]) -> tuple[Matrix, Matrix]:
-    """The diagonal blocks of the loop in the coordinates (x, e_1, z_1, …), e_i = x_i − x.
+def first_certified(
+    system: MultiChannelSystem,
+    proposals: Iterable[Proposal],
+    region: StabilityRegion,
+    graph: NeighborGraph | None = None,
+    *,
+    stable: bool = False,
+    tell: Progress,
+) -> tuple[Proposal, CertifiedLoop]:
+    """The first of a designer's proposals that passes; see `certify`.
 
     Raises
     ------
-    InternalError
-        If the block below the first is not 0: the errors do not evolve by themselves.
+    LimitReached
+        If none does.
     """
-    rows = [[int(i == j) for j in range(M.nrows)] for i in range(M.nrows)]
-    start = n
-    for k in private:
-        for i in range(n):
-            rows[start + i][i] = 1
-        start += n + k
-    if start != M.nrows:
-        raise InternalError("the loop is not made of a plant and m estimates of its state")
-    S = Matrix.from_integers(rows, ncols=M.nrows)
-    inverse = Matrix.identity(M.nrows) * 2 - S
-    moved = inverse @ M @ S
-    first, rest = list(range(n)), list(range(n, M.nrows))
-    if not moved.take(rest, first).is_zero():
+    for proposal in proposals:
+        tell("certificate")
+        try:
+            return proposal, certify(system, proposal, region, graph, stable=stable)
+        except (Impossible, UsageError):
+            if not proposal.is_tentative:
+                raise
+    raise LimitReached(f"no controller that was found could be certified for {region}")
+
+
+def _decided(loop: ClosedLoop, proposal: Proposal, region: StabilityRegion) -> CertifiedLoop:
+    """Decide stability, block by block where the loop separates."""
+    found = (each.separation(loop.matrix) for each in proposal.coordinates)
+    separation = next(filter(None, found), None)
+    method: Method | None = "lyapunov" if proposal.coordinates else None
+    verdict = certify_stability(loop.system, region, method=method, separation=separation)
+    if not verdict.stable:
+        raise Impossible(say.OUTSIDE(region=verdict.region), verdict)
+    return CertifiedLoop(loop, None, (verdict,), _KEY)
+
+
+def _observer(loop: ClosedLoop, proposal: Proposal, region: StabilityRegion) -> CertifiedLoop:
+    """The separation of a distributed observer, and the spectra of both parts."""
+    (coordinates,), (feedback, error) = proposal.coordinates, proposal.polynomials
+    separation = coordinates.separation(loop.matrix)
+    if separation is None:
         raise InternalError("the estimation errors do not evolve by themselves")
-    return moved.take(first, first), moved.take(rest, rest)
+    M_F, M_E = replace(separation, sizes=coordinates.sizes).blocks()
+    seed = generator(loop.system, "distributed_observer").getrandbits(64)
+    proof = DistributedObserver(
+        loop.system,
+        feedback=feedback,
+        error=error,
+        bound=region.bound,
+        moduli=agreeing_moduli([(M_F, feedback), (M_E, error)], seed),
+    )
+    return CertifiedLoop(loop, feedback * error, (proof,), _KEY)
+
+
+def _of_the_messages_in_use(polynomial: Polynomial, dimension: int) -> Polynomial:
+    """Messages that no program uses are not part of the loop; each was a mode 0 of the design."""
+    unused = max(polynomial.degree - dimension, 0)
+    if any(polynomial.coefficients[:unused]):
+        raise InternalError("messages that nobody uses are no modes of the network")
+    return Polynomial(polynomial.coefficients[unused:])

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import ceil
 from random import Random
-from typing import Any, Literal
+from typing import Any
 
 from mcexact.analysis.modular_system import generator
 from mcexact.answer.fixed_spectrum import FixedSpectrum
@@ -29,12 +29,11 @@ from mcexact.synthesis.channel_parts import (
     DrawnGains,
     channel_part,
 )
+from mcexact.synthesis.design import Arithmetic
+from mcexact.synthesis.gate import Progress
 from mcexact.synthesis.networks import DerivedNetwork
 from mcexact.synthesis.riccati_channel import riccati_channel_controller
 from mcexact.synthesis.spectrum import default_polynomial, spectrum_polynomial
-
-ArithmeticKind = Literal["exact", "float"]
-Progress = Callable[[str], None]
 
 _KEPT = 8
 _KEPT_FLOAT = 6
@@ -51,7 +50,7 @@ class NetworkTask:
     spectrum: FixedSpectrum
     prescribed: Any
     region: StabilityRegion
-    arithmetic: ArithmeticKind
+    arithmetic: Arithmetic
     tell: Progress
 
     def component_of(self, channel: int) -> int:
@@ -63,7 +62,7 @@ class NetworkTask:
             return default_polynomial(self.region, degree)
         if only and not isinstance(self.prescribed, Mapping):
             return spectrum_polynomial(self.prescribed, degree, where="spectrum.closed_loop")
-        names = self.network.plant.names
+        names = self.network.given.names
         members = [names[i] for i in self.components[self.component_of(channel)]]
         if isinstance(self.prescribed, Mapping):
             given = [name for name in members if name in self.prescribed]
@@ -120,7 +119,7 @@ class NetworkCandidate:
     def cost(self) -> int:
         """Bits of the numbers, above all of the largest ones."""
         return sum(
-            made.height + 3 * ceil(made.largest).bit_length() for made in self.channels.values()
+            made.bit_length + 3 * ceil(made.largest).bit_length() for made in self.channels.values()
         )
 
 

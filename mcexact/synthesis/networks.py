@@ -28,19 +28,20 @@ class DerivedNetwork:
     Attributes
     ----------
     kind : {"decentralized", "extended", "lifted", "held"}
-    plant : MultiChannelSystem
+    given : MultiChannelSystem
+        A plant, or a system made from one, on which the agents run.
     graph : NeighborGraph or None
         None where nothing is sent.
     dimensions : tuple of int
         n_1 … n_m.
     system : MultiChannelSystem
-        Whose decentralized controllers are the distributed ones of the plant.
+        Whose decentralized controllers are the distributed ones of the given.
     signals : tuple
         For each agent what it sees, in the order of its outputs: ("y", j) or ("x", j).
     """
 
     kind: NetworkKind
-    plant: MultiChannelSystem
+    given: MultiChannelSystem
     graph: NeighborGraph | None
     dimensions: tuple[int, ...]
     system: MultiChannelSystem
@@ -49,7 +50,7 @@ class DerivedNetwork:
     def size(self, signal: Signal) -> int:
         """How many numbers a signal has."""
         what, j = signal
-        return self.plant.q(j) if what == "y" else self.dimensions[j]
+        return self.given.q(j) if what == "y" else self.dimensions[j]
 
     def holds(self, j: int) -> dict[int, int]:
         """How long agent j keeps x_j before each follower, and itself, may use it."""
@@ -135,9 +136,9 @@ def network_programs(
     Paper, sections IV-C to IV-E and V.  Delays stay on the wires and holding in the agents: a
     program never holds a matrix of the lifted system.
     """
-    plant, programs = network.plant, []
-    for i in range(plant.m):
-        p_i, made = plant.p(i), channels.get(i)
+    given, programs = network.given, []
+    for i in range(given.m):
+        p_i, made = given.p(i), channels.get(i)
         F = gains[i] if made is None else gains[i] + made.D
         k = 0 if made is None else made.order
         upper, lower = range(p_i), range(p_i, F.nrows)
@@ -154,7 +155,7 @@ def network_programs(
         )
         programs.append(
             AgentProgram(
-                plant.names[i], network.dimensions[i], k, shared, update, inputs, network.holds(i)
+                given.names[i], network.dimensions[i], k, shared, update, inputs, network.holds(i)
             )
         )
-    return Controller(plant.time, digest(plant), tuple(programs))
+    return Controller(given.time, digest(given), tuple(programs))

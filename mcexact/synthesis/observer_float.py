@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.analysis.fixed_spectrum import fixed_spectrum
@@ -13,13 +13,11 @@ from mcexact.analysis.modular_system import generator
 from mcexact.answer.wording import refusals as say
 from mcexact.derived.error_system import error_system
 from mcexact.derived.feedback import closed_by
-from mcexact.errors import Impossible, LimitReached, UsageError
+from mcexact.errors import Impossible, LimitReached
 from mcexact.exact.floats import dyadic_matrix, matrix_to_float
 from mcexact.exact.location import StabilityRegion, is_discrete
 from mcexact.exact.matrix import Matrix
 from mcexact.floating.margins import is_within
-from mcexact.model.closed_loop import closed_loop_matrix
-from mcexact.model.controller import Controller
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.error_observer import (
@@ -27,10 +25,11 @@ from mcexact.synthesis.error_observer import (
     full_order_observer,
     reduced_order_observer,
 )
-from mcexact.synthesis.gate import CertifiedClosedLoop, certify_rate
+from mcexact.synthesis.gate import Progress, Proposal
+from mcexact.synthesis.observer_coordinates import observer_coordinates
 from mcexact.synthesis.observer_programs import observer_programs
-from mcexact.synthesis.observer_separation import observer_separation
 from mcexact.synthesis.riccati import riccati_feedback
+from mcexact.synthesis.state_feedback import split_by_channel
 
 if TYPE_CHECKING:
     import numpy as np
@@ -41,88 +40,20 @@ if TYPE_CHECKING:
 _BITS = (36, 52)
 _MARGINS = (Fraction(1, 4), Fraction(1, 16), Fraction(1, 256))
 _EFFORTS = (1.0, 1e2, 1e4, 1e-2)
-_LIST_GRID = 8
-Progress = Callable[[str], None]
-
-
-@dataclass(frozen=True, eq=False)
-class FloatObserverDesign:
-    """A distributed observer designed in floating point, with an exact proof of its rate.
-
-    Attributes
-    ----------
-    controller : Controller
-        m agent programs; agent i shares its estimate x_i of the plant's state.
-    loop : CertifiedClosedLoop
-    agent : str
-        q, whose channel controller observes and moves all errors.
-    region : StabilityRegion
-        The certified one.
-    feedback : tuple of Matrix
-        F_i, p_i×n, dyadic.
-    lists : tuple of Matrix
-        [K_i, H_ij …] of the open-loop observer.
-    G : Matrix, n×nm
-        ũ = −G z, dyadic.
-    L : Matrix
-        The gain of the observer of the errors, dyadic; nm×(q_q + n(|N_q| − 1)) at full order.
-    order : int
-        Of the channel controller.
-    attempts : int
-        How many lists were drawn.
-    """
-
-    controller: Controller
-    loop: CertifiedClosedLoop
-    agent: str
-    region: StabilityRegion
-    feedback: tuple[Matrix, ...]
-    lists: tuple[Matrix, ...]
-    G: Matrix
-    L: Matrix
-    order: int
-    attempts: int
-
-    @property
-    def certificate(self) -> Any:
-        """The certificate of the loop, of kind ``stability``."""
-        return self.loop.certificate
-
-    @property
-    def certificates(self) -> dict[str, Any]:
-        """All that was proved, by the name of a file."""
-        return {self.certificate.kind: self.certificate}
-
-    @property
-    def height(self) -> int:
-        """Bits of the longest numerator or denominator in the controller."""
-        return self.controller.height()
-
-    def gain_norms(self) -> dict[str, float]:
-        """The largest singular values of F, G, L and of all K_i, H_ij, in floating point."""
-        import numpy as np
-
-        named = {"F": self.feedback, "K, H": self.lists, "G": (self.G,), "L": (self.L,)}
-        return {
-            name: max(
-                (float(np.linalg.norm(matrix_to_float(M), 2)) for M in each if 0 not in M.shape),
-                default=0.0,
-            )
-            for name, each in named.items()
-        }
+_GRID = 8
 
 
 @dataclass(frozen=True)
 class _Candidate:
-    """Lists, and gains for the error system that they lead to."""
+    """[K_i, H_ij …], and gains for the error system that they lead to."""
 
-    lists: tuple[Matrix, ...]
+    observer_gains: tuple[Matrix, ...]
     G: Matrix
     observer: ErrorObserver
     size: float
 
 
-def design_observer_float(
+def float_proposals(
     system: MultiChannelSystem,
     graph: NeighborGraph,
     agent: int,
@@ -130,15 +61,15 @@ def design_observer_float(
     *,
     gains: Sequence[Matrix] | None = None,
     reduced: bool = False,
-    progress: Progress,
-) -> FloatObserverDesign:
-    """Design a distributed observer for a region by Riccati equations; certify it.
+    tell: Progress,
+) -> Iterator[Proposal]:
+    """Distributed observers for a region by Riccati equations, the most promising first.
 
     Parameters
     ----------
     system : MultiChannelSystem
-        A plant with n states and m channels; modes inside the region need neither be controllable
-        nor observable.
+        n states and m channels; modes inside the region need neither be controllable nor
+        observable.
     graph : NeighborGraph
         Without delays.
     agent : int
@@ -148,21 +79,22 @@ def design_observer_float(
         F_i (p_i×n) from outside.
     reduced : bool
         Observe only the errors that channel q does not see at once, where that can be certified.
-    progress : callable
+    tell : callable
 
     Raises
     ------
     Impossible
-        If a mode outside the region is not controllable or not observable by all channels
-        together, or fixed for the error system of these F_i; the certificate says which.
+        In the end, if a mode outside the region is not controllable or not observable by all
+        channels together, or fixed for the error system of these F_i; the certificate says which.
     LimitReached
-        If nothing was found that could be certified.
+        In the end, if that is not so.
 
     Notes
     -----
-    Floating point proposes F_i, K_i, H_ij, G and L; the loop with these rational numbers is
-    certified exactly, diagonal block by diagonal block (`observer_separation`).  Of several lists
-    the one with the smallest G and L is kept.  The channel controller, of order nm, is
+    Floating point proposes F_i, K_i, H_ij, G and L; the loop with these rational numbers is for the
+    gate to certify, diagonal block by diagonal block (`observer_coordinates`).  Of several draws of
+    K_i, H_ij the one with the smallest G and L comes first.  The channel controller, of order nm,
+    is
 
         z' = (E − B̃G − LC̃) z + L ỹ,     ũ = −G z,
 
@@ -174,41 +106,50 @@ def design_observer_float(
     tried = 0
     for margin in _MARGINS:
         target = region.tightened(margin)
-        progress("state feedback")
+        tell("state feedback")
         F = _state_feedback(system, target) if gains is None else tuple(gains)
         if F is None:
             continue
         error = error_system(system, F, graph)
         candidates = []
-        for lists in _drawn_lists(system, graph, error, F):
+        for drawn in _drawn_gains(system, graph, error, F):
             tried += 1
-            progress(f"lists K, H number {tried}")
-            candidates += _solved(error, agent, lists, target, reduced)
+            tell(f"observer gains K, H number {tried}")
+            candidates += _solved(error, agent, drawn, target, reduced)
         for each in sorted(
             candidates, key=lambda found: (found.observer.channel.order, found.size)
         ):
-            progress("certificate")
-            observer = each.observer
-            controller = observer_programs(system, graph, agent, F, each.lists, observer.channel)
-            loop = _certified(system, graph, controller, region, observer.Y)
-            if loop is not None:
-                return FloatObserverDesign(
-                    controller,
-                    loop,
-                    system.names[agent],
-                    region,
-                    F,
-                    each.lists,
-                    each.G,
-                    observer.L,
-                    observer.channel.order,
-                    tried,
-                )
+            yield _proposal(system, graph, agent, F, each, tried)
     _refuse_if_impossible(system, graph, region, gains)
     raise LimitReached(
-        f"{tried} draws of lists K_i, H_ij and their Riccati equations led to no loop that could "
-        f"be certified for {region}; try another agent, or a milder bound"
+        f"{tried} draws of observer gains K_i, H_ij and their Riccati equations led to no loop "
+        f"that could be certified for {region}; try another agent, or a milder bound"
     )
+
+
+def _proposal(
+    system: MultiChannelSystem,
+    graph: NeighborGraph,
+    agent: int,
+    F: tuple[Matrix, ...],
+    each: _Candidate,
+    tried: int,
+) -> Proposal:
+    """A candidate as programs."""
+    observer = each.observer
+    controller = observer_programs(system, graph, agent, F, each.observer_gains, observer.channel)
+    parts = {
+        "agent": system.names[agent],
+        "channel_order": observer.channel.order,
+        "feedback": F,
+        "observer_gains": each.observer_gains,
+        "G": each.G,
+        "L": observer.L,
+        "estimated": Matrix.identity(system.n),
+        "attempts": tried,
+    }
+    coordinates = observer_coordinates(system.n, controller, observer.Y)
+    return Proposal(controller, (), coordinates, parts)
 
 
 def _require_doubles(system: MultiChannelSystem) -> None:
@@ -234,14 +175,10 @@ def _state_feedback(
     rounded = _gain(system.A, system.input_matrix(), target)
     if rounded is None:
         return None
-    gains, start = [], 0
-    for i in range(system.m):
-        gains.append(rounded.take(rows=range(start, start + system.p(i))))
-        start += system.p(i)
-    return tuple(gains)
+    return split_by_channel(system, rounded)
 
 
-def _drawn_lists(
+def _drawn_gains(
     system: MultiChannelSystem,
     graph: NeighborGraph,
     error: MultiChannelSystem,
@@ -269,22 +206,22 @@ def _drawn_lists(
             for j in others:
                 H = noise * rng.standard_normal((n, n))
                 parts.append(H - h * np.eye(n) if j == leader else H)
-            on_grid = np.round(np.hstack(parts) * _LIST_GRID).astype(int)
-            gains.append(Matrix.from_integers(on_grid.tolist(), _LIST_GRID, ncols=on_grid.shape[1]))
+            on_grid = np.round(np.hstack(parts) * _GRID).astype(int)
+            gains.append(Matrix.from_integers(on_grid.tolist(), _GRID, ncols=on_grid.shape[1]))
         yield tuple(gains)
 
 
 def _solved(
     error: MultiChannelSystem,
     agent: int,
-    lists: tuple[Matrix, ...],
+    observer_gains: tuple[Matrix, ...],
     target: StabilityRegion,
     reduced: bool,
 ) -> list[_Candidate]:
-    """Observers of the errors under these lists, of full order and, if asked for, of reduced."""
+    """Observers of the errors under these gains, of full order and, if asked for, of reduced."""
     import numpy as np
 
-    E, B, C = closed_by(error, lists), error.B(agent), error.C(agent)
+    E, B, C = closed_by(error, observer_gains), error.B(agent), error.C(agent)
     G = _gain(E, B, target)
     if G is None:
         return []
@@ -302,7 +239,7 @@ def _solved(
         made += [] if less is None else [less]
     size = float(np.linalg.norm(matrix_to_float(G)))
     return [
-        _Candidate(lists, -G, each, size * float(np.linalg.norm(matrix_to_float(each.L))))
+        _Candidate(observer_gains, -G, each, size * float(np.linalg.norm(matrix_to_float(each.L))))
         for each in made
     ]
 
@@ -329,24 +266,6 @@ def _rounded(A: Floats, B: Floats, F: Floats, target: StabilityRegion) -> Matrix
     found = dyadic_matrix(F, few)
     reached = is_within(A + B @ matrix_to_float(found), target)
     return found if reached else dyadic_matrix(F, many)
-
-
-def _certified(
-    system: MultiChannelSystem,
-    graph: NeighborGraph,
-    controller: Controller,
-    region: StabilityRegion,
-    Y: Matrix,
-) -> CertifiedClosedLoop | None:
-    """The loop through the gate, block by block; None if Lyapunov matrices do not prove it."""
-    M = closed_loop_matrix(system, controller, graph)
-    separation = observer_separation(M, system.n, controller, Y)
-    try:
-        return certify_rate(
-            system, controller, region=region, graph=graph, separation=separation, method="lyapunov"
-        )
-    except (Impossible, UsageError):
-        return None
 
 
 def _refuse_if_impossible(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import islice
@@ -26,11 +26,11 @@ from mcexact.synthesis.channel_controller import (
     observing_rows,
     transposed,
 )
+from mcexact.synthesis.gate import Progress
 from mcexact.synthesis.spectrum import default_polynomial, spectrum_polynomial
 from mcexact.synthesis.state_feedback import StateFeedback
 
 _ROWS_PER_CANDIDATE = 2
-Progress = Callable[[str], None]
 
 
 @dataclass(frozen=True)
@@ -125,7 +125,7 @@ def best_channel_controller(
         task.tell(f"channel controller {k + 1} of {len(candidates)}")
         for made in _channel_controllers(task, each, polynomial, index, rng):
             # Short numbers matter for the proof, small ones for whoever runs the controller.
-            size = made.height + 8 * ceil(made.largest).bit_length()
+            size = made.bit_length + 8 * ceil(made.largest).bit_length()
             if best is None or size < best[0]:
                 best = (size, each, made)
     if best is None:

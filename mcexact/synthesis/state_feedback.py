@@ -22,8 +22,8 @@ from mcexact.exact.linear_algebra import (
 )
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.size import bit_length, largest_entry
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.channel_controller import height, largest
 
 _CANDIDATES = 24
 _DRAWS = 4000
@@ -38,13 +38,10 @@ class StateFeedback:
     ----------
     gains : tuple of Matrix
     polynomial : Polynomial
-    height : int
-        Bits of the longest numerator or denominator in the gains.
     """
 
     gains: tuple[Matrix, ...]
     polynomial: Polynomial
-    height: int
 
 
 def state_feedback(system: MultiChannelSystem, polynomial: Polynomial) -> StateFeedback:
@@ -90,9 +87,7 @@ def state_feedback(system: MultiChannelSystem, polynomial: Polynomial) -> StateF
 
 def given_feedback(system: MultiChannelSystem, gains: tuple[Matrix, ...]) -> StateFeedback:
     """Gains from outside, with the characteristic polynomial that they lead to."""
-    return StateFeedback(
-        gains, characteristic_polynomial(loop_matrix(system, gains)), height(*gains)
-    )
+    return StateFeedback(gains, characteristic_polynomial(loop_matrix(system, gains)))
 
 
 def loop_matrix(system: MultiChannelSystem, gains: tuple[Matrix, ...]) -> Matrix:
@@ -157,7 +152,8 @@ def assigning_feedback(A: Matrix, B: Matrix, polynomial: Polynomial, *, seed: in
 
 def _cost(F: Matrix) -> int:
     """What makes the numbers of a design that builds on F long: denominators above all."""
-    return 4 * F.denominator.bit_length() + height(F) + 3 * ceil(largest(F)).bit_length()
+    size = ceil(largest_entry([F])).bit_length()
+    return 4 * F.denominator.bit_length() + bit_length([F]) + 3 * size
 
 
 @dataclass(frozen=True)

@@ -159,7 +159,7 @@ def designs() -> Iterator[tuple[str, Answers]]:
             except Impossible as refused:
                 yield f"{design}: {name}", iter([("refusal", refused)])
             else:
-                yield f"{design}: {name}", iter(made.certificates.items())
+                yield f"{design}: {name}", iter(sorted(made.certificates.items()))
 
 
 def digests() -> dict[str, dict[str, str]]:

@@ -29,9 +29,9 @@ from mcexact.exact.matrix import Matrix
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.simulation.trajectory import simulate
+from mcexact.synthesis.design import Arithmetic
 from mcexact.synthesis.extended import design_extended
-from mcexact.synthesis.network_candidates import ArithmeticKind
-from mcexact.synthesis.setpoint import Road, design_setpoint
+from mcexact.synthesis.setpoint import SetpointMethod, design_setpoint
 from tests.campaigns.networks import connectivity, extended_verdict, held_verdict, lifted_verdict
 
 RADIUS = Fraction(1, 2)
@@ -159,10 +159,9 @@ def _corollaries(
     free = completeness(extended_system(plain, [max(bound, 1)] * system.m))
     required(free.complete, "Corollary 1, n_i at least 1", where)
     design = design_extended(system, radius=RADIUS, network="lifted")
-    stability = design.design.stability
-    required(stability is not None and stability.stable, "Corollary 2", where)
-    seen["designs below the observer's order"] += design.order < design.design.observer_order
-    run = simulate(system, design.controller, horizon=2 * design.loop.loop.n + 2)
+    required(design.certificates["stability"].stable, "Corollary 2", where)
+    seen["designs below the observer's order"] += design.order < design.parts["observer_order"]
+    run = simulate(system, design.controller, horizon=2 * design.loop.closed.dimension + 2)
     required(not any(run.snapshots[-1].plant), "the network does not come to rest", where)
     return valid([free.certificate, *design.certificates.values()], where)
 
@@ -221,21 +220,21 @@ def setpoints(count: int, seed: int) -> Counter[str]:
         if not found.solvable:
             _refused(system, where, seen)
             continue
-        road: Road = "extended" if number % 4 < 2 else "observer"
-        arithmetic: ArithmeticKind = "float" if number % 2 else "exact"
+        method: SetpointMethod = "extended" if number % 4 < 2 else "observer"
+        arithmetic: Arithmetic = "float" if number % 2 else "exact"
         wanted: dict[str, Any] = {"radius": RADIUS} if system.time == "discrete" else {"rate": 1}
         try:
-            design = design_setpoint(system, road=road, arithmetic=arithmetic, **wanted)
+            design = design_setpoint(system, method=method, arithmetic=arithmetic, **wanted)
         except LimitReached:
             # A drawn plant may leave floating point too little room on some processors.
             required(arithmetic == "float", "exact arithmetic finds a design", where)
             seen["nothing found in floating point"] += 1
             continue
-        required(design.stability.stable, "stable", where)
+        required(design.certificates["stability"].stable, "stable", where)
         error = tracking_error(system, design.controller, random.Random(number))
         required(error <= 1e-6, f"an output misses its reference by {error}", where)
         seen["plants that satisfy the condition"] += 1
-        seen[f"{system.time} time, {road} road, {arithmetic} arithmetic"] += 1
+        seen[f"{system.time} time, the method {method}, {arithmetic} arithmetic"] += 1
         seen["certificates VALID"] += valid(design.certificates.values(), where)
     return seen
 

@@ -1,4 +1,4 @@
-"""Floating-point designs certified exactly: drawn systems, large rings, both roads; prints figures.
+"""Floating-point designs certified exactly: drawn systems, large rings; prints figures.
 
 Run as ``python -m tests.campaigns.floating [COUNT] [SEED]`` for everything; the tests call the
 parts with small counts.  The seeds are fixed and printed.
@@ -35,8 +35,8 @@ from mcexact.floating.margins import spectral_bound
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.certify import certify_controller
+from mcexact.synthesis.design import Design
 from mcexact.synthesis.observer import design_observer
-from mcexact.synthesis.observer_float import FloatObserverDesign
 
 CHECKER = Path(mcexact.checker.__file__).parent
 RATE, RADIUS = Fraction(1), Fraction(4, 5)
@@ -77,7 +77,7 @@ def ring_plant(seed: int, n: int = 20, m: int = 15) -> MultiChannelSystem:
 class Timed:
     """A design with the seconds that its parts took."""
 
-    design: FloatObserverDesign
+    design: Design
     designing: float
     certifying: float
     eigenvalues: float
@@ -138,13 +138,13 @@ def drawn_designs(count: int, seed: int) -> Counter[str]:
         except LimitReached:
             seen["nothing found"] += 1
             continue
-        verdict = check_document(encode(timed.design.certificate).encode("ascii"))
+        verdict = check_document(encode(timed.design.loop.proof).encode("ascii"))
         if verdict.verdict != "VALID":
             raise AssertionError(f"seed {number}: {verdict.line()}")
         seen["VALID"] += 1
         seen[f"{system.time} time"] += 1
         seen["ring" if number % 4 < 2 else "drawn graph"] += 1
-        seen["100 or more states in the loop"] += timed.design.loop.loop.n >= 100
+        seen["100 or more states in the loop"] += timed.design.loop.closed.dimension >= 100
         certifying += timed.certifying
         ratios.append(timed.ratios)
     if not ratios:
@@ -160,21 +160,23 @@ def ring_designs(seeds: range, n: int = 20, m: int = 15) -> None:
     """Design, certify by blocks and check for rings; times and gains on stdout."""
     for seed in seeds:
         timed = timed_design(ring_plant(seed, n, m))
-        text = encode(timed.design.certificate)
+        text = encode(timed.design.loop.proof)
         checking = valid_by_copied_checker(text)
-        norms = ", ".join(f"{k} {v:.3g}" for k, v in timed.design.gain_norms().items())
+        figures = ", ".join(
+            f"{k} {v:.3g}" for k, v in timed.design.measures().items() if v is not None
+        )
         print(
-            f"n={n} m={m} seed {seed}: {timed.design.loop.loop.n} states, "
+            f"n={n} m={m} seed {seed}: {timed.design.loop.closed.dimension} states, "
             f"design {timed.designing:.1f} s, certification {timed.certifying:.1f} s, "
-            f"check {checking:.1f} s, certificate {len(text) / 1e6:.1f} MB; norms {norms}; "
+            f"check {checking:.1f} s, certificate {len(text) / 1e6:.1f} MB; {figures}; "
             f"certification {timed.ratios[0]:.2f} of the design, "
             f"{timed.ratios[1]:.1f} of numpy's eigenvalues",
             flush=True,
         )
 
 
-def both_roads(n: int, seed: int = 1, *, check: bool = True) -> None:
-    """A loop of 5n states (m = 2) by both roads, for a bound that holds and for one that fails."""
+def both_methods(n: int, seed: int = 1, *, check: bool = True) -> None:
+    """A loop of 5n states (m = 2) by both methods, for a bound that holds and one that fails."""
     system = ring_plant(seed, n, 2)
     design = timed_design(system).design
     M = design.loop.matrix
@@ -182,9 +184,7 @@ def both_roads(n: int, seed: int = 1, *, check: bool = True) -> None:
     for bound, stable in ((RATE, True), (Fraction(round(-abscissa * 1.5) + 1), False)):
         for method in ("polynomial", "lyapunov"):
             began = time.perf_counter()
-            verdict = certify_controller(
-                system, design.controller, rate=bound, method=method
-            ).verdict
+            verdict = certify_controller(system, design.controller, rate=bound, method=method)
             took = time.perf_counter() - began
             if verdict.stable != stable:
                 raise AssertionError(f"{M.nrows} states, {bound}, {method}: {verdict.stable}")
@@ -249,7 +249,7 @@ def main(arguments: list[str]) -> None:
         print(f"  {number:4d}  {what}")
     ring_designs(range(3))
     for n in (4, 8, 12):
-        both_roads(n)
+        both_methods(n)
     near_the_boundary()
 
 

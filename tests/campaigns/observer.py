@@ -23,12 +23,14 @@ from mcexact.derived.drawn.systems import jointly_controllable_system
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.size import largest_entry
 from mcexact.model.controller import Controller
 from mcexact.model.controller_file import controller_text
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import canonical_document
 from mcexact.simulation.trajectory import InitialState, simulate
-from mcexact.synthesis.observer import ObserverDesign, design_observer
+from mcexact.synthesis.design import Design
+from mcexact.synthesis.observer import design_observer
 from tests.oracle.controller_loop import applied, loop_rows
 
 TOO_LARGE_FOR_DOUBLES = 10**5
@@ -76,7 +78,7 @@ def expanded(roots: list[Any]) -> Polynomial:
     return result
 
 
-def one_design(seed: int) -> tuple[MultiChannelSystem, ObserverDesign]:
+def one_design(seed: int) -> tuple[MultiChannelSystem, Design]:
     """Design for one drawn plant and compare every polynomial and the certificate.
 
     Raises
@@ -89,8 +91,8 @@ def one_design(seed: int) -> tuple[MultiChannelSystem, ObserverDesign]:
     feedback = drawn_spectrum(rng, n, discrete)
     error = drawn_spectrum(rng, n * m + m - 1, discrete)
     q = rng.choice(system.names)
-    design = design_observer(system, q=q, spectrum={"feedback": feedback, "error": error})
-    verdict = check_document(encode(design.certificate).encode())
+    design = design_observer(system, agent=q, spectrum={"feedback": feedback, "error": error})
+    verdict = check_document(encode(design.loop.proof).encode())
     assert verdict.verdict == "VALID", verdict
     loop = Matrix.from_rows(loop_of(system, design))
     assert loop == design.loop.matrix
@@ -98,15 +100,13 @@ def one_design(seed: int) -> tuple[MultiChannelSystem, ObserverDesign]:
     return system, design
 
 
-def loop_of(system: MultiChannelSystem, design: ObserverDesign | Renamed) -> list[list[Fraction]]:
+def loop_of(system: MultiChannelSystem, design: Design | Renamed) -> list[list[Fraction]]:
     """The matrix of the loop from the files alone."""
     plant = json.loads(json.dumps(canonical_document(system)))
     return loop_rows(plant, controller_text(design.controller))
 
 
-def drawn_initial(
-    system: MultiChannelSystem, design: ObserverDesign | Renamed, seed: int
-) -> InitialState:
+def drawn_initial(system: MultiChannelSystem, design: Design | Renamed, seed: int) -> InitialState:
     """Small rational numbers everywhere."""
     rng = random.Random(seed)
 
@@ -121,9 +121,7 @@ def drawn_initial(
     )
 
 
-def compare_discrete(
-    system: MultiChannelSystem, design: ObserverDesign | Renamed, seed: int
-) -> None:
+def compare_discrete(system: MultiChannelSystem, design: Design | Renamed, seed: int) -> None:
     """The network's steps are powers of the loop matrix, exactly."""
     matrix = loop_of(system, design)
     run = simulate(
@@ -136,7 +134,7 @@ def compare_discrete(
 
 
 def compare_multiprecision(
-    system: MultiChannelSystem, design: ObserverDesign | Renamed, seed: int
+    system: MultiChannelSystem, design: Design | Renamed, seed: int
 ) -> float:
     """The agents at 60 digits against mpmath's exponential; the relative difference."""
     from mpmath import mp
@@ -161,9 +159,7 @@ def compare_multiprecision(
         return float(max(abs(a - b) for a, b in zip(found, expected, strict=True)) / scale)
 
 
-def compare_double(
-    system: MultiChannelSystem, design: ObserverDesign | Renamed, seed: int
-) -> float:
+def compare_double(system: MultiChannelSystem, design: Design | Renamed, seed: int) -> float:
     """The agents in double precision against scipy's exponential, interval by interval.
 
     The relative difference, the worst of 128 intervals.  The intervals are short because it is
@@ -195,9 +191,9 @@ def campaign(count: int, seed: int, multiprecision: int = 10) -> Counter[str]:
         began = time.perf_counter()
         system, design = one_design(number)
         slowest = max(slowest, time.perf_counter() - began)
-        heights.append(design.height)
+        heights.append(design.controller.bit_length())
         seen[f"{system.time} time"] += 1
-        small = design.largest_entry < TOO_LARGE_FOR_DOUBLES
+        small = largest_entry([design.loop.matrix]) < TOO_LARGE_FOR_DOUBLES
         # What a network computes does not depend on what its time is called.
         compare_discrete(*renamed(system, design, "discrete"), number)
         flowing = renamed(system, design, "continuous")
@@ -222,7 +218,7 @@ class Renamed:
 
 
 def renamed(
-    system: MultiChannelSystem, design: ObserverDesign, time: str
+    system: MultiChannelSystem, design: Design, time: str
 ) -> tuple[MultiChannelSystem, Renamed]:
     """The same matrices read in another time domain."""
     channels = system.channels

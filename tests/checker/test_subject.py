@@ -24,8 +24,8 @@ from mcexact.derived.links import add_links
 from mcexact.exact.matrix import Matrix
 from mcexact.model import system_file
 from mcexact.model.canonical import plain
-from mcexact.model.closed_loop import closed_loop
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
+from mcexact.model.loop import closed_loop
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from tests import effort
@@ -88,7 +88,7 @@ Build = Callable[[random.Random, MultiChannelSystem], MultiChannelSystem]
 BUILDS: dict[str, list[Build]] = {
     "arcs": [lambda rng, s: add_links(s, missing_arcs(s))],
     "augmented_outputs": [lambda rng, s: augmented_outputs(s)],
-    "closed_loop": [lambda rng, s: closed_loop(s, controller(rng, s))],
+    "closed_loop": [lambda rng, s: closed_loop(s, controller(rng, s)).system],
     "dual": [lambda rng, s: dual(s)],
     "error": [lambda rng, s: error_system(s, [drawn(rng, s.p(i), s.n) for i in range(s.m)])],
     "extended": [

@@ -21,7 +21,7 @@ from mcexact.derived.integrators import setpoint_system
 from mcexact.derived.links import add_links
 from mcexact.exact.matrix import Matrix
 from mcexact.model.canonical import text_of
-from mcexact.model.closed_loop import closed_loop
+from mcexact.model.loop import closed_loop
 from mcexact.model.system_file import canonical_document, digest
 from tests.model.test_controller import drawn_controller
 
@@ -87,4 +87,4 @@ def test_checker_and_package_close_the_same_loop(drawn, seed, holding):
     controller = drawn_controller(
         random.Random(seed), drawn.system, references=True, holding=holding
     )
-    rebuilt(closed_loop(drawn.system, controller))
+    rebuilt(closed_loop(drawn.system, controller).system)

@@ -12,7 +12,7 @@ from mcexact.model.local_controllers import local_controllers
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import save_system
 from tests.campaigns.floating import (
-    both_roads,
+    both_methods,
     near_the_boundary,
     ring_plant,
     timed_design,
@@ -83,7 +83,7 @@ def test_the_design_as_json_tells_proof_from_measurement(folder):
     answer = json.loads(done.stdout)
     assert answer["certified_bound"] == "1" and answer["order"] == 18
     assert set(answer["floating_point"]) == {
-        "gain_norms",
+        "largest_gain",
         "spectral",
         "numerical",
         "distance_to_instability",
@@ -159,15 +159,15 @@ def test_the_cross_check_of_nonsense_is_malformed_input():
 
 def test_a_ring_is_certified_by_blocks_and_checked_by_a_copy():
     timed = timed_design(ring_plant(0, 5, 4))
-    assert timed.design.loop.loop.n == 45
-    assert timed.design.certificate.evidence.transformation is not None
+    assert timed.design.loop.closed.dimension == 45
+    assert timed.design.loop.proof.evidence.transformation is not None
     assert min(timed.ratios) > 0
-    valid_by_copied_checker(encode(timed.design.certificate))
+    valid_by_copied_checker(encode(timed.design.loop.proof))
 
 
 @pytest.mark.parametrize("n", [4, 8])
-def test_loops_are_certified_by_both_roads(n):
-    both_roads(n)
+def test_loops_are_certified_by_both_methods(n):
+    both_methods(n)
 
 
 def test_an_abscissa_near_the_boundary_is_told_apart():

@@ -8,16 +8,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mcexact import testing
+from mcexact.analysis.stability import certify_stability
+from mcexact.answer.codec import encode
+from mcexact.checker import check_document
 from mcexact.derived.feedback import feedback
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.blocks import vstack
 from mcexact.exact.matrix import Matrix
-from mcexact.model.closed_loop import (
-    closed_loop,
-    closed_loop_matrix,
-    loop_layout,
-    reference_matrix,
-)
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.controller_file import (
     controller_text,
@@ -25,6 +22,7 @@ from mcexact.model.controller_file import (
     read_controller,
     save_controller,
 )
+from mcexact.model.loop import closed_loop
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import digest
@@ -116,8 +114,8 @@ discrete = testing.systems_on_graphs(
 def test_the_loop_matrix_moves_like_the_agents_themselves(drawn, seed, references, holding):
     system, rng = drawn.system, random.Random(seed)
     controller = drawn_controller(rng, system, references, holding)
-    layout = loop_layout(system, controller)
-    M, R = closed_loop_matrix(system, controller), reference_matrix(layout)
+    layout = closed_loop(system, controller)
+    M, R = layout.matrix, layout.reference
     x = drawn_matrix(rng, system.n, 1)
     own = [drawn_matrix(rng, agent.shared, 1) for agent in controller.agents]
     kept = [drawn_matrix(rng, agent.private, 1) for agent in controller.agents]
@@ -136,7 +134,7 @@ def test_a_controller_file_gives_the_controller_and_the_loop_back(drawn, seed):
     controller = drawn_controller(random.Random(seed), system, references=True, holding=True)
     copy = read_controller(controller_text(controller))
     assert copy.document() == controller.document() and copy.system == digest(system)
-    assert closed_loop_matrix(system, copy) == closed_loop_matrix(system, controller)
+    assert closed_loop(system, copy).matrix == closed_loop(system, controller).matrix
     assert controller_text(copy) == controller_text(controller)
 
 
@@ -145,11 +143,11 @@ def test_static_programs_without_messages_are_decentralized_feedback():
     F = [Matrix.from_rows([[-5]]), Matrix.from_rows([["1/2"]])]
     agents = [AgentProgram(str(i + 1), 0, 0, input=LinearMap({i: F[i]})) for i in range(2)]
     controller = Controller("continuous", digest(plant), tuple(agents))
-    assert closed_loop_matrix(plant, controller) == feedback(plant, F).A
-    made = closed_loop(plant, controller)
+    assert closed_loop(plant, controller).matrix == feedback(plant, F).A
+    made = closed_loop(plant, controller).system
     assert made.m == 0 and made.plant == plant and made.plant.neighbors is None
     assert made.subject == ({"construction": "closed_loop", "controller": controller.document()},)
-    assert controller.order == 0 and controller.edges() == () and controller.height() == 3
+    assert controller.order == 0 and controller.edges() == () and controller.bit_length() == 3
 
 
 def test_a_message_that_is_multiplied_by_zero_is_not_under_way():
@@ -161,7 +159,7 @@ def test_a_message_that_is_multiplied_by_zero_is_not_under_way():
         AgentProgram("1", 0, 0, input=LinearMap({1: Matrix.zeros(1, 1)})),
         AgentProgram("2", 0, 0),
     )
-    assert closed_loop_matrix(plant, Controller("discrete", "", agents)).shape == (1, 1)
+    assert closed_loop(plant, Controller("discrete", "", agents)).matrix.shape == (1, 1)
 
 
 ONE = Matrix.identity(1)
@@ -215,27 +213,29 @@ def plain(**changes):
 )
 def test_a_controller_that_does_not_fit_is_refused(agents, error, message):
     with pytest.raises(error, match=message):
-        closed_loop_matrix(plain(), Controller("discrete", "", agents))
+        closed_loop(plain(), Controller("discrete", "", agents))
 
 
 def test_time_domains_have_to_agree_and_continuous_time_knows_no_delays():
     agents = (AgentProgram("1", 0, 0), AgentProgram("2", 0, 0))
     with pytest.raises(UsageError, match="is for continuous time, the system is in discrete time"):
-        closed_loop_matrix(plain(), Controller("continuous", "", agents))
+        closed_loop(plain(), Controller("continuous", "", agents))
     late = NeighborGraph(("1", "2"), [[1], []], [(0, 1, 1)])
     with pytest.raises(UsageError, match="delays are analyzed in discrete time only"):
-        closed_loop_matrix(
-            plain(time="continuous", neighbors=late), Controller("continuous", "", agents)
-        )
+        closed_loop(plain(time="continuous", neighbors=late), Controller("continuous", "", agents))
     held = (AgentProgram("1", 0, 0, hold={0: 1}), AgentProgram("2", 0, 0))
     with pytest.raises(InputError, match="signals can be held in discrete time only"):
-        closed_loop_matrix(plain(time="continuous"), Controller("continuous", "", held))
+        closed_loop(plain(time="continuous"), Controller("continuous", "", held))
 
 
-def test_a_controller_runs_on_a_plant_only():
+def test_a_controller_of_a_derived_system_closes_its_loop():
     agents = (AgentProgram("1", 0, 0), AgentProgram("2", 0, 0))
-    with pytest.raises(UsageError, match="a plant, not a derived system"):
-        closed_loop(feedback(plain(), [[[1]], [[1]]]), Controller("discrete", "", agents))
+    made = feedback(plain(), [[[1]], [[1]]])
+    loop = closed_loop(made, Controller("discrete", "", agents)).system
+    assert loop.A == made.A and loop.plant == plain()
+    assert [each["construction"] for each in loop.subject] == ["feedback", "closed_loop"]
+    verdict = check_document(encode(certify_stability(loop).certificate).encode())
+    assert verdict.verdict == "VALID", verdict.line()
 
 
 def document(**changes):

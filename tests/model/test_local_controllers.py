@@ -6,9 +6,9 @@ import pytest
 from mcexact.analysis.stability import certify_stability
 from mcexact.errors import InputError
 from mcexact.exact.matrix import Matrix
-from mcexact.model.closed_loop import closed_loop_matrix
 from mcexact.model.controller_file import controller_text, read_controller
 from mcexact.model.local_controllers import local_controllers
+from mcexact.model.loop import closed_loop
 from mcexact.model.statespace import loop_from_statespace
 from mcexact.model.system import MultiChannelSystem
 
@@ -19,7 +19,7 @@ LEAD = ([[-5]], [[1]], [[7]], [[-9]])
 def test_the_loop_is_made_of_the_matrices():
     controller = local_controllers(PLANT, [LEAD, [[-1]]])
     expected = Matrix.from_rows([[0, 0, 0], [-7, 0, 7], [1, 0, -5]])
-    assert closed_loop_matrix(PLANT, controller) == expected
+    assert closed_loop(PLANT, controller).matrix == expected
     assert read_controller(controller_text(controller)).document() == controller.document()
 
 

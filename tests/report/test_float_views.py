@@ -19,12 +19,7 @@ from mcexact.crosscheck.view import (
 from mcexact.model import gallery
 from mcexact.model.local_controllers import local_controllers
 from mcexact.model.system import MultiChannelSystem
-from mcexact.report.certify_view import verdict_tables, verdict_view
-from mcexact.report.observer_float_view import (
-    design_margins,
-    observer_float_tables,
-    observer_float_view,
-)
+from mcexact.report.design_view import design_tables, verdict_tables, verdict_view
 from mcexact.report.text import plain
 from mcexact.synthesis.certify import certify_controller
 from mcexact.synthesis.observer import design_observer
@@ -34,7 +29,7 @@ from tests.synthesis.three_channels import three_channels
 
 def test_what_is_proved_stands_apart_from_what_is_measured():
     design = design_observer(three_channels(), rate=1, arithmetic="float")
-    proved, measured = observer_float_tables(design, design_margins(design))
+    proved, measured = design_tables(design)
     assert "certified" in proved.title and "not proved" in measured.title
     assert ("every eigenvalue of the loop", "Re λ < -1") in proved.rows
 
@@ -42,7 +37,7 @@ def test_what_is_proved_stands_apart_from_what_is_measured():
 def test_infinite_margins_are_null_in_json():
     plant = MultiChannelSystem([], [[]], [[]], neighbors={"1": []})
     design = design_observer(plant, rate=1, arithmetic="float")
-    view = observer_float_view(design, design_margins(design))
+    view = design.view()
     assert view["floating_point"]["distance_to_instability"] is None
     json.dumps(view, allow_nan=False)
 
@@ -59,8 +54,8 @@ def test_infinite_margins_are_null_in_json():
 def test_a_verdict_says_how_it_was_decided(options, words):
     plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
     found = certify_controller(plant, local_controllers(plant, [[[-3]]]), **options)
-    assert words in plain(verdict_tables(found))
-    assert verdict_view(found)["certified"] is found.verdict.stable
+    assert words in plain(verdict_tables(found, largest="largest" in options))
+    assert verdict_view(found)["certified"] is found.stable
 
 
 def test_blocks_are_listed():

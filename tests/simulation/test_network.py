@@ -66,7 +66,7 @@ def deadbeat():
 @pytest.mark.parametrize("q", ["1", "2", "3"])
 def test_deadbeat_errors_are_exactly_zero_after_eleven_steps(q):
     system = three_channels("discrete")
-    design = design_observer(system, q=q, spectrum={"feedback": [0] * 3, "error": [0] * 11})
+    design = design_observer(system, agent=q, spectrum={"feedback": [0] * 3, "error": [0] * 11})
     rng = random.Random(int(q))
     initial = InitialState(
         tuple(Fraction(rng.randint(-9, 9)) for _ in range(3)),

@@ -10,9 +10,9 @@ from mcexact.errors import Impossible, LimitReached, UsageError
 from mcexact.exact.location import StabilityRegion
 from mcexact.model.local_controllers import local_controllers
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis import certify
+from mcexact.synthesis import certify as certifying
 from mcexact.synthesis.certify import certify_controller
-from mcexact.synthesis.gate import certify_rate
+from mcexact.synthesis.gate import Proposal, certify
 from mcexact.synthesis.observer import design_observer
 from tests.synthesis.three_channels import three_channels
 
@@ -33,48 +33,48 @@ def test_the_eigenvalue_minus_two_is_faster_than_one(rate, stable, method):
             certify_controller(PLANT, STATIC, rate=rate, method=method)
         return
     found = certify_controller(PLANT, STATIC, rate=rate, method=method)
-    assert found.verdict.stable is stable
-    assert_valid(found.verdict.certificate)
+    assert found.stable is stable
+    assert_valid(found.certificate)
 
 
 def test_a_large_loop_is_recognized_and_goes_block_by_block():
     plant = three_channels()
     design = design_observer(plant, rate=1, arithmetic="float")
     found = certify_controller(plant, design.controller, rate=1, method="lyapunov")
-    assert found.verdict.stable and found.blocks == (3, 9, 9)
-    assert_valid(found.verdict.certificate)
+    assert found.stable and found.blocks == (3, 9, 9)
+    assert_valid(found.certificate)
 
 
 def test_the_largest_rate_is_certified(monkeypatch):
     plant = three_channels()
     design = design_observer(plant, rate=1, arithmetic="float")
     small = certify_controller(plant, design.controller, largest=True)
-    assert small.verdict.stable and small.verdict.region.bound == small.largest > 1
-    assert_valid(small.verdict.certificate)
-    monkeypatch.setattr(certify, "POLYNOMIAL_LIMIT", 10)
+    assert small.stable and small.region.bound > 1
+    assert_valid(small.certificate)
+    monkeypatch.setattr(certifying, "POLYNOMIAL_LIMIT", 10)
     large = certify_controller(plant, design.controller, largest=True)
-    assert large.verdict.stable and large.verdict.method == "lyapunov"
-    assert 0 < large.largest <= small.largest + Fraction(1, 10**5)
-    assert_valid(large.verdict.certificate)
+    assert large.stable and large.method == "lyapunov"
+    assert 0 < large.region.bound <= small.region.bound + Fraction(1, 10**5)
+    assert_valid(large.certificate)
 
 
 def test_there_is_no_largest_rate_of_an_unstable_loop():
     for gain in ([[-3]], [[1]]):
         found = certify_controller(PLANT, local_controllers(PLANT, [gain]), largest=True)
-        assert (found.largest is None) is not found.verdict.stable
+        assert (found.region.bound is None) is not found.stable
 
 
 def test_the_largest_rate_is_found_beside_entries_beyond_floats():
     far = [[-int(i == j) + 10**400 * int(j == i + 1) for j in range(41)] for i in range(41)]
     plant = MultiChannelSystem(far, [[[0]] * 41], [[[0] * 41]])
     found = certify_controller(plant, local_controllers(plant, [[[0]]]), largest=True)
-    assert found.largest is not None and Fraction(999, 1000) < found.largest < 1
+    assert Fraction(999, 1000) < found.region.edge < 1
 
 
 def test_a_loop_too_large_for_its_polynomial_says_so(monkeypatch):
-    monkeypatch.setattr(certify, "POLYNOMIAL_LIMIT", 0)
-    assert not certify_controller(PLANT, STATIC, rate=2).verdict.stable
-    monkeypatch.setattr(certify, "_POLYNOMIAL_UNASKED", 0)
+    monkeypatch.setattr(certifying, "POLYNOMIAL_LIMIT", 0)
+    assert not certify_controller(PLANT, STATIC, rate=2).stable
+    monkeypatch.setattr(certifying, "_POLYNOMIAL_UNASKED", 0)
     with pytest.raises(LimitReached, match="ask for the method polynomial"):
         certify_controller(PLANT, STATIC, rate=2)
 
@@ -87,9 +87,9 @@ def test_a_bound_of_the_other_time_domain_is_wrong_usage():
 
 
 def test_the_gate_lets_no_slow_loop_through():
-    assert_valid(certify_rate(PLANT, STATIC, region=StabilityRegion("continuous", 1)).certificate)
+    assert_valid(certify(PLANT, Proposal(STATIC), StabilityRegion("continuous", 1)).proof)
     with pytest.raises(
         Impossible, match="not every eigenvalue of the loop satisfies Re λ < -2"
     ) as refusal:
-        certify_rate(PLANT, STATIC, region=StabilityRegion("continuous", 2))
+        certify(PLANT, Proposal(STATIC), StabilityRegion("continuous", 2))
     assert_valid(refusal.value.certificate)

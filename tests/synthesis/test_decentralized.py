@@ -13,14 +13,14 @@ from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model import gallery
-from mcexact.model.closed_loop import closed_loop_matrix
+from mcexact.model.loop import closed_loop
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.decentralized import design_decentralized
-from mcexact.synthesis.network_design import NetworkDesign
+from mcexact.synthesis.design import Design
 from tests.synthesis.three_channels import three_channels
 
 
-def require_valid(design: NetworkDesign) -> None:
+def require_valid(design: Design) -> None:
     for name, made in design.certificates.items():
         verdict = check_document(encode(made).encode())
         assert verdict.verdict == "VALID", f"{name}: {verdict.line()}"
@@ -35,8 +35,8 @@ def test_published_plants_get_a_controller_without_messages(case: str, arithmeti
     design = design_decentralized(plant, rate="1/100", arithmetic=arithmetic)  # type: ignore[arg-type]
     assert not design.controller.edges()
     assert all(agent.shared == 0 for agent in design.controller.agents)
-    assert design.stability is not None
-    assert design.stability.stable
+    assert "stability" in design.certificates
+    assert design.certificates["stability"].stable
     require_valid(design)
 
 
@@ -53,14 +53,14 @@ def test_a_prescribed_spectrum_is_met_exactly() -> None:
     plant = gallery.load("farina-three-rooms")
     wanted = ["-1", "-2", "-3", {"re": "-1", "im": "1"}]
     design = design_decentralized(plant, spectrum={"closed_loop": wanted})
-    loop = characteristic_polynomial(closed_loop_matrix(plant, design.controller))
+    loop = characteristic_polynomial(closed_loop(plant, design.controller).matrix)
     assert loop == Polynomial.from_roots([-1, -2, -3]) * Polynomial.of(2, 2, 1)
 
 
 def test_one_channel_is_output_feedback() -> None:
     plant = MultiChannelSystem([[0, 1], [0, 0]], [[[0], [1]]], [[[1, 0]]], time="discrete")
     design = design_decentralized(plant, radius="1/2")
-    assert (design.order, design.observer_order) == (1, 2)
+    assert (design.order, design.parts["observer_order"]) == (1, 2)
 
 
 def test_no_states_and_dead_channels_need_nothing() -> None:
@@ -68,7 +68,7 @@ def test_no_states_and_dead_channels_need_nothing() -> None:
     assert design_decentralized(empty, rate=1).order == 0
     dead = MultiChannelSystem([[-3]], [[[0]], [[1]]], [[[1]], [[0]]])
     design = design_decentralized(dead, rate=1)
-    assert (design.order, design.kept) == (0, Polynomial.from_roots([-3]))
+    assert (design.order, design.parts["kept"]) == (0, Polynomial.from_roots([-3]))
 
 
 @pytest.mark.parametrize("time", ["continuous", "discrete"])
@@ -83,8 +83,8 @@ def test_what_no_fixed_mode_forbids_is_done(seed: int, time: str) -> None:
         assert check_document(encode(refusal.certificate).encode()).verdict == "VALID"
         return
     require_valid(design)
-    assert design.stability is not None
-    region: StabilityRegion = design.stability.region
-    loop = closed_loop_matrix(drawn, design.controller)
+    assert "stability" in design.certificates
+    region: StabilityRegion = design.region
+    loop = closed_loop(drawn, design.controller).matrix
     assert region.contains_roots_of(characteristic_polynomial(loop))
     assert not design.controller.edges()

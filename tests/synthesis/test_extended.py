@@ -16,12 +16,13 @@ from mcexact.derived.drawn.systems import jointly_controllable_system
 from mcexact.errors import Impossible, InputError, UsageError
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.polynomial import Polynomial
-from mcexact.model.closed_loop import closed_loop, closed_loop_matrix
 from mcexact.model.controller_file import controller_text, read_controller
+from mcexact.model.loop import closed_loop
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.simulation.trajectory import simulate
-from mcexact.synthesis.extended import ExtendedDesign, design_extended
+from mcexact.synthesis.design import Design
+from mcexact.synthesis.extended import design_extended
 from tests.synthesis.three_channels import three_channels
 
 
@@ -34,7 +35,12 @@ def late() -> MultiChannelSystem:
     return plant.with_neighbors(NeighborGraph(graph.names, graph.neighbors, arcs))
 
 
-def require_valid(design: ExtendedDesign) -> None:
+def dimensions_of(design: Design) -> tuple[int, ...]:
+    """n_1 … n_m."""
+    return tuple(design.parts["shared_dimensions"].values())
+
+
+def require_valid(design: Design) -> None:
     for name, made in design.certificates.items():
         verdict = check_document(encode(made).encode())
         assert verdict.verdict == "VALID", f"{name}: {verdict.line()}"
@@ -46,10 +52,10 @@ FREE = [Fraction(k, 16) for k in (-7, -5, -3, -1, 1, 3, 5, 7)] * 2
 def test_the_papers_example_needs_less_than_the_observer() -> None:
     plant = three_channels()
     design = design_extended(plant, spectrum=["-1", "-2", {"re": "-1", "im": "3"}])
-    assert design.dimensions == (0, 0, 1)
-    assert (design.order, design.design.observer_order) == (1, 11)
+    assert dimensions_of(design) == (0, 0, 1)
+    assert (design.order, design.parts["observer_order"]) == (1, 11)
     assert "single_channel_gains" in design.certificates, "that agent 3 reaches everything"
-    loop = closed_loop_matrix(plant, design.controller)
+    loop = closed_loop(plant, design.controller).matrix
     wanted = Polynomial.from_roots([-1, -2]) * Polynomial.of(10, 2, 1)
     assert characteristic_polynomial(loop) == wanted
     require_valid(design)
@@ -59,18 +65,18 @@ def test_the_papers_example_needs_less_than_the_observer() -> None:
 @pytest.mark.parametrize("dimensions", ["minimal", "bound", [0, 1, 2]])
 def test_any_agent_may_carry_the_channel_controller(agent: str, dimensions: object) -> None:
     plant = three_channels()
-    design = design_extended(plant, q=agent, dimensions=dimensions, rate=1)  # type: ignore[arg-type]
-    (block,) = design.design.blocks
+    design = design_extended(plant, agent=agent, dimensions=dimensions, rate=1)  # type: ignore[arg-type]
+    (block,) = design.parts["blocks"]
     assert block.agent == agent
-    assert design.order == sum(design.dimensions) + block.order
-    assert block.polynomial.degree == 3 + sum(design.dimensions) + block.order
+    assert design.order == sum(dimensions_of(design)) + block.order
+    assert block.polynomial.degree == 3 + sum(dimensions_of(design)) + block.order
     require_valid(design)
 
 
 def test_floating_point_meets_a_rate_and_the_proof_is_exact() -> None:
     design = design_extended(three_channels(), rate=2, arithmetic="float")
-    assert design.design.stability is not None
-    assert design.design.stability.stable
+    assert "stability" in design.certificates
+    assert design.certificates["stability"].stable
     require_valid(design)
 
 
@@ -108,7 +114,7 @@ def test_a_transfer_graph_that_no_sharing_connects_is_refused_as_such() -> None:
     plant = MultiChannelSystem(
         [[1, 0], [0, 2]], [[[1], [0]], [[0], [1]]], [[[1, 0]], [[0, 1]]], neighbors={}
     )
-    assert design_extended(plant, rate=1).dimensions == (0, 0)
+    assert dimensions_of(design_extended(plant, rate=1)) == (0, 0)
     with pytest.raises(Impossible, match="make the transfer graph of the extended") as refusal:
         design_extended(plant, rate=1, free_assignability=True)
     assert refusal.value.certificate.kind == "shared_dimensions"
@@ -127,21 +133,19 @@ def test_what_is_held_is_not_measured_outputs() -> None:
 
 def test_the_lifted_system_keeps_zero_alone() -> None:
     design = design_extended(late(), radius="1/2")
-    network = design.design.network
-    assert (network.dimensions, network.system.n) == ((0, 0, 1), 19)
-    assert design.design.spectrum.polynomial == Polynomial.x()
-    assert not any(design.design.kept.coefficients[:-1])
+    assert dimensions_of(design) == (0, 0, 1) and design.parts["fixed_spectrum"].about.n == 19
+    assert design.parts["fixed_spectrum"].polynomial == Polynomial.x()
+    assert not any(design.parts["kept"].coefficients[:-1])
     require_valid(design)
 
 
 def test_the_held_system_takes_any_spectrum() -> None:
     plant = late()
     design = design_extended(plant, network="held", spectrum=FREE[:15], radius="1/2")
-    network = design.design.network
-    assert (network.dimensions, network.system.n) == ((1, 0, 1), 11)
-    assert design.design.spectrum.empty
-    assert design.design.kept.degree == 0
-    loop = closed_loop_matrix(plant, design.controller)
+    assert dimensions_of(design) == (1, 0, 1) and design.parts["fixed_spectrum"].about.n == 11
+    assert design.parts["fixed_spectrum"].empty
+    assert design.parts["kept"].degree == 0
+    loop = closed_loop(plant, design.controller).matrix
     assert characteristic_polynomial(loop) == Polynomial.from_roots(FREE[:15])
     require_valid(design)
     run = simulate(plant, design.controller, horizon=200)
@@ -156,7 +160,7 @@ def test_without_holding_the_loop_has_another_spectrum_and_a_proven_verdict() ->
         design.controller,
         agents=tuple(replace(agent, hold={}) for agent in design.controller.agents),
     )
-    loop = closed_loop(plant, hasty)
+    loop = closed_loop(plant, hasty).system
     chi = characteristic_polynomial(loop.A)
     assert chi != Polynomial.from_roots(FREE[:15])
     verdict = certify_stability(loop)
@@ -174,7 +178,7 @@ def test_the_controller_file_holds_times_and_no_lifted_matrix() -> None:
     for i, agent in enumerate(design.controller.agents):
         assert all(steps == 3 for steps in agent.hold.values())
         assert set(agent.hold) <= {i}, "with equal delays only the own use has to wait"
-        assert agent.shared == design.dimensions[i]
+        assert agent.shared == dimensions_of(design)[i]
 
 
 def test_a_network_that_is_not_strongly_connected_is_assigned_block_by_block() -> None:
@@ -185,8 +189,8 @@ def test_a_network_that_is_not_strongly_connected_is_assigned_block_by_block() -
         neighbors={"1": [], "2": ["1"], "3": []},
     )
     design = design_extended(plant, spectrum={"1": ["-1"], "2": ["-2"], "3": ["-3"]})
-    assert [block.channels for block in design.design.blocks] == [("1",), ("2",), ("3",)]
-    loop = closed_loop_matrix(plant, design.controller)
+    assert [block.channels for block in design.parts["blocks"]] == [("1",), ("2",), ("3",)]
+    loop = closed_loop(plant, design.controller).matrix
     assert characteristic_polynomial(loop) == Polynomial.from_roots([-1, -2, -3])
     require_valid(design)
     with pytest.raises(InputError, match="one set for each strong component"):
@@ -201,12 +205,12 @@ def test_fixed_modes_that_are_fast_enough_are_kept() -> None:
         neighbors={"1": ["2"], "2": ["1"]},
     )
     design = design_extended(plant, rate=1)
-    assert design.design.kept == Polynomial.from_roots([-5])
+    assert design.parts["kept"] == Polynomial.from_roots([-5])
     require_valid(design)
     with pytest.raises(Impossible):
         design_extended(plant, rate=6)
     alone = design_extended(plant, spectrum=[-2])
-    assert alone.design.kept == Polynomial.from_roots([-5])
+    assert alone.parts["kept"] == Polynomial.from_roots([-5])
     assert characteristic_polynomial(alone.loop.matrix) == Polynomial.from_roots([-2, -5])
     require_valid(alone)
 
@@ -219,5 +223,5 @@ def test_drawn_networks_come_to_rest_with_late_messages(seed: int, network: str)
     graph = drawn_graph(choices, system.names, strongly_connected=True, longest_delay=3)
     design = design_extended(system, graph, network=network, radius=1)  # type: ignore[arg-type]
     require_valid(design)
-    run = simulate(system, design.controller, graph, horizon=2 * design.loop.loop.n)
+    run = simulate(system, design.controller, graph, horizon=2 * design.loop.closed.dimension)
     assert not any(run.snapshots[-1].flat())

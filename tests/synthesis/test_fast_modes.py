@@ -39,10 +39,10 @@ def test_a_fast_mode_that_is_not_seen_or_not_moved_is_left_alone(time, ports):
     assert Polynomial.of(-FAST[time], 1).divides(chi)
     (bound,) = BOUND[time].values()
     assert StabilityRegion(time, Fraction(bound)).contains_roots_of(chi)
-    verdict = check_document(encode(design.certificate).encode())
+    verdict = check_document(encode(design.loop.proof).encode())
     assert verdict.verdict == "VALID", verdict.line()
-    assert design.estimated.ncols == 2
-    assert {agent.shared for agent in design.controller.agents} == {design.estimated.nrows}
+    assert design.parts["estimated"].ncols == 2
+    assert {agent.shared for agent in design.controller.agents} == {design.parts["estimated"].nrows}
 
 
 @pytest.mark.parametrize("time", ["continuous", "discrete"])

@@ -13,7 +13,7 @@ from mcexact.derived.feedback import closed_by
 from mcexact.exact.blocks import hstack, vstack
 from mcexact.exact.linear_algebra import characteristic_polynomial, rank
 from mcexact.exact.matrix import Matrix
-from mcexact.model.closed_loop import closed_loop_matrix
+from mcexact.model.loop import closed_loop
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.channel_parts import channel_part, drawn_gains
@@ -65,7 +65,7 @@ def test_programs_of_drawn_gains_close_the_derived_loop(seed: int, kind: Network
         )
         for i in range(3)
     ]
-    loop = closed_loop_matrix(system, network_programs(network, gains, {}), graph)
+    loop = closed_loop(system, network_programs(network, gains, {}), graph).matrix
     chi, whole = (
         characteristic_polynomial(loop),
         characteristic_polynomial(closed_by(derived, gains)),

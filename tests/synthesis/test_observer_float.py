@@ -9,9 +9,9 @@ from mcexact.checker import check_document
 from mcexact.errors import Impossible, InputError, LimitReached, UsageError
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.location import StabilityRegion
-from mcexact.model.closed_loop import closed_loop_matrix
+from mcexact.model.loop import closed_loop
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis import observer_float
+from mcexact.synthesis import gate
 from mcexact.synthesis.observer import design_observer
 from tests.campaigns.floating import drawn_designs
 from tests.synthesis.three_channels import three_channels
@@ -21,9 +21,9 @@ BOTH = {"1": ["2"], "2": ["1"]}
 
 def assert_meets(design, system, bound):
     """The bound is certified, and met with room: no kernel errs by a tenth."""
-    verdict = check_document(encode(design.certificate).encode())
+    verdict = check_document(encode(design.loop.proof).encode())
     assert verdict.verdict == "VALID", verdict.line()
-    loop = closed_loop_matrix(system, design.controller)
+    loop = closed_loop(system, design.controller).matrix
     assert loop == design.loop.matrix
     faster = Fraction(11, 10) if system.time == "continuous" else Fraction(10, 11)
     region = StabilityRegion(system.time, Fraction(bound) * faster)
@@ -33,10 +33,12 @@ def assert_meets(design, system, bound):
 @pytest.mark.parametrize("q", ["1", "2", "3"])
 def test_the_example_is_designed_through_every_agent(q):
     plant = three_channels()
-    design = design_observer(plant, q=q, rate=1, arithmetic="float")
+    design = design_observer(plant, agent=q, rate=1, arithmetic="float")
     assert_meets(design, plant, 1)
-    assert design.agent == q and design.controller.order == 18
-    assert set(design.gain_norms()) == {"F", "K, H", "G", "L"}
+    assert design.parts["agent"] == q and design.controller.order == 18
+    assert set(design.measures()) == {
+        *("largest_gain", "spectral", "numerical", "distance_to_instability")
+    }
 
 
 def test_discrete_time_takes_a_radius():
@@ -46,7 +48,12 @@ def test_discrete_time_takes_a_radius():
 
 def test_only_the_gains_are_rounded_and_all_of_them_are_dyadic():
     design = design_observer(three_channels(), rate=1, arithmetic="float")
-    for M in (*design.feedback, *design.lists, design.G, design.L):
+    for M in (
+        *design.parts["feedback"],
+        *design.parts["observer_gains"],
+        design.parts["G"],
+        design.parts["L"],
+    ):
         assert M.denominator & (M.denominator - 1) == 0
 
 
@@ -54,7 +61,7 @@ def test_gains_from_outside_are_kept():
     plant = MultiChannelSystem([[1]], [[[1]], [[0]]], [[[0]], [[1]]], neighbors=BOTH)
     design = design_observer(plant, gains=[[[-4]], [[0]]], rate=2, arithmetic="float")
     assert_meets(design, plant, 2)
-    assert design.feedback[0].numerators == ((-4,),)
+    assert design.parts["feedback"][0].numerators == ((-4,),)
 
 
 def test_a_fast_mode_may_be_out_of_reach():
@@ -98,15 +105,15 @@ def test_a_spectrum_is_for_exact_arithmetic():
 def test_the_reduced_order_leaves_out_what_the_agent_sees(q, seen, time):
     plant = three_channels(time)
     bound = {"rate": 1} if time == "continuous" else {"radius": "1/2"}
-    design = design_observer(plant, q=q, order="least", arithmetic="float", **bound)
-    assert design.order == 9 - seen and design.controller.order == 18 - seen
+    design = design_observer(plant, agent=q, order="least", arithmetic="float", **bound)
+    assert design.parts["channel_order"] == 9 - seen and design.controller.order == 18 - seen
     assert_meets(design, plant, *bound.values())
 
 
 def test_an_agent_that_sees_every_error_needs_no_channel_controller():
     plant = MultiChannelSystem([[2]], [[[1]]], [[[3]]], neighbors={"1": []})
     design = design_observer(plant, rate=1, order="least", arithmetic="float")
-    assert design.order == 0
+    assert design.parts["channel_order"] == 0
     assert_meets(design, plant, 1)
 
 
@@ -120,7 +127,10 @@ def test_a_bound_is_needed_and_the_arithmetic_has_two_names():
 
 
 def test_what_cannot_be_certified_is_not_returned(monkeypatch):
-    monkeypatch.setattr(observer_float, "_certified", lambda *_: None)
+    def refuse(*_, **__):
+        raise UsageError("Lyapunov matrices do not decide")
+
+    monkeypatch.setattr(gate, "certify_stability", refuse)
     with pytest.raises(LimitReached, match="could be certified"):
         design_observer(three_channels(), rate=1, arithmetic="float")
 

@@ -14,19 +14,15 @@ from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model import gallery
-from mcexact.model.closed_loop import closed_loop_matrix
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.controller_file import controller_text, read_controller
+from mcexact.model.loop import closed_loop
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import digest
 from mcexact.simulation.trajectory import simulate
-from mcexact.synthesis.setpoint import (
-    SetpointDesign,
-    design_setpoint,
-    steady_gain,
-    with_integrators,
-)
+from mcexact.synthesis.design import Design
+from mcexact.synthesis.setpoint import design_setpoint, with_integrators
 from tests.campaigns import extended as campaign
 
 
@@ -41,21 +37,21 @@ def two_tanks(time: str = "continuous") -> MultiChannelSystem:
     )
 
 
-def require_valid(design: SetpointDesign) -> None:
+def require_valid(design: Design) -> None:
     for name, made in design.certificates.items():
         verdict = check_document(encode(made).encode())
         assert verdict.verdict == "VALID", f"{name}: {verdict.line()}"
 
 
 @pytest.mark.parametrize("arithmetic", ["exact", "float"])
-@pytest.mark.parametrize("road", ["observer", "extended"])
+@pytest.mark.parametrize("method", ["observer", "extended"])
 @pytest.mark.parametrize("time", ["continuous", "discrete"])
-def test_both_roads_in_both_arithmetics(time: str, road: str, arithmetic: str) -> None:
+def test_both_methods_in_both_arithmetics(time: str, method: str, arithmetic: str) -> None:
     plant = two_tanks(time)
     bound = {"rate": 1} if time == "continuous" else {"radius": "1/2"}
-    design = design_setpoint(plant, road=road, arithmetic=arithmetic, **bound)  # type: ignore[arg-type]
+    design = design_setpoint(plant, method=method, arithmetic=arithmetic, **bound)  # type: ignore[arg-type]
     require_valid(design)
-    assert steady_gain(plant, design.controller) == Matrix.identity(2)
+    assert closed_loop(plant, design.controller).steady_gain == Matrix.identity(2)
     assert campaign.tracking_error(plant, design.controller, random.Random(1)) <= 1e-6
 
 
@@ -85,7 +81,7 @@ def test_prescribed_numbers_are_those_of_the_loop_with_the_plant() -> None:
     spectrum = {"feedback": [-1, -2, -3, -4], "error": [-1, -2, -3] * 3}
     design = design_setpoint(plant, spectrum=spectrum)
     wanted = Polynomial.from_roots([-1, -2, -3, -4, *[-1, -2, -3] * 3])
-    assert characteristic_polynomial(closed_loop_matrix(plant, design.controller)) == wanted
+    assert characteristic_polynomial(closed_loop(plant, design.controller).matrix) == wanted
 
 
 def test_agents_take_their_own_reference_alone() -> None:
@@ -130,8 +126,8 @@ def test_a_mode_that_nobody_controls_is_refused() -> None:
     assert check_document(encode(refusal.value.certificate).encode()).verdict == "VALID"
 
 
-@pytest.mark.parametrize("road", ["observer", "extended"])
-def test_a_cut_of_the_graph_is_refused_with_evidence_about_the_plant(road: str) -> None:
+@pytest.mark.parametrize("method", ["observer", "extended"])
+def test_a_cut_of_the_graph_is_refused_with_evidence_about_the_plant(method: str) -> None:
     plant = MultiChannelSystem(
         [[1]],
         [[[1]], Matrix.zeros(1, 0)],
@@ -139,15 +135,15 @@ def test_a_cut_of_the_graph_is_refused_with_evidence_about_the_plant(road: str) 
         neighbors={"1": [], "2": []},
     )
     with pytest.raises(Impossible) as refusal:
-        design_setpoint(plant, rate=1, road=road)  # type: ignore[arg-type]
+        design_setpoint(plant, rate=1, method=method)  # type: ignore[arg-type]
     verdict = check_document(encode(refusal.value.certificate).encode(), digest(plant))
     assert verdict.verdict == "VALID", verdict.line()
 
 
-def test_delays_are_held_on_the_extended_road() -> None:
+def test_delays_are_held_by_the_extended_method() -> None:
     plant = two_tanks("discrete")
     graph = NeighborGraph(plant.names, [[1], [0]], [(0, 1, 2), (1, 0, 1)])
-    design = design_setpoint(plant, graph, radius="1/2", road="extended")
+    design = design_setpoint(plant, graph, radius="1/2", method="extended")
     slow = plant.with_neighbors(graph)
     assert campaign.tracking_error(slow, design.controller, random.Random(2)) <= 1e-6
 
@@ -155,7 +151,7 @@ def test_delays_are_held_on_the_extended_road() -> None:
 def test_bad_calls_say_so() -> None:
     plant = two_tanks()
     with pytest.raises(UsageError, match="observer"):
-        design_setpoint(plant, rate=1, road="sea")  # type: ignore[arg-type]
+        design_setpoint(plant, rate=1, method="sea")  # type: ignore[arg-type]
     with pytest.raises(UsageError, match="spectrum"):
         design_setpoint(plant, spectrum={}, arithmetic="float")
     with pytest.raises(UsageError, match="rate or a spectrum"):

@@ -12,11 +12,11 @@ from mcexact.answer import codec
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
-from mcexact.model.closed_loop import closed_loop
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
+from mcexact.model.loop import closed_loop
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.gate import certify_spectrum
+from mcexact.synthesis.gate import Proposal, certify
 from mcexact.synthesis.observer import design_observer
 from tests.checker.mutations import Document, Registration
 from tests.checker.oracles.subjects import coefficients_of, subject_of
@@ -60,10 +60,11 @@ def _fitted(maps: list[LinearMap], private: int) -> list[LinearMap]:
 def draw_spectrum(seed: int) -> Document:
     """The spectrum of a small loop, delays and private states included."""
     system, controller = _loop(random.Random(seed))
-    M = closed_loop(system, controller).A
+    M = closed_loop(system, controller).matrix
     p = enumeration.characteristic_polynomial([list(row) for row in M.rows()])
-    made = certify_spectrum(system, controller, Polynomial(p))
-    document: Document = json.loads(codec.encode(made.certificate))
+    proposal = Proposal(controller, (Polynomial(p),))
+    made = certify(system, proposal, StabilityRegion(system.time))
+    document: Document = json.loads(codec.encode(made.loop.proof))
     return document
 
 
@@ -116,7 +117,7 @@ def draw_observer(seed: int) -> Document | None:
     roots = ["-1", "-2", "-3"] if time == "continuous" else ["0", "1/2", "1/3"]
     spectrum = {"feedback": roots[:1], "error": roots}
     made = design_observer(plant, spectrum=spectrum)
-    document: Document = json.loads(codec.encode(made.loop.certificate))
+    document: Document = json.loads(codec.encode(made.loop.proof))
     return document if document["kind"] == "distributed_observer" else None
 
 

@@ -14,8 +14,8 @@ from mcexact.derived.integrators import setpoint_system
 from mcexact.derived.links import add_links
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
-from mcexact.model.closed_loop import closed_loop
 from mcexact.model.controller_file import read_controller
+from mcexact.model.loop import closed_loop
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import read_system
 
@@ -54,7 +54,9 @@ def _applied(system: MultiChannelSystem, step: Document) -> MultiChannelSystem:
             return feedback(system, [matrix_of(gain) for gain in step["gains"]])
         case "closed_loop":
             head = {"format": "mcexact-controller/1", "system": ""}
-            return closed_loop(system, read_controller(json.dumps(head | step["controller"])))
+            return closed_loop(
+                system, read_controller(json.dumps(head | step["controller"]))
+            ).system
     raise NotImplementedError(step["construction"])
 
 

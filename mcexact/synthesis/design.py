@@ -1,0 +1,136 @@
+"""A design: a certified controller, what was proved of its loop, and what is only measured."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from math import isfinite
+from typing import Any, Literal
+
+from mcexact.answer.protocol import Answer
+from mcexact.exact.floats import finite, matrix_to_float, to_float
+from mcexact.exact.location import StabilityRegion
+from mcexact.exact.polynomial import Polynomial
+from mcexact.floating.margins import loop_margins
+from mcexact.model.controller import Controller
+from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem
+from mcexact.synthesis.gate import CertifiedLoop, Progress, Proposal, first_certified
+
+Method = Literal["decentralized", "observer", "extended"]
+Arithmetic = Literal["exact", "float"]
+
+_SHOWN = (
+    "agent", "network", "shared_dimensions", "observer_order", "feedback_polynomial",
+    "error_polynomial", "blocks", "kept",
+)  # fmt: skip
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Design:
+    """What every ``design_…`` function returns.
+
+    Attributes
+    ----------
+    method : {"decentralized", "observer", "extended"}
+    arithmetic : {"exact", "float"}
+        In which the controller was found; what is proved of it is proved exactly.
+    loop : CertifiedLoop
+    region : StabilityRegion
+        The one that was asked for: every eigenvalue of the loop lies in it, where it has a bound.
+    certificates : mapping
+        All that was proved, by the names of the files.
+    parts : mapping
+        What the method made the controller of, and ``"solvability"`` where it holds set-points:
+
+        - observer: ``agent`` (who carries the channel controller), ``channel_order``, ``feedback``
+          (F_i), ``observer_gains`` ([K_i, H_ij …]), ``estimated`` (L: the agents estimate L x);
+          exact also ``feedback_polynomial`` and ``error_polynomial``, in floating point ``G``,
+          ``L`` and ``attempts``;
+        - decentralized and extended: ``network`` (its kind), ``shared_dimensions``, ``blocks``,
+          ``kept`` (the modes that stay, all fixed), ``gains`` (F̄_i), ``observer_order``
+          (nm + m − 1); extended also ``allocation``.
+    """
+
+    method: Method
+    arithmetic: Arithmetic
+    loop: CertifiedLoop
+    region: StabilityRegion
+    certificates: Mapping[str, Answer]
+    parts: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def controller(self) -> Controller:
+        """m agent programs."""
+        return self.loop.controller
+
+    @property
+    def order(self) -> int:
+        """The dimension of all agents' states."""
+        return self.controller.order
+
+    @property
+    def name(self) -> str:
+        """``"setpoint"``, or the method."""
+        return "setpoint" if "solvability" in self.parts else self.method
+
+    def measures(self) -> dict[str, float | None]:
+        """Figures of the loop in floating point: measured, not proved; None beyond floats.
+
+        See `LoopMargins`; ``largest_gain`` is the largest absolute entry of the programs.
+        """
+        M = matrix_to_float(self.loop.matrix)
+        found = {"largest_gain": to_float(self.controller.largest_entry())}
+        if all(map(isfinite, M.ravel())):
+            found |= vars(loop_margins(M, self.region.time))
+        return {name: finite(figure) for name, figure in found.items()}
+
+    def view(self) -> dict[str, Any]:
+        """The design as plain data; a polynomial is its coefficients as strings."""
+        polynomial, bound = self.loop.polynomial, self.region.bound
+        return {
+            "design": self.name,
+            "method": self.method,
+            "arithmetic": self.arithmetic,
+            "order": self.order,
+            "certified_bound": None if bound is None else str(bound),
+            "closed_loop_polynomial": None if polynomial is None else _plain(polynomial),
+            "bits_of_longest_number": self.controller.bit_length(),
+            **{key: _plain(self.parts[key]) for key in _SHOWN if key in self.parts},
+            "floating_point": self.measures(),
+            "controller": self.controller.document(),
+        }
+
+    def __repr__(self) -> str:
+        bound = f", {self.region}" if self.region.bound is not None else ""
+        return f"Design({self.name}, {self.arithmetic}, order {self.order}{bound}, certified)"
+
+
+def designed(
+    method: Method,
+    arithmetic: Arithmetic,
+    system: MultiChannelSystem,
+    graph: NeighborGraph | None,
+    region: StabilityRegion,
+    proposals: Iterable[Proposal],
+    *,
+    stable: bool = False,
+    progress: Progress | None = None,
+) -> Design:
+    """The design of the first proposal that passes the gate; see `first_certified`."""
+    tell = progress or (lambda _: None)
+    made, loop = first_certified(system, proposals, region, graph, stable=stable, tell=tell)
+    return Design(
+        method, arithmetic, loop, region, {proof.kind: proof for proof in loop.proofs}, made.parts
+    )
+
+
+def _plain(value: Any) -> Any:
+    """A part as plain data."""
+    if isinstance(value, Polynomial):
+        return [str(c) for c in value.coefficients]
+    if isinstance(value, Mapping):
+        return {key: _plain(each) for key, each in value.items()}
+    if isinstance(value, tuple):
+        return [_plain(each) for each in value]
+    return _plain(vars(value)) if hasattr(value, "__dataclass_fields__") else value
