@@ -2,7 +2,7 @@
    every hypothesis discharged. *)
 From mathcomp Require Import all_ssreflect all_algebra all_field.
 From mcexact Require Import multichannel arithmetic evidence controllability transfer_graph allocation setpoint.
-From mcexact Require Import shared_dimensions instances.
+From mcexact Require Import extended shared_dimensions instances.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.Theory GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -103,6 +103,105 @@ Lemma inst_connection_cut_states : ~ strongly_connected (extended_states all_hea
 Proof. by apply: connection_cut_states b_not_empty b_not_all _ => //; apply: zero_other. Qed.
 Lemma inst_connection_cut_outputs : ~ strongly_connected (extended none_hear pair cut_off).
 Proof. by apply: connection_cut_outputs none_boundary b_not_empty b_not_all _; apply: zero_other. Qed.
+
+(* Three agents in a chain: the first measures, the third drives, each hears the one before it.  The third
+   is one dimension short; one dimension for each agent is the least that is enough. *)
+Notation near := (lift ord0 ord0 : 'I_3).
+Notation far := (lift ord0 (lift ord0 ord0) : 'I_3).
+Notation three := (fun _ : 'I_3 => 1%N).
+Definition relay : multichannel rat 1 three three :=
+  Multichannel 0 (fun j => (j == far)%:R%:M) (fun i => (i == ord0)%:R%:M).
+Definition chain (i : 'I_3) : {set 'I_3} := if i == ord0 then [set ord0] else if i == near then [set ord0; near] else [set near; far].
+Lemma chain_self i : i \in chain i.
+Proof. by rewrite /chain; case: i => -[|[|[|]]] //= ?; rewrite !inE. Qed.
+Lemma inputs_relay (t : {set 'I_3}) : far \notin t -> inputs (map_system h relay) (~: t) != 0.
+Proof.
+move=> ft; apply/eqP => /(congr1 (fun M => submxrow M far)); rewrite submxrow0 mxrowK inE ft /= map_mx1 => /matrixP/(_ 0 0)/eqP.
+by rewrite !mxE oner_eq0.
+Qed.
+Lemma outputs_relay (t : {set 'I_3}) : ord0 \in t -> outputs (map_system h relay) t != 0.
+Proof.
+move=> t0; apply/eqP => /(congr1 (fun M => submxcol M ord0)); rewrite submxcol0 mxcolK t0 /= map_mx1 => /matrixP/(_ 0 0)/eqP.
+by rewrite !mxE oner_eq0.
+Qed.
+Lemma enough a b (M : 'M[algC]_1) (B : 'M_(1, a)) (C : 'M_(b, 1)) (t : {set 'I_3}) :
+  [|| B != 0, C != 0 | neighborhood chain t :\: t != set0] ->
+  (1 - \rank (block_mx M B C 0) <= \sum_(i in neighborhood chain t :\: t) 1)%N.
+Proof.
+rewrite sum1_card -card_gt0 orbA => /orP[nz|]; last by apply: leq_trans; apply: leq_subr.
+rewrite (leq_trans _ (leq0n _))// leqn0 subn_eq0 lt0n mxrank_eq0.
+by apply: contraTneq nz => /eqP; rewrite block_mx_eq0 => /and4P[_ /eqP-> /eqP-> _]; rewrite !eqxx.
+Qed.
+Lemma chain_near (t : {set 'I_3}) : near \in t -> ord0 \in neighborhood chain t.
+Proof. by move=> nt; apply/bigcupP; exists near; rewrite // /chain !inE. Qed.
+Lemma chain_far (t : {set 'I_3}) : far \in t -> near \in neighborhood chain t.
+Proof. by move=> ft; apply/bigcupP; exists far; rewrite // /chain !inE. Qed.
+Lemma frees_relay : frees chain relay h 1.
+Proof.
+move=> lambda; apply/(extended_not_fixed _ chain_self) => t; apply: enough.
+have [ft|/inputs_relay->//] := boolP (far \in t).
+have [/outputs_relay->|t0] := boolP (ord0 \in neighborhood chain t); first by rewrite orbT.
+apply/orP; right; apply/orP; right; apply/set0Pn; exists near; rewrite inE chain_far// andbT.
+by apply: contra t0 => /chain_near.
+Qed.
+Lemma frees_states_relay : frees_states chain relay h 1.
+Proof.
+move=> lambda; apply/(extended_states_not_fixed _ chain_self) => t; apply: enough.
+have [ft|/inputs_relay->//] := boolP (far \in t).
+have [/outputs_relay->|t0] := boolP (ord0 \in t); first by rewrite orbT.
+apply/orP; right; apply/orP; right; apply/set0Pn.
+have [nt|nt] := boolP (near \in t); first by exists ord0; rewrite inE t0 chain_near.
+by exists near; rewrite inE nt chain_far.
+Qed.
+
+(* s = {3}: the first two have no input, and the third does not see the first. *)
+Lemma inputs_far q (C : forall i : 'I_3, 'M_(q i, 1)) : inputs (Multichannel 0 (mcB relay) C) (~: [set far]) = 0.
+Proof.
+apply/mxrowP=> i; rewrite mxrowK submxrow0 !inE /=; case: eqVneq => // _.
+by rewrite raddf0.
+Qed.
+Lemma shrunk_far q (C : forall i : 'I_3, 'M_(q i, 1)) : C far = 0 ->
+  shrunk_subspace (Multichannel 0 (mcB relay) C) 'X (~: [set far]) 1.
+Proof.
+move=> Cb; apply: (@ShrunkSubspace _ _ _ _ _ _ _ _ _ 1 1%:M 0 id).
+- rewrite mulmx0 subr0 mulmx1 => i j; rewrite !mxE rmorph0 subr0 !ord1 eqxx; exact: dvdpp.
+- by move=> i; rewrite !inE negbK => /eqP-> /= j l; rewrite Cb map_mx0 mul0mx mxE dvdp0.
+- move=> i j; rewrite !mxE subrr; exact: dvdp0.
+- by rewrite inputs_far mxrank0.
+Qed.
+Lemma far_hears_nothing : outputs relay (chain far) = 0.
+Proof.
+apply/mxcolP=> i; rewrite mxcolK submxcol0 /chain !inE /=; case: ifP => // /orP[]/eqP->; by rewrite raddf0.
+Qed.
+Lemma none_left k : (#|neighborhood chain [set far] :\: [set far]| * 0 < k.+1)%N. Proof. by rewrite muln0. Qed.
+Lemma inst_common_dimension_outputs k : frees chain relay h k <-> (0 < k)%N.
+Proof.
+apply: (common_dimension_outputs chain_self root0 _ (none_left 0) frees_relay k).
+exact: (shrunk_far far_hears_nothing).
+Qed.
+Lemma inst_common_dimension_states k : frees_states chain relay h k <-> (0 < k)%N.
+Proof.
+apply: (common_dimension_states chain_self root0 _ (none_left 0) frees_states_relay k).
+by rewrite -[relay]/(Multichannel 0 (mcB relay) (mcC relay)); apply: shrunk_far; rewrite /= raddf0.
+Qed.
+Lemma inst_frees_more : frees chain relay h 2. Proof. exact: (frees_more chain_self _ frees_relay). Qed.
+Lemma inst_frees_states_more : frees_states chain relay h 2.
+Proof. exact: (frees_states_more chain_self _ frees_states_relay). Qed.
+
+(* The system of two agents, nobody hears anybody: no common dimension is enough. *)
+Lemma none_around : neighborhood none_hear [set b] :\: [set b] = set0.
+Proof. by rewrite /neighborhood big_set1 setDv. Qed.
+Lemma inst_no_common_dimension_outputs k : ~ frees none_hear cut_off h k.
+Proof.
+have E : shrunk_subspace (augmented_outputs none_hear cut_off) 'X (~: [set b]) 1 by exact: (shrunk_other outputs_b).
+exact: (no_common_dimension_outputs none_hear_self root0 E none_around isT).
+Qed.
+Lemma inst_no_common_dimension_states k : ~ frees_states none_hear cut_off h k.
+Proof.
+have E : shrunk_subspace (Multichannel 0 (mcB cut_off) (mcC cut_off)) 'X (~: [set b]) 1.
+  by apply: shrunk_other; rewrite /= raddf0.
+exact: (no_common_dimension_states none_hear_self root0 E none_around isT).
+Qed.
 
 (* Set-points. *)
 Lemma inst_setpoint_rank : \rank (map_mx up (1%:M : 'M_1)) = 1%N.

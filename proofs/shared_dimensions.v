@@ -110,3 +110,69 @@ Theorem connection_cut_outputs : zero_transfer (augmented_outputs N S) (~: s) s 
 Proof. by move=> E; apply: (boundary_silent silent E s0 sT). Qed.
 End Connection.
 End Cuts.
+
+(* checker/common_dimension.py: the least k such that with n_i = k for all i nothing is fixed.  Around s
+   there are |N_s \ s| agents, which share |N_s \ s| k dimensions together. *)
+Section CommonDimension.
+Variables (n m : nat) (p q : 'I_m -> nat) (N : 'I_m -> {set 'I_m}) (s : {set 'I_m}).
+Hypothesis hears : forall i, i \in N i.
+Notation boundary := (neighborhood N s :\: s).
+Variables (K : fieldType) (S : multichannel K n p q) (L : fieldType) (f : {rmorphism K -> L}).
+
+(* With n_i = k for all i no mode is fixed; and the same with sub-states alone. *)
+Definition frees k := forall lambda : L, ~ fixed (extended N (fun=> k) (map_system f S)) lambda.
+Definition frees_states k := forall lambda : L, ~ fixed (extended_states N (fun=> k) (map_system f S)) lambda.
+
+Theorem frees_more k k' : (k <= k')%N -> frees k -> frees k'.
+Proof.
+move=> le enough lambda; apply/(extended_not_fixed _ hears) => t.
+have /(extended_not_fixed _ hears)/(_ t)/leq_trans := enough lambda; apply.
+exact: leq_sum.
+Qed.
+
+Theorem frees_states_more k k' : (k <= k')%N -> frees_states k -> frees_states k'.
+Proof.
+move=> le enough lambda; apply/(extended_states_not_fixed _ hears) => t.
+have /(extended_states_not_fixed _ hears)/(_ t)/leq_trans := enough lambda; apply.
+exact: leq_sum.
+Qed.
+
+Section Cut.
+Variables (P : {poly K}) (d : nat) (lambda : L).
+Hypothesis rP : root (map_poly f P) lambda.
+
+(* A shrunk subspace that loses more than k dimensions for each agent around s: k is too few, or any. *)
+Lemma too_few k k' : (#|boundary| * k < d)%N -> (k' <= k)%N -> (\sum_(i in boundary) k' < d)%N.
+Proof. by move=> few le; rewrite sum_nat_const (leq_ltn_trans _ few)// leq_mul. Qed.
+
+Theorem common_dimension_outputs k (E : shrunk_subspace (augmented_outputs N S) P (~: s) d) :
+  (#|boundary| * k < d)%N -> frees k.+1 -> forall k', frees k' <-> (k < k')%N.
+Proof.
+move=> few enough k'; split=> [free|lt]; last exact: frees_more enough.
+rewrite ltnNge; apply/negP => /(too_few few) less.
+exact: free (dimensions_cut_outputs hears rP less E).
+Qed.
+
+Theorem common_dimension_states k (E : shrunk_subspace S P (~: s) d) :
+  (#|boundary| * k < d)%N -> frees_states k.+1 -> forall k', frees_states k' <-> (k < k')%N.
+Proof.
+move=> few enough k'; split=> [free|lt]; last exact: frees_states_more enough.
+rewrite ltnNge; apply/negP => /(too_few few) less.
+exact: free (dimensions_cut_states hears rP less E).
+Qed.
+
+Theorem no_common_dimension_outputs (E : shrunk_subspace (augmented_outputs N S) P (~: s) d) :
+  boundary = set0 -> (0 < d)%N -> forall k, ~ frees k.
+Proof.
+move=> none lost k; apply; apply: (dimensions_cut_outputs hears rP _ E).
+by rewrite none big_set0.
+Qed.
+
+Theorem no_common_dimension_states (E : shrunk_subspace S P (~: s) d) :
+  boundary = set0 -> (0 < d)%N -> forall k, ~ frees_states k.
+Proof.
+move=> none lost k; apply; apply: (dimensions_cut_states hears rP _ E).
+by rewrite none big_set0.
+Qed.
+End Cut.
+End CommonDimension.

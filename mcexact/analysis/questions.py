@@ -93,13 +93,8 @@ def _joint(about: str = "system", needs: str = "", option: str = "") -> dict[str
 # The question, the file of its function, the kind of its certificate, its option, what is decided.
 _SHARING = (
     ("shared_dimension_bound", "allocation", "deficiency", "", "how much sharing is enough"),
-    (
-        "minimal_shared_dimensions",
-        "allocation",
-        "shared_dimensions",
-        "minimal",
-        "the least to share",
-    ),
+    ("minimal_shared_dimensions", "allocation", "shared_dimensions", "minimal", "the least in all"),
+    ("common_dimension", "common_dimension", "common_dimension", "minimal", "the least by each"),
 )
 _JOINT, _ALONE = _joint(), _joint(needs="channels")
 _SPECTRUM = {"spectrum": "fixed_spectrum"}

@@ -19,10 +19,11 @@ Rule = Callable[[Any, Any, System], str]
 
 # fmt: off
 STEMS = (
-    "assignability", "closed_loop_spectrum", "communication", "complementary_subsystem",
-    "completeness", "controllability", "controllability_indices", "deficiency",
-    "distributed_observer", "exceptional_gains", "fixed_spectrum", "neighbor_graph", "pencil_rank",
-    "setpoint", "shared_dimensions", "single_channel_gains", "stability", "transfer_graph",
+    "assignability", "closed_loop_spectrum", "common_dimension", "communication",
+    "complementary_subsystem", "completeness", "controllability", "controllability_indices",
+    "deficiency", "distributed_observer", "exceptional_gains", "fixed_spectrum", "neighbor_graph",
+    "pencil_rank", "setpoint", "shared_dimensions", "single_channel_gains", "stability",
+    "transfer_graph",
 )
 # fmt: on
 KINDS: dict[str, Rule] = {stem: import_module(f".{stem}", __package__).check for stem in STEMS}

@@ -1,0 +1,46 @@
+"""Kind ``common_dimension``: one dimension for all to share; ``proofs/common_dimension.md``."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from . import reading, region
+from .exchange import SHARED, augmented_outputs, extended, neighbors_of
+from .reading import fields, require
+from .shared_dimensions import read_cut
+from .system import System
+from .words import described
+
+
+def check(claim: Any, witness: Any, system: System) -> str:
+    """Check that k dimensions of each agent suffice, and that around one subset k − 1 do not.
+
+    Theorems ``shared_dimensions.common_dimension_outputs``,
+    ``shared_dimensions.common_dimension_states``, ``shared_dimensions.frees_more``,
+    ``shared_dimensions.frees_states_more``, ``shared_dimensions.no_common_dimension_outputs``,
+    ``shared_dimensions.no_common_dimension_states``.
+    """
+    share, listed, number = fields(claim, "claim", "share", "feasible", "dimension")
+    absence, cut = fields(witness, "witness", "absence", "cut")
+    reading.string(share, "claim.share", *SHARED)
+    feasible, N = reading.boolean(listed, "claim.feasible"), neighbors_of(system, "claim")
+    start = f"sharing {SHARED[share]} in {described(system)}, every agent the same dimension"
+    k = 0
+    if feasible:
+        k = reading.integer(number, "claim.dimension")
+        step = {"share": share, "dimensions": [k] * system.m}
+        region.require_absence(absence, extended(system, step, "claim.dimension"), None)
+    else:
+        nothing = number is None and absence is None
+        require(nothing, "claim", "claim", "expected null where nothing suffices")
+    needed = not feasible or k > 0
+    require((cut is not None) == needed, "cut", "witness.cut", "expected unless 0 suffices")
+    if needed:
+        outputs = share == "outputs+states"
+        base = augmented_outputs(system, {}, "claim.share") if outputs else system
+        s, lost = read_cut(cut, "witness.cut", base, None, False)
+        around = len({j for i in s for j in N[i]} - set(s))
+        short = around * (k - 1) < lost if feasible else around == 0
+        require(short, "cut", "witness.cut", f"{around} agents around the subset can do with less")
+    end = f"{k} suffices for an extended system with no fixed mode, and nothing below it does"
+    return f"{start}, {end}" if feasible else f"{start}, none suffices for no fixed mode"
