@@ -66,9 +66,7 @@ def _terms(
                 steps = dict(_by_agent(agents[j].get("hold"), where, system)).get(i, 0)
                 age = system.delays.get((i, j), 0) + integer(steps, where) * (what == "x")
                 right = j in N_i and (not age or system.time == "discrete")
-                require(
-                    right, "subject", where, f"agent {i + 1} does not receive this of agent {j + 1}"
-                )
+                require(right, "subject", where, f"agent {i + 1} does not get this from {j + 1}")
                 found.append(((what, j, age), read_matrix(M, where, nrows, width[what][j])))
         for what, M in (part for part in (("z", z), ("y", reference)) if part[1] is not None):
             found.append(((what, i, 0), read_matrix(M, where, nrows, width[what][i])))
