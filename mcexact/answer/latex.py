@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from mcexact.exact.matrix import Matrix
+from mcexact.exact.rational import rational_latex
 
 _ESCAPES = {
     "\\": r"\textbackslash{}",
@@ -32,11 +33,7 @@ def matrix(M: Matrix) -> str:
     \begin{bmatrix} \tfrac{1}{2} & 0 \end{bmatrix}
     """
 
-    def entry(x: object) -> str:
-        text = str(x)
-        sign = "-" if text.startswith("-") else ""
-        top, bar, bottom = text.lstrip("-").partition("/")
-        return f"{sign}\\tfrac{{{top}}}{{{bottom}}}" if bar else text
-
-    rows = r" \\ ".join(" & ".join(entry(x) for x in row) for row in M.rows())
+    rows = r" \\ ".join(
+        " & ".join(rational_latex(entry, "tfrac") for entry in row) for row in M.rows()
+    )
     return rf"\begin{{bmatrix}} {rows} \end{{bmatrix}}"

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import dataclasses
-import re
 from collections.abc import Sequence
 from fractions import Fraction
 from html import escape
 from typing import TYPE_CHECKING, Any
 
+from mcexact.answer.formats import polynomial
 from mcexact.answer.latex import escaped
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.rational import rational_text
 from mcexact.model.canonical import plain
 
 if TYPE_CHECKING:
@@ -60,14 +61,15 @@ def fitted(value: Any, room: int) -> str:
     if isinstance(value, (tuple, list)):
         return _sequence(value, room)
     if isinstance(value, Polynomial):
-        return _polynomial(value, room)
+        text = polynomial(value, room)
+        return text if len(text) <= room else f"… (degree {value.degree})"
     if isinstance(value, Matrix):
         return f"{value.nrows}×{value.ncols} matrix"
     if dataclasses.is_dataclass(value):
         names = getattr(value, "brief", ()) or (dataclasses.fields(value)[0].name,)
         told = tuple(getattr(value, name) for name in names)
         return fitted(told[0] if len(told) == 1 else told, room)
-    text = str(value) if isinstance(value, Fraction) else repr(value)
+    text = rational_text(value) if isinstance(value, Fraction) else repr(value)
     short = value is None or isinstance(value, bool)
     return text if short or len(text) <= room else "…"
 
@@ -90,26 +92,12 @@ def _sequence(values: Sequence[Any], room: int) -> str:
     return f"({', '.join(kept)}{',' if len(kept) == 1 and not left else ''})"
 
 
-def _polynomial(p: Polynomial, room: int) -> str:
-    """The first terms, and the degree."""
-    whole = str(p)
-    if len(whole) <= room:
-        return whole
-    end = f"… (degree {p.degree})"
-    shown = ""
-    for term in re.split(r"(?<=.)(?= [+-] )", whole):
-        if len(shown) + len(term) + len(f" + {end}") > room:
-            break
-        shown += term
-    return f"{shown} + {end}" if shown else end
-
-
 def plain_view(value: Any) -> Any:
     """Plain data for programs: polynomials and matrices as lists of exact strings."""
     if isinstance(value, Polynomial):
-        return [str(c) for c in value.coefficients]
+        return [rational_text(c) for c in value.coefficients]
     if isinstance(value, Matrix):
-        return [[str(entry) for entry in row] for row in value.rows()]
+        return [[rational_text(entry) for entry in row] for row in value.rows()]
     if hasattr(value, "document"):
         return {key: plain_view(item) for key, item in value.document().items()}
     if isinstance(value, (tuple, list)):

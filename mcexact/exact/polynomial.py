@@ -16,6 +16,7 @@ from mcexact.exact.rational import (
     Entry,
     as_fraction,
     digits_of,
+    rational_latex,
     rational_text,
     require_power,
     written,
@@ -292,11 +293,7 @@ class Polynomial:
         x^{2} - \\frac{1}{2} x + 1
         """
 
-        def coefficient(c: Fraction) -> str:
-            p, q = digits_of(abs(c.numerator)), digits_of(c.denominator)
-            return p if q == "1" else f"\\frac{{{p}}}{{{q}}}"
-
-        return _rendered(self, "x^{{{}}}", coefficient, " ")
+        return _rendered(self, "x^{{{}}}", lambda c: rational_latex(abs(c)), " ")
 
     def __repr__(self) -> str:
         shown = (repr(c) if isinstance(c, str) else digits_of(c) for c in self.as_json())

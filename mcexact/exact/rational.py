@@ -274,6 +274,18 @@ def rational_text(q: Fraction) -> str:
     return f"{digits_of(q.numerator)}/{digits_of(q.denominator)}"
 
 
+def rational_latex(q: Fraction, command: str = "frac") -> str:
+    r"""A rational number in LaTeX, a quotient set by ``command``.
+
+    Examples
+    --------
+    >>> print(rational_latex(Fraction(-1, 2)))
+    -\frac{1}{2}
+    """
+    top, bar, bottom = rational_text(abs(q)).partition("/")
+    return ("-" if q < 0 else "") + (rf"\{command}{{{top}}}{{{bottom}}}" if bar else top)
+
+
 def written(q: Fraction) -> int | str:
     """A rational number as certificates write it: an integer, or ``"p/q"`` in lowest terms.
 
