@@ -7,6 +7,7 @@ from mcexact.analysis.allocation import (
     shared_dimension_bound,
 )
 from mcexact.analysis.analyze import analyze
+from mcexact.analysis.common_dimension import common_dimension
 from mcexact.analysis.completeness import completeness
 from mcexact.analysis.controllability import joint_observability
 from mcexact.analysis.fixed_spectrum import fixed_spectrum
@@ -45,6 +46,18 @@ def still_pair() -> Instance:
     one = [[1]]
     plant = MultiChannelSystem([[0]], [one] * 2, [one] * 2)
     return "A = 0, two equal agents", plant.with_neighbors(NeighborGraph.complete(plant.names))
+
+
+def two_between() -> Instance:
+    """Agent 1 drives two integrators, 4 measures them, and 1 receives from 2 and 3 alone."""
+    units: list[list[int]] = [[1, 0], [0, 1]]
+    plant = MultiChannelSystem(
+        [[0, 0], [0, 0]],
+        [units, *[[[], []]] * 3],
+        [*[[]] * 3, units],
+        neighbors={"1": ["2", "3"], "2": ["4"], "3": ["4"], "4": ["1"]},
+    )
+    return "A = 0, two agents between those who drive and measure", plant
 
 
 def split_spectrum() -> Instance:
@@ -167,7 +180,10 @@ def bound_reached(note: Notebook) -> None:
 
 
 def tightness(note: Notebook) -> None:
-    """Whether the bound is tight, which the paper leaves open: on its own example it is not."""
+    """Whether the bound is tight, which the paper leaves open: in all it is not on its own example.
+
+    If all agents share the same, a bound of 1 is the least; a larger one need not be.
+    """
     plant = three_channels()
     note.on(PAPER)
     found = analyze(plant, besides=LEAST.values())
@@ -177,8 +193,17 @@ def tightness(note: Notebook) -> None:
         least = found[f"minimal_shared_dimensions_{stem}"]
         note.check(f"{total} shared in all is the least ({share})", least.total == total)
         note.check("the bound asks for more", bound.total > total)
-        note.certify(bound, least)
+        common = found[f"common_dimension_{stem}"]
+        note.check("as all share the same it is the least", common.dimension == bound.deficiency)
+        note.certify(bound, least, common)
     note.show(dimensions_picture(found.account))
+    name, plant = two_between()
+    note.on(name)
+    bound, common = shared_dimension_bound(plant), common_dimension(plant)
+    note.check(
+        "a bound of 2 asks for twice the least", (bound.deficiency, common.dimension) == (2, 1)
+    )
+    note.certify(bound, common)
 
 
 def remark_2(note: Notebook) -> None:
