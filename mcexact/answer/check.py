@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from mcexact.answer.protocol import Answer
 from mcexact.checker import Limits, Verdict, check_document
+from mcexact.checker.manifest import NAME, verdicts_of
 from mcexact.errors import InputError, InternalError, place_of
 
 if TYPE_CHECKING:
@@ -64,41 +65,58 @@ fixed_spectrum(system), or the name of a certificate file, found dict
     return check_document(_text(certificate), expected)
 
 
-def recheck(certificates: Mapping[str, str], system_digest: str) -> dict[str, Verdict]:
-    """What the independent checker says of certificates about one plant.
+def recheck(files: Mapping[str, str], system_digest: str) -> dict[str, Verdict]:
+    """What the independent checker says of certificates about one plant, and of what follows.
 
     Parameters
     ----------
-    certificates : mapping from names to texts
+    files : mapping from names to texts
+        Certificates; and the manifest, if there is one: its sentences are verified then.
     system_digest : str
 
     Returns
     -------
     dict from names to Verdict
-        Each is VALID, or INCOMPLETE where a limit of the checker was reached.
+        Each certificate is VALID, or INCOMPLETE where a limit of the checker was reached.
 
     Raises
     ------
     InternalError
-        If a certificate is not accepted: then no answer of this run is to be believed.
+        If a certificate is not accepted, or a sentence is not implied: then no answer of this run
+        is to be believed.
     """
-    verdicts = {}
-    for name, text in certificates.items():
-        found = checked(text.encode("ascii"), system_digest)
-        if found.verdict not in {"VALID", "INCOMPLETE"}:
+    size, verdicts = max(map(len, files.values()), default=0), {}
+    for about, found in _verdicts(files, system_digest, _limits(size)):
+        if found.verdict not in {"VALID", "IMPLIED", "INCOMPLETE"} or found.code == "rule":
+            [what] = about.values()
             raise InternalError(
-                f"the independent checker does not accept {name} ({found.line()}): "
+                f"the independent checker does not accept {what} ({found.line()}): "
                 "the answers of this run are not to be believed"
             )
-        verdicts[name] = found
+        if "file" in about:
+            verdicts[about["file"]] = found
     return verdicts
+
+
+def _verdicts(
+    files: Mapping[str, str], system_digest: str, limits: Limits
+) -> Iterator[tuple[dict[str, str], Verdict]]:
+    """The verdict on each certificate, and on each sentence of the manifest."""
+    if NAME in files:
+        yield from verdicts_of(lambda name: files[name or NAME].encode(), system_digest, limits)
+        return
+    for name, text in files.items():
+        yield {"file": name}, check_document(text.encode("ascii"), system_digest, limits)
+
+
+def _limits(size: int) -> Limits:
+    """Limits within which texts of this size are read, numbers of any length among them."""
+    return Limits(bytes=max(Limits.bytes, size), digits=max(Limits.digits, size))
 
 
 def checked(data: bytes, system_digest: str | None = None) -> Verdict:
     """What the checker says of a certificate's text; it reads numbers and texts of any length."""
-    size = len(data)
-    limits = Limits(bytes=max(Limits.bytes, size), digits=max(Limits.digits, size))
-    return check_document(data, system_digest, limits)
+    return check_document(data, system_digest, _limits(len(data)))
 
 
 def _text(certificate: Any) -> bytes:

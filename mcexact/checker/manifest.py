@@ -6,7 +6,7 @@ import hashlib
 import os
 import re
 import stat
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -17,7 +17,7 @@ from .sentence import RULES, Premise, enter_own
 from .subject import read_subject
 from .system import read_plant
 
-__all__ = ["NAME", "RULES", "manifest_verdicts"]
+__all__ = ["NAME", "RULES", "manifest_verdicts", "verdicts_of"]
 
 TOPICS = (sentences_analysis, sentences_sharing, sentences_design)
 """Where the rules are that no kind brings with it."""
@@ -47,22 +47,35 @@ def manifest_verdicts(
         For the manifest and for each certificate.
     """
     path = os.path.join(path, NAME) if os.path.isdir(path) else path
-    most, parts = limits or Limits(), list[Any]()
 
-    def read() -> Verdict:
-        parts.extend(_parts(parse(_bytes(path, most), most)))
+    def read(name: str) -> bytes:
+        place = os.path.join(os.path.dirname(path), name) if name else path
+        require(not name or os.path.lexists(place), "missing", "file", "is not beside the manifest")
+        return _bytes(place, limits or Limits())
+
+    for about, verdict in verdicts_of(read, system_digest, limits or Limits()):
+        if verdict.verdict != "VALID":
+            yield about, verdict
+
+
+def verdicts_of(
+    read: Callable[[str], bytes], system_digest: str | None, limits: Limits
+) -> Iterator[tuple[dict[str, str], Verdict]]:
+    """The verdicts on a manifest from anywhere: ``read`` takes the name of a file, or "" for it."""
+    parts: list[Any] = []
+
+    def start() -> Verdict:
+        parts.extend(_parts(parse(read(""), limits)))
         return Verdict("READ")
 
-    verdict = answer(read)
+    verdict = answer(start)
     if not parts:
         yield {"file": NAME}, verdict
         return
     digests, sentences, base = parts
-    known = Evidence(os.path.dirname(path), base, most, system_digest)
+    known = Evidence(read, base, limits, system_digest)
     for name in sorted(digests):
-        verdict = known.taken(name, digests[name])
-        if verdict.verdict != "VALID":
-            yield {"file": name}, verdict
+        yield {"file": name}, known.taken(name, digests[name])
     for k, sentence in enumerate(sentences):
         yield {"text": sentence["text"]}, known.judged(sentence, f"sentences[{k}]")
 
@@ -111,7 +124,8 @@ class Evidence:
 
     Attributes
     ----------
-    folder : str
+    read : callable
+        The bytes of a certificate by its name.
     base : list
         The constructions that lead to the system that the sentences are about.
     limits : Limits
@@ -121,7 +135,7 @@ class Evidence:
         What was said of each certificate, and those that are VALID.
     """
 
-    folder: str
+    read: Callable[[str], bytes]
     base: list[Any]
     limits: Limits
     digest: str | None
@@ -132,11 +146,10 @@ class Evidence:
         """Check one certificate; if it is VALID it becomes a premise."""
 
         def check() -> Verdict:
-            path, most = os.path.join(self.folder, name), self.limits.bytes
-            require(os.path.lexists(path), "missing", "file", "is not beside the manifest")
-            data = _bytes(path, self.limits)
-            same_bytes = len(data) > most or hashlib.sha256(data).hexdigest() == wanted
-            require(same_bytes, "digest", "file", "not the bytes that the manifest names")
+            data = self.read(name)
+            large = len(data) > self.limits.bytes
+            right = large or hashlib.sha256(data).hexdigest() == wanted
+            require(right, "digest", "file", "not the bytes that the manifest names")
             document = parse(data, self.limits)
             verdict = check_document(document, self.digest, self.limits)
             if verdict.verdict == "VALID":
@@ -165,7 +178,7 @@ class Evidence:
             named = sentence["theorem"] == theorem
             require(named, "theorem", "theorem", f"expected {theorem or 'none'}")
             cited = list(dict.fromkeys(name for name, *_ in because))
-            for name in cited:
+            for name in cited if self.premises else self.verdicts:
                 open_ = "INCOMPLETE" if self.verdicts[name].status == 5 else "INVALID"
                 if name not in self.premises:
                     raise Refused(open_, "premise", name, "this certificate is not VALID")

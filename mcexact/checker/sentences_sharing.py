@@ -39,23 +39,19 @@ def enough(bound: Premise, *hypotheses: Premise) -> str:
     )
 
 
-def enter_bound(some: str, none: str, paths: tuple[Path, ...], theorem: str) -> None:
-    """Enter the rules about the bound for one way of sharing."""
-    roles = (Role(("deficiency",), paths), *HYPOTHESES)
+def enter_bound(key: str, paths: tuple[Path, ...], theorem: str, positive: bool) -> None:
+    """Enter the rule about a bound for one way of sharing that is positive, or 0."""
 
-    @rule(some, *roles, theorem=theorem)
-    def enough_some(bound: Premise, *hypotheses: Premise) -> str:
-        bound.expect(bound["deficiency"] > 0, "the bound is 0")
-        return enough(bound, *hypotheses)
-
-    @rule(none, *roles, theorem=theorem)
-    def enough_none(bound: Premise, *hypotheses: Premise) -> str:
-        bound.expect(bound["deficiency"] == 0, "the bound is not 0")
+    @rule(key, Role(("deficiency",), paths), *HYPOTHESES, theorem=theorem)
+    def say(bound: Premise, *hypotheses: Premise) -> str:
+        bound.expect((bound["deficiency"] > 0) == positive, "the bound is another one")
         return enough(bound, *hypotheses)
 
 
-enter_bound("enough-outputs-states", "enough-outputs", HEARD, "extended_bound.theorem_2")
-enter_bound("enough-states", "enough-nothing", PLANT, "extended_bound.remark_2")
+enter_bound("enough-outputs-states", HEARD, "extended_bound.theorem_2", positive=True)
+enter_bound("enough-outputs", HEARD, "extended_bound.theorem_2", positive=False)
+enter_bound("enough-states", PLANT, "extended_bound.remark_2", positive=True)
+enter_bound("enough-nothing", PLANT, "extended_bound.remark_2", positive=False)
 
 
 # The least dimensions.

@@ -58,7 +58,7 @@ def concluded(
     Raises
     ------
     InternalError
-        If a certificate is not accepted; then nothing is written.
+        If a certificate is not accepted, or does not imply a sentence; then nothing is written.
     """
     from mcexact.cli.files import directory
     from mcexact.cli.output import emit, emit_json
@@ -66,7 +66,7 @@ def concluded(
 
     line_follows = not as_json and show()
     checked = rechecked(
-        answer["certificates"],
+        answer.get("files", answer["certificates"]),
         answer["digest"],
         doing=doing,
         deadline=deadline,

@@ -53,18 +53,19 @@ class Rechecked:
 
 
 def rechecked(
-    certificates: Mapping[str, str],
+    files: Mapping[str, str],
     system_digest: str,
     *,
     doing: str,
     deadline: Deadline,
     max_memory: int | None,
 ) -> Rechecked:
-    """Let the independent checker verify certificates, within the limits on time and memory.
+    """Let the independent checker verify certificates and sentences, within limits.
 
     Parameters
     ----------
-    certificates : mapping from names to texts
+    files : mapping from names to texts
+        The certificates, and the manifest of the sentences, if there is one.
     system_digest : str
         The digest of the plant that all certificates must be about.
     doing : str
@@ -76,16 +77,17 @@ def rechecked(
     Raises
     ------
     InternalError
-        If the checker rejects a certificate.
+        If the checker rejects a certificate, or a sentence that the certificates do not imply.
     """
     from mcexact.answer.check import recheck
+    from mcexact.answer.sentence import MANIFEST
     from mcexact.cli.supervision import supervised
     from mcexact.errors import LimitReached
 
     try:
         found = supervised(
             recheck,
-            dict(certificates),
+            dict(files),
             system_digest,
             doing=doing,
             timeout=deadline,
@@ -93,7 +95,8 @@ def rechecked(
         )
     except LimitReached as reached:
         told = reached.message.replace("nothing has been decided", "the answers are not re-checked")
-        return Rechecked({}, tuple(certificates), LimitReached(told))
+        names = tuple(name for name in files if name != MANIFEST)
+        return Rechecked({}, names, LimitReached(told))
     valid = {name: said for name, said in found.items() if said.verdict == "VALID"}
     reasons = [f"{name} ({found[name].message})" for name in found if name not in valid]
     missing = None

@@ -8,7 +8,8 @@ from typing import Any
 import pytest
 
 from mcexact.answer import check
-from mcexact.checker import Verdict
+from mcexact.checker import Verdict, manifest
+from mcexact.checker.sentence import RULES
 from mcexact.cli import main, output
 from mcexact.cli.deadline import Deadline
 from mcexact.model import gallery
@@ -53,10 +54,27 @@ def test_a_certificate_that_is_not_accepted_is_an_internal_error(
     command: tuple[str, ...], call: Call, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     refused = Verdict("INVALID", code="claim", place="claim", message="not so")
-    monkeypatch.setattr(check, "check_document", lambda *_: refused)
+    for module in (check, manifest):
+        monkeypatch.setattr(module, "check_document", lambda *_: refused)
     status, out, err = call(*command, "--certificates", str(tmp_path / "evidence"))
     assert (status, out) == (70, "")
     assert "not to be believed" in err
+    assert not (tmp_path / "evidence").exists()
+
+
+@pytest.mark.parametrize(
+    ("command", "key"),
+    [
+        (("analyze", PLANT), "nothing-fixed"),
+        (("allocate", PLANT, "--arcs"), "allocate-no-links-needed"),
+    ],
+)
+def test_a_sentence_that_the_checker_does_not_know_is_an_internal_error(
+    command: tuple[str, ...], key: str, call: Call, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.delitem(RULES, key)
+    status, _, err = call(*command, "--certificates", str(tmp_path / "evidence"))
+    assert (status, "not to be believed" in err) == (70, True)
     assert not (tmp_path / "evidence").exists()
 
 
@@ -65,7 +83,7 @@ def test_what_a_limit_of_the_checker_leaves_open_is_status_4_and_keeps_the_answe
     form: tuple[str, ...], call: Call, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     large = Verdict("INCOMPLETE", code="size", place="subject", message="too large to build")
-    monkeypatch.setattr(check, "check_document", lambda *_: large)
+    monkeypatch.setattr(manifest, "check_document", lambda *_: large)
     page = tmp_path / "page.html"
     status, out, err = call("analyze", PLANT, *form, "--html", str(page))
     assert status == 4
