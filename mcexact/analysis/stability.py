@@ -117,7 +117,7 @@ def certify_stability(
 
     Notes
     -----
-    Exact, both ways.  Near the boundary the polynomial is the only road.
+    Exact, both ways.  Near the boundary only the polynomial decides.
 
     Examples
     --------

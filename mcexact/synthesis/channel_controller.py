@@ -148,6 +148,29 @@ def channel_controller(
     return _realized(own, n_c, h, polynomial)
 
 
+def assigning_controllers(
+    A: Matrix, B: Matrix, C: Matrix, polynomial: Polynomial, *, index: int, side: str, rng: Random
+) -> Iterator[ChannelController]:
+    """The controllers of `channel_controller` for drawn rows h.
+
+    Parameters
+    ----------
+    A, B, C, polynomial, index
+        As there.
+    side : {"controllable", "observable"}
+        Whose index it is; of the other one the transposed loop is designed.
+    rng : Random
+    """
+    if side == "observable":
+        turned = assigning_controllers(
+            A.T, C.T, B.T, polynomial, index=index, side="controllable", rng=rng
+        )
+        yield from map(transposed, turned)
+        return
+    for h in observing_rows(A, C, rng):
+        yield channel_controller(A, B, C, polynomial, index=index, row=h)
+
+
 def transposed(controller: ChannelController) -> ChannelController:
     """The controller for (A', C', B') as a controller for (A, B, C); the loop is transposed."""
     return ChannelController(

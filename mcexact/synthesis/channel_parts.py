@@ -67,7 +67,7 @@ class DrawnGains:
         return sum(reach.index - 1 for reach in self.reaches)
 
     @property
-    def height(self) -> int:
+    def size(self) -> int:
         """The sum of the absolute values of the gains, which are integers."""
         return sum(abs(x) for F in self.gains for row in F.numerators for x in row)
 
@@ -117,7 +117,7 @@ def drawn_gains(
     components : sequence of sequences of int
         For each strong component of the transfer graph, the channels to choose from.
     attempts : int
-        How many lists are drawn.
+        How many draws are made.
     least : int
         Draws with a smaller degree are not kept; the search stops early when many reach it.
 
@@ -139,7 +139,7 @@ def drawn_gains(
         drawn = _measured(modular, gains, components, rng)
         if drawn.degree >= least:
             found.append(drawn)
-    return sorted(found, key=lambda each: (-each.degree, each.order, each.height))
+    return sorted(found, key=lambda each: (-each.degree, each.order, each.size))
 
 
 def _draws(system: MultiChannelSystem, rng: Random, attempts: int) -> Iterator[tuple[Matrix, ...]]:

@@ -5,11 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.design import Arithmetic, Design
+from mcexact.synthesis.design import Arithmetic, Design, wanted_region
 from mcexact.synthesis.gate import Progress
 from mcexact.synthesis.network_design import network_design
 from mcexact.synthesis.networks import decentralized_network
-from mcexact.synthesis.spectrum import wanted_region
 
 
 def design_decentralized(

@@ -8,6 +8,7 @@ from math import isfinite
 from typing import Any, Literal
 
 from mcexact.answer.protocol import Answer
+from mcexact.errors import UsageError
 from mcexact.exact.floats import finite, matrix_to_float, to_float
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial
@@ -104,6 +105,32 @@ class Design:
     def __repr__(self) -> str:
         bound = f", {self.region}" if self.region.bound is not None else ""
         return f"Design({self.name}, {self.arithmetic}, order {self.order}{bound}, certified)"
+
+
+def wanted_region(
+    time: str, rate: Any = None, radius: Any = None, *, spectrum: Any = None
+) -> StabilityRegion:
+    """The region of a design; without a bound if a spectrum is prescribed and nothing else.
+
+    Parameters
+    ----------
+    time : {"continuous", "discrete"}
+    rate, radius : rational, optional
+        See `StabilityRegion.of`.
+    spectrum : optional
+        The prescribed numbers.
+
+    Raises
+    ------
+    UsageError
+        If there is neither; or as in `StabilityRegion.of`.
+    """
+    region = StabilityRegion.of(time, rate, radius)
+    if spectrum is None and region.bound is None:
+        raise UsageError(
+            f"give a {region.word} or a spectrum: nothing says how fast the loop must be"
+        )
+    return region
 
 
 def designed(

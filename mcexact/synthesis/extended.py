@@ -17,11 +17,10 @@ from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.location import StabilityRegion
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, as_plant, with_graph
-from mcexact.synthesis.design import Arithmetic, Design
+from mcexact.synthesis.design import Arithmetic, Design, wanted_region
 from mcexact.synthesis.gate import Progress
 from mcexact.synthesis.network_design import network_design
 from mcexact.synthesis.networks import DerivedNetwork, NetworkKind, shared_network
-from mcexact.synthesis.spectrum import wanted_region
 
 Dimensions = str | Sequence[int]
 """``"minimal"``, ``"bound"``, or n_1 … n_m."""
@@ -85,7 +84,7 @@ def design_extended(
     Notes
     -----
     Paper, sections IV-D, IV-E and V.  The design is on the derived system, the programs are for the
-    network itself: messages are late on the wires, and the agents hold.
+    network itself: messages are late on the links, and the agents hold.
 
     Examples
     --------

@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import ceil
-from random import Random
 from typing import Any
 
 from mcexact.analysis.modular_system import generator
@@ -17,18 +16,8 @@ from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial, product
-from mcexact.synthesis.channel_controller import (
-    ChannelController,
-    channel_controller,
-    observing_rows,
-    transposed,
-)
-from mcexact.synthesis.channel_parts import (
-    ChannelPart,
-    ChannelReach,
-    DrawnGains,
-    channel_part,
-)
+from mcexact.synthesis.channel_controller import ChannelController, assigning_controllers
+from mcexact.synthesis.channel_parts import ChannelReach, DrawnGains, channel_part
 from mcexact.synthesis.design import Arithmetic
 from mcexact.synthesis.gate import Progress
 from mcexact.synthesis.networks import DerivedNetwork
@@ -146,7 +135,10 @@ def _candidate(task: NetworkTask, drawn: DrawnGains) -> NetworkCandidate | None:
             part, channel = parts[reach.channel], reach.channel
             degree = part.A.nrows + reach.index - 1
             polynomial = task.polynomial(channel, degree, only=len(parts) == 1)
-            found = _exact_controller(part, reach, polynomial, rng)
+            controllers = assigning_controllers(
+                part.A, part.B, part.C, polynomial, index=reach.index, side=reach.side, rng=rng
+            )
+            found = next(controllers, None)
         if found is None or found.polynomial is None:
             return None
         made[channel], wanted[channel] = found, found.polynomial
@@ -178,20 +170,3 @@ def _only(p: Polynomial, allowed: Polynomial) -> bool:
             return False
         p = p // common
     return True
-
-
-def _exact_controller(
-    part: ChannelPart, reach: ChannelReach, polynomial: Polynomial, rng: Random
-) -> ChannelController | None:
-    """The Brasch–Pearson controller of a part, on the side of the smaller index."""
-    if reach.side == "controllable":
-        h = next(observing_rows(part.A, part.C, rng), None)
-        if h is None:
-            return None
-        return channel_controller(part.A, part.B, part.C, polynomial, index=reach.index, row=h)
-    h = next(observing_rows(part.A.T, part.B.T, rng), None)
-    if h is None:
-        return None
-    return transposed(
-        channel_controller(part.A.T, part.C.T, part.B.T, polynomial, index=reach.index, row=h)
-    )

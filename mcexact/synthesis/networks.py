@@ -92,13 +92,13 @@ def shared_network(
     Raises
     ------
     UsageError
-        If the wires have delays and the kind has none, or outputs are to be sent and held.
+        If the links have delays and the kind has none, or outputs are to be sent and held.
     """
     own_only = kind == "held" or share == "states"
     if kind == "held" and share != "states":
         raise UsageError('with holding only sub-states are sent: share must be "states"')
     if kind == "extended" and graph.delays:
-        raise UsageError('the wires have delays: choose the network "lifted" or "held"')
+        raise UsageError('the links have delays: choose the network "lifted" or "held"')
     if kind == "held":
         derived = held_system(system, dimensions, graph)
     else:
@@ -133,7 +133,7 @@ def network_programs(
 
     Notes
     -----
-    Paper, sections IV-C to IV-E and V.  Delays stay on the wires and holding in the agents: a
+    Paper, sections IV-C to IV-E and V.  Delays stay on the links and holding in the agents: a
     program never holds a matrix of the lifted system.
     """
     given, programs = network.given, []

@@ -15,13 +15,13 @@ from mcexact.exact.matrix import Matrix
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_graph
 from mcexact.model.system_file import digest
-from mcexact.synthesis.design import Arithmetic, Design, designed
+from mcexact.synthesis.design import Arithmetic, Design, designed, wanted_region
 from mcexact.synthesis.fast_modes import feedback_for_region, observable_part
 from mcexact.synthesis.gate import Progress, Proposal
 from mcexact.synthesis.observer_coordinates import observer_coordinates
 from mcexact.synthesis.observer_programs import observer_programs
 from mcexact.synthesis.observer_search import ObserverTask, best_channel_controller
-from mcexact.synthesis.spectrum import spectrum_polynomial, wanted_region
+from mcexact.synthesis.spectrum import spectrum_polynomial
 from mcexact.synthesis.state_feedback import StateFeedback, given_feedback, state_feedback
 
 
@@ -87,7 +87,7 @@ def design_observer(
     -----
     Exact; paper, section II and Theorem 1.  F_i by state feedback; small K_i, H_ij with which
     channel q controls the error system with index m and observes it, and its matrix is cyclic; then
-    the Brasch–Pearson controller.  Of several lists the one that leads to the shortest numbers is
+    the Brasch–Pearson controller.  Of several draws the one that leads to the shortest numbers is
     kept.  The certificate (`proofs/distributed_observer.md`) holds the controller and proves the
     separation and both polynomials.  A strongly connected graph is sufficient, not necessary: what
     is decided is the error system itself.
@@ -136,7 +136,7 @@ def observer_proposals(
     """What `design_observer` puts before the gate, of the same arguments: one, if exact."""
     if graph.delays:
         raise UsageError(
-            "the distributed observer has no delays on its wires; remove them, or design with an "
+            "the distributed observer has no delays on its links; remove them, or design with an "
             "extended system"
         )
     if order not in (None, "least"):

@@ -18,7 +18,7 @@ def observer_programs(
     graph: NeighborGraph,
     agent: int,
     feedback: Sequence[Matrix],
-    lists: Sequence[Matrix],
+    observer_gains: Sequence[Matrix],
     channel: ChannelController,
 ) -> Controller:
     """Write the observer as agent programs.
@@ -31,7 +31,7 @@ def observer_programs(
         q, counted from 0.
     feedback : sequence of Matrix
         F_i, p_i×n.
-    lists : sequence of Matrix
+    observer_gains : sequence of Matrix
         [K_i, H_ij, j ∈ N_i∖{i}], n×(q_i + n(|N_i| − 1)), of the open-loop observer.
     channel : ChannelController
         Of channel q of the error system.
@@ -47,7 +47,7 @@ def observer_programs(
     programs = []
     for i in range(system.m):
         others = [j for j in graph.neighborhood(i) if j != i]
-        own = lists[i] + channel.D if i == agent else lists[i]
+        own = observer_gains[i] + channel.D if i == agent else observer_gains[i]
         update = _innovation(system, i, others, own, closed)
         private, private_update = 0, LinearMap()
         if i == agent:

@@ -1,4 +1,4 @@
-"""The search for an exact observer: many small lists, a channel controller for each, the best."""
+"""The search for an exact observer: many small draws, a channel controller for each, the best."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import islice
 from math import ceil
-from random import Random
 from typing import Any
 
 from mcexact.analysis.completeness import completeness
@@ -20,12 +19,7 @@ from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.channel_controller import (
-    ChannelController,
-    channel_controller,
-    observing_rows,
-    transposed,
-)
+from mcexact.synthesis.channel_controller import ChannelController, assigning_controllers
 from mcexact.synthesis.gate import Progress
 from mcexact.synthesis.spectrum import default_polynomial, spectrum_polynomial
 from mcexact.synthesis.state_feedback import StateFeedback
@@ -35,7 +29,7 @@ _ROWS_PER_CANDIDATE = 2
 
 @dataclass(frozen=True)
 class ObserverTask:
-    """What has been settled before the lists and the channel controller are chosen."""
+    """What has been settled before observer gains and channel controller are chosen."""
 
     system: MultiChannelSystem
     graph: NeighborGraph
@@ -64,7 +58,7 @@ class ObserverTask:
 
 
 def _candidates(task: ObserverTask) -> list[ReachingGains]:
-    """Lists with which the agent reaches all errors, or the obstruction that no list overcomes."""
+    """Observer gains with which the agent reaches all errors, or the obstruction to all of them."""
     system, agent = task.system, [task.agent]
     draw = error_gain_draws(system, task.graph, task.feedback.gains, task.center())
     # More candidates give shorter numbers; each costs some n³ operations on longer ones.
@@ -84,18 +78,18 @@ def _candidates(task: ObserverTask) -> list[ReachingGains]:
         raise Impossible(say.ERRORS_NOT_COMPLETE(), decision.certificate)
     found = list(islice(reaching_gains(task.error, agent, draw, attempts=2000), count))
     if not found:
-        raise LimitReached("lists K_i, H_ij exist, but 2000 draws did not find them")
+        raise LimitReached("observer gains K_i, H_ij exist, but 2000 draws did not find them")
     return found
 
 
 def best_channel_controller(
     task: ObserverTask,
 ) -> tuple[ReachingGains, ChannelController, Polynomial]:
-    """The lists and the channel controller with the shortest and smallest numbers.
+    """The observer gains and the channel controller with the shortest and smallest numbers.
 
     Returns
     -------
-    lists : ReachingGains
+    observer_gains : ReachingGains
         [K_i, H_ij …], and the matrix of the error system with them.
     channel : ChannelController
     polynomial : Polynomial
@@ -104,7 +98,7 @@ def best_channel_controller(
     Raises
     ------
     Impossible
-        If no lists exist; the certificate says why.
+        If there are none; the certificate says why.
     InputError
         If the prescribed spectrum has the wrong length.
     """
@@ -118,12 +112,17 @@ def best_channel_controller(
     index = min(map(index_of, candidates))
     polynomial = task.polynomial(task.error.n + index - 1)
     rng = generator(task.error, "channel_controller")
+    B, C = task.error.B(task.agent), task.error.C(task.agent)
     best: tuple[int, ReachingGains, ChannelController] | None = None
     for k, each in enumerate(candidates):
         if index_of(each) != index:
             continue
         task.tell(f"channel controller {k + 1} of {len(candidates)}")
-        for made in _channel_controllers(task, each, polynomial, index, rng):
+        side = "controllable" if each.controllability_indices[0] <= index else "observable"
+        controllers = assigning_controllers(
+            each.matrix, B, C, polynomial, index=index, side=side, rng=rng
+        )
+        for made in islice(controllers, _ROWS_PER_CANDIDATE):
             # Short numbers matter for the proof, small ones for whoever runs the controller.
             size = made.bit_length + 8 * ceil(made.largest).bit_length()
             if best is None or size < best[0]:
@@ -131,19 +130,3 @@ def best_channel_controller(
     if best is None:
         raise LimitReached("no channel controller was found among the candidates")
     return best[1], best[2], polynomial
-
-
-def _channel_controllers(
-    task: ObserverTask, each: ReachingGains, polynomial: Polynomial, index: int, rng: Random
-) -> list[ChannelController]:
-    """Channel controllers for one candidate, from a few rows h each."""
-    B, C = task.error.B(task.agent), task.error.C(task.agent)
-    made = []
-    if each.controllability_indices[0] <= index:
-        for h in islice(observing_rows(each.matrix, C, rng), _ROWS_PER_CANDIDATE):
-            made.append(channel_controller(each.matrix, B, C, polynomial, index=index, row=h))
-        return made
-    for h in islice(observing_rows(each.matrix.T, B.T, rng), _ROWS_PER_CANDIDATE):
-        turned = channel_controller(each.matrix.T, C.T, B.T, polynomial, index=index, row=h)
-        made.append(transposed(turned))
-    return made

@@ -21,12 +21,11 @@ from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, as_plant, with_graph
 from mcexact.model.system_file import digest
-from mcexact.synthesis.design import Arithmetic, Design, designed
+from mcexact.synthesis.design import Arithmetic, Design, designed, wanted_region
 from mcexact.synthesis.extended import Dimensions, sharing_network
 from mcexact.synthesis.gate import Progress, Proposal
 from mcexact.synthesis.network_design import network_proposals
 from mcexact.synthesis.observer import observer_proposals
-from mcexact.synthesis.spectrum import wanted_region
 
 SetpointMethod = Literal["observer", "extended"]
 

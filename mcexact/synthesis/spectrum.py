@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-from mcexact.errors import InputError, UsageError
+from mcexact.errors import InputError
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import as_fraction
@@ -145,7 +145,7 @@ def require_numbers(spectrum: Any, where: str = "spectrum") -> None:
 
 
 def default_polynomial(region: StabilityRegion, degree: int) -> Polynomial:
-    """A polynomial of small height with every root in a region.
+    """A polynomial of short numbers with every root in a region.
 
     Parameters
     ----------
@@ -156,7 +156,7 @@ def default_polynomial(region: StabilityRegion, degree: int) -> Polynomial:
     -------
     Polynomial
         Continuous time: the roots −c, −c−1, −c−2, −c, … with c the least integer above the rate.
-        Discrete time: x^degree (deadbeat), which meets every radius and has the least height.
+        Discrete time: x^degree (deadbeat), which meets every radius and has the shortest numbers.
 
     Examples
     --------
@@ -170,29 +170,3 @@ def default_polynomial(region: StabilityRegion, degree: int) -> Polynomial:
     for k in range(degree):
         result = result * Polynomial((Fraction(least + k % 3), Fraction(1)))
     return result
-
-
-def wanted_region(
-    time: str, rate: Any = None, radius: Any = None, *, spectrum: Any = None
-) -> StabilityRegion:
-    """The region of a design; without a bound if a spectrum is prescribed and nothing else.
-
-    Parameters
-    ----------
-    time : {"continuous", "discrete"}
-    rate, radius : rational, optional
-        See `StabilityRegion.of`.
-    spectrum : optional
-        The prescribed numbers.
-
-    Raises
-    ------
-    UsageError
-        If there is neither; or as in `StabilityRegion.of`.
-    """
-    region = StabilityRegion.of(time, rate, radius)
-    if spectrum is None and region.bound is None:
-        raise UsageError(
-            f"give a {region.word} or a spectrum: nothing says how fast the loop must be"
-        )
-    return region

@@ -7,7 +7,8 @@ import pytest
 from mcexact.errors import FloatRefused, InputError, UsageError
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial
-from mcexact.synthesis.spectrum import default_polynomial, spectrum_polynomial, wanted_region
+from mcexact.synthesis.design import wanted_region
+from mcexact.synthesis.spectrum import default_polynomial, spectrum_polynomial
 
 
 @pytest.mark.parametrize(
