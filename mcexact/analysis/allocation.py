@@ -7,16 +7,17 @@ from collections.abc import Sequence
 from mcexact.analysis.covering import DEFAULT_NODE_LIMIT, CoveringCut, CoveringProgram
 from mcexact.analysis.cut_generation import CoveringProblem, Progress, covering_optimum
 from mcexact.analysis.deficiency import deficiency
-from mcexact.analysis.invariant_subspace import controllable_subspace
-from mcexact.analysis.modular_system import generator
+from mcexact.analysis.reachability import zero_transfer
 from mcexact.analysis.separation import boundary, complement, violated_subsets, violating_factors
-from mcexact.analysis.transfer_graph import transfer_graph, zero_transfer
+from mcexact.analysis.transfer_graph import transfer_graph
 from mcexact.answer.covering import ConnectivityCut
 from mcexact.answer.deficiency import Deficiency
 from mcexact.answer.shared_dimensions import SharedDimensions
 from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.derived.extended import Share, checked_share, extended_system
+from mcexact.derived.modular_system import generator
 from mcexact.errors import UsageError
+from mcexact.exact.invariant_subspace import controllable_subspace
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.rational import Entry, as_fraction
 from mcexact.model.neighbor_graph import NeighborGraph

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from mcexact.analysis.invariant_subspace import controllable_subspace, krylov_rows
-from mcexact.analysis.modular_system import generator, residue_systems
 from mcexact.analysis.transfer_graph import transfer_graph
 from mcexact.answer.assignability import Assignability, MinimalRealization, SpectrumBlock
 from mcexact.answer.transfer_graph import TransferGraph
+from mcexact.derived.modular_system import generator, residue_systems
 from mcexact.errors import InternalError
+from mcexact.exact.invariant_subspace import controllable_subspace, krylov_rows
 from mcexact.exact.matrix import Matrix
 from mcexact.model.system import MultiChannelSystem
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from math import lcm, prod
 
-from mcexact.analysis.modular_system import generator
 from mcexact.analysis.rate import located
 from mcexact.answer.closed_loop_spectrum import ClosedLoopSpectrum
 from mcexact.answer.loop_spectrum import LoopSpectrum
+from mcexact.derived.modular_system import generator
 from mcexact.errors import InternalError
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.location import StabilityRegion

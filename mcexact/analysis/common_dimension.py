@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from mcexact.analysis.allocation import base_system, plant_with_graph
 from mcexact.analysis.covering import CoveringCut
-from mcexact.analysis.modular_system import generator
 from mcexact.analysis.obstructions import decide
 from mcexact.analysis.separation import absence, violated_subsets
 from mcexact.answer.common_dimension import CommonDimension
 from mcexact.derived.extended import Share, extended_system
+from mcexact.derived.modular_system import generator
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 

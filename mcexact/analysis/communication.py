@@ -10,15 +10,14 @@ from typing import Literal, get_args
 
 from mcexact.analysis.covering import DEFAULT_NODE_LIMIT, CoveringCut, CoveringProgram
 from mcexact.analysis.cut_generation import CoveringProblem, covering_optimum
-from mcexact.analysis.fixed_spectrum import evidence
-from mcexact.analysis.modular_system import generator
 from mcexact.analysis.separation import least_minimizers, violating_factors
-from mcexact.analysis.shrunk_subspace import ExactSubspace, exact_subspace
+from mcexact.analysis.shrunk_subspace import ExactSubspace, evidence, exact_subspace
 from mcexact.answer.communication import MinimalCommunication
 from mcexact.answer.covering import ArcCut
 from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.derived.extended import Share, extended_system, selector
 from mcexact.derived.links import add_links
+from mcexact.derived.modular_system import generator
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.blocks import block_diagonal
 from mcexact.exact.location import StabilityRegion

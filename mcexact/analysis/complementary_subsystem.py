@@ -6,12 +6,12 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from random import Random
 
-from mcexact.analysis.invariant_form import companions, invariant_form
-from mcexact.analysis.invariant_subspace import controllable_subspace
-from mcexact.analysis.modular_system import generator, residue_systems
 from mcexact.answer.complementary_subsystem import ComplementarySubsystem
+from mcexact.derived.modular_system import generator, residue_systems
 from mcexact.errors import InternalError, UsageError
 from mcexact.exact.blocks import hstack, vstack
+from mcexact.exact.invariant_form import companions, invariant_form
+from mcexact.exact.invariant_subspace import controllable_subspace
 from mcexact.exact.linear_algebra import inverse, kernel, left_nullspace, nullspace, solve
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import hstack as modular_hstack

@@ -5,10 +5,8 @@ from __future__ import annotations
 import random
 
 from mcexact.analysis.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.invariant_subspace import controllable_subspace
-from mcexact.analysis.modular_system import ModularSystem, generator, lifted_gains
 from mcexact.analysis.obstructions import decide
-from mcexact.analysis.transfer_graph import Arc, suspected_arcs, witnessed_powers, zero_transfer
+from mcexact.analysis.reachability import Arc, suspected_arcs, witnessed_powers, zero_transfer
 from mcexact.answer.completeness import (
     Completeness,
     CutWitness,
@@ -16,6 +14,8 @@ from mcexact.answer.completeness import (
     FreedomWitness,
 )
 from mcexact.answer.fixed_spectrum import FixedSpectrum
+from mcexact.derived.modular_system import ModularSystem, generator, lifted_gains
+from mcexact.exact.invariant_subspace import controllable_subspace
 from mcexact.model.system import MultiChannelSystem
 
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from mcexact.analysis.invariant_subspace import controllable_subspace
-from mcexact.analysis.modular_system import generator
 from mcexact.answer.controllability import JointControllability
 from mcexact.derived.dual import dual
+from mcexact.derived.modular_system import generator
+from mcexact.exact.invariant_subspace import controllable_subspace
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.model.system import MultiChannelSystem
 

@@ -7,9 +7,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import pairwise
 
-from mcexact.analysis.modular_system import generator, residue_systems
 from mcexact.answer.controllability_indices import ControllabilityIndices
 from mcexact.derived.dual import dual
+from mcexact.derived.modular_system import generator, residue_systems
 from mcexact.errors import InternalError
 from mcexact.exact.blocks import hstack, vstack
 from mcexact.exact.linear_algebra import solve_nonsingular

@@ -15,9 +15,9 @@ from mcexact.analysis.covering import (
     branch_tree,
     minimize,
 )
-from mcexact.analysis.modular_system import generator
 from mcexact.analysis.separation import absence
 from mcexact.answer.covering import Absence
+from mcexact.derived.modular_system import generator
 from mcexact.errors import LimitReached, UsageError
 from mcexact.exact.location import StabilityRegion
 from mcexact.model.system import MultiChannelSystem

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from mcexact.analysis.fixed_spectrum import evidence
-from mcexact.analysis.modular_system import closed_loop, generator, lifted, lifted_gains
 from mcexact.analysis.obstructions import Obstruction, decide
+from mcexact.analysis.shrunk_subspace import evidence
 from mcexact.answer.deficiency import Deficiency
+from mcexact.derived.modular_system import closed_loop, generator, lifted, lifted_gains
 from mcexact.exact.modular import random_matrix
 from mcexact.model.system import MultiChannelSystem
 

@@ -9,10 +9,10 @@ from typing import Any
 
 from mcexact.analysis.controllability import joint_controllability
 from mcexact.analysis.controllability_indices import controllability_indices
-from mcexact.analysis.modular_system import generator
 from mcexact.answer.controllability_indices import ControllabilityIndices
 from mcexact.answer.evidence import RootDisc
 from mcexact.answer.exceptional_gains import ExceptionalFactor, ExceptionalSet
+from mcexact.derived.modular_system import generator
 from mcexact.errors import Impossible, InternalError
 from mcexact.exact.blocks import hstack
 from mcexact.exact.enclosures import root_discs

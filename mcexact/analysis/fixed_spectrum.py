@@ -5,12 +5,12 @@ from __future__ import annotations
 import random
 from typing import cast
 
-from mcexact.analysis.modular_system import closed_loop, generator, lifted, lifted_gains
 from mcexact.analysis.obstructions import Decision, Obstruction, decide
 from mcexact.analysis.rate import located
-from mcexact.analysis.shrunk_subspace import ExactSubspace
-from mcexact.answer.evidence import RootDisc, ShrunkSubspace
+from mcexact.analysis.shrunk_subspace import evidence
+from mcexact.answer.evidence import RootDisc
 from mcexact.answer.fixed_spectrum import Completion, FixedFactor, FixedSpectrum
+from mcexact.derived.modular_system import closed_loop, generator, lifted, lifted_gains
 from mcexact.exact.location import StabilityRegion, Time
 from mcexact.exact.modular import polynomial_residues, random_matrix
 from mcexact.exact.polynomial import Polynomial, product
@@ -62,16 +62,6 @@ def fixed_spectrum(system: MultiChannelSystem) -> FixedSpectrum:
         modulus=decision.modular.modulus,
         subspaces=tuple(evidence(system, o.subspace) for o in decision.obstructions),
         completion=_completion(decision, rng) if factors else None,
-    )
-
-
-def evidence(system: MultiChannelSystem, subspace: ExactSubspace) -> ShrunkSubspace:
-    """The certificate's form of a shrunk subspace."""
-    return ShrunkSubspace(
-        channels_T=system.named(subspace.channels_T),
-        U=subspace.U,
-        V=subspace.V,
-        pivots=subspace.pivots,
     )
 
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from random import Random
 
-from mcexact.analysis.modular_system import ModularSystem, generator, residue_systems
+from mcexact.derived.modular_system import ModularSystem, generator, residue_systems
 from mcexact.exact.blocks import block_diagonal, hstack
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import ModularMatrix, residues

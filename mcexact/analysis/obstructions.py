@@ -6,7 +6,8 @@ import itertools
 import random
 from dataclasses import dataclass
 
-from mcexact.analysis.modular_system import (
+from mcexact.analysis.shrunk_subspace import ExactSubspace, shrunk_subspace
+from mcexact.derived.modular_system import (
     Gains,
     ModularSystem,
     drawn_gains,
@@ -14,7 +15,6 @@ from mcexact.analysis.modular_system import (
     quick_bits,
     residue_systems,
 )
-from mcexact.analysis.shrunk_subspace import ExactSubspace, shrunk_subspace
 from mcexact.errors import InternalError
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.modular import ModularPolynomial, polynomial_residues

@@ -6,9 +6,9 @@ from collections.abc import Iterable
 from typing import Any
 
 from mcexact.analysis.closed_loop_spectrum import open_loop_spectrum
-from mcexact.analysis.modular_system import generator
 from mcexact.answer.closed_loop_spectrum import ClosedLoopSpectrum
 from mcexact.answer.pencil_rank import PencilRank
+from mcexact.derived.modular_system import generator
 from mcexact.errors import InputError, InternalError
 from mcexact.exact.blocks import block
 from mcexact.exact.matrix import Matrix

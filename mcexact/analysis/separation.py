@@ -6,22 +6,17 @@ import random
 from collections.abc import Iterator, Sequence
 
 from mcexact.analysis.covering import CoveringCut
-from mcexact.analysis.fixed_spectrum import evidence
-from mcexact.analysis.modular_system import (
+from mcexact.analysis.obstructions import decide
+from mcexact.analysis.reachability import strong_components, suspected_arcs, witnessed_powers
+from mcexact.analysis.shrunk_subspace import evidence, exact_subspace, obstruction_modulo
+from mcexact.answer.covering import Absence, DeficiencyCut
+from mcexact.derived.dual import dual
+from mcexact.derived.modular_system import (
     ModularSystem,
     drawn_gains,
     lifted_gains,
     residue_systems,
 )
-from mcexact.analysis.obstructions import decide
-from mcexact.analysis.shrunk_subspace import exact_subspace, obstruction_modulo
-from mcexact.analysis.transfer_graph import (
-    strong_components,
-    suspected_arcs,
-    witnessed_powers,
-)
-from mcexact.answer.covering import Absence, DeficiencyCut
-from mcexact.derived.dual import dual
 from mcexact.errors import InternalError
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.location import StabilityRegion

@@ -5,8 +5,8 @@ from __future__ import annotations
 import random
 from functools import reduce
 
-from mcexact.analysis.modular_system import generator
 from mcexact.answer.setpoint import SetpointSolvability
+from mcexact.derived.modular_system import generator
 from mcexact.errors import InternalError
 from mcexact.exact.blocks import block, hstack, vstack
 from mcexact.exact.linear_algebra import (

@@ -14,7 +14,8 @@ import random
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from mcexact.analysis.modular_system import (
+from mcexact.answer.evidence import ShrunkSubspace
+from mcexact.derived.modular_system import (
     Gains,
     ModularSystem,
     closed_loop,
@@ -292,4 +293,14 @@ def exact_subspace(
         V=spread @ kernel.take(rows=range(b)),
         pivots=tuple(pivot - b for pivot in pivots),
         deficiency=len(pivots) - b,
+    )
+
+
+def evidence(system: MultiChannelSystem, subspace: ExactSubspace) -> ShrunkSubspace:
+    """The certificate's form of a shrunk subspace."""
+    return ShrunkSubspace(
+        channels_T=system.named(subspace.channels_T),
+        U=subspace.U,
+        V=subspace.V,
+        pivots=subspace.pivots,
     )

@@ -6,18 +6,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from random import Random
 
-from mcexact.analysis.fixed_spectrum import evidence
 from mcexact.analysis.gains import Draw, drawn_integers, reach_index
-from mcexact.analysis.invariant_subspace import controllable_subspace
-from mcexact.analysis.modular_system import (
-    ModularSystem,
-    closed_loop,
-    drawn_gains,
-    generator,
-    residue_systems,
-)
 from mcexact.analysis.obstructions import decide
-from mcexact.analysis.transfer_graph import suspected_arcs, zero_transfer
+from mcexact.analysis.reachability import suspected_arcs, zero_transfer
+from mcexact.analysis.shrunk_subspace import evidence
 from mcexact.answer.single_channel_gains import (
     GainsWitness,
     SingleChannelGains,
@@ -26,8 +18,16 @@ from mcexact.answer.single_channel_gains import (
 )
 from mcexact.derived.dual import dual
 from mcexact.derived.feedback import closed_by, full_output
+from mcexact.derived.modular_system import (
+    ModularSystem,
+    closed_loop,
+    drawn_gains,
+    generator,
+    residue_systems,
+)
 from mcexact.errors import InternalError, UsageError
 from mcexact.exact.blocks import hstack
+from mcexact.exact.invariant_subspace import controllable_subspace
 from mcexact.exact.linear_algebra import solve_nonsingular
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import ModularMatrix, residues

@@ -9,7 +9,6 @@ from itertools import accumulate, pairwise
 from typing import Any, Literal
 
 from mcexact.analysis.lyapunov import QuadraticForm, quadratic_form
-from mcexact.analysis.modular_system import generator
 from mcexact.analysis.separated_instability import separated_instability
 from mcexact.answer.stability import (
     InstabilityMethod,
@@ -19,6 +18,7 @@ from mcexact.answer.stability import (
     StabilityVerdict,
     Transformation,
 )
+from mcexact.derived.modular_system import generator
 from mcexact.errors import UsageError
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.location import StabilityRegion

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from random import Random
 
 from mcexact.analysis.gains import drawn_integers
-from mcexact.analysis.invariant_subspace import controllable_subspace
-from mcexact.analysis.modular_system import ModularSystem, generator, residue_systems
+from mcexact.derived.modular_system import ModularSystem, generator, residue_systems
 from mcexact.exact.blocks import block_diagonal
+from mcexact.exact.invariant_subspace import controllable_subspace
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import ModularMatrix, hstack, random_matrix, residues, vstack
 from mcexact.model.system import MultiChannelSystem

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from mcexact.analysis.controllability import joint_controllability
-from mcexact.analysis.invariant_subspace import controllable_subspace
-from mcexact.analysis.modular_system import generator
 from mcexact.answer.wording import refusals as say
+from mcexact.derived.modular_system import generator
 from mcexact.errors import Impossible, InternalError
+from mcexact.exact.invariant_subspace import controllable_subspace
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.model.system import MultiChannelSystem

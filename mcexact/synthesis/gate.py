@@ -8,12 +8,12 @@ from itertools import accumulate
 from typing import Any
 
 from mcexact.analysis.closed_loop_spectrum import agreeing_moduli
-from mcexact.analysis.modular_system import generator
 from mcexact.analysis.stability import Method, Separation, certify_stability
 from mcexact.answer.closed_loop_spectrum import ClosedLoopSpectrum
 from mcexact.answer.distributed_observer import DistributedObserver
 from mcexact.answer.protocol import Answer
 from mcexact.answer.wording import refusals as say
+from mcexact.derived.modular_system import generator
 from mcexact.errors import Impossible, InternalError, LimitReached, UsageError
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix

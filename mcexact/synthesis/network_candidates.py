@@ -8,9 +8,9 @@ from fractions import Fraction
 from math import ceil
 from typing import Any
 
-from mcexact.analysis.modular_system import generator
 from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.derived.feedback import closed_by
+from mcexact.derived.modular_system import generator
 from mcexact.errors import InputError, InternalError
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.location import StabilityRegion

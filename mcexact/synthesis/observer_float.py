@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 
 from mcexact.analysis.controllability import joint_controllability, joint_observability
 from mcexact.analysis.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.modular_system import generator
 from mcexact.answer.wording import refusals as say
 from mcexact.derived.error_system import error_system
 from mcexact.derived.feedback import closed_by
+from mcexact.derived.modular_system import generator
 from mcexact.errors import Impossible, LimitReached
 from mcexact.exact.floats import dyadic_matrix, matrix_to_float
 from mcexact.exact.location import StabilityRegion, is_discrete

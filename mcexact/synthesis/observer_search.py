@@ -12,8 +12,8 @@ from typing import Any
 from mcexact.analysis.completeness import completeness
 from mcexact.analysis.controllability import joint_observability
 from mcexact.analysis.gains import ReachingGains, error_gain_draws, reaching_gains
-from mcexact.analysis.modular_system import generator
 from mcexact.answer.wording import refusals as say
+from mcexact.derived.modular_system import generator
 from mcexact.errors import Impossible, InputError, LimitReached
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial

@@ -10,10 +10,10 @@ from random import Random
 
 from mcexact.analysis.controllability import joint_controllability
 from mcexact.analysis.gains import drawn_integers
-from mcexact.analysis.invariant_form import companion
 from mcexact.answer.wording import refusals as say
 from mcexact.errors import Impossible, InternalError, LimitReached
 from mcexact.exact.blocks import hstack
+from mcexact.exact.invariant_form import companion
 from mcexact.exact.linear_algebra import (
     characteristic_polynomial,
     determinant,

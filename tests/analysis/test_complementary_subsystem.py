@@ -9,11 +9,11 @@ import pytest
 from hypothesis import given
 
 from mcexact import MultiChannelSystem, complementary_subsystem, completeness, dual
-from mcexact.analysis.invariant_form import companions, invariant_form
 from mcexact.answer.codec import encode
 from mcexact.checker import check_document
 from mcexact.derived.drawn.systems import Drawn
 from mcexact.errors import UsageError
+from mcexact.exact.invariant_form import companions, invariant_form
 from mcexact.exact.linear_algebra import characteristic_polynomial, rank
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial, product

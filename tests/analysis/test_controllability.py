@@ -6,11 +6,11 @@ from fractions import Fraction
 import pytest
 
 from mcexact.analysis.controllability import joint_controllability, joint_observability
-from mcexact.analysis.invariant_subspace import controllable_subspace
 from mcexact.answer import codec
 from mcexact.checker import check_document
 from mcexact.derived.dual import dual
 from mcexact.errors import UsageError
+from mcexact.exact.invariant_subspace import controllable_subspace
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model import gallery

@@ -6,11 +6,11 @@ import pytest
 
 from mcexact.analysis.closed_loop_spectrum import closed_loop_spectrum
 from mcexact.analysis.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.invariant_form import companions
 from mcexact.analysis.rate import best_rate, located
 from mcexact.answer import codec
 from mcexact.answer.evidence import RateInterval, RootDisc
 from mcexact.checker import check_document
+from mcexact.exact.invariant_form import companions
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.system import MultiChannelSystem

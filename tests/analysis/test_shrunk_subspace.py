@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 import pytest
 
-from mcexact.analysis.modular_system import ModularSystem, closed_loop, drawn_gains
 from mcexact.analysis.shrunk_subspace import exact_subspace, obstruction_modulo, shrunk_subspace
+from mcexact.derived.modular_system import ModularSystem, closed_loop, drawn_gains
 from mcexact.exact.linear_algebra import rank
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial

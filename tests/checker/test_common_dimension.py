@@ -13,10 +13,10 @@ import pytest
 
 from mcexact.analysis.allocation import shared_dimension_bound
 from mcexact.analysis.common_dimension import common_dimension
-from mcexact.analysis.modular_system import generator
 from mcexact.analysis.separation import absence
 from mcexact.answer.codec import document, encode, plain
 from mcexact.derived.extended import extended_system
+from mcexact.derived.modular_system import generator
 from mcexact.errors import UsageError
 from mcexact.model import gallery
 from mcexact.model.neighbor_graph import NeighborGraph

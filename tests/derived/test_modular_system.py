@@ -5,7 +5,11 @@ import random
 import pytest
 
 from mcexact.analysis.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.modular_system import (
+from mcexact.answer import codec
+from mcexact.checker import check_document
+from mcexact.derived.drawn.choices import SeededChoices
+from mcexact.derived.drawn.systems import system_with_fixed_mode
+from mcexact.derived.modular_system import (
     closed_loop,
     drawn_gains,
     generator,
@@ -13,10 +17,6 @@ from mcexact.analysis.modular_system import (
     quick_bits,
     residue_systems,
 )
-from mcexact.answer import codec
-from mcexact.checker import check_document
-from mcexact.derived.drawn.choices import SeededChoices
-from mcexact.derived.drawn.systems import system_with_fixed_mode
 from mcexact.exact.matrix import Matrix
 from mcexact.model.system import MultiChannelSystem
 

@@ -1,0 +1,72 @@
+"""Which channels reach which modulo a prime, and subspaces that prove that others do not."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Sequence
+
+from mcexact.answer.evidence import ZeroTransfer
+from mcexact.derived.modular_system import ModularSystem
+from mcexact.exact.invariant_subspace import InvariantSubspace
+from mcexact.exact.modular import ModularMatrix
+from mcexact.model.system import MultiChannelSystem
+
+Arc = tuple[int, int]
+
+
+def _channel_of(ranges: Sequence[range]) -> list[int]:
+    return [i for i, positions in enumerate(ranges) for _ in positions]
+
+
+def _nonzero_blocks(modular: ModularSystem, G: ModularMatrix) -> set[Arc]:
+    """The pairs (j, i) with a nonzero block (i, j) of a Σ q_i × Σ p_i matrix."""
+    sources, targets = _channel_of(modular.inputs), _channel_of(modular.outputs)
+    found: set[Arc] = set()
+    for i, row in zip(targets, G.rows(), strict=True):
+        found.update((j, i) for j, value in zip(sources, row, strict=True) if value)
+    return found
+
+
+def suspected_arcs(modular: ModularSystem, rng: random.Random) -> set[Arc]:
+    """The pairs with C_i (zI − A)⁻¹ B_j ≠ 0 modulo ℓ at a drawn z."""
+    n, ell = modular.system.n, modular.modulus
+    if n == 0 or not modular.B.ncols or not modular.C.nrows:
+        return set()
+    while True:
+        resolvent = ModularMatrix.scalar(n, rng.randrange(ell), ell) - modular.A
+        inverse = resolvent.inverse()
+        if inverse is not None:
+            return _nonzero_blocks(modular, (modular.C @ inverse) @ modular.B)
+
+
+def witnessed_powers(modular: ModularSystem, suspected: set[Arc]) -> dict[Arc, int]:
+    """The least k with C_i A^k B_j ≠ 0 modulo ℓ, for every pair that has one below n."""
+    found: dict[Arc, int] = {}
+    if not suspected:
+        return found
+    moved = modular.B
+    for k in range(modular.system.n):
+        if k:
+            moved = modular.A @ moved
+        for arc in _nonzero_blocks(modular, modular.C @ moved):
+            found.setdefault(arc, k)
+        if suspected <= found.keys():
+            break
+    return found
+
+
+def zero_transfer(
+    system: MultiChannelSystem, sources: Sequence[int], found: InvariantSubspace
+) -> ZeroTransfer:
+    """The certificate's form of an invariant subspace that contains im B_j for some channels."""
+    return ZeroTransfer(channels_from=system.named(sources), X=found.X, pivots=found.pivots)
+
+
+def strong_components(m: int, arcs: Sequence[Arc]) -> tuple[tuple[int, ...], ...]:
+    """Strong components of a graph on 0 … m−1, each ascending, sorted by first member."""
+    import networkx
+
+    graph = networkx.DiGraph()
+    graph.add_nodes_from(range(m))
+    graph.add_edges_from(arcs)
+    return tuple(sorted(tuple(sorted(c)) for c in networkx.strongly_connected_components(graph)))
