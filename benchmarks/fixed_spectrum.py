@@ -16,8 +16,8 @@ from pathlib import Path
 from benchmarks import peers
 from benchmarks.measure import Timing, interleaved
 from mcexact import checker
-from mcexact.analysis.completeness import completeness
-from mcexact.analysis.fixed_spectrum import fixed_spectrum
+from mcexact.analysis.fixed_modes.completeness import completeness
+from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.answer.codec import encode
 from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.derived.drawn.choices import SeededChoices

@@ -13,36 +13,46 @@ from typing import TYPE_CHECKING, Any
 from mcexact.analysis.questions import QUESTIONS
 
 if TYPE_CHECKING:
-    from mcexact.analysis.allocation import minimal_shared_dimensions as minimal_shared_dimensions
-    from mcexact.analysis.allocation import shared_dimension_bound as shared_dimension_bound
     from mcexact.analysis.analyze import analyze as analyze
-    from mcexact.analysis.assignability import assignability as assignability
-    from mcexact.analysis.closed_loop_spectrum import open_loop_spectrum as open_loop_spectrum
-    from mcexact.analysis.communication import minimal_communication as minimal_communication
-    from mcexact.analysis.complementary_subsystem import (
-        complementary_subsystem as complementary_subsystem,
-    )
-    from mcexact.analysis.completeness import completeness as completeness
-    from mcexact.analysis.controllability import joint_controllability as joint_controllability
-    from mcexact.analysis.controllability import joint_observability as joint_observability
-    from mcexact.analysis.controllability_indices import (
-        controllability_indices as controllability_indices,
-    )
-    from mcexact.analysis.controllability_indices import (
-        observability_indices as observability_indices,
-    )
-    from mcexact.analysis.error_gains import error_gains as error_gains
-    from mcexact.analysis.exceptional_gains import exceptional_gains as exceptional_gains
-    from mcexact.analysis.fixed_spectrum import fixed_spectrum as fixed_spectrum
-    from mcexact.analysis.pencil import pencil_rank as pencil_rank
-    from mcexact.analysis.pencil import pencil_ranks as pencil_ranks
-    from mcexact.analysis.setpoint import setpoint_solvability as setpoint_solvability
-    from mcexact.analysis.single_channel_gains import (
+    from mcexact.analysis.fixed_modes.assignability import assignability as assignability
+    from mcexact.analysis.fixed_modes.completeness import completeness as completeness
+    from mcexact.analysis.fixed_modes.error_gains import error_gains as error_gains
+    from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum as fixed_spectrum
+    from mcexact.analysis.fixed_modes.pencil import pencil_rank as pencil_rank
+    from mcexact.analysis.fixed_modes.pencil import pencil_ranks as pencil_ranks
+    from mcexact.analysis.fixed_modes.single_channel_gains import (
         single_channel_gains as single_channel_gains,
     )
-    from mcexact.analysis.stability import certify_stability as certify_stability
-    from mcexact.analysis.stability import matrix_system as matrix_system
-    from mcexact.analysis.transfer_graph import transfer_graph as transfer_graph
+    from mcexact.analysis.sharing.allocation import (
+        minimal_shared_dimensions as minimal_shared_dimensions,
+    )
+    from mcexact.analysis.sharing.allocation import shared_dimension_bound as shared_dimension_bound
+    from mcexact.analysis.sharing.communication import (
+        minimal_communication as minimal_communication,
+    )
+    from mcexact.analysis.stability.closed_loop_spectrum import (
+        open_loop_spectrum as open_loop_spectrum,
+    )
+    from mcexact.analysis.stability.stability import certify_stability as certify_stability
+    from mcexact.analysis.stability.stability import matrix_system as matrix_system
+    from mcexact.analysis.structure.complementary_subsystem import (
+        complementary_subsystem as complementary_subsystem,
+    )
+    from mcexact.analysis.structure.controllability import (
+        joint_controllability as joint_controllability,
+    )
+    from mcexact.analysis.structure.controllability import (
+        joint_observability as joint_observability,
+    )
+    from mcexact.analysis.structure.controllability_indices import (
+        controllability_indices as controllability_indices,
+    )
+    from mcexact.analysis.structure.controllability_indices import (
+        observability_indices as observability_indices,
+    )
+    from mcexact.analysis.structure.exceptional_gains import exceptional_gains as exceptional_gains
+    from mcexact.analysis.structure.setpoint import setpoint_solvability as setpoint_solvability
+    from mcexact.analysis.structure.transfer_graph import transfer_graph as transfer_graph
     from mcexact.answer.check import check as check
     from mcexact.crosscheck.table import crosscheck as crosscheck
     from mcexact.derived.augmented_outputs import augmented_outputs as augmented_outputs
@@ -73,7 +83,7 @@ _HOME = {
     "analyze": "analysis.analyze",
     "augmented_outputs": "derived.augmented_outputs",
     "certify_controller": "synthesis.certify",
-    "certify_stability": "analysis.stability",
+    "certify_stability": "analysis.stability.stability",
     "check": "answer.check",
     "crosscheck": "crosscheck.table",
     "design_decentralized": "synthesis.decentralized",
@@ -81,9 +91,9 @@ _HOME = {
     "design_observer": "synthesis.observer",
     "design_setpoint": "synthesis.setpoint",
     "dual": "derived.dual",
-    "error_gains": "analysis.error_gains",
+    "error_gains": "analysis.fixed_modes.error_gains",
     "error_system": "derived.error_system",
-    "exceptional_gains": "analysis.exceptional_gains",
+    "exceptional_gains": "analysis.structure.exceptional_gains",
     "extended_system": "derived.extended",
     "held_system": "derived.delayed",
     "lifted_system": "derived.delayed",
@@ -91,8 +101,8 @@ _HOME = {
     "load_system": "model.system_file",
     "local_controllers": "model.local_controllers",
     "loop_from_statespace": "model.statespace",
-    "matrix_system": "analysis.stability",
-    "pencil_rank": "analysis.pencil",
+    "matrix_system": "analysis.stability.stability",
+    "pencil_rank": "analysis.fixed_modes.pencil",
     "save_controller": "model.controller_file",
     "save_system": "model.system_file",
     "setpoint_system": "derived.integrators",

@@ -77,7 +77,7 @@ def _joint(about: str = "system", needs: str = "", option: str = "") -> dict[str
     """What all channels together, or one of them, reach and see."""
     return {
         f"{what}ability": Question(
-            f"controllability:joint_{what}ability",
+            f"structure.controllability:joint_{what}ability",
             f"which modes the channels {verb}",
             about=about,
             needs=needs,
@@ -102,53 +102,53 @@ _SPECTRUM = {"spectrum": "fixed_spectrum"}
 QUESTIONS: Mapping[str, Question] = MappingProxyType(
     {
         "fixed_spectrum": Question(
-            "fixed_spectrum:fixed_spectrum",
+            "fixed_modes.fixed_spectrum:fixed_spectrum",
             "which modes no linear time-invariant decentralized control moves",
         ),
         "completeness": Question(
-            "completeness:completeness",
+            "fixed_modes.completeness:completeness",
             "whether one channel can control and observe everything, whatever the channel",
             reuses=_SPECTRUM,
         ),
         **{f"joint_{name}": question for name, question in _JOINT.items()},
         "controllability_indices": Question(
-            "controllability_indices:controllability_indices",
+            "structure.controllability_indices:controllability_indices",
             "how long the inputs take to reach every state",
             ports="inputs",
         ),
         "observability_indices": Question(
-            "controllability_indices:observability_indices",
+            "structure.controllability_indices:observability_indices",
             "how long the outputs take to tell every state",
             ports="outputs",
             kind="controllability_indices",
             dual=True,
         ),
         "transfer_graph": Question(
-            "transfer_graph:transfer_graph", "which channel's inputs reach which outputs"
+            "structure.transfer_graph:transfer_graph", "which channel's inputs reach which outputs"
         ),
         "assignability": Question(
-            "assignability:assignability",
+            "fixed_modes.assignability:assignability",
             "into which parts the closed-loop spectrum splits",
             reuses={"graph": "transfer_graph"},
         ),
         "setpoint": Question(
-            "setpoint:setpoint_solvability",
+            "structure.setpoint:setpoint_solvability",
             "whether every output can be held at any value",
             about="plant",
         ),
         "complementary_subsystem": Question(
-            "complementary_subsystem:complementary_subsystem",
+            "structure.complementary_subsystem:complementary_subsystem",
             "rank, zeros and remnant polynomial of the pencil of a set of channels",
             needs="subset",
         ),
         "spectrum_of_A": Question(
-            "closed_loop_spectrum:open_loop_spectrum",
+            "stability.closed_loop_spectrum:open_loop_spectrum",
             "the modes of the plant",
             unbidden=False,
             kind="closed_loop_spectrum",
         ),
         "pencil_rank": Question(
-            "pencil:pencil_ranks",
+            "fixed_modes.pencil:pencil_ranks",
             "the rank of the pencil of a set of channels at every mode",
             needs="subset",
             reuses={"spectrum": "spectrum_of_A"},
@@ -156,7 +156,7 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
         **{f"channel_{name}": question for name, question in _ALONE.items()},
         **{
             f"channel_gains_{want}": Question(
-                "single_channel_gains:single_channel_gains",
+                "fixed_modes.single_channel_gains:single_channel_gains",
                 f"whether gains make one channel {said}",
                 needs="channel",
                 given={"want": want},
@@ -169,21 +169,21 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
             )
         },
         "every_channel": Question(
-            "single_channel_gains:single_channel_gains",
+            "fixed_modes.single_channel_gains:single_channel_gains",
             "gains with which every channel controls and observes the whole plant",
             unbidden=False,
             option="every-channel",
             kind="single_channel_gains",
         ),
         "neighbor_graph": Question(
-            "neighbor_graph:neighbor_graph",
+            "sharing.neighbor_graph:neighbor_graph",
             "whether the neighbor graph is strongly connected",
             about="plant",
             needs="neighbors",
         ),
         **{
             f"{name}_{stem}": Question(
-                f"{file}:{name}",
+                f"sharing.{file}:{name}",
                 help,
                 about="plant",
                 needs="neighbors",
@@ -196,7 +196,7 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
             for share, stem in SHARES.items()
         },
         "minimal_communication": Question(
-            "communication:minimal_communication",
+            "sharing.communication:minimal_communication",
             "the fewest links over which sending outputs leaves no mode fixed",
             about="plant",
             unbidden=False,
@@ -208,7 +208,7 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
             for network in ("lifted", "held")
             for name, question in {
                 "fixed_spectrum": Question(
-                    "fixed_spectrum:fixed_spectrum",
+                    "fixed_modes.fixed_spectrum:fixed_spectrum",
                     "what is fixed with the delays of the neighbor graph, lifted and held",
                     about=network,
                     needs="neighbors",

@@ -134,7 +134,7 @@ def _answer(
     place: str, data: bytes, limits: dict[str, int], question: dict[str, Any]
 ) -> dict[str, Any]:
     """Read, decide, and put the answer into text: what the child process does."""
-    from mcexact.analysis.sharing import account_of_dimensions, account_of_links
+    from mcexact.analysis.accounts import account_of_dimensions, account_of_links
     from mcexact.cli.concluding import told
     from mcexact.cli.files import system_in
     from mcexact.report.account import tables

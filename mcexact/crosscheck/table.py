@@ -7,14 +7,14 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from mcexact.analysis.completeness import completeness
-from mcexact.analysis.controllability import joint_controllability, joint_observability
-from mcexact.analysis.controllability_indices import (
+from mcexact.analysis.fixed_modes.completeness import completeness
+from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
+from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
+from mcexact.analysis.structure.controllability_indices import (
     controllability_indices,
     observability_indices,
 )
-from mcexact.analysis.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.transfer_graph import transfer_graph
+from mcexact.analysis.structure.transfer_graph import transfer_graph
 from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.crosscheck.records import Libraries, libraries_here
 from mcexact.exact.floats import matrix_to_float

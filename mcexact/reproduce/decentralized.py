@@ -5,11 +5,11 @@ from __future__ import annotations
 from functools import reduce
 
 from mcexact.analysis.analyze import analyze
-from mcexact.analysis.completeness import completeness
-from mcexact.analysis.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.pencil import pencil_rank
-from mcexact.analysis.single_channel_gains import single_channel_gains
-from mcexact.analysis.transfer_graph import transfer_graph
+from mcexact.analysis.fixed_modes.completeness import completeness
+from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
+from mcexact.analysis.fixed_modes.pencil import pencil_rank
+from mcexact.analysis.fixed_modes.single_channel_gains import single_channel_gains
+from mcexact.analysis.structure.transfer_graph import transfer_graph
 from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.derived.feedback import closed_by
 from mcexact.errors import Impossible

@@ -5,12 +5,12 @@ from __future__ import annotations
 from fractions import Fraction
 from functools import partial
 
-from mcexact.analysis.allocation import shared_dimension_bound
-from mcexact.analysis.closed_loop_spectrum import closed_loop_spectrum
-from mcexact.analysis.completeness import completeness
-from mcexact.analysis.controllability import joint_controllability, joint_observability
-from mcexact.analysis.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.transfer_graph import transfer_graph
+from mcexact.analysis.fixed_modes.completeness import completeness
+from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
+from mcexact.analysis.sharing.allocation import shared_dimension_bound
+from mcexact.analysis.stability.closed_loop_spectrum import closed_loop_spectrum
+from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
+from mcexact.analysis.structure.transfer_graph import transfer_graph
 from mcexact.derived.delayed import held_system, lifted_system
 from mcexact.derived.extended import shift
 from mcexact.exact.blocks import vstack

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from mcexact.analysis.allocation import (
+from mcexact.analysis.analyze import analyze
+from mcexact.analysis.fixed_modes.completeness import completeness
+from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
+from mcexact.analysis.fixed_modes.pencil import pencil_rank
+from mcexact.analysis.fixed_modes.single_channel_gains import single_channel_gains
+from mcexact.analysis.questions import SHARES
+from mcexact.analysis.sharing.allocation import (
     minimal_shared_dimensions,
     shared_dimension_bound,
 )
-from mcexact.analysis.analyze import analyze
-from mcexact.analysis.common_dimension import common_dimension
-from mcexact.analysis.completeness import completeness
-from mcexact.analysis.controllability import joint_observability
-from mcexact.analysis.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.neighbor_graph import neighbor_graph
-from mcexact.analysis.pencil import pencil_rank
-from mcexact.analysis.questions import SHARES
-from mcexact.analysis.single_channel_gains import single_channel_gains
-from mcexact.analysis.transfer_graph import transfer_graph
+from mcexact.analysis.sharing.common_dimension import common_dimension
+from mcexact.analysis.sharing.neighbor_graph import neighbor_graph
+from mcexact.analysis.structure.controllability import joint_observability
+from mcexact.analysis.structure.transfer_graph import transfer_graph
 from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.derived.extended import Share, extended_system
@@ -279,7 +279,7 @@ def corollary_1(note: Notebook) -> None:
         design.loop.polynomial == Polynomial.from_roots(wanted),
     )
     note.certify(*design.certificates.values())
-    from mcexact.analysis.closed_loop_spectrum import closed_loop_spectrum
+    from mcexact.analysis.stability.closed_loop_spectrum import closed_loop_spectrum
 
     spectrum = closed_loop_spectrum(design.loop.matrix, plant.time)
     note.show(spectrum_picture(spectrum, plant.time, "One shared scalar, spectrum −1, −1, −2, −2"))

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from itertools import chain
 from typing import Any
 
-from mcexact.analysis.controllability import joint_controllability, joint_observability
+from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
 from mcexact.answer import codec
 from mcexact.checker import check_document
 from mcexact.model.system import MultiChannelSystem

@@ -5,10 +5,10 @@ from __future__ import annotations
 from fractions import Fraction
 from functools import cache
 
-from mcexact.analysis.closed_loop_spectrum import closed_loop_spectrum
-from mcexact.analysis.controllability_indices import controllability_indices
-from mcexact.analysis.exceptional_gains import exceptional_gains
-from mcexact.analysis.single_channel_gains import single_channel_gains
+from mcexact.analysis.fixed_modes.single_channel_gains import single_channel_gains
+from mcexact.analysis.stability.closed_loop_spectrum import closed_loop_spectrum
+from mcexact.analysis.structure.controllability_indices import controllability_indices
+from mcexact.analysis.structure.exceptional_gains import exceptional_gains
 from mcexact.derived.error_system import error_system
 from mcexact.derived.feedback import feedback
 from mcexact.exact.blocks import block, hstack, kronecker, vstack

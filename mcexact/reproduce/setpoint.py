@@ -6,8 +6,8 @@ from fractions import Fraction
 
 import numpy as np
 
-from mcexact.analysis.controllability import joint_controllability, joint_observability
-from mcexact.analysis.setpoint import setpoint_solvability
+from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
+from mcexact.analysis.structure.setpoint import setpoint_solvability
 from mcexact.derived.integrators import setpoint_system
 from mcexact.errors import Impossible
 from mcexact.exact.blocks import block, vstack

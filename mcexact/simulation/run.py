@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from mcexact.analysis.closed_loop_spectrum import closed_loop_spectrum
+from mcexact.analysis.stability.closed_loop_spectrum import closed_loop_spectrum
 from mcexact.answer.loop_spectrum import LoopSpectrum
 from mcexact.errors import InputError
 from mcexact.exact.floats import to_float

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from mcexact.analysis.stability import (
+from mcexact.analysis.stability.stability import (
     POLYNOMIAL_LIMIT,
     Method,
     Separation,

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from random import Random
 
-from mcexact.analysis.gains import drawn_integers
+from mcexact.analysis.fixed_modes.gains import drawn_integers
 from mcexact.derived.modular_system import ModularSystem, generator, residue_systems
 from mcexact.exact.blocks import block_diagonal
 from mcexact.exact.invariant_subspace import controllable_subspace

@@ -7,7 +7,7 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any, Literal
 
-from mcexact.analysis.allocation import minimal_shared_dimensions, shared_dimension_bound
+from mcexact.analysis.sharing.allocation import minimal_shared_dimensions, shared_dimension_bound
 from mcexact.answer.deficiency import Deficiency
 from mcexact.answer.shared_dimensions import SharedDimensions
 from mcexact.answer.wording import refusals as say

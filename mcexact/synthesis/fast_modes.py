@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mcexact.analysis.controllability import joint_controllability
+from mcexact.analysis.structure.controllability import joint_controllability
 from mcexact.answer.wording import refusals as say
 from mcexact.derived.modular_system import generator
 from mcexact.errors import Impossible, InternalError

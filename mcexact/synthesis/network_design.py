@@ -6,9 +6,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from mcexact.analysis.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.single_channel_gains import single_channel_gains
-from mcexact.analysis.transfer_graph import transfer_graph
+from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
+from mcexact.analysis.fixed_modes.single_channel_gains import single_channel_gains
+from mcexact.analysis.structure.transfer_graph import transfer_graph
 from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.answer.wording import refusals as say
 from mcexact.errors import Impossible, InputError, LimitReached, UsageError

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, Literal
 
-from mcexact.analysis.controllability import joint_observability
+from mcexact.analysis.structure.controllability import joint_observability
 from mcexact.derived.error_system import error_system
 from mcexact.derived.feedback import checked_gains
 from mcexact.errors import InputError, UsageError

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from mcexact.analysis.controllability import joint_controllability, joint_observability
-from mcexact.analysis.fixed_spectrum import fixed_spectrum
+from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
+from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
 from mcexact.answer.wording import refusals as say
 from mcexact.derived.error_system import error_system
 from mcexact.derived.feedback import closed_by

@@ -9,9 +9,9 @@ from itertools import islice
 from math import ceil
 from typing import Any
 
-from mcexact.analysis.completeness import completeness
-from mcexact.analysis.controllability import joint_observability
-from mcexact.analysis.gains import ReachingGains, error_gain_draws, reaching_gains
+from mcexact.analysis.fixed_modes.completeness import completeness
+from mcexact.analysis.fixed_modes.gains import ReachingGains, error_gain_draws, reaching_gains
+from mcexact.analysis.structure.controllability import joint_observability
 from mcexact.answer.wording import refusals as say
 from mcexact.derived.modular_system import generator
 from mcexact.errors import Impossible, InputError, LimitReached

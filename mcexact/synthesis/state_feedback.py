@@ -8,8 +8,8 @@ from fractions import Fraction
 from math import ceil
 from random import Random
 
-from mcexact.analysis.controllability import joint_controllability
-from mcexact.analysis.gains import drawn_integers
+from mcexact.analysis.fixed_modes.gains import drawn_integers
+from mcexact.analysis.structure.controllability import joint_controllability
 from mcexact.answer.wording import refusals as say
 from mcexact.errors import Impossible, InternalError, LimitReached
 from mcexact.exact.blocks import hstack

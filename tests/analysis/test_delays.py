@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mcexact.analysis.completeness import completeness
+from mcexact.analysis.fixed_modes.completeness import completeness
 from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
 from mcexact.derived.delayed import held_system

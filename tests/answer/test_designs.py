@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from mcexact.analysis.sharing import account_of_dimensions, account_of_links
+from mcexact.analysis.accounts import account_of_dimensions, account_of_links
 from mcexact.answer import codec
 from mcexact.answer.listing import TOPICS, premises_of
 from mcexact.checker import check_document

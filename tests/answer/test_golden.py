@@ -14,9 +14,9 @@ from pathlib import Path
 from typing import Any
 
 import mcexact
-from mcexact.analysis.closed_loop_spectrum import open_loop_spectrum
-from mcexact.analysis.neighbor_graph import neighbor_graph
-from mcexact.analysis.setpoint import setpoint_solvability
+from mcexact.analysis.sharing.neighbor_graph import neighbor_graph
+from mcexact.analysis.stability.closed_loop_spectrum import open_loop_spectrum
+from mcexact.analysis.structure.setpoint import setpoint_solvability
 from mcexact.answer.codec import encode
 from mcexact.derived.extended import Share
 from mcexact.errors import Impossible, LimitReached

@@ -8,7 +8,7 @@ from functools import reduce
 
 import pytest
 
-from mcexact.analysis.fixed_spectrum import fixed_spectrum
+from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.answer.account import Account
 from mcexact.derived.extended import Share, extended_system
 from mcexact.derived.feedback import feedback

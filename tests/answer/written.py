@@ -8,7 +8,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from mcexact.analysis.exceptional_gains import exceptional_gains
+from mcexact.analysis.structure.exceptional_gains import exceptional_gains
 from mcexact.answer.codec import save_certificate
 from mcexact.cli import main
 from mcexact.exact.matrix import Matrix

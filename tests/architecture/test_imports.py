@@ -3,6 +3,7 @@
 import ast
 import sys
 from collections.abc import Iterator
+from graphlib import TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -155,3 +156,37 @@ def test_nothing_is_validated_by_a_statement_that_an_option_deletes() -> None:
     for path in MODULES:
         tree = ast.parse(path.read_text(encoding="utf-8"))
         assert not [node.lineno for node in ast.walk(tree) if isinstance(node, ast.Assert)], path
+
+
+ROOMS = {
+    "analysis": {"engine", "structure", "fixed_modes", "sharing", "stability"},
+}
+"""The rooms of a stage; what lies beside them puts their parts together."""
+MOST_BETWEEN_ROOMS = 15
+
+
+def imports_between_rooms(stage: str) -> list[tuple[str, str, str]]:
+    """Statements in one room that import from another: the two rooms, and the place."""
+    found = []
+    for room in sorted(ROOMS[stage]):
+        for path in sorted((PACKAGE / stage / room).rglob("*.py")):
+            places = {
+                (name.split(".")[2], line)
+                for name, _, line in imports_of(path)
+                if name.startswith(f"mcexact.{stage}.")
+            }
+            found += [
+                (room, other, f"{path.relative_to(PACKAGE)}:{line}")
+                for other, line in sorted(places)
+                if other != room
+            ]
+    return found
+
+
+@pytest.mark.parametrize("stage", ROOMS)
+def test_rooms_import_little_from_each_other_and_never_in_a_circle(stage: str) -> None:
+    between = imports_between_rooms(stage)
+    assert {other for _, other, _ in between} <= ROOMS[stage], between
+    assert len(between) <= MOST_BETWEEN_ROOMS, between
+    uses = {room: {other for one, other, _ in between if one == room} for room in ROOMS[stage]}
+    list(TopologicalSorter(uses).static_order())

@@ -10,8 +10,8 @@ import sys
 from collections import Counter
 from fractions import Fraction
 
-from mcexact.analysis.allocation import minimal_shared_dimensions, shared_dimension_bound
-from mcexact.analysis.communication import minimal_communication
+from mcexact.analysis.sharing.allocation import minimal_shared_dimensions, shared_dimension_bound
+from mcexact.analysis.sharing.communication import minimal_communication
 from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
 from mcexact.model.neighbor_graph import NeighborGraph

@@ -20,7 +20,7 @@ from pathlib import Path
 import numpy as np
 
 import mcexact.checker
-from mcexact.analysis.stability import certify_stability, matrix_system
+from mcexact.analysis.stability.stability import certify_stability, matrix_system
 from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
 from mcexact.derived.drawn.choices import SeededChoices

@@ -11,9 +11,9 @@ from typing import Any
 
 import pytest
 
-from mcexact.analysis.allocation import shared_dimension_bound
-from mcexact.analysis.common_dimension import common_dimension
-from mcexact.analysis.separation import absence
+from mcexact.analysis.sharing.allocation import shared_dimension_bound
+from mcexact.analysis.sharing.common_dimension import common_dimension
+from mcexact.analysis.sharing.separation import absence
 from mcexact.answer.codec import document, encode, plain
 from mcexact.derived.extended import extended_system
 from mcexact.derived.modular_system import generator

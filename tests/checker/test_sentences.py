@@ -12,14 +12,14 @@ from typing import Any
 
 import pytest
 
-from mcexact.analysis.allocation import minimal_shared_dimensions
+from mcexact.analysis.accounts import account_of_dimensions, account_of_links
 from mcexact.analysis.analyze import analyze
-from mcexact.analysis.completeness import completeness
-from mcexact.analysis.controllability import joint_controllability, joint_observability
-from mcexact.analysis.fixed_spectrum import fixed_spectrum
+from mcexact.analysis.fixed_modes.completeness import completeness
+from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.questions import asked_by
-from mcexact.analysis.setpoint import setpoint_solvability
-from mcexact.analysis.sharing import account_of_dimensions, account_of_links
+from mcexact.analysis.sharing.allocation import minimal_shared_dimensions
+from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
+from mcexact.analysis.structure.setpoint import setpoint_solvability
 from mcexact.answer.account import Account
 from mcexact.answer.codec import document
 from mcexact.answer.listing import everything

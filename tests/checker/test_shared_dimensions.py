@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mcexact.analysis.allocation import minimal_shared_dimensions
+from mcexact.analysis.sharing.allocation import minimal_shared_dimensions
 from mcexact.answer.codec import document
 from mcexact.model import gallery
 from mcexact.model.neighbor_graph import NeighborGraph

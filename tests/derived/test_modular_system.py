@@ -4,7 +4,7 @@ import random
 
 import pytest
 
-from mcexact.analysis.fixed_spectrum import fixed_spectrum
+from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.answer import codec
 from mcexact.checker import check_document
 from mcexact.derived.drawn.choices import SeededChoices

@@ -10,12 +10,12 @@ import sys
 from collections.abc import Iterable
 from typing import Any
 
-from mcexact.analysis.completeness import completeness
-from mcexact.analysis.controllability import joint_controllability, joint_observability
-from mcexact.analysis.deficiency import deficiency
-from mcexact.analysis.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.pencil import pencil_rank
-from mcexact.analysis.transfer_graph import transfer_graph
+from mcexact.analysis.fixed_modes.completeness import completeness
+from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
+from mcexact.analysis.fixed_modes.pencil import pencil_rank
+from mcexact.analysis.sharing.deficiency import deficiency
+from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
+from mcexact.analysis.structure.transfer_graph import transfer_graph
 from mcexact.answer import codec
 from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.checker import check_document

@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from mcexact.analysis.controllability import joint_controllability
+from mcexact.analysis.structure.controllability import joint_controllability
 from mcexact.answer import codec
 from mcexact.derived.drawn.draw import Draw, drawn_system
 from mcexact.errors import InputError, UsageError

@@ -9,8 +9,8 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
-from mcexact.analysis.allocation import minimal_shared_dimensions
-from mcexact.analysis.communication import minimal_communication
+from mcexact.analysis.sharing.allocation import minimal_shared_dimensions
+from mcexact.analysis.sharing.communication import minimal_communication
 from mcexact.answer import codec
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial

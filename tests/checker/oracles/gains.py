@@ -12,8 +12,8 @@ import mpmath
 from sympy import Matrix as SymbolicMatrix
 from sympy import Poly, Rational, Symbol, gcd_list
 
-from mcexact.analysis.exceptional_gains import exceptional_gains
-from mcexact.analysis.single_channel_gains import single_channel_gains
+from mcexact.analysis.fixed_modes.single_channel_gains import single_channel_gains
+from mcexact.analysis.structure.exceptional_gains import exceptional_gains
 from mcexact.answer import codec
 from mcexact.errors import Impossible
 from tests.checker.mutations import Document, Registration

@@ -7,7 +7,7 @@ import random
 from fractions import Fraction
 from typing import Any
 
-from mcexact.analysis.stability import certify_stability, matrix_system
+from mcexact.analysis.stability.stability import certify_stability, matrix_system
 from mcexact.answer import codec
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix

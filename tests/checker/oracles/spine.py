@@ -11,14 +11,14 @@ from typing import Any
 
 import mpmath
 
-from mcexact.analysis.completeness import completeness
-from mcexact.analysis.controllability import joint_controllability, joint_observability
-from mcexact.analysis.controllability_indices import controllability_indices
-from mcexact.analysis.deficiency import deficiency
-from mcexact.analysis.fixed_spectrum import fixed_spectrum
-from mcexact.analysis.neighbor_graph import neighbor_graph
-from mcexact.analysis.pencil import pencil_rank
-from mcexact.analysis.transfer_graph import transfer_graph
+from mcexact.analysis.fixed_modes.completeness import completeness
+from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
+from mcexact.analysis.fixed_modes.pencil import pencil_rank
+from mcexact.analysis.sharing.deficiency import deficiency
+from mcexact.analysis.sharing.neighbor_graph import neighbor_graph
+from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
+from mcexact.analysis.structure.controllability_indices import controllability_indices
+from mcexact.analysis.structure.transfer_graph import transfer_graph
 from mcexact.answer import codec
 from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.exact.location import is_hurwitz, is_schur

@@ -11,9 +11,9 @@ from typing import Any
 from sympy import Matrix as SymbolicMatrix
 from sympy import Poly, Rational, Symbol, eye, gcd
 
-from mcexact.analysis.assignability import assignability
-from mcexact.analysis.complementary_subsystem import complementary_subsystem
-from mcexact.analysis.setpoint import setpoint_solvability
+from mcexact.analysis.fixed_modes.assignability import assignability
+from mcexact.analysis.structure.complementary_subsystem import complementary_subsystem
+from mcexact.analysis.structure.setpoint import setpoint_solvability
 from mcexact.answer import codec
 from mcexact.model.system import MultiChannelSystem
 from tests.checker.mutations import Document, Registration

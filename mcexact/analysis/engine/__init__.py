@@ -1,0 +1,68 @@
+"""What decisions rest on: shrunk subspaces, reachability, covering programs, quadratic forms.
+
+Answers no question by itself.  The other rooms take what they need from this page.
+
+========================  =============================================================
+`obstructions`            which modes decentralized gains leave, and why
+`shrunk_subspace`         why one mode stays: Wong sequences modulo a prime, lifted
+`reachability`            which channels reach which modulo a prime; zero transfers
+`rate`                    root discs, and the best rate that some modes leave
+`covering`                covering integer programs, with a branch tree as proof
+`lyapunov`                Lyapunov matrices, refined and verified exactly
+`smith_doubling`          Lyapunov equations to any precision
+`separated_instability`   a quadratic form for a loop with one unstable block
+========================  =============================================================
+"""
+
+from mcexact.analysis.engine.covering import (
+    DEFAULT_NODE_LIMIT,
+    CoveringCut,
+    CoveringProgram,
+    Node,
+    Tree,
+    branch_tree,
+    minimize,
+)
+from mcexact.analysis.engine.lyapunov import QuadraticForm, quadratic_form
+from mcexact.analysis.engine.obstructions import Decision, Obstruction, decide
+from mcexact.analysis.engine.rate import located
+from mcexact.analysis.engine.reachability import (
+    Arc,
+    strong_components,
+    suspected_arcs,
+    witnessed_powers,
+    zero_transfer,
+)
+from mcexact.analysis.engine.separated_instability import separated_instability
+from mcexact.analysis.engine.shrunk_subspace import (
+    ExactSubspace,
+    evidence,
+    exact_subspace,
+    obstruction_modulo,
+)
+
+__all__ = [
+    "DEFAULT_NODE_LIMIT",
+    "Arc",
+    "CoveringCut",
+    "CoveringProgram",
+    "Decision",
+    "ExactSubspace",
+    "Node",
+    "Obstruction",
+    "QuadraticForm",
+    "Tree",
+    "branch_tree",
+    "decide",
+    "evidence",
+    "exact_subspace",
+    "located",
+    "minimize",
+    "obstruction_modulo",
+    "quadratic_form",
+    "separated_instability",
+    "strong_components",
+    "suspected_arcs",
+    "witnessed_powers",
+    "zero_transfer",
+]

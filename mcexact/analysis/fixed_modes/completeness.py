@@ -1,0 +1,121 @@
+"""Completeness: a strongly connected transfer graph and no fixed mode."""
+
+from __future__ import annotations
+
+import random
+
+from mcexact.analysis.engine import Arc, decide, suspected_arcs, witnessed_powers, zero_transfer
+from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
+from mcexact.answer.completeness import (
+    Completeness,
+    CutWitness,
+    FixedModeWitness,
+    FreedomWitness,
+)
+from mcexact.answer.fixed_spectrum import FixedSpectrum
+from mcexact.derived.modular_system import ModularSystem, generator, lifted_gains
+from mcexact.exact.invariant_subspace import controllable_subspace
+from mcexact.model.system import MultiChannelSystem
+
+
+def completeness(
+    system: MultiChannelSystem, *, spectrum: FixedSpectrum | None = None
+) -> Completeness:
+    """Decide whether a system is complete.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    spectrum : FixedSpectrum, optional
+        ``fixed_spectrum(system)``, where it is known already.
+
+    Notes
+    -----
+    Exact.  Yes: gains that leave no mode in place, and arcs that connect all channels.  No: a
+    shrunk subspace for one fixed mode, or a set of channels whose inputs never reach the outputs of
+    the others.
+
+    Examples
+    --------
+    >>> from mcexact import MultiChannelSystem
+    >>> I = [[1, 0], [0, 1]]
+    >>> apart = MultiChannelSystem(I, [[[1], [0]], [[0], [1]]], [[[1, 0]], [[0, 1]]])
+    >>> completeness(apart).complete
+    False
+    >>> ring = MultiChannelSystem(I, [[[1], [0]], [[0], [1]]], [[[0, 1]], [[1, 0]]])
+    >>> completeness(ring).complete
+    True
+    >>> completeness(MultiChannelSystem([], [[], []], [[], []])).complete
+    False
+    """
+    if spectrum is None:
+        spectrum = fixed_spectrum(system)
+    rng = generator(system, "completeness")
+    evidence = _evidence(system, spectrum, rng)
+    complete = isinstance(evidence, FreedomWitness)
+    return Completeness(system, complete=complete, evidence=evidence)
+
+
+def _evidence(
+    system: MultiChannelSystem, spectrum: FixedSpectrum, rng: random.Random
+) -> FreedomWitness | FixedModeWitness | CutWitness:
+    if not spectrum.empty:
+        return FixedModeWitness(spectrum.factors[0].polynomial, spectrum.subspaces[0])
+    modular = ModularSystem(system, spectrum.modulus)
+    gains = spectrum.gains
+    while True:
+        suspected = suspected_arcs(modular, rng)
+        closed = _closed_set(system.m, suspected)
+        if closed is None:
+            break
+        found = controllable_subspace(system.A, system.input_matrix(closed), rng)
+        rest = [i for i in range(system.m) if i not in closed]
+        if (system.output_matrix(rest) @ found.X).is_zero():
+            return CutWitness(zero_transfer(system, closed, found))
+        # Arcs have vanished by accident, perhaps modulo this prime whatever is drawn.
+        decision = decide(system, rng)
+        modular, gains = decision.modular, lifted_gains(decision.modular, decision.gains)
+    chosen = _connecting_arcs(system.m, suspected)
+    powers = witnessed_powers(modular, chosen)
+    names = system.names
+    return FreedomWitness(
+        modulus=modular.modulus,
+        gains=gains,
+        arcs=tuple((names[j], names[i], powers[j, i]) for j, i in sorted(chosen)),
+    )
+
+
+def _reached(m: int, start: int, arcs: set[Arc]) -> list[Arc]:
+    """Arcs of a tree from ``start`` to every node that it reaches, nearest first."""
+    successors: list[list[int]] = [[] for _ in range(m)]
+    for j, i in sorted(arcs):
+        successors[j].append(i)
+    seen, level, tree = {start}, [start], []
+    while level:
+        following = []
+        for j in level:
+            for i in successors[j]:
+                if i not in seen:
+                    seen.add(i)
+                    following.append(i)
+                    tree.append((j, i))
+        level = following
+    return tree
+
+
+def _closed_set(m: int, arcs: set[Arc]) -> tuple[int, ...] | None:
+    """A smallest nonempty proper set of nodes that some node reaches and no arc leaves, if any."""
+    sets = []
+    for start in range(m):
+        reached = {start, *(i for _, i in _reached(m, start, arcs))}
+        if len(reached) < m:
+            sets.append(tuple(sorted(reached)))
+    return min(sets, key=lambda s: (len(s), s), default=None)
+
+
+def _connecting_arcs(m: int, arcs: set[Arc]) -> set[Arc]:
+    """At most 2(m − 1) arcs of a strongly connected graph that keep it so."""
+    if m < 2:
+        return set()
+    backwards = _reached(m, 0, {(i, j) for j, i in arcs})
+    return set(_reached(m, 0, arcs)) | {(j, i) for i, j in backwards}

@@ -1,0 +1,105 @@
+"""Proposition 1: gains with which every agent alone controls and observes the estimation errors."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from mcexact.analysis.fixed_modes.gains import error_gain_draws
+from mcexact.analysis.fixed_modes.single_channel_gains import single_channel_gains
+from mcexact.answer.single_channel_gains import SingleChannelGains
+from mcexact.derived.error_system import error_system
+from mcexact.derived.feedback import checked_gains
+from mcexact.exact.matrix import Matrix
+from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem, with_graph
+
+
+@dataclass(frozen=True)
+class ErrorGains:
+    """Whether some lists K_i, H_ij make every agent control and observe the error system.
+
+    Attributes
+    ----------
+    exists : bool
+    error : MultiChannelSystem
+        The open-loop error system, nm states.
+    lists : tuple of tuple of Matrix, or None
+        For each agent i: K_i, n × q_i, then H_ij, n × n, for j ∈ N_i∖{i} in the order of the
+        channels.
+    indices : tuple of (int, int), or None
+        For each agent the controllability and observability indices that are reached.
+    found : SingleChannelGains
+        The same as gains of the error system, whose matrix they make cyclic; or the reason.
+    certificate : SingleChannelGainsCertificate
+    """
+
+    exists: bool
+    error: MultiChannelSystem
+    lists: tuple[tuple[Matrix, ...], ...] | None
+    indices: tuple[tuple[int, ...], ...] | None
+    found: SingleChannelGains
+
+    @property
+    def certificate(self) -> Any:
+        """The certificate, about the error system."""
+        return self.found.certificate
+
+
+def error_gains(
+    system: MultiChannelSystem,
+    feedback: Sequence[Any],
+    graph: NeighborGraph | Mapping[str, Sequence[str]] | None = None,
+) -> ErrorGains:
+    """Decide Proposition 1 for given F_i: do lists K_i, H_ij exist that serve every agent?
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        The plant, m channels, n states.
+    feedback : sequence of m matrices
+        F_i, p_i × n.
+    graph : NeighborGraph, optional
+        Overrides ``system.neighbors``.
+
+    Raises
+    ------
+    UsageError
+        If there is no neighbor graph.
+    InputError
+        If a gain has the wrong shape.
+
+    Notes
+    -----
+    Paper, Proposition 1: for a jointly observable plant and a strongly connected graph they do,
+    with controllability index m.  Strong connectivity is sufficient, not necessary: the terms
+    B_j F_j (e_i − e_j) couple the agents through the plant, so the question is decided on the error
+    system itself, and a refusal carries its obstruction.  Exact.
+
+    Examples
+    --------
+    >>> from mcexact import MultiChannelSystem
+    >>> alone = MultiChannelSystem([[0]], [[[1]]] * 2, [[[1]]] * 2, neighbors={"1": [], "2": []})
+    >>> error_gains(alone, [[[-1]], [[-1]]]).indices
+    ((2, 2), (2, 2))
+    >>> error_gains(alone, [[[0]], [[0]]]).exists
+    False
+    """
+    system, graph = with_graph(system, graph)
+    exact = checked_gains(system, feedback, [system.n] * system.m)
+    error = error_system(system, exact)
+    draw = error_gain_draws(system, graph, exact, Fraction(0))
+    found = single_channel_gains(error, cyclic=True, index=system.m, draw=draw)
+    lists = None
+    if found.gains is not None:
+        lists = tuple(_split(gain, system.q(i), system.n) for i, gain in enumerate(found.gains))
+    return ErrorGains(found.exists, error, lists, found.indices, found)
+
+
+def _split(gain: Matrix, q: int, n: int) -> tuple[Matrix, ...]:
+    """K_i and the H_ij, side by side in one gain."""
+    starts = range(q, gain.ncols, n) if n else range(0)
+    blocks = [gain.take(cols=range(start, start + n)) for start in starts]
+    return (gain.take(cols=range(q)), *blocks)

@@ -1,0 +1,1 @@
+"""What agents must send each other: how much, at least, and over which links."""

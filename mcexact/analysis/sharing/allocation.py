@@ -1,0 +1,219 @@
+"""What agents must share: Theorem 2's bound, and the least dimensions by cut generation."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from mcexact.analysis.engine import DEFAULT_NODE_LIMIT, CoveringCut, CoveringProgram, zero_transfer
+from mcexact.analysis.sharing.cut_generation import CoveringProblem, Progress, covering_optimum
+from mcexact.analysis.sharing.deficiency import deficiency
+from mcexact.analysis.sharing.separation import (
+    boundary,
+    complement,
+    violated_subsets,
+    violating_factors,
+)
+from mcexact.analysis.structure.transfer_graph import transfer_graph
+from mcexact.answer.covering import ConnectivityCut
+from mcexact.answer.deficiency import Deficiency
+from mcexact.answer.shared_dimensions import SharedDimensions
+from mcexact.derived.augmented_outputs import augmented_outputs
+from mcexact.derived.extended import Share, checked_share, extended_system
+from mcexact.derived.modular_system import generator
+from mcexact.errors import UsageError
+from mcexact.exact.invariant_subspace import controllable_subspace
+from mcexact.exact.location import StabilityRegion
+from mcexact.exact.rational import Entry, as_fraction
+from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem, with_graph
+
+
+def base_system(system: MultiChannelSystem, share: str) -> MultiChannelSystem:
+    """The system whose pencils decide: the plant, with augmented outputs where those are shared."""
+    return augmented_outputs(system) if share == "outputs+states" else system
+
+
+def shared_dimension_bound(
+    system: MultiChannelSystem, graph: NeighborGraph | None = None, share: Share = "outputs+states"
+) -> Deficiency:
+    """Theorem 2's bound on the dimension that every agent must share.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    graph : NeighborGraph, optional
+        Overrides ``system.neighbors``.
+    share : {"outputs+states", "states"}
+        Theorem 2's bound (`eqn:n_i`) or Remark 2's (`neqn:n_i`).
+
+    Raises
+    ------
+    UsageError
+        If there is no neighbor graph.
+
+    Notes
+    -----
+    Exact, and no subset is enumerated: ρ is the largest deficiency of (A, B_i, C_{N_i}), or of
+    (A, B_i, C_i), over all λ and all subsets, ∅ and all channels included; these two contribute
+    nothing when the plant is jointly controllable and observable, as the theorem assumes.
+
+    Examples
+    --------
+    >>> from mcexact.model import gallery
+    >>> plant = gallery.load("liu2020-3ch-no-communication")
+    >>> shared_dimension_bound(plant, NeighborGraph.ring(plant.names)).deficiency
+    1
+    """
+    system, _ = with_graph(system, graph)
+    return deficiency(base_system(system, checked_share(share)))
+
+
+def minimal_shared_dimensions(
+    system: MultiChannelSystem,
+    graph: NeighborGraph | None = None,
+    share: Share = "outputs+states",
+    *,
+    costs: Sequence[Entry] | None = None,
+    upper: Sequence[int | None] | None = None,
+    bound: Entry | None = None,
+    free_assignability: bool = False,
+    node_limit: int = DEFAULT_NODE_LIMIT,
+    progress: Progress | None = None,
+) -> SharedDimensions:
+    """The least Σ c_i n_i with which the extended system has no fixed mode.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        A plant, not a derived system.
+    graph : NeighborGraph, optional
+        Overrides ``system.neighbors``.
+    share : {"outputs+states", "states"}
+    costs : sequence of m rationals > 0, optional
+        The price of one dimension of each agent, 1 by default.
+    upper : sequence of m int or None, optional
+        Upper bounds of the n_i.
+    bound : rational, optional
+        A rate R (continuous time: only modes whose real part is not below −R count) or a radius
+        (discrete time: modulus not below it).
+    free_assignability : bool
+        Ask for a strongly connected extended transfer graph as well, so that the whole closed-loop
+        spectrum is freely assignable.
+    node_limit : int
+        Nodes of the branch tree after which to give up, at least 1.
+    progress : callable, optional
+        Called with a line of text now and then.
+
+    Raises
+    ------
+    UsageError
+        If there is no neighbor graph, the system is a derived one, or a price, an upper bound,
+        the bound or the node limit is out of range.
+    LimitReached
+        At the node limit, where its ``lower`` and ``upper`` bound the least cost; or if the prices
+        are too far apart.
+
+    Notes
+    -----
+    The extended system has no fixed mode iff Σ n_i over N_s∖s is at least n − rank P_s(λ) for all s
+    and λ.  An integer master problem proposes dimensions; the fixed spectrum of the extended system
+    either confirms them or names a subset that they violate, which becomes a cut.  The
+    certificate proves feasibility at the optimum, every cut, and by a branch tree that nothing is
+    cheaper.  The problem is NP-hard (it contains vertex cover).  Among optimal dimensions the
+    lexicographically least are taken.
+
+    Examples
+    --------
+    >>> from mcexact.model import gallery
+    >>> plant = gallery.load("liu2020-3ch-no-communication")
+    >>> ring = NeighborGraph.ring(plant.names)
+    >>> minimal_shared_dimensions(plant, ring).dimensions
+    (0, 0, 1)
+    >>> minimal_shared_dimensions(plant, ring, "states").dimensions
+    (1, 0, 1)
+    >>> minimal_shared_dimensions(plant, NeighborGraph.empty(plant.names)).feasible
+    False
+    """
+    system, found = plant_with_graph(system, graph, share)
+    program = _program(system.m, costs, upper)
+    exact = None if bound is None else as_fraction(bound, where="bound")
+    region = None if exact is None else StabilityRegion.of(system.time, bound=exact)
+    base, factors = base_system(system, share), violating_factors(system, region)
+    rng = generator(base, SharedDimensions.kind)
+
+    def violated(sizes: Sequence[int], extended: MultiChannelSystem) -> list[CoveringCut]:
+        cuts = violated_subsets(base, extended, factors, sizes, found, rng)
+        return cuts or (_connectivity_cuts(base, extended, found) if free_assignability else [])
+
+    problem = CoveringProblem(
+        SharedDimensions.kind,
+        program,
+        lambda sizes: extended_system(system, sizes, share),
+        violated,
+        region,
+        free_assignability,
+    )
+    least = covering_optimum(problem, node_limit, progress).with_cuts_of_leaves()
+    return SharedDimensions(
+        system,
+        share=share,
+        bound=exact,
+        free_assignability=free_assignability,
+        costs=program.costs,
+        upper=program.upper,
+        feasible=least.values is not None,
+        dimensions=least.values,
+        cost=least.cost,
+        absence=least.absence,
+        cuts=tuple(cut.evidence for cut in least.cuts),
+        tree=least.tree("agent", system.names),
+    )
+
+
+def plant_with_graph(
+    system: MultiChannelSystem, graph: NeighborGraph | None, share: Share
+) -> tuple[MultiChannelSystem, NeighborGraph]:
+    """A plant over its graph, where it and the way of sharing are such.
+
+    Raises
+    ------
+    UsageError
+        If there is no neighbor graph, or the system is a derived one.
+    """
+    checked_share(share)
+    system, found = with_graph(system, graph)
+    if system.subject:
+        raise UsageError("give the plant, not a system derived from it", where="system")
+    return system, found
+
+
+def _program(
+    m: int, costs: Sequence[Entry] | None, upper: Sequence[int | None] | None
+) -> CoveringProgram:
+    given = [1] * m if costs is None else costs
+    prices = tuple(as_fraction(c, where=f"costs[{i}]") for i, c in enumerate(given))
+    if len(prices) != m or any(price <= 0 for price in prices):
+        raise UsageError(f"expected {m} positive numbers, one for each agent", where="costs")
+    limits = tuple(upper) if upper is not None else (None,) * m
+    if len(limits) != m or any(u is not None and (type(u) is not int or u < 0) for u in limits):
+        raise UsageError(f"expected {m} integers >= 0 or None, one for each agent", where="upper")
+    return CoveringProgram(prices, limits)
+
+
+def _connectivity_cuts(
+    base: MultiChannelSystem, extended: MultiChannelSystem, graph: NeighborGraph
+) -> list[CoveringCut]:
+    """The cut of one strong component that no arc leaves, if there is more than one component."""
+    found = transfer_graph(extended)
+    if found.strongly_connected:
+        return []
+    closed = next(
+        component
+        for component in found.components
+        if all(i in component for j, i in found.arcs if j in component)
+    )
+    T = base.indices(closed)
+    s = complement(base.m, T)
+    rng = generator(base, SharedDimensions.kind)
+    zero = zero_transfer(base, T, controllable_subspace(base.A, base.input_matrix(T), rng))
+    return [CoveringCut(boundary(graph, s), 1, ConnectivityCut(base.named(s), zero))]

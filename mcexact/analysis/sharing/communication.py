@@ -1,0 +1,221 @@
+"""What must be communicated: the cheapest arcs to add so that no mode is fixed."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import Literal, get_args
+
+from mcexact.analysis.engine import (
+    DEFAULT_NODE_LIMIT,
+    CoveringCut,
+    CoveringProgram,
+    ExactSubspace,
+    evidence,
+    exact_subspace,
+)
+from mcexact.analysis.sharing.cut_generation import CoveringProblem, covering_optimum
+from mcexact.analysis.sharing.separation import least_minimizers, violating_factors
+from mcexact.answer.communication import MinimalCommunication
+from mcexact.answer.covering import ArcCut
+from mcexact.derived.augmented_outputs import augmented_outputs
+from mcexact.derived.extended import Share, extended_system, selector
+from mcexact.derived.links import add_links
+from mcexact.derived.modular_system import generator
+from mcexact.errors import InputError, UsageError
+from mcexact.exact.blocks import block_diagonal
+from mcexact.exact.location import StabilityRegion
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.rational import Entry, as_fraction
+from mcexact.model.names import quoted
+from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem, with_links
+
+Arc = tuple[int, int]
+Carried = Literal["outputs", "outputs+states", "states"]
+
+
+@dataclass(frozen=True)
+class _Wires:
+    """A plant over its graph, what an arc carries, and the arcs that may be added."""
+
+    plant: MultiChannelSystem
+    share: Carried
+    dimensions: tuple[int, ...] | None
+    candidates: tuple[Arc, ...]
+
+    def chosen(self, values: Sequence[int]) -> MultiChannelSystem:
+        """The system over the graph with the candidates added whose value is 1."""
+        arcs = tuple(itertools.compress(self.candidates, values))
+        wired = add_links(self.plant, arcs) if arcs else self.plant
+        if self.dimensions is None:
+            return augmented_outputs(wired)
+        share: Share = "states" if self.share == "states" else "outputs+states"
+        return extended_system(wired, self.dimensions, share)
+
+    def carried(self, j: int) -> Matrix:
+        """S_j, the rows that an arc from j adds to the outputs of the system."""
+        outputs = self.plant.C(j)
+        if self.dimensions is None:
+            return outputs
+        E = selector(sum(self.dimensions[:j]), self.dimensions[j], sum(self.dimensions)).T
+        none = Matrix.zeros(0, self.plant.n)
+        return block_diagonal([none if self.share == "states" else outputs, E])
+
+    def cut(self, subspace: ExactSubspace, p: Polynomial) -> CoveringCut:
+        """The candidates that break it: j → i, i outside T, with S_j U ≠ 0 modulo p."""
+        subspace = _trimmed(subspace)
+        carried = [(self.carried(j) @ subspace.U) % p for j in range(self.plant.m)]
+        breaking = frozenset(
+            k
+            for k, (j, i) in enumerate(self.candidates)
+            if i not in subspace.channels_T and not carried[j].is_zero()
+        )
+        return CoveringCut(breaking, 1, ArcCut(p, evidence(self.chosen(()), subspace)))
+
+
+def minimal_communication(
+    system: MultiChannelSystem,
+    graph: NeighborGraph | None = None,
+    *,
+    dimensions: Sequence[int] | None = None,
+    share: Carried | None = None,
+    costs: Mapping[tuple[str, str], Entry] | None = None,
+    forbidden: Iterable[tuple[str, str]] = (),
+    bound: Entry | None = None,
+    node_limit: int = DEFAULT_NODE_LIMIT,
+) -> MinimalCommunication:
+    """The cheapest arcs to add to the neighbor graph so that no mode is fixed.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        A plant, not a derived system.
+    graph : NeighborGraph, optional
+        What agents hear already; overrides ``system.neighbors``.  Without either they hear nobody.
+    dimensions : sequence of m int, optional
+        n_i of the extended system; without them agents share outputs alone.
+    share : {"outputs", "outputs+states", "states"}, optional
+        What an arc carries: "outputs" without dimensions, else "outputs+states" by default.
+    costs : mapping from (from, to) to a positive rational, optional
+        Prices of arcs, 1 by default.
+    forbidden : iterable of (from, to)
+        Arcs that must not be added.
+    bound : rational, optional
+        A rate or radius: only modes that violate it count.
+    node_limit : int
+        Nodes of the branch tree after which to give up, at least 1.
+
+    Raises
+    ------
+    UsageError
+        If there is no neighbor graph, a price is not positive, what is shared does not fit, or
+        the node limit is below 1.
+    LimitReached
+        At the node limit.
+
+    Notes
+    -----
+    An obstruction (T, U) is broken only by an arc j → i with i outside T that carries something of
+    U: one of these must be added.  Such cuts are generated as in `minimal_shared_dimensions`; the
+    certificate is of the same kind.  Among optimal sets of arcs the first in the order of the
+    candidates, last arcs preferred, is taken.
+
+    Examples
+    --------
+    >>> from mcexact.model import gallery
+    >>> plant = gallery.load("liu2020-3ch-no-communication")
+    >>> minimal_communication(plant, NeighborGraph.empty(plant.names)).added
+    (('1', '2'),)
+    """
+    given, found = with_links(system, graph)
+    wires = _checked(given.with_neighbors(found), found, dimensions, share, forbidden)
+    plant, names = wires.plant, wires.plant.names
+    exact = None if bound is None else as_fraction(bound, where="bound")
+    region = None if exact is None else StabilityRegion.of(plant.time, bound=exact)
+    factors = violating_factors(plant, region)
+    rng = generator(wires.chosen(()), MinimalCommunication.kind)
+
+    def violated(_: Sequence[int], system: MultiChannelSystem) -> list[CoveringCut]:
+        cuts = []
+        for p in factors:
+            subspaces = (exact_subspace(system, T, p) for T in least_minimizers(system, p, rng))
+            subspace = next(filter(None, subspaces), None)
+            if subspace is not None:
+                cuts.append(wires.cut(subspace, p))
+        return cuts
+
+    program = CoveringProgram(_prices(wires, costs or {}), (1,) * len(wires.candidates))
+    problem = CoveringProblem(MinimalCommunication.kind, program, wires.chosen, violated, region)
+    least = covering_optimum(problem, node_limit)
+    arcs = [(names[j], names[i]) for j, i in wires.candidates]
+    added = None if least.values is None else tuple(itertools.compress(arcs, least.values))
+    return MinimalCommunication(
+        given,
+        share=wires.share,
+        dimensions=wires.dimensions,
+        bound=exact,
+        candidates=tuple((*arc, c) for arc, c in zip(arcs, program.costs, strict=True)),
+        feasible=added is not None,
+        added=added,
+        cost=least.cost,
+        absence=least.absence,
+        cuts=tuple(cut.evidence for cut in least.cuts),
+        tree=least.tree("arc", arcs),
+    )
+
+
+def _checked(
+    plant: MultiChannelSystem,
+    graph: NeighborGraph,
+    dimensions: Sequence[int] | None,
+    share: Carried | None,
+    forbidden: Iterable[tuple[str, str]],
+) -> _Wires:
+    if plant.subject:
+        raise UsageError("give the plant, not a system derived from it", where="system")
+    carried: Carried = share or ("outputs" if dimensions is None else "outputs+states")
+    if carried not in get_args(Carried):
+        raise InputError(
+            f'expected "outputs", "outputs+states" or "states", found {quoted(carried)}',
+            where="share",
+        )
+    if (carried == "outputs") != (dimensions is None):
+        raise UsageError("sub-states are shared iff their dimensions are given", where="share")
+    excluded = {_arc(plant, arc) for arc in forbidden}
+    candidates = tuple(
+        (j, i)
+        for j in range(plant.m)
+        for i in range(plant.m)
+        if j not in graph.neighborhood(i) and (j, i) not in excluded
+    )
+    sizes = None if dimensions is None else tuple(dimensions)
+    return _Wires(plant, carried, sizes, candidates)
+
+
+def _prices(wires: _Wires, costs: Mapping[tuple[str, str], Entry]) -> tuple[Fraction, ...]:
+    """The price of each candidate, 1 where none is given."""
+    prices = {_arc(wires.plant, arc): as_fraction(price) for arc, price in costs.items()}
+    if any(price <= 0 for price in prices.values()):
+        raise UsageError("the price of an arc must be positive", where="costs")
+    return tuple(prices.get(arc, Fraction(1)) for arc in wires.candidates)
+
+
+def _arc(plant: MultiChannelSystem, arc: tuple[str, str]) -> Arc:
+    sender, receiver = arc
+    return plant.index(sender), plant.index(receiver)
+
+
+def _trimmed(subspace: ExactSubspace) -> ExactSubspace:
+    """The same with rank B_T + 1 columns: the fewer columns, the fewer arcs break it."""
+    keep = range(len(subspace.pivots) - subspace.deficiency + 1)
+    return replace(
+        subspace,
+        U=subspace.U.take(cols=keep),
+        V=subspace.V.take(cols=keep),
+        pivots=tuple(subspace.pivots[k] for k in keep),
+        deficiency=1,
+    )

@@ -1,0 +1,275 @@
+"""Whether a closed loop is as fast as asked, decided exactly, and certified either way."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import accumulate, pairwise
+from typing import Any, Literal
+
+from mcexact.analysis.engine import QuadraticForm, quadratic_form, separated_instability
+from mcexact.answer.stability import (
+    InstabilityMethod,
+    LyapunovBlock,
+    LyapunovMethod,
+    PolynomialMethod,
+    StabilityVerdict,
+    Transformation,
+)
+from mcexact.derived.modular_system import generator
+from mcexact.errors import UsageError
+from mcexact.exact.linear_algebra import characteristic_polynomial
+from mcexact.exact.location import StabilityRegion
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.modular import primes, residues
+from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.rational import Entry, as_fraction
+from mcexact.model.matrix_entry import as_matrix
+from mcexact.model.system import MultiChannelSystem
+
+Method = Literal["polynomial", "lyapunov"]
+
+POLYNOMIAL_LIMIT = 40
+"""States up to which the characteristic polynomial is tried first: its cost grows with n⁵ here."""
+
+
+@dataclass(frozen=True)
+class Separation:
+    """A change of coordinates that makes a loop block upper triangular.
+
+    Attributes
+    ----------
+    T : Matrix
+        N × N, nonsingular: M T = T Δ.
+    Delta : Matrix
+        N × N, block upper triangular.
+    sizes : tuple of int
+        The sizes of its diagonal blocks.
+    inverse : Matrix or None
+        T⁻¹, where it is at hand: with it a "no" goes block by block as well.
+    """
+
+    T: Matrix
+    Delta: Matrix
+    sizes: tuple[int, ...]
+    inverse: Matrix | None = None
+
+    def blocks(self) -> tuple[Matrix, ...]:
+        """The diagonal blocks of Δ."""
+        ends = [0, *accumulate(self.sizes)]
+        ranges = [range(a, b) for a, b in pairwise(ends)]
+        return tuple(self.Delta.take(rows=r, cols=r) for r in ranges)
+
+
+def matrix_system(M: Any, time: str = "continuous") -> MultiChannelSystem:
+    """A closed loop given as a matrix alone: a plant whose one channel has no input and no output.
+
+    Parameters
+    ----------
+    M : matrix, N × N
+        A list of rows or whatever else `MultiChannelSystem` takes for A.
+    time : {"continuous", "discrete"}
+    """
+    exact = as_matrix(M, "M")
+    N = exact.nrows
+    return MultiChannelSystem(
+        exact, [Matrix.zeros(N, 0)], [Matrix.zeros(0, N)], time=time, names=["loop"]
+    )
+
+
+def certify_stability(
+    loop: MultiChannelSystem,
+    region: StabilityRegion | None = None,
+    *,
+    rate: Entry | None = None,
+    radius: Entry | None = None,
+    method: Method | None = None,
+    separation: Separation | None = None,
+    polynomial: Polynomial | None = None,
+) -> StabilityVerdict:
+    """Decide whether every eigenvalue of a closed loop is fast enough.
+
+    Parameters
+    ----------
+    loop : MultiChannelSystem
+        A closed loop (`closed_loop`, `loop_from_statespace`), or `matrix_system` of a matrix; what
+        counts is its A.
+    region : StabilityRegion, optional
+        Where every eigenvalue is asked to lie.
+    rate, radius : rational, optional
+        The same by a number: real parts below −rate (continuous time), or moduli below the radius
+        (discrete time).  By default stability alone.
+    method : {"polynomial", "lyapunov"}, optional
+        By default the characteristic polynomial for small loops, Lyapunov matrices for large
+        ones, and the polynomial again where these do not decide.
+    separation : Separation, optional
+        Certify diagonal block by diagonal block.
+    polynomial : Polynomial, optional
+        The characteristic polynomial of the loop, where it is at hand.
+
+    Raises
+    ------
+    UsageError
+        The bound is out of range, the separation does not fit the loop, or Lyapunov matrices were
+        asked for and do not decide.
+
+    Notes
+    -----
+    Exact, both ways.  Near the boundary only the polynomial decides.
+
+    Examples
+    --------
+    >>> M = Matrix.from_rows([[0, 1], [-2, -3]])
+    >>> certify_stability(matrix_system(M)).stable
+    True
+    >>> certify_stability(matrix_system(M), rate=1).stable
+    False
+    """
+    asked = StabilityRegion.of(loop.time, rate, radius)
+    if region is not None and (asked.bound is not None or region.time != loop.time):
+        raise UsageError("give a region of the time domain of the loop, or a rate or a radius")
+    region = region or asked
+    if separation is not None:
+        _require_separation(loop.A, separation)
+    tried = (method,) if method is not None else _order(loop.n, separation)
+    for each in tried:
+        found: PolynomialMethod | LyapunovMethod | InstabilityMethod | None
+        if each == "polynomial":
+            polynomial = polynomial or characteristic_polynomial(loop.A)
+            stable = region.contains_roots_of(polynomial)
+            found = PolynomialMethod()
+        else:
+            found = _lyapunov(loop, region, separation)
+            stable = isinstance(found, LyapunovMethod)
+        if found is not None:
+            return StabilityVerdict(loop, bound=region.bound, stable=stable, evidence=found)
+    raise UsageError("Lyapunov matrices do not decide here: leave the method open", where="method")
+
+
+def _order(n: int, separation: Separation | None) -> tuple[Method, ...]:
+    if n <= POLYNOMIAL_LIMIT and separation is None:
+        return ("polynomial",)
+    return ("lyapunov", "polynomial")
+
+
+def _require_separation(M: Matrix, separation: Separation) -> None:
+    N, T, Delta = M.nrows, separation.T, separation.Delta
+    if T.shape != (N, N) or Delta.shape != (N, N) or sum(separation.sizes) != N:
+        raise UsageError(f"expected T, Δ and blocks of {N} states", where="separation")
+    start = 0
+    for size in separation.sizes:
+        below = Delta.take(rows=range(start + size, N), cols=range(start, start + size))
+        if not below.is_zero():
+            raise UsageError("Δ is not block upper triangular", where="separation")
+        start += size
+    if separation.inverse is not None and T @ separation.inverse != Matrix.identity(N):
+        raise UsageError("what is given as the inverse of T is not", where="separation")
+    if T @ Delta != M @ T:
+        raise UsageError("M T differs from T Δ", where="separation")
+
+
+def _lyapunov(
+    loop: MultiChannelSystem, region: StabilityRegion, separation: Separation | None
+) -> LyapunovMethod | InstabilityMethod | None:
+    """Quadratic forms of the blocks, or of the whole loop if unstable; None if undecided."""
+    parts: Sequence[Matrix] = (loop.A,) if separation is None else separation.blocks()
+    forms = []
+    for D in parts:
+        form = quadratic_form(D, region)
+        if form is None:
+            return None
+        forms.append(form)
+    if any(form.R is None for form in forms):
+        return _instability(loop, region, separation, forms)
+    blocks = [LyapunovBlock(f.P.nrows, f.P, f.R, f.R2) for f in forms if f.R is not None]
+    transformation = None
+    if separation is not None:
+        modulus = _nonsingular_modulus(loop, separation.T)
+        transformation = Transformation(separation.T, separation.Delta, modulus)
+    return LyapunovMethod(transformation, tuple(blocks))
+
+
+def _instability(
+    loop: MultiChannelSystem,
+    region: StabilityRegion,
+    separation: Separation | None,
+    forms: Sequence[QuadraticForm],
+) -> InstabilityMethod | None:
+    """A form for the whole loop: its only block's, that made of the blocks', or a new one."""
+    if separation is None:
+        [form] = forms
+    elif separation.inverse is not None:
+        return separated_instability(loop.A, separation.T, separation.inverse, forms, region)
+    else:
+        whole = quadratic_form(loop.A, region)
+        if whole is None:
+            return None
+        form = whole
+    return None if form.v is None else InstabilityMethod(form.P, form.R2, form.v)
+
+
+def _nonsingular_modulus(loop: MultiChannelSystem, T: Matrix) -> int:
+    """A prime modulo which T stays nonsingular.
+
+    Raises
+    ------
+    UsageError
+        If no prime tried does: T is singular, as far as can be told.
+    """
+    rng = generator(loop, StabilityVerdict.kind)
+    for attempt, ell in enumerate(primes(rng.getrandbits(64))):
+        if T.denominator % ell and residues(T, ell).rank() == T.nrows:
+            return ell
+        if attempt == 20:
+            break
+    raise UsageError("T is singular", where="separation")
+
+
+def fastest_region(
+    loop: MultiChannelSystem, *, accuracy: Entry = Fraction(1, 10**6)
+) -> StabilityRegion | None:
+    """The region of the largest rate on a grid (least radius, in discrete time) that a loop meets.
+
+    Parameters
+    ----------
+    loop : MultiChannelSystem
+    accuracy : rational > 0
+        Width of the last interval of the bisection.
+
+    Returns
+    -------
+    StabilityRegion or None
+        Of a bound R such that every eigenvalue has real part below −R and R + accuracy fails (or
+        it has modulus below R and R − accuracy fails); None if the loop is not even stable, or in
+        continuous time not faster than ``accuracy``.
+
+    Notes
+    -----
+    Exact: one characteristic polynomial over Q, and a Routh or Schur–Cohn test for each step.
+
+    Examples
+    --------
+    >>> M = Matrix.from_rows([[0, 1], [-2, -3]])
+    >>> str(fastest_region(matrix_system(M), accuracy="1/8"))
+    'Re λ < -7/8'
+    """
+    width = as_fraction(accuracy)
+    if width <= 0:
+        raise UsageError("expected a positive number", where="accuracy")
+    chi, whole = characteristic_polynomial(loop.A), StabilityRegion(loop.time)
+    if not whole.contains_roots_of(chi) or chi.degree == 0:
+        return None
+
+    def meets(bound: Fraction) -> bool:
+        return StabilityRegion(loop.time, bound).contains_roots_of(chi)
+
+    holds, fails = whole.edge, Fraction(0)
+    if not whole.discrete:
+        fails = Fraction(1)
+        while meets(fails):
+            holds, fails = fails, 2 * fails
+    while abs(fails - holds) > width:
+        middle = (holds + fails) / 2
+        holds, fails = (middle, fails) if meets(middle) else (holds, middle)
+    return StabilityRegion(loop.time, holds) if holds else None

@@ -1,0 +1,273 @@
+"""Fixed spectra: known answers, laws, the checker, and the oracle that enumerates all subsets."""
+
+import random
+from fractions import Fraction
+
+import pytest
+
+from mcexact.analysis.engine.obstructions import CommonFactor, decide
+from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
+from mcexact.answer import codec
+from mcexact.answer.fixed_spectrum import FixedSpectrum
+from mcexact.checker import check_document
+from mcexact.derived.drawn.choices import SeededChoices
+from mcexact.derived.drawn.systems import system_with_fixed_mode
+from mcexact.derived.dual import dual
+from mcexact.exact.linear_algebra import characteristic_polynomial, inverse
+from mcexact.exact.location import StabilityRegion
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.modular import polynomial_residues
+from mcexact.exact.polynomial import Polynomial
+from mcexact.model import gallery
+from mcexact.model.system import MultiChannelSystem
+from tests.oracle.agreement import disagreements, drawn_pair
+from tests.oracle.draws import exact, sparse_system
+
+Factors = dict[Polynomial, tuple[int, int, int, frozenset[str]]]
+
+
+def factors(spectrum: FixedSpectrum) -> Factors:
+    """Everything that is said about the factors, apart from where their roots lie."""
+    return {
+        f.polynomial: (
+            f.multiplicity_in_A,
+            f.multiplicity_at_most,
+            f.rank,
+            frozenset(f.channels),
+        )
+        for f in spectrum.factors
+    }
+
+
+def checked(system: MultiChannelSystem) -> FixedSpectrum:
+    """The fixed spectrum, its certificate accepted."""
+    spectrum = fixed_spectrum(system)
+    verdict = check_document(codec.encode(spectrum.certificate).encode())
+    assert verdict.verdict == "VALID", verdict
+    return spectrum
+
+
+@pytest.mark.parametrize("start", range(0, 250, 50))
+def test_drawn_systems_agree_with_the_enumeration_of_all_subsets(start: int) -> None:
+    """All decisions of the spine and their certificates."""
+    with_fixed_modes = 0
+    for seed in range(10**6 + start, 10**6 + start + 50):
+        problems, fixed = disagreements(*drawn_pair(seed))
+        assert not problems, (seed, problems)
+        with_fixed_modes += fixed
+    assert with_fixed_modes > 10
+
+
+@pytest.mark.parametrize("name", gallery.names())
+def test_published_systems_have_the_published_fixed_modes(name: str) -> None:
+    import sympy
+
+    def written(polynomial: Polynomial) -> sympy.Poly:
+        return sympy.Poly([*reversed(polynomial.coefficients)], sympy.Symbol("x"), domain="QQ")
+
+    spectrum = checked(gallery.load(name))
+    x = sympy.Symbol("x")
+    wanted = {
+        (
+            sympy.Poly(sympy.sympify(e["factor"].replace("^", "**"), rational=True), x),
+            e["multiplicity"],
+        )
+        for e in gallery.expected(name)["fixed_factors"]
+    }
+    found = {(written(f.polynomial), f.multiplicity_at_most) for f in spectrum.factors}
+    assert {(p.set_domain("QQ"), e) for p, e in wanted} == found
+
+
+def test_the_example_of_the_paper_keeps_1_because_of_channels_2_and_3() -> None:
+    spectrum = checked(gallery.load("liu2020-3ch-no-communication"))
+    [factor] = spectrum.factors
+    assert str(factor.polynomial) == "x - 1"
+    assert (factor.channels, factor.rank, factor.stable) == (("2", "3"), 2, False)
+    assert not spectrum.stabilizable
+    assert spectrum.best_rate is not None
+    assert (spectrum.best_rate.lower, spectrum.best_rate.upper) == ("-1", "-1")
+
+
+def test_the_hidden_triple_mode_is_found_three_times_over() -> None:
+    [factor] = checked(gallery.load("hidden-triple-mode")).factors
+    assert str(factor.polynomial) == "x - 1"
+    assert (factor.multiplicity_in_A, factor.multiplicity_at_most) == (3, 3)
+
+
+def edge_systems() -> dict[str, tuple[MultiChannelSystem, list[str]]]:
+    """Systems at the edges, with the fixed factors they have."""
+    huge = 10**40 + 7
+    unit = [[1, 0], [0, 1]]
+    nothing = Matrix.zeros(2, 0)
+    return {
+        "no states": (MultiChannelSystem([], [Matrix.zeros(0, 1)], [Matrix.zeros(1, 0)]), []),
+        "no inputs": (MultiChannelSystem([[0, 1], [2, 0]], [nothing], [unit]), ["x^2 - 2"]),
+        "no outputs": (
+            MultiChannelSystem([[0, 1], [2, 0]], [unit], [Matrix.zeros(0, 2)]),
+            ["x^2 - 2"],
+        ),
+        "B = 0": (MultiChannelSystem(unit, [[[0], [0]]], [unit]), ["x - 1"]),
+        "C = 0": (MultiChannelSystem([[2, 0], [0, 3]], [unit], [[[0, 0]]]), ["x - 3", "x - 2"]),
+        "A = 0, one channel": (MultiChannelSystem([[0, 0], [0, 0]], [unit], [unit]), []),
+        "equal eigenvalues, one input": (
+            MultiChannelSystem(unit, [[[1], [1]]], [unit]),
+            ["x - 1"],
+        ),
+        "one dead channel": (
+            MultiChannelSystem([[5]], [[[0]], [[1]]], [[[1]], [[1]]]),
+            [],
+        ),
+        "all channels dead in one way": (
+            MultiChannelSystem([[5]], [[[0]], [[1]]], [[[1]], [[0]]]),
+            ["x - 5"],
+        ),
+        "denominators beyond 64 bits": (
+            MultiChannelSystem(
+                [[Fraction(1, huge), 0], [0, Fraction(2, huge + 2)]],
+                [[[Fraction(3, huge)], [0]]],
+                [unit],
+            ),
+            [f"x - {Fraction(2, huge + 2)}"],
+        ),
+        "irrational modes of degree 3": (
+            MultiChannelSystem([[0, 0, 2], [1, 0, 0], [0, 1, 0]], [[[0], [0], [0]]], [[[1, 0, 0]]]),
+            ["x^3 - 2"],
+        ),
+    }
+
+
+@pytest.mark.parametrize("name", edge_systems())
+def test_edge_systems_have_the_fixed_factors_they_must(name: str) -> None:
+    system, wanted = edge_systems()[name]
+    spectrum = checked(system)
+    assert [str(f.polynomial) for f in spectrum.factors] == wanted
+    assert spectrum.empty == (not wanted)
+
+
+def test_discrete_time_places_modes_by_their_modulus() -> None:
+    B, C = [[[0], [0]]], [[[1, 1]]]
+    A = [["1/2", 0], [0, "-3/4"]]
+    inside = checked(MultiChannelSystem(A, B, C, time="discrete"))
+    assert inside.stabilizable
+    assert inside.best_rate is not None
+    assert inside.best_rate.lower == inside.best_rate.upper == "0.75"
+    outside = inside.outside(StabilityRegion("discrete", Fraction(5, 8)))
+    assert [str(f.polynomial) for f in outside] == ["x + 3/4"]
+    continuous = checked(MultiChannelSystem(A, B, C))
+    assert not continuous.stabilizable
+    assert {str(f.polynomial): f.stable for f in continuous.factors} == {
+        "x - 1/2": False,
+        "x + 3/4": True,
+    }
+
+
+def test_the_same_system_gives_the_same_certificate() -> None:
+    first, second = (fixed_spectrum(gallery.load("compleib-roc5")) for _ in range(2))
+    assert codec.encode(first.certificate) == codec.encode(second.certificate)
+
+
+def small_systems(count: int) -> list[MultiChannelSystem]:
+    rng = random.Random(20)
+    return [exact(sparse_system(rng)) for _ in range(count)]
+
+
+def test_similar_systems_have_the_same_fixed_factors() -> None:
+    rng = random.Random(1)
+    for system in small_systems(25):
+        n = system.n
+        while True:
+            S = Matrix.from_integers(
+                [[rng.randint(-2, 2) for _ in range(n)] for _ in range(n)], ncols=n
+            )
+            R = inverse(S)
+            if R is not None:
+                break
+        similar = MultiChannelSystem(
+            S @ system.A @ R, [S @ c.B for c in system.channels], [c.C @ R for c in system.channels]
+        )
+        assert factors(fixed_spectrum(similar)) == factors(fixed_spectrum(system))
+
+
+def test_permuting_the_channels_permutes_the_obstruction() -> None:
+    rng = random.Random(2)
+    for system in small_systems(25):
+        order = rng.sample(range(system.m), system.m)
+        permuted = MultiChannelSystem(
+            system.A,
+            [system.B(i) for i in order],
+            [system.C(i) for i in order],
+            names=[system.names[i] for i in order],
+        )
+        assert factors(fixed_spectrum(permuted)) == factors(fixed_spectrum(system))
+
+
+def test_the_dual_has_the_same_fixed_factors_and_ranks() -> None:
+    for system in small_systems(25):
+        ours, theirs = factors(fixed_spectrum(system)), factors(fixed_spectrum(dual(system)))
+        assert {p: f[:3] for p, f in ours.items()} == {p: f[:3] for p, f in theirs.items()}
+
+
+def test_adding_a_channel_never_creates_fixed_modes() -> None:
+    rng = random.Random(3)
+    for system in small_systems(25):
+        n = system.n
+        extra = Matrix.from_integers([[rng.randint(-1, 1)] for _ in range(n)], ncols=1)
+        wider = MultiChannelSystem(
+            system.A,
+            [c.B for c in system.channels] + [extra],
+            [c.C for c in system.channels] + [extra.T],
+        )
+        before, after = factors(fixed_spectrum(system)), factors(fixed_spectrum(wider))
+        assert after.keys() <= before.keys()
+        assert all(after[p][2] >= before[p][2] for p in after)
+
+
+@pytest.mark.parametrize("degree", [1, 3])
+def test_a_planted_mode_is_found_among_80_states_and_40_channels(degree: int) -> None:
+    drawn = system_with_fixed_mode(SeededChoices(degree), states=80, channels=40, degree=degree)
+    spectrum = fixed_spectrum(drawn.system)
+    verdict = check_document(codec.encode(spectrum.certificate).encode())
+    assert verdict.verdict == "VALID", verdict
+    assert drawn.fixed_mode in [f.polynomial for f in spectrum.factors]
+
+
+def test_many_decoupled_integrators_need_no_luck() -> None:
+    """A platoon: small gains would almost never do."""
+    n = 40
+    I = Matrix.identity(n)
+    system = MultiChannelSystem(
+        Matrix.zeros(n, n),
+        [I.take(cols=[i]) for i in range(n)],
+        [I.take(rows=[i]) for i in range(n)],
+    )
+    assert checked(system).empty
+
+
+def test_common_factors_are_lifted_from_several_primes_when_one_is_too_short() -> None:
+    root = Fraction(10**30 + 57, 3**20)
+    factor = Polynomial.of(-root, 1)
+    chi = factor * Polynomial.of(1, 1)
+    lift = CommonFactor(chi, 3**20)
+    found = None
+    for prime in (2**61 - 1, 2**31 - 1, 2**19 - 1):
+        assert found is None
+        found = lift.lifted(polynomial_residues(factor, prime))
+    assert found == factor
+
+
+def test_a_common_factor_by_accident_is_forgotten() -> None:
+    chi = Polynomial.from_roots([1, 2, 3])
+    lift = CommonFactor(chi, 1)
+    accident = Polynomial.of(-1, 1) * Polynomial.of(-5, 1)
+    assert lift.lifted(polynomial_residues(accident, 101)) is None
+    assert lift.lifted(polynomial_residues(Polynomial.of(-1, 1), 103)) == Polynomial.of(-1, 1)
+    assert lift.lifted(polynomial_residues(accident, 107)) is None
+
+
+def test_the_rest_of_the_spectrum_is_moved_by_the_gains_of_the_decision() -> None:
+    system = gallery.load("compleib-roc5")
+    decision = decide(system, random.Random(0))
+    [found] = decision.obstructions
+    rest = characteristic_polynomial(system.A) // found.polynomial**found.multiplicity_in_A
+    common = polynomial_residues(rest, decision.modular.modulus).gcd(decision.closed)
+    assert common.degree == 0

@@ -1,0 +1,101 @@
+"""Whether set-points can be held, beside an independent computation."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+import sympy
+
+from mcexact.analysis.structure.controllability import joint_controllability
+from mcexact.analysis.structure.setpoint import setpoint_solvability
+from mcexact.answer.codec import encode
+from mcexact.checker.kinds import check_document
+from mcexact.derived.drawn.choices import SeededChoices
+from mcexact.derived.drawn.systems import any_system
+from mcexact.derived.integrators import setpoint_system
+from mcexact.exact.matrix import Matrix
+from mcexact.model.system import MultiChannelSystem
+
+
+def as_sympy(M: Matrix) -> sympy.Matrix:
+    entries = [sympy.Rational(x.numerator, x.denominator) for row in M.rows() for x in row]
+    return sympy.Matrix(M.nrows, M.ncols, entries)
+
+
+def pencil(system: MultiChannelSystem, x: sympy.Expr) -> sympy.Matrix:
+    """[xI − A, B; C, 0]."""
+    A, B = as_sympy(system.A), as_sympy(system.input_matrix())
+    C = as_sympy(system.output_matrix())
+    top = (x * sympy.eye(system.n) - A).row_join(B)
+    return top.col_join(C.row_join(sympy.zeros(C.rows, B.cols)))
+
+
+@pytest.mark.parametrize("time", ["continuous", "discrete"])
+@pytest.mark.parametrize("seed", range(40))
+def test_rank_and_normal_rank_agree_with_sympy(seed: int, time: str) -> None:
+    rng = random.Random(seed)
+    system = any_system(
+        SeededChoices(f"solvability {seed}"), rng.randint(1, 4), rng.randint(1, 3), time=time
+    ).system
+    found = setpoint_solvability(system)
+    rows = system.n + sum(system.q(i) for i in range(system.m))
+    rank = pencil(system, sympy.Integer(int(time == "discrete"))).rank()
+    assert (found.rank, found.solvable) == (rank, rank == rows)
+    if not found.solvable:
+        normal = max(pencil(system, sympy.Integer(v)).rank() for v in range(11, 17))
+        assert found.invariant_zero == (normal == rows)
+    else:
+        assert found.invariant_zero is None
+    verdict = check_document(encode(found.certificate).encode())
+    assert verdict.verdict == "VALID", verdict.line()
+
+
+@pytest.mark.parametrize("time", ["continuous", "discrete"])
+@pytest.mark.parametrize("seed", range(20))
+def test_solvable_is_joint_controllability_of_the_plant_with_integrators(
+    seed: int, time: str
+) -> None:
+    system = any_system(SeededChoices(f"integrators {seed}"), 3, 2, time=time).system
+    both = joint_controllability(system).controllable and setpoint_solvability(system).solvable
+    assert joint_controllability(setpoint_system(system)).controllable == both
+
+
+def test_the_combination_holds_for_every_equilibrium() -> None:
+    plant = MultiChannelSystem([[-1, 1], [0, -2]], [[[1], [1]]], [[[1, 0], [0, 1], [1, 1]]])
+    found = setpoint_solvability(plant)
+    assert not found.solvable
+    A, B = as_sympy(plant.A), as_sympy(plant.input_matrix())
+    C = as_sympy(plant.output_matrix())
+    equilibrium = C * A.inv() * B
+    assert found.combinations.nrows == 2
+    assert (as_sympy(found.combinations) * equilibrium).is_zero_matrix
+
+
+def test_an_uncontrollable_integrator_leaves_every_combination_open() -> None:
+    plant = MultiChannelSystem([[0, 0], [0, -1]], [[[0], [1]]], [[[1, 1]]])
+    found = setpoint_solvability(plant)
+    assert not found.solvable
+    assert found.combinations.nrows == 0
+
+
+@pytest.mark.parametrize(
+    ("states", "inputs", "outputs"), [(0, 1, 2), (3, 0, 1), (12, 1, 2), (12, 3, 5), (6, 4, 6)]
+)
+def test_more_outputs_than_inputs_are_dependent_at_every_frequency(
+    states: int, inputs: int, outputs: int
+) -> None:
+    rng = random.Random(states)
+
+    def drawn(rows: int, columns: int) -> Matrix:
+        table = [[rng.randint(-3, 3) for _ in range(columns)] for _ in range(rows)]
+        return Matrix.from_integers(table, ncols=columns)
+
+    plant = MultiChannelSystem(
+        drawn(states, states), [drawn(states, inputs)], [drawn(outputs, states)]
+    )
+    found = setpoint_solvability(plant)
+    assert (found.solvable, found.invariant_zero) == (False, False)
+    assert check_document(encode(found.certificate).encode()).verdict == "VALID"
+    row = found.certificate.normal
+    assert row is not None and len(row.coefficients) <= max(1, states + 1)
