@@ -54,6 +54,8 @@ if TYPE_CHECKING:
     from mcexact.analysis.structure.setpoint import setpoint_solvability as setpoint_solvability
     from mcexact.analysis.structure.transfer_graph import transfer_graph as transfer_graph
     from mcexact.answer.check import check as check
+    from mcexact.answer.codec import save_certificate as save_certificate
+    from mcexact.answer.reading import load_certificate as load_certificate
     from mcexact.crosscheck.table import crosscheck as crosscheck
     from mcexact.derived.augmented_outputs import augmented_outputs as augmented_outputs
     from mcexact.derived.delayed import held_system as held_system
@@ -97,12 +99,14 @@ _HOME = {
     "extended_system": "derived.extended",
     "held_system": "derived.delayed",
     "lifted_system": "derived.delayed",
+    "load_certificate": "answer.reading",
     "load_controller": "model.controller_file",
     "load_system": "model.system_file",
     "local_controllers": "model.local_controllers",
     "loop_from_statespace": "model.statespace",
     "matrix_system": "analysis.stability.stability",
     "pencil_rank": "analysis.fixed_modes.pencil",
+    "save_certificate": "answer.codec",
     "save_controller": "model.controller_file",
     "save_system": "model.system_file",
     "setpoint_system": "derived.integrators",

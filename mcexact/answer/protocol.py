@@ -8,10 +8,11 @@ certificate, how it is read back, the JSON view, and the ways in which an answer
 from __future__ import annotations
 
 import dataclasses
+import importlib
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, ClassVar, NoReturn, Self, TypeVar, dataclass_transform
+from typing import Any, ClassVar, NoReturn, TypeVar, dataclass_transform
 
 from mcexact.answer import showing
 from mcexact.model.canonical import Document, text_of
@@ -98,11 +99,6 @@ class Answer:
         """The constructions that lead from the plant to what the answer is about, in order."""
         return self.about.subject
 
-    @property
-    def certificate(self) -> Self:
-        """The answer itself."""
-        return self
-
     def claim(self) -> dict[str, Any]:
         """The statement, as the keys of the kind's ``claim``."""
         return {key_of(each): getattr(self, each.name) for each in fields_of(type(self), "claim")}
@@ -172,6 +168,12 @@ def answer(kind: str) -> Callable[[type[AnyAnswer]], type[AnyAnswer]]:
         return cls
 
     return made
+
+
+def kind_named(name: str) -> type[Answer]:
+    """The class of a kind of answer, from the file of that name."""
+    importlib.import_module(f"{__package__}.{name}")
+    return KINDS[name]
 
 
 def fields_of(kind: type[Answer], role: str) -> list[dataclasses.Field[Any]]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 import json
 import os
 import sys
@@ -14,7 +13,7 @@ from fractions import Fraction
 from typing import Any
 
 from mcexact.answer.check import checked
-from mcexact.answer.protocol import KINDS, Answer, fields_of, key_of
+from mcexact.answer.protocol import Answer, fields_of, key_of, kind_named
 from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.derived.delayed import held_system, lifted_system
 from mcexact.derived.dual import dual
@@ -68,8 +67,7 @@ def load_certificate(path: str | os.PathLike[str]) -> Answer:
 def answer_of(document: Mapping[str, Any]) -> Answer:
     """The answer whose certificate a valid document is."""
     about = constructed(_plant(document["system"]), document["subject"])
-    importlib.import_module(f"mcexact.answer.{document['kind']}")
-    return _answer(KINDS[document["kind"]], document, about)
+    return _answer(kind_named(document["kind"]), document, about)
 
 
 def constructed(

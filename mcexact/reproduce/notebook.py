@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from itertools import chain
-from typing import Any
 
 from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
 from mcexact.answer import codec
+from mcexact.answer.protocol import Answer
 from mcexact.checker import check_document
 from mcexact.model.system import MultiChannelSystem
 from mcexact.report.picture import EmbeddedPicture, Picture
@@ -102,10 +102,9 @@ class Notebook:
         """Write down whether something holds."""
         self.checks.append(Check(text, self.here, bool(holds)))
 
-    def certify(self, *results: Any) -> None:
-        """Have the independent checker read the certificates of these results."""
-        for result in results:
-            made = getattr(result, "certificate", result)
+    def certify(self, *answers: Answer) -> None:
+        """Have the independent checker read the certificates of these answers."""
+        for made in answers:
             text = codec.encode(made)
             said = check_document(text.encode("ascii"))
             number = len(self.certificates) + 1

@@ -102,9 +102,7 @@ def decide(job: Job) -> Outcome:
     start = time.perf_counter()
     try:
         system = job.system()
-        made = {
-            name: codec.encode(QUESTIONS[name].decide(system).certificate) for name in job.questions
-        }
+        made = {name: codec.encode(QUESTIONS[name].decide(system)) for name in job.questions}
     except Exception as error:
         return failure(error)
     return {

@@ -57,7 +57,7 @@ def feedback_for_region(system: MultiChannelSystem, region: StabilityRegion) -> 
     if not region.contains_roots_of(rest):
         raise Impossible(
             say.NOT_CONTROLLABLE_IN(p=rest, region=region),
-            decided.certificate,
+            decided,
         )
     found = controllable_subspace(system.A, B, generator(system, "controllability"))
     pivots = list(found.pivots)

@@ -148,7 +148,7 @@ def _require_fast(network: DerivedNetwork, fixed: FixedSpectrum, region: Stabili
         s=slow[0].channels,
         sizes=list(zip(network.given.names, network.dimensions, strict=False)),
     )
-    raise Impossible(message, fixed.certificate)
+    raise Impossible(message, fixed)
 
 
 def _choices(

@@ -287,7 +287,7 @@ def _refuse_if_impossible(
         polynomial = found.uncontrollable_polynomial
         if not region.contains_roots_of(polynomial):
             told = say.UNREACHED[verb]
-            raise Impossible(told(p=polynomial, region=region), found.certificate)
+            raise Impossible(told(p=polynomial, region=region), found)
     if gains is None:
         return
     decision = fixed_spectrum(error_system(system, gains, graph))
@@ -295,5 +295,5 @@ def _refuse_if_impossible(
     if outside:
         raise Impossible(
             say.ERRORS_FIXED(p=outside[0].polynomial, region=region),
-            decision.certificate,
+            decision,
         )

@@ -71,11 +71,11 @@ def _candidates(task: ObserverTask) -> list[ReachingGains]:
     if not observable.controllable:
         raise Impossible(
             say.NOT_OBSERVABLE(p=observable.uncontrollable_polynomial),
-            observable.certificate,
+            observable,
         )
     decision = completeness(task.error)
     if not decision.complete:
-        raise Impossible(say.ERRORS_NOT_COMPLETE(), decision.certificate)
+        raise Impossible(say.ERRORS_NOT_COMPLETE(), decision)
     found = list(islice(reaching_gains(task.error, agent, draw, attempts=2000), count))
     if not found:
         raise LimitReached("observer gains K_i, H_ij exist, but 2000 draws did not find them")

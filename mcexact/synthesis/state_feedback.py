@@ -78,7 +78,7 @@ def state_feedback(system: MultiChannelSystem, polynomial: Polynomial) -> StateF
     if not controllable.controllable:
         raise Impossible(
             say.NOT_CONTROLLABLE(p=controllable.uncontrollable_polynomial),
-            controllable.certificate,
+            controllable,
         )
     B = system.input_matrix()
     F = assigning_feedback(system.A, B, polynomial)

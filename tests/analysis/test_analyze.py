@@ -71,8 +71,8 @@ def test_what_another_answer_takes_is_among_the_answers() -> None:
 
 def test_a_question_is_about_what_the_agents_receive_or_about_the_plant() -> None:
     found = analyze(RING, information="outputs")
-    assert found.system.subject == found.fixed_spectrum.certificate.subject != ()
-    assert found.setpoint.certificate.subject == ()
+    assert found.system.subject == found.fixed_spectrum.subject != ()
+    assert found.setpoint.subject == ()
 
 
 def test_a_limit_leaves_a_question_open_and_the_others_answered(

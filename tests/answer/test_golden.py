@@ -36,8 +36,8 @@ Answers = Iterator[tuple[str, Any]]
 
 
 def text_of(answer: Any) -> str:
-    """The text of an answer's certificate, or of a refusal's."""
-    return encode(getattr(answer, "certificate", answer))
+    """The text of an answer's certificate."""
+    return encode(answer)
 
 
 def plants() -> Iterator[tuple[str, MultiChannelSystem]]:
@@ -103,7 +103,7 @@ def of_its_channels(system: MultiChannelSystem) -> Answers:
         try:
             found = mcexact.exceptional_gains(ones, system.A, system.input_matrix())
         except Impossible as refused:
-            yield "exceptional_gains_refused", refused
+            yield "exceptional_gains_refused", refused.certificate
             return
         yield "exceptional_gains_index_set", found.index_set
         yield "exceptional_gains_controllability_set", found.controllability_set
@@ -113,7 +113,7 @@ def of_its_graph(plant: MultiChannelSystem) -> Answers:
     """What agents can share, at once and with the delays of their messages."""
     yield "neighbor_graph", neighbor_graph(plant)
     zero = [[[0] * plant.n for _ in range(plant.p(i))] for i in range(plant.m)]
-    yield "error_gains", mcexact.error_gains(plant, zero)
+    yield "error_gains", mcexact.error_gains(plant, zero).found
     for name, found in of_the_system(mcexact.augmented_outputs(plant)):
         yield f"augmented_{name}", found
     for share in SHARING:
@@ -157,7 +157,7 @@ def designs() -> Iterator[tuple[str, Answers]]:
             try:
                 made = getattr(mcexact, f"design_{design}")(plant, rate=1)
             except Impossible as refused:
-                yield f"{design}: {name}", iter([("refusal", refused)])
+                yield f"{design}: {name}", iter([("refusal", refused.certificate)])
             else:
                 yield f"{design}: {name}", iter(sorted(made.certificates.items()))
 

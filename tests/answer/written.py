@@ -67,7 +67,7 @@ def write_all(folder: Path) -> None:
                     raise
         ones = Matrix.from_integers([[1] * plant.n for _ in range(plant.n)])
         found = exceptional_gains(ones, plant.A, plant.input_matrix())
-        save_certificate(found.controllability_set.certificate, place / "exceptional_gains.json")
+        save_certificate(found.controllability_set, place / "exceptional_gains.json")
 
 
 def with_graph(plant: MultiChannelSystem) -> MultiChannelSystem:

@@ -91,7 +91,7 @@ def compare_dimensions(count: int, seed: int) -> Counter[str]:
         if found.cost != expected:
             message = f"draw {number} of seed {seed}: found {found.cost}, enumerated {expected}"
             raise AssertionError(message)
-        verdict = check_document(encode(found.certificate).encode("ascii"))
+        verdict = check_document(encode(found).encode("ascii"))
         if verdict.verdict != "VALID":
             raise AssertionError(f"draw {number} of seed {seed}: {verdict.line()}")
         seen["systems"] += 1
@@ -123,7 +123,7 @@ def compare_arcs(count: int, seed: int) -> Counter[str]:
         if found.cost != expected:
             message = f"draw {number} of seed {seed}: found {found.cost}, enumerated {expected}"
             raise AssertionError(message)
-        verdict = check_document(encode(found.certificate).encode("ascii"))
+        verdict = check_document(encode(found).encode("ascii"))
         if verdict.verdict != "VALID":
             raise AssertionError(f"draw {number} of seed {seed}: {verdict.line()}")
         seen["systems"] += 1

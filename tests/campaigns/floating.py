@@ -190,7 +190,7 @@ def both_methods(n: int, seed: int = 1, *, check: bool = True) -> None:
                 raise AssertionError(f"{M.nrows} states, {bound}, {method}: {verdict.stable}")
             began = time.perf_counter()
             if check:
-                checked = check_document(encode(verdict.certificate).encode("ascii"))
+                checked = check_document(encode(verdict).encode("ascii"))
                 if checked.verdict != "VALID":
                     raise AssertionError(checked.line())
             print(
@@ -210,7 +210,7 @@ def near_the_boundary(states: int = 40, *, check: bool = True) -> None:
         if verdict.stable != stable:
             raise AssertionError(f"abscissa {slowest}: {verdict.stable}")
         if check:
-            checked = check_document(encode(verdict.certificate).encode("ascii"))
+            checked = check_document(encode(verdict).encode("ascii"))
             if checked.verdict != "VALID":
                 raise AssertionError(checked.line())
         print(

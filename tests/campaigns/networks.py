@@ -56,9 +56,9 @@ class NetworkVerdict:
     def certificates(self) -> tuple[Any, ...]:
         """The evidence for all of it."""
         return (
-            self.spectrum.certificate,
-            self.controllability.certificate,
-            self.observability.certificate,
+            self.spectrum,
+            self.controllability,
+            self.observability,
         )
 
 

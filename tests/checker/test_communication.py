@@ -13,13 +13,11 @@ PLANT = gallery.load("liu2020-3ch-no-communication")
 SILENT = NeighborGraph.empty(PLANT.names)
 CHAIN = NeighborGraph.from_names(PLANT.names, {"1": ["2"], "3": ["1"]})
 
-OUTPUTS = document(minimal_communication(PLANT, SILENT).certificate)
-WITHOUT_GRAPH = document(minimal_communication(PLANT).certificate)
-EXTENDED = document(minimal_communication(PLANT, CHAIN, dimensions=(0, 0, 1)).certificate)
+OUTPUTS = document(minimal_communication(PLANT, SILENT))
+WITHOUT_GRAPH = document(minimal_communication(PLANT))
+EXTENDED = document(minimal_communication(PLANT, CHAIN, dimensions=(0, 0, 1)))
 BLOCKED = document(
-    minimal_communication(
-        PLANT, SILENT, forbidden=[(j, i) for j in "123" for i in "123"]
-    ).certificate
+    minimal_communication(PLANT, SILENT, forbidden=[(j, i) for j in "123" for i in "123"])
 )
 
 ACCEPTED = [

@@ -234,7 +234,7 @@ def test_a_controller_of_a_derived_system_closes_its_loop():
     loop = closed_loop(made, Controller("discrete", "", agents)).system
     assert loop.A == made.A and loop.plant == plain()
     assert [each["construction"] for each in loop.subject] == ["feedback", "closed_loop"]
-    verdict = check_document(encode(certify_stability(loop).certificate).encode())
+    verdict = check_document(encode(certify_stability(loop)).encode())
     assert verdict.verdict == "VALID", verdict.line()
 
 

@@ -110,7 +110,7 @@ def disagreements(
         if found.rank != wanted:
             problems.append(f"pencil rank {found.rank}, enumeration says {wanted}")
     for name, answer in answers.items() if certificates else ():
-        verdict = check_document(codec.encode(answer.certificate).encode())
+        verdict = check_document(codec.encode(answer).encode())
         if verdict.verdict != "VALID":
             problems.append(f"the certificate of {name} is {verdict}")
     return problems, not spectrum.empty

@@ -84,7 +84,7 @@ def observability_for_controllability(job: Job) -> Outcome:
 
 def controllability_of_one_channel(job: Job) -> Outcome:
     """The same kind of certificate, of fewer channels."""
-    made = codec.encode(joint_controllability(job.system(), ["u1"]).certificate)
+    made = codec.encode(joint_controllability(job.system(), ["u1"]))
     return decide(job) | {"certificates": {"joint_controllability": made}}
 
 
@@ -97,7 +97,7 @@ def test_every_question_is_answered_as_it_is_one_by_one() -> None:
     )
     assert list(record.answers) == list(QUESTIONS)
     for name, question in QUESTIONS.items():
-        document = codec.document(question.decide(system).certificate)
+        document = codec.document(question.decide(system))
         assert record.answers[name]["claim"] == document["claim"]
         assert json.loads(record.certificates[name]) == document
 

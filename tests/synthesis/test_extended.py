@@ -164,7 +164,7 @@ def test_without_holding_the_loop_has_another_spectrum_and_a_proven_verdict() ->
     chi = characteristic_polynomial(loop.A)
     assert chi != Polynomial.from_roots(FREE[:15])
     verdict = certify_stability(loop)
-    assert check_document(encode(verdict.certificate).encode()).verdict == "VALID"
+    assert check_document(encode(verdict).encode()).verdict == "VALID"
     run = simulate(plant, hasty, horizon=120)
     grows = max(map(abs, run.snapshots[120].plant)) > max(map(abs, run.snapshots[60].plant))
     assert grows == (not verdict.stable)

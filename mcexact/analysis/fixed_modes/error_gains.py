@@ -23,29 +23,34 @@ class ErrorGains:
 
     Attributes
     ----------
-    exists : bool
-    error : MultiChannelSystem
-        The open-loop error system, nm states.
-    lists : tuple of tuple of Matrix, or None
-        For each agent i: K_i, n × q_i, then H_ij, n × n, for j ∈ N_i∖{i} in the order of the
-        channels.
-    indices : tuple of (int, int), or None
-        For each agent the controllability and observability indices that are reached.
     found : SingleChannelGains
-        The same as gains of the error system, whose matrix they make cyclic; or the reason.
-    certificate : SingleChannelGainsCertificate
+        The same as gains of the error system, whose matrix they make cyclic; or why there are none.
     """
 
-    exists: bool
-    error: MultiChannelSystem
-    lists: tuple[tuple[Matrix, ...], ...] | None
-    indices: tuple[tuple[int, ...], ...] | None
     found: SingleChannelGains
 
     @property
-    def certificate(self) -> Any:
-        """The certificate, about the error system."""
-        return self.found.certificate
+    def exists(self) -> bool:
+        """Whether they do."""
+        return self.found.exists
+
+    @property
+    def error(self) -> MultiChannelSystem:
+        """The open-loop error system, nm states."""
+        return self.found.about
+
+    @property
+    def indices(self) -> tuple[tuple[int, ...], ...] | None:
+        """For each agent the controllability and observability indices that are reached."""
+        return self.found.indices
+
+    @property
+    def lists(self) -> tuple[tuple[Matrix, ...], ...] | None:
+        """For each agent i: K_i, n × q_i, then H_ij, n × n, for j ∈ N_i∖{i}, in order."""
+        plant, gains = self.error.plant, self.found.gains
+        if gains is None:
+            return None
+        return tuple(_split(gain, plant.q(i), plant.n) for i, gain in enumerate(gains))
 
 
 def error_gains(
@@ -92,10 +97,7 @@ def error_gains(
     error = error_system(system, exact)
     draw = error_gain_draws(system, graph, exact, Fraction(0))
     found = single_channel_gains(error, cyclic=True, index=system.m, draw=draw)
-    lists = None
-    if found.gains is not None:
-        lists = tuple(_split(gain, system.q(i), system.n) for i, gain in enumerate(found.gains))
-    return ErrorGains(found.exists, error, lists, found.indices, found)
+    return ErrorGains(found)
 
 
 def _split(gain: Matrix, q: int, n: int) -> tuple[Matrix, ...]:

@@ -32,7 +32,7 @@ def test_one_unstable_block_makes_a_no(time, rows):
     loop, separation = loop_of(Delta, time), Separation(T, Delta, (1, 2), INVERSE)
     verdict = certify_stability(loop, method="lyapunov", separation=separation)
     assert not verdict.stable and verdict.method == "instability"
-    checked = check_document(encode(verdict.certificate).encode())
+    checked = check_document(encode(verdict).encode())
     assert checked.verdict == "VALID", checked.line()
 
 

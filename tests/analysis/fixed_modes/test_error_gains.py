@@ -42,7 +42,7 @@ def test_the_lists_make_the_error_matrix_of_the_paper_cyclic() -> None:
     assert minimal_polynomial(block(rows)).degree == 9
     assert found.indices is not None
     assert {control for control, _ in found.indices} == {3}
-    verdict = check_document(encode(found.certificate).encode())
+    verdict = check_document(encode(found.found).encode())
     assert verdict.verdict == "VALID"
     assert "A_F cyclic" in verdict.theorem
 
@@ -52,7 +52,7 @@ def test_without_arcs_the_plant_itself_may_connect_the_agents() -> None:
     assert error_gains(plant, [[[-1]], [[-1]]]).exists
     refused = error_gains(plant, [[[0]], [[0]]])
     assert not refused.exists
-    verdict = check_document(encode(refused.certificate).encode())
+    verdict = check_document(encode(refused.found).encode())
     assert verdict.verdict == "VALID"
     assert verdict.theorem.startswith("no constant gains make")
 

@@ -18,7 +18,7 @@ def test_a_multiple_mode_that_nobody_drives_counts_as_often_as_it_can(multiplici
     found = deficiency(system)
     assert found.deficiency == multiplicity
     assert (found.polynomial is None) == (multiplicity == 0)
-    assert check_document(codec.encode(found.certificate).encode()).verdict == "VALID"
+    assert check_document(codec.encode(found).encode()).verdict == "VALID"
 
 
 def test_the_mode_of_largest_deficiency_is_named_with_its_channels() -> None:

@@ -23,7 +23,7 @@ def test_a_cycle_connects_and_a_path_does_not(
     system = MultiChannelSystem([[0]], [[[1]]] * 3, [[[1]]] * 3, neighbors=neighbors)
     verdict = neighbor_graph(system)
     assert verdict.strongly_connected == connected
-    assert check_document(codec.encode(verdict.certificate).encode()).verdict == "VALID"
+    assert check_document(codec.encode(verdict).encode()).verdict == "VALID"
 
 
 def test_without_a_graph_there_is_no_answer() -> None:

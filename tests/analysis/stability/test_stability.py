@@ -26,7 +26,7 @@ NEAR = Fraction(1, 10**9)
 
 
 def assert_valid(verdict: StabilityVerdict) -> None:
-    checked = check_document(encode(verdict.certificate).encode("ascii"))
+    checked = check_document(encode(verdict).encode("ascii"))
     assert checked.verdict == "VALID", checked.line()
 
 

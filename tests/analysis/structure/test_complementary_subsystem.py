@@ -26,7 +26,7 @@ from tests.oracle.draws import exact, sparse_system
 def certified(system: MultiChannelSystem, s: list[str]) -> object:
     """The answer, after its certificate was found VALID."""
     found = complementary_subsystem(system, s)
-    verdict = check_document(encode(found.certificate).encode())
+    verdict = check_document(encode(found).encode())
     assert verdict.verdict == "VALID", verdict.line()
     return found
 
@@ -37,7 +37,7 @@ def test_the_prescribed_remnant_polynomial_is_found(drawn: Drawn) -> None:
     names = drawn.system.named(drawn.subset)
     found = complementary_subsystem(drawn.system, names)
     assert found.remnant == drawn.remnant
-    assert check_document(encode(found.certificate).encode()).verdict == "VALID"
+    assert check_document(encode(found).encode()).verdict == "VALID"
 
 
 def test_rank_at_a_zero_is_that_of_the_pencil() -> None:

@@ -37,7 +37,7 @@ def test_drawn_systems_agree_with_plain_ranks_and_are_certified() -> None:
         ):
             assert answer.ranks == wanted
             assert sum(answer.indices) == (wanted[-1] if wanted else 0)
-            verdict = check_document(codec.encode(answer.certificate).encode())
+            verdict = check_document(codec.encode(answer).encode())
             assert verdict.verdict == "VALID", verdict
 
 
@@ -54,4 +54,4 @@ def test_without_states_the_index_is_0() -> None:
     system = MultiChannelSystem([], [Matrix.zeros(0, 1)], [Matrix.zeros(1, 0)])
     found = controllability_indices(system)
     assert (found.ranks, found.index, found.indices) == ((), 0, ())
-    assert check_document(codec.encode(found.certificate).encode()).verdict == "VALID"
+    assert check_document(codec.encode(found).encode()).verdict == "VALID"

@@ -47,7 +47,7 @@ def test_rank_and_normal_rank_agree_with_sympy(seed: int, time: str) -> None:
         assert found.invariant_zero == (normal == rows)
     else:
         assert found.invariant_zero is None
-    verdict = check_document(encode(found.certificate).encode())
+    verdict = check_document(encode(found).encode())
     assert verdict.verdict == "VALID", verdict.line()
 
 
@@ -96,6 +96,6 @@ def test_more_outputs_than_inputs_are_dependent_at_every_frequency(
     )
     found = setpoint_solvability(plant)
     assert (found.solvable, found.invariant_zero) == (False, False)
-    assert check_document(encode(found.certificate).encode()).verdict == "VALID"
-    row = found.certificate.normal
+    assert check_document(encode(found).encode()).verdict == "VALID"
+    row = found.normal
     assert row is not None and len(row.coefficients) <= max(1, states + 1)

@@ -79,7 +79,7 @@ def draw_dimensions(seed: int) -> Document:
         upper=upper,
         free_assignability=seed % 2 == 1,
     )
-    document: Document = json.loads(codec.encode(found.certificate))
+    document: Document = json.loads(codec.encode(found))
     return document
 
 
@@ -116,7 +116,7 @@ def draw_communication(seed: int) -> Document:
     share = rng.choice(["outputs", "outputs+states", "states"])
     sizes = None if share == "outputs" else [rng.randint(0, 2) for _ in range(small.m)]
     found = minimal_communication(system, graph, dimensions=sizes, share=share)  # type: ignore[arg-type]
-    document: Document = json.loads(codec.encode(found.certificate))
+    document: Document = json.loads(codec.encode(found))
     return document
 
 

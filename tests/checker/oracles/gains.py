@@ -31,7 +31,7 @@ def draw_single(seed: int) -> Document | None:
     q = rng.choice([None, system.names[0]])
     want = rng.choice(["both", "controllable", "observable"])
     found = single_channel_gains(system, q, want=want, cyclic=want == "both" and seed % 3 == 0)
-    document: Document = json.loads(codec.encode(found.certificate))
+    document: Document = json.loads(codec.encode(found))
     return document if document["kind"] == "single_channel_gains" else None
 
 
@@ -104,7 +104,7 @@ def draw_exceptional(seed: int) -> Document | None:
     except Impossible:
         return None
     chosen = found.index_set if seed % 2 else found.controllability_set
-    document: Document = json.loads(codec.encode(chosen.certificate))
+    document: Document = json.loads(codec.encode(chosen))
     return document
 
 

@@ -90,7 +90,7 @@ def draw_stability(seed: int) -> Document | None:
         )  # type: ignore[arg-type]
     except ValueError:
         return None
-    document: Document = json.loads(codec.encode(found.certificate))
+    document: Document = json.loads(codec.encode(found))
     return document
 
 

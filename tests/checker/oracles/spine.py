@@ -46,7 +46,7 @@ def _drawing(decide: Callable[[MultiChannelSystem], Any]) -> Callable[[int], Doc
 
     def draw(seed: int) -> Document | None:
         found = decide(drawn_system(seed))
-        return None if found is None else json.loads(codec.encode(found.certificate))
+        return None if found is None else json.loads(codec.encode(found))
 
     return draw
 

@@ -26,7 +26,7 @@ X = Symbol("x")
 
 
 def _written(found: Any) -> Document:
-    document: Document = json.loads(codec.encode(found.certificate))
+    document: Document = json.loads(codec.encode(found))
     return document
 
 

@@ -1,0 +1,72 @@
+"""An answer about a derived system is read back with its system, whatever the constructions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+import mcexact
+from mcexact.analysis.stability.closed_loop_spectrum import open_loop_spectrum
+from mcexact.derived.feedback import feedback, full_output
+from mcexact.derived.links import add_links
+from mcexact.model.loop import closed_loop
+from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem
+
+GRAPH = NeighborGraph(("a", "b"), [[1], [0]], [(0, 1, 2)])
+PLANT = MultiChannelSystem(
+    [["1/2", 1], [0, 2]],
+    [[[1, 0], [0, 0]], [[], []]],
+    [[[1, 1]], [[0, 1], [1, 0]]],
+    time="discrete",
+    names=["a", "b"],
+    neighbors=GRAPH,
+)
+ONE_WAY = PLANT.with_neighbors(NeighborGraph(("a", "b"), [[], [0]]))
+GAINS = [[["1/3"], [2]], []]
+FEEDBACK = [[["1/3", 0], [2, -1]], []]
+
+
+MADE: dict[str, Callable[[], MultiChannelSystem]] = {
+    "the plant": lambda: PLANT,
+    "augmented_outputs": lambda: mcexact.augmented_outputs(PLANT),
+    "dual": lambda: mcexact.dual(PLANT),
+    "feedback": lambda: feedback(PLANT, GAINS),
+    "full_output": lambda: full_output(PLANT, 1),
+    "arcs": lambda: add_links(ONE_WAY, [(1, 0)]),
+    "extended": lambda: mcexact.extended_system(PLANT, [1, 2], "states"),
+    "lifted": lambda: mcexact.lifted_system(PLANT, [1, 0]),
+    "held": lambda: mcexact.held_system(PLANT, [0, 2]),
+    "integrators": lambda: mcexact.setpoint_system(PLANT),
+    "error": lambda: mcexact.error_system(PLANT, FEEDBACK),
+    "several": lambda: mcexact.dual(
+        full_output(mcexact.extended_system(add_links(ONE_WAY, [(1, 0)]), [0, 1]), 0)
+    ),
+}
+
+
+@pytest.mark.parametrize("name", MADE)
+def test_the_system_of_an_answer_is_made_again(name: str, tmp_path: Path) -> None:
+    system = MADE[name]()
+    for found in (mcexact.fixed_spectrum(system), mcexact.transfer_graph(system)):
+        file = tmp_path / f"{found.kind}.json"
+        mcexact.save_certificate(found, file)
+        read = mcexact.load_certificate(file)
+        assert read == found
+        assert read.about == system
+        assert read.view() == found.view()
+
+
+def test_a_closed_loop_is_made_again(tmp_path: Path) -> None:
+    plant = MultiChannelSystem(
+        [[2]], [[[1]], [[1]]], [[[1]], [[1]]], neighbors={"1": ["2"], "2": ["1"]}
+    )
+    made = mcexact.design_observer(plant, rate=1)
+    system = closed_loop(plant, made.controller).system
+    for found in (open_loop_spectrum(system), mcexact.certify_stability(system, rate=1)):
+        mcexact.save_certificate(found, tmp_path / "loop.json")
+        read = mcexact.load_certificate(tmp_path / "loop.json")
+        assert read == found
+        assert read.about == system
