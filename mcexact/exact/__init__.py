@@ -11,6 +11,7 @@ No other stage imports flint: sizes and moduli that it would abort on are refuse
 ===================  ==================================================================
 `rational`           one number: entries, the written grammar
 `matrix`             rational matrices
+`rows`               matrices as users hand them over
 `blocks`             rational matrices put together from blocks
 `linear_algebra`     ranks, kernels, solutions, characteristic polynomials over Q
 `polynomial`         rational polynomials

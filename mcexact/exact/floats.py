@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Literal
 
 from mcexact.errors import InputError
 from mcexact.exact.matrix import Matrix
+from mcexact.exact.rows import rows_of
 
 if TYPE_CHECKING:
     import numpy as np
@@ -104,15 +104,12 @@ def matrix_from_float(
     >>> matrix_from_float([[0.1, 2.0]]).rows()
     ((Fraction(1, 10), Fraction(2, 1)),)
     """
-
-    if hasattr(M, "toarray"):
-        M = M.toarray()
-    rows, ncols = _from_array(M, where) if hasattr(M, "__array__") else _from_lists(M, where)
     exact = [
         [_exact(entry, rounding, f"{where or ''}[{i}][{j}]") for j, entry in enumerate(row)]
-        for i, row in enumerate(rows)
+        for i, row in enumerate(rows_of(M, where, floats=True))
     ]
-    return Matrix.from_rows(exact, ncols=ncols)
+    ncols = None if exact else int(getattr(M, "shape", (0, 0))[1])
+    return Matrix.from_rows(exact, ncols=ncols, where=where)
 
 
 def _exact(entry: Any, rounding: Rounding, where: str) -> Fraction | int:
@@ -152,38 +149,6 @@ def dyadic_matrix(M: Any, bits: int = 52) -> Matrix:
     exponent = bits - int(np.frexp(largest)[1])
     whole = [list(map(int, row)) for row in np.round(np.ldexp(M, exponent)).tolist()]
     return Matrix.from_integers(whole, ncols=M.shape[1]) * (Fraction(2) ** -exponent)
-
-
-def _from_array(M: Any, where: str | None) -> tuple[list[list[Any]], int]:
-    """The rows of an array and their length."""
-    import numpy as np
-
-    array = np.asarray(M)
-    if array.ndim != 2:
-        raise InputError(
-            f"expected a two-dimensional array, found {array.ndim} dimensions", where=where
-        )
-    if array.dtype.kind not in "fiuO" and array.size:
-        raise InputError(
-            f"expected an array of real numbers, found dtype {array.dtype}", where=where
-        )
-    rows: list[list[Any]] = array.tolist()
-    return rows, array.shape[1]
-
-
-def _from_lists(rows: Any, where: str | None) -> tuple[list[list[Any]], int]:
-    """A list of rows and their length; numpy would round long integers beside a float."""
-    if isinstance(rows, (str, bytes, dict)) or not isinstance(rows, Iterable):
-        raise InputError(
-            f"expected a two-dimensional array, found {type(rows).__name__}", where=where
-        )
-    try:
-        table = [list(row) for row in rows]
-    except TypeError:
-        raise InputError("expected rows of numbers, all of one length", where=where) from None
-    if len(set(map(len, table))) > 1:
-        raise InputError("expected rows of numbers, all of one length", where=where)
-    return table, len(table[0]) if table else 0
 
 
 def matrix_to_float(M: Matrix) -> npt.NDArray[np.float64]:

@@ -14,6 +14,7 @@ import flint
 
 from mcexact.errors import InputError, LimitReached
 from mcexact.exact.rational import Entry, as_fraction, rational_text, require_power
+from mcexact.exact.rows import common_width, rows_of
 
 Rows = tuple[tuple[int, ...], ...]
 
@@ -72,18 +73,13 @@ class Matrix:
         FloatRefused
             An entry is a float.
         """
-        table: list[list[Any]] = []
-        for i, row in enumerate(_items(rows, where)):
-            place = f"{where or ''}[{i}]"
-            table.append(list(_items(row, place)))
-        width = (len(table[0]) if table else 0) if ncols is None else ncols
+        table = rows_of(rows, where)
+        width = common_width(table, where)
+        if width is None:
+            width = ncols or 0
+        elif ncols is not None and width != ncols:
+            raise InputError(f"expected {ncols} columns, found {width}", where=where)
         require_sizes(len(table), width)
-        for i, entries in enumerate(table):
-            if len(entries) != width:
-                raise InputError(
-                    f"expected {width} entries in the row, found {len(entries)}",
-                    where=f"{where or ''}[{i}]",
-                )
         if all(set(map(type, entries)) <= {int} for entries in table):
             return from_numerators(table, 1, width)
         fractions = [
@@ -276,15 +272,6 @@ def require_sizes(nrows: int, ncols: int) -> None:
         raise LimitReached(
             f"a {nrows} × {ncols} matrix has more than {_MOST_ENTRIES} entries: too many for memory"
         )
-
-
-def _items(rows: Any, where: str | None) -> Iterable[Any]:
-    if isinstance(rows, (str, bytes, dict)) or not isinstance(rows, Iterable):
-        raise InputError(
-            f"expected a list of rows, each a list of numbers, found {type(rows).__name__}",
-            where=where,
-        )
-    return rows
 
 
 def from_numerators(rows: Sequence[Sequence[int]], denominator: int, ncols: int) -> Matrix:

@@ -44,7 +44,7 @@ _NUMBER = re.compile(
     re.ASCII,
 )
 _GRAMMAR = 'an integer, a decimal such as "-0.25" or "1e-3", or a quotient such as "1/3"'
-_TWO_WAYS_IN = (
+TWO_WAYS_IN = (
     "a float is not exact: write the number as an integer, a Fraction or a string such as "
     '"0.25" or "1/3", or say how floats are to be read with '
     'MultiChannelSystem.from_float(..., rounding="decimal" | "dyadic")'
@@ -183,7 +183,7 @@ MultiChannelSystem.from_float(..., rounding="decimal" | "dyadic")
     if isinstance(entry, bool) or kind.__name__ in ("bool_", "bool"):
         raise InputError(f"expected a number, found the Boolean {entry!r}", where=where)
     if isinstance(entry, (float, complex)) or _is_inexact(entry):
-        raise FloatRefused(_TWO_WAYS_IN, where=where)
+        raise FloatRefused(TWO_WAYS_IN, where=where)
     if isinstance(entry, Decimal):
         return _from_decimal(entry, where)
     if isinstance(entry, (int, Fraction)):

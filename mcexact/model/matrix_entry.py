@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from typing import Any, Protocol, TypeVar
 
-from mcexact.errors import FloatRefused, InputError
+from mcexact.errors import InputError
 from mcexact.exact.matrix import Matrix
-
-_TWO_WAYS_IN = (
-    "write the numbers as integers, fractions or strings, or use "
-    'MultiChannelSystem.from_float(..., rounding="decimal" or "dyadic")'
-)
+from mcexact.exact.rows import common_width, rows_of
 
 
 class Shaped(Protocol):
@@ -84,70 +80,11 @@ def as_table(value: Any, where: str, ncols: int | None = None) -> Table:
     """
     if isinstance(value, Matrix):
         return Table(value.shape, lambda: value)
-    rows = _rows(value, where)
+    rows = rows_of(value, where)
     width = common_width(rows, where)
     if width is None:
         width = int(getattr(value, "shape", (0, ncols or 0))[1])
     return Table((len(rows), width), partial(Matrix.from_rows, rows, width, where=where))
-
-
-def common_width(rows: Sequence[Sequence[Any]], where: str) -> int | None:
-    """The number of entries of each row; None if there are no rows.
-
-    Raises
-    ------
-    InputError
-        If they differ.
-    """
-    for k, row in enumerate(rows):
-        if len(row) != len(rows[0]):
-            raise InputError(
-                f"expected {len(rows[0])} entries as in row 0, found {len(row)}",
-                where=f"{where}[{k}]",
-            )
-    return len(rows[0]) if rows else None
-
-
-def _rows(value: Any, where: str) -> list[tuple[Any, ...]]:
-    """Copy a matrix-like value as tuples, so that the caller cannot change it."""
-    if isinstance(value, (str, bytes)):
-        raise InputError(
-            "expected a matrix as a list of rows, found a string; write [[1, 2], [3, 4]]",
-            where=where,
-        )
-    if hasattr(value, "toarray"):
-        value = value.toarray()
-    dtype = getattr(value, "dtype", None)
-    if dtype is not None and hasattr(dtype, "kind"):
-        if dtype.kind == "f":
-            raise FloatRefused(f"found an array of {dtype}; {_TWO_WAYS_IN}", where=where)
-        if dtype.kind not in "iuO":
-            raise InputError(
-                f"expected an array of integers or of exact objects, found {dtype}", where=where
-            )
-        if value.ndim != 2:
-            raise InputError(
-                f"expected a two-dimensional array, found {value.ndim} dimensions", where=where
-            )
-    if hasattr(value, "tolist"):
-        value = value.tolist()
-    try:
-        # An iterator is used, since list() would reserve the length that a subclass claims to have.
-        rows = tuple(iter(value))
-    except TypeError:
-        raise InputError(
-            f"expected a matrix as a list of rows, found {type(value).__name__}", where=where
-        ) from None
-    copied = []
-    for k, row in enumerate(rows):
-        if isinstance(row, (str, bytes)) or not hasattr(row, "__iter__"):
-            raise InputError(
-                f"expected a row as a list, found {type(row).__name__}; "
-                "write a column as [[1], [2]] and a row as [[1, 2]]",
-                where=f"{where}[{k}]",
-            )
-        copied.append(tuple(row))
-    return copied
 
 
 def require_shape(M: S, where: str, nrows: int | None, ncols: int | None) -> S:

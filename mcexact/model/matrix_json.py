@@ -17,6 +17,7 @@ from mcexact.exact.rational import (
     parse_rational,
     rational_text,
 )
+from mcexact.exact.rows import common_width
 from mcexact.model.json_text import (
     REMEMBERED,
     expect_integer,
@@ -24,7 +25,7 @@ from mcexact.model.json_text import (
     expect_object,
     kind_of,
 )
-from mcexact.model.matrix_entry import Table, common_width, require_shape
+from mcexact.model.matrix_entry import Table, require_shape
 
 _BITS_PER_DIGIT = math.log2(10)
 

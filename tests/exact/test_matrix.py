@@ -213,14 +213,14 @@ def test_a_matrix_beyond_memory_is_refused():
 
 
 def test_rows_are_examined_and_the_place_is_named():
-    with pytest.raises(InputError, match=r"^B\[1\]: expected 2 entries in the row, found 1"):
+    with pytest.raises(InputError, match=r"^B\[1\]: expected 2 entries as in row 0, found 1"):
         Matrix.from_rows([[1, 2], [3]], where="B")
     with pytest.raises(FloatRefused, match=r"^B\[0\]\[1\]: a float"):
         Matrix.from_rows([[1, 0.5]], where="B")
-    with pytest.raises(InputError, match=r"^B\[0\]: expected a list of rows.*found int"):
+    with pytest.raises(InputError, match=r"^B\[0\]: expected a row as a list, found int"):
         Matrix.from_rows([1, 2], where="B")
     for wrong in ("12", {1: 2}, None, 5):
-        with pytest.raises(InputError, match="expected a list of rows"):
+        with pytest.raises(InputError, match="expected a matrix as a list of rows"):
             Matrix.from_rows(wrong)
 
 

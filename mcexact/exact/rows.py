@@ -1,0 +1,91 @@
+"""Matrices as users hand them over, nested lists, arrays, sparse or symbolic, as rows."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from mcexact.errors import FloatRefused, InputError
+from mcexact.exact.rational import TWO_WAYS_IN
+
+Row = tuple[Any, ...]
+
+
+def rows_of(value: Any, where: str | None = None, *, floats: bool = False) -> list[Row]:
+    """Copy a matrix-like value as tuples, so that the caller cannot change it.
+
+    Parameters
+    ----------
+    value : sequence of rows, numpy or scipy array, sympy matrix
+    where : str, optional
+        Its place, for messages.
+    floats : bool
+        Whether an array may be one of floats.
+
+    Raises
+    ------
+    FloatRefused
+        If it is an array of floats, and may not be.
+    InputError
+        If it is no matrix.
+
+    Examples
+    --------
+    >>> rows_of([[1, "1/2"], [0, 3]])
+    [(1, '1/2'), (0, 3)]
+    """
+    if hasattr(value, "toarray"):
+        value = value.toarray()
+    elif hasattr(value, "__array__") and not hasattr(value, "tolist"):
+        value = value.__array__()
+    dtype = getattr(value, "dtype", None)
+    if dtype is not None and hasattr(dtype, "kind"):
+        if dtype.kind == "f" and not floats:
+            raise FloatRefused(f"found an array of {dtype}: {TWO_WAYS_IN}", where=where)
+        if dtype.kind not in "fiuO":
+            kinds = "real numbers" if floats else "integers or of exact objects"
+            raise InputError(f"expected an array of {kinds}, found {dtype}", where=where)
+        if value.ndim != 2:
+            raise InputError(
+                f"expected a two-dimensional array, found {value.ndim} dimensions", where=where
+            )
+    if hasattr(value, "tolist"):
+        value = value.tolist()
+    if not _is_sequence(value):
+        found = "a string" if isinstance(value, (str, bytes)) else type(value).__name__
+        raise InputError(
+            f"expected a matrix as a list of rows, found {found}; write [[1, 2], [3, 4]]",
+            where=where,
+        )
+    copied = []
+    # An iterator is used, since list() would reserve the length that a subclass claims to have.
+    for k, row in enumerate(iter(value)):
+        if not _is_sequence(row):
+            raise InputError(
+                f"expected a row as a list, found {type(row).__name__}; "
+                "write a column as [[1], [2]] and a row as [[1, 2]]",
+                where=f"{where or ''}[{k}]",
+            )
+        copied.append(tuple(row))
+    return copied
+
+
+def _is_sequence(value: Any) -> bool:
+    return hasattr(value, "__iter__") and not isinstance(value, (str, bytes, dict))
+
+
+def common_width(rows: Sequence[Sequence[Any]], where: str | None = None) -> int | None:
+    """The number of entries of each row; None if there are no rows.
+
+    Raises
+    ------
+    InputError
+        If they differ.
+    """
+    for k, row in enumerate(rows):
+        if len(row) != len(rows[0]):
+            raise InputError(
+                f"expected {len(rows[0])} entries as in row 0, found {len(row)}",
+                where=f"{where or ''}[{k}]",
+            )
+    return len(rows[0]) if rows else None
