@@ -2,35 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 
 from mcexact.answer.covering import Absence, ConnectivityCut, DeficiencyCut, Tree
 from mcexact.answer.protocol import Answer, answer, claim, shown, witness
-from mcexact.exact.polynomial import Polynomial
-from mcexact.model.system import with_graph
-
-
-@dataclass(frozen=True)
-class BindingSubset:
-    """A subset that holds its boundary to its deficiency.
-
-    Attributes
-    ----------
-    subset : tuple of str
-        s, by name.
-    boundary : tuple of str
-        N_s∖s: the agents that must share.
-    mode : Polynomial or None
-        p, at whose roots P_s loses rank; None if s is cut off in the transfer graph instead.
-    deficiency : int
-        Σ n_i over the boundary must be at least this.
-    """
-
-    subset: tuple[str, ...]
-    boundary: tuple[str, ...]
-    mode: Polynomial | None
-    deficiency: int
 
 
 @answer("shared_dimensions")
@@ -77,17 +52,3 @@ class SharedDimensions(Answer):
     def total(self) -> int | None:
         """Σ n_i."""
         return None if self.dimensions is None else sum(self.dimensions)
-
-    @property
-    def binding(self) -> tuple[BindingSubset, ...]:
-        """The cuts that the dimensions meet with equality; all where nothing suffices."""
-        system, graph = with_graph(self.about)
-        found = []
-        for cut in self.cuts:
-            s = system.indices(cut.subset)
-            boundary = set(graph.union(s)) - set(s)
-            demand = cut.deficiency if isinstance(cut, DeficiencyCut) else 1
-            mode = cut.polynomial if isinstance(cut, DeficiencyCut) else None
-            if self.dimensions is None or sum(self.dimensions[i] for i in boundary) <= demand:
-                found.append(BindingSubset(cut.subset, system.named(boundary), mode, demand))
-        return tuple(found)

@@ -8,6 +8,7 @@ from fractions import Fraction
 from typing import Any, Literal
 
 from mcexact.analysis.sharing.allocation import minimal_shared_dimensions, shared_dimension_bound
+from mcexact.answer.covering import DeficiencyCut
 from mcexact.answer.deficiency import Deficiency
 from mcexact.answer.shared_dimensions import SharedDimensions
 from mcexact.answer.wording import refusals as say
@@ -184,16 +185,16 @@ def _sizes(
         # dimensions are enough, neither are as many as there are states.
         return None, least.dimensions or (system.n,) * system.m
     if least.dimensions is None:
-        worst = least.binding[0]
-        if worst.mode is None:
+        # Without upper bounds nothing but a cut that nobody can meet is in the way.
+        cut = least.cuts[0]
+        p, k = (cut.polynomial, cut.deficiency) if isinstance(cut, DeficiencyCut) else (None, 1)
+        if p is None:
             told = say.NO_CONNECTION
-        elif 0 < len(worst.subset) < system.m:
+        elif 0 < len(cut.subset) < system.m:
             told = say.NO_DIMENSIONS
         else:
-            told = say.NOT_OBSERVED if worst.subset else say.NOT_CONTROLLED
-        message = told(
-            agents=worst.subset, senders=worst.boundary, k=worst.deficiency, p=worst.mode
-        )
+            told = say.NOT_OBSERVED if cut.subset else say.NOT_CONTROLLED
+        message = told(agents=cut.subset, senders=(), k=k, p=p)
         raise Impossible(message, least)
     return least, least.dimensions
 

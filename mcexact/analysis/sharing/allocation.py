@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from mcexact.analysis.engine import DEFAULT_NODE_LIMIT, CoveringCut, CoveringProgram, zero_transfer
-from mcexact.analysis.sharing.cut_generation import CoveringProblem, Progress, covering_optimum
+from mcexact.analysis.sharing.cut_generation import CoveringProblem, covering_optimum
 from mcexact.analysis.sharing.deficiency import deficiency
 from mcexact.analysis.sharing.separation import (
     boundary,
@@ -78,7 +78,6 @@ def minimal_shared_dimensions(
     bound: Entry | None = None,
     free_assignability: bool = False,
     node_limit: int = DEFAULT_NODE_LIMIT,
-    progress: Progress | None = None,
 ) -> SharedDimensions:
     """The least Σ c_i n_i with which the extended system has no fixed mode.
 
@@ -101,8 +100,6 @@ def minimal_shared_dimensions(
         spectrum is freely assignable.
     node_limit : int
         Nodes of the branch tree after which to give up, at least 1.
-    progress : callable, optional
-        Called with a line of text now and then.
 
     Raises
     ------
@@ -153,7 +150,7 @@ def minimal_shared_dimensions(
         region,
         free_assignability,
     )
-    least = covering_optimum(problem, node_limit, progress).with_cuts_of_leaves()
+    least = covering_optimum(problem, node_limit).with_cuts_of_leaves()
     return SharedDimensions(
         system,
         share=share,

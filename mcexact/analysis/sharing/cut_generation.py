@@ -15,8 +15,6 @@ from mcexact.errors import LimitReached, UsageError
 from mcexact.exact.location import StabilityRegion
 from mcexact.model.system import MultiChannelSystem
 
-Progress = Callable[[str], None]
-
 
 @dataclass(frozen=True)
 class CoveringProblem:
@@ -96,9 +94,7 @@ class CoveringOptimum:
         )
 
 
-def covering_optimum(
-    problem: CoveringProblem, node_limit: int, progress: Progress | None = None
-) -> CoveringOptimum:
+def covering_optimum(problem: CoveringProblem, node_limit: int) -> CoveringOptimum:
     """Find the cheapest point that violates nothing, and prove that nothing is cheaper.
 
     Parameters
@@ -106,8 +102,6 @@ def covering_optimum(
     problem : CoveringProblem
     node_limit : int
         Nodes of the branch tree after which to give up, at least 1.
-    progress : callable, optional
-        Called with a line of text now and then.
 
     Raises
     ------
@@ -129,8 +123,6 @@ def covering_optimum(
     program, canonical = problem.program, False
     while True:
         values = minimize(program, canonical=canonical)
-        if progress is not None:
-            progress(f"{len(program.cuts)} cuts, at least {sum(values) if values else 0} to share")
         if values is None:
             return CoveringOptimum(None, None, None, *_proof(program, None, node_limit))
         system = problem.system(values)
