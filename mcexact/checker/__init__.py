@@ -1,9 +1,10 @@
-"""The independent checker of certificates: standard library only, nothing of the rest of mcexact.
+"""The independent checker of certificates, which uses the standard library only.
 
-Takes documents of ``mcexact-certificate/1``, gives verdicts, and never searches: what it says is
-VALID follows from equalities that it has recomputed, by rules proved in ``proofs/``.  Of a manifest
-(``mcexact-manifest/1``) it says what the certificates imply, in its own words.  The folder can be
-copied away and run with ``python -S -E -m checker FILE…`` or ``--manifest FOLDER``.
+The checker takes documents of ``mcexact-certificate/1`` and gives verdicts.  It never searches: a
+VALID claim follows from equalities that the checker has recomputed, by rules proved in ``proofs/``.
+For a manifest (``mcexact-manifest/1``) it states in its own words what the certificates imply.  The
+folder shares no code with the rest of mcexact; it can be copied and run with ``python -S -E -m
+checker FILE…`` or ``--manifest FOLDER``.
 """
 
 from .kinds import Verdict, check_document

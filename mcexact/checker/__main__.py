@@ -3,12 +3,12 @@
 import sys
 
 if not __package__:
-    # Run as a folder: Python put the folder itself in front; what is needed is the one around it.
+    # Python puts the folder that it runs first in the path; imports need the folder around it.
     import os
 
     folder = os.path.dirname(os.path.abspath(__file__))
     sys.path[0], __package__ = os.path.split(folder)
-    __spec__ = None  # it says that there is no package, of which later versions of Python complain
+    __spec__ = None  # it says that there is no package, and later versions of Python warn of that
     __import__(__package__)
 
 from .command import main

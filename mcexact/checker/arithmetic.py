@@ -1,6 +1,6 @@
 """Exact arithmetic: matrices of integers over one denominator, polynomials, and both modulo an ℓ.
 
-A modulus need not be prime: whatever is inverted must be a unit, else :class:`NotAUnit` is raised.
+A modulus need not be prime; inverting a number that is not a unit raises :class:`NotAUnit`.
 """
 
 from __future__ import annotations
@@ -19,19 +19,19 @@ Rows = list[list[int]]
 
 
 LARGEST = 2**22
-"""Entries of the largest matrix that is built without its entries being in the document."""
+"""The number of entries of the largest matrix that is built from a few numbers of a document."""
 
 
 class NotAUnit(Exception):
-    """A number that had to be inverted is not invertible modulo ℓ."""
+    """A number to be inverted is not a unit modulo ℓ."""
 
 
 class TooLarge(Exception):
-    """A matrix of more than ``LARGEST`` entries is asked for."""
+    """A document requires a matrix of more than ``LARGEST`` entries."""
 
 
 def require_size(entries: int) -> None:
-    """Stop before a matrix is built that a few numbers in a document make huge."""
+    """Stop if a few numbers in a document require a huge matrix."""
     if entries > LARGEST:
         raise TooLarge
 
@@ -174,7 +174,7 @@ class Echelon:
         self.rows: list[tuple[int, list[int]]] = []
 
     def add(self, vector: Sequence[int]) -> list[int] | None:
-        """Reduce a vector; keep and return what is left of it, or None if nothing is."""
+        """Reduce a vector; keep and return the remainder, or return None if it is zero."""
         left = list(vector)
         for pivot, row in self.rows:
             if f := left[pivot]:
@@ -222,7 +222,7 @@ def poly_divide(a: Polynomial, b: Polynomial, ell: int = 0) -> tuple[Polynomial,
 
 
 def exponent(p: Polynomial, f: Polynomial, ell: int = 0) -> tuple[int, Polynomial]:
-    """The number of times that p, of degree ≥ 1, divides f ≠ 0, and what is left of f."""
+    """The number of times that p, of degree ≥ 1, divides f ≠ 0, and the last quotient."""
     times = 0
     while True:
         quotient, rest = poly_divide(f, p, ell)

@@ -12,7 +12,7 @@ from .system import System, read_matrix
 MAPS = ("shared_update", "private_update", "input")
 USED = ("shared", "outputs", "private", "reference")
 Signal = tuple[str, int, int]
-"""(what, j, age): what is "X" for the plant's state, "x", "y" or "z" for x_j, y_j or z_j."""
+"""(signal, j, age): signal is "X" for the plant's state, "x", "y" or "z" for x_j, y_j, z_j."""
 
 
 def closed_loop(system: System, step: dict[str, Any], place: str) -> System:
@@ -56,7 +56,7 @@ def closed_loop(system: System, step: dict[str, Any], place: str) -> System:
 def _terms(
     system: System, agents: list[Any], i: int, width: dict[str, list[int]], place: str
 ) -> list[list[tuple[Signal, Matrix]]]:
-    """What the three maps of agent i use, and by what they multiply it."""
+    """The signals that the three maps of agent i use, with their coefficients."""
     N_i, result = system.neighbors[i] if system.neighbors else [i], []
     for label, nrows in zip(MAPS, (width["x"][i], width["z"][i], system.B[i].ncols), strict=True):
         where, found = f"{place}.{label}", []

@@ -13,7 +13,7 @@ from .words import described, polynomial_text
 
 
 def check(claim: Any, witness: Any, system: System) -> str:
-    """Compare with det(xI − A) modulo every ℓ; there are enough of them to make it equal.
+    """Compare with det(xI − A) modulo every ℓ; the moduli suffice to prove equality.
 
     Theorem ``closed_loop_spectrum.closed_loop_spectrum``.
     """
@@ -25,7 +25,7 @@ def check(claim: Any, witness: Any, system: System) -> str:
 
 
 def moduli(value: Any, place: str) -> list[int]:
-    """Integers ≥ 2, pairwise coprime."""
+    """Read integers ≥ 2 that are pairwise coprime."""
     found, product = [], 1
     for k, entry in enumerate(items(value, place)):
         found.append(integer(entry, f"{place}[{k}]", 2))

@@ -1,4 +1,4 @@
-"""The command line: one line a file, and an exit status for all of them."""
+"""The command line, which prints one line for each file and ends with one exit status."""
 
 from __future__ import annotations
 
@@ -41,9 +41,9 @@ def check_file(path: str, wanted: str | None, limits: Limits) -> Verdict:
 def verdicts(
     paths: Sequence[str], manifest: str | None, system: str | None, limits: Limits
 ) -> Iterator[tuple[dict[str, str], Verdict]]:
-    """What each verdict is about (a ``file``, or the ``text`` of a sentence), and the verdict.
+    """Yield each verdict after its subject, a ``file`` or the ``text`` of a sentence.
 
-    A path that ends with the usual name of a manifest is one.
+    A path that ends with the usual name of a manifest is read as a manifest.
 
     Raises
     ------
@@ -72,9 +72,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "files", nargs="*", metavar="FILE", help="certificates; - is standard input"
     )
     parser.add_argument(
-        "--manifest", metavar="FILE", help="sentences, and the certificates that imply them"
+        "--manifest",
+        metavar="FILE",
+        help="verify the sentences of a manifest from its certificates",
     )
-    parser.add_argument("--system", metavar="FILE", help="insist on certificates about its system")
+    parser.add_argument(
+        "--system", metavar="FILE", help="require certificates about the system in this file"
+    )
     parser.add_argument("--json", action="store_true", help="print one JSON document")
     for name in ("bytes", "digits", "depth"):
         default = getattr(Limits, name)
@@ -84,7 +88,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         parser.error("expected a FILE or --manifest")
     limits = Limits(options.max_bytes, options.max_depth, options.max_digits)
     sys.set_int_max_str_digits(0)
-    # Never a traceback for a character that the terminal's encoding lacks.
+    # A character that the terminal's encoding lacks must not raise an error.
     if isinstance(sys.stdout, io.TextIOWrapper):
         sys.stdout.reconfigure(errors="backslashreplace")
     found = []

@@ -1,4 +1,4 @@
-"""Kind ``communication``: the cheapest arcs to add; ``proofs/communication.md``."""
+"""Kind ``communication``: the cheapest links to add; ``proofs/communication.md``."""
 
 from __future__ import annotations
 
@@ -7,15 +7,15 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
-from . import covering, reading, region, subspaces, wires
-from .exchange import arcs, augmented_outputs, extended
+from . import covering, links, reading, region, subspaces
+from .information_structure import arcs, augmented_outputs, extended
 from .reading import fields, items, require
 from .system import System
 from .words import described
 
 
 def check(claim: Any, witness: Any, system: System) -> str:
-    """Check that the added arcs suffice, every cut, and the tree that leaves nothing cheaper.
+    """Check that the added links suffice, every cut, and the tree that excludes a lower cost.
 
     Theorem ``allocation.communication_cut``.
     """
@@ -27,16 +27,16 @@ def check(claim: Any, witness: Any, system: System) -> str:
     if system.neighbors is None:
         system = replace(system, neighbors=[[i] for i in range(system.m)])
     require((sizes is None) == (share == "outputs"), "claim", "claim.dimensions", "do not fit")
-    bound, candidates = region.read_bound(limit, system), wires.candidates(listed, system)
+    bound, candidates = region.read_bound(limit, system), links.candidates(listed, system)
     costs, ends = [cost for *_, cost in candidates], [(j, i) for j, i, _ in candidates]
     step = {"share": share, "dimensions": sizes}
 
-    def wired(plant: System) -> System:
+    def with_links(plant: System) -> System:
         if sizes is None:
             return augmented_outputs(plant, {}, "claim")
         return extended(plant, step, "claim")
 
-    subject, found = wired(system), []
+    subject, found = with_links(system), []
     for place, entry in ((f"witness.cuts[{k}]", e) for k, e in enumerate(items(cuts, "cuts"))):
         factor, subspace = fields(entry, place, "polynomial", "subspace")
         p = reading.polynomial(factor, f"{place}.polynomial", 1)
@@ -44,16 +44,16 @@ def check(claim: Any, witness: Any, system: System) -> str:
         T = subspaces.shrunk_subspace(subspace, f"{place}.subspace", subject, p, 1)
         width = len(subspace["pivots"])
         U = reading.polynomial_matrix(subspace["U"], place, subject.n, width, len(p) - 1)
-        rows = [wires.carried(system, share, sizes, j) for j in range(system.m)]
+        rows = [links.carried(system, share, sizes, j) for j in range(system.m)]
         sends = [j for j, S in enumerate(rows) if any(not (S @ part).is_zero() for part in U)]
         found.append(({v for v, (j, i) in enumerate(ends) if j in sends and i not in T}, 1))
     value = region.claimed_cost(claim, "added", absence)
     if value is not None:
-        chosen = [wires.arc(e, "claim.added", system) for e in items(added, "claim.added")]
+        chosen = [links.link(e, "claim.added", system) for e in items(added, "claim.added")]
         right = chosen == sorted(set(chosen)) and set(chosen) <= set(ends)
         total = sum((c for j, i, c in candidates if (j, i) in chosen), Fraction(0))
         require(right and value == total, "claim", "claim.cost", "not the cost of such candidates")
-        final = wired(arcs(system, {"added": added}, "claim.added"))
+        final = with_links(arcs(system, {"added": added}, "claim.added"))
         region.require_absence(absence, final, bound)
     labels = [[system.names[j], system.names[i]] for j, i in ends]
     covering.Program(costs, found, "arc", labels, value).require_bound(tree, [1] * len(ends))
@@ -62,5 +62,5 @@ def check(claim: Any, witness: Any, system: System) -> str:
     start = f"so that {modes} of {described(system)}, sharing {share}{extent}, is fixed,"
     end = f"(candidates, with their costs: {json.dumps(listed)})"
     if value is None:
-        return f"{start} no set of the candidate arcs suffices {end}"
+        return f"{start} no set of the candidate links suffices {end}"
     return f"{start} adding {json.dumps(added)} suffices and nothing below cost {value} does {end}"

@@ -14,7 +14,7 @@ from .words import channel_set, described, polynomial_text
 
 
 def check(claim: Any, witness: Any, system: System) -> str:
-    """Check gains and arcs for yes; a fixed mode or a cut of the transfer graph for no.
+    """Check gains and edges for yes; a fixed mode or a cut of the transfer graph for no.
 
     Theorems ``completeness.completeness_yes``, ``completeness.completeness_no_mode``,
     ``completeness.completeness_no_cut``.
@@ -41,7 +41,7 @@ def check(claim: Any, witness: Any, system: System) -> str:
 
 
 def _freedom(witness: Any, system: System) -> str:
-    """Check that gains move every mode, and arcs that connect all channels; the answer in words.
+    """Check that gains move every mode, and edges that connect all channels; the answer in words.
 
     Theorem ``transfer_graph.strongly_connected_arcs``.
     """
@@ -54,5 +54,5 @@ def _freedom(witness: Any, system: System) -> str:
     arcs = read_arcs(listed, "witness.arcs", system)
     require_arcs(system, arcs, ell)
     connected = len(components(system.m, [(j, i) for j, i, _ in arcs])) <= 1
-    require(connected, "arc", "witness.arcs", "these arcs do not connect all channels")
+    require(connected, "arc", "witness.arcs", "these edges do not connect all channels")
     return "its transfer graph is strongly connected and no mode is fixed"

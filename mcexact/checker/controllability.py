@@ -1,4 +1,4 @@
-"""Kind ``controllability``: what a set of channels controls; ``proofs/controllability.md``."""
+"""Kind ``controllability``: the subspace that channels control; ``proofs/controllability.md``."""
 
 from __future__ import annotations
 

@@ -13,10 +13,10 @@ from .reading import fields, integer, items, malformed, rational, require
 
 @dataclass(frozen=True)
 class Program:
-    """Σ c_i x_i is to be small, Σ_{i ∈ S} x_i ≥ d for every cut (S, d), the x_i integers.
+    """Minimize Σ c_i x_i over integers with Σ_{i ∈ S} x_i ≥ d for every cut (S, d).
 
     ``labels`` are the names of the variables in the tree, under the key ``key``; without a
-    ``value`` the tree has to show that there is no point at all.
+    ``value`` the tree has to show that the cuts have no common point.
     """
 
     costs: Sequence[Fraction]

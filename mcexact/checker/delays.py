@@ -6,7 +6,13 @@ from dataclasses import replace
 from typing import Any
 
 from .arithmetic import Matrix, beside, require_size, stack
-from .exchange import SHARED, neighbors_of, read_dimensions, read_shares, require_outputs
+from .information_structure import (
+    SHARED,
+    neighbors_of,
+    read_dimensions,
+    read_shares,
+    require_outputs,
+)
 from .reading import fields, require
 from .system import System
 
@@ -22,7 +28,7 @@ def lifted(system: System, step: dict[str, Any], place: str) -> System:
 
 
 def held(system: System, step: dict[str, Any], place: str) -> System:
-    """Paper, section V-B: x, then for each j the x_j(t), …, x_j(t−d_j); all see x_j(t−d_j).
+    """Paper, section V-B: x, then for each j the x_j(t), …, x_j(t−d_j); all receive x_j(t−d_j).
 
     Open: see ``proofs/OPEN.md``.
     """
@@ -61,7 +67,7 @@ def _delayed(
         rows += [y(j, delta) for delta in range(d[j]) if with_outputs]
         B.append(beside([plant.T @ system.B[j], x(j, 0).T], total))
         waits = [(k, d[k] if hold else system.delays.get((j, k), 0)) for k in N[j]]
-        late = sorted(waits, key=lambda wait: wait[1] > 0)  # what is not delayed comes first
+        late = sorted(waits, key=lambda wait: wait[1] > 0)  # signals without delay come first
         own = [y(*wait) for wait in late] if with_outputs else [y(j, 0)]
         C.append(stack([*own, *(x(*wait) for wait in waits)], total))
     words = f"{what} with delays and dimensions {tuple(sizes)}"

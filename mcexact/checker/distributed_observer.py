@@ -54,7 +54,7 @@ def separated(system: System) -> tuple[Matrix, Matrix]:
 
 
 def _placed(bound: Fraction, time: str, polynomials: list[Polynomial]) -> str:
-    """Stop unless every root meets the bound; the bound in words."""
+    """Stop unless every root meets the rate or radius, and return it in words."""
     sensible = bound >= 0 if time == "continuous" else 0 < bound <= 1
     require(sensible, "bound", "claim.bound", "no rate or radius")
     inside = all(in_region(p, time, bound) for p in polynomials)

@@ -1,4 +1,4 @@
-"""Evidence that several kinds share; each rule here is proved sound in ``proofs/evidence.md``."""
+"""Rules for evidence of several kinds; ``proofs/evidence.md`` proves each of them."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def complement(system: System, channels: Iterable[int]) -> list[int]:
 def require_identity(layers: Sequence[Matrix], pivots: list[int], place: str) -> None:
     """Stop unless the rows ``pivots`` of Σ x^k layers[k] are those of the identity matrix.
 
-    The columns are then independent, whatever x is.
+    The columns are then independent for every x.
     """
     parts = [layer.take(pivots) for layer in layers]
     good = parts[0].equals(Matrix.unit_rows(len(pivots), 0, len(pivots))) and all(
@@ -56,7 +56,7 @@ def read_gains(value: Any, place: str, system: System) -> list[Matrix]:
 
 
 def modulus(value: Any, place: str) -> int:
-    """A modulus ℓ ≥ 2; whether it divides no denominator shows where it is used."""
+    """A modulus ℓ ≥ 2; the code that uses it stops if it divides a denominator."""
     ell = integer(value, place, -math.inf)
     require(ell >= 2, "modulus", place, f"expected an integer from 2 on, found {shown(ell)}")
     return ell

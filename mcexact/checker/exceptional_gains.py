@@ -15,7 +15,7 @@ from .words import described, polynomial_text
 
 
 def check(claim: Any, witness: Any, system: System) -> str:
-    """Check a row at every root of each factor, and two determinants that vanish nowhere else.
+    """Check a row at every root of each factor, and two determinants without other common roots.
 
     Theorems ``exceptional_gains.exceptional_lost``, ``exceptional_gains.exceptional_kept``,
     ``real_discs.real_discs``.

@@ -7,7 +7,7 @@ from typing import Any
 
 from .arithmetic import Matrix, beside, require_size, stack
 from .evidence import closed_loop, outputs, read_gains
-from .exchange import neighbors_of, require_outputs
+from .information_structure import neighbors_of, require_outputs
 from .reading import fields, matrices
 from .system import System
 
@@ -41,11 +41,11 @@ def full_output(system: System, step: dict[str, Any], place: str) -> System:
     q = system.place_of(name, place)
     identity = Matrix.unit_rows(system.n, 0, system.n)
     C = [identity if i == q else C_i for i, C_i in enumerate(system.C)]
-    return replace(system, C=C, words=f"{system.words} with the state seen by channel {q + 1}")
+    return replace(system, C=C, words=f"{system.words} with the state measured by channel {q + 1}")
 
 
 def integrators(system: System, step: dict[str, Any], place: str) -> System:
-    """Paper, section III: w' = y or w(t+1) = w + y behind the outputs, and i sees its w_i.
+    """Paper, section III: w' = y or w(t+1) = w + y at the outputs, and agent i measures its w_i.
 
     Open: see ``proofs/OPEN.md``.
     """

@@ -17,7 +17,7 @@ FACTOR = ("polynomial", "channels", "stable", "roots", *COUNTS)
 
 
 def check(claim: Any, witness: Any, system: System) -> str:
-    """Check a shrunk subspace for every factor, and that gains move everything else.
+    """Check a shrunk subspace for every factor, and gains that move all other modes.
 
     Theorems ``fixed_spectrum.fixed_spectrum_rule``, ``fixed_spectrum.absence``,
     ``fixed_spectrum.absence_all``, ``fixed_spectrum.multiplicity_at_most``.
@@ -37,18 +37,18 @@ def check(claim: Any, witness: Any, system: System) -> str:
         s = reading.names(names, f"{place}.channels", system.names)
         in_A, at_most, r = map(reading.integer, counts, [place] * 3, (1, 1, 0))
         T = subspaces.shrunk_subspace(spaces[k], space, system, p, n - r)
-        require(s == evidence.complement(system, T), "claim", place, "T is not what s leaves")
+        require(s == evidence.complement(system, T), "claim", place, "T is not the complement of s")
         evidence.require_coprime(product, p, ell, "two factors")
         (a, psi), product = arithmetic.exponent(p, psi), arithmetic.poly_product(product, p)
         e, _ = arithmetic.exponent(arithmetic.poly_modulo(p, ell), chi_F, ell)
         require((in_A, at_most) == (a, e), "claim", place, f"the multiplicities are {a}, {e}")
         stable = location.in_stability_region(p, system.time)
-        require(reading.boolean(flag, place) == stable, "claim", f"{place}.stable", "it is not so")
+        require(reading.boolean(flag, place) == stable, "claim", f"{place}.stable", "not implied")
         discs = root_discs.root_discs(roots, f"{place}.roots", p)
         text = root_discs.factor_text(p, a, e, r, words.channel_set(system, s), stable, discs)
         found.append((p, n - r, stable, discs, text))
     psi = psi or modulo(system.A.modulo(ell), ell)
-    evidence.require_coprime(psi, chi_F, ell, "what is left of det(xI - A), and det(xI - A_F),")
+    evidence.require_coprime(psi, chi_F, ell, "det(xI - A) without factors and det(xI - A_F)")
     stabilizable = all(stable for _, _, stable, _, _ in found)
     agrees = reading.polynomial(whole, "claim.polynomial") == product
     agrees = agrees and reading.boolean(verdict, "claim.stabilizable") == stabilizable

@@ -1,4 +1,4 @@
-"""The kinds of certificates that this checker knows, and the one place that says VALID."""
+"""The table of certificate kinds, and the one function that gives the verdict VALID."""
 
 from __future__ import annotations
 
@@ -32,19 +32,19 @@ KINDS: dict[str, Rule] = {stem: import_module(f".{stem}", __package__).check for
 
 @dataclass(frozen=True)
 class Verdict:
-    """What is said of one certificate, or of one sentence.
+    """The verdict on one certificate or one sentence.
 
     Attributes
     ----------
     verdict : str
-        VALID (of a sentence: IMPLIED), INVALID, MALFORMED, INCOMPLETE, or ERROR for a bug in this
+        VALID (for a sentence IMPLIED), INVALID, MALFORMED, INCOMPLETE, or ERROR for a bug in this
         checker.
     theorem : str
         The statement that was checked, in words; empty unless VALID or IMPLIED.
     digest : str
         The SHA-256 of the certificate's plant; empty if it could not be read.
     code, place, message : str
-        Why it is not VALID: a word for the reason, where in the document, and a sentence.
+        If it is not VALID, a word for the reason, the place in the document, and a sentence.
     """
 
     verdict: str
@@ -56,7 +56,7 @@ class Verdict:
 
     @property
     def status(self) -> int:
-        """The exit status that this verdict asks for."""
+        """The exit status that belongs to this verdict."""
         statuses = {"VALID": 0, "IMPLIED": 0, "INVALID": 1, "MALFORMED": 3, "INCOMPLETE": 5}
         return statuses.get(self.verdict, 70)
 
@@ -83,7 +83,7 @@ def check_document(
     Returns
     -------
     Verdict
-        Anything unexpected, an exception included, is a verdict other than VALID.
+        After anything unexpected, including an exception, the verdict is not VALID.
     """
     known = ""
 
@@ -102,10 +102,11 @@ def check_document(
 
 
 def answer(check: Callable[[], Verdict]) -> Verdict:
-    """What a check says, or why it stopped."""
+    """Run a check, and turn an exception into a verdict."""
     digits = sys.get_int_max_str_digits()
     try:
-        # The limit on digits is kept by the reader; the interpreter's own would stop some messages.
+        # The reader limits the number of digits; the interpreter's own limit would stop some
+        # messages.
         sys.set_int_max_str_digits(0)
         return check()
     except Refused as found:

@@ -1,4 +1,4 @@
-"""Where the roots of a polynomial lie, by exact recursions on its coefficients."""
+"""The location of the roots of a polynomial, by exact recursions on its coefficients."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def in_stability_region(p: Polynomial, time: str) -> bool:
 
 
 def in_region(p: Polynomial, time: str, bound: Fraction | None) -> bool:
-    """Whether all roots have real part below −bound (continuous) or modulus below it (discrete).
+    """Whether all roots have real part below −r (continuous) or modulus below r (discrete).
 
     No bound: no root counts as inside, so that only a constant is.
 
@@ -38,8 +38,8 @@ def in_region(p: Polynomial, time: str, bound: Fraction | None) -> bool:
 def is_hurwitz(p: Polynomial) -> bool:
     """Routh's array of p_d, p_{d−2}, … and p_{d−1}, p_{d−3}, …: every first entry is positive.
 
-    Each row is kept as a positive multiple of Routh's: what two rows give is divided by the first
-    entry of the row before them, which leaves integers (minors of the Hurwitz matrix).
+    Each row is a positive multiple of Routh's: the combination of two rows is divided by the first
+    entry of the row before them, which gives integers (minors of the Hurwitz matrix).
 
     Theorems ``location.is_hurwitzP``, ``routh_integers.is_hurwitz_integers``.
     """

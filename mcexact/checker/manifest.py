@@ -1,4 +1,4 @@
-"""A manifest: sentences, and the certificates that imply them; ``FORMAT.md`` says what it holds."""
+"""Manifests: sentences, and the certificates that imply them; ``FORMAT.md`` specifies them."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ from .system import read_plant
 __all__ = ["NAME", "RULES", "manifest_verdicts", "verdicts_of"]
 
 TOPICS = (sentences_analysis, sentences_sharing, sentences_design)
-"""Where the rules are that no kind brings with it."""
+"""The modules of the rules that do not belong to one kind."""
 for kind, rule in KINDS.items():
     enter_own(kind, rule)
 FORMAT = "mcexact-manifest/1"
 NAME = "manifest.json"
 FILE = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_+-]{0,99}\.json")
-"""The name of a certificate's file, beside the manifest; no path, whatever the system."""
+"""The name of a certificate's file beside the manifest, which is not a path on any system."""
 DIGEST = re.compile(r"[0-9a-f]{64}")
 TOKEN = re.compile(r"(?:[^~]|~[01])*+")
 INDEX = re.compile(r"0|[1-9][0-9]{0,9}")
@@ -35,14 +35,14 @@ INDEX = re.compile(r"0|[1-9][0-9]{0,9}")
 def manifest_verdicts(
     path: str, system_digest: str | None = None, limits: Limits | None = None
 ) -> Iterator[tuple[dict[str, str], Verdict]]:
-    """What is said of the manifest if it cannot be read, of certificates not VALID, of sentences.
+    """Yield verdicts on the manifest if unreadable, on certificates if not VALID, and on sentences.
 
     Parameters
     ----------
     path : str
-        A manifest, or a folder that holds one under its usual name.
+        A manifest, or a folder that contains one under its usual name.
     system_digest : str, optional
-        The digest of the plant that everything must be about; else that of the first certificate.
+        The digest of the plant of all certificates; by default that of the first certificate.
     limits : Limits, optional
         For the manifest and for each certificate.
     """
@@ -81,7 +81,7 @@ def verdicts_of(
 
 
 def _bytes(path: str, limits: Limits) -> bytes:
-    """The bytes of a regular file, one more than the limit at most; no link is followed."""
+    """Read a regular file, at most one byte more than the limit, without following a link."""
     try:
         regular = stat.S_ISREG(os.lstat(path).st_mode)
         require(regular, "file", "file", "not a regular file of this folder")
@@ -93,7 +93,7 @@ def _bytes(path: str, limits: Limits) -> bytes:
 
 
 def _parts(document: Any) -> tuple[Any, ...]:
-    """The digests by name, the sentences, and the subject, of a manifest of the right form."""
+    """Read the digests by name, the sentences, and the subject of a manifest."""
     version, listed, sentences, base = fields(
         document, "manifest", "format", "certificates", "sentences", optional=("subject",)
     )
@@ -112,7 +112,7 @@ def _parts(document: Any) -> tuple[Any, ...]:
         for name, pointer, _ in (items(entry, place, 3) for entry in items(because, place)):
             texts += [name, pointer]
             if string(name, place) not in listed:
-                malformed(place, f"{shown(name)} is no certificate of this manifest")
+                malformed(place, f"{shown(name)} is not a certificate of this manifest")
         for text in texts:
             string(text, place)
     return listed, sentences, [] if base is None else items(base, "subject")
@@ -130,9 +130,9 @@ class Evidence:
         The constructions that lead to the system that the sentences are about.
     limits : Limits
     digest : str or None
-        Of the plant; the first certificate that is VALID decides it.
+        The digest of the plant, by default that of the first VALID certificate.
     verdicts, premises : dict
-        What was said of each certificate, and those that are VALID.
+        The verdicts on all certificates, and the premises made of VALID ones.
     """
 
     read: Callable[[str], bytes]
@@ -168,7 +168,7 @@ class Evidence:
         return Premise(name, document, plant, read_subject(steps, plant), theorem, path)
 
     def judged(self, sentence: dict[str, Any], place: str) -> Verdict:
-        """What becomes of one sentence."""
+        """The verdict on one sentence."""
         key, because = sentence["rule"], sentence["because"]
 
         def check() -> Verdict:
@@ -185,7 +185,7 @@ class Evidence:
             for name, pointer, value in because:
                 found = pointed(self.premises[name].document, pointer, name)
                 require(same(found, value), "value", name, f"another value at {shown(pointer)}")
-            require(bool(self.premises), "premise", "because", "nothing tells of the plant")
+            require(bool(self.premises), "premise", "because", "no certificate is about the plant")
             pointers = {name: tuple(p for n, p, _ in because if n == name) for name in cited}
             told = [replace(self.premises[name], pointers=pointers[name]) for name in cited]
             words = RULES[key].implied(told, [*self.premises.values()])
@@ -210,12 +210,12 @@ def pointed(document: Any, pointer: str, place: str) -> Any:
             node = node[key]
         else:
             good = False
-    require(good, "pointer", place, f"{shown(pointer)} leads nowhere")
+    require(good, "pointer", place, f"{shown(pointer)} points to nothing")
     return node
 
 
 def same(a: Any, b: Any) -> bool:
-    """Whether two values are the same JSON: true is not 1, and the order of keys does not count."""
+    """Whether two values are equal as JSON: true differs from 1, and keys have no order."""
     if type(a) is not type(b):
         return False
     if isinstance(a, dict):

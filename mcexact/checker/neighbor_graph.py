@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from .exchange import neighbors_of
+from .information_structure import neighbors_of
 from .reading import boolean, fields, require
 from .system import System
 from .words import described
@@ -15,7 +15,7 @@ SENTENCES = {
     "neighbor-graph-not-connected": ("", lambda claim: not claim["strongly_connected"]),
     "enough-unknown": ("", lambda claim: not claim["strongly_connected"]),
 }
-"""Sentences that say again what is claimed of the plant: theorem, and what has to be claimed."""
+"""The sentences that repeat the claim: theorem, and the claim that each needs."""
 
 
 def check(claim: Any, witness: Any, system: System) -> str:
@@ -34,7 +34,7 @@ def check(claim: Any, witness: Any, system: System) -> str:
 
 
 def components(m: int, arcs: Iterable[tuple[int, int]]) -> list[list[int]]:
-    """The strong components of the graph on m nodes with arcs j → i, sorted by first member.
+    """The strong components of the graph on m nodes with edges j → i, sorted by first member.
 
     Theorems ``strong_components.closure_connect``, ``strong_components.component_rule``.
     """

@@ -67,7 +67,7 @@ def _less(a: Polynomial, b: Polynomial, p: Polynomial, ell: int) -> Polynomial:
 
 
 def _inverse(a: Polynomial, p: Polynomial, ell: int) -> Polynomial:
-    """The inverse of a modulo p, or nothing if it is not a unit (or that cannot be told)."""
+    """The inverse of a modulo p, or None if it is not a unit or that is undecided."""
     (r, t), (rest, u) = (p, []), (divide(a, p, ell)[1], [1])
     try:
         while rest:

@@ -1,4 +1,4 @@
-"""Quadratic forms that decrease along a loop; ``proofs/stability.md``."""
+"""Quadratic forms that decrease along trajectories of a loop; ``proofs/stability.md``."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """Strict reading: bytes to JSON, and JSON to numbers, polynomials, matrices, positions and names.
 
-Every reader takes the value and its place in the document, for the message.  What has the wrong
-form is MALFORMED; :func:`require` is how a rule says INVALID.
+Every reader takes a value and its place in the document, for the message.  A value of the wrong
+form is MALFORMED; a rule says INVALID by :func:`require`.
 """
 
 from __future__ import annotations
@@ -16,8 +16,7 @@ from typing import Any, NoReturn
 
 from .arithmetic import Matrix, Polynomial
 
-# Strings are stepped over whole, one without an end too; possessive quantifiers keep the scans
-# linear in time.
+# A string is one match, also without its end; possessive quantifiers make the scans linear.
 TOKEN = re.compile(r'"(?:[^"\\]++|\\.)*+"?|[\[{]|[\]}]', re.DOTALL)
 QUOTIENT = re.compile(r"-?(?:0|[1-9][0-9]*+)/[1-9][0-9]*+")
 DECIMAL = re.compile(r"-?(?:0|[1-9][0-9]*+)(?:\.[0-9]++)?")
@@ -33,7 +32,7 @@ class Refused(Exception):
 
 @dataclass(frozen=True)
 class Limits:
-    """How large a document may be: bytes, nesting, digits of a number, size of an exponent."""
+    """The limits on a document: bytes, nesting, digits of a number, size of an exponent."""
 
     bytes: int = 64 * 2**20
     depth: int = 16
@@ -47,7 +46,7 @@ def malformed(place: str, message: str) -> NoReturn:
 
 
 def incomplete(code: str, place: str, message: str) -> NoReturn:
-    """Stop: well formed as far as can be told, but more than this checker handles."""
+    """Stop: the document may be well formed, but exceeds the limits of this checker."""
     raise Refused("INCOMPLETE", code, place, message)
 
 
@@ -99,7 +98,7 @@ def parse(data: bytes, limits: Limits, decimal_of: Callable[[str], Any] | None =
 
 
 def shown(value: Any) -> str:
-    """A value from outside as a message may show it: ASCII, on one line, and short."""
+    """A value of a document as a message shows it: ASCII, on one line, and short."""
     if isinstance(value, (Mapping, list, float)):
         return f"a value of type {type(value).__name__}"
     if type(value) is int and value.bit_length() > 99:

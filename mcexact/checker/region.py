@@ -46,7 +46,7 @@ def require_absence(
         found = read_arcs(arcs, f"{place}.arcs", system)
         require_arcs(system, found, ell)
         parts = components(system.m, [(j, i) for j, i, _ in found])
-        require(len(parts) <= 1, "arc", f"{place}.arcs", "these arcs do not connect all channels")
+        require(len(parts) <= 1, "arc", f"{place}.arcs", "these edges do not connect all channels")
 
 
 def read_bound(value: Any, system: System) -> Fraction | None:
@@ -60,13 +60,13 @@ def read_bound(value: Any, system: System) -> Fraction | None:
 
 
 def require_outside(p: Polynomial, system: System, bound: Fraction | None, place: str) -> None:
-    """Stop if every root of p is where a fixed mode may stay."""
+    """Stop if every root of p lies inside the region, where fixed modes are allowed."""
     inside = in_region(p, system.time, bound)
     require(not inside, "region", place, "every root lies inside the region")
 
 
 def claimed_cost(claim: dict[str, Any], answer: str, absence: Any) -> Fraction | None:
-    """The cost of the claimed answer; None where nothing suffices, and then there is no answer."""
+    """The cost of the claimed answer; None if it claims that nothing suffices."""
     if boolean(claim["feasible"], "claim.feasible"):
         return rational(claim["cost"], "claim.cost")
     nothing = claim[answer] is None and claim["cost"] is None and absence is None

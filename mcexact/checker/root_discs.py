@@ -1,4 +1,4 @@
-"""Discs that hold one root each, and the rate that follows; ``proofs/evidence.md``."""
+"""Discs that contain one root each, and the resulting rate; ``proofs/evidence.md``."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def horner(p: Polynomial, re: Fraction, im: Fraction) -> tuple[Fraction, Fractio
 def factor_text(
     p: Polynomial, a: int, e: int, r: int, s: str, stable: bool, discs: list[Disc]
 ) -> str:
-    """What is proved of one factor of a fixed spectrum."""
+    """The proved properties of one factor of a fixed spectrum, in words."""
     roots = []
     for real, im, radius in discs:
         imaginary = f" {'-' if im < 0 else '+'} {abs(im)}i" if im else ""

@@ -1,4 +1,4 @@
-"""What a sentence may rest on: premises, the roles that they play, and the table of rules."""
+"""Rules for sentences: premises, the roles that premises play, and the table of rules."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from .system import System
 from .words import channel_set, described
 
 Path = tuple[str, ...]
-"""The names of the constructions that lead from what the manifest is about to a subject."""
+"""The names of the constructions that lead from the manifest's system to a subject."""
 
 SYSTEM: tuple[Path, ...] = ((), ("augmented_outputs",))
-"""What the agents see: their own outputs, or also those of their neighbors."""
+"""What agents receive: their own outputs, or also those of their neighbors."""
 DUAL = tuple((*path, "dual") for path in SYSTEM)
 PLANT, HEARD = SYSTEM[:1], SYSTEM[1:]
 
@@ -28,15 +28,15 @@ class Premise:
     ----------
     file : str
     document : dict
-        The whole certificate; what its witness says has been verified as well.
+        The whole certificate, whose witness has been verified as well.
     plant, system : System
         The plant, and the subject that was built from it.
     theorem : str
-        What the checker said.
+        The statement that the checker verified.
     path : tuple of str, or None
-        How the subject is made; None if not of what the manifest is about.
+        The constructions of the subject; None if they do not begin at the manifest's system.
     pointers : tuple of str
-        To what a sentence rests on.
+        The pointers of a sentence into this certificate.
     """
 
     file: str
@@ -70,7 +70,7 @@ class Premise:
         require(holds, "claim", self.file, message)
 
     def cited(self, pointer: str) -> list[Any]:
-        """The members of a list that the sentence points into; all of them if into none."""
+        """The members of a list to which the sentence points; all of them if it points to none."""
         members: Any = self.document
         for key in pointer.split("/")[1:]:
             members = members[key]
@@ -86,9 +86,9 @@ class Premise:
 
 @dataclass(frozen=True)
 class Role:
-    """What a premise has to be: one of these kinds, its subject made in one of these ways.
+    """The requirements on a premise: one of these kinds, with one of these subjects.
 
-    ``many`` takes all that fit, at least one, as a list.
+    With ``many``, all fitting premises, at least one, are taken as a list.
     """
 
     kinds: Path
@@ -96,9 +96,9 @@ class Role:
     many: bool = False
 
     def fits(self, premise: Premise, heard: bool) -> bool:
-        """Whether a premise can play it, where the agents see their neighbors' outputs or not.
+        """Whether a premise can play the role, for agents with or without their neighbors' outputs.
 
-        A role about what the agents see has to be played for the same information by all.
+        All premises with such a role must have the same information structure.
         """
         ways = self.paths
         if ways in (SYSTEM, DUAL):
@@ -113,10 +113,11 @@ class Role:
 
 @dataclass(frozen=True)
 class Rule:
-    """Which premises imply a sentence, by which theorem, and what they imply in words.
+    """The premises that imply a sentence, the theorem, and the implied statement in words.
 
-    ``say`` takes what plays the roles, in their order, and stops if the claims do not imply it.
-    Without a role it takes all premises, those of the sentence first: it repeats what was given.
+    ``say`` takes the premises in the order of the roles, and stops if their claims do not imply the
+    sentence. Without roles it takes all premises, those of the sentence first, and repeats what was
+    given.
     """
 
     theorem: str
@@ -124,12 +125,12 @@ class Rule:
     say: Callable[..., str]
 
     def implied(self, cited: list[Premise], known: list[Premise]) -> str:
-        """What the premises imply.
+        """The statement that the premises imply.
 
         Raises
         ------
         Refused
-            If one is missing, or if they do not imply what the sentence says.
+            If a premise is missing, or they do not imply the sentence.
         """
         if not self.roles:
             return self.say([*cited, *known])
@@ -141,7 +142,7 @@ class Rule:
         return self.say(*found)
 
     def _cast(self, cited: list[Premise], heard: bool) -> Iterator[Any]:
-        """Who plays each role, up to the first that nobody can play."""
+        """The premise for each role, up to the first role without a premise."""
         for role in self.roles:
             able = [premise for premise in cited if role.fits(premise, heard)]
             if not able:
@@ -172,17 +173,17 @@ def restate(
     theorem: str = "",
     words: Callable[[Premise], str] = lambda premise: premise.theorem,
 ) -> None:
-    """Enter a rule with one premise, by default one that says again what the certificate claims."""
+    """Enter a rule with one premise, which by default repeats the certificate's claim."""
 
     def say(premise: Premise) -> str:
-        premise.expect(bool(holds(premise)), "the claim is another one")
+        premise.expect(bool(holds(premise)), "the claim is different")
         return words(premise)
 
     rule(keys, role, theorem=theorem)(say)
 
 
 def enter_own(kind: str, check: Callable[..., str]) -> None:
-    """Enter the ``SENTENCES`` beside the rule of a kind: what they say is claimed of the plant."""
+    """Enter the ``SENTENCES`` of a kind's file, which repeat claims about the plant."""
 
     def claimed(holds: Callable[[Any], Any], premise: Premise) -> Any:
         return holds(premise.document["claim"])

@@ -1,4 +1,4 @@
-"""Kind ``setpoint``: whether integrators keep all outputs at set-points; ``proofs/setpoint.md``."""
+"""Kind ``setpoint``: whether integrators can hold outputs at set-points; ``proofs/setpoint.md``."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .words import described
 
 
 def check(claim: Any, witness: Any, system: System) -> str:
-    """Check the rank of [A B; C 0], both ways, and whether a defect is an invariant zero.
+    """Check bounds on the rank of [A B; C 0], and whether a rank defect is an invariant zero.
 
     Theorems ``setpoint.setpoint_rank``, ``setpoint.setpoint_unreachable``,
     ``setpoint.setpoint_output_part``, ``setpoint.normal_rank_deficient``.

@@ -6,14 +6,14 @@ from fractions import Fraction
 from typing import Any
 
 from . import covering, evidence, reading, region, subspaces
-from .exchange import SHARED, augmented_outputs, extended, neighbors_of
+from .information_structure import SHARED, augmented_outputs, extended, neighbors_of
 from .reading import fields, items, require
 from .system import System
 from .words import described
 
 
 def check(claim: Any, witness: Any, system: System) -> str:
-    """Check that the dimensions suffice, every cut, and the tree that leaves nothing cheaper.
+    """Check that the dimensions suffice, every cut, and the tree that excludes a lower cost.
 
     Theorems ``allocation.branch_tree``, ``allocation.branch_tree_infeasible``.
     """

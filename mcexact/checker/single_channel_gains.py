@@ -1,4 +1,4 @@
-"""Kind ``single_channel_gains``: gains, or why none; ``proofs/single_channel_gains.md``."""
+"""Kind ``single_channel_gains``: gains, or an obstruction; ``proofs/single_channel_gains.md``."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ WITNESS = ("gains", "modulus", "annihilators", "generator")
 
 
 def check(claim: Any, witness: Any, system: System) -> str:
-    """Check gains and their indices for yes; a stuck mode or a cut behind one channel for no.
+    """Check gains and their indices for yes; a mode or a cut out of reach of one channel for no.
 
     Theorem ``single_channel_gains.single_channel_yes``.
     """
@@ -58,7 +58,7 @@ def _seen(system: System, side: str) -> System:
 
 
 def _lost(witness: Any, system: System, Q: list[int], sides: tuple[str, ...]) -> str:
-    """Check a stuck mode or a cut behind one channel; the answer in words.
+    """Check a mode or a cut out of reach of one channel; the answer in words.
 
     Theorems ``single_channel_gains.single_channel_no_mode``,
     ``single_channel_gains.single_channel_no_cut``.

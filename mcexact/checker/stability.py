@@ -1,4 +1,4 @@
-"""Kind ``stability``: every eigenvalue meets a bound, or one does not; ``proofs/stability.md``."""
+"""Kind ``stability``: whether every eigenvalue meets a rate or radius; ``proofs/stability.md``."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .words import described
 
 
 def check(claim: Any, witness: Any, system: System) -> str:
-    """Place the characteristic polynomial, or check quadratic forms that grow or decrease.
+    """Locate the roots of the characteristic polynomial, or check quadratic forms.
 
     Theorems ``instability.instability_continuous``, ``instability.instability_discrete``,
     ``stability.stability_continuous``, ``stability.stability_discrete``,

@@ -6,8 +6,8 @@ from typing import Any
 
 from .closed_loop import closed_loop
 from .delays import held, lifted
-from .exchange import arcs, augmented_outputs, extended
 from .feedback import dual, error, feedback, full_output, integrators
+from .information_structure import arcs, augmented_outputs, extended
 from .reading import incomplete, items, malformed, shown
 from .system import System
 

@@ -1,4 +1,4 @@
-"""The user's plant: read from a certificate or a system file, and its digest."""
+"""The plant, read from a certificate or from a system file, and its digest."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ NUMBER = re.compile(r"-?[0-9]++(?:/0*+[1-9][0-9]*+|(?:\.[0-9]++)?(?:[eE][+-]?[0-
 
 @dataclass(frozen=True)
 class System:
-    """x' = Ax + Σ B_i u_i, y_i = C_i x (or x(t+1) = …), and who hears whom.
+    """x' = Ax + Σ B_i u_i, y_i = C_i x (or x(t+1) = …), with the neighbor graph.
 
-    ``neighbors[i]`` is N_i in the order of the channels, i in it, or there is no graph at all;
-    ``delays[i, j]`` is d_ij where it is not 0.  ``words`` say what system this is;
+    ``neighbors[i]`` is N_i in the order of the channels, with i in it; None means that there is no
+    graph; ``delays[i, j]`` is d_ij where it is not 0.  ``words`` describe the system;
     ``blocks`` are the sizes of x, x_1, z_1, x_2, z_2, … in a closed loop.
     """
 
@@ -86,7 +86,7 @@ def read_matrix(value: Any, place: str, nrows: int | None, ncols: int | None) ->
 
 
 def read_system(value: Any, *ignored: str) -> System:
-    """A system object, by the grammar of system files; some more keys may be there."""
+    """Read a system object by the grammar of system files, perhaps with further keys."""
     time, A_rows, listed, heard, waits, *_ = fields(
         value, "system", "time", "A", "channels", optional=("neighbors", "delays", *ignored)
     )
@@ -130,7 +130,7 @@ def _with_graph(plant: System, heard: Any, waits: Any) -> System:
 
 
 def canonical(system: System) -> dict[str, Any]:
-    """The one object that stands for this plant in a certificate."""
+    """The canonical object of this plant in a certificate."""
 
     def rows(M: Matrix) -> Any:
         if not M.nrows and M.ncols:

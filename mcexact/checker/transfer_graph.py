@@ -14,7 +14,7 @@ from .words import channel, channel_set, described
 
 
 def check(claim: Any, witness: Any, system: System) -> str:
-    """Check a power for each arc, a zero transfer for each other pair, and the components.
+    """Check a power for each edge, a zero transfer for each other pair, and the components.
 
     Theorems ``transfer_graph.transfer_graph_rule``, ``transfer_graph.zero_transfer_no_arc``.
     """
@@ -32,7 +32,7 @@ def check(claim: Any, witness: Any, system: System) -> str:
         unseen = [i for i, C in enumerate(system.C) if (C @ X).is_zero()]
         missing -= {(j, i) for j in sources for i in unseen}
     pair = [(system.names[j], system.names[i]) for j, i in sorted(missing)][:1]
-    require(not missing, "arc", "witness.zeros", f"nothing proves that {pair!a} is no arc")
+    require(not missing, "arc", "witness.zeros", f"nothing proves that {pair!a} is not an edge")
     claimed = [names(p, "claim.components", system.names) for p in items(parts, "claim.components")]
     found = components(system.m, arcs)
     require(claimed == found, "claim", "claim.components", "these are not the strong components")
@@ -40,14 +40,14 @@ def check(claim: Any, witness: Any, system: System) -> str:
     require(connected == (len(found) <= 1), "claim", "claim.strongly_connected", "does not follow")
     shown = ", ".join(f"{channel(system, j)} -> {channel(system, i)}" for j, i in arcs)
     return (
-        f"the arcs of the transfer graph of {described(system)} are exactly: {shown or 'none'}; "
+        f"the edges of the transfer graph of {described(system)} are exactly: {shown or 'none'}; "
         f"strong components {' '.join(channel_set(system, part) for part in found)}; "
         f"{'strongly connected' if connected else 'not strongly connected'}"
     )
 
 
 def read_arcs(value: Any, where: str, system: System) -> list[tuple[int, int, int]]:
-    """Arcs (j, i) with a power k each, sorted and none twice."""
+    """Read edges (j, i) with a power k each, sorted and none twice."""
     arcs = []
     for place, entry in ((f"{where}[{k}]", e) for k, e in enumerate(items(value, where))):
         *ends, power = items(entry, place, 3)

@@ -1,6 +1,6 @@
-"""Stage 2: systems made from systems.
+"""Constructions of systems from systems.
 
-Takes a `MultiChannelSystem`, and where messages are sent a neighbor graph; gives another
-`MultiChannelSystem` that remembers the plant it came from and the constructions on the way, as the
-certificate format names them; refuses gains and dimensions of the wrong shape.
+This stage takes a `MultiChannelSystem`, and a neighbor graph if messages are sent.  It gives
+another `MultiChannelSystem`, which records its plant and its constructions in the words of the
+certificate format.  It refuses gains and dimensions of the wrong shape.
 """

@@ -1,4 +1,4 @@
-"""What agents see when each one also receives its neighbors' measured outputs."""
+"""The system in which each agent also receives its neighbors' measured outputs."""
 
 from __future__ import annotations
 

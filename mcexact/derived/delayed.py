@@ -1,4 +1,4 @@
-"""The extended system under delays: every message on the links is a state."""
+"""The extended system with delays, in which every message under way is a state."""
 
 from __future__ import annotations
 
@@ -59,10 +59,10 @@ def lifted_system(
         G = (G_1; …; G_m),  G_j = (0_{(d_j+1)n_j×n}; C_j; 0_{(d_j−1)q_j×n})  for d_j ≥ 1
                             G_j = 0_{n_j×n}                                 for d_j = 0
 
-    N⁰_i are the neighbors with d_ij = 0 and N⁺_i those with d_ij > 0, so that i sees undelayed
-    outputs first, then the delayed ones, then all sub-states.  H_jδ picks x_j(t−δ) and Q_jδ picks
-    y_j(t−δ); H_{N_i} = [H_{j d_ij}], Q_{N⁺_i} = (Q_{j d_ij}), in the order of the channels.  The
-    paper's G_j would have −1 block rows when d_j = 0.  With ``share="states"`` (the remark after
+    N⁰_i are the neighbors with d_ij = 0 and N⁺_i those with d_ij > 0, so that i receives undelayed
+    outputs first, then the delayed ones, then all sub-states. H_jδ picks x_j(t−δ) and Q_jδ picks
+    y_j(t−δ); H_{N_i} = [H_{j d_ij}], Q_{N⁺_i} = (Q_{j d_ij}), in the order of the channels. The
+    paper's G_j would have −1 block rows when d_j = 0. With ``share="states"`` (the remark after
     Theorem 3) there are neither y_j(t−δ) nor G, and C̃_i = diag(C_i, H'_{N_i}).
 
     Examples
@@ -87,7 +87,7 @@ def lifted_system(
 def held_system(
     system: MultiChannelSystem, dimensions: Sequence[int], graph: NeighborGraph | None = None
 ) -> MultiChannelSystem:
-    """Extend the plant by shared sub-states that everybody, their owner too, sees d_i steps late.
+    """Extend the plant by shared sub-states that all agents, also their owner, use d_i steps late.
 
     Agent i sends its sub-state to follower k after holding it for d_i − d_ki steps, and keeps it
     from itself for d_i steps, so that all followers use x_i(t−d_i) at the same time.  Measured

@@ -1,4 +1,4 @@
-"""The dual system: what is true of control becomes true of observation."""
+"""The dual system, in which controllability becomes observability."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from mcexact.model.system import MultiChannelSystem
 
 
 def dual(system: MultiChannelSystem) -> MultiChannelSystem:
-    """Transpose: (A', C_i', B_i') in place of (A, B_i, C_i), without a neighbor graph.
+    """Return the system (A', C_i', B_i'), without a neighbor graph.
 
     Parameters
     ----------
@@ -15,7 +15,7 @@ def dual(system: MultiChannelSystem) -> MultiChannelSystem:
     Returns
     -------
     MultiChannelSystem
-        Inputs and outputs of each channel change places.
+        The inputs of each channel correspond to its outputs in the given system, and conversely.
 
     Examples
     --------

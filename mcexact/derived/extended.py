@@ -1,4 +1,4 @@
-"""The extended system: what agents may share besides their outputs, as states of their own."""
+"""The extended system, in which agents share sub-states in addition to their outputs."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from mcexact.model.system import MultiChannelSystem, with_graph
 Share = Literal["outputs+states", "states"]
 
 LARGEST = 20_000
-"""States that such a system may have; a delay in a file can ask for any number."""
+"""The largest number of states of a derived system, since delays in a file may be large."""
 
 
 def checked_share(share: str) -> str:
-    """Return the way of sharing, or refuse it."""
+    """Check and return the way of sharing."""
     if share not in get_args(Share):
         raise InputError(
             f'expected "outputs+states" or "states", found {quoted(share)}', where="share"
@@ -29,7 +29,7 @@ def checked_share(share: str) -> str:
 
 
 def checked_dimensions(system: MultiChannelSystem, dimensions: Sequence[int]) -> tuple[int, ...]:
-    """Return n_1 … n_m, or refuse them."""
+    """Check and return the dimensions n_1 … n_m."""
     found = tuple(dimensions)
     if len(found) != system.m:
         raise InputError(
@@ -63,12 +63,12 @@ def shift(d: int) -> Matrix:
 
 
 def require_size(states: int) -> None:
-    """Refuse a system of absurdly many states.
+    """Raise an error for a system with too many states.
 
     Raises
     ------
     LimitReached
-        Beyond `LARGEST` states.
+        If there are more than `LARGEST` states.
     """
     if states > LARGEST:
         raise LimitReached(
@@ -91,7 +91,7 @@ def extended_system(
     dimensions : sequence of m int
         n_1 … n_m, each ≥ 0.
     share : {"outputs+states", "states"}
-        Whether agents receive their neighbors' outputs beside their sub-states.
+        Whether agents receive their neighbors' outputs in addition to their sub-states.
     graph : NeighborGraph, optional
         Overrides ``system.neighbors``.
 
@@ -146,9 +146,9 @@ def exchanged(
     system : MultiChannelSystem
     graph : NeighborGraph
     construction : mapping
-        Its ``dimensions`` n_1 … n_m, and how agents ``share``: sub-states alone if it does not say.
+        Its ``dimensions`` n_1 … n_m, and what agents ``share``, by default sub-states alone.
     delay : function of i and j
-        After how many steps agent i sees x_j, and y_j where outputs are shared.
+        The number of steps after which agent i receives x_j, and y_j if outputs are shared.
     """
     sizes = checked_dimensions(system, construction["dimensions"])
     both = checked_share(construction.get("share", "states")) == "outputs+states"

@@ -1,4 +1,4 @@
-"""Static feedback, one gain for each channel, and a channel that sees everything."""
+"""Static decentralized feedback, and a channel that measures the whole state."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from mcexact.model.system import MultiChannelSystem
 def checked_gains(
     system: MultiChannelSystem, gains: Sequence[Any], widths: Sequence[int]
 ) -> list[Matrix]:
-    """Return the gains as exact matrices, F_i of p_i rows and ``widths[i]`` columns.
+    """Check and return gains F_i of p_i rows and ``widths[i]`` columns as exact matrices.
 
     Raises
     ------
     InputError
-        If there are more or fewer than channels, or one has the wrong shape.
+        If the number of gains is not m, or a gain has the wrong shape.
     """
     gains = list(gains)
     if len(gains) != system.m:
@@ -33,7 +33,7 @@ def checked_gains(
 
 
 def closed_by(system: MultiChannelSystem, gains: Sequence[Matrix]) -> Matrix:
-    """A_F = A + Σ B_i F_i C_i, n×n."""
+    """Return A_F = A + Σ B_i F_i C_i, n×n."""
     A = system.A
     for channel, F in zip(system.channels, gains, strict=True):
         A = A + channel.B @ (F @ channel.C)
@@ -76,7 +76,7 @@ def feedback(system: MultiChannelSystem, gains: Sequence[Any]) -> MultiChannelSy
 
 
 def full_output(system: MultiChannelSystem, channel: int) -> MultiChannelSystem:
-    """Let one channel see the whole state: C_q becomes the n×n identity.
+    """Let one channel measure the whole state: C_q becomes the n×n identity.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The plant with an integrator behind every output, for set-point control."""
+"""The plant with an integrator of every output, for set-point control."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ def setpoint_system(system: MultiChannelSystem) -> MultiChannelSystem:
             ⎡ A  0 ⎤            ⎡ B_i ⎤
         Ã = ⎣ C  W ⎦ ,    B̃_i = ⎣  0  ⎦ ,    C̃_i = [ 0  e_i' ]
 
-    W = 0 in continuous and W = I in discrete time, and e_i' holds the rows of the identity that
-    belong to y_i.  The references enter as −r in the lower rows.
+    W = 0 in continuous and W = I in discrete time, and e_i' are the rows of the identity that
+    belong to y_i. The references enter as −r in the lower rows.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""The same plant with more links."""
+"""A plant with further communication links."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ def add_links(
     added: Iterable[tuple[int, int]],
     graph: NeighborGraph | None = None,
 ) -> MultiChannelSystem:
-    """Let j join N_i for every added edge j → i; A, B and C stay.
+    """Add edges j → i to the neighbor graph: j joins N_i; A, B and C do not change.
 
     Parameters
     ----------
     system : MultiChannelSystem
     added : iterable of (j, i)
-        Positions of channels; the new links have no delay.  An edge that is there already stays as
-        it is.
+        Positions of channels; the new links have no delay.  An edge that exists already keeps its
+        delay.
     graph : NeighborGraph, optional
         The graph that they are added to; overrides ``system.neighbors``.
 

@@ -1,18 +1,18 @@
-"""Stage 0: arithmetic over Q, Z/ℓ and Q[x]/(p), and enclosures of roots.
+"""Exact arithmetic over Q, Z/ℓ and Q[x]/(p), and enclosures of roots.
 
-Takes integers, Fractions, Decimals, strings in the written grammar and sympy Rationals.  Gives
-immutable matrices and polynomials, exact linear algebra over them, the same modulo word-size
-primes, kernels over number fields, discs and intervals around roots, and the exact place of a
-polynomial's roots with respect to a stability region.  Refuses floats, except through
-`from_float` and `matrix_from_float`, which say how a float is meant.
+This stage takes integers, Fractions, Decimals, strings in the grammar of files and sympy Rationals.
+It gives immutable matrices and polynomials, exact linear algebra over Q and modulo word-size
+primes, kernels over number fields, discs and intervals around roots, and decisions whether the
+roots of a polynomial lie in a stability region.  Floats are refused; `from_float` and
+`matrix_from_float` convert them explicitly.
 
-No other stage imports flint: sizes and moduli that it would abort on are refused here.
+No other stage imports flint.  This stage refuses sizes and moduli for which flint would abort.
 
 ===================  ==================================================================
-`rational`           one number: entries, the written grammar
+`rational`           rational numbers: conversion of entries, the grammar of numbers
 `matrix`             rational matrices
-`rows`               matrices as users hand them over
-`blocks`             rational matrices put together from blocks
+`rows`               conversion of the matrices that Python callers pass
+`blocks`             rational matrices assembled from blocks
 `linear_algebra`     ranks, kernels, solutions, characteristic polynomials over Q
 `polynomial`         rational polynomials
 `modular`            matrices and polynomials modulo word-size primes

@@ -1,4 +1,4 @@
-"""Rational matrices put together from blocks."""
+"""Assembly of rational matrices from blocks."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from mcexact.exact.matrix import Matrix, Rows, from_numerators
 
 
 def hstack(matrices: Sequence[Matrix], nrows: int | None = None) -> Matrix:
-    """The matrices beside each other, [M1 M2 …].
+    """Return the matrix [M1 M2 …].
 
     Parameters
     ----------
     matrices : sequence of Matrix
         All with the same number of rows.
     nrows : int, optional
-        That number, needed where there may be no matrix at all.
+        This number, which is required if there may be no matrices.
 
     Examples
     --------
@@ -33,14 +33,14 @@ def hstack(matrices: Sequence[Matrix], nrows: int | None = None) -> Matrix:
 
 
 def vstack(matrices: Sequence[Matrix], ncols: int | None = None) -> Matrix:
-    """The matrices below each other; all have the same number of columns (see `hstack`)."""
+    """Return the matrix [M1; M2; …] of matrices with equal numbers of columns (see `hstack`)."""
     width = _common(matrices, [M.ncols for M in matrices], ncols, "columns", "vstack")
     tables, denominator = _over_one_denominator(matrices)
     return from_numerators([row for table in tables for row in table], denominator, width)
 
 
 def block(rows: Sequence[Sequence[Matrix]]) -> Matrix:
-    """The matrix assembled from rows of blocks.
+    """Return the matrix assembled from rows of blocks.
 
     At least one row of blocks, each with at least one block.
 
@@ -56,7 +56,7 @@ def block(rows: Sequence[Sequence[Matrix]]) -> Matrix:
 
 
 def block_diagonal(matrices: Sequence[Matrix]) -> Matrix:
-    """The matrix diag(M1, M2, …); blocks without rows or columns keep their place.
+    """Return the matrix diag(M1, M2, …); blocks may have no rows or no columns.
 
     Examples
     --------
@@ -75,7 +75,7 @@ def block_diagonal(matrices: Sequence[Matrix]) -> Matrix:
 
 
 def kronecker(A: Matrix, B: Matrix) -> Matrix:
-    """The Kronecker product, the block matrix of all a_ij B.
+    """Return the Kronecker product, the block matrix of all a_ij B.
 
     Examples
     --------

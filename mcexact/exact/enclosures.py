@@ -1,4 +1,4 @@
-"""Discs and intervals around the roots of a polynomial, in decimals, verified exactly."""
+"""Discs and intervals around the roots of a polynomial, with decimal numbers, verified exactly."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from mcexact.errors import InputError, InternalError
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import digits_of
 
-# Decimals of the first grid, counted from the first digit of the smallest root below 1.
+# Digits of the first grid after the first nonzero digit of the smallest root below 1.
 _DIGITS = 12
-# The precision of flint is a global; one thread at a time changes it.
+# The precision of flint is global, so one thread at a time may change it.
 _PRECISION = threading.Lock()
 
 
@@ -51,14 +51,14 @@ class _GridDisc:
 
 
 def root_discs(p: Polynomial, decimals: int = 0) -> tuple[Disc, ...]:
-    """Pairwise disjoint discs that hold exactly one root each, together all of them.
+    """Compute pairwise disjoint discs that each contain exactly one root, and together all roots.
 
     Parameters
     ----------
     p : Polynomial
         Squarefree, of degree d ≥ 1.
     decimals : int
-        The grid has at least so many.
+        The least number of decimals of the grid.
 
     Returns
     -------
@@ -106,7 +106,7 @@ def root_discs(p: Polynomial, decimals: int = 0) -> tuple[Disc, ...]:
 
 
 def _first_digits(p: Polynomial) -> int:
-    """Decimals that show `_DIGITS` digits of every nonzero root that is below 1."""
+    """The number of decimals that show `_DIGITS` digits of every nonzero root below 1."""
     c = [abs(x) for x in p.numerators]
     if not c[0]:
         c = c[1:]
@@ -132,13 +132,13 @@ def _flint_roots(p: Polynomial, bits: int) -> list[flint.acb]:
 
 
 def _on_grid(p: Polynomial, digits: int) -> list[_GridDisc] | None:
-    """Discs around the roots rounded to the grid of this many decimals; None if a test fails."""
+    """Discs around the roots, rounded to the grid with this many decimals; None if a test fails."""
     size = max(abs(c) for c in p.numerators).bit_length()
     found = []
     for root in _flint_roots(p, 64 + 4 * digits + size):
         re, im = _rounded(root.real, digits), _rounded(root.imag, digits)
         if im < 0 or (im == 0 and not root.imag.is_zero()):
-            # its conjugate stands for it; a pair that rounds to the axis needs a finer grid
+            # its conjugate represents it; a pair that rounds to the axis needs a finer grid
             if im == 0:
                 return None
             continue
@@ -205,12 +205,12 @@ def decimal(value: int, digits: int) -> str:
 
 
 def exact_decimal(text: str) -> Fraction:
-    """The number that a decimal of any length is, as `decimal` writes it."""
+    """Read a decimal of any length, as `decimal` writes it."""
     return Fraction(Decimal(text))
 
 
 def real_root_intervals(p: Polynomial) -> tuple[tuple[Fraction, Fraction], ...]:
-    """Disjoint closed intervals, ascending, that hold exactly one real root each and all of them.
+    """Compute ascending disjoint intervals that each contain one real root, and together all.
 
     Parameters
     ----------

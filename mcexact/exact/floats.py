@@ -1,4 +1,4 @@
-"""Floats to rational numbers and matrices, and back: the one place of the two crossings."""
+"""Conversions between floats and rational numbers and matrices, for the whole package."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ def finite(number: float) -> float | None:
 
 
 def from_float(x: float, rounding: Rounding, *, where: str | None = None) -> Fraction:
-    """The rational number that a float is taken for: one of the two crossings.
+    """Convert a float to a rational number.
 
     Parameters
     ----------
     x : float
-        Finite; a numpy floating-point scalar will do.
+        A finite float or numpy floating-point scalar.
     rounding : {"decimal", "dyadic"}
         "decimal" reads the shortest decimal that prints the float (0.1 is 1/10), "dyadic" the
         binary fraction that is stored.
@@ -61,7 +61,7 @@ def from_float(x: float, rounding: Rounding, *, where: str | None = None) -> Fra
 
 
 def to_float(q: Fraction | int | str) -> float:
-    """The float nearest to a rational number, or to a decimal in writing: the other crossing.
+    """Convert a rational number, or the text of a decimal, to the nearest float.
 
     A number beyond the range of floats becomes an infinity of its sign.
 
@@ -83,12 +83,12 @@ def _quotient(p: int, q: int) -> float:
 def matrix_from_float(
     M: Any, rounding: Rounding = "decimal", *, where: str | None = None
 ) -> Matrix:
-    """The rational matrix that a matrix of floats is taken for.
+    """Convert a matrix of floats to a rational matrix.
 
     Parameters
     ----------
     M : array_like, r × c
-        A real two-dimensional array, or a list of rows of numbers.  Integers stay what they are.
+        A real two-dimensional array, or a list of rows of numbers.  Integers do not change.
     rounding : {"decimal", "dyadic"}
         See `from_float`.
     where : str, optional
@@ -113,7 +113,7 @@ def matrix_from_float(
 
 
 def _exact(entry: Any, rounding: Rounding, where: str) -> Fraction | int:
-    """One entry; an integer stays what it is, however long."""
+    """Convert one entry; an integer of any length does not change."""
     kind = getattr(getattr(entry, "dtype", None), "kind", "")
     if isinstance(entry, float) or kind == "f":
         return from_float(entry, rounding, where=where)
@@ -123,7 +123,7 @@ def _exact(entry: Any, rounding: Rounding, where: str) -> Fraction | int:
 
 
 def dyadic_matrix(M: Any, bits: int = 52) -> Matrix:
-    """M rounded to multiples of 2^−bits of its largest entry, up to a factor of 2.
+    """Round a matrix to multiples of 2^−bits times its largest entry, up to a factor of 2.
 
     Parameters
     ----------
@@ -152,7 +152,7 @@ def dyadic_matrix(M: Any, bits: int = 52) -> Matrix:
 
 
 def matrix_to_float(M: Matrix) -> npt.NDArray[np.float64]:
-    """The array of the floats nearest to the entries of a rational matrix.
+    """Convert a rational matrix to the array of the floats nearest to its entries.
 
     Entries beyond the range of floats become infinities.
 

@@ -33,7 +33,7 @@ _EXACT = 2**53
 
 
 def exact_bits(terms: int) -> int:
-    """The most bits of a modulus modulo which sums of this many products of residues are exact.
+    """The largest bit length of a modulus for which sums of this many products are exact.
 
     Notes
     -----
@@ -53,7 +53,7 @@ def exact_bits(terms: int) -> int:
 def loop_polynomials(
     A: Matrix, B: Sequence[Matrix], C: Sequence[Matrix], gains: Sequence[Any], ell: int
 ) -> tuple[ModularPolynomial, ModularPolynomial]:
-    """χ_A and χ_{A + Σ B_i F_i C_i} modulo ℓ.
+    """Compute χ_A and χ_{A + Σ B_i F_i C_i} modulo ℓ.
 
     Parameters
     ----------
@@ -81,10 +81,10 @@ def loop_polynomials(
 
 
 def characteristic_polynomial(M: Floats, ell: int) -> ModularPolynomial:
-    """det(xI − M) of an n × n array of symmetric residues modulo a prime ℓ.
+    """Compute det(xI − M) for an n × n array of symmetric residues modulo a prime ℓ.
 
-    flint takes over where the sequence has a shorter recurrence, as it always has for a matrix
-    whose minimal polynomial is not its characteristic one.
+    If the sequence has a shorter recurrence, flint computes the polynomial.  This is always so for
+    a matrix whose minimal polynomial is not its characteristic polynomial.
     """
     import numpy as np
 

@@ -12,7 +12,7 @@ from mcexact.exact.blocks import hstack
 from mcexact.exact.matrix import Matrix, from_flint, from_numerators
 from mcexact.exact.polynomial import Polynomial
 
-# A prime for a first look at a rank: full rank modulo it is full rank over Q.
+# Full rank modulo this prime is full rank over Q, so ranks are computed modulo it first.
 _PROBE = 2**61 - 1
 
 
@@ -47,7 +47,7 @@ def row_echelon(M: Matrix) -> tuple[Matrix, tuple[int, ...]]:
     (((0, 1, 2),), (1,))
     """
     reduced, denominator, r = M._integer.rref()
-    # flint stops at rank 0 without a denominator
+    # at rank 0 flint returns no denominator
     whole = from_flint(reduced, int(denominator) if r else 1)
     pivots = []
     j = 0
@@ -59,13 +59,13 @@ def row_echelon(M: Matrix) -> tuple[Matrix, tuple[int, ...]]:
 
 
 def kernel(M: Matrix) -> tuple[Matrix, tuple[int, ...]]:
-    """A basis of {x : Mx = 0} and the rows of it that form the identity.
+    """Compute a basis of {x : Mx = 0}, and the rows of it that form the identity.
 
     Returns
     -------
     X : Matrix, ncols × (ncols − rank M)
     pivots : tuple of int
-        The columns of M that are no pivots of its echelon form, ascending.
+        The columns of M that are not pivots of its echelon form, ascending.
     """
     reduced, bound = row_echelon(M)
     free = tuple(sorted(set(range(M.ncols)) - set(bound)))
@@ -97,7 +97,7 @@ def left_nullspace(M: Matrix) -> Matrix:
 
 
 def solve(M: Matrix, right: Matrix) -> Matrix | None:
-    """One X with MX = right, free unknowns 0; None if there is none.
+    """Compute an X with MX = right whose free unknowns are 0; None if there is none.
 
     Examples
     --------
@@ -120,9 +120,9 @@ def solve(M: Matrix, right: Matrix) -> Matrix | None:
 
 
 def solve_nonsingular(M: Matrix, right: Matrix) -> Matrix | None:
-    """The X with MX = right for a square M; None if M is singular.
+    """Compute the X with MX = right for a square M; None if M is singular.
 
-    Quicker than `solve` where the right side has few columns.
+    This is faster than `solve` if the right side has few columns.
     """
     _require_square(M)
     if M.nrows != right.nrows:

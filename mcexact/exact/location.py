@@ -1,4 +1,4 @@
-"""Where the roots of a polynomial lie, decided exactly; the one place for time domains."""
+"""Time domains, stability regions, and exact decisions whether roots of polynomials lie in them."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ TIMES = get_args(Time)
 
 
 def require_time(time: object) -> None:
-    """Refuse what is neither ``"continuous"`` nor ``"discrete"``."""
+    """Raise an error unless a time domain is ``"continuous"`` or ``"discrete"``."""
     if time not in TIMES:
         short = isinstance(time, str) and len(time) <= 40
         found = ascii(time) if short else f"a {type(time).__name__}"
@@ -27,7 +27,7 @@ def require_time(time: object) -> None:
 
 
 def is_discrete(time: str) -> bool:
-    """Whether a time domain is the discrete one: whatever depends on the domain asks this.
+    """Whether a time domain is the discrete one.
 
     Raises
     ------
@@ -39,12 +39,12 @@ def is_discrete(time: str) -> bool:
 
 
 def steady_point(time: str) -> int:
-    """The eigenvalue of what stays as it is: 0, or 1 in discrete time."""
+    """The eigenvalue of a constant: 0 in continuous time, 1 in discrete time."""
     return int(is_discrete(time))
 
 
 def is_hurwitz(p: Polynomial) -> bool:
-    """Whether every complex root has a negative real part; true of nonzero constants.
+    """Whether every complex root has a negative real part; true for nonzero constants.
 
     Notes
     -----
@@ -79,7 +79,7 @@ def is_hurwitz(p: Polynomial) -> bool:
 
 
 def is_schur(p: Polynomial) -> bool:
-    """Whether every complex root has modulus below 1; true of nonzero constants.
+    """Whether every complex root has modulus below 1; true for nonzero constants.
 
     Notes
     -----
@@ -100,7 +100,7 @@ def is_schur(p: Polynomial) -> bool:
 
 @dataclass(frozen=True)
 class StabilityRegion:
-    """The open set of the complex plane where closed-loop eigenvalues are wanted.
+    """An open region of the complex plane in which eigenvalues should lie.
 
     Parameters
     ----------
@@ -146,23 +146,24 @@ class StabilityRegion:
     def of(
         cls, time: str, rate: Any = None, radius: Any = None, *, bound: Any = None
     ) -> StabilityRegion:
-        """The region that a caller names, or that of stability; the one border for such numbers.
+        """Return the region of a rate or a radius, by default the stability region.
 
         Parameters
         ----------
         time : {"continuous", "discrete"}
         rate, radius : rational, optional
-            The one of the time domain.
+            A rate in continuous time, a radius in discrete time.
         bound : rational, optional
-            Instead of these, the one of the time domain as certificates write it: a rate of 0 is
-            that of stability.
+            The rate or the radius as in a certificate, instead of the other two; a rate of 0 means
+            stability.
 
         Raises
         ------
         UsageError
-            Two are given, the one of the other time domain, or one out of range.
+            If two of them are given, or one that belongs to the other time domain or is out of
+            range.
         InputError
-            A number cannot be read as a rational one.
+            If a number is not rational.
 
         Examples
         --------
@@ -189,31 +190,31 @@ class StabilityRegion:
 
     @property
     def discrete(self) -> bool:
-        """Whether it is about discrete time."""
+        """Whether the region belongs to discrete time."""
         return is_discrete(self.time)
 
     @property
     def word(self) -> str:
-        """What a bound is called: a rate or a radius."""
+        """The name of the bound: ``"rate"`` or ``"radius"``."""
         return "radius" if self.discrete else "rate"
 
     @property
     def measure(self) -> str:
-        """What of a number says whether it is in the region."""
+        """The quantity that decides whether a number lies in the region: Re λ or |λ|."""
         return "|λ|" if self.discrete else "Re λ"
 
     @property
     def edge(self) -> Fraction:
-        """The bound, or where there is none that of stability: the rate 0, the radius 1."""
+        """The bound, or without one that of stability: the rate 0, the radius 1."""
         return Fraction(self.discrete) if self.bound is None else self.bound
 
     @property
     def limit(self) -> Fraction:
-        """What the real parts, or the moduli, of the numbers in the region are below."""
+        """The number below which the real parts, or the moduli, lie."""
         return self.edge if self.discrete else -self.edge
 
     def tightened(self, margin: Fraction, offset: int = 0) -> StabilityRegion:
-        """A smaller region, to design for: the rate R + margin (R + offset), or R (1 − margin).
+        """Return a smaller region: the rate R + margin (R + offset), or the radius R (1 − margin).
 
         Examples
         --------
@@ -224,7 +225,7 @@ class StabilityRegion:
         return StabilityRegion.of(self.time, bound=self.edge + change)
 
     def shifted(self, p: Polynomial) -> Polynomial:
-        """A polynomial with all roots in the unbounded region iff those of p are in this one.
+        """Return a polynomial that is stable iff all roots of p lie in this region.
 
         Examples
         --------

@@ -1,4 +1,4 @@
-"""Rational matrices, integer numerators over one common denominator."""
+"""Rational matrices: integer numerators over one common denominator."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class Matrix:
     (3, 0)
     """
 
-    # Shared with other matrices and with callers in this stage, so never to be changed by anyone.
+    # Other matrices and functions of this stage share this object, so nothing may change it.
     _integer: flint.fmpz_mat
     denominator: int
 
@@ -56,13 +56,13 @@ class Matrix:
     def from_rows(
         cls, rows: Iterable[Iterable[Entry]], ncols: int | None = None, *, where: str | None = None
     ) -> Matrix:
-        """The matrix with the given rows of exact entries.
+        """Make the matrix with the given rows of exact entries.
 
         Parameters
         ----------
         rows : iterable of iterables of int, Fraction, Decimal, str or sympy Rational
         ncols : int, optional
-            Needed for a matrix without rows, which otherwise has no columns.
+            The number of columns of a matrix without rows, by default 0.
         where : str, optional
             The place to name in an error, such as ``channels[0].B``.
 
@@ -97,7 +97,7 @@ class Matrix:
     def from_integers(
         cls, rows: Iterable[Iterable[int]], denominator: int = 1, ncols: int | None = None
     ) -> Matrix:
-        """The matrix of integer rows over a common denominator, brought to lowest terms.
+        """Make the matrix of integer rows over a common denominator, in lowest terms.
 
         Raises
         ------
@@ -264,7 +264,7 @@ class Matrix:
 
 
 def require_sizes(nrows: int, ncols: int) -> None:
-    """Refuse sizes that flint would abort on, and matrices that cannot fit into memory."""
+    """Raise an error for sizes for which flint would abort, or that exceed the memory."""
     for size, name in ((nrows, "rows"), (ncols, "columns")):
         if type(size) is not int or size < 0:
             raise InputError(f"expected a number of {name} that is at least 0, found {size!r}")

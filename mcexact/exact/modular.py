@@ -1,4 +1,4 @@
-"""Matrices modulo word-size primes: the workhorse of every exact decision."""
+"""Matrices modulo word-size primes, with which every exact decision computes first."""
 
 from __future__ import annotations
 
@@ -235,9 +235,9 @@ def _pivots(reduced: flint.nmod_mat, rank: int) -> tuple[int, ...]:
 
 
 def hstack(matrices: Sequence[ModularMatrix]) -> ModularMatrix:
-    """Modular matrices beside each other, at least one, equally high.
+    """Return the matrix [M1 M2 …] of one or more modular matrices with equally many rows.
 
-    Each is multiplied by [0 I 0], which costs less than to take its entries out one by one.
+    Each is multiplied by [0 I 0], which is faster than copying its entries.
     """
     if not matrices:
         raise InputError("expected at least one matrix to stack")
@@ -254,12 +254,12 @@ def hstack(matrices: Sequence[ModularMatrix]) -> ModularMatrix:
 
 
 def vstack(matrices: Sequence[ModularMatrix]) -> ModularMatrix:
-    """Modular matrices below each other, at least one, equally wide."""
+    """Return the matrix [M1; M2; …] of one or more modular matrices with equally many columns."""
     return hstack([M.T for M in matrices]).T
 
 
 def residues(M: Matrix, ell: int) -> ModularMatrix:
-    """A rational matrix modulo a prime that does not divide its denominator.
+    """Reduce a rational matrix modulo a prime that does not divide its denominator.
 
     Raises
     ------
@@ -298,7 +298,7 @@ def residues_modulo_each(M: Matrix, ells: Sequence[int]) -> list[ModularMatrix]:
 
 
 def random_matrix(nrows: int, ncols: int, ell: int, rng: random.Random) -> ModularMatrix:
-    """A matrix of independent uniform residues, drawn row by row."""
+    """Draw a matrix of independent uniform residues, row by row."""
     require_prime(ell)
     require_sizes(nrows, ncols)
     entries = [rng.randrange(ell) for _ in range(nrows * ncols)]
@@ -308,7 +308,7 @@ def random_matrix(nrows: int, ncols: int, ell: int, rng: random.Random) -> Modul
 def low_rank_update(
     A: ModularMatrix, B: ModularMatrix, F: ModularMatrix, C: ModularMatrix
 ) -> ModularMatrix:
-    """A + B F C, the closed loop of stacked inputs and outputs; any of them may be empty."""
+    """Compute A + B F C for stacked inputs and outputs, which may be empty."""
     if not B.ncols or not C.nrows:
         return A
     return A + (B @ F) @ C if B.ncols > C.nrows else A + B @ (F @ C)

@@ -35,10 +35,10 @@ def kernel(M: PolynomialMatrix, p: Polynomial) -> tuple[PolynomialMatrix, tuple[
 
     Notes
     -----
-    Exact.  Every element of K becomes its deg p × deg p matrix of multiplication.  Pivots are found
-    modulo a prime, which never shows too large a rank, and the kernel that they leave is solved for
-    over Q; as M U = 0 modulo p is then tested exactly, the rank is not larger either.  About
-    (c deg p)³ word operations, and more for long entries of U.
+    Exact.  Every element of K is represented by its deg p × deg p matrix of multiplication.  Pivots
+    are found modulo a prime, where the rank is never too large.  Then the kernel for these pivots
+    is computed over Q, and the exact test of M U = 0 modulo p proves that the rank is not larger.
+    About (c deg p)³ word operations, and more for long entries of U.
 
     Examples
     --------
@@ -62,7 +62,7 @@ def kernel(M: PolynomialMatrix, p: Polynomial) -> tuple[PolynomialMatrix, tuple[
 
 
 def _block_pivots(inflated: Matrix, degree: int, ell: int) -> tuple[int, ...] | None:
-    """The pivot columns over K as they appear modulo a prime; None if they are no whole blocks."""
+    """The pivot columns over K, computed modulo a prime; None if they do not form whole blocks."""
     found = residues(_numerators(inflated), ell).rref()[1]
     pivots = tuple(j // degree for j in found[::degree])
     whole = [j * degree + k for j in pivots for k in range(degree)]
@@ -72,10 +72,10 @@ def _block_pivots(inflated: Matrix, degree: int, ell: int) -> tuple[int, ...] | 
 def _kernel_at_pivots(
     inflated: Matrix, pivots: tuple[int, ...], degree: int, ell: int
 ) -> tuple[PolynomialMatrix, tuple[int, ...]] | None:
-    """The one candidate for the kernel that these pivots leave; None if they depend on each other.
+    """The candidate for the kernel with these pivots; None if the pivot columns are dependent.
 
-    Column 0 of a block is its element of K in the basis 1, x, …, so one column of the inflated
-    system is solved for each column of the kernel.
+    Column 0 of a block is its element of K in the basis 1, x, …, so each column of the kernel needs
+    one solution of the inflated system.
     """
     ncols = inflated.ncols // degree
     bound = [j * degree + k for j in pivots for k in range(degree)]

@@ -11,8 +11,8 @@ import flint
 
 from mcexact.errors import InputError
 
-# A product of two residues below 2**30 stays in two digits of a Python integer: the checker, which
-# has no library, is quick at such moduli, and flint is at any below 2**63.
+# A product of two residues below 2**30 has two digits of a Python integer, so the checker, which
+# has # no library, is fast at such moduli; flint is fast at any modulus below 2**63.
 _BITS = 30
 
 
@@ -22,13 +22,13 @@ def _is_prime(ell: int) -> bool:
 
 
 def require_prime(ell: int) -> None:
-    """Refuse a modulus that flint would abort on."""
+    """Raise an error for a modulus for which flint would abort."""
     if type(ell) is not int or not 2 <= ell < 2**63 or not _is_prime(ell):
         raise InputError(f"expected a prime modulus below 2**63, found {ell!r}")
 
 
 def primes(seed: int, bits: int = _BITS) -> Iterator[int]:
-    """An endless stream of primes with exactly this many bits, drawn from a seed.
+    """Yield primes with exactly this many bits, drawn from a seed, without end.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""One rational number: what may be an entry, and how it is written."""
+"""Rational numbers: conversion of entries, and the grammar in which they are written."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from typing import Any
 from mcexact.errors import FloatRefused, InputError, LimitReached
 
 Entry = Any
-"""int, Fraction, Decimal, str in the written grammar, or a sympy Rational."""
+"""int, Fraction, Decimal, str in the grammar of files, or a sympy Rational."""
 
 
 @dataclass(frozen=True)
 class Limits:
-    """How much input is read before it is refused.
+    """Limits on input, beyond which it is refused.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ _MOST_BITS = 2**31
 def parse_rational(
     text: str, limits: Limits = DEFAULT_LIMITS, *, where: str | None = None
 ) -> Fraction:
-    """Read one number as it is written: every decimal is the rational that it says.
+    """Parse a number exactly: a decimal is the rational number that it denotes.
 
     Parameters
     ----------
@@ -114,7 +114,7 @@ quotient such as "1/3", found '1_000'
 
 
 def _integer(digits: str) -> int:
-    """The integer that a string of ASCII digits of any length is."""
+    """Convert a string of ASCII digits of any length to an integer."""
     if len(digits) <= _CHUNK:
         return int(digits)
     half = len(digits) // 2
@@ -145,7 +145,7 @@ def _shown(text: str) -> str:
 
 
 def as_fraction(entry: Entry, *, where: str | None = None) -> Fraction:
-    """The rational number that an entry is; floats and Booleans are refused.
+    """Convert an entry to a rational number; floats and Booleans are refused.
 
     Parameters
     ----------
@@ -157,7 +157,7 @@ def as_fraction(entry: Entry, *, where: str | None = None) -> Fraction:
     Raises
     ------
     FloatRefused
-        The entry is a float: the message names the two ways in.
+        If the entry is a float; the message says how to convert floats.
     InputError
         The entry is not a rational number.
 
@@ -174,7 +174,7 @@ MultiChannelSystem.from_float(..., rounding="decimal" | "dyadic")
     """
     if type(entry) is int:
         return Fraction(entry)
-    # A Fraction made of numpy integers keeps them, and they overflow.
+    # A Fraction of numpy integers would keep them, and they overflow.
     if type(entry) is Fraction and type(entry.numerator) is type(entry.denominator) is int:
         return entry
     if isinstance(entry, str):
@@ -222,21 +222,21 @@ def _from_decimal(entry: Decimal, where: str | None) -> Fraction:
 
 
 def require_power(exponent: Any, bits: int) -> int:
-    """The exponent of a power, if it is one that fits into memory.
+    """Check and return the exponent of a power that fits into memory.
 
     Parameters
     ----------
     exponent : object
         Should be an integer that is at least 0.
     bits : int
-        By how much each further factor can lengthen a number.
+        The number of bits by which each further factor can lengthen a number.
 
     Raises
     ------
     InputError
-        It is something else.
+        If it is not such an integer.
     LimitReached
-        The power could be too large for memory.
+        If the power could be too large for memory.
 
     Examples
     --------
@@ -252,12 +252,12 @@ def require_power(exponent: Any, bits: int) -> int:
     return exponent
 
 
-# CPython converts integers of up to 4300 digits to text at once; this many bits are fewer.
+# CPython converts integers of up to 4300 digits to text, and this many bits are fewer.
 PRINTABLE_BITS = 14_000
 
 
 def digits_of(value: int) -> str:
-    """The decimal digits of an integer of any length; `str` refuses more than 4300.
+    """Return the decimal digits of an integer of any length; `str` refuses more than 4300.
 
     Examples
     --------
@@ -268,7 +268,7 @@ def digits_of(value: int) -> str:
 
 
 def rational_text(q: Fraction) -> str:
-    """A rational number in the written grammar, of any length."""
+    """Return a rational number of any length as text."""
     if q.denominator == 1:
         return digits_of(q.numerator)
     return f"{digits_of(q.numerator)}/{digits_of(q.denominator)}"
@@ -287,7 +287,7 @@ def rational_latex(q: Fraction, command: str = "frac") -> str:
 
 
 def written(q: Fraction) -> int | str:
-    """A rational number as certificates write it: an integer, or ``"p/q"`` in lowest terms.
+    """Return a rational number as in certificates: an integer, or ``"p/q"`` in lowest terms.
 
     Examples
     --------

@@ -9,7 +9,7 @@ from math import isqrt
 def combine(
     first: Sequence[Sequence[int]], modulus: int, second: Sequence[Sequence[int]], ell: int
 ) -> list[list[int]]:
-    """Residues modulo ``modulus·ell`` that agree with both tables of residues.
+    """Compute residues modulo ``modulus·ell`` that agree with both tables of residues.
 
     Parameters
     ----------
@@ -33,7 +33,7 @@ def combine(
 
 
 def rational(residue: int, modulus: int, bound: int) -> tuple[int, int] | None:
-    """The fraction p/q with |p| ≤ bound, 0 < q ≤ bound, p ≡ q·residue, if it exists.
+    """Find the fraction p/q with |p| ≤ bound, 0 < q ≤ bound, p ≡ q·residue, if it exists.
 
     Examples
     --------
@@ -51,7 +51,7 @@ def rational(residue: int, modulus: int, bound: int) -> tuple[int, int] | None:
 
 
 def rationals(rows: Sequence[Sequence[int]], modulus: int) -> tuple[list[list[int]], int] | None:
-    """Numerators over one denominator with the given residues, or None if some entry has none.
+    """Find numerators over one denominator with the given residues; None if an entry has none.
 
     Returns
     -------
@@ -61,9 +61,9 @@ def rationals(rows: Sequence[Sequence[int]], modulus: int) -> tuple[list[list[in
 
     Notes
     -----
-    A guess until it is verified: only entries whose numerator and denominator stay below
-    √(modulus/2) are determined by their residues.  The denominators found so far are tried first,
-    since the entries of one matrix mostly share them.
+    The result must be verified: residues determine only entries whose numerator and denominator are
+    below √(modulus/2).  The denominators found so far are tried first, since the entries of one
+    matrix mostly share them.
 
     Examples
     --------

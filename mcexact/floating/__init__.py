@@ -1,5 +1,5 @@
-"""The questions of `analysis` as practice answers them, in floating point.
+"""Floating-point answers to questions of `analysis`, for comparison.
 
-Takes and gives numpy arrays of floats.  Nothing exact imports this package: its answers are shown
-beside the exact ones, never used for them.
+This stage takes and gives numpy arrays of floats.  No exact decision uses its answers, which are
+only shown beside exact ones.
 """

@@ -45,12 +45,12 @@ def controllability_rank(A: NDArray[np.float64], B: NDArray[np.float64]) -> int:
 
     Notes
     -----
-    Powers of A grow apart, so the tolerance, which is relative to the largest singular value, takes
-    directions for zero that are not.
+    The columns A^k B differ in size, so that the tolerance, which is relative to the largest
+    singular value, treats some nonzero directions as zero.
 
     Examples
     --------
-    The rank of this pair is 20; how much less is computed depends on the processor:
+    The rank of this pair is 20; the computed rank is smaller and depends on the processor:
 
     >>> controllability_rank(np.diag(np.arange(1.0, 21.0)), np.ones((20, 1))) < 20
     True
@@ -104,8 +104,8 @@ def hautus_controllable(A: NDArray[np.float64], B: NDArray[np.float64]) -> bool:
 
     Notes
     -----
-    A computed eigenvalue is not an eigenvalue: where it is a multiple one, it is off by a root of
-    the machine precision, and the rank does not drop.
+    A computed eigenvalue differs from the exact one.  For a multiple eigenvalue the error is of the
+    order of a root of the machine precision, so that the rank does not drop.
 
     Examples
     --------

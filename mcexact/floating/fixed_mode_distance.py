@@ -1,4 +1,4 @@
-"""How near a system is to having a fixed mode: an upper bound, from singular values."""
+"""An upper limit on the distance from a system to one with a fixed mode, from singular values."""
 
 from __future__ import annotations
 
@@ -17,21 +17,21 @@ _ROUNDS = 50
 
 @dataclass(frozen=True)
 class FixedModeDistance:
-    """A perturbation, in floating point, that makes one named obstruction exact.
+    """A perturbation, computed in floating point, that gives the system a fixed mode.
 
     Attributes
     ----------
     distance : float
-        The largest singular value of [ΔA; ΔC_s], or of [ΔA, ΔB_T]: an upper bound on the distance.
+        The largest singular value of [ΔA; ΔC_s], or of [ΔA, ΔB_T], an upper limit on the distance.
     mode : complex
         The fixed mode that the perturbed system has.
     channels : tuple of int
-        T, the channels that could act on it; the others, s, see nothing of it.
+        T; the outputs of the other channels, s, do not show the mode.
     changed : {"outputs", "inputs"}
         Whether A and C_s, or A and B_T, are perturbed.
     dA : ndarray, shape (n, n)
     dB, dC : sequences of ndarray
-        The perturbation itself, complex where the mode is.
+        The perturbation, which is complex if the mode is.
     """
 
     distance: float
@@ -59,8 +59,8 @@ def fixed_mode_distance(
     complement of T, (T, U) is a shrunk subspace at λ if M U = 0, M = [Π(λI − A); C_s], and U has
     rank B_T + 1 columns.  The least ‖MU‖ over orthonormal U is a singular value of M, and the
     perturbation ΔA = Π(λI − A)UUᴴ, ΔC_s = −C_sUUᴴ of this norm makes it 0.  The same for the dual
-    system.  λ goes through the computed eigenvalues and is then moved downhill; T starts from
-    few sets and changes by one channel at a time.
+    system.  The search starts at the computed eigenvalues and at a few sets T; it then descends in
+    λ and changes T by one channel at a time.
 
     Examples
     --------
@@ -88,14 +88,14 @@ def fixed_mode_distance(
 
 
 def _distinct(values: NDArray[np.complex128]) -> list[complex]:
-    """One of each conjugate pair."""
+    """Return one number of each conjugate pair."""
     return [complex(value) for value in values if value.imag >= 0]
 
 
 def _obstruction(
     A: Array, B: Sequence[Array], C: Sequence[Array], T: frozenset[int], value: complex
 ) -> tuple[NDArray[np.complex128], int]:
-    """M = [Π(λI − A); C_s] and how many columns U must have."""
+    """Return M = [Π(λI − A); C_s] and the required number of columns of U."""
     n = A.shape[0]
     inputs = np.hstack([np.zeros((n, 0)), *(B[i] for i in sorted(T))])
     basis, sizes, _ = np.linalg.svd(inputs, full_matrices=False)
@@ -120,7 +120,7 @@ def _size(
 def _best_channels(
     A: Array, B: Sequence[Array], C: Sequence[Array], value: complex
 ) -> tuple[frozenset[int], float]:
-    """The best of a few sets, then improved one channel at a time."""
+    """Find the best of a few sets T, then improve it one channel at a time."""
     T = min(few_subsets(len(B)), key=lambda each: (_size(A, B, C, each, value), sorted(each)))
     size = _size(A, B, C, T, value)
     for _ in range(_ROUNDS):
@@ -136,7 +136,7 @@ def _best_channels(
 def _downhill(
     A: Array, B: Sequence[Array], C: Sequence[Array], T: frozenset[int], value: complex
 ) -> complex:
-    """λ moved to where the singular value is least; a real one stays real."""
+    """Minimize the singular value over λ; a real λ stays real."""
     from scipy.optimize import minimize
 
     real = value.imag == 0
@@ -162,7 +162,7 @@ def _perturbation(
     value: complex,
     changed: str,
 ) -> FixedModeDistance | None:
-    """ΔA and ΔC of the system at hand, turned back if it is the dual."""
+    """Make the perturbation of the given system, which is transposed for the dual."""
     n = A.shape[0]
     M, u = _obstruction(A, B, C, T, value)
     if u > n:

@@ -1,4 +1,4 @@
-"""Fixed modes by drawing gains, rounding the closed-loop eigenvalues and intersecting."""
+"""Fixed modes by intersecting the rounded closed-loop eigenvalues of drawn gains."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def rounded_fixed_modes(
     seed: int,
     draws: int = 5,
 ) -> tuple[complex, ...]:
-    """Eigenvalues that, rounded, occur in the closed loop of every drawn gain.
+    """Find the rounded eigenvalues that occur in the closed loop of every drawn gain.
 
     Parameters
     ----------
@@ -28,23 +28,23 @@ def rounded_fixed_modes(
     digits : int
         Decimal digits to which the eigenvalues are rounded.
     seed : int
-        Of the generator that draws the gains.
+        The seed of the generator that draws the gains.
     draws : int
-        How many closed loops are intersected.
+        The number of closed loops that are intersected.
 
     Returns
     -------
     tuple of complex
-        What practice reports as the fixed modes, sorted.
+        The apparent fixed modes, sorted.
 
     Notes
     -----
     A fixed mode that is a multiple eigenvalue is computed with an error of the order of a root of
-    the machine precision, and moves from draw to draw by more than the digits kept.
+    the machine precision, so that its rounded values differ between draws.
 
     Examples
     --------
-    An uncontrollable mode at 2 is found, since it is simple:
+    A simple uncontrollable mode, here 2, is found:
 
     >>> import numpy as np
     >>> B, C = [np.array([[1.0], [0.0]])], [np.array([[1.0, 0.0]])]

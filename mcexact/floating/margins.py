@@ -1,4 +1,4 @@
-"""How robust a loop is, in floating point: figures that users need and exactness does not give."""
+"""Robustness measures of a closed loop, in floating point."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _ANGLES = 16
 
 @dataclass(frozen=True)
 class LoopMargins:
-    """Figures about the matrix of a loop, all in floating point.
+    """Robustness measures of the matrix of a closed loop, computed in floating point.
 
     Attributes
     ----------
@@ -28,10 +28,10 @@ class LoopMargins:
         eigenvalue: the abscissa or the radius.
     numerical : float
         The same for the numerical range {vᴴMv : |v| = 1}: the numerical abscissa or radius, which
-        bounds the growth of a transient from the first instant on.
+        limits the growth of transients.
     distance_to_instability : float
-        An upper bound on the least norm of a complex matrix E for which M + E is not stable; 0 if
-        M is not.
+        An upper limit on the least norm of a complex matrix E for which M + E is not stable; 0 if M
+        is not stable.
     """
 
     spectral: float
@@ -40,7 +40,7 @@ class LoopMargins:
 
 
 def loop_margins(M: Array, time: str) -> LoopMargins:
-    """Compute the figures of a loop.
+    """Compute the robustness measures of a closed loop.
 
     Parameters
     ----------
@@ -86,7 +86,7 @@ def _numerical_bound(M: Array, time: str) -> float:
 
 
 def _distance_to_instability(M: Array, time: str, eigenvalues: NDArray[np.complex128]) -> float:
-    """The least σ_min(zI − M) found on the boundary, by searches that start below eigenvalues."""
+    """Find the least σ_min(zI − M) on the boundary, by local searches from near eigenvalues."""
     from scipy.optimize import minimize_scalar
 
     discrete = is_discrete(time)
@@ -120,7 +120,7 @@ def smallest_singular_value(M: Array, z: complex) -> float:
 
     N = len(M)
     with warnings.catch_warnings():
-        # A singular matrix is an answer here: the distance is 0.
+        # A singular matrix means that the distance is 0.
         warnings.simplefilter("ignore")
         factored = lu_factor(z * np.eye(N) - M)
         if not np.all(np.diag(factored[0])):

@@ -1,4 +1,4 @@
-"""Which channels act on which, by computed transfer functions."""
+"""The transfer graph by computed transfer functions."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Array = NDArray[np.float64]
 
 
 def transfer_edges(A: Array, B: Sequence[Array], C: Sequence[Array]) -> frozenset[tuple[int, int]]:
-    """The pairs (j, i) for which `scipy.signal.ss2tf` gives a numerator that is not close to 0.
+    """Find the pairs (j, i) for which `scipy.signal.ss2tf` gives a numerator not close to 0.
 
     Parameters
     ----------
@@ -38,7 +38,7 @@ def transfer_edges(A: Array, B: Sequence[Array], C: Sequence[Array]) -> frozense
     outputs = np.vstack([np.zeros((0, A.shape[0])), *C])
     edges = set()
     with warnings.catch_warnings():
-        # Leading coefficients that are nearly 0 are told of; they are part of the answer.
+        # scipy warns of leading coefficients that are nearly 0, which are part of its answer.
         warnings.simplefilter("ignore")
         for j, B_j in enumerate(B):
             for k in range(B_j.shape[1]):

@@ -1,7 +1,7 @@
-"""The paper, reproduced: one module per section, and the ledger of its statements.
+"""Examination of every statement of the paper, with one module for each section.
 
-Takes nothing from the user, gives a finding for every statement of F. Liu, L. Wang, D. Fullmer and
-A. S. Morse, *Distributed Feedback Control of Multi-Channel Linear Systems*: what was checked, on
-which instances, with which certificates, and whether it holds.  What is proved in general is said
-by ``ledger.toml``, and only where a machine-checked theorem covers the statement.
+This stage gives a finding for every statement of F. Liu, L. Wang, D. Fullmer and A. S. Morse,
+*Distributed Feedback Control of Multi-Channel Linear Systems*: the checks, the instances, the
+certificates, and whether the statement holds.  ``ledger.toml`` lists the statements and names the
+machine-checked theorems that prove them in general.
 """

@@ -32,7 +32,7 @@ from mcexact.synthesis.decentralized import design_decentralized
 
 
 def definition(note: Notebook) -> None:
-    """Λ_fixed is what no F moves: it divides every loop's polynomial, and drawn loops share it."""
+    """No F moves Λ_fixed: its polynomial is the greatest common divisor over drawn loops."""
     numbers = Numbers(11)
     for plant in note.each(drawn_plants(8, states=4), drawn_plants(3, states=4, fixed=True)):
         found = fixed_spectrum(plant)
@@ -50,7 +50,7 @@ def definition(note: Notebook) -> None:
 
 
 def proposition_2(note: Notebook) -> None:
-    """Proposition 2: every fixed mode has its subset; for the example all six subsets are tried."""
+    """Proposition 2: a fixed mode has a subset with a rank below n; the example has six subsets."""
     for plant in note.each(drawn_plants(10, states=4, fixed=True, first=11)):
         found = fixed_spectrum(plant)
         note.check("a planted fixed mode is found", not found.empty)
@@ -108,7 +108,7 @@ def transfer(note: Notebook) -> None:
 
 
 def corfmat_morse(note: Notebook) -> None:
-    """Strongly connected and nothing fixed: some F serves every single channel."""
+    """Without fixed modes and strongly connected: some F serves each single channel."""
     for plant in note.each(plants(14)):
         whole = completeness(plant)
         found = single_channel_gains(plant)
@@ -119,7 +119,7 @@ def corfmat_morse(note: Notebook) -> None:
 
 
 def free_assignment(note: Notebook) -> None:
-    """Complete: any symmetric spectrum, through one channel controller."""
+    """For a complete system, one channel controller assigns any symmetric spectrum."""
     for name, plant in plants(6, states=2, channels=2):
         if not completeness(plant).complete:
             continue
@@ -135,7 +135,7 @@ def free_assignment(note: Notebook) -> None:
 
 
 def partition(note: Notebook) -> None:
-    """Not strongly connected: one symmetric set for each strong component."""
+    """Not strongly connected: the spectrum is one symmetric set for each strong component."""
     A = [[0, 1, 0], [0, 0, 0], [1, 0, 2]]
     B = [[[0], [1], [0]], [[0], [0], [1]]]
     C = [[[1, 0, 0]], [[0, 0, 1]]]
@@ -152,7 +152,7 @@ def partition(note: Notebook) -> None:
 
 
 def wang_davison(note: Notebook) -> None:
-    """Any rate by linear time-invariant control iff nothing is fixed."""
+    """Linear time-invariant control achieves any rate if and only if no mode is fixed."""
     for plant in note.each(
         drawn_plants(8, states=3, channels=2, first=21),
         drawn_plants(5, states=3, channels=2, fixed=True, first=21),
@@ -171,7 +171,7 @@ def wang_davison(note: Notebook) -> None:
 
 
 def example(note: Notebook) -> None:
-    """IV-B: sharing outputs alone leaves the mode 1 where it is."""
+    """IV-B: the mode 1 stays fixed when agents share outputs alone."""
     plant = three_channels()
     system = augmented_outputs(plant)
     note.on(PAPER)
@@ -200,7 +200,7 @@ def example(note: Notebook) -> None:
 
 
 def shared_outputs(note: Notebook) -> None:
-    """`mss`: agent i sees the y_j of its neighbors."""
+    """`mss`: agent i receives the outputs y_j of its neighbors."""
     numbers = Numbers(12)
     for plant in note.each(plants(10, connected=None)):
         made = augmented_outputs(plant)

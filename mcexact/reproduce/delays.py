@@ -30,7 +30,7 @@ late_drawn = partial(drawn_plants, time="discrete", longest_delay=2)
 
 
 def shifts(note: Notebook) -> None:
-    """`bunn` and `lift`: S_d moves everything by one place and forgets the last."""
+    """`bunn` and `lift`: S_d shifts the blocks by one place and drops the last."""
     for d in range(1, 6):
         note.on(f"d = {d}")
         values = Matrix.column(range(1, d + 1))
@@ -40,7 +40,7 @@ def shifts(note: Notebook) -> None:
 
 
 def lifted(note: Notebook) -> None:
-    """`emcsdd`: the lifted system is what links with delays bring."""
+    """`emcsdd`: the lifted system gives the signals that arrive over links with delays."""
     numbers = Numbers(15)
     for name, plant in plants(14, time="discrete", longest_delay=3, connected=None):
         sizes = [k % 3 for k in range(1, plant.m + 1)]
@@ -59,7 +59,7 @@ def lifted(note: Notebook) -> None:
 
 
 def held(note: Notebook) -> None:
-    """`emcsdd-hold`: everybody sees x_i(t − d_i) at the same time."""
+    """`emcsdd-hold`: all followers of i receive x_i(t − d_i) at the same time."""
     numbers = Numbers(16)
     for name, plant in plants(14, time="discrete", longest_delay=3, connected=None):
         sizes = [k % 3 for k in range(1, plant.m + 1)]
@@ -104,7 +104,7 @@ def block_ranks(note: Notebook) -> None:
 
 
 def only_zero_is_lost(note: Notebook) -> None:
-    """The lifted system is jointly observable; what is out of reach is at 0."""
+    """The lifted system is jointly observable, and its uncontrollable modes are at 0."""
     for plant in note.each(late(10)):
         made = lifted_system(plant, [1] * plant.m)
         sight, reach = joint_observability(made), joint_controllability(made)
@@ -117,7 +117,7 @@ def only_zero_is_lost(note: Notebook) -> None:
 
 
 def theorem_3(note: Notebook) -> None:
-    """Theorem 3: at Theorem 2's bound nothing but 0 is fixed."""
+    """Theorem 3: with dimensions at Theorem 2's bound, no mode except 0 is fixed."""
     for plant in note.each(
         late(8),
         late_drawn(5, fixed=True, first=71),
@@ -129,7 +129,7 @@ def theorem_3(note: Notebook) -> None:
 
 
 def theorem_3_states(note: Notebook) -> None:
-    """The same for sub-states alone, with the bound of Remark 2."""
+    """Theorem 3 for sub-states alone, with the bound of Remark 2."""
     for plant in note.each(late(8)):
         bound = shared_dimension_bound(plant, share="states")
         made = lifted_system(plant, [bound.deficiency] * plant.m, "states")
@@ -139,7 +139,7 @@ def theorem_3_states(note: Notebook) -> None:
 
 
 def corollary_2(note: Notebook) -> None:
-    """Corollary 2: a controller for late messages, of any radius, run on the links themselves."""
+    """Corollary 2: a controller achieves any radius over links with delays."""
     runs = []
     for delay in (0, 1, 2):
         plant = three_channels("discrete", delay)
@@ -162,7 +162,7 @@ def held_joint(note: Notebook) -> None:
 
 
 def outputs_lose_controllability(note: Notebook) -> None:
-    """Sending y_i under delays can leave 0 fixed; sending x_i alone and holding does not."""
+    """Sending y_i with delays can make 0 fixed; holding and sending x_i alone does not."""
     plant = three_channels("discrete", 1)
     note.on("the example of section IV-B, discrete time, delay 1 on every link")
     sent = joint_controllability(lifted_system(plant, [1, 1, 1]))
@@ -173,7 +173,7 @@ def outputs_lose_controllability(note: Notebook) -> None:
 
 
 def theorem_4(note: Notebook) -> None:
-    """Theorem 4: at Remark 2's bound nothing is fixed in the held system."""
+    """Theorem 4: with dimensions at Remark 2's bound, the held system has no fixed mode."""
     for plant in note.each(
         late(8),
         late_drawn(5, fixed=True, first=71),
@@ -200,7 +200,7 @@ def transfer_of_the_held(note: Notebook) -> None:
 
 
 def free_assignment(note: Notebook) -> None:
-    """With holding the spectrum is assigned freely in spite of delays."""
+    """With holding, the whole spectrum is freely assignable despite delays."""
     plant = three_channels("discrete", 1)
     note.on("the example of section IV-B, discrete time, delay 1 on every link")
     sizes = (1, 1, 1)

@@ -1,4 +1,4 @@
-"""Defining equations, evaluated at drawn vectors without the matrices that a construction made."""
+"""The defining equations of constructions, evaluated at drawn vectors from the plant alone."""
 
 from __future__ import annotations
 

@@ -42,7 +42,7 @@ SHARING: tuple[Share, ...] = ("outputs+states", "states")
 
 
 def still_pair() -> Instance:
-    """Two agents that hear each other, one state that either controls and sees."""
+    """Two agents that exchange messages, with one state that each controls and observes."""
     one = [[1]]
     plant = MultiChannelSystem([[0]], [one] * 2, [one] * 2)
     return "A = 0, two equal agents", plant.with_neighbors(NeighborGraph.complete(plant.names))
@@ -61,7 +61,7 @@ def two_between() -> Instance:
 
 
 def split_spectrum() -> Instance:
-    """The instance of the erratum: nothing is fixed, and the spectrum splits."""
+    """The instance of the erratum: no mode is fixed, and yet the spectrum splits."""
     e1, e2 = [[1], [0]], [[0], [1]]
     plant = MultiChannelSystem(
         [[0, 0], [0, 0]],
@@ -157,7 +157,7 @@ def falls_short(plant: MultiChannelSystem, agent: int) -> FixedSpectrum:
 
 
 def bound_reached(note: Notebook) -> None:
-    """The bound is reached for agent i iff some s has N_s∖s = {i} and the least rank."""
+    """The bound is attained for agent i iff some s has N_s∖s = {i} and the least rank."""
     plant = three_channels()
     graph, before = graph_of(plant), augmented_outputs(plant)
     note.on(PAPER)
@@ -180,9 +180,9 @@ def bound_reached(note: Notebook) -> None:
 
 
 def tightness(note: Notebook) -> None:
-    """Whether the bound is tight, which the paper leaves open: in all it is not on its own example.
+    """Whether the bound is tight, an open question of the paper; on its example it is not.
 
-    If all agents share the same, a bound of 1 is the least; a larger one need not be.
+    If all agents share equally many sub-states, a bound of 1 is least; a larger one need not be.
     """
     plant = three_channels()
     note.on(PAPER)
@@ -233,7 +233,7 @@ def every_subset_hears(note: Notebook) -> None:
             for s in (tuple(names[int(k) - 1] for k in each) for each in SUBSETS_OF_THREE)
         )
         note.check(
-            "strongly connected just when every subset hears somebody",
+            "strongly connected just when every subset receives messages from outside",
             graph.is_strongly_connected() == hears,
         )
         plant = three_channels()
@@ -242,7 +242,7 @@ def every_subset_hears(note: Notebook) -> None:
 
 
 def sub_states_needed(note: Notebook) -> None:
-    """Sub-states have to be shared iff sharing outputs leaves something fixed."""
+    """Sub-states have to be shared if and only if sharing outputs leaves a mode fixed."""
     for plant in note.each(plants(8), drawn_plants(3, fixed=True, states=4, first=44)):
         alone, least = fixed_spectrum(augmented_outputs(plant)), minimal_shared_dimensions(plant)
         note.check("some dimensions suffice", least.feasible)
@@ -292,7 +292,7 @@ def corollary_1(note: Notebook) -> None:
 
 
 def through_any_channel(note: Notebook) -> None:
-    """`sys:contr-obs-thru-q`: one list F̄ serves every channel of the extended system."""
+    """`sys:contr-obs-thru-q`: one choice of gains F̄ serves every channel of the extended system."""
     for plant in note.each(plants(5)):
         size = max(1, shared_dimension_bound(plant).deficiency)
         found = single_channel_gains(extended_system(plant, [size] * plant.m))

@@ -1,4 +1,4 @@
-"""The ledger: every statement of the paper, where it is in the code, and what is proved of it."""
+"""The ledger lists every statement of the paper with its code and its machine-checked proofs."""
 
 from __future__ import annotations
 
@@ -18,25 +18,25 @@ class Statement:
     Attributes
     ----------
     key : str
-        Its label in the paper's LaTeX source, or a word where it has none.
+        Its label in the paper's LaTeX source, or a chosen word if it has none.
     title, section : str
     kind : {"definition", "claim", "example", "numbered"}
         An equation that defines something, a claim in the text, the example of IV-B, or a numbered
         theorem, proposition, lemma, corollary or remark.
     says : str
-        What it says, in short.
+        A short version of the statement.
     code : tuple of str
-        What in this package builds or decides it.
+        The functions of this package that construct or decide it.
     certificates : tuple of str
-        The kinds of certificate that are written for it.
+        The kinds of certificates that are written for it.
     proofs : tuple of str
         Machine-checked theorems, as file.theorem in ``proofs/``.
     covers : {"all", "part", ""}
-        How much of the statement these theorems prove.
+        Whether these theorems prove the statement, a part of it, or nothing.
     part : str
-        Which part.
+        The part that is proved.
     erratum : str
-        Empty, or what had to be mended.
+        The correction of the statement, or an empty text.
     """
 
     key: str
@@ -57,7 +57,7 @@ class Statement:
         return self.covers == "all" and bool(self.proofs)
 
     def standing(self, instances: int) -> str:
-        """What is known in general, in words; never more than the ledger says.
+        """Return in words what is proved in general and what was checked on instances.
 
         Examples
         --------
@@ -91,7 +91,7 @@ def statements() -> tuple[Statement, ...]:
 
 
 def _read(row: dict[str, Any]) -> Statement:
-    """One entry of the file, its lists as tuples."""
+    """Read one entry of the file."""
     fields: dict[str, Any] = {
         name: tuple(value) if isinstance(value, list) else value for name, value in row.items()
     }
@@ -99,7 +99,7 @@ def _read(row: dict[str, Any]) -> Statement:
 
 
 def statement(key: str) -> Statement:
-    """The statement of this key.
+    """Return the statement with a key.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""What statements are checked on: the paper's own data, named plants, drawn plants with a seed."""
+"""The instances on which statements are checked: the paper's data, named plants, drawn plants."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def three_channels(time: str = "continuous", delay: int = 0) -> MultiChannelSyst
     ----------
     time : {"continuous", "discrete"}
     delay : int
-        On every link.
+        The delay of every link.
 
     Examples
     --------
@@ -64,12 +64,12 @@ def drawn_plants(
     ----------
     count : int
     states, channels : int
-        The largest; every second plant has one less of each.
+        The largest numbers of states and channels; every second plant has one less of each.
     time : {"continuous", "discrete"}
     fixed : bool
         Whether a fixed mode is planted.
     longest_delay : int
-        On the links.
+        The largest delay of a link.
     connected : bool or None
         Whether the neighbor graph is strongly connected; None for any.
     first : int
@@ -103,7 +103,7 @@ def graph_of(plant: MultiChannelSystem) -> NeighborGraph:
 
 
 class Numbers:
-    """Small integers from a seed: vectors and gains to evaluate equations at.
+    """A source of small integers: vectors and gains at which equations are evaluated.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What is written down while a statement is checked: instances, checks, certificates, pictures."""
+"""The records of checking one statement: instances, checks, certificates and pictures."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ class Check:
     Attributes
     ----------
     text : str
-        What was compared, in words.
+        The compared property, in words.
     instance : str
-        On what.
+        The instance that was checked.
     holds : bool
     """
 
@@ -35,17 +35,17 @@ class Check:
 
 @dataclass(frozen=True)
 class CheckedCertificate:
-    """A certificate that was written, encoded, and read again by the independent checker.
+    """A certificate that was encoded and verified by the independent checker.
 
     Attributes
     ----------
     name : str
-        Of its file, without the folder.
+        The name of its file, without the folder.
     kind, instance : str
     text : str
         The document.
     verdict, theorem : str
-        What the checker said.
+        The checker's verdict and the statement that it verified.
     """
 
     name: str
@@ -63,7 +63,7 @@ class Notebook:
     Attributes
     ----------
     key : str
-        Of the statement in the ledger.
+        The key of the statement in the ledger.
     here : str
         What the next entries are about.
     instances : list of str
@@ -83,7 +83,7 @@ class Notebook:
     broken: str = ""
 
     def on(self, instance: str) -> None:
-        """Say what the next entries are about."""
+        """Name the instance of the next entries."""
         self.here = instance
         if instance not in self.instances:
             self.instances.append(instance)
@@ -99,11 +99,11 @@ class Notebook:
         return map(self.at, chain.from_iterable(groups))
 
     def check(self, text: str, holds: bool) -> None:
-        """Write down whether something holds."""
+        """Record whether a property holds."""
         self.checks.append(Check(text, self.here, bool(holds)))
 
     def certify(self, *answers: Answer) -> None:
-        """Have the independent checker read the certificates of these answers."""
+        """Record answers as certificates, verified by the independent checker."""
         for made in answers:
             text = codec.encode(made)
             said = check_document(text.encode("ascii"))
@@ -130,7 +130,7 @@ class Notebook:
             return self.broken
         for check in self.checks:
             if not check.holds:
-                return f"{check.instance}: it is not so that {check.text}"
+                return f"{check.instance}: this check failed: {check.text}"
         for made in self.certificates:
             if made.verdict != "VALID":
                 return f"{made.instance}: the certificate {made.name}: {made.theorem}"
@@ -146,13 +146,13 @@ Procedure = Callable[[Notebook], None]
 
 
 def examined(key: str, procedure: Procedure) -> Notebook:
-    """Run the procedure of one statement; an error is a statement that does not hold.
+    """Run the procedure of one statement; after an error, the statement does not hold.
 
     Parameters
     ----------
     key : str
     procedure : callable
-        Writes into the notebook that it gets.
+        The function that fills the notebook it is given.
     """
     notebook = Notebook(key)
     try:

@@ -44,13 +44,13 @@ def zeros(plant: MultiChannelSystem) -> list[Matrix]:
 
 @cache
 def small() -> tuple[Instance, ...]:
-    """The example, and plants small enough for an exact design in a moment."""
+    """The example, and plants that are small enough for quick exact designs."""
     return tuple(plants(2, states=2, channels=2))
 
 
 @cache
 def designed(name: str) -> Design:
-    """An observer for one of the small plants: feedback from −1, errors from −2 on."""
+    """Design an observer for a small plant: feedback spectrum −1, …, error spectrum −2, …."""
     plant = dict(small())[name]
     size = plant.n * plant.m + plant.m - 1
     wanted = {
@@ -88,7 +88,7 @@ def almost_any_choice(note: Notebook) -> None:
     """II-B: some K̃_i, H̃_ij make `ppe1` controllable and observable through channel q."""
     for plant in note.each(plants(5)):
         found = single_channel_gains(error_system(plant, zeros(plant)))
-        note.check("one list serves every q", found.exists)
+        note.check("one choice of gains serves every q", found.exists)
         note.certify(found)
 
 
@@ -136,7 +136,7 @@ def proposition_1(note: Notebook) -> None:
     for plant in note.each(plants(8)):
         F = numbers.feedbacks(plant)
         found = single_channel_gains(error_system(plant, F), want="both", index=plant.m)
-        note.check("one list serves every q", found.exists)
+        note.check("one choice of gains serves every q", found.exists)
         note.check(
             "with controllability index m",
             found.indices is not None and all(each[0] == plant.m for each in found.indices),
@@ -176,7 +176,7 @@ def _show_example(note: Notebook) -> None:
 
 
 def remark_1(note: Notebook) -> None:
-    """Remark 1: designed in one place, run in m: programs use nothing but what links bring."""
+    """Remark 1: the design is central, and programs use only signals that their agents receive."""
     for name, plant in small():
         note.on(name)
         controller = designed(name).controller
@@ -252,7 +252,7 @@ def lemma_2(note: Notebook) -> None:
 
 
 def lemma_3(note: Notebook) -> None:
-    """Lemma 3: finitely many g are exceptional, and all of them are known."""
+    """Lemma 3: all exceptional values g are found, and there are finitely many."""
     numbers = Numbers(9)
     for seed, (n, r) in enumerate(((2, 1), (3, 1), (3, 2), (4, 2))):
         note.on(f"drawn pair, seed {seed}: n={n}, r={r}")
@@ -301,7 +301,7 @@ def lemma_4(note: Notebook) -> None:
 
 
 def prescribed_rate(note: Notebook) -> None:
-    """II, Construction: any rate; in discrete time any radius, with the same steps."""
+    """II, Construction: a design achieves any rate, and in discrete time any radius."""
     chosen = [*drawn_plants(1, states=2, channels=2)]
     chosen += [*drawn_plants(1, states=2, channels=2, time="discrete", first=4)]
     for name, plant in chosen:
@@ -318,7 +318,7 @@ def prescribed_rate(note: Notebook) -> None:
 
 
 def _in_floating_point(note: Notebook) -> None:
-    """A design in floating point meets its rate, exactly certified; its spectrum in discs."""
+    """A floating-point design meets its rate, certified exactly; discs enclose its spectrum."""
     plant = three_channels()
     note.on(f"{PAPER}, designed in floating point")
     design = design_observer(plant, rate=1, arithmetic="float")

@@ -32,7 +32,7 @@ def reproduction_page(found: Reproduction) -> str:
 
 
 def answer(found: Reproduction) -> list[str]:
-    """What came out, in plain words."""
+    """The results in plain words."""
     rows = found.rows
     certificates = [made for row in rows for made in row.finding.certificates]
     valid = sum(made.verdict == "VALID" for made in certificates)
@@ -68,7 +68,7 @@ def answer(found: Reproduction) -> list[str]:
 
 
 def _shown(row: Row) -> dict[str, Any]:
-    """What the page needs of a row."""
+    """The data of a row that the page shows."""
     said, finding = row.statement, row.finding
     sample = next((made for made in finding.certificates if len(made.text) < _LARGEST_SAMPLE), None)
     return {
@@ -139,5 +139,5 @@ _SYMBOLS = {
 
 
 def _typeset(text: str) -> str:
-    """Escaped, with the few symbols of the titles as mathematics."""
+    """Escape a text for LaTeX; the mathematical symbols in titles become formulas."""
     return "".join(_SYMBOLS.get(character, escaped(character)) for character in text)

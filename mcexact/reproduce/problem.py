@@ -1,4 +1,4 @@
-"""Section I: multi-channel systems, neighbor graphs, and what the paper assumes."""
+"""Section I: multi-channel systems, neighbor graphs, and the paper's assumptions."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def continuous(note: Notebook) -> None:
 
 
 def discrete(note: Notebook) -> None:
-    """Equation (2): the same, run by one agent for each channel."""
+    """Equation (2): one agent for each channel gives the same closed loop."""
     numbers = Numbers(2)
     for plant in note.each(plants(10, time="discrete")):
         gains = numbers.gains(plant)
@@ -58,7 +58,7 @@ def assumptions(note: Notebook) -> None:
 
 
 def neighbor_sets(note: Notebook) -> None:
-    """Agent i hears j on an edge j → i, and itself."""
+    """Agent i receives messages of j if and only if j → i is an edge; N_i contains i."""
     for plant in note.each(plants(10, connected=None)):
         graph = graph_of(plant)
         own = all(i in graph.neighborhood(i) for i in range(plant.m))

@@ -1,4 +1,4 @@
-"""The run: every statement examined, section by section, and what came out."""
+"""`reproduce` examines every statement of the paper, section by section."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class Row:
 
 @dataclass(frozen=True)
 class Reproduction:
-    """All rows, in the order of the ledger.
+    """The findings on statements of the paper, in the order of the ledger.
 
     Attributes
     ----------
@@ -49,31 +49,31 @@ class Reproduction:
 
     @property
     def holds(self) -> bool:
-        """Whether every row does."""
+        """Whether every statement holds."""
         return all(row.finding.holds for row in self.rows)
 
     @property
     def failures(self) -> tuple[Row, ...]:
-        """The rows that do not hold."""
+        """The rows of statements that do not hold."""
         return tuple(row for row in self.rows if not row.finding.holds)
 
     def certificates(self) -> dict[str, str]:
-        """The certificates under the names of their files."""
+        """The texts of all certificates, keyed by file names."""
         return {made.name: made.text for row in self.rows for made in row.finding.certificates}
 
 
 def procedures() -> dict[str, Procedure]:
-    """What examines each statement, by its key."""
+    """The procedures that examine statements, keyed by statement."""
     return {key: made for _, section in SECTIONS for key, made in section.items()}
 
 
 def chosen(wanted: Iterable[str]) -> tuple[str, ...]:
-    """The keys that are meant: keys or titles of the ledger; all of them if none is named.
+    """Return the keys for some keys or titles of the ledger; all keys if none is given.
 
     Raises
     ------
     UsageError
-        If there is no such statement.
+        If the ledger has no such statement.
 
     Examples
     --------
@@ -93,12 +93,12 @@ def chosen(wanted: Iterable[str]) -> tuple[str, ...]:
 
 
 def examine(section: int, keys: tuple[str, ...]) -> tuple[Notebook, ...]:
-    """Examine the statements of one section that are among the keys."""
+    """Examine the statements of one section whose keys are given."""
     return tuple(examined(key, made) for key, made in SECTIONS[section][1].items() if key in keys)
 
 
 def assembled(findings: Iterable[Notebook]) -> Reproduction:
-    """The findings beside their statements, in the order of the ledger."""
+    """Join findings with their statements, in the order of the ledger."""
     by_key = {finding.key: finding for finding in findings}
     return Reproduction(
         tuple(Row(each, by_key[each.key]) for each in statements() if each.key in by_key)

@@ -87,7 +87,7 @@ def any_stabilizing_control(note: Notebook) -> None:
 
 
 def always_observable(note: Notebook) -> None:
-    """`ober`: joint observability through the w_i needs nothing but that of the plant."""
+    """`ober`: the plant with integrators is jointly observable if the plant is."""
     for plant in note.each(plants(8), (washed_out(), hidden_zero())):
         found = joint_observability(setpoint_system(plant))
         note.check("jointly observable through the w_i", found.controllable)
@@ -95,7 +95,7 @@ def always_observable(note: Notebook) -> None:
 
 
 def only_zero_matters(note: Notebook) -> None:
-    """`thy` holds at every s ≠ 0."""
+    """`thy` holds at every s ≠ 0: uncontrollable modes are at 0."""
     for plant in note.each(plants(8), (washed_out(), hidden_zero())):
         found = joint_controllability(setpoint_system(plant))
         lost = found.uncontrollable_polynomial
@@ -119,7 +119,7 @@ def condition(note: Notebook) -> None:
 
 
 def determinant_at_zero(note: Notebook) -> None:
-    """Square, 0 ∉ σ(A): `gnd` iff det C A⁻¹ B ≠ 0.  With a pole at 0 the instance refutes it."""
+    """If G is square and 0 ∉ σ(A), `gnd` iff det C A⁻¹ B ≠ 0; refuted for a pole at 0."""
     for plant in note.each((two_channels(), washed_out())):
         B, C = plant.input_matrix(), plant.output_matrix()
         inside = solve(plant.A, B)

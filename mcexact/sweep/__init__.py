@@ -1,14 +1,14 @@
-"""Stage 6: the same questions about many systems, over any ``concurrent.futures`` executor.
+"""The same questions about many systems, over any ``concurrent.futures`` executor.
 
-Takes system files, systems and draws; gives one record for each, as they are finished, and keeps
-them in a file from which an interrupted sweep goes on.  What crosses a process is text, and every
-certificate that comes back is checked here before its claim is believed.
+This stage takes system files, systems and draws, and gives one record for each as it is finished.
+A file of records lets an interrupted sweep resume.  Processes exchange texts only, and the
+receiving process verifies every certificate before it uses the claim.
 
 =============  ====================================================================
-`questions`    what can be asked
-`jobs`         one system and what is asked about it: decided in any process
-`records`      what was found, and the file that keeps it
-`workers`      processes that may die
+`questions`    the questions of a sweep
+`jobs`         one system with its questions, decided in any process
+`records`      the answers about a system, and the file of records
+`workers`      processes, which may die
 `run`          `sweep` itself
 =============  ====================================================================
 """

@@ -1,4 +1,4 @@
-"""One system and what is asked about it: plain data in, plain data out, in any process."""
+"""A system with its questions, decided from plain data to plain data in any process."""
 
 from __future__ import annotations
 
@@ -21,22 +21,22 @@ from mcexact.sweep.questions import QUESTIONS
 Source = str | os.PathLike[str] | MultiChannelSystem | Draw
 Reader = Callable[[str | os.PathLike[str], Limits], bytes]
 Outcome = dict[str, Any]
-"""Plain data that `decide` returns: what was decided, or why nothing was."""
+"""The plain data that `decide` returns: the answers, or the error that prevented them."""
 
 
 @dataclass(frozen=True)
 class Job:
-    """A system and what is asked about it.
+    """A system with the questions about it.
 
     Attributes
     ----------
     name : str
-        What the record calls it: the path, the system's name, or its seed.
+        The name in the record: the path, the system's name, or the seed.
     source : bytes or Draw
-        The text of a system file, or what to draw.
+        The text of a system file, or the description of a draw.
     questions : tuple of str
     limits : Limits
-        What the file may ask for.
+        The limits on the system file.
     """
 
     name: str
@@ -45,12 +45,12 @@ class Job:
     limits: Limits = DEFAULT_LIMITS
 
     def key(self) -> str:
-        """A hash of the source and the questions: equal jobs have equal answers."""
+        """A hash of the source and the questions; jobs with equal hashes have equal answers."""
         source = asdict(self.source) if isinstance(self.source, Draw) else _hash(self.source)
         return _hash(canonical([source, list(self.questions)]).encode("ascii"))
 
     def system(self) -> MultiChannelSystem:
-        """Read it, or draw it.
+        """Read or draw the system.
 
         Raises
         ------
@@ -69,14 +69,14 @@ def _hash(data: bytes) -> str:
 def job(
     source: Source, number: int, questions: tuple[str, ...], limits: Limits, read: Reader
 ) -> Job:
-    """The job for one entry of a sweep.
+    """Make the job for one entry of a sweep.
 
     Raises
     ------
     InputError, LimitReached
         If a file cannot be read.
     UsageError
-        If the entry is nothing that names a system.
+        If the entry is not a path, a system or a draw.
     """
     if isinstance(source, Draw):
         return Job(f"seed {source.seed}", source, questions, limits)
@@ -91,13 +91,13 @@ def job(
 
 
 def decide(job: Job) -> Outcome:
-    """Decide everything that is asked about one system.
+    """Decide all questions about one system.
 
     Returns
     -------
     dict
-        ``system`` {n, m, time}, ``digest``, ``seconds`` and ``certificates``, the text for each
-        question; or the ``error`` that it ended with, of whatever kind.
+        ``system`` {n, m, time}, ``digest``, ``seconds`` and ``certificates``, one text for each
+        question; or the ``error`` that ended the work.
     """
     start = time.perf_counter()
     try:
@@ -114,9 +114,9 @@ def decide(job: Job) -> Outcome:
 
 
 def failure(error: BaseException) -> Outcome:
-    """What is kept of an error: the exit status that it stands for, and its message.
+    """Return the exit status and the message of an error.
 
-    ``other_format`` says that the file is, by its own word, no system file.
+    ``other_format`` says that the file's key ``format`` names another format.
     """
     if isinstance(error, McexactError):
         kept: dict[str, Any] = {"status": error.exit_status, "message": str(error)}
@@ -128,7 +128,7 @@ def failure(error: BaseException) -> Outcome:
 def entries(
     sources: Iterable[Source], questions: tuple[str, ...], limits: Limits, read: Reader
 ) -> Iterable[tuple[int, str, Job | McexactError]]:
-    """Number, name and job of every entry, made when it is asked for; or why there is none."""
+    """Yield number, name and job of every entry, or the error instead of the job."""
     for number, source in enumerate(sources):
         try:
             made: Job | McexactError = job(source, number, questions, limits, read)

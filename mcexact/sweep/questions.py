@@ -1,4 +1,4 @@
-"""What a sweep can ask about every system."""
+"""The questions that a sweep can ask about every system."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from mcexact.errors import UsageError
 QUESTIONS = {
     name: question for name, question in ALL.items() if question.unbidden and not question.needs
 }
-"""Those of `mcexact.analysis.questions` that need nothing but the plant, and are cheap."""
+"""The questions of `mcexact.analysis.questions` that need the plant alone and are cheap."""
 
 
 def chosen(names: Iterable[str]) -> tuple[str, ...]:
-    """The questions of these names, each once, in the order of the table.
+    """Return the questions with some names, each once, in the order of the table.
 
     Raises
     ------
     UsageError
-        If there is none, or no question of a name.
+        If no name is given, or a name is not a question.
     """
     asked = {names} if isinstance(names, str) else set(names)
     unknown = sorted(asked - set(QUESTIONS))
@@ -31,14 +31,14 @@ def chosen(names: Iterable[str]) -> tuple[str, ...]:
 
 
 def answered(name: str, certificate: Mapping[str, Any]) -> bool:
-    """Whether a certificate is an answer to this question: by its kind, subject and channels.
+    """Whether a certificate answers a question, according to its kind, subject and channels.
 
     Parameters
     ----------
     name : str
         A question.
     certificate : mapping
-        A document that the checker has found VALID.
+        The document of a certificate that the checker found VALID.
     """
     question = QUESTIONS[name]
     subject = [{"construction": "dual"}] if question.dual else []

@@ -1,4 +1,4 @@
-"""What was found about every system, and the file that keeps it, a line each."""
+"""Records of the answers about systems, and the file that keeps them, one line for each."""
 
 from __future__ import annotations
 
@@ -14,32 +14,32 @@ from mcexact.errors import InputError, UsageError
 from mcexact.model.canonical import canonical
 
 FORMAT = "mcexact-sweep/1"
-_AGAIN = (4, 70)  # a limit, a failure: another run may end otherwise
+_AGAIN = (4, 70)  # another run may succeed after a limit or a failure
 
 
 @dataclass(frozen=True)
 class Record:
-    """What was found about one system.
+    """The answers about one system.
 
     Attributes
     ----------
     number : int
-        The place of the system in the sweep, from 0.
+        The position of the system in the sweep, from 0.
     name : str
     key : str
         The hash of the system's source and of the questions; empty if the source cannot be read.
     system : mapping or None
         ``n``, ``m`` and ``time``.
     digest : str
-        Of the system; empty where there is an error.
+        The digest of the system; empty if there is an error.
     answers : mapping from questions to mappings
-        ``claim``, as in the certificate, and ``theorem``, what the checker read there.
+        ``claim``, as in the certificate, and ``theorem``, the statement that the checker verified.
     seconds : float or None
-        What deciding took, with the certificates.
+        The time for deciding and for making certificates.
     error : mapping or None
-        ``status``, an exit status, and ``message``; ``other_format`` for what is no system file.
+        ``status``, an exit status, and ``message``; ``other_format`` for a file of another format.
     certificates : mapping from questions to texts
-        Checked; not kept in the file, and empty for a record that was read from one.
+        The verified certificates.  The file does not keep them, so a record read from it has none.
     """
 
     number: int
@@ -54,11 +54,11 @@ class Record:
 
     @property
     def final(self) -> bool:
-        """Whether another run would find the same: no limit was reached, nothing failed."""
+        """Whether another run would find the same: no limit was reached and nothing failed."""
         return self.error is None or self.error["status"] not in _AGAIN
 
     def document(self) -> dict[str, Any]:
-        """Plain data: the line of the file."""
+        """Return the record as plain data, as in the file."""
         kept = {"format": FORMAT, "number": self.number, "name": self.name, "key": self.key}
         if self.error is not None:
             return kept | {"error": dict(self.error)}
@@ -71,12 +71,12 @@ class Record:
 
 
 def read_records(path: str | os.PathLike[str]) -> dict[str, Record]:
-    """The records of a file by their keys, the last of each key; none if there is no such file.
+    """Read the last record of each key from a file; a missing file has no records.
 
     Raises
     ------
     InputError
-        If it cannot be read, or is no file of records.
+        If it cannot be read, or is not a file of records.
     """
     try:
         with open(path, "rb") as stream:
@@ -90,7 +90,7 @@ def read_records(path: str | os.PathLike[str]) -> dict[str, Record]:
 
 
 def _records(data: bytes, place: str) -> Iterator[tuple[str, Record]]:
-    """Every whole line; what follows the last line feed was being written when a sweep ended."""
+    """Yield every complete line; an interrupted sweep may leave an incomplete last line."""
     for k, line in enumerate(data.split(b"\n")[:-1]):
         try:
             document = json.loads(line)
@@ -102,25 +102,25 @@ def _records(data: bytes, place: str) -> Iterator[tuple[str, Record]]:
                 raise ValueError
         except (ValueError, TypeError, KeyError, AttributeError):
             raise InputError(
-                f"expected a record of {FORMAT}; name a new file, or one that a sweep has written",
+                f"expected a record of {FORMAT}; name a new file, or one that a sweep wrote",
                 where=f"{place}: line {k + 1}",
             ) from None
         yield record.key, record
 
 
 class RecordFile:
-    """A file of records that is only ever added to, by one sweep at a time.
+    """A file to which one sweep at a time appends records.
 
     Parameters
     ----------
     path : path
-        Made if it is missing.  Half a line at its end, which an interrupted sweep leaves behind,
-        is taken off.
+        The file is made if it is missing.  An incomplete last line of an interrupted sweep is
+        removed.
 
     Raises
     ------
     InputError
-        If it cannot be read or written, or is no file of records.
+        If it cannot be read or written, or is not a file of records.
     UsageError
         If another sweep is writing it.
     """
@@ -144,7 +144,7 @@ class RecordFile:
             raise
 
     def add(self, record: Record) -> None:
-        """Append a record, whole."""
+        """Append a record as one complete line."""
         line = canonical(record.document()).encode("ascii") + b"\n"
         try:
             self._stream.write(line)
@@ -155,22 +155,22 @@ class RecordFile:
         return InputError(f"cannot be written: {error.strerror or error}", where=self.path)
 
     def close(self) -> None:
-        """Let others have it."""
+        """Close the file and release its lock."""
         self._stream.close()
 
 
 def _whole_lines(path: str) -> int:
-    """The number of bytes up to the last line feed."""
+    """Return the number of bytes up to the last line feed."""
     with open(path, "rb") as stream:
         return stream.read().rfind(b"\n") + 1
 
 
 def _lock(stream: FileIO, path: str) -> None:
-    """Refuse a file that another sweep is writing, where the system can tell."""
+    """Lock the file; a file that another sweep has locked is refused."""
     with contextlib.suppress(ImportError):
         import fcntl
 
         try:
             fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
-            raise UsageError("another sweep is writing to it", where=path) from None
+            raise UsageError("another sweep is writing to this file", where=path) from None

@@ -1,4 +1,4 @@
-"""The sweep: hand out jobs, take back certificates, check them, keep the records."""
+"""`sweep` distributes jobs, verifies the certificates that come back, and keeps the records."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from mcexact.sweep.questions import answered, chosen
 from mcexact.sweep.records import Record, RecordFile
 from mcexact.sweep.workers import Workers, alone
 
-_AHEAD = 2  # jobs that wait for each process, so that none waits for a job
+_AHEAD = 2  # jobs queued for each process, so that no process is idle
 
 
 def sweep(
@@ -38,41 +38,42 @@ def sweep(
     Parameters
     ----------
     sources : iterable
-        Paths of system files, `MultiChannelSystem`, `Draw`; taken one by one as there is room.
+        Paths of system files, `MultiChannelSystem`, `Draw`; consumed as processes become free.
     questions : iterable of str
-        Names out of ``QUESTIONS``.
+        Names in ``QUESTIONS``.
     results : path, optional
-        A file that keeps every record as soon as it is there.  What it holds already is not done
-        again, unless it ended at a limit or by a failure.
+        A file to which every record is appended when it is finished.  Systems with a record in it
+        are skipped, unless the record says that a limit or a failure ended the work.
     executor : concurrent.futures.Executor, optional
-        Where to decide; by default in processes of our own.
+        The executor that decides; by default processes that the sweep starts.
     workers : int
-        How many processes, or how many jobs the executor is given at once, two for each.
+        The number of processes, or half the number of jobs submitted to the executor at once.
     limits : Limits, optional
-        What the files may ask for.
+        The limits on the system files.
     read : callable, optional
-        Reads a file as `read_bytes` does, perhaps with a limit on the time that this may take.
+        A replacement for `read_bytes`, for example with a time limit.
     work : callable, optional
-        Does what `decide` does, somewhere else or with limits.
+        A replacement for `decide`, for example with limits.
 
     Yields
     ------
     Record
-        As they are finished.  An error of one system is in its record and stops nothing.
+        The records as they are finished.  An error with one system is in its record; the sweep
+        continues.
 
     Raises
     ------
     UsageError
-        If questions, executor or workers make no sense; and, when the first record is asked for,
-        if another sweep is writing ``results``.
+        If questions, executor or workers are invalid; and, when the first record is requested, if
+        another sweep is writing ``results``.
     InputError
-        If ``results`` cannot be used, when the first record is asked for.
+        If ``results`` cannot be used, when the first record is requested.
 
     Notes
     -----
-    A certificate that comes back is checked in this process by the independent checker, and must
-    be about the system of the job, which this process reads again; for a draw that is left out.
-    A job whose process dies is done once more in a fresh process of its own.
+    The independent checker verifies each certificate in this process.  It must be about the system
+    of the job, which this process reads again; only for draws this is not compared.  A job whose
+    process dies is repeated once in a new process.
 
     Examples
     --------
@@ -92,7 +93,7 @@ def _swept(
     results: str | os.PathLike[str] | None,
     work: Callable[[Job], Outcome],
 ) -> Iterator[Record]:
-    """Every record, kept before it is handed on; at the end or at an exception all is let go."""
+    """Yield every record after it is kept; at the end, files and processes are closed."""
     kept = None if results is None else RecordFile(results)
     known = {} if kept is None else kept.known
     try:
@@ -109,7 +110,7 @@ def _swept(
 def _open(
     jobs: Iterable[tuple[int, str, Job | McexactError]], known: dict[str, Record]
 ) -> Iterator[tuple[int, Job] | tuple[Record, bool]]:
-    """The jobs that are still to be done; of the others the records, and whether they are new."""
+    """Separate the jobs to be done from finished ones, whose records are yielded."""
     for number, name, job in jobs:
         if not isinstance(job, Job):
             yield Record(number, name, "", error=failure(job)["error"]), True
@@ -126,7 +127,7 @@ def _finished(
     team: Workers,
     work: Callable[[Job], Outcome],
 ) -> Iterator[tuple[Record, bool]]:
-    """The records as they come, and whether they are new; no more jobs wait than the team needs."""
+    """Yield records, and whether they are new, with only as many jobs queued as the team needs."""
     waiting: dict[Future[Outcome], tuple[int, Job]] = {}
     more = True
     while more or waiting:
@@ -155,18 +156,18 @@ def _finished(
 
 
 def _once_more(job: Job, work: Callable[[Job], Outcome]) -> Outcome:
-    """A job whose process died, or that was waiting when another's did, in a process of its own."""
+    """Repeat a job, whose process died or that was queued then, in a process of its own."""
     try:
         outcome: Outcome = alone(work, job)
     except BrokenExecutor:
-        return failure(InternalError("the process that decided it died, twice"))
+        return failure(InternalError("the process died twice while deciding"))
     except Exception as error:
         return failure(error)
     return outcome
 
 
 def _believed(number: int, job: Job, outcome: Outcome) -> Record:
-    """The record of a job, every certificate checked."""
+    """Make the record of a job after verifying every certificate."""
     key = job.key()
     if "error" in outcome:
         return Record(number, job.name, key, error=outcome["error"])
@@ -176,7 +177,7 @@ def _believed(number: int, job: Job, outcome: Outcome) -> Record:
             name: _checked(name, text, expected) for name, text in outcome["certificates"].items()
         }
         if tuple(answers) != job.questions:
-            raise InternalError("the answers are not those to the questions")
+            raise InternalError("the answers do not belong to the questions")
     except McexactError as error:
         return Record(number, job.name, key, error=failure(error)["error"])
     return Record(
@@ -192,12 +193,12 @@ def _believed(number: int, job: Job, outcome: Outcome) -> Record:
 
 
 def _checked(name: str, text: str, expected: str) -> dict[str, Any]:
-    """The claim of a certificate and the theorem that the checker read in it.
+    """Return the claim of a certificate and the statement that the checker verified.
 
     Raises
     ------
     InternalError
-        If the checker does not say VALID of it, about this system, or it answers something else.
+        If the certificate is not VALID for this system, or does not answer the question.
     """
     verdict = check_document(text.encode("ascii"), expected)
     if verdict.verdict != "VALID":

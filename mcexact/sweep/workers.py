@@ -1,4 +1,4 @@
-"""Processes that may die: a job that was lost with one gets a fresh process, once."""
+"""Worker processes, which may die: a job lost with one is repeated once in a new process."""
 
 from __future__ import annotations
 
@@ -17,19 +17,19 @@ _MOST = 256
 
 
 class Workers:
-    """An executor of our own, made when it is needed and again when it is broken, or a given one.
+    """A given executor, or one that is made when it is needed and replaced when it breaks.
 
     Parameters
     ----------
     executor : concurrent.futures.Executor, optional
-        It stays open when the sweep is done.
+        A given executor is not shut down after the sweep.
     count : int
-        How many processes; of a given executor, how many jobs it gets at once.
+        The number of processes; for a given executor, half the number of jobs it gets at once.
 
     Raises
     ------
     UsageError
-        If the executor is none, or the count is not a number of processes.
+        If the executor is not an executor, or the count is out of range.
     """
 
     def __init__(self, executor: Executor | None, count: int) -> None:
@@ -46,12 +46,12 @@ class Workers:
         self._own: ProcessPoolExecutor | None = None
 
     def submit(self, work: Callable[..., Any], *arguments: Any) -> Future[Any]:
-        """Hand over one call.
+        """Submit one call.
 
         Raises
         ------
         BrokenExecutor
-            If an executor that was given has lost its processes.
+            If a given executor has lost its processes.
         """
         if self._given is not None:
             return self._given.submit(work, *arguments)
@@ -65,7 +65,7 @@ class Workers:
             return self._own.submit(work, *arguments)
 
     def end(self) -> None:
-        """End our own processes, whatever they are doing."""
+        """End the processes that this team started, even while they work."""
         if self._own is None:
             return
         pool, self._own = self._own, None
@@ -76,7 +76,7 @@ class Workers:
 
 
 def alone(work: Callable[..., Any], *arguments: Any) -> Any:
-    """Call a function in a fresh process.
+    """Call a function in a new process.
 
     Raises
     ------
@@ -97,7 +97,7 @@ def _pool(count: int) -> ProcessPoolExecutor:
 
 
 def _prepare() -> None:
-    """In a worker: the parent hears an interrupt, and workers share the processors evenly."""
+    """Set up a worker: only the parent handles interrupts, and each worker uses one thread."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     end_with_parent()
@@ -106,7 +106,7 @@ def _prepare() -> None:
 
 
 def end_with_parent() -> None:
-    """Ask the kernel, where it can, to end this process when its parent is gone."""
+    """Ask the kernel, if it supports this, to end this process when its parent ends."""
     if sys.platform == "linux":
         import ctypes
 

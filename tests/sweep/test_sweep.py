@@ -196,7 +196,7 @@ def test_a_job_that_was_lost_by_accident_is_done_once_more(tmp_path: Path) -> No
     [
         (answer_about_another, "not accepted"),
         (answer_falsely, "not accepted"),
-        (answer_something_else, "not those to the questions"),
+        (answer_something_else, "do not belong to the questions"),
     ],
     ids=["another system", "a false claim", "another question"],
 )

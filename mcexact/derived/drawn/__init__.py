@@ -1,1 +1,1 @@
-"""Systems and graphs of known structure, drawn from a seed or by whoever else can choose."""
+"""Systems and graphs of known structure, drawn from a seed or another source of choices."""

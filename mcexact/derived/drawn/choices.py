@@ -1,4 +1,4 @@
-"""Where drawn systems get their choices from: a seed, or whoever else can choose."""
+"""Sources of the choices from which systems are drawn, such as a seed."""
 
 from __future__ import annotations
 
@@ -12,21 +12,21 @@ T = TypeVar("T")
 class Choices(Protocol):
     """A source of choices.
 
-    Implementations should make small numbers and early options the simple ones, so that a search
-    for a simple example goes there.
+    Small numbers and early options should give simple systems, since a search for a simple example
+    prefers these.
     """
 
     def integer(self, low: int, high: int) -> int:
-        """An integer from ``low`` to ``high``, both included."""
+        """Draw an integer from ``low`` to ``high``, both included."""
         ...  # pragma: no cover
 
     def option(self, options: Sequence[T]) -> T:
-        """One of the options."""
+        """Draw one of the options."""
         ...  # pragma: no cover
 
 
 class SeededChoices:
-    """Choices from a seed: the same seed makes the same choices.
+    """Pseudorandom choices, which are determined by a seed.
 
     Parameters
     ----------
@@ -43,15 +43,15 @@ class SeededChoices:
         self._random = random.Random(seed)
 
     def integer(self, low: int, high: int) -> int:
-        """An integer from ``low`` to ``high``, both included, uniformly."""
+        """Draw an integer from ``low`` to ``high``, both included, uniformly."""
         return self._random.randint(low, high)
 
     def option(self, options: Sequence[T]) -> T:
-        """One of the options, uniformly."""
+        """Draw one of the options uniformly."""
         return options[self._random.randrange(len(options))]
 
 
 def shuffled(choices: Choices, items: Sequence[T]) -> list[T]:
-    """The items in a drawn order; the simplest choices keep the order."""
+    """Draw a permutation of the items; the simplest choices keep their order."""
     rest = list(items)
     return [rest.pop(choices.integer(0, len(rest) - 1)) for _ in items]

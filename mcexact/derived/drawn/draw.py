@@ -1,4 +1,4 @@
-"""A system named by its seed."""
+"""Systems that are determined by a seed and a few sizes."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from mcexact.exact.location import Time
 from mcexact.exact.rational import DEFAULT_LIMITS
 from mcexact.model.system import MultiChannelSystem
 
-# Each number takes some bytes of a system file: no more are drawn than are read back by default.
+# A drawn system must not exceed the default limit on the size of a system file.
 _MOST_NUMBERS = DEFAULT_LIMITS.bytes // 4
 
 
 @dataclass(frozen=True)
 class Draw:
-    """What to draw: equal draws give equal systems, on every machine.
+    """The description of a drawn system; equal descriptions give equal systems on every machine.
 
     Attributes
     ----------
@@ -26,7 +26,7 @@ class Draw:
     states, channels : int
         n and m.
     fixed_degree : int or None
-        Hide a fixed mode: the roots of an irreducible factor of this degree.
+        If given, the system has fixed modes, the roots of an irreducible factor of this degree.
     time : str
         ``"continuous"`` or ``"discrete"``.
     neighbors : bool
@@ -47,7 +47,7 @@ def drawn_system(draw: Draw) -> MultiChannelSystem:
     Raises
     ------
     LimitReached
-        If it would be too large for a system file.
+        If the system would be too large for a system file.
 
     Examples
     --------

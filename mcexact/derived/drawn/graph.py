@@ -1,4 +1,4 @@
-"""Neighbor graphs, drawn from a source of choices."""
+"""Drawn neighbor graphs."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ def drawn_graph(
     names : sequence of str
         The agents.
     strongly_connected : bool, optional
-        True: by an ear decomposition, which every such graph has; False: with a set of agents that
-        hears nobody outside; None: any.
+        True draws an ear decomposition, which every such graph has.  False draws a graph with a set
+        of agents that receive no messages from outside the set.  None draws any graph.
     longest_delay : int
         Every edge has a delay from 0 to this.
 
@@ -67,7 +67,7 @@ def drawn_graph(
 
 
 def _ears(choices: Choices, heard: list[set[int]]) -> None:
-    """Add paths through agents not yet connected, from one that is to one that is."""
+    """Add paths through unconnected agents that begin and end at connected ones."""
     order = shuffled(choices, range(len(heard)))
     connected, rest = order[:1], order[1:]
     while rest:

@@ -1,4 +1,4 @@
-"""The drawn parts that systems are made of: polynomials, chains, inputs and outputs."""
+"""The drawn parts of systems: polynomials, chains, inputs and outputs."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def draw_ports(
     subset: frozenset[int] = frozenset(),
     dead_channels: bool = False,
 ) -> tuple[Ports, Ports]:
-    """Draw how many inputs and outputs the channels have, and which of them are dead."""
+    """Draw the numbers of inputs and outputs of the channels, and which channels are inactive."""
     inputs, outputs = [], []
     for i in range(channels):
         inputs += [i] * choices.option((1, 1, 1, 2))
@@ -59,7 +59,7 @@ def draw_ports(
     silent: frozenset[int] = frozenset()
     blind: frozenset[int] = frozenset()
     if dead_channels:
-        # Somebody has to act, somebody has to see.
+        # At least one channel has inputs, and at least one has outputs.
         silent = frozenset(shuffled(choices, range(channels))[: choices.integer(0, channels - 1)])
         blind = frozenset(shuffled(choices, range(channels))[: choices.integer(0, channels - 1)])
     return (
@@ -69,7 +69,7 @@ def draw_ports(
 
 
 def live(ports: Ports, channels: Collection[int]) -> int:
-    """The number of ports of some channels that are not dead."""
+    """The number of ports of those of the channels that are active."""
     return sum(owner in channels and owner not in ports.dead for owner in ports.owners)
 
 
@@ -80,19 +80,19 @@ def draw_chains(
     planted: Sequence[Chain] = (),
     zones: Sequence[int] = (1, 3),
 ) -> list[Chain]:
-    """Draw chains for the states that are left, at most ``limit`` of the same polynomial.
+    """Draw chains for the remaining states, at most ``limit`` of the same polynomial.
 
     Parameters
     ----------
     choices : Choices
     states : int
-        Of all chains together.
+        The number of states of all chains.
     limit : int
         At least 1, and the number of planted chains of one polynomial.
     planted : sequence of Chain
-        They come first.
+        Prescribed chains, which come first.
     zones : sequence of int
-        Where the others may be.
+        The zones in which the other chains may lie.
     """
     chains = list(planted)
     left = states - sum(chain.size for chain in chains)
@@ -106,7 +106,7 @@ def draw_chains(
             free = [each for each in pool if count[each] < limit]
             longer = [k for k, c in enumerate(chains) if c.degree <= left and c not in planted]
             if not free and longer:
-                # A longer chain takes no more ports than it had.
+                # Lengthening a chain does not need further ports.
                 k = choices.option(longer)
                 chains[k] = replace(chains[k], zones=(*chains[k].zones, chains[k].zones[-1]))
                 left -= chains[k].degree
@@ -118,7 +118,7 @@ def draw_chains(
         chains.append(Chain(polynomial, (zone,) * length))
         count[polynomial] += 1
         left -= d * length
-        # Another zone is the simpler choice, so that none stays empty.
+        # Changing the zone is the simpler choice, so that no zone stays empty.
         zone = choices.option([*(z for z in zones if z != zone), zone])
     return chains
 
@@ -132,8 +132,8 @@ def finished(
     time: str,
     denominators: bool = False,
 ) -> MultiChannelSystem:
-    """Hide the structure, then hand out the channels."""
-    # Small examples may stay readable; large ones are always mixed.
+    """Hide the structure by a change of basis, and make the system."""
+    # Small examples may keep a readable basis; large ones never do.
     least = 2 * draft.n if draft.n > 12 else 0
     draft.hide(choices, choices.integer(least, 4 * draft.n))
     if denominators:

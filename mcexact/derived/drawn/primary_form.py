@@ -1,10 +1,10 @@
-"""Integer systems laid out chain by chain, with zones that some channels cannot reach or see.
+"""Integer systems made of Jordan chains, with zones that some channels cannot control or observe.
 
 A *chain* of a monic p of degree d and length k is the block J_k(p), k companion matrices of p on
 the diagonal and identities above them: a Jordan chain for every root of p.  Its left eigenvectors
 live in its last block, its right eigenvectors in its first.  So a system of chains is controllable
-iff for every p the last blocks are reached independently over Q[x]/(p), and observable iff the
-first blocks are seen independently.  Every pair (A, B) is similar to such a one.
+iff for every p the rows of B at the last blocks are independent over Q[x]/(p), and observable iff
+the columns of C at the first blocks are. Every pair (A, B) is similar to one of this form.
 
 A *zone* is 1, 2 or 3.  Blocks of a chain never step down in zone, so that A is block upper
 triangular in them::
@@ -14,9 +14,9 @@ triangular in them::
             ⎢ 0       *       * ⎥              ⎢ 0    * ⎥       C_s = [ 0  0  * ]
             ⎣ 0       0       * ⎦              ⎣ 0    * ⎦
 
-Channels in T drive zone 1 only and the others, s, see zone 3 only.  Then no constant
-decentralized gains move an eigenvalue of zone 2.  (A chain that does step down, from zone 3 to
-zone 1, carries what T puts in to where s sees it.)
+Channels in T act on zone 1 only and the others, s, measure zone 3 only.  Then no constant
+decentralized gains move an eigenvalue of zone 2.  (A chain that does step down, from zone 3 to zone
+1, carries the inputs of T to the outputs of s.)
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ Coefficients = tuple[int, ...]
 
 @dataclass(frozen=True)
 class Chain:
-    """A chain of a monic polynomial, and who has to reach and to see it.
+    """A chain of a monic polynomial, with the channels that have to control and observe it.
 
     Attributes
     ----------
@@ -42,10 +42,10 @@ class Chain:
     zones : tuple of int
         One for each block.
     reached_by, seen_by : frozenset of int or None
-        The channels of which one makes its end controllable (its start observable): None for any,
-        the empty set for no channel at all.
+        The channels one of which makes its end controllable (its start observable).  None allows
+        every channel; the empty set means that no channel does.
     pure : bool
-        Whether the input and the output that do so touch nothing else.
+        Whether the input and the output that do so act on and measure nothing else.
     """
 
     polynomial: Coefficients
@@ -74,9 +74,9 @@ class Ports:
     owners : tuple of int
         The channel of each input (output).
     confined : frozenset of int
-        The channels that are kept to one zone: T for inputs, s for outputs.
+        The channels that are restricted to one zone: T for inputs, s for outputs.
     zone : int
-        That zone: 1 for inputs, 3 for outputs.
+        This zone: 1 for inputs, 3 for outputs.
     dead : frozenset of int
         The channels whose matrix stays 0.
     """
@@ -87,14 +87,14 @@ class Ports:
     dead: frozenset[int] = frozenset()
 
     def may_touch(self, port: int, zone: int) -> bool:
-        """Whether an input reaches (an output sees) a zone."""
+        """Whether an input may act on (an output may measure) a zone."""
         owner = self.owners[port]
         return owner not in self.dead and (owner not in self.confined or zone == self.zone)
 
 
 @dataclass
 class Draft:
-    """Integer matrices while they are put together: A (n×n), B (n×Σp_i), C (Σq_i×n)."""
+    """The integer matrices under construction: A (n×n), B (n×Σp_i), C (Σq_i×n)."""
 
     A: list[list[int]]
     B: list[list[int]]
@@ -147,7 +147,7 @@ class Draft:
     def matrices(
         self, inputs: Sequence[int], outputs: Sequence[int], m: int
     ) -> tuple[Matrix, list[Matrix], list[Matrix]]:
-        """A, the B_i and the C_i, columns and rows given to their owners."""
+        """Return A, the B_i and the C_i, by assigning columns and rows to channels."""
         d = self.scales or [Fraction(1)] * self.n
         A = Matrix.from_rows(
             [[x * d[i] / d[j] for j, x in enumerate(row)] for i, row in enumerate(self.A)],
@@ -167,21 +167,21 @@ class Draft:
 
 
 def lay_out(choices: Choices, chains: Sequence[Chain], inputs: Ports, outputs: Ports) -> Draft:
-    """Put chains below each other and draw B and C so that their ends are reached and seen.
+    """Assemble A from chains, and draw B and C that control and observe their ends.
 
     Parameters
     ----------
     choices : Choices
     chains : sequence of Chain
-        For every p no more than there are inputs that may reach their ends and outputs that may
-        see their starts.
+        For every p at most as many as inputs that may act on their ends, and as outputs that may
+        measure their starts.
     inputs, outputs : Ports
 
     Returns
     -------
     Draft
-        (A, B) is controllable and (C, A) observable, except for chains that nobody is to reach or
-        to see.
+        (A, B) is controllable and (C, A) observable, except for chains that no channel may control
+        or observe.
     """
     n = sum(chain.size for chain in chains)
     A = [[0] * n for _ in range(n)]
@@ -198,7 +198,7 @@ def lay_out(choices: Choices, chains: Sequence[Chain], inputs: Ports, outputs: P
         zones += [zone for zone in chain.zones for _ in range(d)]
         firsts.append(list(range(start, start + d)))
         lasts.append(list(range(len(zones) - d, len(zones))))
-    # A companion matrix is driven through its last state and seen through its first.
+    # A companion matrix is controllable from its last state and observable from its first.
     drive = [
         _End(chain.polynomial, rows, rows[-1], chain.reached_by, chain.pure)
         for chain, rows in zip(chains, lasts, strict=True)
@@ -222,7 +222,7 @@ def _companion(A: list[list[int]], start: int, polynomial: Coefficients) -> None
 
 @dataclass(frozen=True)
 class _End:
-    """One end of a chain: its states, and the one that stands for 1 in Q[x]/(p)."""
+    """One end of a chain: its states, and the state that represents 1 in Q[x]/(p)."""
 
     polynomial: Coefficients
     states: list[int]
@@ -236,8 +236,8 @@ def _connect(
 ) -> list[list[int]]:
     """Draw one row of n entries for each port such that the ends of each p are independent.
 
-    For every p the joined ends get ports of their own, and there the matrix over Q[x]/(p) is
-    triangular with units on the diagonal; everything else is drawn.
+    For every p the joined ends have ports of their own, at which the matrix over Q[x]/(p) is
+    triangular with units on the diagonal; all other entries are drawn.
     """
     n = len(zones)
     table = [[0] * n for _ in ports.owners]
@@ -246,7 +246,7 @@ def _connect(
         fitting = [
             (end, _fitting(end, ports, zones)) for end in ends if end.polynomial == polynomial
         ]
-        # Ends that few ports may join choose first.
+        # Ends that few ports may join come first.
         fitting.sort(key=lambda pair: len(pair[1]))
         taken: list[int] = []
         for end, candidates in fitting:
@@ -279,7 +279,7 @@ def _scatter(
     ports: Ports,
     zones: Sequence[int],
 ) -> None:
-    """Draw some of the entries that are free; give silent ports one where they may have it."""
+    """Draw some of the free entries, and at least one for each port without entries if possible."""
     n = len(zones)
     if not n or not table:
         return

@@ -1,4 +1,4 @@
-"""Drawn systems whose indices, remnant polynomial or incompleteness are prescribed."""
+"""Drawn systems with prescribed indices, remnant polynomial or incompleteness."""
 
 from __future__ import annotations
 
@@ -39,8 +39,8 @@ def system_with_indices(
 
     Notes
     -----
-    A Brunovsky form, closed by a drawn feedback and with redundant inputs, neither of which changes
-    the indices; the head of every chain of integrators is measured, which observes everything.
+    A Brunovsky form with a drawn feedback and redundant inputs, neither of which changes the
+    indices.  The head of every chain of integrators is measured, so the system is observable.
 
     Examples
     --------
@@ -108,15 +108,15 @@ def system_with_remnant(
     Returns
     -------
     Drawn
-        With ``subset``, ``remnant`` (perhaps 1), and ``complete=False`` where that follows.
+        With ``subset``, ``remnant`` (which may be 1), and ``complete=False`` if that follows.
 
     Notes
     -----
     Zones as in `primary_form`.  When zone 1 is controlled by T and zone 3 observed by s, P_s is
-    equivalent to diag(I, xI − A_22, 0), and its remnant polynomial is that of zone 2.
-    When besides a chain of integrators leads from one input of T through zones 1 and 3 to one
-    output of s, P_s is equivalent to diag(I, xI − A_22, 1, 0): then the first n invariant
-    polynomials leave out the last one of xI − A_22.
+    equivalent to diag(I, xI − A_22, 0), and its remnant polynomial is that of zone 2. If also a
+    chain of integrators leads from one input of T through zones 1 and 3 to one output of s, P_s is
+    equivalent to diag(I, xI − A_22, 1, 0): then the first n invariant polynomials do not include
+    the last one of xI − A_22.
 
     Examples
     --------
@@ -130,14 +130,14 @@ def system_with_remnant(
     order = shuffled(choices, range(channels))
     reach = frozenset(order[: choices.integer(1, channels - 1)])
     subset = frozenset(range(channels)) - reach
-    # Two inputs and outputs in every channel, so that two chains of zone 2 find room.
+    # Every channel has two inputs and outputs, so that two chains of zone 2 are possible.
     owners = tuple(sorted([*range(channels)] * 2))
     middle = choices.integer(1, states - 2)
     polynomial = irreducible(choices, 1)
     if nonzero_transfer:
         first = choices.integer((middle + 1) // 2, middle)
         lengths = [first, *([middle - first] if middle > first else [])]
-        # The path is nilpotent; a mode 0 of zone 2 would take its ports.
+        # The path is nilpotent, and a mode 0 of zone 2 would need its ports.
         polynomial = polynomial if polynomial[0] else (-1, 1)
     else:
         lengths = [middle]
@@ -182,8 +182,8 @@ def incomplete_system(
     states, channels : int
         At least 2 each.
     reason : {"fixed mode", "transfer graph"}
-        Because of a fixed mode; or, without any, because no edge of the transfer graph leaves some
-        nonempty proper set of channels.
+        Either a fixed mode; or no fixed mode, and a nonempty proper set of channels that no edge of
+        the transfer graph leaves.
     time : {"continuous", "discrete"}
 
     Returns

@@ -1,4 +1,4 @@
-"""Systems and graphs of known structure, drawn from a source of choices."""
+"""Drawn systems that are jointly controllable or not, with fixed modes or without."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from mcexact.model.system import MultiChannelSystem
 
 @dataclass(frozen=True)
 class Drawn:
-    """A drawn system and what is known about it by construction; None is not known.
+    """A drawn system with its properties by construction; None means that a property is unknown.
 
     Attributes
     ----------
@@ -33,7 +33,7 @@ class Drawn:
     fixed_mode : Polynomial or None
         A monic irreducible polynomial whose roots are fixed modes (there may be others).
     multiplicity : int or None
-        How often it divides the characteristic polynomial of every closed loop, at least.
+        A number of times that it divides the characteristic polynomial of every closed loop.
     subset : tuple of int or None
         A subset s with rank P_s < n at the roots of ``fixed_mode``.
     indices : tuple of int or None
@@ -80,8 +80,8 @@ def jointly_controllable_system(
     Returns
     -------
     Drawn
-        Eigenvalues repeat, Jordan chains are long, and entries are sparse before they are hidden,
-        so that fixed modes are frequent.
+        Eigenvalues repeat, Jordan chains are long, and entries are sparse before the change of
+        basis, so that fixed modes are frequent.
 
     Examples
     --------
@@ -108,7 +108,7 @@ def system_with_fixed_mode(
     time: str = "continuous",
     denominators: bool = False,
 ) -> Drawn:
-    """Draw a jointly controllable and observable system with a fixed mode, well hidden.
+    """Draw a jointly controllable and observable system with a fixed mode that is hard to see.
 
     Parameters
     ----------
@@ -118,7 +118,7 @@ def system_with_fixed_mode(
     channels : int
         m ≥ 2: one channel that controls and observes everything has no fixed mode.
     degree : int
-        Of the irreducible polynomial of the fixed mode.
+        The degree of the irreducible polynomial of the fixed mode.
     time : {"continuous", "discrete"}
     denominators : bool
 
@@ -129,8 +129,9 @@ def system_with_fixed_mode(
 
     Notes
     -----
-    Anderson and Clements' normal form, written down and then hidden by unimodular steps: channels
-    outside the subset drive only a part of the state that those in it do not see through.
+    The system is made in the normal form of Anderson and Clements and then changed by unimodular
+    steps: channels outside the subset act only on a part of the state that the channels in it do
+    not measure.
 
     Examples
     --------
@@ -172,7 +173,7 @@ def uncontrollable_system(
     observable_side: bool = False,
     time: str = "continuous",
 ) -> Drawn:
-    """Draw a system with a mode that no channel reaches, or that no channel sees.
+    """Draw a system with a mode that no channel controls, or that no channel observes.
 
     Parameters
     ----------
@@ -186,8 +187,8 @@ def uncontrollable_system(
     Returns
     -------
     Drawn
-        The other of the two properties holds.  ``subset`` is empty when nobody reaches the mode,
-        and every channel when nobody sees it.
+        The other of the two properties holds.  ``subset`` is empty if no channel controls the mode,
+        and the set of all channels if no channel observes it.
 
     Examples
     --------
@@ -236,8 +237,8 @@ def sparse_system(
     Returns
     -------
     Drawn
-        A good share has fixed modes, dead channels, channels without inputs or outputs, or is not
-        jointly controllable or observable.
+        Many of them have fixed modes, inactive channels, or channels without inputs or outputs, or
+        are not jointly controllable or observable.
     """
     _require_sizes(states, channels)
     palette = (0, 0, 0, 0, 1, -1, 2)
@@ -290,7 +291,7 @@ def _require_sizes(states: int, channels: int) -> None:
 
 
 def _planted(choices: Choices, polynomial: Coefficients, longest: int) -> Chain:
-    """A chain with one or more blocks in zone 2, perhaps begun in zone 1 and ended in zone 3."""
+    """A chain with one or more blocks in zone 2, which may begin in zone 1 and end in zone 3."""
     middle = choices.integer(1, min(longest, 2))
     before = choices.integer(0, min(longest - middle, 2))
     after = choices.integer(0, min(longest - middle - before, 2))

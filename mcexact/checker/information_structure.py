@@ -1,4 +1,4 @@
-"""Constructions ``augmented_outputs``, ``arcs`` and ``extended``: what agents tell each other."""
+"""Constructions ``augmented_outputs``, ``arcs`` and ``extended``, which share information."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ def neighbors_of(system: System, place: str) -> list[list[int]]:
 
 
 def require_outputs(n: int, counts: list[int]) -> None:
-    """Stop before the outputs of all agents, n columns each, take more than 8 large matrices."""
-    require_size((n + 64) * sum(counts) // 8)  # a row costs something, however short
+    """Stop if the outputs of all agents, n columns each, exceed 8 large matrices."""
+    require_size((n + 64) * sum(counts) // 8)  # even a short row takes memory
 
 
 def augmented_outputs(system: System, step: dict[str, Any], place: str) -> System:
@@ -38,7 +38,7 @@ def augmented_outputs(system: System, step: dict[str, Any], place: str) -> Syste
 
 
 def arcs(system: System, step: dict[str, Any], place: str) -> System:
-    """j joins N_i for each added arc [j, i].
+    """j joins N_i for each added edge [j, i].
 
     Open: see ``proofs/OPEN.md``.
     """
@@ -46,14 +46,14 @@ def arcs(system: System, step: dict[str, Any], place: str) -> System:
     sets = [set(N_i) for N_i in neighbors_of(system, place)]
     for arc in reading.items(listed, place):
         j, i = (system.place_of(end, place) for end in reading.items(arc, place, 2))
-        reading.require(j not in sets[i], "subject", place, "an arc is there already")
+        reading.require(j not in sets[i], "subject", place, "the edge is there already")
         sets[i].add(j)
-    words = f"{system.words} with {len(listed)} arcs added to its neighbor graph"
+    words = f"{system.words} with {len(listed)} edges added to its neighbor graph"
     return replace(system, neighbors=[sorted(N_i) for N_i in sets], words=words)
 
 
 def read_shares(system: System, step: dict[str, Any], place: str) -> tuple[str, list[int]]:
-    """What is shared, and the dimensions n_i of the sub-states."""
+    """Read which signals are shared, and the dimensions n_i of the sub-states."""
     share, listed = reading.fields(step, place, "share", "dimensions")
     return reading.string(share, place, *SHARED), read_dimensions(system, listed, place)
 

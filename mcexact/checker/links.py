@@ -1,4 +1,4 @@
-"""Wires that may be added, and what they carry; ``proofs/communication.md``."""
+"""Links that may be added, and the signals that they carry; ``proofs/communication.md``."""
 
 from __future__ import annotations
 
@@ -6,31 +6,31 @@ from fractions import Fraction
 from typing import Any
 
 from .arithmetic import Matrix, diagonal
-from .exchange import neighbors_of
+from .information_structure import neighbors_of
 from .reading import items, malformed, names, rational, require
 from .system import System
 
 
-def arc(value: Any, place: str, system: System) -> tuple[int, int]:
-    """An arc [from, to], as positions of channels."""
+def link(value: Any, place: str, system: System) -> tuple[int, int]:
+    """A link [from, to], as positions of channels."""
     j, i = (names([end], place, system.names)[0] for end in items(value, place, 2))
     return j, i
 
 
 def candidates(value: Any, system: System) -> list[tuple[int, int, Fraction]]:
-    """Arcs that the graph lacks, with their costs."""
+    """The candidate links, which the graph lacks, with their costs."""
     place, N, found = "claim.candidates", neighbors_of(system, "claim"), []
     for *ends, price in (items(entry, place, 3) for entry in items(value, place)):
-        found.append((*arc(ends, place, system), rational(price, place)))
+        found.append((*link(ends, place, system), rational(price, place)))
     keys = [(j, i) for j, i, _ in found]
     if keys != sorted(set(keys)) or any(j in N[i] for j, i in keys):
-        malformed(place, "expected arcs that are missing, sorted, none twice")
+        malformed(place, "expected links that the graph lacks, sorted, none twice")
     require(all(c > 0 for *_, c in found), "claim", place, "expected positive costs")
     return found
 
 
 def carried(system: System, share: str, sizes: Any, j: int) -> Matrix:
-    """S_j: C_j, diag(C_j, E_j') or [0, E_j'], what an arc from j adds to the outputs.
+    """S_j: C_j, diag(C_j, E_j') or [0, E_j'], the rows that a link from j adds to the outputs.
 
     Theorem ``allocation.communication_cut``.
     """
