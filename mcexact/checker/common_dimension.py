@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from . import reading, region
-from .exchange import SHARED, augmented_outputs, extended, neighbors_of
+from .information_structure import SHARED, augmented_outputs, extended, neighbors_of
 from .reading import fields, require
 from .shared_dimensions import read_cut
 from .system import System
