@@ -8,8 +8,8 @@ from itertools import chain
 
 from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
 from mcexact.answer import codec
+from mcexact.answer.check import checked
 from mcexact.answer.protocol import Answer
-from mcexact.checker import check_document
 from mcexact.model.system import MultiChannelSystem
 from mcexact.report.picture import EmbeddedPicture, Picture
 from mcexact.reproduce.material import Instance
@@ -106,7 +106,7 @@ class Notebook:
         """Record answers as certificates, verified by the independent checker."""
         for made in answers:
             text = codec.encode(made)
-            said = check_document(text.encode("ascii"))
+            said = checked(text.encode("ascii"))
             number = len(self.certificates) + 1
             name = f"{self.key.replace(':', '-')}-{number:02d}-{made.kind}.json"
             self.certificates.append(

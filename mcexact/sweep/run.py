@@ -9,7 +9,7 @@ from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future
 from dataclasses import replace
 from typing import Any
 
-from mcexact.checker import check_document
+from mcexact.answer.check import checked
 from mcexact.errors import InternalError, McexactError
 from mcexact.exact.rational import DEFAULT_LIMITS, Limits
 from mcexact.model.json_text import read_bytes
@@ -200,7 +200,7 @@ def _checked(name: str, text: str, expected: str) -> dict[str, Any]:
     InternalError
         If the certificate is not VALID for this system, or does not answer the question.
     """
-    verdict = check_document(text.encode("ascii"), expected)
+    verdict = checked(text.encode("ascii"), expected)
     if verdict.verdict != "VALID":
         raise InternalError(f"the certificate for {name} is not accepted: {verdict.line()}")
     document = json.loads(text)

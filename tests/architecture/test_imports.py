@@ -73,7 +73,7 @@ def may_import(importer: str, imported: str) -> bool:
         return importer != "checker"
     if imported == "checker":
         # The independent checker is called, never built upon.
-        return importer in {"answer", "sweep", "reproduce"}
+        return importer == "answer"
     if imported not in STAGE or (importer == "report" and imported not in SHOWN):
         return False
     if importer == "testing":
