@@ -47,7 +47,7 @@ reproduce: $(STAMP)
 
 # What floating point answers wrongly on this machine, recorded beside the exhibits.
 records: $(STAMP)
-	$(BIN)/python -m mcexact.crosscheck.recording
+	$(BIN)/python -m mcexact.crosschecks.recording
 
 # The reports in a browser, at two widths, light and dark; screenshots in look/.
 look: $(STAMP)

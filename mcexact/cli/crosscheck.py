@@ -80,8 +80,8 @@ def command(
 def _crosschecked(place: str, data: bytes, limits: dict[str, int]) -> dict[str, Any]:
     """Answer and format the answers, in the child process."""
     from mcexact.cli.files import system_in
-    from mcexact.crosscheck.table import crosscheck
-    from mcexact.crosscheck.view import crosscheck_tables, crosscheck_view
+    from mcexact.crosschecks.table import crosscheck
+    from mcexact.crosschecks.view import crosscheck_tables, crosscheck_view
 
     system = system_in(place, data, limits)
     found = crosscheck(system)
@@ -90,8 +90,8 @@ def _crosschecked(place: str, data: bytes, limits: dict[str, int]) -> dict[str, 
 
 def _exhibited() -> dict[str, Any]:
     """Answer every exhibit's question on this machine, in the child process."""
-    from mcexact.crosscheck.gallery import exhibits, shown
-    from mcexact.crosscheck.view import exhibit_tables, exhibits_page, exhibits_view
+    from mcexact.crosschecks.gallery import exhibits, shown
+    from mcexact.crosschecks.view import exhibit_tables, exhibits_page, exhibits_view
 
     found = [shown(each) for each in exhibits()]
     return {

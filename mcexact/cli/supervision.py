@@ -22,7 +22,7 @@ from typing import Any, TypeVar
 from mcexact.cli.deadline import Deadline
 from mcexact.cli.memory import MemoryLimit, died_of_memory, out_of_memory, ran_out
 from mcexact.errors import InternalError, McexactError
-from mcexact.sweep.workers import end_with_parent
+from mcexact.sweeps.workers import end_with_parent
 
 T = TypeVar("T")
 

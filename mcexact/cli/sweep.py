@@ -14,12 +14,12 @@ import click
 
 from mcexact.cli import options
 from mcexact.cli.failures import INTERRUPTED
-from mcexact.sweep.questions import QUESTIONS
+from mcexact.sweeps.questions import QUESTIONS
 
 if TYPE_CHECKING:
     from mcexact.exact.rational import Limits
-    from mcexact.sweep.jobs import Job, Source
-    from mcexact.sweep.records import Record
+    from mcexact.sweeps.jobs import Job, Source
+    from mcexact.sweeps.records import Record
 
 # The status of a sweep is the first of these with which some system ended.
 _PRECEDENCE = (70, 3, 2, 4, 0)
@@ -93,8 +93,8 @@ def command(
     from mcexact.exact.rational import Limits
     from mcexact.report.sweep_view import skipped_table, sweep_tables, sweep_view
     from mcexact.report.text import WIDE
-    from mcexact.sweep.jobs import decide
-    from mcexact.sweep.run import sweep
+    from mcexact.sweeps.jobs import decide
+    from mcexact.sweeps.run import sweep
 
     limits = {name: rest.pop(name) for name in ("bytes", "depth", "digits", "exponent")}
     listed = _Listed(files)
@@ -201,7 +201,7 @@ def _limited(job: Job, timeout: float | None, max_memory: int | None) -> dict[st
     """Decide a job in a child process, which is ended at a limit."""
     from mcexact.cli.supervision import supervised
     from mcexact.errors import McexactError
-    from mcexact.sweep.jobs import decide, failure
+    from mcexact.sweeps.jobs import decide, failure
 
     try:
         return supervised(

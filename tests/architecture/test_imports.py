@@ -21,8 +21,8 @@ STAGE = {
     "synthesis": 5,
     "simulation": 6,
     "report": 7,
-    "crosscheck": 8,
-    "sweep": 8,
+    "crosschecks": 8,
+    "sweeps": 8,
     "reproduce": 9,
 }
 BESIDE = {"checker", "testing", "cli", "errors"}

@@ -11,8 +11,8 @@ import pytest
 import mcexact
 from mcexact.cli import main
 from mcexact.cli.commands import COMMANDS
-from mcexact.crosscheck import demonstration
-from mcexact.crosscheck.records import libraries_here
+from mcexact.crosschecks import demonstration
+from mcexact.crosschecks.records import libraries_here
 from mcexact.model import gallery
 from mcexact.model.system_file import load_system
 from tests.checker.manifests import write

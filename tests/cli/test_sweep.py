@@ -19,7 +19,7 @@ from mcexact.model.controller_file import save_controller
 from mcexact.model.local_controllers import local_controllers
 from mcexact.model.system_file import save_system
 from mcexact.report.sweep_view import sweep_tables
-from mcexact.sweep.questions import QUESTIONS
+from mcexact.sweeps.questions import QUESTIONS
 from tests.effort import PATIENCE
 from tests.end_to_end.command_line import interruptible, without_progress
 
@@ -121,7 +121,7 @@ def test_a_limit_is_for_each_system_and_another_run_goes_on(
     results = str(tmp_path / "results.jsonl")
     arguments = (str(folder / "a.json"), "-o", results)
     with monkeypatch.context() as patched:  # the processes that decide are forked from this one
-        patched.setattr("mcexact.sweep.jobs.decide", lambda job: time.sleep(PATIENCE))
+        patched.setattr("mcexact.sweeps.jobs.decide", lambda job: time.sleep(PATIENCE))
         status, out, _ = call(*arguments, "--timeout", "0.1")
     assert status == 4 and "time limit of 0.1 s" in out
     status, out, _ = call(*arguments, "--timeout", str(PATIENCE), "--json")

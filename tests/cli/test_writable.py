@@ -69,7 +69,7 @@ def working(monkeypatch: pytest.MonkeyPatch) -> list[str]:
         raise LimitReached("the work was begun")
 
     monkeypatch.setattr("mcexact.cli.supervision.supervised", limited)
-    monkeypatch.setattr("mcexact.sweep.run.sweep", limited)
+    monkeypatch.setattr("mcexact.sweeps.run.sweep", limited)
     return begun
 
 

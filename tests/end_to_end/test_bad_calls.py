@@ -26,7 +26,7 @@ from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model import gallery
 from mcexact.model.statespace import from_statespace
-from mcexact.sweep.run import sweep
+from mcexact.sweeps.run import sweep
 from tests import effort
 from tests.effort import PATIENCE
 from tests.end_to_end.command_line import MCEXACT, interruptible

@@ -6,7 +6,7 @@ from fractions import Fraction
 import pytest
 
 from mcexact.answer.codec import encode
-from mcexact.crosscheck.gallery import exhibit, exhibits
+from mcexact.crosschecks.gallery import exhibit, exhibits
 from mcexact.model.controller_file import save_controller
 from mcexact.model.local_controllers import local_controllers
 from mcexact.model.system import MultiChannelSystem

@@ -4,12 +4,12 @@ import json
 
 import pytest
 
-from mcexact.crosscheck.demonstration import Demonstration, FloatingAnswers
-from mcexact.crosscheck.demonstration_view import demonstration_text, demonstration_view
-from mcexact.crosscheck.gallery import exhibit, shown
-from mcexact.crosscheck.records import Libraries
-from mcexact.crosscheck.table import crosscheck
-from mcexact.crosscheck.view import (
+from mcexact.crosschecks.demonstration import Demonstration, FloatingAnswers
+from mcexact.crosschecks.demonstration_view import demonstration_text, demonstration_view
+from mcexact.crosschecks.gallery import exhibit, shown
+from mcexact.crosschecks.records import Libraries
+from mcexact.crosschecks.table import crosscheck
+from mcexact.crosschecks.view import (
     crosscheck_tables,
     crosscheck_view,
     exhibit_tables,

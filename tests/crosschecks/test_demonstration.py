@@ -2,8 +2,8 @@
 
 from fractions import Fraction
 
-from mcexact.crosscheck.demonstration import STATES, demonstration
-from mcexact.crosscheck.gallery import exhibit
+from mcexact.crosschecks.demonstration import STATES, demonstration
+from mcexact.crosschecks.gallery import exhibit
 from mcexact.model import gallery
 from tests.oracle.enumeration import (
     controllable_dimension,

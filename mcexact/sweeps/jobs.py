@@ -16,7 +16,7 @@ from mcexact.exact.rational import DEFAULT_LIMITS, Limits
 from mcexact.model.canonical import canonical
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import digest, read_system, system_text
-from mcexact.sweep.questions import QUESTIONS
+from mcexact.sweeps.questions import QUESTIONS
 
 Source = str | os.PathLike[str] | MultiChannelSystem | Draw
 Reader = Callable[[str | os.PathLike[str], Limits], bytes]

@@ -1,4 +1,4 @@
-"""Record wrong floating-point answers of this machine: `python -m mcexact.crosscheck.recording`.
+"""Record wrong floating-point answers of this machine: `python -m mcexact.crosschecks.recording`.
 
 Only wrong answers are recorded.  Where this machine answers correctly, the older record is kept,
 with the machine that it names.
@@ -10,10 +10,10 @@ import json
 from pathlib import Path
 from typing import Any
 
-from mcexact.crosscheck.demonstration import floating_answers
-from mcexact.crosscheck.gallery import exhibits
-from mcexact.crosscheck.records import RECORDS, libraries_here
-from mcexact.crosscheck.table import crosscheck
+from mcexact.crosschecks.demonstration import floating_answers
+from mcexact.crosschecks.gallery import exhibits
+from mcexact.crosschecks.records import RECORDS, libraries_here
+from mcexact.crosschecks.table import crosscheck
 from mcexact.model.atomic import write_text
 
 _PLACE = Path(__file__).with_name(RECORDS)

@@ -6,9 +6,9 @@ only where every kernel has to fail.
 
 import pytest
 
-from mcexact.crosscheck.gallery import exhibit, exhibits, shown, shown_in
-from mcexact.crosscheck.records import recorded
-from mcexact.crosscheck.table import crosscheck
+from mcexact.crosschecks.gallery import exhibit, exhibits, shown, shown_in
+from mcexact.crosschecks.records import recorded
+from mcexact.crosschecks.table import crosscheck
 from mcexact.derived.dual import dual
 from mcexact.errors import UsageError
 from mcexact.model.system import MultiChannelSystem

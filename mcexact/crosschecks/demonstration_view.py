@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from mcexact.crosscheck.demonstration import SEEDS, STATES, Demonstration, FloatingAnswers
+from mcexact.crosschecks.demonstration import SEEDS, STATES, Demonstration, FloatingAnswers
 
 
 def demonstration_text(shown: Demonstration) -> str:

@@ -3,8 +3,8 @@
 import pytest
 
 import mcexact
-from mcexact.crosscheck import table
-from mcexact.crosscheck.table import crosscheck
+from mcexact.crosschecks import table
+from mcexact.crosschecks.table import crosscheck
 from mcexact.model.system import MultiChannelSystem
 from tests.synthesis.three_channels import three_channels
 
@@ -63,4 +63,4 @@ def test_numbers_beyond_doubles_are_no_error():
 
 
 def test_the_package_is_called_by_the_name_that_it_exports():
-    assert len(mcexact.crosscheck(PLAIN).rows) == len(crosscheck(PLAIN).rows)
+    assert len(mcexact.crosschecks(PLAIN).rows) == len(crosscheck(PLAIN).rows)

@@ -96,7 +96,7 @@ def _version(distribution: str) -> str | None:
 @cache
 def recorded() -> Mapping[str, Any]:
     """Return the document of records, keyed by what was answered."""
-    text = resources.files("mcexact.crosscheck").joinpath(RECORDS).read_text("utf-8")
+    text = resources.files("mcexact.crosschecks").joinpath(RECORDS).read_text("utf-8")
     document: dict[str, Any] = json.loads(text)
     return document
 

@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from mcexact.crosscheck.records import Libraries, Record, libraries_of, recorded
-from mcexact.crosscheck.table import CrossCheck, CrossChecks, crosscheck
+from mcexact.crosschecks.records import Libraries, Record, libraries_of, recorded
+from mcexact.crosschecks.table import CrossCheck, CrossChecks, crosscheck
 from mcexact.errors import InternalError, UsageError
 from mcexact.exact.linear_algebra import inverse
 from mcexact.exact.matrix import Matrix

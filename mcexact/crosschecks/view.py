@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from mcexact.crosscheck.gallery import Shown, shown_in
-from mcexact.crosscheck.records import Libraries
-from mcexact.crosscheck.table import CrossChecks
+from mcexact.crosschecks.gallery import Shown, shown_in
+from mcexact.crosschecks.records import Libraries
+from mcexact.crosschecks.table import CrossChecks
 from mcexact.exact.floats import finite
 from mcexact.report.page import page
 from mcexact.report.text import Table

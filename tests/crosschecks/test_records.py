@@ -2,9 +2,9 @@
 
 import pytest
 
-from mcexact.crosscheck import gallery, recording, records
-from mcexact.crosscheck.demonstration import FloatingAnswers
-from mcexact.crosscheck.records import Libraries, libraries_here, libraries_of
+from mcexact.crosschecks import gallery, recording, records
+from mcexact.crosschecks.demonstration import FloatingAnswers
+from mcexact.crosschecks.records import Libraries, libraries_here, libraries_of
 from mcexact.model.system import MultiChannelSystem
 
 ELSEWHERE = Libraries((("numpy", "1.26"), ("OpenBLAS", "0.3.23")), "Haswell")

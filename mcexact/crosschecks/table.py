@@ -16,7 +16,7 @@ from mcexact.analysis.structure.controllability_indices import (
 )
 from mcexact.analysis.structure.transfer_graph import transfer_graph
 from mcexact.answer.fixed_spectrum import FixedSpectrum
-from mcexact.crosscheck.records import Libraries, libraries_here
+from mcexact.crosschecks.records import Libraries, libraries_here
 from mcexact.exact.floats import matrix_to_float
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.location import StabilityRegion

@@ -14,10 +14,10 @@ from mcexact.errors import InternalError, McexactError
 from mcexact.exact.rational import DEFAULT_LIMITS, Limits
 from mcexact.model.json_text import read_bytes
 from mcexact.model.system_file import digest
-from mcexact.sweep.jobs import Job, Outcome, Reader, Source, decide, entries, failure
-from mcexact.sweep.questions import answered, chosen
-from mcexact.sweep.records import Record, RecordFile
-from mcexact.sweep.workers import Workers, alone
+from mcexact.sweeps.jobs import Job, Outcome, Reader, Source, decide, entries, failure
+from mcexact.sweeps.questions import answered, chosen
+from mcexact.sweeps.records import Record, RecordFile
+from mcexact.sweeps.workers import Workers, alone
 
 _AHEAD = 2  # jobs queued for each process, so that no process is idle
 

@@ -20,10 +20,10 @@ from mcexact.exact.rational import Limits
 from mcexact.model import gallery
 from mcexact.model.canonical import canonical
 from mcexact.model.system_file import digest, save_system
-from mcexact.sweep.jobs import Job, Outcome, decide
-from mcexact.sweep.questions import QUESTIONS
-from mcexact.sweep.records import Record, read_records
-from mcexact.sweep.run import sweep
+from mcexact.sweeps.jobs import Job, Outcome, decide
+from mcexact.sweeps.questions import QUESTIONS
+from mcexact.sweeps.records import Record, read_records
+from mcexact.sweeps.run import sweep
 
 DRAWS = [Draw(seed, states=3, fixed_degree=1 if seed % 2 else None) for seed in range(6)]
 

@@ -1,0 +1,108 @@
+"""The public names; whatever is not here may change without notice."""
+
+from .analysis.analyze import Analysis as Analysis
+from .analysis.analyze import analyze as analyze
+from .analysis.fixed_modes.assignability import assignability as assignability
+from .analysis.fixed_modes.completeness import completeness as completeness
+from .analysis.fixed_modes.error_gains import error_gains as error_gains
+from .analysis.fixed_modes.fixed_spectrum import fixed_spectrum as fixed_spectrum
+from .analysis.fixed_modes.pencil import pencil_rank as pencil_rank
+from .analysis.fixed_modes.pencil import pencil_ranks as pencil_ranks
+from .analysis.fixed_modes.single_channel_gains import single_channel_gains as single_channel_gains
+from .analysis.sharing.allocation import minimal_shared_dimensions as minimal_shared_dimensions
+from .analysis.sharing.allocation import shared_dimension_bound as shared_dimension_bound
+from .analysis.sharing.common_dimension import common_dimension as common_dimension
+from .analysis.sharing.communication import minimal_communication as minimal_communication
+from .analysis.sharing.neighbor_graph import neighbor_graph as neighbor_graph
+from .analysis.stability.closed_loop_spectrum import open_loop_spectrum as open_loop_spectrum
+from .analysis.stability.stability import certify_stability as certify_stability
+from .analysis.stability.stability import matrix_system as matrix_system
+from .analysis.structure.complementary_subsystem import (
+    complementary_subsystem as complementary_subsystem,
+)
+from .analysis.structure.controllability import joint_controllability as joint_controllability
+from .analysis.structure.controllability import joint_observability as joint_observability
+from .analysis.structure.controllability_indices import (
+    controllability_indices as controllability_indices,
+)
+from .analysis.structure.controllability_indices import (
+    observability_indices as observability_indices,
+)
+from .analysis.structure.exceptional_gains import exceptional_gains as exceptional_gains
+from .analysis.structure.setpoint import setpoint_solvability as setpoint_solvability
+from .analysis.structure.transfer_graph import transfer_graph as transfer_graph
+from .answer.assignability import Assignability as Assignability
+from .answer.check import check as check
+from .answer.closed_loop_spectrum import ClosedLoopSpectrum as ClosedLoopSpectrum
+from .answer.codec import save_certificate as save_certificate
+from .answer.common_dimension import CommonDimension as CommonDimension
+from .answer.communication import MinimalCommunication as MinimalCommunication
+from .answer.complementary_subsystem import ComplementarySubsystem as ComplementarySubsystem
+from .answer.completeness import Completeness as Completeness
+from .answer.controllability import JointControllability as JointControllability
+from .answer.controllability_indices import ControllabilityIndices as ControllabilityIndices
+from .answer.deficiency import Deficiency as Deficiency
+from .answer.distributed_observer import DistributedObserver as DistributedObserver
+from .answer.evidence import RateInterval as RateInterval
+from .answer.evidence import RootDisc as RootDisc
+from .answer.exceptional_gains import ExceptionalSet as ExceptionalSet
+from .answer.fixed_spectrum import FixedFactor as FixedFactor
+from .answer.fixed_spectrum import FixedSpectrum as FixedSpectrum
+from .answer.neighbor_graph import NeighborGraphVerdict as NeighborGraphVerdict
+from .answer.pencil_rank import PencilRank as PencilRank
+from .answer.protocol import Answer as Answer
+from .answer.reading import load_certificate as load_certificate
+from .answer.setpoint import SetpointSolvability as SetpointSolvability
+from .answer.shared_dimensions import SharedDimensions as SharedDimensions
+from .answer.single_channel_gains import SingleChannelGains as SingleChannelGains
+from .answer.stability import StabilityVerdict as StabilityVerdict
+from .answer.template import Sentence as Sentence
+from .answer.transfer_graph import TransferGraph as TransferGraph
+from .checker import Verdict as Verdict
+from .crosschecks.table import CrossChecks as CrossChecks
+from .crosschecks.table import crosscheck as crosscheck
+from .derived.augmented_outputs import augmented_outputs as augmented_outputs
+from .derived.delayed import held_system as held_system
+from .derived.delayed import lifted_system as lifted_system
+from .derived.dual import dual as dual
+from .derived.error_system import error_system as error_system
+from .derived.extended import extended_system as extended_system
+from .derived.integrators import setpoint_system as setpoint_system
+from .errors import FloatRefused as FloatRefused
+from .errors import Impossible as Impossible
+from .errors import InputError as InputError
+from .errors import InternalError as InternalError
+from .errors import LimitReached as LimitReached
+from .errors import McexactError as McexactError
+from .errors import OtherFormat as OtherFormat
+from .errors import UsageError as UsageError
+from .exact.location import StabilityRegion as StabilityRegion
+from .exact.matrix import Matrix as Matrix
+from .exact.polynomial import Polynomial as Polynomial
+from .model.controller import AgentProgram as AgentProgram
+from .model.controller import Controller as Controller
+from .model.controller import LinearMap as LinearMap
+from .model.controller_file import load_controller as load_controller
+from .model.controller_file import save_controller as save_controller
+from .model.local_controllers import local_controllers as local_controllers
+from .model.neighbor_graph import NeighborGraph as NeighborGraph
+from .model.statespace import from_statespace as from_statespace
+from .model.statespace import loop_from_statespace as loop_from_statespace
+from .model.system import MultiChannelSystem as MultiChannelSystem
+from .model.system_file import load_system as load_system
+from .model.system_file import save_system as save_system
+from .simulation.network import SignalNotReceived as SignalNotReceived
+from .simulation.trajectory import Trajectory as Trajectory
+from .simulation.trajectory import simulate as simulate
+from .sweeps.records import Record as Record
+from .sweeps.run import sweep as sweep
+from .synthesis.certify import certify_controller as certify_controller
+from .synthesis.decentralized import design_decentralized as design_decentralized
+from .synthesis.design import Design as Design
+from .synthesis.extended import design_extended as design_extended
+from .synthesis.gate import CertifiedLoop as CertifiedLoop
+from .synthesis.observer import design_observer as design_observer
+from .synthesis.setpoint import design_setpoint as design_setpoint
+
+__version__: str
+__all__: list[str]

@@ -1,0 +1,39 @@
+"""The public names are those on a list, each of them documented."""
+
+import importlib
+import inspect
+from pathlib import Path
+
+import pytest
+
+import mcexact
+from mcexact.answer.protocol import KINDS
+from mcexact.checker.kinds import KINDS as RULES
+from mcexact.errors import McexactError
+
+LIST = Path(__file__).with_name("public_names.txt")
+
+
+def test_the_public_names_are_those_on_the_list() -> None:
+    """To add or to remove a name is a decision: it changes the list, and the changelog says so."""
+    assert sorted(mcexact.__all__) == LIST.read_text(encoding="utf-8").split()
+
+
+@pytest.mark.parametrize("name", sorted(mcexact.__all__))
+def test_every_public_name_says_what_it_is(name: str) -> None:
+    said = inspect.getdoc(getattr(mcexact, name))
+    assert said, name
+    assert len(said.splitlines()[0]) > len(name), name
+
+
+def test_every_error_is_public() -> None:
+    errors = {McexactError, *McexactError.__subclasses__()}
+    errors |= {each for error in errors for each in error.__subclasses__()}
+    assert {error.__name__ for error in errors} <= set(mcexact.__all__)
+
+
+def test_every_kind_of_answer_is_public() -> None:
+    for kind in RULES:
+        importlib.import_module(f"mcexact.answer.{kind}")
+    assert set(KINDS) == set(RULES)
+    assert {answer.__name__ for answer in KINDS.values()} <= set(mcexact.__all__)
