@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import inspect
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -12,7 +11,7 @@ from typing import Any, TypeVar
 
 from mcexact.answer.protocol import Answer
 from mcexact.answer.template import Sentence, Template
-from mcexact.model.canonical import plain
+from mcexact.model.canonical import plain, sha256
 from mcexact.model.system import MultiChannelSystem
 
 FORMAT = "mcexact-manifest/1"
@@ -272,10 +271,7 @@ def manifest(
     subject : sequence of mapping
         The constructions that lead from the plant to what the sentences are about.
     """
-    digests = {
-        name: hashlib.sha256(text.encode("ascii")).hexdigest()
-        for name, text in certificates.items()
-    }
+    digests = {name: sha256(text) for name, text in certificates.items()}
     return {
         "format": FORMAT,
         **({"subject": plain(subject)} if subject else {}),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import random
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -17,7 +16,7 @@ from mcexact.exact.modular import (
     primes,
     residues,
 )
-from mcexact.model.canonical import canonical, plain
+from mcexact.model.canonical import canonical, plain, sha256
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import digest
 
@@ -88,8 +87,7 @@ def generator(system: MultiChannelSystem, kind: str) -> random.Random:
         The kind of certificate the draws are for.
     """
     text = canonical([digest(system.plant), plain(system.subject), kind])
-    seed = hashlib.sha256(text.encode("ascii")).digest()
-    return random.Random(int.from_bytes(seed, "big"))
+    return random.Random(int(sha256(text), 16))
 
 
 def residue_systems(

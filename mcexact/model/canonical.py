@@ -103,6 +103,6 @@ def text_of(value: Any) -> str:
     return value.text if isinstance(value, PlainObject) else canonical(plain(value))
 
 
-def sha256(value: Any) -> str:
-    """Return the SHA-256 of the canonical JSON of exact objects, in lower-case hexadecimal."""
-    return hashlib.sha256(text_of(value).encode("ascii")).hexdigest()
+def sha256(text: str | bytes) -> str:
+    """Return the SHA-256 of ASCII text, or of bytes, in lower-case hexadecimal."""
+    return hashlib.sha256(text.encode("ascii") if isinstance(text, str) else text).hexdigest()

@@ -234,7 +234,7 @@ def digest(system: MultiChannelSystem) -> str:
     >>> digest(first) == digest(second)
     True
     """
-    return sha256(canonical_document(system))
+    return sha256(canonical_document(system).text)
 
 
 def save_system(system: MultiChannelSystem, path: str | os.PathLike[str]) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import os
 import time
 from collections.abc import Callable, Iterable
@@ -13,7 +12,7 @@ from mcexact.answer import codec
 from mcexact.derived.drawn.draw import Draw, drawn_system
 from mcexact.errors import InputError, LimitReached, McexactError, OtherFormat, UsageError
 from mcexact.exact.rational import DEFAULT_LIMITS, Limits
-from mcexact.model.canonical import canonical
+from mcexact.model.canonical import canonical, sha256
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import digest, read_system, system_text
 from mcexact.sweeps.questions import QUESTIONS
@@ -46,8 +45,8 @@ class Job:
 
     def key(self) -> str:
         """A hash of the source and the questions; jobs with equal hashes have equal answers."""
-        source = asdict(self.source) if isinstance(self.source, Draw) else _hash(self.source)
-        return _hash(canonical([source, list(self.questions)]).encode("ascii"))
+        source = asdict(self.source) if isinstance(self.source, Draw) else sha256(self.source)
+        return sha256(canonical([source, list(self.questions)]))
 
     def system(self) -> MultiChannelSystem:
         """Read or draw the system.
@@ -60,10 +59,6 @@ class Job:
         if isinstance(self.source, Draw):
             return drawn_system(self.source)
         return read_system(self.source, limits=self.limits)
-
-
-def _hash(data: bytes) -> str:
-    return hashlib.sha256(data).hexdigest()
 
 
 def job(

@@ -38,7 +38,7 @@ def test_every_exported_name_is_there(name: str) -> None:
 
 
 def test_a_name_that_is_not_exported_is_an_attribute_error() -> None:
-    with pytest.raises(AttributeError, match="mcexact.*nothing"):
+    with pytest.raises(AttributeError, match=r"mcexact.*nothing"):
         mcexact.nothing  # noqa: B018
 
 
