@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.design import Arithmetic, Design, wanted_region
-from mcexact.synthesis.gate import Progress
+from mcexact.synthesis.design import Design
 from mcexact.synthesis.network_design import network_design
 from mcexact.synthesis.networks import decentralized_network
+from mcexact.synthesis.request import Arithmetic, Progress, Request
 
 
 def design_decentralized(
@@ -62,13 +62,5 @@ def design_decentralized(
     mcexact.errors.Impossible: no linear time-invariant decentralized control moves the mode 1, \
 fixed by s = {1}, and it is not fast enough
     """
-    region = wanted_region(system.time, rate, radius, spectrum=spectrum)
-    return network_design(
-        "decentralized",
-        decentralized_network(system),
-        agent,
-        region,
-        spectrum=spectrum,
-        arithmetic=arithmetic,
-        progress=progress,
-    )
+    request = Request.of(system, agent, spectrum, rate, radius, arithmetic, progress)
+    return network_design("decentralized", decentralized_network(system), request)

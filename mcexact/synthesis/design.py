@@ -8,7 +8,6 @@ from math import isfinite
 from typing import Any, Literal
 
 from mcexact.answer.protocol import Answer
-from mcexact.errors import UsageError
 from mcexact.exact.floats import finite, matrix_to_float, to_float
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial
@@ -16,10 +15,10 @@ from mcexact.floating.margins import loop_margins
 from mcexact.model.controller import Controller
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.gate import CertifiedLoop, Progress, Proposal, first_certified
+from mcexact.synthesis.gate import CertifiedLoop, Proposal, first_certified
+from mcexact.synthesis.request import Arithmetic, Request
 
 Method = Literal["decentralized", "observer", "extended"]
-Arithmetic = Literal["exact", "float"]
 
 _SHOWN = (
     "agent", "network", "shared_dimensions", "observer_order", "feedback_polynomial",
@@ -107,49 +106,21 @@ class Design:
         return f"Design({self.name}, {self.arithmetic}, order {self.order}{bound}, certified)"
 
 
-def wanted_region(
-    time: str, rate: Any = None, radius: Any = None, *, spectrum: Any = None
-) -> StabilityRegion:
-    """The region of a design; without a bound if a spectrum is prescribed and nothing else.
-
-    Parameters
-    ----------
-    time : {"continuous", "discrete"}
-    rate, radius : rational, optional
-        See `StabilityRegion.of`.
-    spectrum : optional
-        The prescribed numbers.
-
-    Raises
-    ------
-    UsageError
-        If there is neither; or as in `StabilityRegion.of`.
-    """
-    region = StabilityRegion.of(time, rate, radius)
-    if spectrum is None and region.bound is None:
-        raise UsageError(
-            f"give a {region.word} or a spectrum: nothing says how fast the loop must be"
-        )
-    return region
-
-
 def designed(
     method: Method,
-    arithmetic: Arithmetic,
+    request: Request,
     system: MultiChannelSystem,
     graph: NeighborGraph | None,
-    region: StabilityRegion,
     proposals: Iterable[Proposal],
     *,
     stable: bool = False,
-    progress: Progress | None = None,
 ) -> Design:
     """The design of the first proposal that passes the gate; see `first_certified`."""
-    tell = progress or (lambda _: None)
-    made, loop = first_certified(system, proposals, region, graph, stable=stable, tell=tell)
-    return Design(
-        method, arithmetic, loop, region, {proof.kind: proof for proof in loop.proofs}, made.parts
+    made, loop = first_certified(
+        system, proposals, request.region, graph, stable=stable, tell=request.tell
     )
+    certificates = {proof.kind: proof for proof in loop.proofs}
+    return Design(method, request.arithmetic, loop, request.region, certificates, made.parts)
 
 
 def _plain(value: Any) -> Any:

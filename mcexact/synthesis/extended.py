@@ -18,10 +18,10 @@ from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.location import StabilityRegion
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, as_plant, with_graph
-from mcexact.synthesis.design import Arithmetic, Design, wanted_region
-from mcexact.synthesis.gate import Progress
+from mcexact.synthesis.design import Design
 from mcexact.synthesis.network_design import network_design
 from mcexact.synthesis.networks import DerivedNetwork, NetworkKind, shared_network
+from mcexact.synthesis.request import Arithmetic, Progress, Request
 
 Dimensions = str | Sequence[int]
 """``"minimal"``, ``"bound"``, or n_1 … n_m."""
@@ -101,27 +101,17 @@ def design_extended(
     mcexact.errors.Impossible: no shared dimensions let linear time-invariant control move the \
 modes that are not fast enough: agents 2 and 3 can receive from nobody and lack 1 state
     """
-    region = wanted_region(system.time, rate, radius, spectrum=spectrum)
-    tell = progress or (lambda _: None)
+    request = Request.of(system, agent, spectrum, rate, radius, arithmetic, progress)
     derived, allocation = sharing_network(
         system,
         graph,
-        region,
+        request,
         dimensions=dimensions,
         share=share,
         network=network,
         free_assignability=free_assignability,
-        tell=tell,
     )
-    made = network_design(
-        "extended",
-        derived,
-        agent,
-        region,
-        spectrum=spectrum,
-        arithmetic=arithmetic,
-        progress=progress,
-    )
+    made = network_design("extended", derived, request)
     if allocation is None:
         return made
     parts = {**made.parts, "allocation": allocation}
@@ -133,13 +123,12 @@ modes that are not fast enough: agents 2 and 3 can receive from nobody and lack 
 def sharing_network(
     system: MultiChannelSystem,
     graph: NeighborGraph | None,
-    region: StabilityRegion,
+    request: Request,
     *,
     dimensions: Dimensions = "minimal",
     share: Share | None = None,
     network: Literal["extended", "lifted", "held"] | None = None,
     free_assignability: bool = False,
-    tell: Progress,
 ) -> tuple[DerivedNetwork, SharedDimensions | Deficiency | None]:
     """The network that `design_extended` controls, of the same arguments, and why of this size."""
     system, found = with_graph(system, graph)
@@ -147,8 +136,8 @@ def sharing_network(
     if kind not in ("extended", "lifted", "held"):
         raise UsageError(f'expected "extended", "lifted" or "held", found {kind!r}')
     sharing: Share = share or ("states" if kind == "held" else "outputs+states")
-    tell("shared dimensions")
-    allocation, sizes = _sizes(system, dimensions, sharing, region, free_assignability)
+    request.tell("shared dimensions")
+    allocation, sizes = _sizes(system, dimensions, sharing, request.region, free_assignability)
     return shared_network(system, found, sizes, sharing, kind), allocation
 
 

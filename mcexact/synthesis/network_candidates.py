@@ -13,14 +13,12 @@ from mcexact.derived.feedback import closed_by
 from mcexact.derived.modular_system import generator
 from mcexact.errors import InputError, InternalError
 from mcexact.exact.linear_algebra import characteristic_polynomial
-from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial, product
 from mcexact.synthesis.channel_controller import ChannelController, assigning_controllers
 from mcexact.synthesis.channel_parts import ChannelReach, DrawnGains, channel_part
-from mcexact.synthesis.design import Arithmetic
-from mcexact.synthesis.gate import Progress
 from mcexact.synthesis.networks import DerivedNetwork
+from mcexact.synthesis.request import Request
 from mcexact.synthesis.riccati_channel import riccati_channel_controller
 from mcexact.synthesis.spectrum import default_polynomial, spectrum_polynomial
 
@@ -38,9 +36,7 @@ class NetworkTask:
     choices: tuple[tuple[int, ...], ...]
     spectrum: FixedSpectrum
     prescribed: Any
-    region: StabilityRegion
-    arithmetic: Arithmetic
-    tell: Progress
+    request: Request
 
     def component_of(self, channel: int) -> int:
         return next(c for c, members in enumerate(self.components) if channel in members)
@@ -48,7 +44,7 @@ class NetworkTask:
     def polynomial(self, channel: int, degree: int, *, only: bool) -> Polynomial:
         """The prescribed polynomial of the block with this channel."""
         if self.prescribed is None:
-            return default_polynomial(self.region, degree)
+            return default_polynomial(self.request.region, degree)
         if only and not isinstance(self.prescribed, Mapping):
             return spectrum_polynomial(self.prescribed, degree, where="spectrum.closed_loop")
         names = self.network.given.names
@@ -75,17 +71,17 @@ def best_candidate(task: NetworkTask, drawn: Sequence[DrawnGains]) -> NetworkCan
     if not drawn:
         return None
     first = drawn[0]
-    if task.arithmetic == "float":
+    if task.request.arithmetic == "float":
         alike = [d for d in drawn if d.degree == first.degree][:_KEPT_FLOAT]
     else:
         alike = [d for d in drawn if (d.degree, d.order) == (first.degree, first.order)][:_KEPT]
     best: NetworkCandidate | None = None
     for k, each in enumerate(alike):
-        task.tell(f"channel controllers, candidate {k + 1}")
+        task.request.tell(f"channel controllers, candidate {k + 1}")
         candidate = _candidate(task, each)
         if candidate is not None and (best is None or candidate.cost < best.cost):
             best = candidate
-            if task.arithmetic == "float" and best.largest <= _SMALL_GAIN:
+            if task.request.arithmetic == "float" and best.largest <= _SMALL_GAIN:
                 break
     return best
 
@@ -129,7 +125,7 @@ def _candidate(task: NetworkTask, drawn: DrawnGains) -> NetworkCandidate | None:
         return None
     made, wanted = {}, {}
     for reach in drawn.reaches:
-        if task.arithmetic == "float":
+        if task.request.arithmetic == "float":
             channel, found = _riccati_controller(task, M, reach)
         else:
             part, channel = parts[reach.channel], reach.channel
@@ -156,7 +152,7 @@ def _riccati_controller(
         part = channel_part(M, system.B(q), system.C(q), rng)
         if part.A.nrows != reach.degree:
             continue
-        found = riccati_channel_controller(part, task.region)
+        found = riccati_channel_controller(part, task.request.region)
         if found is not None and (best[1] is None or found.largest < best[1].largest):
             best = (q, found)
     return best

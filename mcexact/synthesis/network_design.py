@@ -11,14 +11,15 @@ from mcexact.analysis.fixed_modes.single_channel_gains import single_channel_gai
 from mcexact.analysis.structure.transfer_graph import transfer_graph
 from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.answer.wording import refusals as say
-from mcexact.errors import Impossible, InputError, LimitReached, UsageError
+from mcexact.errors import Impossible, InputError, LimitReached
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial, product
 from mcexact.synthesis.channel_parts import drawn_gains
-from mcexact.synthesis.design import Arithmetic, Design, Method, designed
-from mcexact.synthesis.gate import Progress, Proposal
+from mcexact.synthesis.design import Design, Method, designed
+from mcexact.synthesis.gate import Proposal
 from mcexact.synthesis.network_candidates import NetworkCandidate, NetworkTask, best_candidate
 from mcexact.synthesis.networks import DerivedNetwork, network_programs
+from mcexact.synthesis.request import Request
 
 _ATTEMPTS = 96
 _MORE_ATTEMPTS = 600
@@ -46,30 +47,18 @@ class AssignedBlock:
     polynomial: Polynomial
 
 
-def network_proposals(
-    network: DerivedNetwork,
-    agent: str | None,
-    region: StabilityRegion,
-    *,
-    spectrum: Any = None,
-    arithmetic: Arithmetic = "exact",
-    tell: Progress,
-) -> Iterator[Proposal]:
+def network_proposals(network: DerivedNetwork, request: Request) -> Iterator[Proposal]:
     """Decentralized control of a derived network, one channel controller per component.
 
     Parameters
     ----------
     network : DerivedNetwork
         Of n̄ states.
-    agent : str or None
-        Who is to carry a channel controller; by default those that need the least order.
-    region : StabilityRegion
-    spectrum : polynomial, list of roots, or mapping, optional
-        n̄ + k_q numbers (less those of kept modes), if the transfer graph is strongly connected;
-        else a mapping from one agent of each strong component to the numbers of that component.
-        Either may stand under the key ``"closed_loop"``.  A wrong length names the right one.
-    arithmetic : {"exact", "float"}
-    tell : callable
+    request : Request
+        Its spectrum a polynomial or list of roots, n̄ + k_q numbers (less those of kept modes), if
+        the transfer graph is strongly connected; else a mapping from one agent of each strong
+        component to the numbers of that component.  Either may stand under the key
+        ``"closed_loop"``.  A wrong length names the right one.
 
     Yields
     ------
@@ -96,25 +85,19 @@ def network_proposals(
     of order k_q, one less than the smaller of its indices; in floating point an observer-based one
     from two Riccati equations, of the order of the part.
     """
-    prescribed = _prescribed(spectrum)
-    if arithmetic == "float" and prescribed is not None:
-        raise UsageError(
-            "in floating point give a rate or radius; a spectrum needs exact arithmetic"
-        )
-    if agent is not None:
-        network.given.index(agent)
-    tell("fixed modes")
+    prescribed = _prescribed(request.spectrum)
+    request.tell("fixed modes")
     fixed = fixed_spectrum(network.system)
-    _require_fast(network, fixed, region)
-    components, choices = _choices(network, agent)
-    task = NetworkTask(network, components, choices, fixed, prescribed, region, arithmetic, tell)
-    tell("decentralized gains")
+    _require_fast(network, fixed, request.region)
+    components, choices = _choices(network, request.agent)
+    task = NetworkTask(network, components, choices, fixed, prescribed, request)
+    request.tell("decentralized gains")
     for attempts in (_ATTEMPTS, _MORE_ATTEMPTS):
         found = best_candidate(task, drawn_gains(network.system, choices, attempts=attempts))
         if found is not None:
             yield _proposal(task, found)
             return
-    if arithmetic == "float":
+    if request.arithmetic == "float":
         raise LimitReached(
             "no Riccati equations of single channels led to a controller in double precision: "
             "share more, ask for less, or design in exact arithmetic"
@@ -152,7 +135,7 @@ def _require_fast(network: DerivedNetwork, fixed: FixedSpectrum, region: Stabili
 
 
 def _choices(
-    network: DerivedNetwork, agent: str | None
+    network: DerivedNetwork, agent: int | None
 ) -> tuple[tuple[tuple[int, ...], ...], tuple[tuple[int, ...], ...]]:
     """The strong components, and for each the channels that may carry its controller."""
     plant = network.given
@@ -160,8 +143,7 @@ def _choices(
     components = tuple(tuple(plant.index(name) for name in members) for members in graph.components)
     if agent is None:
         return components, components
-    chosen = plant.index(agent)
-    return components, tuple((chosen,) if chosen in c else c for c in components)
+    return components, tuple((agent,) if agent in c else c for c in components)
 
 
 def _proposal(task: NetworkTask, candidate: NetworkCandidate) -> Proposal:
@@ -190,28 +172,14 @@ def _proposal(task: NetworkTask, candidate: NetworkCandidate) -> Proposal:
     return Proposal(controller, (whole,), parts=parts)
 
 
-def network_design(
-    method: Method,
-    network: DerivedNetwork,
-    agent: str | None,
-    region: StabilityRegion,
-    *,
-    spectrum: Any,
-    arithmetic: Arithmetic,
-    progress: Progress | None,
-) -> Design:
+def network_design(method: Method, network: DerivedNetwork, request: Request) -> Design:
     """The proposal for a network, certified, with what else was proved of the network.
 
     The fixed modes; and, where nothing is kept and there is one strong component, that with F̄_i the
     agent with the channel controller reaches everything.
     """
-    tell = progress or (lambda _: None)
-    proposals = network_proposals(
-        network, agent, region, spectrum=spectrum, arithmetic=arithmetic, tell=tell
-    )
-    made = designed(
-        method, arithmetic, network.given, network.graph, region, proposals, progress=progress
-    )
+    proposals = network_proposals(network, request)
+    made = designed(method, request, network.given, network.graph, proposals)
     certificates = {**made.certificates, "fixed_spectrum": made.parts["fixed_spectrum"]}
     blocks, gains = made.parts["blocks"], made.parts["gains"]
     if len(blocks) == 1 and made.parts["kept"].degree < 1:

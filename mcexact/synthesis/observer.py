@@ -15,12 +15,13 @@ from mcexact.exact.matrix import Matrix
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_graph
 from mcexact.model.system_file import digest
-from mcexact.synthesis.design import Arithmetic, Design, designed, wanted_region
+from mcexact.synthesis.design import Design, designed
 from mcexact.synthesis.fast_modes import feedback_for_region, observable_part
-from mcexact.synthesis.gate import Progress, Proposal
+from mcexact.synthesis.gate import Proposal
 from mcexact.synthesis.observer_coordinates import observer_coordinates
 from mcexact.synthesis.observer_programs import observer_programs
 from mcexact.synthesis.observer_search import ObserverTask, best_channel_controller
+from mcexact.synthesis.request import Arithmetic, Progress, Request
 from mcexact.synthesis.spectrum import spectrum_polynomial
 from mcexact.synthesis.state_feedback import StateFeedback, given_feedback, state_feedback
 
@@ -106,32 +107,18 @@ def design_observer(
 H_ij let one agent control and observe all estimation errors
     """
     system, graph = with_graph(system, graph)
-    region = wanted_region(system.time, rate, radius, spectrum=spectrum)
-    proposals = observer_proposals(
-        system,
-        graph,
-        agent,
-        region,
-        spectrum=spectrum,
-        gains=gains,
-        order=order,
-        arithmetic=arithmetic,
-        tell=progress or (lambda _: None),
-    )
-    return designed("observer", arithmetic, system, graph, region, proposals, progress=progress)
+    request = Request.of(system, agent, spectrum, rate, radius, arithmetic, progress)
+    proposals = observer_proposals(system, graph, request, gains=gains, order=order)
+    return designed("observer", request, system, graph, proposals)
 
 
 def observer_proposals(
     system: MultiChannelSystem,
     graph: NeighborGraph,
-    agent: str | None,
-    region: StabilityRegion,
+    request: Request,
     *,
-    spectrum: Mapping[str, Any] | None = None,
     gains: Sequence[Any] | None = None,
     order: Literal["least"] | None = None,
-    arithmetic: Arithmetic = "exact",
-    tell: Progress,
 ) -> Iterator[Proposal]:
     """What `design_observer` puts before the gate, of the same arguments: one, if exact."""
     if graph.delays:
@@ -141,34 +128,27 @@ def observer_proposals(
         )
     if order not in (None, "least"):
         raise UsageError(f'expected order "least" or none, found {order!r}', where="order")
-    if arithmetic not in ("exact", "float"):
-        raise UsageError(f'expected "exact" or "float", found {arithmetic!r}', where="arithmetic")
-    carrier, least = 0 if agent is None else system.index(agent), order == "least"
+    carrier, region = request.agent or 0, request.region
     exact = None if gains is None else checked_gains(system, gains, [system.n] * system.m)
-    if arithmetic == "float":
+    if request.arithmetic == "float":
         from mcexact.synthesis.observer_float import float_proposals
 
-        if region.bound is None or spectrum is not None:
-            raise UsageError(
-                "a design in floating point takes a rate or a radius; a spectrum needs "
-                'arithmetic "exact"'
-            )
         yield from float_proposals(
-            system, graph, carrier, region, gains=exact, reduced=least, tell=tell
+            system, graph, carrier, request, gains=exact, reduced=order == "least"
         )
         return
-    wanted = _checked_spectrum(spectrum, gains)
+    wanted = _checked_spectrum(request.spectrum, gains)
     part, L = system, Matrix.identity(system.n)
-    if spectrum is None and gains is None:
+    if request.spectrum is None and gains is None:
         hidden = joint_observability(system).uncontrollable_polynomial
         if hidden.degree > 0 and region.contains_roots_of(hidden):
             # What all channels together do not see is fast enough: estimate the rest.
             part, L = observable_part(system)
-    tell("state feedback")
+    request.tell("state feedback")
     feedback = _feedback(part, wanted.get("feedback"), region, exact)
-    tell("observer gains for the error system")
+    request.tell("observer gains for the error system")
     error = error_system(part, feedback.gains, graph)
-    task = ObserverTask(part, graph, carrier, feedback, error, wanted, region, least, tell)
+    task = ObserverTask(part, graph, carrier, feedback, error, wanted, request, order == "least")
     made = _proposal(task, L)
     if part is not system:
         controller = replace(made.controller, system=digest(system))

@@ -25,9 +25,10 @@ from mcexact.synthesis.error_observer import (
     full_order_observer,
     reduced_order_observer,
 )
-from mcexact.synthesis.gate import Progress, Proposal
+from mcexact.synthesis.gate import Proposal
 from mcexact.synthesis.observer_coordinates import observer_coordinates
 from mcexact.synthesis.observer_programs import observer_programs
+from mcexact.synthesis.request import Request
 from mcexact.synthesis.riccati import riccati_feedback
 from mcexact.synthesis.state_feedback import split_by_channel
 
@@ -57,11 +58,10 @@ def float_proposals(
     system: MultiChannelSystem,
     graph: NeighborGraph,
     agent: int,
-    region: StabilityRegion,
+    request: Request,
     *,
     gains: Sequence[Matrix] | None = None,
     reduced: bool = False,
-    tell: Progress,
 ) -> Iterator[Proposal]:
     """Distributed observers for a region by Riccati equations, the most promising first.
 
@@ -74,12 +74,11 @@ def float_proposals(
         Without delays.
     agent : int
         q, counted from 0.
-    region : StabilityRegion
+    request : Request
     gains : sequence of m Matrix, optional
         F_i (p_i×n) from outside.
     reduced : bool
         Observe only the errors that channel q does not see at once, where that can be certified.
-    tell : callable
 
     Raises
     ------
@@ -103,10 +102,10 @@ def float_proposals(
     on the versions of numpy and scipy, and so do the controller and its certificate.
     """
     _require_doubles(system)
-    tried = 0
+    tried, region = 0, request.region
     for margin in _MARGINS:
         target = region.tightened(margin)
-        tell("state feedback")
+        request.tell("state feedback")
         F = _state_feedback(system, target) if gains is None else tuple(gains)
         if F is None:
             continue
@@ -114,7 +113,7 @@ def float_proposals(
         candidates = []
         for drawn in _drawn_gains(system, graph, error, F):
             tried += 1
-            tell(f"observer gains K, H number {tried}")
+            request.tell(f"observer gains K, H number {tried}")
             candidates += _solved(error, agent, drawn, target, reduced)
         for each in sorted(
             candidates, key=lambda found: (found.observer.channel.order, found.size)

@@ -15,12 +15,11 @@ from mcexact.analysis.structure.controllability import joint_observability
 from mcexact.answer.wording import refusals as say
 from mcexact.derived.modular_system import generator
 from mcexact.errors import Impossible, InputError, LimitReached
-from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.channel_controller import ChannelController, assigning_controllers
-from mcexact.synthesis.gate import Progress
+from mcexact.synthesis.request import Request
 from mcexact.synthesis.spectrum import default_polynomial, spectrum_polynomial
 from mcexact.synthesis.state_feedback import StateFeedback
 
@@ -37,15 +36,14 @@ class ObserverTask:
     feedback: StateFeedback
     error: MultiChannelSystem
     wanted: Mapping[str, Any]
-    region: StabilityRegion
+    request: Request
     least: bool
-    tell: Progress
 
     def polynomial(self, degree: int) -> Polynomial:
         """The prescribed polynomial of the error system, of this degree."""
         if "error" in self.wanted:
             return spectrum_polynomial(self.wanted["error"], degree, where="spectrum.error")
-        return default_polynomial(self.region, degree)
+        return default_polynomial(self.request.region, degree)
 
     def center(self) -> Fraction:
         """The mean of the prescribed numbers; 0 where their number is not the usual one."""
@@ -117,7 +115,7 @@ def best_channel_controller(
     for k, each in enumerate(candidates):
         if index_of(each) != index:
             continue
-        task.tell(f"channel controller {k + 1} of {len(candidates)}")
+        task.request.tell(f"channel controller {k + 1} of {len(candidates)}")
         side = "controllable" if each.controllability_indices[0] <= index else "observable"
         controllers = assigning_controllers(
             each.matrix, B, C, polynomial, index=index, side=side, rng=rng

@@ -21,11 +21,12 @@ from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, as_plant, with_graph
 from mcexact.model.system_file import digest
-from mcexact.synthesis.design import Arithmetic, Design, designed, wanted_region
+from mcexact.synthesis.design import Design, designed
 from mcexact.synthesis.extended import Dimensions, sharing_network
-from mcexact.synthesis.gate import Progress, Proposal
+from mcexact.synthesis.gate import Proposal
 from mcexact.synthesis.network_design import network_proposals
 from mcexact.synthesis.observer import observer_proposals
+from mcexact.synthesis.request import Arithmetic, Progress, Request
 
 SetpointMethod = Literal["observer", "extended"]
 
@@ -105,38 +106,24 @@ invariant zero of the plant
     system, graph = with_graph(system, graph)
     if method not in ("observer", "extended"):
         raise UsageError(f'expected "observer" or "extended", found {method!r}', where="method")
-    region = wanted_region(system.time, rate, radius, spectrum=spectrum)
+    request = Request.of(system, agent, spectrum, rate, radius, arithmetic, progress)
     solvability = _required(system)
     integrated = setpoint_system(system)
-    _require_reachable(integrated, region)
-    tell = progress or (lambda _: None)
+    _require_reachable(integrated, request.region)
 
-    def proposed(to: MultiChannelSystem, aim: StabilityRegion) -> Iterator[Proposal]:
+    def proposed(to: MultiChannelSystem, asked: Request) -> Iterator[Proposal]:
         if method == "observer":
-            return observer_proposals(
-                to, graph, agent, aim, spectrum=spectrum, arithmetic=arithmetic, tell=tell
-            )
+            return observer_proposals(to, graph, asked)
         kind: Literal["held", "extended"] = "held" if graph.delays else "extended"
         network, _ = sharing_network(
-            to, graph, aim, dimensions=dimensions, share="states", network=kind, tell=tell
+            to, graph, asked, dimensions=dimensions, share="states", network=kind
         )
-        return network_proposals(
-            network, agent, aim, spectrum=spectrum, arithmetic=arithmetic, tell=tell
-        )
+        return network_proposals(network, asked)
 
-    free = spectrum is None and arithmetic == "exact"
     minimal = method == "extended" and dimensions == "minimal" and not graph.delays
-    proposals = _proposals(proposed, integrated, region, free=free, minimal=minimal)
-    made = designed(
-        method,
-        arithmetic,
-        system,
-        graph,
-        region,
-        (_for_the_plant(system, each) for each in proposals),
-        stable=True,
-        progress=progress,
-    )
+    proposals = _proposals(proposed, integrated, request, minimal=minimal)
+    moved = (_for_the_plant(system, each) for each in proposals)
+    made = designed(method, request, system, graph, moved, stable=True)
     gain = made.loop.closed.steady_gain
     if gain is None or gain != Matrix.identity(gain.nrows):
         raise InternalError("a stable loop with integrators does not reach its set-points")
@@ -169,11 +156,10 @@ def _require_reachable(augmented: MultiChannelSystem, region: StabilityRegion) -
 
 
 def _proposals(
-    proposed: Callable[[MultiChannelSystem, StabilityRegion], Iterator[Proposal]],
+    proposed: Callable[[MultiChannelSystem, Request], Iterator[Proposal]],
     integrated: MultiChannelSystem,
-    region: StabilityRegion,
+    request: Request,
     *,
-    free: bool,
     minimal: bool,
 ) -> Iterator[Proposal]:
     """What a method proposes for the plant with its integrators, taken for a plant.
@@ -181,16 +167,18 @@ def _proposals(
     Where the numbers are free, in continuous time, they are placed beyond the rate that is
     certified: roots that repeat, behind large gains, take many time constants to fade.
     """
-    aims = [region.tightened(Fraction(2)), region] if free and not region.discrete else [region]
-    for aim in aims:
+    asked, region = [request], request.region
+    if request.spectrum is None and request.arithmetic == "exact" and not region.discrete:
+        asked = [replace(request, region=region.tightened(Fraction(2))), request]
+    for each in asked:
         try:
-            yield from proposed(as_plant(integrated), aim)
+            yield from proposed(as_plant(integrated), each)
             return
         except Impossible:
             continue
     try:
         # Refused: once more, for evidence about the plant that the integrators are behind.
-        yield from proposed(integrated, region)
+        yield from proposed(integrated, request)
     except Impossible as refused:
         found = refused.certificate
         if minimal and found.kind == "fixed_spectrum":

@@ -91,7 +91,7 @@ def test_a_spectrum_for_the_observer_is_refused() -> None:
 
 
 def test_floating_point_takes_no_spectrum() -> None:
-    with pytest.raises(UsageError, match="rate or radius"):
+    with pytest.raises(UsageError, match="a spectrum needs exact arithmetic"):
         design_extended(three_channels(), spectrum=[-1], arithmetic="float")
 
 

@@ -7,7 +7,8 @@ import pytest
 from mcexact.errors import FloatRefused, InputError, UsageError
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial
-from mcexact.synthesis.design import wanted_region
+from mcexact.model.system import MultiChannelSystem
+from mcexact.synthesis.request import Request
 from mcexact.synthesis.spectrum import default_polynomial, spectrum_polynomial
 
 
@@ -63,6 +64,11 @@ def test_the_default_meets_its_bound(time, bound, degree):
     assert region.contains_roots_of(p)
 
 
+def static(time):
+    """A plant without states."""
+    return MultiChannelSystem([], [[]], [[]], time=time)
+
+
 @pytest.mark.parametrize(
     ("time", "options"),
     [
@@ -78,9 +84,22 @@ def test_the_default_meets_its_bound(time, bound, degree):
 )
 def test_the_wrong_bound_is_wrong_usage(time, options):
     with pytest.raises(UsageError):
-        wanted_region(time, **options)
+        Request.of(static(time), **options)
 
 
 def test_a_bound_may_be_left_out_beside_a_spectrum():
-    assert wanted_region("continuous", spectrum=[-1]).bound is None
-    assert wanted_region("discrete", radius="1/2").bound == Fraction(1, 2)
+    assert Request.of(static("continuous"), spectrum=[-1]).region.bound is None
+    assert Request.of(static("discrete"), radius="1/2").region.bound == Fraction(1, 2)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"arithmetic": "decimal"}, 'expected "exact" or "float"'),
+        ({"arithmetic": "float", "spectrum": [-1]}, "a spectrum needs exact arithmetic"),
+        ({"agent": "2"}, "no channel"),
+    ],
+)
+def test_what_no_method_can_do_is_refused_before_any_work(options, message):
+    with pytest.raises(UsageError, match=message):
+        Request.of(static("continuous"), rate=1, **options)
