@@ -10,7 +10,7 @@ from .location import in_stability_region
 from .reading import polynomial
 from .sentence import Path, Premise, Role, restate, rule
 from .sentences_analysis import FIXED_DYNAMIC, controls
-from .sentences_sharing import Cut, cuts, demands, whole
+from .sentences_sharing import demands
 from .system import System, read_matrix
 from .words import channel, counted, described
 
@@ -114,8 +114,17 @@ def is_stable(loop: Premise) -> bool:
     return all(in_stability_region(p, loop.system.time) for p in found)
 
 
-restate("design-observer", OBSERVER, is_stable)
-restate("design-observer-float design-network design-setpoint design-region", LOOP, is_stable)
+def decays(loop: Premise) -> str:
+    """What is claimed of the loop, and that it is stable."""
+    stable = "modulus below 1" if loop.system.time == "discrete" else "negative real part"
+    return f"{loop.theorem}; every eigenvalue has {stable}"
+
+
+restate("design-observer", OBSERVER, is_stable, words=decays)
+CERTIFIED = "design-observer-float design-network design-setpoint"
+restate(CERTIFIED, LOOP, is_stable, words=decays)
+PLACED = Role(("stability", "distributed_observer"), CLOSED)
+restate("design-region", PLACED, lambda c: is_stable(c) and c["bound"] is not None)
 restate("design-feedback design-errors", OBSERVER, lambda c: True)
 restate("design-assigned", LOOP, lambda c: True)
 restate("certify-inside", STABLE, lambda c: c["stable"])
@@ -212,25 +221,19 @@ stuck("refused-errors-fixed", *behind(("error",)))
 stuck("refused-integrators-fixed", ("integrators", "extended"), holds=shares_all)
 
 
-def refuse(key: str, theorem: str, wanted: Callable[[Premise, Cut], Any]) -> None:
+def refuse(key: str, theorem: str, agents: str) -> None:
     """Enter a rule about agents who lack something and hear nobody else, whatever is shared."""
 
     @rule(key, DIMENSIONS, theorem=theorem)
     def say(least: Premise) -> str:
         least.expect(not least["feasible"], "some dimensions suffice")
-        return demands(least, cuts(least, lambda cut: not cut.senders and wanted(least, cut)))
+        return demands(least, agents, alone=True)
 
 
-refuse(
-    "refused-no-dimensions",
-    NO_FIXED,
-    lambda least, cut: cut.mode and cut.s and not whole(least, cut),
-)
-refuse("refused-sharing-in-vain-control", NO_FIXED, lambda least, cut: cut.mode and not cut.s)
-refuse(
-    "refused-sharing-in-vain-observe", NO_FIXED, lambda least, cut: cut.mode and whole(least, cut)
-)
-refuse("refused-no-connection", "transfer_graph.zero_transfer_cut", lambda least, cut: not cut.mode)
+refuse("refused-no-dimensions", NO_FIXED, "some")
+refuse("refused-sharing-in-vain-control", NO_FIXED, "none")
+refuse("refused-sharing-in-vain-observe", NO_FIXED, "all")
+refuse("refused-no-connection", "transfer_graph.zero_transfer_cut", "cut off")
 
 
 def conditions(found: Premise) -> list[str]:

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, NamedTuple
+from functools import partial
 
 from .sentence import HEARD, PLANT, Path, Premise, Role, restate, rule
 from .sentences_analysis import CONTROLLABLE, HAUTUS, OBSERVABLE, controls
@@ -118,52 +117,31 @@ def proved(least: Premise) -> str:
     return f"{least.theorem}, by {counted(cuts, 'cut')} and {counted(nodes, 'node')} of a tree"
 
 
-class Cut(NamedTuple):
-    """A set of agents s, N_s∖s, how much these must share, and why: a mode, or no transfer to s."""
+def demands(least: Premise, agents: str, alone: bool = False) -> str:
+    """Cuts of the evidence in words, and why: a mode, or no transfer to their agents.
 
-    s: list[int]
-    senders: list[int]
-    demand: int
-    mode: Any
-
-
-def cuts(least: Premise, wanted: Callable[[Cut], Any]) -> list[Cut]:
-    """The cuts of the evidence that are wanted, at least one."""
-    system, found = least.system, []
+    Of a mode those of none, some or all ``agents`` are meant, or those that are cut off; if
+    ``alone``, only those of agents who hear nobody else.
+    """
+    system, told = least.system, []
     N = system.neighbors or [[i] for i in range(system.m)]
     for cut in least.cited("/witness/cuts"):
-        s = [system.names.index(name) for name in cut["subset"]]
+        s, p = [system.names.index(name) for name in cut["subset"]], cut.get("polynomial")
+        which = "none" if not s else "all" if len(s) == system.m else "some"
         senders = sorted({j for i in s for j in N[i]} - set(s))
-        found.append(Cut(s, senders, cut.get("deficiency", 1), cut.get("polynomial")))
-    chosen = [cut for cut in found if wanted(cut)]
-    least.expect(bool(chosen), "no cut of the evidence is so")
-    return chosen
-
-
-def demands(least: Premise, chosen: list[Cut]) -> str:
-    """Cuts in words."""
-    system, told = least.system, []
-    for s, senders, demand, p in chosen:
-        why = "the others do not act on it" if p is None else f"the roots of {polynomial_text(p)}"
-        hears = f"{channel_set(system, s)} hears {channel_set(system, senders)}"
-        told.append(f"{hears}, who must share at least {counted(demand, 'sub-state')}: {why}")
+        if agents == (which if p else "cut off") and not (alone and senders):
+            why = f"the roots of {polynomial_text(p)}" if p else "the others do not act on it"
+            hears = f"{channel_set(system, s)} hears {channel_set(system, senders)}"
+            needed = counted(cut.get("deficiency", 1), "sub-state")
+            told.append(f"{hears}, who must share at least {needed}: {why}")
+    least.expect(bool(told), "no cut of the evidence is so")
     return f"in {described(system)} {'; '.join(told)}"
 
 
-def reason(key: str, wanted: Callable[[Premise, Cut], Any]) -> None:
-    """Enter a rule about why some agents need something."""
-    rule(key, LEAST)(lambda least: demands(least, cuts(least, lambda cut: wanted(least, cut))))
-
-
-def whole(least: Premise, cut: Cut) -> bool:
-    """Whether a cut is about all agents together."""
-    return len(cut.s) == least.system.m
-
-
-reason("allocate-reason", lambda least, cut: cut.mode)
-reason("allocate-reason-do-not-control", lambda least, cut: cut.mode and not cut.s)
-reason("allocate-reason-do-not-observe", lambda least, cut: cut.mode and whole(least, cut))
-reason("allocate-reason-cut-off", lambda least, cut: not cut.mode)
+rule("allocate-reason", LEAST)(partial(demands, agents="some"))
+rule("allocate-reason-do-not-control", LEAST)(partial(demands, agents="none"))
+rule("allocate-reason-do-not-observe", LEAST)(partial(demands, agents="all"))
+rule("allocate-reason-cut-off", LEAST)(partial(demands, agents="cut off"))
 
 
 # Links.
