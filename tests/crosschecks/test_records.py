@@ -58,7 +58,7 @@ def test_the_file_is_written_and_what_is_kept_is_named(monkeypatch, tmp_path, ca
     first = (tmp_path / "records.json").read_text()
     recording.main()
     assert (tmp_path / "records.json").read_text() == first
-    assert "integrator: floating point answers rightly here" in capsys.readouterr().out
+    assert "integrator: floating point answers correctly here" in capsys.readouterr().out
 
 
 def test_libraries_come_back_from_their_document():
