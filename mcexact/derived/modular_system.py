@@ -6,6 +6,7 @@ import random
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from math import prod
 
 from mcexact.exact import krylov
 from mcexact.exact.matrix import Matrix
@@ -16,7 +17,12 @@ from mcexact.exact.modular import (
     primes,
     residues,
 )
+<<<<<<< HEAD
 from mcexact.model.canonical import canonical, plain, sha256
+=======
+from mcexact.exact.reconstruction import integers
+from mcexact.model.canonical import canonical, plain
+>>>>>>> dae587d (Take symmetric residues and strong components from where they are)
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import digest
 
@@ -97,9 +103,7 @@ def residue_systems(
     denominators = [system.A.denominator]
     for channel in system.channels:
         denominators += [channel.B.denominator, channel.C.denominator]
-    product = 1
-    for denominator in set(denominators):
-        product *= denominator
+    product = prod(set(denominators))
     for ell in primes(rng.getrandbits(64), bits):
         if product % ell:
             yield ModularSystem(system, ell)
@@ -146,25 +150,14 @@ def loop_polynomials(
     return krylov.loop_polynomials(system.A, B, C, gains, ell)
 
 
-def symmetric(residue: int, ell: int) -> int:
-    """The representative of a residue in −ℓ/2 … ℓ/2."""
-    return residue - ell if 2 * residue > ell else residue
-
-
 def lifted(M: ModularMatrix) -> Matrix:
     """The integer matrix with the symmetric residues."""
-    ell = M.modulus
-    return Matrix.from_integers(
-        [[symmetric(v, ell) for v in row] for row in M.rows()], ncols=M.ncols
-    )
+    return Matrix.from_integers([integers(row, M.modulus) for row in M.rows()], ncols=M.ncols)
 
 
 def lifted_gains(modular: ModularSystem, gains: Gains) -> tuple[Matrix, ...]:
     """The gains as integer matrices with the symmetric residues."""
-    ell = modular.modulus
     return tuple(
-        Matrix.from_integers(
-            [[symmetric(value, ell) for value in row] for row in F], ncols=len(outputs)
-        )
+        Matrix.from_integers([integers(row, modular.modulus) for row in F], ncols=len(outputs))
         for F, outputs in zip(gains, modular.outputs, strict=True)
     )

@@ -182,10 +182,7 @@ class Matrix:
         >>> Matrix.identity(3).take(rows=[2, 0]).numerators
         ((0, 0, 1), (1, 0, 0))
         """
-        for chosen, size, name in ((rows, self.nrows, "row"), (cols, self.ncols, "column")):
-            for k in chosen or ():
-                if not 0 <= k < size:
-                    raise IndexError(f"no {name} {k} in a {self.nrows} × {self.ncols} matrix")
+        require_positions(self.shape, rows, cols)
         table = self.numerators if rows is None else [self.numerators[i] for i in rows]
         if cols is not None:
             table = [tuple(row[j] for j in cols) for row in table]
@@ -272,6 +269,16 @@ def require_sizes(nrows: int, ncols: int) -> None:
         raise LimitReached(
             f"a {nrows} × {ncols} matrix has more than {_MOST_ENTRIES} entries: too many for memory"
         )
+
+
+def require_positions(
+    shape: tuple[int, int], rows: Sequence[int] | None, cols: Sequence[int] | None
+) -> None:
+    """Refuse rows and columns that a matrix of this shape does not have."""
+    for chosen, size, name in zip((rows, cols), shape, ("row", "column"), strict=True):
+        for k in chosen or ():
+            if not 0 <= k < size:
+                raise IndexError(f"no {name} {k} in a {shape[0]} × {shape[1]} matrix")
 
 
 def from_numerators(rows: Sequence[Sequence[int]], denominator: int, ncols: int) -> Matrix:

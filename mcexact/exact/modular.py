@@ -11,7 +11,7 @@ from typing import Any
 import flint
 
 from mcexact.errors import InputError
-from mcexact.exact.matrix import Matrix, require_sizes
+from mcexact.exact.matrix import Matrix, require_positions, require_sizes
 from mcexact.exact.modular_polynomial import ModularPolynomial as ModularPolynomial
 from mcexact.exact.modular_polynomial import polynomial_residues as polynomial_residues
 from mcexact.exact.prime_field import divides_denominator, require_prime
@@ -115,13 +115,7 @@ class ModularMatrix:
         """The submatrix with these rows and columns, in the order given; None takes all."""
         chosen_rows = range(self.nrows) if rows is None else rows
         chosen_cols = range(self.ncols) if cols is None else cols
-        for chosen, size, name in (
-            (chosen_rows, self.nrows, "row"),
-            (chosen_cols, self.ncols, "column"),
-        ):
-            for k in chosen:
-                if not 0 <= k < size:
-                    raise IndexError(f"no {name} {k} in a {self.nrows} × {self.ncols} matrix")
+        require_positions(self.shape, rows, cols)
         entries = [self._table[i, j] for i in chosen_rows for j in chosen_cols]
         table = flint.nmod_mat(len(chosen_rows), len(chosen_cols), entries, self.modulus)
         return ModularMatrix(self.modulus, table)
