@@ -17,12 +17,8 @@ from mcexact.exact.modular import (
     primes,
     residues,
 )
-<<<<<<< HEAD
-from mcexact.model.canonical import canonical, plain, sha256
-=======
 from mcexact.exact.reconstruction import integers
-from mcexact.model.canonical import canonical, plain
->>>>>>> dae587d (Take symmetric residues and strong components from where they are)
+from mcexact.model.canonical import canonical, plain, sha256
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import digest
 
