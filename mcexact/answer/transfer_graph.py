@@ -37,7 +37,7 @@ class TransferGraph(Answer):
 
     @cached_property
     @shown("channels that take part in no feedback")
-    def dead(self) -> tuple[str, ...]:
+    def inactive(self) -> tuple[str, ...]:
         """Channels with B_i = 0 or C_i = 0: they cannot take part in any feedback."""
         return tuple(c.name for c in self.about.channels if c.B.is_zero() or c.C.is_zero())
 

@@ -86,7 +86,7 @@ def _minimal(
     min_states: int,
     max_states: int,
     max_channels: int,
-    dead_channels: bool,
+    inactive_channels: bool,
     denominators: bool,
     time: str | None,
 ) -> Drawn:
@@ -97,7 +97,7 @@ def _minimal(
         n,
         m,
         time=_time(choices, time),
-        dead_channels=dead_channels,
+        inactive_channels=inactive_channels,
         denominators=denominators,
     )
 
@@ -107,7 +107,7 @@ def jointly_controllable_systems(
     max_channels: int = 4,
     *,
     min_states: int = 0,
-    dead_channels: bool = False,
+    inactive_channels: bool = False,
     denominators: bool = False,
     time: str | None = None,
 ) -> SearchStrategy[Drawn]:
@@ -116,7 +116,7 @@ def jointly_controllable_systems(
     Parameters
     ----------
     max_states, max_channels, min_states : int
-    dead_channels : bool
+    inactive_channels : bool
         Whether some channels may have B_i = 0 or C_i = 0.
     denominators : bool
         Whether entries may be fractions.
@@ -127,7 +127,7 @@ def jointly_controllable_systems(
     SearchStrategy of Drawn
         Repeated eigenvalues, long Jordan chains and irrational modes included.
     """
-    return _minimal(min_states, max_states, max_channels, dead_channels, denominators, time)
+    return _minimal(min_states, max_states, max_channels, inactive_channels, denominators, time)
 
 
 @st.composite

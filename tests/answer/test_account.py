@@ -88,8 +88,8 @@ def test_a_subset_and_a_channel_are_answered_when_they_are_asked_about() -> None
 
 
 def test_the_spectrum_is_split_over_the_components() -> None:
-    dead = MultiChannelSystem([[0]], [[[1]], [[0]]], [[[1]], [[1]]])
-    view = view_of(dead)
+    inactive = MultiChannelSystem([[0]], [[[1]], [[0]]], [[[1]], [[1]]])
+    view = view_of(inactive)
     assert view["assignability"]["blocks"][1] == {"channels": ["2"], "dimension": 0}
     assert view["completeness"]["complete"] is False
 

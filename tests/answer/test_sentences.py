@@ -48,7 +48,7 @@ NUMBERS = re.compile(r"-?\d+(/\d+|\.\d+)?")
 # Paths in the JSON of which every leaf is a name or a keyword.
 NAMES = re.compile(
     r"format|system\.(name|time|channels)|information|sentences\.(rule|theorem)|"
-    r".*\b(arcs|components|dead|channels|subset|share|property|candidates|added|certificate|name)"
+    r".*\b(arcs|components|inactive|channels|subset|share|property|candidates|added|certificate|name)"
 )
 
 

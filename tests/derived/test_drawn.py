@@ -56,7 +56,7 @@ def test_every_kind_of_drawn_system_is_what_it_claims(drawn):
     holds(drawn)
 
 
-@given(testing.jointly_controllable_systems(dead_channels=True, denominators=True))
+@given(testing.jointly_controllable_systems(inactive_channels=True, denominators=True))
 def test_minimal_systems_are_jointly_controllable_and_observable(drawn):
     assert drawn.jointly_controllable and drawn.jointly_observable
     holds(drawn)
@@ -144,7 +144,7 @@ def test_a_good_share_of_sparse_systems_has_fixed_modes_or_is_uncontrollable():
         plain = oracle.plain(sparse_system(SeededChoices(seed), 3, 2).system)
         seen["fixed"] += bool(oracle.fixed_factors(plain))
         seen["uncontrollable"] += oracle.controllable_dimension(plain) < 3
-        seen["dead"] += any(not any(map(any, rows)) for rows in (*plain.B, *plain.C))
+        seen["inactive"] += any(not any(map(any, rows)) for rows in (*plain.B, *plain.C))
     assert all(5 < count < 60 for count in seen.values()) and len(seen) == 3
 
 

@@ -30,7 +30,7 @@ def sparse_system(rng: random.Random, states: int = 5, channels: int = 4) -> Pla
     """At most so many states and channels, entries −2 … 2, mostly 0.
 
     A good share has fixed modes; some are not jointly controllable or observable, some channels are
-    dead or have no inputs or outputs at all, some entries are fractions.
+    inactive or have no inputs or outputs at all, some entries are fractions.
     """
     n, m = rng.randint(1, states), rng.randint(1, channels)
     values = rng.choice([[1], [1, -1], [1, 2, -1, -2]])

@@ -63,11 +63,11 @@ def test_one_channel_is_output_feedback() -> None:
     assert (design.order, design.parts["observer_order"]) == (1, 2)
 
 
-def test_no_states_and_dead_channels_need_nothing() -> None:
+def test_no_states_and_inactive_channels_need_nothing() -> None:
     empty = MultiChannelSystem([], [[]], [[]])
     assert design_decentralized(empty, rate=1).order == 0
-    dead = MultiChannelSystem([[-3]], [[[0]], [[1]]], [[[1]], [[0]]])
-    design = design_decentralized(dead, rate=1)
+    inactive = MultiChannelSystem([[-3]], [[[0]], [[1]]], [[[1]], [[0]]])
+    design = design_decentralized(inactive, rate=1)
     assert (design.order, design.parts["kept"]) == (0, Polynomial.from_roots([-3]))
 
 

@@ -29,7 +29,7 @@ def assignability(
     transfer matrix is block triangular in an order of the components, so the second factor is the
     product over the components c of the same for C_c (xI − A)⁻¹ B_c, F_c, which a minimal
     realization of degree d_c turns into a quotient of polynomials of degree d_c.  This holds with
-    fixed modes, dead channels and without joint controllability.  Exact.
+    fixed modes, inactive channels and without joint controllability.  Exact.
 
     Examples
     --------

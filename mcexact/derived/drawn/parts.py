@@ -49,7 +49,7 @@ def draw_ports(
     *,
     reach: frozenset[int] = frozenset(),
     subset: frozenset[int] = frozenset(),
-    dead_channels: bool = False,
+    inactive_channels: bool = False,
 ) -> tuple[Ports, Ports]:
     """Draw the numbers of inputs and outputs of the channels, and which channels are inactive."""
     inputs, outputs = [], []
@@ -58,7 +58,7 @@ def draw_ports(
         outputs += [i] * choices.option((1, 1, 1, 2))
     silent: frozenset[int] = frozenset()
     blind: frozenset[int] = frozenset()
-    if dead_channels:
+    if inactive_channels:
         # At least one channel has inputs, and at least one has outputs.
         silent = frozenset(shuffled(choices, range(channels))[: choices.integer(0, channels - 1)])
         blind = frozenset(shuffled(choices, range(channels))[: choices.integer(0, channels - 1)])
@@ -70,7 +70,7 @@ def draw_ports(
 
 def live(ports: Ports, channels: Collection[int]) -> int:
     """The number of ports of those of the channels that are active."""
-    return sum(owner in channels and owner not in ports.dead for owner in ports.owners)
+    return sum(owner in channels and owner not in ports.inactive for owner in ports.owners)
 
 
 def draw_chains(

@@ -77,19 +77,19 @@ class Ports:
         The channels that are restricted to one zone: T for inputs, s for outputs.
     zone : int
         This zone: 1 for inputs, 3 for outputs.
-    dead : frozenset of int
+    inactive : frozenset of int
         The channels whose matrix stays 0.
     """
 
     owners: tuple[int, ...]
     confined: frozenset[int]
     zone: int
-    dead: frozenset[int] = frozenset()
+    inactive: frozenset[int] = frozenset()
 
     def may_touch(self, port: int, zone: int) -> bool:
         """Whether an input may act on (an output may measure) a zone."""
         owner = self.owners[port]
-        return owner not in self.dead and (owner not in self.confined or zone == self.zone)
+        return owner not in self.inactive and (owner not in self.confined or zone == self.zone)
 
 
 @dataclass

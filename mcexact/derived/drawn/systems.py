@@ -61,7 +61,7 @@ def jointly_controllable_system(
     channels: int,
     *,
     time: str = "continuous",
-    dead_channels: bool = False,
+    inactive_channels: bool = False,
     denominators: bool = False,
 ) -> Drawn:
     """Draw a jointly controllable and jointly observable system, by construction.
@@ -72,7 +72,7 @@ def jointly_controllable_system(
     states, channels : int
         n ≥ 0 and m ≥ 1.
     time : {"continuous", "discrete"}
-    dead_channels : bool
+    inactive_channels : bool
         Whether some channels may have B_i = 0 or C_i = 0.
     denominators : bool
         Whether entries may be fractions.
@@ -91,7 +91,7 @@ def jointly_controllable_system(
     (4, True)
     """
     _require_sizes(states, channels)
-    inputs, outputs = draw_ports(choices, channels, dead_channels=dead_channels)
+    inputs, outputs = draw_ports(choices, channels, inactive_channels=inactive_channels)
     limit = min(live(inputs, range(channels)), live(outputs, range(channels)))
     chains = draw_chains(choices, states, limit)
     draft = lay_out(choices, chains, inputs, outputs)
@@ -269,12 +269,14 @@ def any_system(choices: Choices, states: int, channels: int, *, time: str = "con
     >>> any_system(SeededChoices(4), states=3, channels=2).system.m
     2
     """
-    kind = choices.option(("sparse", "minimal", "dead", "fixed", "uncontrollable", "unobservable"))
+    kind = choices.option(
+        ("sparse", "minimal", "inactive", "fixed", "uncontrollable", "unobservable")
+    )
     if kind == "minimal":
         return jointly_controllable_system(choices, states, channels, time=time)
-    if kind == "dead":
+    if kind == "inactive":
         return jointly_controllable_system(
-            choices, states, channels, time=time, dead_channels=True, denominators=True
+            choices, states, channels, time=time, inactive_channels=True, denominators=True
         )
     if kind == "fixed" and channels > 1 and states:
         degree = choices.integer(1, min(3, states))

@@ -83,8 +83,8 @@ def test_a_state_that_two_channels_drive_and_none_measures_is_in_no_block() -> N
 
 def test_one_channel_that_does_everything_is_free() -> None:
     assert assignability(MultiChannelSystem([[0]], [[[1]]], [[[1]]])).undivided
-    dead = MultiChannelSystem([[0]], [[[1]], [[0]]], [[[1]], [[1]]])
-    assert assignability(dead).undivided
+    inactive = MultiChannelSystem([[0]], [[[1]], [[0]]], [[[1]], [[1]]])
+    assert assignability(inactive).undivided
 
 
 def test_without_states_there_is_nothing_to_move() -> None:

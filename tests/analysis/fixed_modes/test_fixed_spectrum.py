@@ -113,11 +113,11 @@ def edge_systems() -> dict[str, tuple[MultiChannelSystem, list[str]]]:
             MultiChannelSystem(unit, [[[1], [1]]], [unit]),
             ["x - 1"],
         ),
-        "one dead channel": (
+        "one inactive channel": (
             MultiChannelSystem([[5]], [[[0]], [[1]]], [[[1]], [[1]]]),
             [],
         ),
-        "all channels dead in one way": (
+        "all channels inactive in one way": (
             MultiChannelSystem([[5]], [[[0]], [[1]]], [[[1]], [[0]]]),
             ["x - 5"],
         ),

@@ -35,7 +35,7 @@ def test_arcs_need_not_be_transitive() -> None:
     graph = transfer_graph(MultiChannelSystem(A, B, C))
     assert graph.arcs == (("1", "2"), ("2", "3"))
     assert graph.components == (("1",), ("2",), ("3",))
-    assert graph.dead == ("1", "3")
+    assert graph.inactive == ("1", "3")
     assert graph.successors == {"1": ("2",), "2": ("3",)}
     assert valid(graph)
 
