@@ -37,7 +37,7 @@ def account_of_dimensions(
         "joint_observability": joint_observability(system),
     }
     given = Given(system, {"cuts": len(least.cuts), "nodes": len(least.tree)})
-    return Account(answers, given, ALLOCATION)
+    return Account(answers, given, ALLOCATION.sentences(answers, given))
 
 
 def account_of_links(system: MultiChannelSystem, **options: Any) -> Account:
@@ -52,4 +52,5 @@ def account_of_links(system: MultiChannelSystem, **options: Any) -> Account:
     """
     least = minimal_communication(system, **options)
     given = Given(system, {"cuts": len(least.cuts), "nodes": len(least.tree)})
-    return Account({"minimal_communication": least}, given, LINKS)
+    answers = {"minimal_communication": least}
+    return Account(answers, given, LINKS.sentences(answers, given))

@@ -203,7 +203,8 @@ class Analysis:
         answers = self.decided()
         open_ = {*self.left_out, *self.open()} - answers.keys()
         given = Given(self.system, {"information": self.information})
-        return Account(answers, given, with_own(ANALYSIS, answers), open_, self.plant.subject)
+        said = with_own(ANALYSIS, answers).sentences(answers, given, open_)
+        return Account(answers, given, said, self.plant.subject)
 
     @property
     def sentences(self) -> Sentences:

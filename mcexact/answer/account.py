@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from html import escape
 from typing import Any
 
 from mcexact.answer import codec
-from mcexact.answer.sentence import MANIFEST, Given, Rulebook, Sentences, manifest
+from mcexact.answer.sentence import MANIFEST, Given, Sentences, manifest
 from mcexact.model.atomic import write_text
 from mcexact.model.canonical import canonical
 
@@ -26,23 +26,16 @@ class Account:
     answers : mapping
         The name of an answer, with ``.json``, is that of its certificate's file.
     given : Given
-    rules : Rulebook
-    missing : collection of str
-        Questions that were asked and have no answer.
+    sentences : Sentences
+        What follows by a rule, each sentence with its place and its premises.
     subject : sequence of mapping
         The constructions that lead from the user's plant to the one that is meant here.
     """
 
     answers: Mapping[str, Any]
     given: Given
-    rules: Rulebook
-    missing: Collection[str] = field(default=())
-    subject: Sequence[Mapping[str, Any]] = field(default=())
-
-    @cached_property
-    def sentences(self) -> Sentences:
-        """Everything that follows by a rule, each sentence with its place and its premises."""
-        return self.rules.sentences(self.answers, self.given, self.missing)
+    sentences: Sentences
+    subject: Sequence[Mapping[str, Any]] = ()
 
     @cached_property
     def certificates(self) -> dict[str, str]:

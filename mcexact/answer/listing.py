@@ -29,8 +29,8 @@ TOPICS: dict[str, tuple[Rulebook, tuple[ModuleType, ...]]] = {
     ),
     "allocate": (rules.ALLOCATION, (allocation,)),
     "allocate --arcs": (rules.LINKS, (links,)),
-    "design, certify": (Rulebook(), (design,)),
-    "design, where there is none": (Rulebook(), (refusals,)),
+    "design, certify": (Rulebook([*rules.DESIGN, *rules.VERDICT]), (design,)),
+    "design, where there is none": (rules.REFUSALS, (refusals,)),
 }
 FILE = Path(__file__).with_name("SENTENCES.md")
 

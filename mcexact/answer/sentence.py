@@ -46,6 +46,10 @@ class Given:
             raise AttributeError(name)
         return self.asked[name]
 
+    def has(self, name: str) -> bool:
+        """Whether this was asked for."""
+        return name in self.asked
+
     @property
     def delays(self) -> str:
         """``"delays"`` where messages take time, of which an answer may know nothing, or "none"."""

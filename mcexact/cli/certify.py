@@ -49,12 +49,11 @@ def command(
     --certificates writes a proof of that as well. A warning is given if the controller was designed
     for another plant.
     """
+    from mcexact.cli.concluding import concluded
     from mcexact.cli.deadline import Deadline
-    from mcexact.cli.files import directory, place_of, read, require_writable
-    from mcexact.cli.output import emit, emit_json, emit_tables
-    from mcexact.cli.rechecking import rechecked
+    from mcexact.cli.files import place_of, read, require_writable
+    from mcexact.cli.output import emit_tables
     from mcexact.cli.supervision import supervised
-    from mcexact.model.atomic import write_text
 
     deadline = Deadline(timeout)
     require_writable(None, certificates)
@@ -71,24 +70,20 @@ def command(
     )
     for warning in answer["json"]["warnings"]:
         click.echo(f"mcexact: warning: {warning}", err=True)
-    if not as_json:
+
+    def show() -> bool:
         emit_tables(answer["tables"])
-    name, text = answer["certificate"]
-    checked = rechecked(
-        {name: text},
-        answer["digest"],
+        return True
+
+    concluded(
+        answer,
+        show,
         doing=f"re-checking the verdict on {place_of(controller)}",
+        certificates=certificates,
+        as_json=as_json,
         deadline=deadline,
         max_memory=max_memory,
-    )
-    if certificates is not None:
-        write_text(directory(certificates) / name, text)
-        answer["json"]["certificate"] = name
-    if as_json:
-        emit_json(answer["json"] | {"re_checked": checked.view()})
-    elif checked.missing is None:
-        emit("\n" + checked.line())
-    checked.require_complete()
+    ).require_complete()
     return 0 if answer["json"]["certified"] else DEFINITE_NO
 
 
@@ -99,23 +94,30 @@ def _certified(
     wanted: dict[str, Any],
 ) -> dict[str, Any]:
     """Decide and format the answer, in the child process."""
-    from mcexact.answer import codec
+    from mcexact.cli.concluding import told
     from mcexact.cli.files import system_in
     from mcexact.errors import InputError
     from mcexact.exact.rational import Limits
     from mcexact.model.controller_file import read_controller
-    from mcexact.model.system_file import digest
-    from mcexact.report.design_view import verdict_tables, verdict_view
-    from mcexact.synthesis.certify import certify_controller
+    from mcexact.report.account import tables
+    from mcexact.synthesis.certify import account_of_verdict, certify_controller
 
     system = system_in(*plant, limits)
     with InputError.inside(program[0]):
         controller = read_controller(program[1], Limits(**limits))
         found = certify_controller(system, controller, **wanted)
-    largest = wanted["largest"]
-    return {
-        "json": verdict_view(found, largest=largest, warnings=controller.warnings_for(system)),
-        "tables": verdict_tables(found, largest=largest),
-        "certificate": (f"{found.kind}.json", codec.encode(found)),
-        "digest": digest(system),
+    account = account_of_verdict(found, largest=wanted["largest"])
+    bound = None if found.bound is None else str(found.bound)
+    return told(account) | {
+        "json": account.as_json(
+            certified=found.stable,
+            region=str(found.region),
+            bound=bound,
+            method=found.method,
+            states=found.about.n,
+            blocks=list(found.blocks),
+            largest=bound if wanted["largest"] else None,
+            warnings=list(controller.warnings_for(system)),
+        ),
+        "tables": tables(account.sentences),
     }

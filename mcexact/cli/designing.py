@@ -54,10 +54,11 @@ def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any
     wanted : mapping
         Further keywords of the function.
     """
+    from mcexact.cli.concluding import concluded
     from mcexact.cli.deadline import Deadline
-    from mcexact.cli.files import directory, place_of, read, require_other, require_writable
-    from mcexact.cli.output import emit, emit_json, emit_tables
-    from mcexact.cli.rechecking import rechecked
+    from mcexact.cli.files import place_of, read, require_other, require_writable
+    from mcexact.cli.output import emit, emit_tables
+    from mcexact.cli.rechecking import Rechecked
     from mcexact.cli.supervision import supervised
     from mcexact.errors import Impossible
     from mcexact.model.atomic import write_text
@@ -81,31 +82,30 @@ def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any
         timeout=deadline,
         max_memory=given["max_memory"],
     )
-    output, as_json, possible = given["output"], given["as_json"], "impossible" not in done
-    if possible and not as_json:
-        if output is None:
+    output, possible = given["output"], "impossible" not in done
+
+    def show() -> bool:
+        if possible and output is None:
             emit(done["controller"])
-        else:
+        elif possible:
             emit_tables(done["tables"])
-    checked = rechecked(
-        done["certificates"],
-        done["digest"],
+        return possible and output is not None
+
+    def write(_: Rechecked) -> None:
+        if possible and output is not None:
+            write_text(output, done["controller"])
+
+    checked = concluded(
+        done,
+        show,
         doing=f"re-checking the design for {place}",
+        certificates=given["certificates"],
+        as_json=given["as_json"],
         deadline=deadline,
         max_memory=given["max_memory"],
+        write=write,
     )
-    if given["certificates"] is not None and done["certificates"]:
-        folder = directory(given["certificates"])
-        for written, text in done["certificates"].items():
-            write_text(folder / written, text)
-        done["json"]["certificates"] = list(done["certificates"])
-    if possible and output is not None:
-        write_text(output, done["controller"])
-    if as_json:
-        emit_json(done["json"] | {"re_checked": checked.view()})
-    elif possible and output is not None and checked.missing is None:
-        emit("\n" + checked.line())
-    if not possible and checked.missing is not None and not as_json:
+    if not possible and checked.missing is not None and not given["as_json"]:
         click.echo(f"mcexact: {done['impossible']}", err=True)
     checked.require_complete()
     if not possible:
@@ -122,14 +122,16 @@ def _designed(
     """Design, and put the answer into text: what the child process does."""
     import importlib
 
-    from mcexact.answer import codec
+    from mcexact.answer.account import Account
+    from mcexact.answer.sentence import Given, Sentences
+    from mcexact.answer.template import Sentence
+    from mcexact.cli.concluding import told
     from mcexact.cli.files import system_in
     from mcexact.errors import Impossible, InputError
     from mcexact.exact.rational import Limits
     from mcexact.model.controller_file import controller_text
     from mcexact.model.json_text import parse
-    from mcexact.model.system_file import digest
-    from mcexact.report.design_view import design_tables
+    from mcexact.report.account import measured, tables
     from mcexact.synthesis.spectrum import require_numbers
 
     spectrum = None
@@ -143,18 +145,17 @@ def _designed(
     except InputError as error:
         raise error.within(prescribed[0] if prescribed is not None else plant[0]) from None
     except Impossible as refused:
-        evidence = refused.certificate
-        written = {} if evidence is None else {f"{evidence.kind}.json": codec.encode(evidence)}
-        return {
+        reason, proof = refused.message, refused.certificate
+        said = Sentences([reason] if isinstance(reason, Sentence) else [])
+        account = Account({proof.kind: proof}, Given(system), said)
+        return told(account) | {
             "impossible": str(refused),
-            "certificates": written,
-            "digest": digest(system),
-            "json": {"design": name, "possible": False, "reason": str(refused)},
+            "json": account.as_json(design=name, possible=False, reason=reason),
         }
-    return {
+    account = found.account()
+    figures = measured(found.measures(), account.sentences, found.region.discrete)
+    return told(account) | {
         "controller": controller_text(found.controller),
-        "certificates": {f"{k}.json": codec.encode(c) for k, c in found.certificates.items()},
-        "digest": digest(system),
-        "json": found.view(),
-        "tables": design_tables(found),
+        "json": account.as_json(**found.view()),
+        "tables": (*tables(account.sentences), figures),
     }

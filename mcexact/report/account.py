@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from mcexact.answer.account import Account
 from mcexact.answer.latex import escaped, matrix
@@ -82,6 +82,21 @@ def _table(
         rows, note = rows[:most], _SHOWN.format(most) + note
     title = title or "".join(sentences.at(f"{place}.title")) or place
     return Table(title, tuple(columns), tuple(rows), note)
+
+
+def measured(figures: Mapping[str, float | None], said: Sentences, discrete: bool) -> Table:
+    """Figures of a loop in floating point; a dash where they are beyond floats."""
+    what = "radius" if discrete else "abscissa"
+    labels = {
+        "largest_gain": "largest gain",
+        "spectral": f"spectral {what}",
+        "numerical": f"numerical {what}",
+        "distance_to_instability": "distance to instability, at most",
+    }
+    rows = [
+        (labels[name], "–" if value is None else f"{value:.6g}") for name, value in figures.items()
+    ]
+    return Table("".join(said.at("measured.title")), (), tuple(rows))
 
 
 def latex(account: Account) -> str:

@@ -305,7 +305,7 @@ def total_dimension(note: Notebook) -> None:
     for plant in note.each(plants(1, states=2, channels=2)):
         found = design_extended(plant, rate=1)
         orders = sum(each.order for each in found.parts["blocks"])
-        sizes = found.parts["shared_dimensions"]
+        sizes = found.parts["dimensions"]
         note.check("the order is k_q + Σ n_i", found.order == orders + sum(sizes.values()))
         note.check("less than the observer's", found.order < found.parts["observer_order"])
         note.certify(*found.certificates.values())

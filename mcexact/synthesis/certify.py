@@ -11,6 +11,9 @@ from mcexact.analysis.stability.stability import (
     certify_stability,
     fastest_region,
 )
+from mcexact.answer.account import Account
+from mcexact.answer.rules import VERDICT
+from mcexact.answer.sentence import Given
 from mcexact.answer.stability import StabilityVerdict
 from mcexact.errors import LimitReached, UsageError
 from mcexact.exact.floats import matrix_to_float, to_float
@@ -150,3 +153,17 @@ def _largest(loop: MultiChannelSystem, separation: Separation | None) -> Stabili
         else:
             fails = middle
     return best
+
+
+def account_of_verdict(found: StabilityVerdict, *, largest: bool = False) -> Account:
+    """A verdict on a loop, told.
+
+    Parameters
+    ----------
+    found : StabilityVerdict
+    largest : bool
+        Whether its bound is the largest that was found.
+    """
+    asked = {"region": found.region, "states": found.about.n, "largest": largest}
+    answers, given = {found.kind: found}, Given(found.about.plant, asked)
+    return Account(answers, given, VERDICT.sentences(answers, given))

@@ -7,7 +7,10 @@ from dataclasses import dataclass, field
 from math import isfinite
 from typing import Any, Literal
 
+from mcexact.answer.account import Account
 from mcexact.answer.protocol import Answer
+from mcexact.answer.rules import DESIGN
+from mcexact.answer.sentence import Given
 from mcexact.exact.floats import finite, matrix_to_float, to_float
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial
@@ -21,7 +24,7 @@ from mcexact.synthesis.request import Arithmetic, Request
 Method = Literal["decentralized", "observer", "extended"]
 
 _SHOWN = (
-    "agent", "network", "shared_dimensions", "observer_order", "feedback_polynomial",
+    "agent", "network", "dimensions", "observer_order", "feedback_polynomial",
     "error_polynomial", "blocks", "kept",
 )  # fmt: skip
 
@@ -47,7 +50,7 @@ class Design:
           (F_i), ``observer_gains`` ([K_i, H_ij …]), ``estimated`` (L: the agents estimate L x);
           exact also ``feedback_polynomial`` and ``error_polynomial``, in floating point ``G``,
           ``L`` and ``attempts``;
-        - decentralized and extended: ``network`` (its kind), ``shared_dimensions``, ``blocks``,
+        - decentralized and extended: ``network`` (its kind), ``dimensions``, ``blocks``,
           ``kept`` (the modes that stay, all fixed), ``gains`` (F̄_i), ``observer_order``
           (nm + m − 1); extended also ``allocation``.
     """
@@ -84,6 +87,18 @@ class Design:
         if all(map(isfinite, M.ravel())):
             found |= vars(loop_margins(M, self.region.time))
         return {name: finite(figure) for name, figure in found.items()}
+
+    def account(self) -> Account:
+        """What was proved, and the sentences that follow from it."""
+        facts = {
+            "method": self.method,
+            "arithmetic": self.arithmetic,
+            "region": self.region,
+            "order": self.order,
+            "bits": self.controller.bit_length(),
+        }
+        given = Given(self.loop.closed.system.plant, {**facts, **self.parts})
+        return Account(self.certificates, given, DESIGN.sentences(self.certificates, given))
 
     def view(self) -> dict[str, Any]:
         """The design as plain data; a polynomial is its coefficients as strings."""

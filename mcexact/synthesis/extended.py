@@ -8,12 +8,11 @@ from fractions import Fraction
 from typing import Any, Literal
 
 from mcexact.analysis.sharing.allocation import minimal_shared_dimensions, shared_dimension_bound
-from mcexact.answer.covering import DeficiencyCut
 from mcexact.answer.deficiency import Deficiency
+from mcexact.answer.rules.refusals import refusal
 from mcexact.answer.shared_dimensions import SharedDimensions
-from mcexact.answer.wording import refusals as say
 from mcexact.derived.extended import Share, checked_dimensions
-from mcexact.errors import Impossible, InputError, UsageError
+from mcexact.errors import InputError, UsageError
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.location import StabilityRegion
 from mcexact.model.neighbor_graph import NeighborGraph
@@ -93,7 +92,7 @@ def design_extended(
     >>> plant = gallery.load("liu2020-3ch-no-communication")
     >>> ring = NeighborGraph.ring(plant.names)
     >>> found = design_extended(plant, ring, spectrum=[-1, -1, -2, -2])
-    >>> found.parts["shared_dimensions"], found.order, found.parts["observer_order"]
+    >>> found.parts["dimensions"], found.order, found.parts["observer_order"]
     ({'1': 0, '2': 0, '3': 1}, 1, 11)
     >>> design_extended(plant, NeighborGraph.empty(plant.names), rate=1)
     Traceback (most recent call last):
@@ -174,17 +173,7 @@ def _sizes(
         # dimensions are enough, neither are as many as there are states.
         return None, least.dimensions or (system.n,) * system.m
     if least.dimensions is None:
-        # Without upper bounds nothing but a cut that nobody can meet is in the way.
-        cut = least.cuts[0]
-        p, k = (cut.polynomial, cut.deficiency) if isinstance(cut, DeficiencyCut) else (None, 1)
-        if p is None:
-            told = say.NO_CONNECTION
-        elif 0 < len(cut.subset) < system.m:
-            told = say.NO_DIMENSIONS
-        else:
-            told = say.NOT_OBSERVED if cut.subset else say.NOT_CONTROLLED
-        message = told(agents=cut.subset, senders=(), k=k, p=p)
-        raise Impossible(message, least)
+        raise refusal("dimensions", least)
     return least, least.dimensions
 
 

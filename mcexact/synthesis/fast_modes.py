@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from mcexact.analysis.structure.controllability import joint_controllability
+from mcexact.answer.rules.refusals import refusal
 from mcexact.answer.wording import refusals as say
 from mcexact.derived.modular_system import generator
-from mcexact.errors import Impossible, InternalError
+from mcexact.errors import InternalError
 from mcexact.exact.invariant_subspace import controllable_subspace
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
@@ -55,10 +56,7 @@ def feedback_for_region(system: MultiChannelSystem, region: StabilityRegion) -> 
         return given_feedback(system, gains)
     rest = decided.uncontrollable_polynomial
     if not region.contains_roots_of(rest):
-        raise Impossible(
-            say.NOT_CONTROLLABLE_IN(p=rest, region=region),
-            decided,
-        )
+        raise refusal("unreached", decided, told=say.NOT_CONTROLLABLE_IN, region=region)
     found = controllable_subspace(system.A, B, generator(system, "controllability"))
     pivots = list(found.pivots)
     A1 = (system.A @ found.X).take(rows=pivots)

@@ -12,7 +12,7 @@ from mcexact.analysis.stability.stability import Method, Separation, certify_sta
 from mcexact.answer.closed_loop_spectrum import ClosedLoopSpectrum
 from mcexact.answer.distributed_observer import DistributedObserver
 from mcexact.answer.protocol import Answer
-from mcexact.answer.wording import refusals as say
+from mcexact.answer.rules.refusals import refusal
 from mcexact.derived.modular_system import generator
 from mcexact.errors import Impossible, InternalError, LimitReached, UsageError
 from mcexact.exact.location import StabilityRegion
@@ -221,7 +221,7 @@ def _decided(loop: ClosedLoop, proposal: Proposal, region: StabilityRegion) -> C
     method: Method | None = "lyapunov" if proposal.coordinates else None
     verdict = certify_stability(loop.system, region, method=method, separation=separation)
     if not verdict.stable:
-        raise Impossible(say.OUTSIDE(region=verdict.region), verdict)
+        raise refusal("outside", verdict, region=verdict.region)
     return CertifiedLoop(loop, None, (verdict,), _KEY)
 
 

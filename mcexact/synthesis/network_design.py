@@ -10,8 +10,9 @@ from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.fixed_modes.single_channel_gains import single_channel_gains
 from mcexact.analysis.structure.transfer_graph import transfer_graph
 from mcexact.answer.fixed_spectrum import FixedSpectrum
+from mcexact.answer.rules.refusals import refusal
 from mcexact.answer.wording import refusals as say
-from mcexact.errors import Impossible, InputError, LimitReached
+from mcexact.errors import InputError, LimitReached
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial, product
 from mcexact.synthesis.channel_parts import drawn_gains
@@ -122,16 +123,9 @@ def _prescribed(spectrum: Any) -> Any:
 
 def _require_fast(network: DerivedNetwork, fixed: FixedSpectrum, region: StabilityRegion) -> None:
     """Refuse a network with a fixed mode that is too slow."""
-    slow = fixed.outside(region)
-    if not slow:
-        return
-    told = say.FIXED if network.graph is None else say.FIXED_SHARED
-    message = told(
-        p=slow[0].polynomial,
-        s=slow[0].channels,
-        sizes=list(zip(network.given.names, network.dimensions, strict=False)),
-    )
-    raise Impossible(message, fixed)
+    if fixed.outside(region):
+        told = say.FIXED if network.graph is None else say.FIXED_SHARED
+        raise refusal("fixed", fixed, told=told, region=region)
 
 
 def _choices(
@@ -160,7 +154,7 @@ def _proposal(task: NetworkTask, candidate: NetworkCandidate) -> Proposal:
     )
     parts = {
         "network": network.kind,
-        "shared_dimensions": dict(zip(names, network.dimensions, strict=True)),
+        "dimensions": dict(zip(names, network.dimensions, strict=True)),
         "observer_order": network.given.n * network.given.m + network.given.m - 1,
         "blocks": blocks,
         "kept": candidate.kept,

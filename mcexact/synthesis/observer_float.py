@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING
 
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
+from mcexact.answer.rules.refusals import refusal
 from mcexact.answer.wording import refusals as say
 from mcexact.derived.error_system import error_system
 from mcexact.derived.feedback import closed_by
 from mcexact.derived.modular_system import generator
-from mcexact.errors import Impossible, LimitReached
+from mcexact.errors import LimitReached
 from mcexact.exact.floats import dyadic_matrix, matrix_to_float
 from mcexact.exact.location import StabilityRegion, is_discrete
 from mcexact.exact.matrix import Matrix
@@ -283,16 +284,10 @@ def _refuse_if_impossible(
         ("move", joint_controllability(system)),
         ("see", joint_observability(system)),
     ):
-        polynomial = found.uncontrollable_polynomial
-        if not region.contains_roots_of(polynomial):
-            told = say.UNREACHED[verb]
-            raise Impossible(told(p=polynomial, region=region), found)
+        if not region.contains_roots_of(found.uncontrollable_polynomial):
+            raise refusal("unreached", found, told=say.UNREACHED[verb], region=region)
     if gains is None:
         return
     decision = fixed_spectrum(error_system(system, gains, graph))
-    outside = decision.outside(region)
-    if outside:
-        raise Impossible(
-            say.ERRORS_FIXED(p=outside[0].polynomial, region=region),
-            decision,
-        )
+    if decision.outside(region):
+        raise refusal("fixed", decision, told=say.ERRORS_FIXED, region=region)

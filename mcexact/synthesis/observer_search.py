@@ -12,9 +12,10 @@ from typing import Any
 from mcexact.analysis.fixed_modes.completeness import completeness
 from mcexact.analysis.fixed_modes.gains import ReachingGains, error_gain_draws, reaching_gains
 from mcexact.analysis.structure.controllability import joint_observability
+from mcexact.answer.rules.refusals import refusal
 from mcexact.answer.wording import refusals as say
 from mcexact.derived.modular_system import generator
-from mcexact.errors import Impossible, InputError, LimitReached
+from mcexact.errors import InputError, LimitReached
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
@@ -67,13 +68,10 @@ def _candidates(task: ObserverTask) -> list[ReachingGains]:
         return found
     observable = joint_observability(system)
     if not observable.controllable:
-        raise Impossible(
-            say.NOT_OBSERVABLE(p=observable.uncontrollable_polynomial),
-            observable,
-        )
+        raise refusal("unreached", observable, told=say.NOT_OBSERVABLE)
     decision = completeness(task.error)
     if not decision.complete:
-        raise Impossible(say.ERRORS_NOT_COMPLETE(), decision)
+        raise refusal("not complete", decision)
     found = list(islice(reaching_gains(task.error, agent, draw, attempts=2000), count))
     if not found:
         raise LimitReached("observer gains K_i, H_ij exist, but 2000 draws did not find them")

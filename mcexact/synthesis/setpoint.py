@@ -9,6 +9,7 @@ from typing import Any, Literal
 
 from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
 from mcexact.analysis.structure.setpoint import setpoint_solvability
+from mcexact.answer.rules.refusals import refusal
 from mcexact.answer.setpoint import SetpointSolvability
 from mcexact.answer.wording import refusals as say
 from mcexact.derived.integrators import setpoint_system
@@ -139,11 +140,7 @@ def _required(system: MultiChannelSystem) -> SetpointSolvability:
     found = setpoint_solvability(system)
     if found.solvable:
         return found
-    told = say.NO_EQUILIBRIUM_ZERO if found.invariant_zero else say.NO_EQUILIBRIUM
-    if not found.combinations.nrows:
-        told = say.MODE_OF_THE_INTEGRATORS
-    place = steady_point(system.time)
-    raise Impossible(told(w=found.combinations.rows(), place=place), found)
+    raise refusal("equilibrium", found, combinations=found.combinations.rows())
 
 
 def _require_reachable(augmented: MultiChannelSystem, region: StabilityRegion) -> None:
@@ -151,8 +148,7 @@ def _require_reachable(augmented: MultiChannelSystem, region: StabilityRegion) -
     for decide, verb in ((joint_controllability, "control"), (joint_observability, "observe")):
         decision = decide(augmented)
         if not region.contains_roots_of(decision.uncontrollable_polynomial):
-            told = say.INTEGRATORS_UNREACHED[verb]
-            raise Impossible(told(p=decision.uncontrollable_polynomial), decision)
+            raise refusal("unreached", decision, told=say.INTEGRATORS_UNREACHED[verb])
 
 
 def _proposals(
@@ -182,8 +178,7 @@ def _proposals(
     except Impossible as refused:
         found = refused.certificate
         if minimal and found.kind == "fixed_spectrum":
-            told = say.INTEGRATORS_FIXED(p=found.polynomial)
-            raise Impossible(told, found) from None
+            raise refusal("integrators", found) from None
         raise
 
 

@@ -10,8 +10,9 @@ from random import Random
 
 from mcexact.analysis.fixed_modes.gains import drawn_integers
 from mcexact.analysis.structure.controllability import joint_controllability
+from mcexact.answer.rules.refusals import refusal
 from mcexact.answer.wording import refusals as say
-from mcexact.errors import Impossible, InternalError, LimitReached
+from mcexact.errors import InternalError, LimitReached
 from mcexact.exact.blocks import hstack
 from mcexact.exact.invariant_form import companion
 from mcexact.exact.linear_algebra import (
@@ -76,10 +77,7 @@ def state_feedback(system: MultiChannelSystem, polynomial: Polynomial) -> StateF
     """
     controllable = joint_controllability(system)
     if not controllable.controllable:
-        raise Impossible(
-            say.NOT_CONTROLLABLE(p=controllable.uncontrollable_polynomial),
-            controllable,
-        )
+        raise refusal("unreached", controllable, told=say.NOT_CONTROLLABLE)
     B = system.input_matrix()
     F = assigning_feedback(system.A, B, polynomial)
     return given_feedback(system, split_by_channel(system, F))

@@ -27,7 +27,7 @@ STAGE = {
 }
 BESIDE = {"checker", "testing", "cli", "errors"}
 EXACT_STAGES = {"exact", "model", "derived", "answer", "analysis", "checker"}
-SHOWN = {"answer", "model", "exact", "simulation", "errors", "synthesis", "floating"}
+SHOWN = {"answer", "model", "exact", "simulation", "errors"}
 """What a report may import: it shows answers, accounts and trajectories, and decides nothing."""
 MODULES = sorted(PACKAGE.rglob("*.py"))
 

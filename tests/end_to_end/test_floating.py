@@ -66,7 +66,7 @@ def test_a_no_ends_with_status_1_and_is_proved(folder, tmp_path, method):
     assert done.status == 1
     answer = json.loads(done.stdout)
     assert answer["certified"] is False and answer["bound"] == "50"
-    checked = run("check", str(tmp_path / answer["certificate"]))
+    checked = run("check", str(tmp_path / answer["stability"]["certificate"]))
     assert checked.stdout.startswith("VALID not every eigenvalue has")
 
 

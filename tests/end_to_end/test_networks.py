@@ -49,7 +49,7 @@ def test_both_orders_are_in_the_output(folder, tmp_path):
         designed(folder, "extended", plant, "--spectrum", str(spectrum), "--json").stdout
     )
     assert (answer["order"], answer["observer_order"]) == (1, 11)
-    assert answer["shared_dimensions"] == {"1": 0, "2": 0, "3": 1}
+    assert answer["dimensions"] == {"1": 0, "2": 0, "3": 1}
     assert answer["closed_loop_polynomial"] == ["20", "34", "18", "5", "1"]
 
 
@@ -64,7 +64,7 @@ def test_delayed_networks_run_from_their_files(folder, tmp_path, network, arithm
         *("--arithmetic", arithmetic, "-o", str(controller), "--certificates", str(proofs)),
     )
     files = sorted(map(str, proofs.iterdir()))
-    assert len(files) == (5 if network == "held" else 4)
+    assert len(files) == (6 if network == "held" else 5)
     checked = run("check", *files, "--system", plant)
     assert checked.status == 0, checked.stdout
     held = any(agent.hold for agent in load_controller(controller).agents)
@@ -81,8 +81,8 @@ def test_a_fixed_mode_is_status_1_and_leaves_the_certificate(folder, tmp_path):
     done = designed(folder, "decentralized", plant, *arguments, status=1)
     assert "moves the mode 1," in done.stderr
     assert not out.exists()
-    (certificate,) = proofs.iterdir()
-    checked = run("check", str(certificate), "--system", plant)
+    assert {path.name for path in proofs.iterdir()} == {"fixed_spectrum.json", "manifest.json"}
+    checked = run("check", str(proofs / "fixed_spectrum.json"), "--system", plant)
     assert checked.status == 0
     assert "x - 1" in checked.stdout
 

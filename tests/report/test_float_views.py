@@ -19,9 +19,9 @@ from mcexact.crosschecks.view import (
 from mcexact.model import gallery
 from mcexact.model.local_controllers import local_controllers
 from mcexact.model.system import MultiChannelSystem
-from mcexact.report.design_view import design_tables, verdict_tables, verdict_view
+from mcexact.report.account import measured, tables
 from mcexact.report.text import plain
-from mcexact.synthesis.certify import certify_controller
+from mcexact.synthesis.certify import account_of_verdict, certify_controller
 from mcexact.synthesis.observer import design_observer
 from tests.report.strict_html import Page, external_addresses
 from tests.synthesis.three_channels import three_channels
@@ -29,8 +29,11 @@ from tests.synthesis.three_channels import three_channels
 
 def test_what_is_proved_stands_apart_from_what_is_measured():
     design = design_observer(three_channels(), rate=1, arithmetic="float")
-    proved, measured = design_tables(design)
-    assert "certified" in proved.title and "not proved" in measured.title
+    said = design.account().sentences
+    [proved] = tables(said)
+    figures = measured(design.measures(), said, discrete=False)
+    assert "certified" in proved.title and "not proved" in figures.title
+    assert "spectral abscissa" in dict(figures.rows)
     assert ("every eigenvalue of the loop", "Re λ < -1") in proved.rows
 
 
@@ -54,15 +57,15 @@ def test_infinite_margins_are_null_in_json():
 def test_a_verdict_says_how_it_was_decided(options, words):
     plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
     found = certify_controller(plant, local_controllers(plant, [[[-3]]]), **options)
-    assert words in plain(verdict_tables(found, largest="largest" in options))
-    assert verdict_view(found)["certified"] is found.stable
+    account = account_of_verdict(found, largest="largest" in options)
+    assert words in plain(tables(account.sentences))
 
 
 def test_blocks_are_listed():
     plant = three_channels()
     design = design_observer(plant, rate=1, arithmetic="float")
     found = certify_controller(plant, design.controller, rate=1, method="lyapunov")
-    assert "blocks of 3, 9 and 9 states" in plain(verdict_tables(found))
+    assert "blocks of 3, 9 and 9 states" in plain(tables(account_of_verdict(found).sentences))
 
 
 @pytest.mark.parametrize(

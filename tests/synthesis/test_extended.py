@@ -37,7 +37,7 @@ def late() -> MultiChannelSystem:
 
 def dimensions_of(design: Design) -> tuple[int, ...]:
     """n_1 … n_m."""
-    return tuple(design.parts["shared_dimensions"].values())
+    return tuple(design.parts["dimensions"].values())
 
 
 def require_valid(design: Design) -> None:

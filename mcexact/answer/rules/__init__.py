@@ -4,12 +4,14 @@ import sys
 from collections.abc import Mapping
 from typing import Any
 
-from mcexact.answer.rules import allocation, analysis, details, links
+from mcexact.answer.rules import allocation, analysis, design, details, links, refusals
 from mcexact.answer.sentence import Rulebook
 
 ANALYSIS = Rulebook([*analysis.RULES, *details.RULES])
 ALLOCATION = allocation.RULES
 LINKS = links.RULES
+DESIGN, VERDICT = design.DESIGN, design.VERDICT
+REFUSALS = refusals.RULES
 
 
 def with_own(rules: Rulebook, answers: Mapping[str, Any]) -> Rulebook:

@@ -1,0 +1,154 @@
+"""When `mcexact design` and `certify` say what of a closed loop."""
+
+from __future__ import annotations
+
+from mcexact.answer.rules.analysis import Said
+from mcexact.answer.sentence import Claim, Given, Rulebook
+from mcexact.answer.wording import design as say
+from mcexact.exact.location import StabilityRegion
+
+RULES = Rulebook()
+rule = RULES.rule
+
+
+def inside(loop: Claim, region: StabilityRegion) -> bool:
+    """Whether the claim about a loop says that every eigenvalue lies in a region."""
+    if loop.has("stable"):
+        return bool(loop.stable and loop.bound == region.bound)
+    parts = (loop.polynomial,) if loop.has("polynomial") else (loop.feedback, loop.error)
+    return all(region.contains_roots_of(p) for p in parts)
+
+
+# Designs.
+
+
+@rule("title", say.OBSERVER, say.OBSERVER_FLOAT, say.NETWORK, say.SETPOINT)
+def _title(loop: Claim, given: Given) -> Said:
+    if not inside(loop, given.region):
+        return
+    if given.has("solvability"):
+        yield say.SETPOINT(method=given.method)
+    elif given.method == "observer":
+        yield (say.OBSERVER if given.arithmetic == "exact" else say.OBSERVER_FLOAT)()
+    else:
+        yield say.NETWORK(kind=given.network)
+
+
+@rule("table", say.ORDER, say.ORDER_INTEGRATORS)
+def _order(given: Given) -> Said:
+    told = say.ORDER_INTEGRATORS if given.has("solvability") else say.ORDER
+    yield told(order=given.order)
+
+
+@rule("table", say.OBSERVER_ORDER)
+def _observer_order(given: Given) -> Said:
+    if given.has("observer_order"):
+        yield say.OBSERVER_ORDER(order=given.observer_order)
+
+
+@rule("table", say.SHARED)
+def _shared(given: Given) -> Said:
+    if given.has("network") and given.network != "decentralized":
+        yield say.SHARED(sizes=list(given.dimensions.items()))
+
+
+@rule("table", say.CARRIER, say.CARRIER_FOR)
+def _carrier(given: Given) -> Said:
+    if given.has("agent"):
+        yield say.CARRIER(agent=given.agent, order=given.channel_order)
+    blocks = given.blocks if given.has("blocks") else ()
+    told = say.CARRIER if len(blocks) == 1 else say.CARRIER_FOR
+    for block in blocks:
+        yield told(agent=block.agent, order=block.order, channels=block.channels)
+
+
+@rule("table", say.ASSIGNED)
+def _assigned(loop: Claim, given: Given) -> Said:
+    if given.has("blocks") and loop.has("polynomial"):
+        for block in given.blocks:
+            if block.polynomial.divides(loop.polynomial):
+                yield say.ASSIGNED(p=block.polynomial)
+
+
+@rule("table", say.KEPT)
+def _kept(loop: Claim, fixed_spectrum: Claim, given: Given) -> Said:
+    """The modes that the design does not move; each of them is fixed."""
+    if given.has("kept") and given.kept.degree and inside(loop, given.region):
+        fixed = fixed_spectrum.polynomial
+        if all(p.divides(fixed) for p, _ in given.kept.factor()):
+            yield say.KEPT(p=given.kept)
+
+
+@rule("table", say.FEEDBACK)
+def _feedback(loop: Claim) -> Said:
+    if loop.has("feedback"):
+        yield say.FEEDBACK(p=loop.feedback)
+
+
+@rule("table", say.ERRORS)
+def _errors(loop: Claim) -> Said:
+    if loop.has("error"):
+        yield say.ERRORS(p=loop.error)
+
+
+@rule("table", say.REGION)
+def _region(loop: Claim, given: Given) -> Said:
+    if given.region.bound is not None and inside(loop, given.region):
+        yield say.REGION(region=given.region)
+
+
+@rule("table", say.STEADY)
+def _steady(loop: Claim, given: Given) -> Said:
+    if given.has("solvability") and inside(loop, given.region):
+        yield say.STEADY()
+
+
+@rule("table", say.LONGEST)
+def _longest(given: Given) -> Said:
+    yield say.LONGEST(bits=given.bits)
+
+
+@rule("measured.title", say.MEASURED)
+def _measured(given: Given) -> Said:
+    yield say.MEASURED()
+
+
+DESIGN = RULES
+
+# Verdicts.
+
+RULES = Rulebook()
+rule = RULES.rule
+
+
+@rule("title", say.LOOP)
+def _verdict(given: Given) -> Said:
+    yield say.LOOP()
+
+
+@rule("table", say.LOOP_STATES)
+def _states(given: Given) -> Said:
+    yield say.LOOP_STATES(n=given.states)
+
+
+@rule("table", say.INSIDE, say.OUTSIDE)
+def _location(loop: Claim, given: Given) -> Said:
+    if loop.bound == given.region.bound:
+        yield (say.INSIDE if loop.stable else say.OUTSIDE)(region=given.region)
+
+
+@rule("table", say.DECIDED, say.DECIDED_BLOCKS)
+def _decided(loop: Claim) -> Said:
+    """How it was decided, and on which blocks."""
+    proof = loop.proof
+    sizes = [block.size for block in proof.blocks] if proof.has("blocks") else []
+    yield say.DECIDED_BLOCKS(sizes=sizes) if len(sizes) > 1 else say.DECIDED(method=proof.method)
+
+
+@rule("table", say.LARGEST, say.LEAST)
+def _largest(loop: Claim, given: Given) -> Said:
+    if given.largest and loop.stable and loop.bound is not None:
+        yield (say.LEAST if given.region.discrete else say.LARGEST)(bound=loop.bound)
+
+
+VERDICT = RULES
