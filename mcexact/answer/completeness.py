@@ -12,7 +12,7 @@ from mcexact.exact.polynomial import Polynomial
 
 @dataclass(frozen=True)
 class FreedomWitness(Part):
-    """Evidence for yes: gains that leave no mode of A in place, and arcs that connect all channels.
+    """Evidence for yes: gains that move every mode of A, and edges that connect all channels.
 
     Attributes
     ----------

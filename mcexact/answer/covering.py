@@ -76,8 +76,8 @@ class ConnectivityCut(Part):
 
 
 @dataclass(frozen=True)
-class ArcCut(Part):
-    """One of the arcs that carry something of U across the boundary of T must be added.
+class LinkCut(Part):
+    """One of the edges that carry something of U across the boundary of T must be added.
 
     Attributes
     ----------

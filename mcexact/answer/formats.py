@@ -151,7 +151,7 @@ def name_text(name: str, limit: int = 40) -> str:
     return name if len(name) <= limit else name[: limit - 1] + "…"
 
 
-def edges(arcs: Sequence[tuple[str, str]], limit: int = 12) -> str:
+def edges(edges: Sequence[tuple[str, str]], limit: int = 12) -> str:
     """Edges of a graph, ``1 -> 2``; of many only how many there are.
 
     Examples
@@ -159,8 +159,8 @@ def edges(arcs: Sequence[tuple[str, str]], limit: int = 12) -> str:
     >>> edges([("1", "2")]), edges([]), edges([("1", "1")] * 30)
     ('1 -> 2', 'no edges', '30 edges')
     """
-    if not arcs:
+    if not edges:
         return "no edges"
-    if len(arcs) > limit:
-        return count(len(arcs), "edge")
-    return ", ".join(f"{name_text(start)} -> {name_text(end)}" for start, end in arcs)
+    if len(edges) > limit:
+        return count(len(edges), "edge")
+    return ", ".join(f"{name_text(start)} -> {name_text(end)}" for start, end in edges)

@@ -161,9 +161,9 @@ def _combinations(rows: Sequence[Sequence[Fraction]]) -> str:
     return " or ".join(told)
 
 
-def _arrows(arcs: Sequence[tuple[str, str]]) -> str:
+def _arrows(edges: Sequence[tuple[str, str]]) -> str:
     """Every edge of a graph, in the words that stand for a picture of it."""
-    told = [f"{name_text(start)} → {name_text(end)}" for start, end in arcs]
+    told = [f"{name_text(start)} → {name_text(end)}" for start, end in edges]
     return ", ".join(cut(told, 40)) or "none"
 
 

@@ -10,7 +10,7 @@ from mcexact.answer.protocol import Answer, answer, claim, shown, witness
 
 @answer("transfer_graph")
 class TransferGraph(Answer):
-    """All arcs j → i of the transfer graph, C_i (xI − A)⁻¹ B_j ≠ 0, and no others.
+    """All edges j → i of the transfer graph, C_i (xI − A)⁻¹ B_j ≠ 0, and no others.
 
     Attributes
     ----------
@@ -21,11 +21,11 @@ class TransferGraph(Answer):
     strongly_connected : bool
         Whether there is at most one component.
     modulus : int
-        ℓ ≥ 2, modulo which each arc has a nonzero C_i A^k B_j.
+        ℓ ≥ 2, modulo which each edge has a nonzero C_i A^k B_j.
     powers : tuple of int
-        k < n, one for each arc.
+        k < n, one for each edge.
     zeros : tuple of ZeroTransfer
-        They cover each pair that is not an arc.
+        They cover each pair that is not an edge.
     """
 
     arcs: tuple[tuple[str, str], ...] = claim()
@@ -43,7 +43,7 @@ class TransferGraph(Answer):
 
     @cached_property
     def successors(self) -> dict[str, tuple[str, ...]]:
-        """For each channel that an arc leaves, the channels it reaches directly."""
+        """For each channel that an edge leaves, the channels it reaches directly."""
         found: dict[str, list[str]] = {}
         for j, i in self.arcs:
             found.setdefault(j, []).append(i)

@@ -24,7 +24,7 @@ _BOUNDS = {
 }
 _SHARING = ("enough to share", "least to share")
 
-Arc = tuple[str, str]
+Edge = tuple[str, str]
 
 
 def graph_picture(account: Account) -> Picture:
@@ -41,18 +41,18 @@ def graph_picture(account: Account) -> Picture:
     names, graph = system.names, system.neighbors
     subset = set(fixed.factors[0].channels) if fixed.factors else set()
     boundary: set[str] = set()
-    panels: list[tuple[str, list[Arc]]] = []
+    panels: list[tuple[str, list[Edge]]] = []
     if graph is not None:
         inside = [names.index(name) for name in subset]
         boundary = set(system.named(graph.union(inside))) - subset if subset else set()
-        arcs = [(names[j], names[i]) for j, i in graph.edges()]
-        panels.append(("neighbor graph", arcs))
-    panels.append(("transfer graph", [arc for arc in transfer.arcs if arc[0] != arc[1]]))
+        edges = [(names[j], names[i]) for j, i in graph.edges()]
+        panels.append(("neighbor graph", edges))
+    panels.append(("transfer graph", [edge for edge in transfer.arcs if edge[0] != edge[1]]))
     figure = empty_figure(4.2 * len(panels), 3.9)
-    for axis, (title, arcs) in zip(
+    for axis, (title, edges) in zip(
         figure.subplots(1, len(panels), squeeze=False)[0], panels, strict=True
     ):
-        _draw(axis, title, names, arcs, subset, boundary)
+        _draw(axis, title, names, edges, subset, boundary)
     caption = "; ".join(said.at("graphs")) + "."
     return Picture(figure, "".join(said.at("graphs.title")), caption)
 
@@ -61,18 +61,18 @@ def _draw(
     axis: Any,
     title: str,
     names: Sequence[str],
-    arcs: Sequence[Arc],
+    edges: Sequence[Edge],
     subset: set[str],
     boundary: set[str],
 ) -> None:
-    """Channels on a circle, arcs bent so that both directions are seen."""
+    """Channels on a circle, edges bent so that both directions are seen."""
     from matplotlib.patches import Circle, FancyArrowPatch
 
     axis.set_title(title, fontsize="medium")
     axis.set_aspect("equal")
     m = len(names)
     if m > LARGEST:
-        _draw_matrix(axis, names, arcs, subset, boundary)
+        _draw_matrix(axis, names, edges, subset, boundary)
         return
     axis.set_axis_off()
     size = 0.2 if m <= 8 else 0.1
@@ -92,7 +92,7 @@ def _draw(
         text = name if len(name) <= 6 else name[:5] + "…"
         ink = "white" if color != PLAIN else "black"
         axis.text(*at, text, ha="center", va="center", color=ink, zorder=4, parse_math=False)
-    for start, end in arcs:
+    for start, end in edges:
         axis.add_patch(
             FancyArrowPatch(
                 place[start],
@@ -111,9 +111,9 @@ def _draw(
 
 
 def _draw_matrix(
-    axis: Any, names: Sequence[str], arcs: Sequence[Arc], subset: set[str], boundary: set[str]
+    axis: Any, names: Sequence[str], edges: Sequence[Edge], subset: set[str], boundary: set[str]
 ) -> None:
-    """A column for the channel where an arc starts, a row for the one where it ends.
+    """A column for the channel where an edge starts, a row for the one where it ends.
 
     The obstruction comes first, then whom it hears: what it does not hear is an empty block.
     """
@@ -123,7 +123,7 @@ def _draw_matrix(
     place = {name: k for k, name in enumerate(ordered)}
     empty = {name: to_rgb("#fbe3cf" if name in subset else "#f4f4f4") for name in names}
     cells = [[empty[row]] * len(names) for row in ordered]
-    for start, end in arcs:
+    for start, end in edges:
         color = "#555555"
         if end in subset:
             color = MARKED if start in subset else SENDERS if start in boundary else color
@@ -132,7 +132,7 @@ def _draw_matrix(
     axis.set_xticks([])
     axis.set_yticks([])
     axis.set_xlabel(f"from each of {len(names)} channels", fontsize="small")
-    axis.set_ylabel(f"to each: {len(arcs)} arcs", fontsize="small")
+    axis.set_ylabel(f"to each: {len(edges)} arcs", fontsize="small")
 
 
 def dimensions_picture(account: Account) -> Picture:

@@ -27,9 +27,9 @@ from mcexact.analysis.engine.lyapunov import QuadraticForm, quadratic_form
 from mcexact.analysis.engine.obstructions import Decision, Obstruction, decide
 from mcexact.analysis.engine.rate import located
 from mcexact.analysis.engine.reachability import (
-    Arc,
+    Edge,
     strong_components,
-    suspected_arcs,
+    suspected_edges,
     witnessed_powers,
     zero_transfer,
 )
@@ -43,10 +43,10 @@ from mcexact.analysis.engine.shrunk_subspace import (
 
 __all__ = [
     "DEFAULT_NODE_LIMIT",
-    "Arc",
     "CoveringCut",
     "CoveringProgram",
     "Decision",
+    "Edge",
     "ExactSubspace",
     "Node",
     "Obstruction",
@@ -62,7 +62,7 @@ __all__ = [
     "quadratic_form",
     "separated_instability",
     "strong_components",
-    "suspected_arcs",
+    "suspected_edges",
     "witnessed_powers",
     "zero_transfer",
 ]

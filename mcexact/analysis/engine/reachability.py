@@ -11,23 +11,23 @@ from mcexact.exact.invariant_subspace import InvariantSubspace
 from mcexact.exact.modular import ModularMatrix
 from mcexact.model.system import MultiChannelSystem
 
-Arc = tuple[int, int]
+Edge = tuple[int, int]
 
 
 def _channel_of(ranges: Sequence[range]) -> list[int]:
     return [i for i, positions in enumerate(ranges) for _ in positions]
 
 
-def _nonzero_blocks(modular: ModularSystem, G: ModularMatrix) -> set[Arc]:
+def _nonzero_blocks(modular: ModularSystem, G: ModularMatrix) -> set[Edge]:
     """The pairs (j, i) with a nonzero block (i, j) of a Σ q_i × Σ p_i matrix."""
     sources, targets = _channel_of(modular.inputs), _channel_of(modular.outputs)
-    found: set[Arc] = set()
+    found: set[Edge] = set()
     for i, row in zip(targets, G.rows(), strict=True):
         found.update((j, i) for j, value in zip(sources, row, strict=True) if value)
     return found
 
 
-def suspected_arcs(modular: ModularSystem, rng: random.Random) -> set[Arc]:
+def suspected_edges(modular: ModularSystem, rng: random.Random) -> set[Edge]:
     """The pairs with C_i (zI − A)⁻¹ B_j ≠ 0 modulo ℓ at a drawn z."""
     n, ell = modular.system.n, modular.modulus
     if n == 0 or not modular.B.ncols or not modular.C.nrows:
@@ -39,17 +39,17 @@ def suspected_arcs(modular: ModularSystem, rng: random.Random) -> set[Arc]:
             return _nonzero_blocks(modular, (modular.C @ inverse) @ modular.B)
 
 
-def witnessed_powers(modular: ModularSystem, suspected: set[Arc]) -> dict[Arc, int]:
+def witnessed_powers(modular: ModularSystem, suspected: set[Edge]) -> dict[Edge, int]:
     """The least k with C_i A^k B_j ≠ 0 modulo ℓ, for every pair that has one below n."""
-    found: dict[Arc, int] = {}
+    found: dict[Edge, int] = {}
     if not suspected:
         return found
     moved = modular.B
     for k in range(modular.system.n):
         if k:
             moved = modular.A @ moved
-        for arc in _nonzero_blocks(modular, modular.C @ moved):
-            found.setdefault(arc, k)
+        for edge in _nonzero_blocks(modular, modular.C @ moved):
+            found.setdefault(edge, k)
         if suspected <= found.keys():
             break
     return found
@@ -62,11 +62,11 @@ def zero_transfer(
     return ZeroTransfer(channels_from=system.named(sources), X=found.X, pivots=found.pivots)
 
 
-def strong_components(m: int, arcs: Sequence[Arc]) -> tuple[tuple[int, ...], ...]:
+def strong_components(m: int, edges: Sequence[Edge]) -> tuple[tuple[int, ...], ...]:
     """Strong components of a graph on 0 … m−1, each ascending, sorted by first member."""
     import networkx
 
     graph = networkx.DiGraph()
     graph.add_nodes_from(range(m))
-    graph.add_edges_from(arcs)
+    graph.add_edges_from(edges)
     return tuple(sorted(tuple(sorted(c)) for c in networkx.strongly_connected_components(graph)))

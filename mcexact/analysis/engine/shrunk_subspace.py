@@ -85,7 +85,7 @@ def obstruction_modulo(modular: ModularSystem, gains: Gains, mu: int) -> Modular
     -----
     Start with U = ker N and repeat T = {i : C_i U ≠ 0}, U = N⁻¹(im B_T), until T is stable.  With
     one solution X_j of N X_j = B_j for every channel j, N⁻¹(im B_T) is ker N + Σ_{j∈T} im X_j, so
-    the whole sequence is one reduction of [N, B] and a search in the graph with an arc from j to
+    the whole sequence is one reduction of [N, B] and a search in the graph with an edge from j to
     i wherever C_i X_j ≠ 0.  Where some B_i with i ∈ T is not in im N, F is not of greatest rank,
     and a change of rank one in F_i repairs it: at level 0 the rank grows, at level k the kernel
     stays and the violation moves to a lower level.  So at most n rounds of at most m changes.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import random
 
-from mcexact.analysis.engine import Arc, decide, suspected_arcs, witnessed_powers, zero_transfer
+from mcexact.analysis.engine import Edge, decide, suspected_edges, witnessed_powers, zero_transfer
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.answer.completeness import (
     Completeness,
@@ -31,7 +31,7 @@ def completeness(
 
     Notes
     -----
-    Exact.  Yes: gains that leave no mode in place, and arcs that connect all channels.  No: a
+    Exact.  Yes: gains that leave no mode in place, and edges that connect all channels.  No: a
     shrunk subspace for one fixed mode, or a set of channels whose inputs never reach the outputs of
     the others.
 
@@ -64,7 +64,7 @@ def _evidence(
     modular = ModularSystem(system, spectrum.modulus)
     gains = spectrum.gains
     while True:
-        suspected = suspected_arcs(modular, rng)
+        suspected = suspected_edges(modular, rng)
         closed = _closed_set(system.m, suspected)
         if closed is None:
             break
@@ -72,10 +72,10 @@ def _evidence(
         rest = [i for i in range(system.m) if i not in closed]
         if (system.output_matrix(rest) @ found.X).is_zero():
             return CutWitness(zero_transfer(system, closed, found))
-        # Arcs have vanished by accident, perhaps modulo this prime whatever is drawn.
+        # Edges have vanished by accident, perhaps modulo this prime whatever is drawn.
         decision = decide(system, rng)
         modular, gains = decision.modular, lifted_gains(decision.modular, decision.gains)
-    chosen = _connecting_arcs(system.m, suspected)
+    chosen = _connecting_edges(system.m, suspected)
     powers = witnessed_powers(modular, chosen)
     names = system.names
     return FreedomWitness(
@@ -85,10 +85,10 @@ def _evidence(
     )
 
 
-def _reached(m: int, start: int, arcs: set[Arc]) -> list[Arc]:
+def _reached(m: int, start: int, edges: set[Edge]) -> list[Edge]:
     """Arcs of a tree from ``start`` to every node that it reaches, nearest first."""
     successors: list[list[int]] = [[] for _ in range(m)]
-    for j, i in sorted(arcs):
+    for j, i in sorted(edges):
         successors[j].append(i)
     seen, level, tree = {start}, [start], []
     while level:
@@ -103,19 +103,19 @@ def _reached(m: int, start: int, arcs: set[Arc]) -> list[Arc]:
     return tree
 
 
-def _closed_set(m: int, arcs: set[Arc]) -> tuple[int, ...] | None:
-    """A smallest nonempty proper set of nodes that some node reaches and no arc leaves, if any."""
+def _closed_set(m: int, edges: set[Edge]) -> tuple[int, ...] | None:
+    """A smallest nonempty proper set of nodes that some node reaches and no edge leaves, if any."""
     sets = []
     for start in range(m):
-        reached = {start, *(i for _, i in _reached(m, start, arcs))}
+        reached = {start, *(i for _, i in _reached(m, start, edges))}
         if len(reached) < m:
             sets.append(tuple(sorted(reached)))
     return min(sets, key=lambda s: (len(s), s), default=None)
 
 
-def _connecting_arcs(m: int, arcs: set[Arc]) -> set[Arc]:
-    """At most 2(m − 1) arcs of a strongly connected graph that keep it so."""
+def _connecting_edges(m: int, edges: set[Edge]) -> set[Edge]:
+    """At most 2(m − 1) edges of a strongly connected graph that keep it so."""
     if m < 2:
         return set()
-    backwards = _reached(m, 0, {(i, j) for j, i in arcs})
-    return set(_reached(m, 0, arcs)) | {(j, i) for i, j in backwards}
+    backwards = _reached(m, 0, {(i, j) for j, i in edges})
+    return set(_reached(m, 0, edges)) | {(j, i) for i, j in backwards}

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from random import Random
 
-from mcexact.analysis.engine import decide, evidence, suspected_arcs, zero_transfer
+from mcexact.analysis.engine import decide, evidence, suspected_edges, zero_transfer
 from mcexact.analysis.fixed_modes.gains import Draw, drawn_integers, reach_index
 from mcexact.answer.single_channel_gains import (
     GainsWitness,
@@ -154,9 +154,9 @@ def _obstruction(
     for found in decide(full_output(target, q), rng).obstructions:
         return StuckWitness(name, side, found.polynomial, evidence(target, found.subspace))
     modular = next(residue_systems(target, rng))
-    arcs = suspected_arcs(modular, rng)
+    edges = suspected_edges(modular, rng)
     reached = {q}
-    while new := {i for j, i in arcs if j in reached} - reached:
+    while new := {i for j, i in edges if j in reached} - reached:
         reached |= new
     T, rest = sorted(reached), [i for i in range(target.m) if i not in reached]
     C = target.output_matrix(rest)

@@ -200,7 +200,7 @@ def _program(
 def _connectivity_cuts(
     base: MultiChannelSystem, extended: MultiChannelSystem, graph: NeighborGraph
 ) -> list[CoveringCut]:
-    """The cut of one strong component that no arc leaves, if there is more than one component."""
+    """The cut of one strong component that no edge leaves, if there is more than one component."""
     found = transfer_graph(extended)
     if found.strongly_connected:
         return []

@@ -1,4 +1,4 @@
-"""What must be communicated: the cheapest arcs to add so that no mode is fixed."""
+"""What must be communicated: the cheapest edges to add so that no mode is fixed."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from mcexact.analysis.engine import (
 from mcexact.analysis.sharing.cut_generation import CoveringProblem, covering_optimum
 from mcexact.analysis.sharing.separation import least_minimizers, violating_factors
 from mcexact.answer.communication import MinimalCommunication
-from mcexact.answer.covering import ArcCut
+from mcexact.answer.covering import LinkCut
 from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.derived.extended import Share, extended_system, selector
 from mcexact.derived.links import add_links
@@ -34,30 +34,30 @@ from mcexact.model.names import quoted
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_links
 
-Arc = tuple[int, int]
+Edge = tuple[int, int]
 Carried = Literal["outputs", "outputs+states", "states"]
 
 
 @dataclass(frozen=True)
-class _Wires:
-    """A plant over its graph, what an arc carries, and the arcs that may be added."""
+class _Links:
+    """A plant over its graph, what an edge carries, and the edges that may be added."""
 
     plant: MultiChannelSystem
     share: Carried
     dimensions: tuple[int, ...] | None
-    candidates: tuple[Arc, ...]
+    candidates: tuple[Edge, ...]
 
     def chosen(self, values: Sequence[int]) -> MultiChannelSystem:
         """The system over the graph with the candidates added whose value is 1."""
-        arcs = tuple(itertools.compress(self.candidates, values))
-        wired = add_links(self.plant, arcs) if arcs else self.plant
+        edges = tuple(itertools.compress(self.candidates, values))
+        linked = add_links(self.plant, edges) if edges else self.plant
         if self.dimensions is None:
-            return augmented_outputs(wired)
+            return augmented_outputs(linked)
         share: Share = "states" if self.share == "states" else "outputs+states"
-        return extended_system(wired, self.dimensions, share)
+        return extended_system(linked, self.dimensions, share)
 
     def carried(self, j: int) -> Matrix:
-        """S_j, the rows that an arc from j adds to the outputs of the system."""
+        """S_j, the rows that an edge from j adds to the outputs of the system."""
         outputs = self.plant.C(j)
         if self.dimensions is None:
             return outputs
@@ -74,7 +74,7 @@ class _Wires:
             for k, (j, i) in enumerate(self.candidates)
             if i not in subspace.channels_T and not carried[j].is_zero()
         )
-        return CoveringCut(breaking, 1, ArcCut(p, evidence(self.chosen(()), subspace)))
+        return CoveringCut(breaking, 1, LinkCut(p, evidence(self.chosen(()), subspace)))
 
 
 def minimal_communication(
@@ -88,7 +88,7 @@ def minimal_communication(
     bound: Entry | None = None,
     node_limit: int = DEFAULT_NODE_LIMIT,
 ) -> MinimalCommunication:
-    """The cheapest arcs to add to the neighbor graph so that no mode is fixed.
+    """The cheapest edges to add to the neighbor graph so that no mode is fixed.
 
     Parameters
     ----------
@@ -99,11 +99,11 @@ def minimal_communication(
     dimensions : sequence of m int, optional
         n_i of the extended system; without them agents share outputs alone.
     share : {"outputs", "outputs+states", "states"}, optional
-        What an arc carries: "outputs" without dimensions, else "outputs+states" by default.
+        What an edge carries: "outputs" without dimensions, else "outputs+states" by default.
     costs : mapping from (from, to) to a positive rational, optional
-        Prices of arcs, 1 by default.
+        Prices of edges, 1 by default.
     forbidden : iterable of (from, to)
-        Arcs that must not be added.
+        Edges that must not be added.
     bound : rational, optional
         A rate or radius: only modes that violate it count.
     node_limit : int
@@ -119,10 +119,10 @@ def minimal_communication(
 
     Notes
     -----
-    An obstruction (T, U) is broken only by an arc j → i with i outside T that carries something of
+    An obstruction (T, U) is broken only by an edge j → i with i outside T that carries something of
     U: one of these must be added.  Such cuts are generated as in `minimal_shared_dimensions`; the
-    certificate is of the same kind.  Among optimal sets of arcs the first in the order of the
-    candidates, last arcs preferred, is taken.
+    certificate is of the same kind.  Among optimal sets of edges the first in the order of the
+    candidates, last edges preferred, is taken.
 
     Examples
     --------
@@ -132,12 +132,12 @@ def minimal_communication(
     (('1', '2'),)
     """
     given, found = with_links(system, graph)
-    wires = _checked(given.with_neighbors(found), found, dimensions, share, forbidden)
-    plant, names = wires.plant, wires.plant.names
+    links = _checked(given.with_neighbors(found), found, dimensions, share, forbidden)
+    plant, names = links.plant, links.plant.names
     exact = None if bound is None else as_fraction(bound, where="bound")
     region = None if exact is None else StabilityRegion.of(plant.time, bound=exact)
     factors = violating_factors(plant, region)
-    rng = generator(wires.chosen(()), MinimalCommunication.kind)
+    rng = generator(links.chosen(()), MinimalCommunication.kind)
 
     def violated(_: Sequence[int], system: MultiChannelSystem) -> list[CoveringCut]:
         cuts = []
@@ -145,26 +145,26 @@ def minimal_communication(
             subspaces = (exact_subspace(system, T, p) for T in least_minimizers(system, p, rng))
             subspace = next(filter(None, subspaces), None)
             if subspace is not None:
-                cuts.append(wires.cut(subspace, p))
+                cuts.append(links.cut(subspace, p))
         return cuts
 
-    program = CoveringProgram(_prices(wires, costs or {}), (1,) * len(wires.candidates))
-    problem = CoveringProblem(MinimalCommunication.kind, program, wires.chosen, violated, region)
+    program = CoveringProgram(_prices(links, costs or {}), (1,) * len(links.candidates))
+    problem = CoveringProblem(MinimalCommunication.kind, program, links.chosen, violated, region)
     least = covering_optimum(problem, node_limit)
-    arcs = [(names[j], names[i]) for j, i in wires.candidates]
-    added = None if least.values is None else tuple(itertools.compress(arcs, least.values))
+    edges = [(names[j], names[i]) for j, i in links.candidates]
+    added = None if least.values is None else tuple(itertools.compress(edges, least.values))
     return MinimalCommunication(
         given,
-        share=wires.share,
-        dimensions=wires.dimensions,
+        share=links.share,
+        dimensions=links.dimensions,
         bound=exact,
-        candidates=tuple((*arc, c) for arc, c in zip(arcs, program.costs, strict=True)),
+        candidates=tuple((*edge, c) for edge, c in zip(edges, program.costs, strict=True)),
         feasible=added is not None,
         added=added,
         cost=least.cost,
         absence=least.absence,
         cuts=tuple(cut.evidence for cut in least.cuts),
-        tree=least.tree("arc", arcs),
+        tree=least.tree("arc", edges),
     )
 
 
@@ -174,7 +174,7 @@ def _checked(
     dimensions: Sequence[int] | None,
     share: Carried | None,
     forbidden: Iterable[tuple[str, str]],
-) -> _Wires:
+) -> _Links:
     if plant.subject:
         raise UsageError("give the plant, not a system derived from it", where="system")
     carried: Carried = share or ("outputs" if dimensions is None else "outputs+states")
@@ -185,7 +185,7 @@ def _checked(
         )
     if (carried == "outputs") != (dimensions is None):
         raise UsageError("sub-states are shared iff their dimensions are given", where="share")
-    excluded = {_arc(plant, arc) for arc in forbidden}
+    excluded = {_edge(plant, edge) for edge in forbidden}
     candidates = tuple(
         (j, i)
         for j in range(plant.m)
@@ -193,24 +193,24 @@ def _checked(
         if j not in graph.neighborhood(i) and (j, i) not in excluded
     )
     sizes = None if dimensions is None else tuple(dimensions)
-    return _Wires(plant, carried, sizes, candidates)
+    return _Links(plant, carried, sizes, candidates)
 
 
-def _prices(wires: _Wires, costs: Mapping[tuple[str, str], Entry]) -> tuple[Fraction, ...]:
+def _prices(links: _Links, costs: Mapping[tuple[str, str], Entry]) -> tuple[Fraction, ...]:
     """The price of each candidate, 1 where none is given."""
-    prices = {_arc(wires.plant, arc): as_fraction(price) for arc, price in costs.items()}
+    prices = {_edge(links.plant, edge): as_fraction(price) for edge, price in costs.items()}
     if any(price <= 0 for price in prices.values()):
-        raise UsageError("the price of an arc must be positive", where="costs")
-    return tuple(prices.get(arc, Fraction(1)) for arc in wires.candidates)
+        raise UsageError("the price of an edge must be positive", where="costs")
+    return tuple(prices.get(edge, Fraction(1)) for edge in links.candidates)
 
 
-def _arc(plant: MultiChannelSystem, arc: tuple[str, str]) -> Arc:
-    sender, receiver = arc
+def _edge(plant: MultiChannelSystem, edge: tuple[str, str]) -> Edge:
+    sender, receiver = edge
     return plant.index(sender), plant.index(receiver)
 
 
 def _trimmed(subspace: ExactSubspace) -> ExactSubspace:
-    """The same with rank B_T + 1 columns: the fewer columns, the fewer arcs break it."""
+    """The same with rank B_T + 1 columns: the fewer columns, the fewer edges break it."""
     keep = range(len(subspace.pivots) - subspace.deficiency + 1)
     return replace(
         subspace,

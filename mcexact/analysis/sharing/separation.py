@@ -12,7 +12,7 @@ from mcexact.analysis.engine import (
     exact_subspace,
     obstruction_modulo,
     strong_components,
-    suspected_arcs,
+    suspected_edges,
     witnessed_powers,
 )
 from mcexact.answer.covering import Absence, DeficiencyCut
@@ -144,16 +144,16 @@ def absence(
         gains=lifted_gains(decision.modular, decision.gains),
         modulus=decision.modular.modulus,
         allowed=allowed,
-        arcs=_connecting_arcs(decision.modular, rng) if connected else None,
+        arcs=_connecting_edges(decision.modular, rng) if connected else None,
     )
 
 
-def _connecting_arcs(
+def _connecting_edges(
     modular: ModularSystem, rng: random.Random
 ) -> tuple[tuple[str, str, int], ...]:
     """Arcs with a nonzero Markov parameter modulo ℓ; together they connect the graph strongly."""
     system = modular.system
-    powers = witnessed_powers(modular, suspected_arcs(modular, rng))
+    powers = witnessed_powers(modular, suspected_edges(modular, rng))
     if len(strong_components(system.m, sorted(powers))) > 1:
         raise InternalError("the extended transfer graph is not strongly connected")
     names = system.names

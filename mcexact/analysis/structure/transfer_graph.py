@@ -5,9 +5,9 @@ from __future__ import annotations
 import random
 
 from mcexact.analysis.engine import (
-    Arc,
+    Edge,
     strong_components,
-    suspected_arcs,
+    suspected_edges,
     witnessed_powers,
     zero_transfer,
 )
@@ -27,10 +27,10 @@ def transfer_graph(system: MultiChannelSystem) -> TransferGraph:
 
     Notes
     -----
-    Exact.  For an arc the certificate holds a k < n with C_i A^k B_j ≠ 0 modulo a prime; for the
-    pairs that are no arcs it holds invariant subspaces that contain im B_j and lie in ker C_i, one
+    Exact.  For an edge the certificate holds a k < n with C_i A^k B_j ≠ 0 modulo a prime; for the
+    pairs that are no edges it holds invariant subspaces that contain im B_j and lie in ker C_i, one
     for all j that reach the same channels.  One value of the transfer matrix modulo the prime says
-    which arcs to look for.  O(n³) word operations, and O(n² p) for each power looked at.
+    which edges to look for.  O(n³) word operations, and O(n² p) for each power looked at.
 
     Examples
     --------
@@ -45,7 +45,7 @@ def transfer_graph(system: MultiChannelSystem) -> TransferGraph:
     """
     rng = generator(system, "transfer_graph")
     for modular in residue_systems(system, rng):
-        suspected = suspected_arcs(modular, rng)
+        suspected = suspected_edges(modular, rng)
         powers = witnessed_powers(modular, suspected)
         zeros = _zero_transfers(system, set(powers), rng)
         if zeros is not None:
@@ -54,13 +54,13 @@ def transfer_graph(system: MultiChannelSystem) -> TransferGraph:
 
 
 def _zero_transfers(
-    system: MultiChannelSystem, arcs: set[Arc], rng: random.Random
+    system: MultiChannelSystem, edges: set[Edge], rng: random.Random
 ) -> list[tuple[tuple[int, ...], InvariantSubspace]] | None:
-    """Invariant subspaces that prove every other pair to be no arc; None if one is an arc."""
+    """Invariant subspaces that prove every other pair to be no edge; None if one is an edge."""
     m = system.m
     groups: dict[tuple[int, ...], list[int]] = {}
     for j in range(m):
-        unreached = tuple(i for i in range(m) if (j, i) not in arcs)
+        unreached = tuple(i for i in range(m) if (j, i) not in edges)
         if unreached:
             groups.setdefault(unreached, []).append(j)
     zeros = []
@@ -75,18 +75,18 @@ def _zero_transfers(
 def _result(
     system: MultiChannelSystem,
     modulus: int,
-    powers: dict[Arc, int],
+    powers: dict[Edge, int],
     zeros: list[tuple[tuple[int, ...], InvariantSubspace]],
 ) -> TransferGraph:
-    arcs = sorted(powers)
+    edges = sorted(powers)
     names = system.names
-    components = tuple(system.named(c) for c in strong_components(system.m, arcs))
+    components = tuple(system.named(c) for c in strong_components(system.m, edges))
     return TransferGraph(
         system,
-        arcs=tuple((names[j], names[i]) for j, i in arcs),
+        arcs=tuple((names[j], names[i]) for j, i in edges),
         components=components,
         strongly_connected=len(components) <= 1,
         modulus=modulus,
-        powers=tuple(powers[arc] for arc in arcs),
+        powers=tuple(powers[edge] for edge in edges),
         zeros=tuple(zero_transfer(system, sources, found) for sources, found in zeros),
     )

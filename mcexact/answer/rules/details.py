@@ -155,16 +155,16 @@ def _picture(given: Given) -> Said:
 
 
 @rule("graphs", say.PICTURE_NEIGHBORS)
-def _neighbor_arcs(given: Given) -> Said:
+def _neighbor_edges(given: Given) -> Said:
     if given.neighbors is not None:
         names = given.names
-        arcs = [(names[j], names[i]) for j, i in given.neighbors.edges()]
-        yield say.PICTURE_NEIGHBORS(arcs=arcs)
+        edges = [(names[j], names[i]) for j, i in given.neighbors.edges()]
+        yield say.PICTURE_NEIGHBORS(arcs=edges)
 
 
 @rule("graphs", say.PICTURE_TRANSFER)
-def _transfer_arcs(transfer_graph: Claim) -> Said:
-    yield say.PICTURE_TRANSFER(arcs=[arc for arc in transfer_graph.arcs if arc[0] != arc[1]])
+def _transfer_edges(transfer_graph: Claim) -> Said:
+    yield say.PICTURE_TRANSFER(arcs=[edge for edge in transfer_graph.arcs if edge[0] != edge[1]])
 
 
 @rule("graphs", say.PICTURE_OBSTRUCTION, say.PICTURE_HEARD)
