@@ -119,6 +119,7 @@ def of_its_graph(plant: MultiChannelSystem) -> Answers:
     for share in SHARING:
         bound = mcexact.shared_dimension_bound(plant, share=share)
         yield f"shared_dimension_bound_{share}", bound
+        yield f"common_dimension_{share}", mcexact.common_dimension(plant, share=share)
         for free in (False, True):
             found = least(
                 mcexact.minimal_shared_dimensions, plant, share=share, free_assignability=free
