@@ -120,11 +120,8 @@ def decays(loop: Premise) -> str:
     return f"{loop.theorem}; every eigenvalue has {stable}"
 
 
-restate("design-observer", OBSERVER, is_stable, words=decays)
-CERTIFIED = "design-observer-float design-network design-setpoint"
+CERTIFIED = "design-observer design-observer-float design-network design-setpoint design-region"
 restate(CERTIFIED, LOOP, is_stable, words=decays)
-PLACED = Role(("stability", "distributed_observer"), CLOSED)
-restate("design-region", PLACED, lambda c: is_stable(c) and c["bound"] is not None)
 restate("design-feedback design-errors", OBSERVER, lambda c: True)
 restate("design-assigned", LOOP, lambda c: True)
 restate("certify-inside", STABLE, lambda c: c["stable"])

@@ -353,19 +353,18 @@ PLACES = {
     "refused-fixed-shared": "shared",
     "refused-integrators-fixed": "tracked",
 }
-LOOPS = "design-observer-float design-network design-setpoint"
+LOOPS = "design-observer design-observer-float design-network design-setpoint design-region"
 SIZES = (
     "design-carrier design-carrier-for design-order design-order-integrators design-shared "
     "design-longest-number certify-states"
 )
-OBSERVERS = "design-observer design-feedback design-errors"
+OBSERVERS = "design-feedback design-errors"
 REFUSALS = {key: [REFUSED[place]] for keys, place in PLACES.items() for key in keys.split()}
 IMPLIED: list[tuple[str, list[Document]]] = [
     (SIZES, [LOOP]),
     (LOOPS, [LOOP]),
     (LOOPS, [STABLE]),
-    (f"{LOOPS} {OBSERVERS} design-region", [OBSERVER]),
-    ("design-region", [STABLE]),
+    (f"{LOOPS} {OBSERVERS}", [OBSERVER]),
     ("design-assigned", [LOOP]),
     ("design-kept", [KEPT_LOOP, made(fixed_spectrum(KEPT))]),
     ("design-steady-state", [TRACKS]),
@@ -385,7 +384,6 @@ DENIED: list[tuple[str, list[Document]]] = [
     (LOOPS, [GROWS]),
     (f"{OBSERVERS} certify-inside certify-decided certify-outside refused-outside", [LOOP]),
     ("design-assigned", [SPECTRUM]),
-    *(("design-region", [loop]) for loop in (LOOP, UNBOUNDED, SLOWER)),
     ("design-kept", [LOOP, SPECTRUM]),
     ("design-kept", [made(fixed_spectrum(KEPT))]),
     *(("design-steady-state", [loop]) for loop in (LOOP, LEAKS, DEAF, DOUBLES, GROWS, SLOWER)),
