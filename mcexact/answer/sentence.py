@@ -18,7 +18,8 @@ FORMAT = "mcexact-manifest/1"
 MANIFEST = "manifest.json"
 """The file beside the certificates."""
 LOOP = ("closed_loop_spectrum", "stability", "distributed_observer")
-"""The kinds of which one is about a closed loop; rules call whichever is there ``loop``."""
+"""The kinds of which one is about a closed loop; rules call whichever is there first ``loop``."""
+_ALIASES = {"loop": LOOP, "bounded_loop": LOOP[1:]}
 
 Read = dict[tuple[str, str], Any]
 F = TypeVar("F", bound=Callable[..., Iterator[Sentence]])
@@ -208,7 +209,7 @@ class Rule:
 
 def _found(name: str, answers: Mapping[str, Answer], read: Read) -> Any:
     """The answer of this name as a rule sees it, or the numbered ones; None if there is none."""
-    for each in LOOP if name == "loop" else (name,):
+    for each in _ALIASES.get(name, (name,)):
         if each in answers:
             return Certified(answers[each], f"{each}.json", read)
     several: list[Certified] = []

@@ -92,8 +92,9 @@ def _errors(loop: Claim) -> Said:
 
 
 @rule("table", say.REGION)
-def _region(loop: Claim, given: Given) -> Said:
-    if given.region.bound is not None and inside(loop, given.region):
+def _region(bounded_loop: Claim, given: Given) -> Said:
+    loop, bound = bounded_loop, given.region.bound
+    if bound is not None and loop.bound == bound and inside(loop, given.region):
         yield say.REGION(region=given.region)
 
 
