@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from random import Random
 
+from mcexact.analysis.fixed_modes.gains import reach_index
 from mcexact.errors import InputError, InternalError, LimitReached
 from mcexact.exact.blocks import hstack, vstack
 from mcexact.exact.linear_algebra import characteristic_polynomial, solve
@@ -185,13 +186,8 @@ def observing_rows(A: Matrix, C: Matrix, rng: Random) -> Iterator[tuple[int, ...
         else:
             bound = 1 + trial // (2 * q + 8)
             h = tuple(rng.randint(-bound, bound) for _ in range(q))
-        step = residues(A, ell)
-        vector = residues(Matrix.from_rows([h], ncols=q), ell) @ residues(C, ell)
-        rows = []
-        for _ in range(n):
-            rows += list(vector.rows())
-            vector = vector @ step
-        if n == 0 or type(step).from_rows(rows, ell, ncols=n).rank() == n:
+        row = residues(Matrix.from_rows([h], ncols=q), ell) @ residues(C, ell)
+        if reach_index(residues(A, ell).T, row.T, n) is not None:
             yield h
 
 
