@@ -1,18 +1,19 @@
-"""Stage 3: exact decisions about systems.
+"""Exact decisions about systems.
 
-Each function takes a `MultiChannelSystem`, a plant or one derived from it, and gives an
-answer, which holds its proof.  No subset of channels is enumerated.
-What decides is arithmetic modulo word-size primes wherever that proves something, and arithmetic
-over Q for what a certificate holds; floating point only proposes integer solutions, in allocations.
+Each function takes a `MultiChannelSystem`, a plant or one derived from it, and gives an answer,
+which is its own certificate.  No subset of channels is enumerated.  Decisions use arithmetic modulo
+word-size primes where this suffices for a proof, and arithmetic over Q for the contents of
+certificates.  Floating point only proposes integer solutions of covering programs, and Lyapunov
+matrices.
 
 ===============  ==========================================================================
-`analyze`        everything that can be asked about one system, each question decided once
+`analyze`        all questions about one system, each decided once
 `questions`      the table of questions
-`accounts`       what has to be shared, told: the least beside the bound, or the links to add
-`engine`         what decisions rest on; answers no question
+`accounts`       the least dimensions beside the bound, or the links to add, in sentences
+`engine`         the algorithms that several decisions use
 `structure`      controllability, indices, transfer graph, set-points, subsystems
-`fixed_modes`    which modes stay, why, and what gains do with the others
-`sharing`        what agents must send each other
-`stability`      where the eigenvalues of a loop lie
+`fixed_modes`    fixed modes, completeness, assignability, and gains
+`sharing`        the least that agents must share
+`stability`      the location of the eigenvalues of a closed loop
 ===============  ==========================================================================
 """

@@ -1,4 +1,4 @@
-"""What has to be shared, told: the least dimensions beside the bound, or the links to add."""
+"""The answers of `mcexact allocate` with their sentences."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from mcexact.model.system import MultiChannelSystem
 def account_of_dimensions(
     system: MultiChannelSystem, *, share: Share = "outputs+states", **options: Any
 ) -> Account:
-    """The least dimensions that agents must share, beside the bound of the paper.
+    """Compute the least dimensions that agents must share, and the bound of the paper.
 
     Parameters
     ----------
@@ -41,7 +41,7 @@ def account_of_dimensions(
 
 
 def account_of_links(system: MultiChannelSystem, **options: Any) -> Account:
-    """The cheapest links to add.
+    """Compute the cheapest links to add.
 
     Parameters
     ----------

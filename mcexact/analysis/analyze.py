@@ -1,4 +1,4 @@
-"""Everything that can be asked about one system, each question decided once and only when asked."""
+"""`analyze` answers all questions about one system, each decided once and when it is first used."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from mcexact.model.system import MultiChannelSystem
 
 
 class Analysis:
-    """The answers about one system, by attribute or item, each decided when it is first asked for.
+    """The answers about one system, by attribute or item, each decided when it is first used.
 
     Parameters
     ----------
@@ -65,17 +65,17 @@ class Analysis:
 
     @property
     def asked(self) -> tuple[str, ...]:
-        """The questions asked so far, and those whose answers they take, as the table has them."""
+        """The questions asked so far and those they depend on, in the order of the table."""
         return tuple(name for name in QUESTIONS if name in self._asked)
 
     @cached_property
     def unbidden(self) -> tuple[str, ...]:
-        """The questions that are asked when none is named."""
+        """The questions that are asked by default."""
         return tuple(name for name in self._applicable() if name not in self.left_out)
 
     @cached_property
     def left_out(self) -> tuple[str, ...]:
-        """Those that would be among them, if their evidence were not out of proportion."""
+        """The questions that are left out because their evidence would be very large."""
         ports = {
             "": self.system.n,
             "inputs": self.system.input_matrix().ncols,
@@ -103,7 +103,7 @@ class Analysis:
         self._require(QUESTIONS[name].needs, f"the question {name!r} is about {{}}")
 
     def _require(self, needed: str, asked: str) -> None:
-        """Refuse what makes no sense without a graph, a set of channels or a channel."""
+        """Raise an error if a question lacks the graph, channels or channel that it needs."""
         if not needed or self._arguments[needed] is not None:
             return
         if needed == "neighbors":
@@ -116,7 +116,7 @@ class Analysis:
 
     @cached_property
     def system(self) -> MultiChannelSystem:
-        """The plant, or the plant with the outputs that the agents receive."""
+        """Return the plant, or the plant with the outputs that the agents receive."""
         if self.information == "own":
             return self.plant
         from mcexact.derived.augmented_outputs import augmented_outputs
@@ -132,7 +132,7 @@ class Analysis:
 
     @cached_property
     def held(self) -> MultiChannelSystem:
-        """The same where sub-states alone are shared, and held for the delays."""
+        """Return the plant with sub-states that are shared alone, and held for the delays."""
         from mcexact.derived.delayed import held_system
 
         return held_system(self.plant, self._shared("states"))
@@ -141,14 +141,14 @@ class Analysis:
         return (self._answer(f"shared_dimension_bound_{stem}").deficiency,) * self.plant.m
 
     def __getitem__(self, name: str) -> Any:
-        """The answer to a question, decided if it is not known yet.
+        """Return the answer to a question, which is decided if it is not known yet.
 
         Raises
         ------
         UsageError
-            If there is no such question, or it needs what the system does not have.
+            If there is no such question, or the system lacks something that it needs.
         LimitReached
-            If a limit on work left it open.
+            If a limit on work prevented the decision.
         """
         self._require_known(name)
         found = self._answer(name)
@@ -165,7 +165,7 @@ class Analysis:
         return sorted({*super().__dir__(), *QUESTIONS})
 
     def _answer(self, name: str) -> Any:
-        """What was decided, or the limit at which that ended."""
+        """Return the answer, or the limit that prevented it."""
         self._asked.add(name)
         if name not in self._found:
             question = QUESTIONS[name]
@@ -180,7 +180,7 @@ class Analysis:
         return self._found[name]
 
     def decided(self) -> dict[str, Any]:
-        """The answers to all that was asked; several answers to one question are numbered."""
+        """Return the answers to all questions asked, with several answers to one numbered."""
         answers: dict[str, Any] = {}
         for name, found in self._outcomes().items():
             if isinstance(found, tuple):
@@ -190,7 +190,7 @@ class Analysis:
         return answers
 
     def open(self) -> dict[str, LimitReached]:
-        """What was asked and left open by a limit on work."""
+        """Return the questions that a limit on work left undecided."""
         return {
             name: found
             for name, found in self._outcomes().items()
@@ -199,7 +199,7 @@ class Analysis:
 
     @property
     def account(self) -> Account:
-        """Everything that was asked, decided, with what follows from it."""
+        """Decide all questions asked, and return the answers with their sentences."""
         answers = self.decided()
         open_ = {*self.left_out, *self.open()} - answers.keys()
         given = Given(self.system, {"information": self.information})
@@ -208,25 +208,25 @@ class Analysis:
 
     @property
     def sentences(self) -> Sentences:
-        """What follows from the answers, each sentence with the claims that it rests on."""
+        """The sentences that follow from the answers, each with its premises."""
         return self.account.sentences
 
     def manifest(self) -> dict[str, Any]:
-        """The sentences, what each rests on, and the digests of the certificates."""
+        """Return the sentences with their premises, and the digests of the certificates."""
         return self.account.manifest()
 
     def save(self, folder: str | os.PathLike[str]) -> None:
-        """Write the certificates, and a manifest of the sentences, for `mcexact check --manifest`.
+        """Write the certificates and a manifest of the sentences, which the checker can verify.
 
         Parameters
         ----------
         folder : path
-            It is made if it is missing.
+            The folder, which is made if it is missing.
         """
         self.account.save(folder)
 
     def as_json(self) -> dict[str, Any]:
-        """Plain data for programs: an entry for each answer, under the name of its question."""
+        """Return plain data with an entry for each answer, keyed by the name of its question."""
         open_ = {}
         for name, reached in self.open().items():
             bounds = {"lower": _written(reached.lower), "upper": _written(reached.upper)}
@@ -245,7 +245,7 @@ class Analysis:
         return self.account._repr_html_()
 
     def _outcomes(self) -> dict[str, Any]:
-        """Everything that was asked, or needed for it, in the order of the table."""
+        """Return the names of all questions asked or needed, in the order of the table."""
         for name in self.asked:
             self._answer(name)
         return {name: self._found[name] for name in self.asked}
@@ -264,32 +264,32 @@ def analyze(
     subset: Sequence[str] | None = None,
     channel: str | None = None,
 ) -> Analysis:
-    """Ask about a system: by default everything that applies and is cheap.
+    """Answer questions about a system, by default all that apply and are cheap.
 
     Parameters
     ----------
     plant : MultiChannelSystem
     questions : iterable of str, optional
-        Names out of `QUESTIONS`; nothing that is NP-hard is asked unless it is named.
+        Names in `QUESTIONS`; an NP-hard question is asked only by name.
     besides : iterable of str
-        Questions to be asked besides those.
+        Further questions.
     information : {"own", "outputs"}
-        What agent i feeds back: y_i, or the y_j of all j in N_i.
+        The signals that agent i feeds back: y_i, or the y_j of all j ∈ N_i.
     subset : sequence of str, optional
-        Names of channels: the rank of their pencil at every mode is asked as well, and their
-        complementary subsystem.
+        Names of channels, whose pencil at every mode and complementary subsystem are asked about as
+        well.
     channel : str, optional
-        The name of a channel: what it controls and observes is asked as well.
+        The name of a channel, whose controllability and observability are asked about as well.
 
     Returns
     -------
     Analysis
-        Nothing is decided before it is looked at.
+        The answers, each of which is decided when it is first used.
 
     Raises
     ------
     UsageError
-        If there is no question of a name, or it needs what the system does not have.
+        If a name is not a question, or the system lacks something that a question needs.
 
     Examples
     --------

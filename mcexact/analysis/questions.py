@@ -1,4 +1,4 @@
-"""What can be asked about a system: one table, from which names of answers and files derive."""
+"""The table of questions about a system, from which names of answers, options and files derive."""
 
 from __future__ import annotations
 
@@ -9,38 +9,39 @@ from types import MappingProxyType
 from typing import Any
 
 SHARES = {"outputs+states": "outputs_states", "states": "states"}
-"""How each way of sharing appears in the name of a question."""
+"""The form of each way of sharing in the name of a question."""
 
 
 @dataclass(frozen=True)
 class Question:
-    """Who decides it, about what, and when it is asked.
+    """A question: the function that decides it, its subject, and when it is asked.
 
     Attributes
     ----------
     home : str
-        Module of `mcexact.analysis` and function, with a colon between.
+        Module of `mcexact.analysis` and function, separated by a colon.
     help : str
-        What is decided, as a clause that "also" can stand before.
+        A clause that says what is decided.
     about : {"system", "plant", "lifted", "held"}
-        The plant; the system that the agents see, which is the plant or the plant with the outputs
-        that they receive; or the plant with sub-states shared over its delayed wires.
+        The plant; the system of the agents, which is the plant or the plant with the outputs that
+        they receive; or the plant with sub-states shared over links with delays.
     needs : {"", "neighbors", "subset", "channel", "channels"}
-        What has to be there: a neighbor graph, or a set of channels or a channel that is asked
-        about; the last three are the function's second argument, ``channels`` is a list of one.
+        What the question needs: a neighbor graph, a set of channels or a channel.  The last three
+        values name the function's second argument; ``channels`` is a list of one channel.
     unbidden : bool
-        Whether it is asked when nobody names it; what is NP-hard or slow never is.
+        Whether it is asked by default; NP-hard and slow questions are not.
     option : str
-        The option of `mcexact analyze` that asks it; its help is that of its first question.
+        The name of the option of `mcexact analyze` that asks it, with the help of its first
+        question.
     ports : {"", "inputs", "outputs"}
-        If not empty, it is asked unbidden only where n² ≤ 10⁴ times the number of these: the
-        evidence is a Krylov sequence, which fewer ports make longer.
+        If not empty, it is asked by default only if n² ≤ 10⁴ times the number of these, since the
+        evidence is a Krylov sequence, which is longer with fewer inputs or outputs.
     given : mapping
-        Further keywords of the function.
+        Further keyword arguments of the function.
     reuses : mapping
-        Keywords that take the answer to another question about the same system.
+        Keyword arguments that take the answer to another question about the same system.
     kind : str
-        The kind of the certificate, where that is not the name of the question.
+        The kind of the certificate, if it is not the name of the question.
     dual : bool
         Whether the certificate is about the dual system.
     """
@@ -74,7 +75,7 @@ class Question:
 
 
 def _joint(about: str = "system", needs: str = "", option: str = "") -> dict[str, Question]:
-    """What all channels together, or one of them, reach and see."""
+    """The questions on controllability and observability of all channels or of one channel."""
     return {
         f"{what}ability": Question(
             f"structure.controllability:joint_{what}ability",
@@ -107,28 +108,28 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
         ),
         "completeness": Question(
             "fixed_modes.completeness:completeness",
-            "whether one channel can control and observe everything, whatever the channel",
+            "whether any single channel can control and observe everything",
             reuses=_SPECTRUM,
         ),
         **{f"joint_{name}": question for name, question in _JOINT.items()},
         "controllability_indices": Question(
             "structure.controllability_indices:controllability_indices",
-            "how long the inputs take to reach every state",
+            "the controllability indices",
             ports="inputs",
         ),
         "observability_indices": Question(
             "structure.controllability_indices:observability_indices",
-            "how long the outputs take to tell every state",
+            "the observability indices",
             ports="outputs",
             kind="controllability_indices",
             dual=True,
         ),
         "transfer_graph": Question(
-            "structure.transfer_graph:transfer_graph", "which channel's inputs reach which outputs"
+            "structure.transfer_graph:transfer_graph", "which channels' inputs affect which outputs"
         ),
         "assignability": Question(
             "fixed_modes.assignability:assignability",
-            "into which parts the closed-loop spectrum splits",
+            "the parts into which the closed-loop spectrum splits",
             reuses={"graph": "transfer_graph"},
         ),
         "setpoint": Question(
@@ -224,8 +225,11 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
         },
     }
 )
-"""All questions by name. The name is also that of the answer in Python and JSON, and, with
-``.json``, that of its certificate's file; what has several answers numbers them."""
+"""All questions by name.
+
+The answer has the same name in Python and in JSON, and so has the file of its certificate, with
+``.json``; several answers to one question are numbered.
+"""
 
 
 def asked_by(*options: str) -> list[str]:

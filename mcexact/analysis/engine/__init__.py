@@ -1,12 +1,12 @@
-"""What decisions rest on: shrunk subspaces, reachability, covering programs, quadratic forms.
+"""Algorithms of the decisions: shrunk subspaces, reachability, covering programs, quadratic forms.
 
-Answers no question by itself.  The other rooms take what they need from this page.
+This folder answers no question by itself.  The other folders of `analysis` import from this page.
 
 ========================  =============================================================
-`obstructions`            which modes decentralized gains leave, and why
-`shrunk_subspace`         why one mode stays: Wong sequences modulo a prime, lifted
-`reachability`            which channels reach which modulo a prime; zero transfers
-`rate`                    root discs, and the best rate that some modes leave
+`obstructions`            the fixed factors of a system, with gains that move all others
+`shrunk_subspace`         proofs that a mode is fixed, by Wong sequences modulo a prime
+`reachability`            the transfer graph modulo a prime, and zero transfers
+`rate`                    root discs, and the best rate that some modes allow
 `covering`                covering integer programs, with a branch tree as proof
 `lyapunov`                Lyapunov matrices, refined and verified exactly
 `smith_doubling`          Lyapunov equations to any precision

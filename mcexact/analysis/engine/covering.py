@@ -4,9 +4,9 @@ The program is
 
     minimize Σ c_i x_i  subject to  Σ_{i ∈ S_k} x_i ≥ d_k for every cut k, 0 ≤ x_i ≤ u_i, x integer,
 
-with positive rational costs.  HiGHS searches in floating point; nothing it says is believed: values
-are re-checked as integers, and the lower bound is a tree of rational multipliers verified here and
-again by the checker.
+with positive rational costs.  HiGHS searches in floating point, and its results are only proposals:
+values are checked as integers, and a tree of rational multipliers, verified here and again by the
+checker, proves that no point is cheaper.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     Floats = npt.NDArray[np.float64]
 
 DEFAULT_NODE_LIMIT = 10_000
-"""Branch nodes after which the search for a tree gives up."""
+"""The number of branch nodes after which the search for a tree ends."""
 
 _SAFE_RATIO = 10**6
 
@@ -37,7 +37,7 @@ _MULTIPLIER_DENOMINATORS = (1, 2, 3, 4, 6, 12, 60, 1000, 10**6)
 
 @dataclass(frozen=True)
 class CoveringCut:
-    """The inequality Σ_{i ∈ support} x_i ≥ demand, and what proves it in a certificate."""
+    """The inequality Σ_{i ∈ support} x_i ≥ demand, with its proof for a certificate."""
 
     support: frozenset[int]
     demand: int
@@ -64,7 +64,7 @@ class CoveringProgram:
 
     @cached_property
     def unit(self) -> Fraction:
-        """What costs are counted in where they become floats: whole numbers of it if they fit."""
+        """The unit in which costs become floats, chosen so that they are integers if possible."""
         content = math.gcd(*(int(cost * self.grid) for cost in self.costs))
         return max(Fraction(content or 1, self.grid), max(self.costs, default=Fraction(0)) / 2**40)
 
@@ -75,11 +75,11 @@ class CoveringProgram:
 
     @cached_property
     def largest_demand(self) -> int:
-        """More than this of one variable never helps."""
+        """A value of a variable beyond which no cut needs more."""
         return max((cut.demand for cut in self.cuts), default=0)
 
     def stuck(self, what: str) -> McexactError:
-        """What to raise where the floating-point search did not lead to a proof."""
+        """The error to raise if the floating-point search did not lead to a proof."""
         if max(self.costs) > _SAFE_RATIO * min(self.costs):
             return LimitReached(
                 f"the prices differ by a factor of more than {_SAFE_RATIO}, and the search in "
@@ -115,7 +115,7 @@ x_i ≥ k + 1, whose tree follows that."""
 
 
 def minimize(program: CoveringProgram, *, canonical: bool = True) -> tuple[int, ...] | None:
-    """An optimal integer point of a covering program, or None when there is none.
+    """Find an optimal integer point of a covering program, or None if it has no point.
 
     Parameters
     ----------
@@ -126,8 +126,8 @@ def minimize(program: CoveringProgram, *, canonical: bool = True) -> tuple[int, 
 
     Notes
     -----
-    Searched in floating point by HiGHS.  The point returned is checked against every cut; that
-    nothing is cheaper is proved only by :func:`branch_tree`.
+    HiGHS searches in floating point.  The returned point is checked against every cut; only
+    :func:`branch_tree` proves that no point is cheaper.
     """
     if program.violated_cut(program.upper) is not None:
         return None
@@ -201,21 +201,21 @@ def branch_tree(
     *,
     node_limit: int = DEFAULT_NODE_LIMIT,
 ) -> Tree:
-    """A tree that proves that no point of the program costs less than ``value``.
+    """Find a tree that proves that no point of the program costs less than ``value``.
 
     Parameters
     ----------
     program
         The covering program.
     value
-        The optimal cost, or None to prove that the program has no point at all.
+        The optimal cost, or None to prove that the program has no point.
     node_limit
-        Number of nodes after which to give up, at least 1.
+        The number of nodes after which the search ends, at least 1.
 
     Raises
     ------
     LimitReached
-        After ``node_limit`` nodes, or where the prices are too far apart for floating point.
+        After ``node_limit`` nodes, or if the prices differ too much for floating point.
 
     Notes
     -----
@@ -250,7 +250,7 @@ def _node(
     lower: tuple[int, ...],
     upper: tuple[int | None, ...],
 ) -> Node:
-    """A leaf if this box is done with, else the split of its most fractional variable."""
+    """Return a leaf if this box is finished, else the split of its most fractional variable."""
     violated = program.violated_cut(upper)
     if violated is not None:
         return {"violated": violated}
@@ -263,7 +263,7 @@ def _node(
     split = _most_fractional(relaxed)
     if split is not None:
         return {"variable": split, "at_most": math.floor(relaxed[split])}
-    # The multipliers are not accurate enough: a smaller box needs less of them, a point none.
+    # The multipliers are not accurate enough, but a smaller box needs less accuracy.
     widths = [0 if u is None else u - l for l, u in zip(lower, upper, strict=True)]
     widest = max(range(len(widths)), key=widths.__getitem__)
     if not widths[widest]:

@@ -1,11 +1,11 @@
-"""Lyapunov matrices: found in floating point, refined exactly, and verified exactly.
+"""Lyapunov matrices, proposed in floating point, and refined and verified exactly.
 
 For a square rational D and a rate b the derivative of xᵀPx along x' = (D + b)x is −xᵀSx with
 
     S = −(DᵀP + PD + 2bP),          in discrete time, radius r:   S = r²P − DᵀPD.
 
 A symmetric matrix is positive definite if RᵀPR is strictly diagonally dominant with a positive
-diagonal for some square R.  Everything is done in coordinates that are balanced by powers of 2.
+diagonal for some square R.  All computations use coordinates that are balanced by powers of 2.
 """
 
 from __future__ import annotations
@@ -76,8 +76,8 @@ def quadratic_form(D: Matrix, region: StabilityRegion) -> QuadraticForm | None:
     Returns
     -------
     QuadraticForm or None
-        With R: every eigenvalue is inside.  With v: some eigenvalue is not.  None if floating
-        point is not up to it, as for eigenvalues very near the boundary.
+        With R, every eigenvalue lies inside; with v, some eigenvalue does not.  None if floating
+        point is not accurate enough, for example for eigenvalues very near the boundary.
 
     Notes
     -----
@@ -129,7 +129,7 @@ def _balancing(D: Matrix) -> list[Fraction]:
     if not np.all(np.isfinite(floats)):
         return [Fraction(1)] * D.nrows
     with warnings.catch_warnings():
-        # It casts the factors to positions, for permutations that were not asked for.
+        # It converts the factors to positions for permutations, which are not used here.
         warnings.simplefilter("ignore")
         _, (factors, _) = matrix_balance(floats, permute=False, separate=True)
     if not np.all(np.isfinite(factors)):

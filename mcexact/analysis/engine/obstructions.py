@@ -1,4 +1,4 @@
-"""The search behind the fixed spectrum: gains that move all they can, subspaces for the rest."""
+"""The search for the fixed spectrum: gains that move as many modes as possible, and subspaces."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from mcexact.model.system import MultiChannelSystem
 
 @dataclass(frozen=True)
 class Obstruction:
-    """An irreducible factor of χ_A that is fixed, and why.
+    """An irreducible factor of χ_A that is fixed, with a proof.
 
     Attributes
     ----------
@@ -34,7 +34,7 @@ class Obstruction:
     multiplicity_in_A : int
         The exponent of p in χ_A.
     subspace : ExactSubspace
-        A shrunk subspace for the least T, with the largest deficiency there is.
+        A shrunk subspace for the least T, with the largest deficiency.
     """
 
     polynomial: Polynomial
@@ -44,7 +44,7 @@ class Obstruction:
 
 @dataclass(frozen=True)
 class Decision:
-    """Every fixed factor, and gains that free all others.
+    """All fixed factors of a system, and gains that move all others.
 
     Attributes
     ----------
@@ -71,17 +71,17 @@ def decide(system: MultiChannelSystem, rng: random.Random) -> Decision:
     ----------
     system : MultiChannelSystem
     rng : random.Random
-        Chooses primes and gains: it decides how long this takes, never what the answer is.
+        The source of primes and gains, which affects the running time but not the answer.
 
     Notes
     -----
-    F is uniform modulo a prime.  Where χ_A and χ_{A_F} are coprime modulo the prime, as they nearly
-    always are when nothing is fixed, that is all: two characteristic polynomials, for many states
-    modulo a prime of some 22 bits (see `mcexact.exact.krylov`).
-    Otherwise their common factors modulo one or more primes are lifted to a factor of χ_A over Q,
-    which is factored; from then on primes have 61 bits, so that the exponents in χ_{A_F} are the
-    least ones but for an accident.  Each irreducible factor has a shrunk subspace or falls away.
-    It ends when what is left of χ_A is coprime to χ_{A_F}.
+    F is uniform modulo a prime.  If no mode is fixed, χ_A and χ_{A_F} are nearly always coprime
+    modulo the prime, and the search ends after these two characteristic polynomials.  For many
+    states the prime has some 22 bits (see `mcexact.exact.krylov`). Otherwise their common factors
+    modulo one or more primes are lifted to a factor of χ_A over Q, which is factored; from then on
+    primes have 61 bits, so that the exponents in χ_{A_F} are nearly always the least ones.  Each
+    irreducible factor has a shrunk subspace or is dropped.  The search ends when the remaining
+    factor of χ_A is coprime to χ_{A_F}.
     """
     lift: CommonFactor | None = None
     known: dict[Polynomial, ExactSubspace | None] = {}

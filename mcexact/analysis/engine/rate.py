@@ -1,4 +1,4 @@
-"""The best decay that some modes leave, enclosed to ten significant digits."""
+"""The best decay rate that some modes allow, enclosed to ten significant digits."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from mcexact.exact.location import is_discrete, is_hurwitz
 from mcexact.exact.polynomial import Polynomial, product
 from mcexact.exact.rational import digits_of
 
-# An enclosure is at most this part of its ends wide.
+# The width of an enclosure relative to its ends is at most this.
 _RELATIVE_WIDTH = Fraction(1, 10**10)
-# The significant digits with which a modulus that is no decimal is written.
+# The number of significant digits of a modulus that is not a decimal.
 _MODULUS_DIGITS = 12
 
 
 def located(
     time: str, polynomials: Sequence[Polynomial]
 ) -> tuple[list[tuple[RootDisc, ...]], RateInterval | None]:
-    """Discs around all roots of some polynomials, and the best rate that these roots leave.
+    """Compute discs around all roots of some polynomials, and the best rate that these roots allow.
 
     Parameters
     ----------
@@ -38,8 +38,8 @@ def located(
 
     Notes
     -----
-    The discs are made smaller until the interval is at most 10⁻¹⁰ of its ends wide.  Only where
-    the largest real part is 0 and no root there is a decimal does the interval keep 0 inside.
+    The discs are made smaller until the interval is at most 10⁻¹⁰ of its ends wide.  If the largest
+    real part is 0 and no root there is a decimal, the interval contains 0 in its interior.
 
     Examples
     --------
@@ -75,7 +75,7 @@ def best_rate(time: str, discs: Sequence[RootDisc]) -> RateInterval | None:
     Returns
     -------
     RateInterval or None
-        As narrow as the discs allow, but for the rounding of moduli; None if there is no disc.
+        As narrow as the discs allow, except for the rounding of moduli; None if there is no disc.
 
     Examples
     --------
@@ -110,11 +110,9 @@ def _is_narrow(rate: RateInterval) -> bool:
 def _ends_on_axis(p: Polynomial) -> bool:
     """Whether the largest real part of the roots of a squarefree polynomial is 0, exactly.
 
-    Notes
-    -----
-    g = gcd(p(x), p(−x)) holds the roots on the axis, and pairs ±r besides; g + g' is Hurwitz just
-    in case there is no such pair, because Re g'/g > 0 to the right of roots on the axis (this is
-    what Routh's array does with a row of zeros).
+    Notes ----- g = gcd(p(x), p(−x)) has the roots on the axis, and perhaps pairs ±r of others; g +
+    g' is Hurwitz if and only if there is no such pair, because Re g'/g > 0 to the right of roots on
+    the axis (Routh's array does the same with a row of zeros).
     """
     g = p.gcd(p.scale(-1))
     return g.degree > 0 and is_hurwitz(p // g) and is_hurwitz(g + g.derivative())

@@ -1,4 +1,4 @@
-"""Which channels reach which modulo a prime, and subspaces that prove that others do not."""
+"""The transfer graph modulo a prime, and subspaces that prove the absence of edges."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def witnessed_powers(modular: ModularSystem, suspected: set[Edge]) -> dict[Edge,
 def zero_transfer(
     system: MultiChannelSystem, sources: Sequence[int], found: InvariantSubspace
 ) -> ZeroTransfer:
-    """The certificate's form of an invariant subspace that contains im B_j for some channels."""
+    """Make the evidence of an invariant subspace that contains im B_j for some channels."""
     return ZeroTransfer(channels_from=system.named(sources), X=found.X, pivots=found.pivots)
 
 

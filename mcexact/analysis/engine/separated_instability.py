@@ -1,4 +1,4 @@
-"""A quadratic form for a whole loop from forms for its diagonal blocks, where one is not inside."""
+"""A quadratic form that proves instability, assembled from forms for diagonal blocks of a loop."""
 
 from __future__ import annotations
 
@@ -33,12 +33,12 @@ def separated_instability(
     Returns
     -------
     InstabilityMethod or None
-        None if no scale tried makes the blocks beside the diagonal small enough.
+        None if no tried scale makes the off-diagonal blocks small enough.
 
     Notes
     -----
     With P = T⁻ᵀ diag(c_i P_i) T⁻¹ and R2 = T diag(R2_i / √c_i) the diagonal blocks of R2ᵀSR2 are
-    those of the parts, and a block right of the diagonal carries the factor √(c_i/c_j), which is
+    those of the parts, and a block above the diagonal has the factor √(c_i/c_j), which is
     2^−k with c_j = 4^k c_i.  O(N³).
     """
     k = next(i for i, form in enumerate(forms) if form.v is not None)

@@ -1,4 +1,4 @@
-"""Shrunk subspaces: why a mode is fixed, found by a Wong sequence modulo a prime, lifted exactly.
+"""Shrunk subspaces, which prove that a mode is fixed, from Wong sequences modulo a prime.
 
 A set T of channels and U, V over K = Q[x]/(p) with
 
@@ -54,7 +54,7 @@ class ModularObstruction:
 
 @dataclass(frozen=True)
 class _Echelon:
-    """What one reduction of [N, B] says, N = μI − A_F.
+    """The result of reducing [N, B], N = μI − A_F.
 
     ``kernel`` is n × (n − rank N).  ``images`` lists, for each column of B, whether N x = b has a
     solution; column j of ``solutions`` (n × Σ p_i) is one, or 0 where there is none.
@@ -72,7 +72,7 @@ def obstruction_modulo(modular: ModularSystem, gains: Gains, mu: int) -> Modular
     ----------
     modular : ModularSystem
     gains : tuple
-        Any gains to begin with; uniform ones almost never need a repair.
+        Initial gains; uniform ones almost never need a repair.
     mu : int
         A residue modulo ℓ.
 
@@ -205,7 +205,7 @@ def shrunk_subspace(
     *,
     first: ModularSystem | None = None,
 ) -> ExactSubspace | None:
-    """Prove that the roots of p are fixed, or find that they are not.
+    """Find a proof that the roots of p are fixed, or None if they are not.
 
     Parameters
     ----------
@@ -214,7 +214,7 @@ def shrunk_subspace(
         Monic and irreducible over Q.
     rng : random.Random
     first : ModularSystem, optional
-        The system modulo a prime to be tried first.
+        The system modulo a prime that is tried first.
 
     Returns
     -------
@@ -224,8 +224,9 @@ def shrunk_subspace(
     Notes
     -----
     T is found at a root of p modulo a prime where p has one.  Gains that make μI − A_F nonsingular
-    there make λI − A_F nonsingular, so None is proved; the subspace is computed over Q[x]/(p) and
-    is proof by itself.  A prime where T or the deficiency is wrong gives way to the next.
+    there make λI − A_F nonsingular, so the answer None is proved.  The subspace is computed over
+    Q[x]/(p), and is itself a proof.  If T or the deficiency is wrong for a prime, the next prime is
+    tried.
     """
     given = () if first is None else (first,)
     for modular in itertools.chain(given, residue_systems(system, rng)):
@@ -257,7 +258,7 @@ def exact_subspace(
     Returns
     -------
     ExactSubspace or None
-        None if the kernel has no more than rank B_T columns: T proves nothing about p.
+        None if the kernel has at most rank B_T columns, so that T proves nothing about p.
 
     Notes
     -----
@@ -297,7 +298,7 @@ def exact_subspace(
 
 
 def evidence(system: MultiChannelSystem, subspace: ExactSubspace) -> ShrunkSubspace:
-    """The certificate's form of a shrunk subspace."""
+    """Make the evidence of a shrunk subspace."""
     return ShrunkSubspace(
         channels_T=system.named(subspace.channels_T),
         U=subspace.U,

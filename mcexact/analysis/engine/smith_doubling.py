@@ -14,25 +14,25 @@ _NEWTON = 9
 
 
 def doubled_lyapunov(D: Matrix, region: StabilityRegion) -> Matrix | None:
-    """P with −(DᵀP + PD + 2bP), or r²P − DᵀPD, near the identity, for D that is far from normal.
+    """Propose P with −(DᵀP + PD + 2bP), or r²P − DᵀPD, near the identity.
 
     Parameters
     ----------
     D : Matrix, k × k
     region : StabilityRegion
-        Of the rate b or the radius r.
+        The region of the rate b or the radius r.
 
     Returns
     -------
     Matrix or None
-        Symmetric, dyadic; None if the iteration does not come to an end, as it does not for an
-        eigenvalue outside.
+        Symmetric and dyadic; None if the iteration does not converge, for example because an
+        eigenvalue lies outside.
 
     Notes
     -----
-    A proposal, in numbers of 320 bits behind the point.  P = Σ (Nᵀ)ʲ Q Nʲ by squaring N: N = D/r
-    and Q = I/r², or by Cayley's transformation with W = (pI − D − bI)⁻¹, N = (pI + D + bI) W and
-    Q = 2p WᵀW.  Each step is a few products of k × k matrices.
+    The result is a proposal for D far from normal, with 320 bits after the point.  P =
+    Σ (Nᵀ)ʲ Q Nʲ by squaring N: N = D/r and Q = I/r², or by Cayley's transformation with W = (pI − D
+    − bI)⁻¹, N = (pI + D + bI) W and Q = 2p WᵀW.  Each step is a few products of k × k matrices.
 
     Examples
     --------

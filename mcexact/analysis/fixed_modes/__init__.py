@@ -1,1 +1,1 @@
-"""Which modes stay under decentralized control, why, and what gains do with the others."""
+"""Fixed modes, completeness, assignability, and gains."""

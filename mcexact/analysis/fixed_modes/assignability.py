@@ -1,4 +1,4 @@
-"""Whether the spectrum is freely assignable, or how it splits over the strong components."""
+"""Free assignability of the spectrum, or its partition over the strong components."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def assignability(
     ----------
     system : MultiChannelSystem
     graph : TransferGraph, optional
-        ``transfer_graph(system)``, where it is known already.
+        ``transfer_graph(system)``, if it is known already.
 
     Notes
     -----

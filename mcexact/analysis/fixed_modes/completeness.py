@@ -27,13 +27,13 @@ def completeness(
     ----------
     system : MultiChannelSystem
     spectrum : FixedSpectrum, optional
-        ``fixed_spectrum(system)``, where it is known already.
+        ``fixed_spectrum(system)``, if it is known already.
 
     Notes
     -----
-    Exact.  Yes: gains that leave no mode in place, and edges that connect all channels.  No: a
-    shrunk subspace for one fixed mode, or a set of channels whose inputs never reach the outputs of
-    the others.
+    Exact.  The certificate for yes has gains that move every mode, and edges that connect all
+    channels.  The certificate for no has a shrunk subspace for one fixed mode, or a set of channels
+    whose inputs do not affect the outputs of the others.
 
     Examples
     --------
@@ -72,7 +72,7 @@ def _evidence(
         rest = [i for i in range(system.m) if i not in closed]
         if (system.output_matrix(rest) @ found.X).is_zero():
             return CutWitness(zero_transfer(system, closed, found))
-        # Edges have vanished by accident, perhaps modulo this prime whatever is drawn.
+        # Some edges vanish by accident, perhaps modulo this prime for all draws.
         decision = decide(system, rng)
         modular, gains = decision.modular, lifted_gains(decision.modular, decision.gains)
     chosen = _connecting_edges(system.m, suspected)
@@ -86,7 +86,7 @@ def _evidence(
 
 
 def _reached(m: int, start: int, edges: set[Edge]) -> list[Edge]:
-    """Arcs of a tree from ``start`` to every node that it reaches, nearest first."""
+    """Edges of a tree from ``start`` to every node that it reaches, nearest first."""
     successors: list[list[int]] = [[] for _ in range(m)]
     for j, i in sorted(edges):
         successors[j].append(i)

@@ -1,4 +1,4 @@
-"""Proposition 1: gains with which every agent alone controls and observes the estimation errors."""
+"""Proposition 1: gains with which each agent alone controls and observes the estimation errors."""
 
 from __future__ import annotations
 
@@ -19,19 +19,19 @@ from mcexact.model.system import MultiChannelSystem, with_graph
 
 @dataclass(frozen=True)
 class ErrorGains:
-    """Whether some lists K_i, H_ij make every agent control and observe the error system.
+    """The answer whether some K_i, H_ij make every agent control and observe the error system.
 
     Attributes
     ----------
     found : SingleChannelGains
-        The same as gains of the error system, whose matrix they make cyclic; or why there are none.
+        The answer for the error system, whose matrix the gains make cyclic.
     """
 
     found: SingleChannelGains
 
     @property
     def exists(self) -> bool:
-        """Whether they do."""
+        """Whether such gains exist."""
         return self.found.exists
 
     @property
@@ -41,12 +41,12 @@ class ErrorGains:
 
     @property
     def indices(self) -> tuple[tuple[int, ...], ...] | None:
-        """For each agent the controllability and observability indices that are reached."""
+        """The controllability and observability indices for each agent."""
         return self.found.indices
 
     @property
     def lists(self) -> tuple[tuple[Matrix, ...], ...] | None:
-        """For each agent i: K_i, n × q_i, then H_ij, n × n, for j ∈ N_i∖{i}, in order."""
+        """The gains of each agent i: K_i, n × q_i, then H_ij, n × n, for j ∈ N_i∖{i}, in order."""
         plant, gains = self.error.plant, self.found.gains
         if gains is None:
             return None
@@ -58,7 +58,7 @@ def error_gains(
     feedback: Sequence[Any],
     graph: NeighborGraph | Mapping[str, Sequence[str]] | None = None,
 ) -> ErrorGains:
-    """Decide Proposition 1 for given F_i: do lists K_i, H_ij exist that serve every agent?
+    """Decide for given F_i whether the gains K_i, H_ij of Proposition 1 exist.
 
     Parameters
     ----------
@@ -78,10 +78,10 @@ def error_gains(
 
     Notes
     -----
-    Paper, Proposition 1: for a jointly observable plant and a strongly connected graph they do,
-    with controllability index m.  Strong connectivity is sufficient, not necessary: the terms
-    B_j F_j (e_i − e_j) couple the agents through the plant, so the question is decided on the error
-    system itself, and a refusal carries its obstruction.  Exact.
+    Paper, Proposition 1: for a jointly observable plant and a strongly connected graph they exist,
+    with controllability index m.  Strong connectivity is sufficient, not necessary: the terms B_j
+    F_j (e_i − e_j) couple the agents through the plant, so the question is decided on the error
+    system itself, and the answer no has an obstruction.  Exact.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""The fixed spectrum: modes that no linear time-invariant decentralized feedback moves, and why."""
+"""The fixed spectrum: the modes that no linear time-invariant decentralized feedback moves."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ def fixed_spectrum(system: MultiChannelSystem) -> FixedSpectrum:
 
     Notes
     -----
-    Exact; no subset of channels is enumerated.  The certificate holds gains F and a modulus ℓ such
-    that χ_{A_F} is coprime modulo ℓ to what is left of χ_A without the fixed factors, and a shrunk
-    subspace for each of these.  Without fixed modes it takes two characteristic polynomials modulo
-    a word-size prime, O(n³); by float64 products, exact modulo a smaller one, from 128 states on.
+    Exact; no subset of channels is enumerated.  The certificate has gains F and a modulus ℓ such
+    that χ_{A_F} is coprime modulo ℓ to χ_A without its fixed factors, and a shrunk subspace for
+    each of these.  Without fixed modes it takes two characteristic polynomials modulo a word-size
+    prime, O(n³); by float64 products, exact modulo a smaller one, from 128 states on.
 
     Examples
     --------
@@ -86,7 +86,7 @@ def _factor(
 
 
 def _completion(decision: Decision, rng: random.Random) -> Completion:
-    """B_0 (n × ρ) and C_0 (ρ × n); d columns and rows free the factors of deficiency d."""
+    """Compute B_0 (n × ρ) and C_0 (ρ × n); d columns and rows move the factors of deficiency d."""
     modular = decision.modular
     n, ell = modular.system.n, modular.modulus
     rho = max(o.subspace.deficiency for o in decision.obstructions)

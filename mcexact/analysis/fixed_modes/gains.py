@@ -1,7 +1,7 @@
-"""Decentralized gains with which single channels control and observe a system, found by search.
+"""A search for decentralized gains with which single channels control and observe a system.
 
-The search draws small gains and tests them modulo a prime: a rank reached modulo a prime is
-reached over Q, so whatever it accepts has the properties; what it never finds, it does not judge.
+The search draws small gains and tests ranks modulo a prime.  A rank over Q is at least the rank
+modulo a prime: accepted gains are proved; finding none proves nothing.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 
 Draw = Callable[[int, Random], tuple[Matrix, ...]]
-"""The gains of one trial: from its number and a source of choices, one F_i for each channel."""
+"""A function that makes the gains F_i of a trial from its number and a source of choices."""
 
 
 @dataclass(frozen=True)
@@ -64,17 +64,17 @@ def reaching_gains(
     ----------
     system : MultiChannelSystem
     channels : sequence of int
-        The channels q that must do it, all with the same gains.
+        The channels q, which must all control and observe the system with the same gains.
     draw : callable
-        Makes the gains of a trial.
+        The function that makes the gains of a trial.
     index : int, optional
-        The largest controllability index that is accepted.
+        The largest accepted controllability index.
     attempts : int
-        How many draws are made.
+        The number of draws.
 
     Notes
     -----
-    A_F is cyclic as well: some drawn vector generates the whole space.  Each test is a rank modulo
+    A_F is also cyclic: some drawn vector generates the whole space.  Each test is a rank modulo
     a word-size prime, O(n³) word operations for each channel.
     """
     rng = generator(system, "reaching_gains")
@@ -95,7 +95,7 @@ def reaching_gains(
 def _indices(
     modular: ModularSystem, M: ModularMatrix, channels: Sequence[int], bound: int
 ) -> tuple[tuple[int, ...], tuple[int, ...]] | None:
-    """Controllability and observability indices modulo ℓ, or None if a channel falls short."""
+    """Controllability and observability indices modulo ℓ, or None if one does not exist."""
     controllable, observable = [], []
     for q in channels:
         reached = reach_index(M, modular.B.take(cols=list(modular.inputs[q])), bound)
@@ -136,7 +136,7 @@ def error_gain_draws(
     feedback: Sequence[Matrix],
     center: Fraction = Fraction(0),
 ) -> Draw:
-    """Small lists [K_i, H_ij …] for the error system, by turns in four shapes.
+    """Draw small gains [K_i, H_ij …] for the error system, in four shapes by turns.
 
     Parameters
     ----------
@@ -146,16 +146,16 @@ def error_gain_draws(
     feedback : sequence of Matrix
         F_i, p_i×n.
     center : Fraction
-        Where the eigenvalues of the error matrix should lie, roughly: the mean of the spectrum
-        that a channel controller will have to assign.
+        An approximate location for the eigenvalues of the error matrix: the mean of the spectrum
+        that a channel controller has to assign.
 
     Notes
     -----
     With H_ij = −B_jF_j − S the block E_ij of the error matrix is S, and E_ii = A + K_iC_i − Σ E_ij.
     S is a signed permutation or sparse, and for one j the shift −c I is added, c an integer near
-    ``center``: then E_ii is near c I, and little is left for the channel controller to move.  On
-    the paper's example with the spectrum −1, …, −11 this brings the largest gain from 10¹⁷ to
-    below 10³.  Dense draws of growing range are the last resort.
+    ``center``: then E_ii is near c I, and the channel controller has to move the eigenvalues
+    little.  On the paper's example with the spectrum −1, …, −11 this brings the largest gain from
+    10¹⁷ to below 10³.  Dense draws of growing range come last.
     """
     n = system.n
     coupling = [system.B(j) @ feedback[j] for j in range(system.m)]

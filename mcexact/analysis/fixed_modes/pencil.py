@@ -1,4 +1,4 @@
-"""The rank of one pencil P_s(λ), for a set of channels and a mode that the user names."""
+"""The rank of the pencil P_s(λ) for a set of channels and a mode."""
 
 from __future__ import annotations
 
@@ -71,8 +71,8 @@ def pencil_rank(system: MultiChannelSystem, s: Iterable[str], mode: Any) -> Penc
 
     Notes
     -----
-    Exact.  The certificate holds the kernel over Q[x]/(p), which bounds the rank from above, and a
-    prime modulo which elimination with unit pivots reaches it.
+    Exact.  The certificate has the kernel over Q[x]/(p), which bounds the rank from above, and a
+    prime modulo which elimination with unit pivots bounds it from below.
 
     Examples
     --------
@@ -102,7 +102,7 @@ def pencil_rank(system: MultiChannelSystem, s: Iterable[str], mode: Any) -> Penc
 def pencil_ranks(
     system: MultiChannelSystem, s: Iterable[str], *, spectrum: ClosedLoopSpectrum | None = None
 ) -> tuple[PencilRank, ...]:
-    """The rank of P_s at every mode of A, one for each irreducible factor of det(xI − A).
+    """Compute the rank of P_s at every mode of A, one for each irreducible factor of det(xI − A).
 
     Parameters
     ----------
@@ -110,7 +110,7 @@ def pencil_ranks(
     s : iterable of str
         Names of channels.
     spectrum : ClosedLoopSpectrum, optional
-        ``open_loop_spectrum(system)``, where it is known already.
+        ``open_loop_spectrum(system)``, if it is known already.
     """
     subset = list(s)
     found = open_loop_spectrum(system) if spectrum is None else spectrum

@@ -1,4 +1,4 @@
-"""Decentralized gains with which single channels control and observe a system, or why none do."""
+"""Decentralized gains with which single channels control and observe a system."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ Indices = tuple[int, ...]
 
 @dataclass(frozen=True)
 class _Question:
-    """Channels, what each of them should do, and whether A_F has to be cyclic besides."""
+    """The question: the channels, the required properties, and whether A_F has to be cyclic."""
 
     system: MultiChannelSystem
     channels: tuple[int, ...]
@@ -59,34 +59,34 @@ def single_channel_gains(
     index: int | None = None,
     draw: Draw | None = None,
 ) -> SingleChannelGains:
-    """Find F with (A_F, B_q) controllable and (C_q, A_F) observable, or say why there is none.
+    """Find F with (A_F, B_q) controllable and (C_q, A_F) observable, or prove that none exists.
 
     Parameters
     ----------
     system : MultiChannelSystem
     q : str, optional
-        One channel; every channel at once, with the same gains, if it is not given.
+        The channel q; by default all channels, with the same gains.
     want : {"both", "controllable", "observable"}
     cyclic : bool
-        Whether A_F has to be cyclic, too: its minimal polynomial of degree n.
+        Whether A_F also has to be cyclic, with a minimal polynomial of degree n.
     index : int, optional
-        A controllability index that is not exceeded, if any gains reach it for all channels.
+        A limit on the controllability index, used if some gains meet it for all channels.
     draw : callable, optional
-        Proposes gains from the number of a trial and a source of choices; small integers that
-        grow, by default.
+        A function that makes gains from the number of a trial and a source of choices; by default
+        small integers that grow.
 
     Raises
     ------
     UsageError
-        If there is no such channel, or another property is asked for.
+        If there is no such channel, or the property is unknown.
 
     Notes
     -----
     Exact.  Some F makes (A_F, B_q) controllable iff the system with C_q replaced by the identity
     has no fixed mode and every i with C_i ≠ 0 is reachable from q in the transfer graph; then all F
     outside a proper algebraic set do (Corfmat and Morse 1976; observability is the same of the
-    dual).  So uniform residues decide what to look for: small gains that are tried until
-    they reach rank n modulo a prime, or a shrunk subspace with q ∈ T, or a zero transfer.
+    dual).  So uniform residues decide which certificate is searched for: small gains that reach
+    rank n modulo a prime, or a shrunk subspace with q ∈ T, or a zero transfer.
 
     Examples
     --------
@@ -103,7 +103,7 @@ def single_channel_gains(
     if want not in SIDES:
         raise UsageError(f"expected one of {', '.join(SIDES)}, found {want!r}")
     if cyclic and want != "both":
-        raise UsageError("a cyclic matrix is only looked for together with both properties")
+        raise UsageError("a cyclic matrix is available only with both properties")
     channels = tuple(range(system.m)) if q is None else tuple(system.indices([q]))
     question = _Question(system, channels, want, cyclic, index)
     rng = generator(system, "single_channel_gains")
@@ -137,7 +137,7 @@ def _part(modular: ModularSystem, q: int, side: str) -> ModularMatrix:
 def _failing(
     question: _Question, modular: ModularSystem, closed: ModularMatrix
 ) -> Iterator[tuple[int, str]]:
-    """The channels and sides that these gains do not serve modulo ℓ."""
+    """The channels and properties that fail for these gains modulo ℓ."""
     for q in question.channels:
         for side in SIDES[question.wanted]:
             M = closed if side == "controllable" else closed.T
@@ -148,7 +148,7 @@ def _failing(
 def _obstruction(
     system: MultiChannelSystem, q: int, side: str, rng: Random
 ) -> StuckWitness | UnreachedWitness | None:
-    """Why no gains make channel q control, or observe, if that is so."""
+    """Find an obstruction to gains with which channel q controls (or observes), if there is one."""
     target = system if side == "controllable" else dual(system)
     name = system.names[q]
     for found in decide(full_output(target, q), rng).obstructions:
@@ -167,7 +167,7 @@ def _obstruction(
 
 
 def growing_draws(system: MultiChannelSystem) -> Draw:
-    """Integer gains: zeros, then sparse signs, then larger and denser ones.
+    """Make integer gains: zeros first, then sparse signs, then larger and denser ones.
 
     Parameters
     ----------
@@ -185,7 +185,7 @@ def growing_draws(system: MultiChannelSystem) -> Draw:
 
 
 def _attainable(question: _Question, modular: ModularSystem, closed: ModularMatrix) -> _Question:
-    """The question with an index that almost all gains reach, those of A_F modulo ℓ among them."""
+    """The question with the index that almost all gains have, as those of A_F modulo ℓ do."""
     if question.index is None or question.wanted == "observable":
         return replace(question, index=None)
     parts = (_part(modular, q, "controllable") for q in question.channels)
@@ -196,7 +196,7 @@ def _attainable(question: _Question, modular: ModularSystem, closed: ModularMatr
 def _with_gains(
     question: _Question, modular: ModularSystem, draw: Draw | None, rng: Random
 ) -> SingleChannelGains:
-    """Try gains until some serve; all outside a proper algebraic set do."""
+    """Try gains until some are accepted; all outside a proper algebraic set are."""
     grown = growing_draws(question.system)
     given = 0 if draw is None else 400
     for trial in range(10**6):
@@ -215,7 +215,7 @@ def _served(
     gains: Sequence[Matrix],
     rng: Random,
 ) -> SingleChannelGains | None:
-    """The answer with these gains, if they serve modulo ℓ within the index."""
+    """Make the answer with these gains, if they are accepted modulo ℓ within the index."""
     system, ell = question.system, modular.modulus
     F = tuple(tuple(map(tuple, residues(G, ell).rows())) for G in gains)
     closed = closed_loop(modular, F)
@@ -267,7 +267,7 @@ def _generator(M: ModularMatrix, rng: Random) -> Matrix | None:
 def _annihilators(
     question: _Question, gains: Sequence[Matrix], indices: Sequence[Indices], ell: int
 ) -> tuple[tuple[Matrix, ...], ...] | None:
-    """Rows that annihilate all blocks but the last that is needed; None if one is not needed."""
+    """Rows that annihilate all blocks except the last one of the index, as far as claimed."""
     system = question.system
     A_F = closed_by(system, gains)
     result = []
@@ -294,7 +294,7 @@ def unreached_row(A: Matrix, B: Matrix, blocks: int, ell: int) -> Matrix | None:
         n × p.
     blocks : int
     ell : int
-        A prime, which chooses the columns that are looked at.
+        A prime modulo which independent columns are chosen.
     """
     n = A.nrows
     K, block = [Matrix.zeros(n, 0)], B

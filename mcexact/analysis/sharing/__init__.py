@@ -1,1 +1,1 @@
-"""What agents must send each other: how much, at least, and over which links."""
+"""The least that agents must share, and the links over which."""

@@ -1,4 +1,4 @@
-"""What agents must share: Theorem 2's bound, and the least dimensions by cut generation."""
+"""The dimensions that agents must share: Theorem 2's bound, and the least, by cut generation."""
 
 from __future__ import annotations
 
@@ -29,14 +29,14 @@ from mcexact.model.system import MultiChannelSystem, with_graph
 
 
 def base_system(system: MultiChannelSystem, share: str) -> MultiChannelSystem:
-    """The system whose pencils decide: the plant, with augmented outputs where those are shared."""
+    """Return the base system: the plant, with augmented outputs if outputs are shared."""
     return augmented_outputs(system) if share == "outputs+states" else system
 
 
 def shared_dimension_bound(
     system: MultiChannelSystem, graph: NeighborGraph | None = None, share: Share = "outputs+states"
 ) -> Deficiency:
-    """Theorem 2's bound on the dimension that every agent must share.
+    """Compute Theorem 2's bound: dimensions that suffice for every agent.
 
     Parameters
     ----------
@@ -53,9 +53,9 @@ def shared_dimension_bound(
 
     Notes
     -----
-    Exact, and no subset is enumerated: ρ is the largest deficiency of (A, B_i, C_{N_i}), or of
-    (A, B_i, C_i), over all λ and all subsets, ∅ and all channels included; these two contribute
-    nothing when the plant is jointly controllable and observable, as the theorem assumes.
+    Exact, and no subset is enumerated: ρ is the largest deficiency of (A, B_i, C_{N_i}), or of (A,
+    B_i, C_i), over all λ and all subsets, ∅ and all channels included.  These two have deficiency 0
+    if the plant is jointly controllable and observable, as the theorem assumes.
 
     Examples
     --------
@@ -79,7 +79,7 @@ def minimal_shared_dimensions(
     free_assignability: bool = False,
     node_limit: int = DEFAULT_NODE_LIMIT,
 ) -> SharedDimensions:
-    """The least Σ c_i n_i with which the extended system has no fixed mode.
+    """Compute the least Σ c_i n_i for which the extended system has no fixed mode.
 
     Parameters
     ----------
@@ -96,10 +96,10 @@ def minimal_shared_dimensions(
         A rate R (continuous time: only modes whose real part is not below −R count) or a radius
         (discrete time: modulus not below it).
     free_assignability : bool
-        Ask for a strongly connected extended transfer graph as well, so that the whole closed-loop
+        Require also a strongly connected extended transfer graph, so that the whole closed-loop
         spectrum is freely assignable.
     node_limit : int
-        Nodes of the branch tree after which to give up, at least 1.
+        The number of nodes of the branch tree after which the search ends, at least 1.
 
     Raises
     ------
@@ -113,10 +113,10 @@ def minimal_shared_dimensions(
     Notes
     -----
     The extended system has no fixed mode iff Σ n_i over N_s∖s is at least n − rank P_s(λ) for all s
-    and λ.  An integer master problem proposes dimensions; the fixed spectrum of the extended system
-    either confirms them or names a subset that they violate, which becomes a cut.  The
-    certificate proves feasibility at the optimum, every cut, and by a branch tree that nothing is
-    cheaper.  The problem is NP-hard (it contains vertex cover).  Among optimal dimensions the
+    and λ.  An integer program proposes dimensions.  The fixed spectrum of the extended system
+    either confirms them or gives a subset that they violate, which becomes a cut.  The certificate
+    proves that the optimum suffices, proves every cut, and excludes a lower cost by a branch tree.
+    The problem is NP-hard (it contains vertex cover).  Among optimal dimensions the
     lexicographically least are taken.
 
     Examples
@@ -170,7 +170,7 @@ def minimal_shared_dimensions(
 def plant_with_graph(
     system: MultiChannelSystem, graph: NeighborGraph | None, share: Share
 ) -> tuple[MultiChannelSystem, NeighborGraph]:
-    """A plant over its graph, where it and the way of sharing are such.
+    """Check the way of sharing, and return a plant with its graph.
 
     Raises
     ------

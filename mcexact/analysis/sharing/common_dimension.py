@@ -1,4 +1,4 @@
-"""The least dimension that suffices if every agent shares the same."""
+"""The least common dimension: if all agents share equally many sub-states, how many suffice."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from mcexact.model.system import MultiChannelSystem
 def common_dimension(
     system: MultiChannelSystem, graph: NeighborGraph | None = None, share: Share = "outputs+states"
 ) -> CommonDimension:
-    """The least k such that with n_i = k for all i the extended system has no fixed mode.
+    """Compute the least k such that with n_i = k for all i the extended system has no fixed mode.
 
     Parameters
     ----------
@@ -33,11 +33,11 @@ def common_dimension(
     Notes
     -----
     Exact, and no subset is enumerated.  With δ_s(λ) = n − rank P_s(λ) the answer is the largest
-    ⌈δ_s(λ) / |N_s∖s|⌉ over all s and λ; where δ_s(λ) > 0 and N_s∖s is empty, none is enough.
-    Newton's method: the fixed spectrum of the extended system for k confirms k, or names an s with
-    |N_s∖s| k < δ_s(λ), from which the next k is read.  |N_s∖s| falls from step to step for each
-    mode, so there are at most m steps.  The certificate holds the last s, around which k − 1 is too
-    little; that k is enough is proved as for `minimal_shared_dimensions`.
+    ⌈δ_s(λ) / |N_s∖s|⌉ over all s and λ; if δ_s(λ) > 0 and N_s∖s is empty for some s and λ, no k
+    suffices. Newton's method: the fixed spectrum of the extended system for k confirms k, or names
+    an s with |N_s∖s| k < δ_s(λ), from which the next k is read.  |N_s∖s| falls from step to step
+    for each mode, so there are at most m steps.  The certificate has the last s, for which k − 1
+    does not suffice; it proves that k suffices as for `minimal_shared_dimensions`.
 
     Examples
     --------
@@ -70,5 +70,5 @@ def common_dimension(
 
 
 def _enough(cut: CoveringCut) -> int:
-    """The least k with Σ k over the support not below the demand, if somebody is in it."""
+    """The least k for which k times the support's size is at least the demand, if there is one."""
     return -(-cut.demand // max(1, len(cut.support)))

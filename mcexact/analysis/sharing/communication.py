@@ -1,4 +1,4 @@
-"""What must be communicated: the cheapest edges to add so that no mode is fixed."""
+"""The cheapest communication links to add so that no mode is fixed."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ Carried = Literal["outputs", "outputs+states", "states"]
 
 @dataclass(frozen=True)
 class _Links:
-    """A plant over its graph, what an edge carries, and the edges that may be added."""
+    """A plant with its graph, the signals that a link carries, and the links that may be added."""
 
     plant: MultiChannelSystem
     share: Carried
@@ -48,7 +48,7 @@ class _Links:
     candidates: tuple[Edge, ...]
 
     def chosen(self, values: Sequence[int]) -> MultiChannelSystem:
-        """The system over the graph with the candidates added whose value is 1."""
+        """Return the system over the graph with those candidates added whose value is 1."""
         edges = tuple(itertools.compress(self.candidates, values))
         linked = add_links(self.plant, edges) if edges else self.plant
         if self.dimensions is None:
@@ -57,7 +57,7 @@ class _Links:
         return extended_system(linked, self.dimensions, share)
 
     def carried(self, j: int) -> Matrix:
-        """S_j, the rows that an edge from j adds to the outputs of the system."""
+        """Return S_j, the rows that a link from j adds to the outputs of the system."""
         outputs = self.plant.C(j)
         if self.dimensions is None:
             return outputs
@@ -66,7 +66,7 @@ class _Links:
         return block_diagonal([none if self.share == "states" else outputs, E])
 
     def cut(self, subspace: ExactSubspace, p: Polynomial) -> CoveringCut:
-        """The candidates that break it: j → i, i outside T, with S_j U ≠ 0 modulo p."""
+        """The cut of an obstruction: candidates j → i with i outside T and S_j U ≠ 0 modulo p."""
         subspace = _trimmed(subspace)
         carried = [(self.carried(j) @ subspace.U) % p for j in range(self.plant.m)]
         breaking = frozenset(
@@ -88,22 +88,23 @@ def minimal_communication(
     bound: Entry | None = None,
     node_limit: int = DEFAULT_NODE_LIMIT,
 ) -> MinimalCommunication:
-    """The cheapest edges to add to the neighbor graph so that no mode is fixed.
+    """Compute the cheapest links to add to the neighbor graph so that no mode is fixed.
 
     Parameters
     ----------
     system : MultiChannelSystem
         A plant, not a derived system.
     graph : NeighborGraph, optional
-        What agents hear already; overrides ``system.neighbors``.  Without either they hear nobody.
+        The links that exist already; overrides ``system.neighbors``.  By default there are none.
     dimensions : sequence of m int, optional
         n_i of the extended system; without them agents share outputs alone.
     share : {"outputs", "outputs+states", "states"}, optional
-        What an edge carries: "outputs" without dimensions, else "outputs+states" by default.
+        The signals that a link carries; by default "outputs" without dimensions, else
+        "outputs+states".
     costs : mapping from (from, to) to a positive rational, optional
-        Prices of edges, 1 by default.
+        Prices of links, 1 by default.
     forbidden : iterable of (from, to)
-        Edges that must not be added.
+        Links that must not be added.
     bound : rational, optional
         A rate or radius: only modes that violate it count.
     node_limit : int
@@ -112,17 +113,17 @@ def minimal_communication(
     Raises
     ------
     UsageError
-        If there is no neighbor graph, a price is not positive, what is shared does not fit, or
-        the node limit is below 1.
+        If a price is not positive, the way of sharing does not fit the dimensions, or the node
+        limit is below 1.
     LimitReached
         At the node limit.
 
     Notes
     -----
-    An obstruction (T, U) is broken only by an edge j → i with i outside T that carries something of
-    U: one of these must be added.  Such cuts are generated as in `minimal_shared_dimensions`; the
-    certificate is of the same kind.  Among optimal sets of edges the first in the order of the
-    candidates, last edges preferred, is taken.
+    An obstruction (T, U) is removed only by a link j → i with i outside T and S_j U ≠ 0, so one of
+    these must be added.  Such cuts are generated as in `minimal_shared_dimensions`, and the
+    certificate has the same form.  Among optimal sets of links the first in the order of the
+    candidates, last links preferred, is taken.
 
     Examples
     --------
@@ -200,7 +201,7 @@ def _prices(links: _Links, costs: Mapping[tuple[str, str], Entry]) -> tuple[Frac
     """The price of each candidate, 1 where none is given."""
     prices = {_edge(links.plant, edge): as_fraction(price) for edge, price in costs.items()}
     if any(price <= 0 for price in prices.values()):
-        raise UsageError("the price of an edge must be positive", where="costs")
+        raise UsageError("the price of a link must be positive", where="costs")
     return tuple(prices.get(edge, Fraction(1)) for edge in links.candidates)
 
 
@@ -210,7 +211,7 @@ def _edge(plant: MultiChannelSystem, edge: tuple[str, str]) -> Edge:
 
 
 def _trimmed(subspace: ExactSubspace) -> ExactSubspace:
-    """The same with rank B_T + 1 columns: the fewer columns, the fewer edges break it."""
+    """Reduce a subspace to rank B_T + 1 columns, so that fewer links remove the obstruction."""
     keep = range(len(subspace.pivots) - subspace.deficiency + 1)
     return replace(
         subspace,

@@ -18,21 +18,21 @@ from mcexact.model.system import MultiChannelSystem
 
 @dataclass(frozen=True)
 class CoveringProblem:
-    """What can be bought, at what price, and which purchases leave something wrong.
+    """A covering problem whose cuts are found by an oracle.
 
     Attributes
     ----------
     kind : str
-        Of the certificate, for drawing numbers.
+        The kind of the certificate, which seeds the random draws.
     program : CoveringProgram
-        Prices and upper bounds, without any cut.
+        Prices and upper limits of the variables, without cuts.
     system : callable
-        The system after a purchase.
+        A function that makes the system for a point.
     violated : callable
-        Given a purchase and the system after it, cuts that every purchase must satisfy and this one
-        violates; none iff the system is as it should be.
+        A function of a point and its system that returns necessary cuts which this point violates;
+        none iff the system has the required properties.
     region : StabilityRegion or None
-        Where a mode may stay fixed; None: nowhere.
+        The region in which modes may be fixed; None if no mode may be.
     connected : bool
         Whether the transfer graph has to be strongly connected as well.
     """
@@ -47,18 +47,18 @@ class CoveringProblem:
 
 @dataclass(frozen=True)
 class CoveringOptimum:
-    """A cheapest point, or None, and the pieces of a certificate that nothing is cheaper.
+    """A cheapest point, or None, with the evidence that no point is cheaper.
 
     Attributes
     ----------
     values : tuple of int, or None
-        None when no point satisfies all cuts.
+        The point; None if no point satisfies all cuts.
     cost : Fraction or None
     absence : Absence or None
-        That the system is as it should be at ``values``.
+        The evidence that the system has the required properties at ``values``.
     cuts : tuple of CoveringCut
     nodes : Tree
-        The branch tree, its cuts by their places in ``cuts``.
+        The branch tree, in which cuts are positions in ``cuts``.
     """
 
     values: tuple[int, ...] | None

@@ -1,4 +1,4 @@
-"""The separation step of allocations: which subset is violated, and the exact cut that says so."""
+"""The separation step of allocations: violated subsets, and their exact cuts."""
 
 from __future__ import annotations
 
@@ -43,12 +43,12 @@ def violating_factors(
 
 
 def boundary(graph: NeighborGraph, s: Sequence[int]) -> frozenset[int]:
-    """N_s∖s: the agents outside s that someone in s hears."""
+    """N_s∖s, the agents outside s whose messages agents in s receive."""
     return frozenset(graph.union(s)) - frozenset(s)
 
 
 def complement(m: int, channels: Sequence[int]) -> Channels:
-    """The channels 0 … m−1 that are not listed."""
+    """The complement of a set of channels."""
     listed = set(channels)
     return tuple(i for i in range(m) if i not in listed)
 
@@ -58,8 +58,8 @@ def least_minimizers(
 ) -> Iterator[Channels]:
     """The least T with rank P_s(λ) least and below n, s its complement, prime after prime.
 
-    Yields nothing iff no root of p is fixed.  Each T is right for all but finitely many primes:
-    what is built on it has to be checked exactly.
+    Yields nothing iff no root of p is fixed.  Each T is correct for all but finitely many primes,
+    so that results must be checked exactly.
     """
     for modular in residue_systems(system, rng):
         roots = polynomial_residues(p, modular.modulus).roots()
@@ -96,7 +96,7 @@ def violated_subsets(
     Parameters
     ----------
     base : MultiChannelSystem
-        The system whose pencils are P_s: the plant, or it with augmented outputs.
+        The system with the pencils P_s: the plant, or the plant with augmented outputs.
     extended : MultiChannelSystem
         The extended system with these dimensions.
     factors : sequence of Polynomial
@@ -129,7 +129,7 @@ def absence(
     *,
     connected: bool = False,
 ) -> Absence:
-    """Evidence that no mode outside the region is fixed; if asked, that the graph is connected.
+    """Prove that no mode outside a region is fixed and, on request, that the graph is connected.
 
     Raises
     ------
@@ -151,7 +151,7 @@ def absence(
 def _connecting_edges(
     modular: ModularSystem, rng: random.Random
 ) -> tuple[tuple[str, str, int], ...]:
-    """Arcs with a nonzero Markov parameter modulo ℓ; together they connect the graph strongly."""
+    """Edges with a nonzero Markov parameter modulo ℓ, which make the graph strongly connected."""
     system = modular.system
     powers = witnessed_powers(modular, suspected_edges(modular, rng))
     if len(strong_components(system.m, sorted(powers))) > 1:

@@ -1,1 +1,1 @@
-"""Where the eigenvalues of a loop lie, decided exactly."""
+"""The location of the eigenvalues of a closed loop, decided exactly."""

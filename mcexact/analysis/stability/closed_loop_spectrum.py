@@ -1,4 +1,4 @@
-"""The spectrum of a matrix, every eigenvalue enclosed, and the rate that follows from it."""
+"""The spectrum of a matrix, with every eigenvalue enclosed, and the resulting rate."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def open_loop_spectrum(system: MultiChannelSystem) -> ClosedLoopSpectrum:
 
 
 def agreeing_moduli(claims: list[tuple[Matrix, Polynomial]], seed: int) -> tuple[int, ...]:
-    """Primes that prove χ_M = p for every pair (M, p).
+    """Find primes that prove χ_M = p for every pair (M, p).
 
     Raises
     ------

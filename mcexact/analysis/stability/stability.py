@@ -1,4 +1,4 @@
-"""Whether a closed loop is as fast as asked, decided exactly, and certified either way."""
+"""Whether a closed loop is stable or fast enough, decided exactly, both answers certified."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ from mcexact.model.system import MultiChannelSystem
 Method = Literal["polynomial", "lyapunov"]
 
 POLYNOMIAL_LIMIT = 40
-"""States up to which the characteristic polynomial is tried first: its cost grows with n⁵ here."""
+"""The number of states up to which the characteristic polynomial comes first; it costs O(n⁵)."""
 
 
 @dataclass(frozen=True)
@@ -47,7 +47,7 @@ class Separation:
     sizes : tuple of int
         The sizes of its diagonal blocks.
     inverse : Matrix or None
-        T⁻¹, where it is at hand: with it a "no" goes block by block as well.
+        T⁻¹, if it is known; with it, instability is also proved block by block.
     """
 
     T: Matrix
@@ -63,12 +63,12 @@ class Separation:
 
 
 def matrix_system(M: Any, time: str = "continuous") -> MultiChannelSystem:
-    """A closed loop given as a matrix alone: a plant whose one channel has no input and no output.
+    """Make a closed loop from its matrix: a plant whose one channel has no input and no output.
 
     Parameters
     ----------
     M : matrix, N × N
-        A list of rows or whatever else `MultiChannelSystem` takes for A.
+        A list of rows, or another form that `MultiChannelSystem` accepts for A.
     time : {"continuous", "discrete"}
     """
     exact = as_matrix(M, "M")
@@ -93,30 +93,30 @@ def certify_stability(
     Parameters
     ----------
     loop : MultiChannelSystem
-        A closed loop (`closed_loop`, `loop_from_statespace`), or `matrix_system` of a matrix; what
-        counts is its A.
+        A closed loop (`closed_loop`, `loop_from_statespace`), or `matrix_system` of a matrix; only
+        A is used.
     region : StabilityRegion, optional
-        Where every eigenvalue is asked to lie.
+        The region in which every eigenvalue should lie.
     rate, radius : rational, optional
-        The same by a number: real parts below −rate (continuous time), or moduli below the radius
-        (discrete time).  By default stability alone.
+        A number instead of the region: real parts below −rate (continuous time), or moduli below
+        the radius (discrete time).  By default only stability is decided.
     method : {"polynomial", "lyapunov"}, optional
-        By default the characteristic polynomial for small loops, Lyapunov matrices for large
-        ones, and the polynomial again where these do not decide.
+        By default the characteristic polynomial for small loops, Lyapunov matrices for large ones,
+        and the polynomial again if these are inconclusive.
     separation : Separation, optional
-        Certify diagonal block by diagonal block.
+        Coordinates in which the loop is certified block by block.
     polynomial : Polynomial, optional
-        The characteristic polynomial of the loop, where it is at hand.
+        The characteristic polynomial of the loop, if it is known.
 
     Raises
     ------
     UsageError
-        The bound is out of range, the separation does not fit the loop, or Lyapunov matrices were
-        asked for and do not decide.
+        If the rate or radius is out of range, the separation does not fit the loop, or the Lyapunov
+        method was inconclusive.
 
     Notes
     -----
-    Exact, both ways.  Near the boundary only the polynomial decides.
+    Both answers are exact.  Near the boundary only the polynomial decides.
 
     Examples
     --------
@@ -144,7 +144,7 @@ def certify_stability(
             stable = isinstance(found, LyapunovMethod)
         if found is not None:
             return StabilityVerdict(loop, bound=region.bound, stable=stable, evidence=found)
-    raise UsageError("Lyapunov matrices do not decide here: leave the method open", where="method")
+    raise UsageError("the Lyapunov method was inconclusive: leave out `method`", where="method")
 
 
 def _order(n: int, separation: Separation | None) -> tuple[Method, ...]:
@@ -172,7 +172,7 @@ def _require_separation(M: Matrix, separation: Separation) -> None:
 def _lyapunov(
     loop: MultiChannelSystem, region: StabilityRegion, separation: Separation | None
 ) -> LyapunovMethod | InstabilityMethod | None:
-    """Quadratic forms of the blocks, or of the whole loop if unstable; None if undecided."""
+    """Find quadratic forms of the blocks, or of the whole loop if unstable; None if undecided."""
     parts: Sequence[Matrix] = (loop.A,) if separation is None else separation.blocks()
     forms = []
     for D in parts:
@@ -215,7 +215,7 @@ def _nonsingular_modulus(loop: MultiChannelSystem, T: Matrix) -> int:
     Raises
     ------
     UsageError
-        If no prime tried does: T is singular, as far as can be told.
+        If T is singular modulo every prime tried, and hence probably singular.
     """
     rng = generator(loop, StabilityVerdict.kind)
     for attempt, ell in enumerate(primes(rng.getrandbits(64))):
@@ -240,8 +240,8 @@ def fastest_region(
     Returns
     -------
     StabilityRegion or None
-        Of a bound R such that every eigenvalue has real part below −R and R + accuracy fails (or
-        it has modulus below R and R − accuracy fails); None if the loop is not even stable, or in
+        The region of a rate R that the loop meets while it does not meet R + accuracy (or of a
+        radius R, while it does not meet R − accuracy).  None if the loop is not stable, or in
         continuous time not faster than ``accuracy``.
 
     Notes

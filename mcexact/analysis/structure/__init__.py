@@ -1,1 +1,1 @@
-"""What a system can do at all: controllability, indices, transfer graph, set-points, subsystems."""
+"""Structure of a system: controllability, indices, transfer graph, set-points, subsystems."""

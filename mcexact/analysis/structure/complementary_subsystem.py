@@ -1,4 +1,4 @@
-"""The pencil of one complementary subsystem: normal rank, invariant zeros, remnant polynomial."""
+"""Complementary subsystems: normal rank, invariant zeros, remnant polynomial."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def complementary_subsystem(system: MultiChannelSystem, s: Iterable[str]) -> Com
     ----------
     system : MultiChannelSystem
     s : iterable of str
-        Names of channels, neither none nor all of them.
+        Names of channels, at least one but not all.
 
     Raises
     ------
@@ -57,8 +57,8 @@ def complementary_subsystem(system: MultiChannelSystem, s: Iterable[str]) -> Com
         [    0        0      0      C_3       0   ]
 
     where the first block has full row rank and the last full column rank for every x, so the Smith
-    form of P_s is that of xI − K and ones besides; K is brought to rational canonical form.  All
-    of this is rational matrices, which is what the certificate holds.  Exact.
+    form of P_s consists of that of xI − K and ones; K is brought to rational canonical form.  The
+    certificate has these rational matrices.  Exact.
 
     Examples
     --------
@@ -112,7 +112,7 @@ def _outside(A: Matrix, B: Matrix, C: Matrix, ell: int) -> _Outside | None:
         if not chosen:
             break
         Y, moved = Y.take(rows=chosen), moved.take(rows=chosen)
-        # Clear the places of the rows before, and make the new places an identity.
+        # Clear the columns of the earlier pivots, and make the new pivots an identity.
         c = solve(L.take(cols=places).T, moved.take(cols=places).T)
         if c is None:
             return None

@@ -1,4 +1,4 @@
-"""Joint controllability and observability, of all channels or some, with what escapes them."""
+"""Controllability and observability of all channels together, or of some."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ def joint_controllability(
     ----------
     system : MultiChannelSystem
     channels : iterable of str, optional
-        T, names of channels; all of them if it is not given.
+        T, names of channels, by default all.
 
     Notes
     -----
-    Exact.  The certificate holds a prime modulo which [B_T, AB_T, …] reaches the rank, and a
-    rational W, WA = ZW and WB_T = 0, that bounds it from above.  O(n³ log n) word operations, for
-    each word of the entries of W.
+    Exact.  The certificate has a prime modulo which [B_T, AB_T, …] reaches the rank, and a rational
+    W, WA = ZW and WB_T = 0, that bounds it from above.  O(n³ log n) word operations, for each word
+    of the entries of W.
 
     Examples
     --------
@@ -59,18 +59,18 @@ def joint_controllability(
 def joint_observability(
     system: MultiChannelSystem, channels: Iterable[str] | None = None
 ) -> JointControllability:
-    """Decide whether (C_T, A) is observable: controllability of the dual.
+    """Decide whether (C_T, A) is observable, by controllability of the dual system.
 
     Parameters
     ----------
     system : MultiChannelSystem
     channels : iterable of str, optional
-        T, names of channels; all of them if it is not given.
+        T, names of channels, by default all.
 
     Returns
     -------
     JointControllability
-        Of ``dual(system)``: ``observable`` is whether (C_T, A) is, ``dimension`` the rank of
-        [C_T; C_T A; …], ``uncontrollable_polynomial`` holds the unobservable modes.
+        The answer about ``dual(system)``: ``observable`` says whether (C_T, A) is, ``dimension`` is
+        the rank of [C_T; C_T A; …], and ``uncontrollable_polynomial`` has the unobservable modes.
     """
     return joint_controllability(dual(system), channels)

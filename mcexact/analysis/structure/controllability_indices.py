@@ -39,7 +39,7 @@ def controllability_indices(
     ----------
     system : MultiChannelSystem
     channels : iterable of str, optional
-        T, names of channels; all of them if it is not given.
+        T, names of channels, by default all.
 
     Notes
     -----
@@ -73,19 +73,19 @@ def controllability_indices(
 def observability_indices(
     system: MultiChannelSystem, channels: Iterable[str] | None = None
 ) -> ControllabilityIndices:
-    """Compute the observability index and indices of (C_T, A): those of the dual.
+    """Compute the observability index and indices of (C_T, A), by those of the dual system.
 
     Parameters
     ----------
     system : MultiChannelSystem
     channels : iterable of str, optional
-        T, names of channels; all of them if it is not given.
+        T, names of channels, by default all.
     """
     return controllability_indices(dual(system), channels)
 
 
 def _profile(A: ModularMatrix, B: ModularMatrix) -> _Profile:
-    """Independent columns and rows of the first k blocks modulo ℓ, for each k until it ends."""
+    """Independent columns and rows of the first k blocks modulo ℓ, until the rank stops growing."""
     n, p = A.nrows, B.ncols
     columns: list[list[int]] = []
     rows: list[tuple[int, ...]] = []

@@ -1,4 +1,4 @@
-"""Lemma 3: the values of g for which (M + gA, B) is not as controllable as (A, B)."""
+"""Lemma 3: the values of g for which (M + gA, B) loses controllability or its index."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class ExceptionalGains:
     Attributes
     ----------
     indices : ControllabilityIndices
-        That (A, B) is controllable with index m.
+        The answer that (A, B) is controllable with index m.
     index_set : ExceptionalSet
         E_index: the first m blocks of [B, (M+gA)B, …] lose rank n.
     controllability_set : ExceptionalSet
@@ -51,7 +51,7 @@ class ExceptionalGains:
 
 
 def exceptional_gains(M: Any, A: Any, B: Any) -> ExceptionalGains:
-    """Compute all g for which M + gA, B is not controllable, or not within the index of (A, B).
+    """Compute all g for which (M + gA, B) is not controllable, or not within the index of (A, B).
 
     Parameters
     ----------
@@ -66,7 +66,7 @@ def exceptional_gains(M: Any, A: Any, B: Any) -> ExceptionalGains:
     Raises
     ------
     Impossible
-        If (A, B) is not controllable, with the certificate: the lemma does not apply.
+        If (A, B) is not controllable, so that the lemma does not apply; with the certificate.
     InputError
         If a matrix has the wrong shape, or a float in it.
 
@@ -92,7 +92,7 @@ def exceptional_gains(M: Any, A: Any, B: Any) -> ExceptionalGains:
     indices = controllability_indices(system)
     if indices.index is None:
         raise Impossible(
-            "(A, B) is not controllable, which Lemma 3 asks for",
+            "(A, B) is not controllable, which Lemma 3 requires",
             joint_controllability(system),
         )
     rng = generator(system, "exceptional_gains")
@@ -122,7 +122,7 @@ def blocks_of_g(M: Matrix, A: Matrix, B: Matrix, blocks: int) -> PolynomialMatri
 def exceptional_set(
     system: MultiChannelSystem, M: Matrix, blocks: int, rng: Random
 ) -> ExceptionalSet:
-    """Find where so many blocks of [B, (M+gA)B, …] lose rank n; somewhere they have to have it.
+    """Find all g where some number of blocks of [B, (M+gA)B, …] have rank below n.
 
     Parameters
     ----------
@@ -133,7 +133,7 @@ def exceptional_set(
     blocks : int
         At least 1.
     rng : Random
-        Draws the compressions: it decides how long this takes, never what the answer is.
+        The source of the compressions, which affects the running time but not the answer.
     """
     K = blocks_of_g(M, system.A, system.input_matrix(), blocks)
     for bound in _growing():

@@ -1,4 +1,4 @@
-"""Whether every output can be brought to any set-point: the paper's section III, decided."""
+"""Whether every output can be held at any set-point; section III of the paper."""
 
 from __future__ import annotations
 
@@ -34,11 +34,12 @@ def setpoint_solvability(system: MultiChannelSystem) -> SetpointSolvability:
 
     Notes
     -----
-    Exact; paper, section III, equation `gnd`.  Yes: a rank modulo a prime.  No: W with W S = 0.  A
-    row (w_1, w_2) of W gives w_2 r = 0 for every equilibrium Ax + Bu = 0, r = Cx; w_2 = 0 only if
-    the mode is not controllable to begin with.  An invariant zero is claimed only where the pencil
-    has full rank somewhere; else a polynomial row that annihilates it everywhere is shown.  The
-    paper's "no zero of the determinant at 0" is this condition unless 0 is an eigenvalue of A.
+    Exact; paper, section III, equation `gnd`.  The certificate for yes is a rank modulo a prime,
+    that for no a matrix W with W S = 0.  A row (w_1, w_2) of W gives w_2 r = 0 for every
+    equilibrium Ax + Bu = 0, r = Cx; w_2 = 0 only if the mode is not controllable.  An invariant
+    zero is claimed only if the pencil has full rank somewhere; otherwise the certificate has a
+    polynomial row that annihilates the pencil everywhere.  The paper's "no zero of the determinant
+    at 0" is this condition unless 0 is an eigenvalue of A.
 
     Examples
     --------
@@ -158,7 +159,7 @@ def _minor(rows: list[list[Polynomial]]) -> Polynomial:
 
 
 def _row_of_least_degree(M0: Matrix, M1: Matrix) -> PolynomialMatrix:
-    """The same of least degree, for pencils that have one of small degree.
+    """Find an annihilating row of least degree, for pencils that have one of small degree.
 
     Σ w_k x^k annihilates iff w_0 M0 = 0, w_k M0 + w_{k−1} M1 = 0 and w_d M1 = 0.
     """

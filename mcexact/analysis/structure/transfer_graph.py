@@ -1,4 +1,4 @@
-"""The transfer graph: which channel's inputs reach which channel's outputs."""
+"""The transfer graph, in which an edge j → i means that u_j affects y_i."""
 
 from __future__ import annotations
 
@@ -27,10 +27,10 @@ def transfer_graph(system: MultiChannelSystem) -> TransferGraph:
 
     Notes
     -----
-    Exact.  For an edge the certificate holds a k < n with C_i A^k B_j ≠ 0 modulo a prime; for the
-    pairs that are no edges it holds invariant subspaces that contain im B_j and lie in ker C_i, one
-    for all j that reach the same channels.  One value of the transfer matrix modulo the prime says
-    which edges to look for.  O(n³) word operations, and O(n² p) for each power looked at.
+    Exact.  For an edge the certificate has a k < n with C_i A^k B_j ≠ 0 modulo a prime.  For the
+    other pairs it has invariant subspaces that contain im B_j and lie in ker C_i, one for all j
+    that reach the same channels.  One value of the transfer matrix modulo the prime determines the
+    edges to be proved.  O(n³) word operations, and O(n² p) for each power looked at.
 
     Examples
     --------
@@ -56,7 +56,7 @@ def transfer_graph(system: MultiChannelSystem) -> TransferGraph:
 def _zero_transfers(
     system: MultiChannelSystem, edges: set[Edge], rng: random.Random
 ) -> list[tuple[tuple[int, ...], InvariantSubspace]] | None:
-    """Invariant subspaces that prove every other pair to be no edge; None if one is an edge."""
+    """Invariant subspaces that prove that no other pair is an edge; None if one is."""
     m = system.m
     groups: dict[tuple[int, ...], list[int]] = {}
     for j in range(m):
