@@ -120,8 +120,10 @@ def decays(loop: Premise) -> str:
     return f"{loop.theorem}; every eigenvalue has {stable}"
 
 
-CERTIFIED = "design-observer design-observer-float design-network design-setpoint design-region"
+CERTIFIED = "design-observer design-observer-float design-network design-setpoint"
 restate(CERTIFIED, LOOP, is_stable, words=decays)
+BOUNDED = Role(("stability", "distributed_observer"), CLOSED)
+restate("design-region", BOUNDED, lambda c: is_stable(c) and c["bound"] is not None)
 restate("design-feedback design-errors", OBSERVER, lambda c: True)
 restate("design-assigned", LOOP, lambda c: True)
 restate("certify-inside", STABLE, lambda c: c["stable"])

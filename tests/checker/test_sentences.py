@@ -353,7 +353,7 @@ PLACES = {
     "refused-fixed-shared": "shared",
     "refused-integrators-fixed": "tracked",
 }
-LOOPS = "design-observer design-observer-float design-network design-setpoint design-region"
+LOOPS = "design-observer design-observer-float design-network design-setpoint"
 SIZES = (
     "design-carrier design-carrier-for design-order design-order-integrators design-shared "
     "design-longest-number certify-states"
@@ -364,7 +364,8 @@ IMPLIED: list[tuple[str, list[Document]]] = [
     (SIZES, [LOOP]),
     (LOOPS, [LOOP]),
     (LOOPS, [STABLE]),
-    (f"{LOOPS} {OBSERVERS}", [OBSERVER]),
+    (f"{LOOPS} {OBSERVERS} design-region", [OBSERVER]),
+    ("design-region", [STABLE]),
     ("design-assigned", [LOOP]),
     ("design-kept", [KEPT_LOOP, made(fixed_spectrum(KEPT))]),
     ("design-steady-state", [TRACKS]),
@@ -384,6 +385,7 @@ DENIED: list[tuple[str, list[Document]]] = [
     (LOOPS, [GROWS]),
     (f"{OBSERVERS} certify-inside certify-decided certify-outside refused-outside", [LOOP]),
     ("design-assigned", [SPECTRUM]),
+    *(("design-region", [loop]) for loop in (LOOP, UNBOUNDED, SLOWER)),
     ("design-kept", [LOOP, SPECTRUM]),
     ("design-kept", [made(fixed_spectrum(KEPT))]),
     *(("design-steady-state", [loop]) for loop in (LOOP, LEAKS, DEAF, DOUBLES, GROWS, SLOWER)),
