@@ -125,7 +125,7 @@ class Analysis:
 
     @cached_property
     def lifted(self) -> MultiChannelSystem:
-        """The plant with its delayed wires, shared over which are as many states as the bound."""
+        """Return the plant with sub-states, as many as the bound, shared over links with delays."""
         from mcexact.derived.delayed import lifted_system
 
         return lifted_system(self.plant, self._shared("outputs_states"))

@@ -28,7 +28,7 @@ TOPICS: dict[str, tuple[Rulebook, tuple[ModuleType, ...]]] = {
         (analysis, details, *_OWN),
     ),
     "allocate": (rules.ALLOCATION, (allocation,)),
-    "allocate --arcs": (rules.LINKS, (links,)),
+    "allocate --links": (rules.LINKS, (links,)),
     "design, certify": (Rulebook([*rules.DESIGN, *rules.VERDICT]), (design,)),
     "design, where there is none": (rules.REFUSALS, (refusals,)),
 }

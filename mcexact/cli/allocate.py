@@ -1,4 +1,4 @@
-"""`mcexact allocate`: who has to share how much, or which wires have to be added."""
+"""`mcexact allocate`: find the least that agents must share, or the links to add."""
 
 from __future__ import annotations
 
@@ -20,15 +20,13 @@ from mcexact.cli.failures import DEFINITE_NO
     type=click.Choice(["outputs+states", "states"]),
     default="outputs+states",
     show_default=True,
-    help="What an agent tells those who hear it.",
+    help="Signals that an agent sends to its followers.",
 )
-@click.option(
-    "--arcs", is_flag=True, help="Find the cheapest wires to add instead, for given --dimensions."
-)
+@click.option("--links", is_flag=True, help="Find the cheapest communication links to add instead.")
 @click.option(
     "--dimensions",
     metavar="N,N,…",
-    help="With --arcs: the sub-state that each agent shares; without it outputs alone are shared.",
+    help="With --links: dimensions of the shared sub-states; by default only outputs are shared.",
 )
 @click.option(
     "--cost",
@@ -36,32 +34,32 @@ from mcexact.cli.failures import DEFINITE_NO
     nargs=2,
     multiple=True,
     metavar="AGENT PRICE",
-    help="Price of one dimension of an agent; 1 by default. May be repeated.",
+    help="Price of one dimension of an agent's sub-state, by default 1. May be repeated.",
 )
 @click.option(
     "--upper",
     nargs=2,
     multiple=True,
     metavar="AGENT N",
-    help="Most that an agent may share. May be repeated.",
+    help="Largest dimension that an agent may share. May be repeated.",
 )
 @click.option(
-    "--wire-cost",
-    "wire_costs",
+    "--link-cost",
+    "link_costs",
     nargs=3,
     multiple=True,
     metavar="FROM TO PRICE",
-    help="With --arcs: price of a wire; 1 by default. May be repeated.",
+    help="With --links: price of a link, by default 1. May be repeated.",
 )
 @click.option(
     "--forbid",
     nargs=2,
     multiple=True,
     metavar="FROM TO",
-    help="With --arcs: a wire that must not be added. May be repeated.",
+    help="With --links: a link that must not be added. May be repeated.",
 )
-@click.option("--rate", type=options.rational, help="Only modes slower than this rate count.")
-@click.option("--radius", type=options.rational, help="Only modes outside this radius count.")
+@click.option("--rate", type=options.rational, help="Consider only modes slower than this rate.")
+@click.option("--radius", type=options.rational, help="Consider only modes outside this radius.")
 @click.option(
     "--free", is_flag=True, help="Also make the whole closed-loop spectrum freely assignable."
 )
@@ -70,7 +68,7 @@ from mcexact.cli.failures import DEFINITE_NO
     type=click.IntRange(min=1),
     default=10_000,
     show_default=True,
-    help="Nodes of the proof's branch tree after which to give up (status 4).",
+    help="Number of nodes of the branch tree after which the search ends with status 4.",
 )
 @options.certificates
 @options.as_json
@@ -86,10 +84,11 @@ def command(
 ) -> int:
     """Find the least dimensions that the agents of the system in FILE must share.
 
-    The file needs a neighbor graph. The answer is the least total dimension of the shared
-    sub-states with which no mode is fixed, beside the uniform bound of the paper's Theorem 2, and
-    which subsets of agents force it; it comes with a proof that nothing smaller suffices. Ends
-    with status 1 if nothing suffices.
+    The file needs a neighbor graph. The answer is the least total dimension of shared sub-states
+    for which no mode is fixed, with a proof that no smaller dimension suffices. It names the
+    subsets of agents that require it, and gives the uniform bound of the paper's Theorem 2 for
+    comparison. If no dimensions suffice, the status is 1. With --links, the answer is the cheapest
+    set of communication links for which no mode is fixed.
     """
 
     from mcexact.cli.concluding import concluded
@@ -133,7 +132,7 @@ def command(
 def _answer(
     place: str, data: bytes, limits: dict[str, int], question: dict[str, Any]
 ) -> dict[str, Any]:
-    """Read, decide, and put the answer into text: what the child process does."""
+    """Decide and format the answer, in the child process."""
     from mcexact.analysis.accounts import account_of_dimensions, account_of_links
     from mcexact.cli.concluding import told
     from mcexact.cli.files import system_in
@@ -141,8 +140,8 @@ def _answer(
 
     system = system_in(place, data, limits)
     bound = _bound(system.time, question.pop("rate"), question.pop("radius"))
-    if question.pop("arcs"):
-        account = account_of_links(system, **_wires(question, bound))
+    if question.pop("links"):
+        account = account_of_links(system, **_links(question, bound))
         least = account.answers["minimal_communication"]
     else:
         account = account_of_dimensions(system, **_dimensions(system.names, question, bound))
@@ -155,7 +154,7 @@ def _answer(
 
 
 def _bound(time: str, rate: Fraction | None, radius: Fraction | None) -> Fraction | None:
-    """The rate or the radius; the one of the other time domain is wrong usage."""
+    """Return the rate or the radius; one for the other time domain is wrong usage."""
     from mcexact.errors import UsageError
     from mcexact.exact.location import StabilityRegion
 
@@ -170,12 +169,12 @@ def _bound(time: str, rate: Fraction | None, radius: Fraction | None) -> Fractio
 def _dimensions(
     names: Sequence[str], question: dict[str, Any], bound: Fraction | None
 ) -> dict[str, Any]:
-    """The keywords of `minimal_shared_dimensions`."""
+    """Return the arguments of `minimal_shared_dimensions`."""
     from mcexact.errors import UsageError
     from mcexact.exact.rational import parse_rational
 
-    if question["dimensions"] or question["wire_costs"] or question["forbid"]:
-        raise UsageError("--dimensions, --wire-cost and --forbid go with --arcs")
+    if question["dimensions"] or question["link_costs"] or question["forbid"]:
+        raise UsageError("--dimensions, --link-cost and --forbid go with --links")
     prices = _by_agent(names, question["costs"], "--cost", parse_rational)
     most = _by_agent(names, question["upper"], "--upper", options.count)
     return {
@@ -191,7 +190,7 @@ def _dimensions(
 def _by_agent(
     names: Sequence[str], pairs: Sequence[tuple[str, str]], option: str, read: Callable[[str], Any]
 ) -> dict[str, Any]:
-    """The values that were given for agents."""
+    """Parse the values given for agents."""
     from mcexact.errors import UsageError
 
     found = {}
@@ -205,17 +204,17 @@ def _by_agent(
     return found
 
 
-def _wires(question: dict[str, Any], bound: Fraction | None) -> dict[str, Any]:
-    """The keywords of `minimal_communication`."""
+def _links(question: dict[str, Any], bound: Fraction | None) -> dict[str, Any]:
+    """Return the arguments of `minimal_communication`."""
     from mcexact.errors import UsageError
     from mcexact.exact.rational import parse_rational
 
     if question["costs"] or question["upper"] or question["free"]:
-        raise UsageError("--cost, --upper and --free do not go with --arcs")
+        raise UsageError("--cost, --upper and --free do not go with --links")
     sizes = None
     costs: dict[tuple[str, str], Any] = {}
-    for j, i, price in question["wire_costs"]:
-        costs[j, i] = _by_agent([i], [(i, price)], f"--wire-cost {j}", parse_rational)[i]
+    for j, i, price in question["link_costs"]:
+        costs[j, i] = _by_agent([i], [(i, price)], f"--link-cost {j}", parse_rational)[i]
     if question["dimensions"] is not None:
         try:
             sizes = [options.count(size) for size in question["dimensions"].split(",")]

@@ -69,7 +69,7 @@ def decay_picture(run: Trajectory, spectrum: LoopSpectrum | None, title: str) ->
 
 
 def delays_picture(runs: Sequence[tuple[int, Trajectory]]) -> Picture:
-    """Draw the state of the plant for several delays on the wires.
+    """Draw the state of the plant for several delays on the links.
 
     Parameters
     ----------

@@ -20,7 +20,7 @@ from tests.campaigns.networks import (
 from tests.synthesis.test_extended import late
 
 
-def test_the_papers_example_with_delay_3_on_every_wire() -> None:
+def test_the_papers_example_with_delay_3_on_every_link() -> None:
     plant = late()
     lifted, held = lifted_verdict(plant, [0, 0, 1]), held_verdict(plant, [1, 0, 1])
     assert (lifted.system.n, held.system.n) == (19, 11)

@@ -67,7 +67,7 @@ def test_what_is_said_of_allocations(start: int, tmp_path: Path) -> None:
             links |= {"dimensions": [rng.randint(0, 1) for _ in plant.names], "share": share}
         for topic, account in (
             ("allocate", account_of_dimensions(plant, **asked)),
-            ("allocate --arcs", account_of_links(plant, **links)),
+            ("allocate --links", account_of_links(plant, **links)),
         ):
             require_said(account, topic, tmp_path / f"{topic}-{seed}")
 

@@ -28,7 +28,7 @@ def questions(plant: str, channel: str, place: Path, whole: bool) -> dict[str, l
         "analyze": [plant, "--minimal", "--subset", channel, "--channel", channel],
         "analyze-gains": [plant, "--every-channel"],
         "allocate": [plant, "--free"],
-        "allocate-arcs": [plant, "--arcs"],
+        "allocate-links": [plant, "--links"],
     }
     for design in DESIGNS if whole else ("observer",):
         for arithmetic in ("exact", "float"):

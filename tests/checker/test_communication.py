@@ -23,7 +23,7 @@ BLOCKED = document(
 ACCEPTED = [
     ("outputs alone", OUTPUTS),
     ("a plant without a neighbor graph", WITHOUT_GRAPH),
-    ("one more wire for the extended system", EXTENDED),
+    ("one more link for the extended system", EXTENDED),
     ("no candidate, no way", BLOCKED),
     ("another modulus", changed(OUTPUTS, ("witness.absence.modulus", 2**31 - 1))),
 ]

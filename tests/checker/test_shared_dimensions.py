@@ -87,7 +87,7 @@ REJECTED = [
     ("a cut of connectivity for no such claim", FREE, ("claim.free_assignability", False)),
     ("a cut of connectivity for everyone", FREE, ("witness.cuts.0.subset", ["1", "2"])),
     ("another plant", STATES, ("system.A.2.1", 0)),
-    ("one wire less", STATES, ("system.neighbors.2", [])),
+    ("one link less", STATES, ("system.neighbors.2", [])),
 ]  # fmt: skip
 
 

@@ -73,7 +73,7 @@ def test_neighbors_may_be_listed_in_any_order_and_with_the_agent_itself() -> Non
         ("an entry twice", {"A": {"shape": [3, 3], "entries": [[0, 0, 1], [0, 0, 1]]}}),
         ("an entry outside", {"A": {"shape": [3, 3], "entries": [[3, 0, 1]]}}),
         ("an entry from the end", {"A": {"shape": [3, 3], "entries": [[-1, 0, 1]]}}),
-        ("delays without wires", {"neighbors": None, "delays": {"1": {"2": 1}}}),
+        ("delays without links", {"neighbors": None, "delays": {"1": {"2": 1}}}),
         ("no channels", {"channels": []}),
     ],
 )

@@ -73,18 +73,18 @@ def test_a_price_an_upper_bound_and_a_rate_move_the_answer(ring: str) -> None:
     assert sum(least(answer(ring, "--rate", "1/2", "--free"))["dimensions"]) == 1
 
 
-def test_a_missing_wire_is_named_and_ends_with_status_1(chain: str) -> None:
+def test_a_missing_link_is_named_and_ends_with_status_1(chain: str) -> None:
     found = answer(chain, status=1)
     assert least(found)["dimensions"] is None
     assert said(found, "allocate-reason")[0].split(" | ")[1] == "nobody"
 
 
-def test_wires_are_added_where_they_help(chain: str, tmp_path: Path) -> None:
-    found = answer(chain, "--arcs", "--dimensions", "0,0,1")
+def test_links_are_added_where_they_help(chain: str, tmp_path: Path) -> None:
+    found = answer(chain, "--links", "--dimensions", "0,0,1")
     assert found["minimal_communication"]["added"] == [["3", "2"]]
-    forbidden = answer(chain, "--arcs", "--dimensions", "0,0,1", "--forbid", "3", "2")
+    forbidden = answer(chain, "--links", "--dimensions", "0,0,1", "--forbid", "3", "2")
     assert forbidden["minimal_communication"]["added"] != [["3", "2"]]
-    priced = answer(chain, "--arcs", "--wire-cost", "1", "2", "7", "--certificates", str(tmp_path))
+    priced = answer(chain, "--links", "--link-cost", "1", "2", "7", "--certificates", str(tmp_path))
     assert priced["minimal_communication"]["share"] == "outputs"
     assert run("check", str(tmp_path / "minimal_communication.json")).status == 0
 
@@ -96,9 +96,9 @@ def test_wires_are_added_where_they_help(chain: str, tmp_path: Path) -> None:
         (["--cost", "9", "1"], "there is no agent '9'"),
         (["--cost", "1", "dear"], "expected a number, found 'dear'"),
         (["--upper", "1", "1/2"], "expected a number"),
-        (["--dimensions", "1,1,1"], "go with --arcs"),
-        (["--arcs", "--dimensions", "1,x"], "integers >= 0 such as 0,0,1"),
-        (["--arcs", "--free"], "do not go with --arcs"),
+        (["--dimensions", "1,1,1"], "go with --links"),
+        (["--links", "--dimensions", "1,x"], "integers >= 0 such as 0,0,1"),
+        (["--links", "--free"], "do not go with --links"),
         (["--cost", "1", "0"], "positive"),
     ],
 )
@@ -126,7 +126,7 @@ def test_theorem_2_has_no_bound_where_its_hypotheses_fail(ring: str, tmp_path: P
 
 def test_links_are_found_for_a_plant_without_neighbors(tmp_path: Path) -> None:
     plant = str(Path(gallery.__file__).parent / "liu2020-unimodular.json")
-    found = answer(plant, "--arcs", "--certificates", str(tmp_path))
+    found = answer(plant, "--links", "--certificates", str(tmp_path))
     assert found["minimal_communication"]["added"] == [["3", "2"]]
     checked = run("check", str(tmp_path / "minimal_communication.json"), "--system", plant)
     assert checked.status == 0

@@ -54,7 +54,7 @@ def test_a_controller_that_names_no_plant_is_not_warned_of(folder: Path, command
 
 def test_another_neighbor_graph_makes_another_plant(folder: Path) -> None:
     """Its certificates are about another system, too."""
-    save_system(plant("1").with_neighbors({"1": []}), folder / "wired.json")
-    done = run("certify", str(folder / "wired.json"), str(folder / "controller.json"))
+    save_system(plant("1").with_neighbors({"1": []}), folder / "linked.json")
+    done = run("certify", str(folder / "linked.json"), str(folder / "controller.json"))
     assert done.status == 0
     assert done.messages[0].startswith(WARNING)

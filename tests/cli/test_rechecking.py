@@ -45,7 +45,7 @@ def test_every_certificate_is_re_checked_also_when_none_is_saved(call: Call) -> 
     "command",
     [
         ("analyze", PLANT, "--json"),
-        ("allocate", PLANT, "--arcs", "--json"),
+        ("allocate", PLANT, "--links", "--json"),
         ("design", "decentralized", PLANT, "--rate", "1", "--json"),
     ],
     ids=lambda command: command[0],
@@ -66,7 +66,7 @@ def test_a_certificate_that_is_not_accepted_is_an_internal_error(
     ("command", "key"),
     [
         (("analyze", PLANT), "nothing-fixed"),
-        (("allocate", PLANT, "--arcs"), "allocate-no-links-needed"),
+        (("allocate", PLANT, "--links"), "allocate-no-links-needed"),
     ],
 )
 def test_a_sentence_that_the_checker_does_not_know_is_an_internal_error(

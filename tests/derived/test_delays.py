@@ -29,7 +29,7 @@ def paper(delay):
     )
 
 
-def test_the_paper_s_example_with_delay_3_on_every_wire():
+def test_the_paper_s_example_with_delay_3_on_every_link():
     assert lifted_system(paper(3), [0, 0, 1]).n == 19
     assert held_system(paper(3), [1, 0, 1]).n == 11
     # n + Σ (n_i + d_i n_i), without the outputs on the links.
@@ -104,7 +104,7 @@ discrete_on_graphs = testing.systems_on_graphs(
 
 
 @given(discrete_on_graphs, st.data())
-def test_agents_of_the_lifted_system_see_what_wires_with_delays_bring(drawn, data):
+def test_agents_of_the_lifted_system_see_what_links_with_delays_bring(drawn, data):
     system = drawn.system
     share = data.draw(st.sampled_from(["outputs+states", "states"]))
     made, history = simulate(data, system, lambda n: lifted_system(system, n, share))

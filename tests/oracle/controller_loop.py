@@ -57,8 +57,8 @@ def loop_rows(system: Mapping[str, Any], text: str) -> Rows:
     hold = {agent["name"]: agent.get("hold", {}) for agent in agents}
 
     def age(kind: str, j: str, i: str) -> int:
-        wire = delays.get(i, {}).get(j, 0)
-        return int(wire + (hold[j].get(i, 0) if kind == "shared" else 0))
+        link = delays.get(i, {}).get(j, 0)
+        return int(link + (hold[j].get(i, 0) if kind == "shared" else 0))
 
     ledger = _Ledger()
     ledger.place(("plant",), len(A))

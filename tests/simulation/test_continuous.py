@@ -87,7 +87,7 @@ def test_what_double_precision_cannot_hold_is_a_limit(entry, horizon):
         simulate(plant, controller, horizon=horizon)
 
 
-def test_wires_have_no_delay_in_continuous_time():
+def test_links_have_no_delay_in_continuous_time():
     graph = NeighborGraph(("1", "2"), [[], [0]], [(1, 0, 1)])
     plant = MultiChannelSystem([[0]], [[[1]]] * 2, [[[1]]] * 2, neighbors=graph)
     agents = (AgentProgram("1", 0, 0), AgentProgram("2", 0, 0))

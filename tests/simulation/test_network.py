@@ -127,7 +127,7 @@ def relay(hold=None):
 
 
 @pytest.mark.parametrize(("delay", "hold"), [(0, 0), (2, 0), (0, 2), (1, 3)])
-def test_a_message_takes_the_delay_of_its_wire_and_the_time_it_is_held(delay, hold):
+def test_a_message_takes_the_delay_of_its_link_and_the_time_it_is_held(delay, hold):
     graph = NeighborGraph(("1", "2"), [[], [0]], [(1, 0, delay)])
     plant = MultiChannelSystem([[2]], [[[0]]] * 2, [[[1]], [[0]]], time="discrete", neighbors=graph)
     run = simulate(plant, relay({1: hold}), horizon=8)
@@ -136,7 +136,7 @@ def test_a_message_takes_the_delay_of_its_wire_and_the_time_it_is_held(delay, ho
     assert seen == [0] * wait + [2**k for k in range(9 - wait)]
 
 
-def test_own_signals_need_no_wire_but_can_be_held():
+def test_own_signals_need_no_link_but_can_be_held():
     agent = AgentProgram(
         "1",
         1,

@@ -27,7 +27,7 @@ from tests.synthesis.three_channels import three_channels
 
 
 def late() -> MultiChannelSystem:
-    """The paper's example in discrete time with delay 3 on every wire."""
+    """The paper's example in discrete time with delay 3 on every link."""
     plant = three_channels("discrete")
     graph = plant.neighbors
     assert graph is not None

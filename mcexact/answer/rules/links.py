@@ -1,4 +1,4 @@
-"""When `mcexact allocate --arcs` says what of the links to add."""
+"""The rules of the sentences of `mcexact allocate --links`."""
 
 from __future__ import annotations
 

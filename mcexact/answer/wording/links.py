@@ -1,4 +1,4 @@
-"""The words of `mcexact allocate --arcs`."""
+"""The sentences of `mcexact allocate --links`."""
 
 from __future__ import annotations
 

@@ -250,8 +250,8 @@ def test_the_rank_of_an_extended_pencil_counts_each_boundary_agent_once() -> Non
         sizes = [rng.randint(0, 2) for _ in range(small.m)]
         for share in ("outputs+states", "states"):
             extended = extended_system(system, sizes, share, graph)  # type: ignore[arg-type]
-            wired = system.with_neighbors(graph)
-            base = plain(augmented_outputs(wired) if share == "outputs+states" else wired)
+            linked = system.with_neighbors(graph)
+            base = plain(augmented_outputs(linked) if share == "outputs+states" else linked)
             for p in irreducible_factors(characteristic_polynomial(small.A)):
                 degrees.add(len(p) - 1)
                 for s in subsets(small.m):

@@ -127,7 +127,7 @@ def test_a_separation_that_does_not_fit_is_refused(separation: Separation, messa
 
 def test_lyapunov_matrices_do_not_decide_on_the_boundary() -> None:
     loop = matrix_system(Matrix.from_rows([[0, 1], [-1, 0]]))
-    with pytest.raises(UsageError, match="leave the method open"):
+    with pytest.raises(UsageError, match="leave out `method`"):
         certify_stability(loop, method="lyapunov")
 
 
@@ -135,7 +135,7 @@ def test_lyapunov_matrices_do_not_decide_on_the_boundary() -> None:
 def test_a_bound_beyond_floats_is_decided_by_the_polynomial(size: int) -> None:
     loop = matrix_system(Matrix.identity(size) * -1)
     assert not certify_stability(loop, rate=10**400).stable
-    with pytest.raises(UsageError, match="leave the method open"):
+    with pytest.raises(UsageError, match="leave out `method`"):
         certify_stability(loop, rate=10**400, method="lyapunov")
 
 
