@@ -20,6 +20,8 @@ MOVED = "fixed_spectrum.multiplicity_at_most, spectrum_split.spectrum_split"
 HAUTUS = "joint_controllability.controllable_hautus"
 DAVISON = "setpoint.setpoint_rank; E. J. Davison 1976"
 
+SIDES = ("controllable", "observable")
+
 FIXED = Role(("fixed_spectrum",))
 COMPLETE = Role(("completeness",))
 BLOCKS = Role(("assignability",))
@@ -252,12 +254,12 @@ def gains(key: str, wanted: str, alone: bool) -> None:
 
     restate(f"{key}-gains", GAINS, asked)
     restate(f"{key}-stuck", GAINS, stuck)
-    for side in ("controllable", "observable"):
+    for side in SIDES if wanted == "both" else (wanted,):
         no_cut = "single_channel_gains.single_channel_no_cut"
         restate(f"{key}-unreached-{side}", GAINS, cut(side), theorem=no_cut)
 
 
-for each in ("controllable", "observable", "both"):
+for each in (*SIDES, "both"):
     gains(f"channel-{each}", each, alone=True)
 gains("every-channel", "both", alone=False)
 

@@ -266,7 +266,7 @@ LEAST = {
 
 
 def _gains(key: str, label: str) -> dict[str, Template]:
-    """Whether there are gains, with the indices that they reach; or why not."""
+    """Whether there are gains, with the indices that they reach; or why not, by what is asked."""
     causes = {
         "controllable": "it does not act on {rest:channels}",
         "observable": "{rest:channels} {rest:do} not act on it",
@@ -286,6 +286,7 @@ def _gains(key: str, label: str) -> dict[str, Template]:
             label,
         )
         for side, cause in causes.items()
+        if key.removeprefix("channel-") not in causes.keys() - {side}
     }
 
 
