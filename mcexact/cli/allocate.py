@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from fractions import Fraction
-from pathlib import Path
 from typing import Any
 
 import click
@@ -74,14 +73,7 @@ from mcexact.cli.failures import DEFINITE_NO
 @options.as_json
 @options.work_limits
 @options.file_limits
-def command(
-    file: str,
-    certificates: Path | None,
-    as_json: bool,
-    timeout: float | None,
-    max_memory: int | None,
-    **rest: Any,
-) -> int:
+def command(file: str, **given: Any) -> int:
     """Find the least dimensions that the agents of the system in FILE must share.
 
     The file needs a neighbor graph. The answer is the least total dimension of shared sub-states
@@ -91,54 +83,28 @@ def command(
     set of communication links for which no mode is fixed.
     """
 
-    from mcexact.cli.concluding import concluded
-    from mcexact.cli.deadline import Deadline
-    from mcexact.cli.files import place_of, read, require_writable
-    from mcexact.cli.output import emit_tables
-    from mcexact.cli.supervision import supervised
+    from mcexact.cli.files import require_writable
+    from mcexact.cli.running import Run, show_tables
 
-    deadline = Deadline(timeout)
-    require_writable(None, certificates)
-    place = place_of(file)
-    names = ("bytes", "depth", "digits", "exponent")
-    moved = options.given({name: rest.pop(name) for name in names})
-    answer = supervised(
-        _answer,
-        place,
-        read(file, moved, deadline),
-        moved,
-        rest,
-        doing=f"allocating for {place}",
-        timeout=deadline,
-        max_memory=max_memory,
-    )
-
-    def show() -> bool:
-        emit_tables(answer["tables"])
-        return True
-
-    concluded(
-        answer,
-        show,
-        doing=f"re-checking the answers about {place}",
-        certificates=certificates,
-        as_json=as_json,
-        deadline=deadline,
-        max_memory=max_memory,
-    ).require_complete()
+    run = Run(given)
+    require_writable(None, run.certificates)
+    plant = run.read(file)
+    answer = run.result(_answer, plant, run.limits, given, doing=f"allocating for {plant[0]}")
+    about = f"the answers about {plant[0]}"
+    run.conclude(answer, show_tables(answer), about=about).require_complete()
     return 0 if answer["feasible"] else DEFINITE_NO
 
 
 def _answer(
-    place: str, data: bytes, limits: dict[str, int], question: dict[str, Any]
+    plant: tuple[str, bytes], limits: dict[str, int], question: dict[str, Any]
 ) -> dict[str, Any]:
     """Decide and format the answer, in the child process."""
     from mcexact.analysis.accounts import account_of_dimensions, account_of_links
-    from mcexact.cli.concluding import told
     from mcexact.cli.files import system_in
+    from mcexact.cli.running import told
     from mcexact.report.account import tables
 
-    system = system_in(place, data, limits)
+    system = system_in(*plant, limits)
     bound = _bound(system.time, question.pop("rate"), question.pop("radius"))
     if question.pop("links"):
         account = account_of_links(system, **_links(question, bound))

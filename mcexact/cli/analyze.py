@@ -74,11 +74,7 @@ def command(
     asserted: str | None,
     html: Path | None,
     latex: bool,
-    certificates: Path | None,
-    as_json: bool,
-    timeout: float | None,
-    max_memory: int | None,
-    **rest: Any,
+    **given: Any,
 ) -> int:
     """Decide everything about the system in FILE (- for standard input).
 
@@ -87,40 +83,34 @@ def command(
     transfer graph, completeness, and the parts into which the spectrum splits.
     """
 
-    from mcexact.cli.concluding import concluded
-    from mcexact.cli.deadline import Deadline
-    from mcexact.cli.files import place_of, read, require_other, require_writable
-    from mcexact.cli.output import emit, emit_tables
+    from mcexact.cli import output
+    from mcexact.cli.files import require_other, require_writable
     from mcexact.cli.rechecking import Rechecked
-    from mcexact.cli.supervision import supervised
+    from mcexact.cli.running import Run
     from mcexact.model.atomic import write_text
 
-    deadline = Deadline(timeout)
-    place = place_of(file)
+    run = Run(given)
     require_other(html, file)
-    require_writable(html, certificates)
-    besides = [option for option in _BESIDES if rest.pop(option.replace("-", "_"))]
-    moved = options.given(rest)
-    answer = supervised(
+    require_writable(html, run.certificates)
+    besides = [option for option in _BESIDES if given[option.replace("-", "_")]]
+    plant = run.read(file)
+    answer = run.result(
         _answer,
-        place,
-        read(file, moved, deadline),
-        moved,
+        plant,
+        run.limits,
         besides,
         {"information": information, "subset": _named(subset), "channel": channel},
         html is not None,
-        doing=f"analyzing {place}",
-        timeout=deadline,
-        max_memory=max_memory,
+        doing=f"analyzing {plant[0]}",
     )
     only_latex = latex and html is None
 
     def show() -> bool:
         if only_latex:
-            emit(answer["latex"])
+            output.emit(answer["latex"])
         else:
-            emit(answer["words"] + "\n")
-            emit_tables(answer["tables"])
+            output.emit(answer["words"] + "\n")
+            output.emit_tables(answer["tables"])
         return not only_latex
 
     def write(checked: Rechecked) -> None:
@@ -129,16 +119,8 @@ def command(
             page = answer["page"].rendered(answer["certificates"], checked.verdicts, results)
             write_text(html, page)
 
-    concluded(
-        answer,
-        show,
-        doing=f"re-checking the answers about {place}",
-        certificates=certificates,
-        as_json=as_json,
-        deadline=deadline,
-        max_memory=max_memory,
-        write=write,
-    ).require_complete()
+    about = f"the answers about {plant[0]}"
+    run.conclude(answer, show, about=about, write=write).require_complete()
     if asserted == "no-fixed-modes" and answer["json"]["fixed_spectrum"]["factors"]:
         return DEFINITE_NO
     return 0
@@ -152,8 +134,7 @@ def _named(subset: str | None) -> list[str] | None:
 
 
 def _answer(
-    place: str,
-    data: bytes,
+    plant: tuple[str, bytes],
     limits: dict[str, int],
     besides: list[str],
     question: dict[str, Any],
@@ -161,11 +142,11 @@ def _answer(
 ) -> dict[str, Any]:
     """Decide, and put the answer into text: what the child process does."""
     from mcexact.analysis.analyze import analyze
-    from mcexact.cli.concluding import told
     from mcexact.cli.files import system_in
+    from mcexact.cli.running import told
     from mcexact.report.account import in_lines, latex, tables
 
-    system = system_in(place, data, limits)
+    system = system_in(*plant, limits)
     found = analyze(system, besides=asked_by(*besides), **question)
     account = found.account
     page = None

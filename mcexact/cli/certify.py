@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
-from pathlib import Path
 from typing import Any
 
 import click
@@ -29,19 +27,7 @@ from mcexact.cli.failures import DEFINITE_NO
 @options.as_json
 @options.work_limits
 @options.file_limits
-def command(
-    file: str,
-    controller: str,
-    rate: Fraction | None,
-    radius: Fraction | None,
-    largest: bool,
-    method: str | None,
-    certificates: Path | None,
-    as_json: bool,
-    timeout: float | None,
-    max_memory: int | None,
-    **limits: int | None,
-) -> int:
+def command(file: str, controller: str, **given: Any) -> int:
     """Decide whether CONTROLLER stabilizes the system in FILE, or makes it fast enough.
 
     The controller is linear and time-invariant, as in every controller file. The decision is exact,
@@ -49,41 +35,18 @@ def command(
     --certificates writes a proof of that as well. A warning is given if the controller was designed
     for another plant.
     """
-    from mcexact.cli.concluding import concluded
-    from mcexact.cli.deadline import Deadline
-    from mcexact.cli.files import place_of, read, require_writable
-    from mcexact.cli.output import emit_tables
-    from mcexact.cli.supervision import supervised
+    from mcexact.cli.files import place_of, require_writable
+    from mcexact.cli.running import Run, show_tables
 
-    deadline = Deadline(timeout)
-    require_writable(None, certificates)
-    moved = options.given(limits)
-    answer = supervised(
-        _certified,
-        (place_of(file), read(file, moved, deadline)),
-        (place_of(controller), read(controller, moved, deadline)),
-        moved,
-        {"rate": rate, "radius": radius, "largest": largest, "method": method},
-        doing=f"certifying {place_of(controller)}",
-        timeout=deadline,
-        max_memory=max_memory,
-    )
+    run = Run(given)
+    require_writable(None, run.certificates)
+    about = place_of(controller)
+    programs = run.read(file), run.read(controller)
+    answer = run.result(_certified, *programs, run.limits, given, doing=f"certifying {about}")
     for warning in answer["json"]["warnings"]:
         click.echo(f"mcexact: warning: {warning}", err=True)
-
-    def show() -> bool:
-        emit_tables(answer["tables"])
-        return True
-
-    concluded(
-        answer,
-        show,
-        doing=f"re-checking the verdict on {place_of(controller)}",
-        certificates=certificates,
-        as_json=as_json,
-        deadline=deadline,
-        max_memory=max_memory,
-    ).require_complete()
+    about = f"the verdict on {about}"
+    run.conclude(answer, show_tables(answer), about=about).require_complete()
     return 0 if answer["json"]["certified"] else DEFINITE_NO
 
 
@@ -94,8 +57,8 @@ def _certified(
     wanted: dict[str, Any],
 ) -> dict[str, Any]:
     """Decide and format the answer, in the child process."""
-    from mcexact.cli.concluding import told
     from mcexact.cli.files import system_in
+    from mcexact.cli.running import told
     from mcexact.errors import InputError
     from mcexact.exact.rational import Limits
     from mcexact.model.controller_file import read_controller

@@ -27,25 +27,16 @@ from mcexact.cli import options
 @options.as_json
 @options.work_limits
 @options.file_limits
-def command(
-    file: str | None,
-    exhibits: bool,
-    html: Path | None,
-    as_json: bool,
-    timeout: float | None,
-    max_memory: int | None,
-    **limits: int | None,
-) -> None:
+def command(file: str | None, exhibits: bool, html: Path | None, **given: Any) -> None:
     """Answer structural questions about the system in FILE in floating point and exactly.
 
     Each floating-point verdict comes from a library's own function with its default tolerance; the
     table quotes the call. The last line gives an upper limit, computed in floating point, on the
     distance to a system with a fixed mode.
     """
-    from mcexact.cli.deadline import Deadline
-    from mcexact.cli.files import place_of, read, require_writable
+    from mcexact.cli.files import require_writable
     from mcexact.cli.output import emit, emit_json
-    from mcexact.cli.supervision import supervised
+    from mcexact.cli.running import Run
     from mcexact.model.atomic import write_text
     from mcexact.report.text import WIDE, plain
 
@@ -54,24 +45,16 @@ def command(
     if html is not None and not exhibits:
         raise click.UsageError("--html goes with --exhibits")
     require_writable(html)
-    deadline = Deadline(timeout)
+    run = Run(given)
     if file is None:
-        doing = "asking the exhibits' questions"
-        answer = supervised(_exhibited, doing=doing, timeout=deadline, max_memory=max_memory)
+        answer = run.result(_exhibited, doing="asking the exhibits' questions")
     else:
-        place, moved = place_of(file), options.given(limits)
-        answer = supervised(
-            _crosschecked,
-            place,
-            read(file, moved, deadline),
-            moved,
-            doing=f"cross-checking {place}",
-            timeout=deadline,
-            max_memory=max_memory,
-        )
+        plant = run.read(file)
+        doing = f"cross-checking {plant[0]}"
+        answer = run.result(_crosschecked, *plant, run.limits, doing=doing)
     if html is not None:
         write_text(html, answer["html"])
-    if as_json:
+    if run.as_json:
         emit_json(answer["json"])
     else:
         emit(plain(answer["tables"], width=WIDE))

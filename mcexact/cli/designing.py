@@ -54,33 +54,21 @@ def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any
     wanted : mapping
         Further keywords of the function.
     """
-    from mcexact.cli.concluding import concluded
-    from mcexact.cli.deadline import Deadline
-    from mcexact.cli.files import place_of, read, require_other, require_writable
+    from mcexact.cli.files import require_other, require_writable
     from mcexact.cli.output import emit, emit_tables
     from mcexact.cli.rechecking import Rechecked
-    from mcexact.cli.supervision import supervised
+    from mcexact.cli.running import Run
     from mcexact.errors import Impossible
     from mcexact.model.atomic import write_text
 
-    deadline = Deadline(given["timeout"])
-    place = place_of(file)
-    moved = options.given({k: given[k] for k in ("bytes", "depth", "digits", "exponent")})
-    spectrum = given["spectrum"]
+    run, spectrum = Run(given), given["spectrum"]
     require_other(given["output"], file, spectrum)
-    require_writable(given["output"], given["certificates"])
-    prescribed = None if spectrum is None else (place_of(spectrum), read(spectrum, moved, deadline))
+    require_writable(given["output"], run.certificates)
+    prescribed = None if spectrum is None else run.read(spectrum)
     keywords = {**wanted, "agent": given["agent"], **{key: given[key] for key in HOW}}
-    done = supervised(
-        _designed,
-        name,
-        (place, read(file, moved, deadline)),
-        prescribed,
-        moved,
-        keywords,
-        doing=f"designing for {place}",
-        timeout=deadline,
-        max_memory=given["max_memory"],
+    plant = run.read(file)
+    done = run.result(
+        _designed, name, plant, prescribed, run.limits, keywords, doing=f"designing for {plant[0]}"
     )
     output, possible = given["output"], "impossible" not in done
 
@@ -95,17 +83,8 @@ def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any
         if possible and output is not None:
             write_text(output, done["controller"])
 
-    checked = concluded(
-        done,
-        show,
-        doing=f"re-checking the design for {place}",
-        certificates=given["certificates"],
-        as_json=given["as_json"],
-        deadline=deadline,
-        max_memory=given["max_memory"],
-        write=write,
-    )
-    if not possible and checked.missing is not None and not given["as_json"]:
+    checked = run.conclude(done, show, about=f"the design for {plant[0]}", write=write)
+    if not possible and checked.missing is not None and not run.as_json:
         click.echo(f"mcexact: {done['impossible']}", err=True)
     checked.require_complete()
     if not possible:
@@ -125,8 +104,8 @@ def _designed(
     from mcexact.answer.account import Account
     from mcexact.answer.sentence import Given, Sentences
     from mcexact.answer.template import Sentence
-    from mcexact.cli.concluding import told
     from mcexact.cli.files import system_in
+    from mcexact.cli.running import told
     from mcexact.errors import Impossible, InputError
     from mcexact.exact.rational import Limits
     from mcexact.model.controller_file import controller_text

@@ -52,46 +52,34 @@ def command(
     reference: str | None,
     arithmetic: str | None,
     output: Path | None,
-    as_json: bool,
-    timeout: float | None,
-    max_memory: int | None,
-    **limits: int | None,
+    **given: Any,
 ) -> None:
     """Run CONTROLLER on the system in FILE, as agents that receive messages from neighbors only."""
-    from mcexact.cli.deadline import Deadline
-    from mcexact.cli.files import place_of, read, require_other, require_writable
+    from mcexact.cli.files import require_other, require_writable
     from mcexact.cli.output import emit_json, emit_tables
-    from mcexact.cli.supervision import supervised
+    from mcexact.cli.running import Run
     from mcexact.model.atomic import write_bytes
 
-    deadline = Deadline(timeout)
+    run = Run(given)
     suffix = "" if output is None else output.suffix
     if suffix not in ("", ".csv", ".png", ".html") or (output is not None and not suffix):
         raise click.UsageError(f"expected a file that ends in .csv, .png or .html, found {output}")
     require_other(output, file, controller)
     require_writable(output)
-    moved = options.given(limits)
-    answer = supervised(
-        _simulated,
-        (place_of(file), read(file, moved, deadline)),
-        (place_of(controller), read(controller, moved, deadline)),
-        moved,
-        {
-            "initial": _numbers(initial, "--initial"),
-            "reference": _numbers(reference, "--reference"),
-            "horizon": horizon,
-            "arithmetic": arithmetic,
-        },
-        suffix,
-        doing=f"simulating {place_of(file)}",
-        timeout=deadline,
-        max_memory=max_memory,
-    )
+    wanted = {
+        "initial": _numbers(initial, "--initial"),
+        "reference": _numbers(reference, "--reference"),
+        "horizon": horizon,
+        "arithmetic": arithmetic,
+    }
+    plant, program = run.read(file), run.read(controller)
+    doing = f"simulating {plant[0]}"
+    answer = run.result(_simulated, plant, program, run.limits, wanted, suffix, doing=doing)
     for warning in answer["warnings"]:
         click.echo(f"mcexact: warning: {warning}", err=True)
     if output is not None:
         write_bytes(output, answer["file"])
-    if as_json:
+    if run.as_json:
         emit_json(answer["json"])
     else:
         emit_tables(answer["tables"])

@@ -1,0 +1,118 @@
+"""One run of a command: what it may use, reads and decides, and how every answer ends."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
+
+from mcexact.cli import options
+from mcexact.cli.deadline import Deadline
+from mcexact.cli.rechecking import Rechecked, rechecked
+
+if TYPE_CHECKING:
+    from mcexact.answer.account import Account
+
+LIMITS = ("bytes", "depth", "digits", "exponent")
+
+
+def told(account: Account) -> dict[str, Any]:
+    """Return what a child process hands back of an account."""
+    from mcexact.model.system_file import digest
+
+    return {
+        "certificates": account.certificates,
+        "files": account.files(),
+        "digest": digest(account.given.system.plant),
+    }
+
+
+class Run:
+    """The options that commands share, taken out of those that a command was given.
+
+    Parameters
+    ----------
+    given : dict
+        The values of `options.work_limits` and, where the command has them, of
+        `options.file_limits`, `options.certificates` and `options.as_json`; they are removed.
+    """
+
+    def __init__(self, given: dict[str, Any]) -> None:
+        self.deadline = Deadline(given.pop("timeout"))
+        self.max_memory: int | None = given.pop("max_memory")
+        self.limits = options.given({name: given.pop(name, None) for name in LIMITS})
+        self.certificates = given.pop("certificates", None)
+        self.as_json = given.pop("as_json", False)
+
+    def read(self, file: str) -> tuple[str, bytes]:
+        """Return what messages call a file, and its bytes."""
+        from mcexact.cli.files import place_of, read
+
+        return place_of(file), read(file, self.limits, self.deadline)
+
+    def result(self, work: Callable[..., Any], *arguments: Any, doing: str) -> Any:
+        """Call a function in a child process, within the limits."""
+        from mcexact.cli.supervision import supervised
+
+        return supervised(
+            work, *arguments, doing=doing, timeout=self.deadline, max_memory=self.max_memory
+        )
+
+    def conclude(
+        self,
+        answer: Mapping[str, Any],
+        show: Callable[[], bool],
+        *,
+        about: str,
+        write: Callable[[Rechecked], None] = lambda _: None,
+    ) -> Rechecked:
+        """Show an answer, let the checker verify its certificates and sentences, write the files.
+
+        Parameters
+        ----------
+        answer : mapping
+            What `told` returns, and ``json``.
+        show : callable
+            Prints the answer for people, and returns whether a line about the checker may follow.
+        about : str
+            What the answer is about, for progress.
+        write : callable, optional
+            Writes the other files.
+
+        Raises
+        ------
+        InternalError
+            If the checker rejects a certificate or a sentence; then nothing is written.
+        """
+        from mcexact.cli.files import directory
+        from mcexact.cli.output import emit, emit_json
+        from mcexact.model.atomic import write_text
+
+        line_follows = not self.as_json and show()
+        checked = rechecked(
+            answer["files"],
+            answer["digest"],
+            doing=f"re-checking {about}",
+            deadline=self.deadline,
+            max_memory=self.max_memory,
+        )
+        if self.certificates is not None:
+            folder = directory(self.certificates)
+            for name, text in answer["files"].items():
+                write_text(folder / name, text)
+        write(checked)
+        if self.as_json:
+            emit_json({**answer["json"], "re_checked": checked.view()})
+        elif line_follows and checked.missing is None:
+            emit("\n" + checked.line())
+        return checked
+
+
+def show_tables(answer: Mapping[str, Any]) -> Callable[[], bool]:
+    """Return a function that prints the tables of an answer; a line about the checker follows."""
+    from mcexact.cli.output import emit_tables
+
+    def show() -> bool:
+        emit_tables(answer["tables"])
+        return True
+
+    return show
