@@ -1,1 +1,1 @@
-"""What is said of a system: values in words, and the sentences that certified claims make true."""
+"""Answers about systems, each its own certificate, and the sentences that follow from them."""

@@ -1,4 +1,4 @@
-"""An account of a system: answers, the sentences that follow from them, and their certificates."""
+"""Accounts: answers about a system, the sentences that follow from them, and their certificates."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ FORMAT = "mcexact-analysis/1"
 
 @dataclass(frozen=True)
 class Account:
-    """Answers about one plant by name, and what they say together.
+    """Answers about one plant by name, with the sentences that follow from them.
 
     Attributes
     ----------
     answers : mapping
-        The name of an answer, with ``.json``, is that of its certificate's file.
+        The answers by name; the name with ``.json`` is that of the certificate's file.
     given : Given
     sentences : Sentences
         What follows by a rule, each sentence with its place and its premises.
     subject : sequence of mapping
-        The constructions that lead from the user's plant to the one that is meant here.
+        The constructions that lead from the user's plant to the plant of this account.
     """
 
     answers: Mapping[str, Any]
@@ -39,15 +39,15 @@ class Account:
 
     @cached_property
     def certificates(self) -> dict[str, str]:
-        """The text of every certificate, by the name of its file."""
+        """The text of every certificate, keyed by the name of its file."""
         return {f"{name}.json": codec.encode(answer) for name, answer in self.answers.items()}
 
     def manifest(self) -> dict[str, Any]:
-        """The sentences with what each rests on, and the digests of the certificates."""
+        """Return the sentences with their premises, and the digests of the certificates."""
         return manifest(self.sentences, self.certificates, self.subject)
 
     def files(self) -> dict[str, str]:
-        """The certificates and the manifest, by the names of their files."""
+        """Return the certificates and the manifest, keyed by the names of their files."""
         return self.certificates | {MANIFEST: canonical(self.manifest()) + "\n"}
 
     def save(self, folder: str | os.PathLike[str]) -> None:
@@ -57,7 +57,7 @@ class Account:
             write_text(os.path.join(folder, name), text)
 
     def as_json(self, **more: Any) -> dict[str, Any]:
-        """Plain data for programs: an entry for each answer, under its name."""
+        """Return plain data with an entry for each answer, keyed by its name."""
         system = self.given.system
         return {
             "format": FORMAT,
@@ -81,7 +81,7 @@ class Account:
         }
 
     def _repr_html_(self) -> str:
-        """For a notebook: the answer in sentences, and the table, each with its reason."""
+        """Return the sentences and the table in HTML, each entry with its reason."""
         said = "".join(
             f'<li title="{escape(_reason(each))}">{escape(each)}</li>'
             for each in self.sentences.at("answer", "answer.mode")
@@ -95,6 +95,6 @@ class Account:
 
 
 def _reason(sentence: Any) -> str:
-    """Theorem and premises of a sentence, without their values."""
+    """The theorem and the premises of a sentence, without their values."""
     places = [f"{file}#{pointer}" for file, pointer, _ in sentence.because]
     return "; ".join(filter(None, [sentence.template.theorem, *places]))

@@ -40,8 +40,8 @@ class SpectrumBlock(Part):
     channels : tuple of str
         c.
     dimension : int
-        How many eigenvalues, a symmetric set, depend on the gains of c, and on no others: the
-        McMillan degree of C_c (xI − A)⁻¹ B_c.
+        The number of eigenvalues, a symmetric set, that depend on the gains of c and on no others:
+        the McMillan degree of C_c (xI − A)⁻¹ B_c.
     """
 
     brief = ("channels", "dimension")
@@ -57,16 +57,16 @@ class Assignability(Answer):
     Attributes
     ----------
     blocks : tuple of SpectrumBlock
-        One for each strong component.  Without fixed modes each can be assigned by itself, to
-        every symmetric set of its dimension and of the states of its controllers; where the
-        number of all of them is odd, one is real.
+        One for each strong component.  Without fixed modes each can be assigned independently:
+        together with the states of its controllers, to every symmetric set of that size, which
+        contains a real number if the size is odd.
     fixed_degree : int
-        How many eigenvalues, with multiplicity, belong to no block and depend on no gain; 0 if no
-        mode is fixed.
+        The number of eigenvalues, with multiplicity, that belong to no block and depend on no gain;
+        0 if no mode is fixed.
     modulus : int
         ℓ ≥ 2, modulo which the realizations are controllable and observable.
     transfer_graph : TransferGraph
-        Of the same system.
+        The transfer graph of the same system.
     realizations : tuple of MinimalRealization
         One for each block.
     """
@@ -81,7 +81,7 @@ class Assignability(Answer):
     def undivided(self) -> bool:
         """Whether at most one block has a dimension above 0.
 
-        Where no mode is fixed besides, then and only then every symmetric spectrum can be assigned
-        by dynamic linear time-invariant channel controllers.
+        If no mode is fixed either, and only then, dynamic linear time-invariant channel controllers
+        can assign every symmetric spectrum.
         """
         return sum(block.dimension > 0 for block in self.blocks) <= 1

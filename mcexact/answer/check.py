@@ -1,4 +1,4 @@
-"""The independent checker, called on what this package made or on a file."""
+"""Verification by the independent checker, of answers and of files."""
 
 from __future__ import annotations
 
@@ -31,13 +31,13 @@ def check(
     Returns
     -------
     Verdict
-        Its ``verdict`` is VALID, INVALID, MALFORMED or INCOMPLETE; ``theorem`` says what was
-        checked; ``code``, ``place`` and ``message`` say why it is not valid.
+        Its ``verdict`` is VALID, INVALID, MALFORMED or INCOMPLETE.  ``theorem`` is the verified
+        statement; ``code``, ``place`` and ``message`` say why a certificate is not valid.
 
     Raises
     ------
     InputError
-        If the file is missing, unreadable or too large, or one of the arguments is something else.
+        If the file is missing, unreadable or too large, or an argument has another type.
 
     Examples
     --------
@@ -66,24 +66,24 @@ fixed_spectrum(system), or the name of a certificate file, found dict
 
 
 def recheck(files: Mapping[str, str], system_digest: str) -> dict[str, Verdict]:
-    """What the independent checker says of certificates about one plant, and of what follows.
+    """Verify certificates about one plant, and the sentences of their manifest.
 
     Parameters
     ----------
     files : mapping from names to texts
-        Certificates; and the manifest, if there is one: its sentences are verified then.
+        Certificates, and perhaps a manifest, whose sentences are then verified.
     system_digest : str
 
     Returns
     -------
     dict from names to Verdict
-        Each certificate is VALID, or INCOMPLETE where a limit of the checker was reached.
+        The verdict on each file: VALID, or INCOMPLETE if a limit of the checker was reached.
 
     Raises
     ------
     InternalError
-        If a certificate is not accepted, or a sentence is not implied: then no answer of this run
-        is to be believed.
+        If a certificate is rejected, or a sentence is not implied, so that no answer of this run
+        can be trusted.
     """
     size, verdicts = max(map(len, files.values()), default=0), {}
     for about, found in _verdicts(files, system_digest, _limits(size)):
@@ -91,7 +91,7 @@ def recheck(files: Mapping[str, str], system_digest: str) -> dict[str, Verdict]:
             [what] = about.values()
             raise InternalError(
                 f"the independent checker does not accept {what} ({found.line()}): "
-                "the answers of this run are not to be believed"
+                "the answers of this run cannot be trusted"
             )
         if "file" in about:
             verdicts[about["file"]] = found
@@ -101,7 +101,7 @@ def recheck(files: Mapping[str, str], system_digest: str) -> dict[str, Verdict]:
 def _verdicts(
     files: Mapping[str, str], system_digest: str, limits: Limits
 ) -> Iterator[tuple[dict[str, str], Verdict]]:
-    """The verdict on each certificate, and on each sentence of the manifest."""
+    """Return the verdicts on the certificates and on the sentences of the manifest."""
     if NAME in files:
         yield from verdicts_of(lambda name: files[name or NAME].encode(), system_digest, limits)
         return
@@ -110,17 +110,17 @@ def _verdicts(
 
 
 def _limits(size: int) -> Limits:
-    """Limits within which texts of this size are read, numbers of any length among them."""
+    """Limits that allow texts of this size, with numbers of any length."""
     return Limits(bytes=max(Limits.bytes, size), digits=max(Limits.digits, size))
 
 
 def checked(data: bytes, system_digest: str | None = None) -> Verdict:
-    """What the checker says of a certificate's text; it reads numbers and texts of any length."""
+    """Return the checker's verdict on the text of a certificate of any length."""
     return check_document(data, system_digest, _limits(len(data)))
 
 
 def _text(certificate: Any) -> bytes:
-    """The bytes of the certificate's file."""
+    """Read the bytes of a certificate's file."""
     if isinstance(certificate, str | os.PathLike):
         from mcexact.model.json_text import read_bytes
 

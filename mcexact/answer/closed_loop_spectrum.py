@@ -8,7 +8,7 @@ from mcexact.exact.polynomial import Polynomial
 
 @answer("closed_loop_spectrum")
 class ClosedLoopSpectrum(Answer):
-    """The characteristic polynomial of the A of a system, which is mostly a closed loop.
+    """The characteristic polynomial of the matrix A of a system, usually a closed loop.
 
     Attributes
     ----------

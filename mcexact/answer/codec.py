@@ -1,7 +1,8 @@
-"""Answers as certificates: the JSON of ``FORMAT.md``, equal answers with equal bytes.
+"""Answers written as certificates, in the JSON of ``FORMAT.md``.
 
-Evidence that is found exactly is equal on every processor; Lyapunov matrices, and controllers that
-are designed in floating point, are not: ``FORMAT.md`` says which certificates are only valid.
+Equal answers have equal bytes.  Exact computations find the same evidence on every processor;
+Lyapunov matrices and controllers designed in floating point differ.  ``FORMAT.md`` says which
+certificates are reproducible, and which are only valid.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ FORMAT = "mcexact-certificate/1"
 
 
 def document(answer: Answer) -> dict[str, Any]:
-    """The certificate as one JSON object of plain data, with the six keys of ``FORMAT.md``."""
+    """Return the certificate as a JSON object of plain data, with the six keys of ``FORMAT.md``."""
     system = answer.system
     return {
         "format": FORMAT,
@@ -31,13 +32,13 @@ def document(answer: Answer) -> dict[str, Any]:
 
 
 def encode(answer: Answer) -> str:
-    """The certificate as JSON text with a final line feed; equal answers give equal text.
+    """Return the certificate as JSON text with a final line feed; equal answers give equal text.
 
     Notes
     -----
-    The same question gives an equal certificate on every processor, unless its evidence was
-    proposed in floating point: quadratic forms of the kind ``stability``, and whatever is about the
-    loop of a controller designed in floating point.  These are only valid.
+    The same question gives the same certificate on every processor, unless floating point proposed
+    the evidence: the quadratic forms of the kind ``stability``, and all answers about the loop of a
+    controller designed in floating point.  Such certificates are only valid.
     """
     parts = {
         "claim": answer.claim(),
@@ -51,7 +52,7 @@ def encode(answer: Answer) -> str:
 
 
 def save_certificate(answer: Answer, path: str | os.PathLike[str]) -> None:
-    """Write an answer as a certificate file, whole or not at all.
+    """Write an answer to a certificate file, completely or not at all.
 
     Raises
     ------

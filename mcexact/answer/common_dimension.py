@@ -1,4 +1,4 @@
-"""Answer: the least dimension that is enough where every agent shares the same, or that none is."""
+"""Answer: the least common dimension of shared sub-states that suffices, or that none does."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ class CommonDimension(Answer):
     share : str
         ``"outputs+states"`` or ``"states"``.
     feasible : bool
-        Whether any dimension is enough.
+        Whether some common dimension suffices.
     dimension : int or None
-        k; None where none is enough.
+        k; None if no dimension suffices.
     absence : Absence or None
-        That k is enough.
+        The evidence that k suffices.
     cut : DeficiencyCut or None
-        A set s around which k − 1 is too little, or with an empty boundary N_s∖s; None if k = 0.
+        A set s for which k − 1 does not suffice, or with an empty boundary N_s∖s; None if k = 0.
     """
 
     share: str = claim("what is shared")
@@ -36,7 +36,7 @@ class CommonDimension(Answer):
 
 
 def _templates(key: str, theorem: str, some: str, none: str, never: str) -> tuple[Template, ...]:
-    """The least for one way of sharing: some states, none, or that nothing is enough."""
+    """The sentences on the least common dimension for one way of sharing."""
     label, proved = "least if all share the same", f"common_dimension_{theorem}"
     least = some + "{k:count state} by each agent: {total:int} in all{time:instant}"
     never += "no number of states is enough"
@@ -59,7 +59,7 @@ RULES = Rulebook()
 
 
 def _rule(share: str) -> None:
-    """What is said of the least for one way of sharing."""
+    """Make the rule of the least common dimension for one way of sharing."""
     some, none, impossible = WORDS[share]
     question = f"common_dimension_{share.replace('+', '_')}"
 

@@ -1,4 +1,4 @@
-"""Answer: the cheapest edges to add to the neighbor graph, or that none suffice."""
+"""Answer: the cheapest communication links to add, or that no candidates suffice."""
 
 from __future__ import annotations
 
@@ -10,22 +10,22 @@ from mcexact.answer.protocol import Answer, answer, claim, witness
 
 @answer("communication")
 class MinimalCommunication(Answer):
-    """The cheapest edges that leave no mode fixed, or that no candidates do.
+    """The cheapest links with which no mode is fixed, or that no candidates suffice.
 
     Attributes
     ----------
     share : str
-        What an edge carries: ``"outputs"``, ``"outputs+states"`` or ``"states"``.
+        The signals that a link carries: ``"outputs"``, ``"outputs+states"`` or ``"states"``.
     dimensions : tuple of int, or None
-        The n_i of the extended system; None when only outputs are shared.
+        The n_i of the extended system; None if only outputs are shared.
     bound : Fraction or None
-        The rate or radius that a mode must violate to count; None: every mode counts.
+        A rate or radius: only modes that violate it are considered.  None means all modes.
     candidates : tuple of (str, str, Fraction)
-        Edges (j, i) that may be added, and their positive costs.
+        The links (from, to) that may be added, with their positive costs.
     feasible : bool
         Whether all candidates together suffice.
     added : tuple of (str, str), or None
-        The edges (from, to) to add; None when nothing suffices.
+        The links (from, to) to add; None if no candidates suffice.
     cost : Fraction or None
     absence : Absence or None
     cuts : tuple of LinkCut

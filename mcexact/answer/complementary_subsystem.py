@@ -1,4 +1,4 @@
-"""Answer: the Smith form of P_s(x) = [xI − A, B_{m−s}; C_s, 0], and what follows from it."""
+"""Answer: the Smith form of P_s(x) = [xI − A, B_{m−s}; C_s, 0]."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from mcexact.exact.polynomial import Polynomial, product
 
 @dataclass(frozen=True)
 class InvariantZeros(Part):
-    """An irreducible polynomial whose roots are invariant zeros, and where they are.
+    """An irreducible polynomial whose roots are invariant zeros, with discs around these.
 
     Attributes
     ----------
@@ -36,7 +36,7 @@ class InvariantZeros(Part):
 
 @answer("complementary_subsystem")
 class ComplementarySubsystem(Answer):
-    """What the pencil P_s(x) = [xI − A, B_{m−s}; C_s, 0] says of the subsystem (C_s, A, B_{m−s}).
+    """Properties of the complementary subsystem (C_s, A, B_{m−s}), from its pencil P_s(x).
 
     Attributes
     ----------
@@ -45,19 +45,19 @@ class ComplementarySubsystem(Answer):
     normal_rank : int
         The rank k of P_s over Q(x), at least n.
     invariant_polynomials : tuple of Polynomial
-        Those of degree at least 1, each dividing the next; the others of the k are 1.  Their roots
-        are the invariant zeros.
+        The invariant polynomials of degree at least 1, each dividing the next; the others of the k
+        are 1.  Their roots are the invariant zeros.
     remnant : Polynomial
         The product of the first n invariant polynomials: the greatest common divisor of the n × n
         minors of P_s.
     transfer_zero : bool
         Whether C_s (xI − A)⁻¹ B_{m−s} = 0.
     complete : bool
-        The transfer matrix is not 0 and rank P_s(λ) ≥ n for every λ.
+        Whether the transfer matrix is not 0 and rank P_s(λ) ≥ n for every λ.
     reachable : int
         The number of columns of X that span the controlled part.
     modulus : int
-        ℓ ≥ 2 of every rank.
+        ℓ ≥ 2, modulo which all ranks are reached.
     X, F, A1, S, B1, L, G, N : Matrix
         As in ``FORMAT.md``.
     """

@@ -17,12 +17,12 @@ class FreedomWitness(Part):
     Attributes
     ----------
     modulus : int
-        ℓ ≥ 2 of every congruence.
+        ℓ ≥ 2, modulo which all conditions hold.
     gains : tuple of Matrix
         F_i, p_i × q_i: χ_A and χ_{A_F} are coprime modulo ℓ.
     arcs : tuple of (str, str, int)
-        (j, i, k) with C_i A^k B_j ≠ 0 modulo ℓ, sorted by (from, to), enough of them to make the
-        graph strongly connected.
+        Edges (j, i, k) with C_i A^k B_j ≠ 0 modulo ℓ, sorted by (from, to), which make the graph
+        strongly connected.
     """
 
     modulus: int
@@ -48,7 +48,7 @@ class FixedModeWitness(Part):
 
 @dataclass(frozen=True)
 class CutWitness(Part):
-    """Evidence for no: a nonempty proper set of channels that reaches no channel outside it.
+    """Evidence for no: a nonempty proper set of channels without transfer to the others.
 
     Attributes
     ----------
@@ -61,15 +61,15 @@ class CutWitness(Part):
 
 @answer("completeness")
 class Completeness(Answer):
-    """Whether every complementary subsystem lets the spectrum be assigned freely.
+    """Whether the system is complete: no fixed mode, and a strongly connected transfer graph.
 
     Attributes
     ----------
     complete : bool
-        The transfer graph is strongly connected and the fixed spectrum is empty, all subsets of
-        channels included.  With a state, then and only then some F makes the system controllable
-        and observable through any one channel.  Without states every F does, but of several
-        channels none reaches another: the system is not complete.
+        Whether the transfer graph is strongly connected and the fixed spectrum is empty, with all
+        subsets of channels included.  For n ≥ 1 this holds if and only if some F makes the system
+        controllable and observable through every single channel.  For n = 0 every F does, but a
+        system with several channels is not complete, since no channel affects another.
     evidence : FreedomWitness, FixedModeWitness or CutWitness
         The first for yes, one of the others for no.
     """

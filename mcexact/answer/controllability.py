@@ -1,4 +1,4 @@
-"""Answer: what a set of channels controls, and what it does not."""
+"""Answer: the subspace that a set of channels controls, and the uncontrollable modes."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from mcexact.exact.polynomial import Polynomial
 
 @answer("controllability")
 class JointControllability(Answer):
-    """What a set T of channels controls; for observability, the same of the dual.
+    """The controllable subspace of a set T of channels; for observability, of the dual system.
 
     The controllable subspace of (A, B_T) has dimension d; W of n − d rows annihilates it.
 
@@ -43,12 +43,12 @@ class JointControllability(Answer):
 
     @property
     def observable(self) -> bool:
-        """Whether (C_T, A) is observable, where this is about the dual of that system.
+        """Whether (C_T, A) is observable, for an answer about the dual system.
 
         Raises
         ------
         UsageError
-            If it is about no dual.
+            If the answer is not about a dual system.
         """
         if not self.subject or self.subject[-1]["construction"] != "dual":
             raise UsageError("this answer is about controllability: ask .controllable")

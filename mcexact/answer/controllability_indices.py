@@ -8,7 +8,7 @@ from mcexact.exact.matrix import Matrix
 
 @answer("controllability_indices")
 class ControllabilityIndices(Answer):
-    """The ranks r_k of [B_T … A^{k−1}B_T], and the indices that follow from them.
+    """The ranks r_k of [B_T … A^{k−1}B_T], and the resulting indices.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""Evidence that a covering program has no cheaper point: cuts, absence, and a branch tree."""
+"""Evidence for the optimum of a covering program: absence, cuts, and a branch tree."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ Tree = Sequence[Mapping[str, Any]]
 
 @dataclass(frozen=True)
 class Absence(Part):
-    """No fixed mode is left outside the region; for free assignability, the graph is connected.
+    """Evidence that no mode outside the region is fixed and, if claimed, of a connected graph.
 
     Attributes
     ----------
     gains : tuple of Matrix
-        F̄_i of the system that the claim speaks of.
+        F̄_i of the system of the claim.
     modulus : int
         ℓ ≥ 2.
     allowed : tuple of (Polynomial, int)
@@ -77,7 +77,7 @@ class ConnectivityCut(Part):
 
 @dataclass(frozen=True)
 class LinkCut(Part):
-    """One of the edges that carry something of U across the boundary of T must be added.
+    """Evidence that one of the links j → i with i ∉ T and S_j U ≠ 0 must be added.
 
     Attributes
     ----------

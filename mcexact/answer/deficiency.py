@@ -1,4 +1,4 @@
-"""Answer: the largest rank that P_s(λ) lacks, over all subsets s and all λ."""
+"""Answer: the largest rank deficiency of P_s(λ) over all subsets s and all λ."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ class Deficiency(Answer):
     Attributes
     ----------
     deficiency : int
-        ρ ≥ 0; 0 iff no mode is fixed.  Where agents share sub-states: with n_i ≥ ρ for every agent
-        the extended system has no fixed mode, if the neighbor graph is strongly connected and the
-        plant jointly controllable and observable.
+        ρ ≥ 0, which is 0 iff no mode is fixed.  If the neighbor graph is strongly connected and the
+        plant is jointly controllable and observable, the extended system with n_i ≥ ρ for every
+        agent has no fixed mode.
     modulus : int
         ℓ ≥ 2, modulo which the characteristic polynomials of A and A_F + B_0 C_0 are coprime.
     gains : tuple of Matrix
@@ -25,7 +25,7 @@ class Deficiency(Answer):
     B0, C0 : Matrix
         n × ρ and ρ × n.
     polynomial : Polynomial or None
-        p, monic of degree at least 1, at whose roots ρ is reached; None iff ρ = 0.
+        p, monic of degree at least 1, at whose roots the deficiency is ρ; None iff ρ = 0.
     subspace : ShrunkSubspace or None
         Of deficiency ρ for p; None iff ρ = 0.
     """
@@ -40,7 +40,7 @@ class Deficiency(Answer):
 
     @property
     def channels(self) -> tuple[str, ...] | None:
-        """The largest set s of channels at which ρ is reached; None if ρ = 0."""
+        """The largest set s of channels with deficiency ρ; None if ρ = 0."""
         if self.subspace is None:
             return None
         return tuple(name for name in self.about.names if name not in self.subspace.channels_T)

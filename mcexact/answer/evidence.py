@@ -1,4 +1,4 @@
-"""Evidence that several kinds of answers share."""
+"""Evidence of several kinds of answers."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class ZeroTransfer(Part):
 
 @dataclass(frozen=True)
 class RootDisc(Part):
-    """A disc |x − (re + i·im)| ≤ radius, its numbers decimal strings without exponent."""
+    """A disc |x − (re + i·im)| ≤ radius, with decimal strings without exponents."""
 
     brief = ("re", "im", "radius")
 
@@ -63,7 +63,7 @@ class RootDisc(Part):
 
 @dataclass(frozen=True)
 class RateInterval(Part):
-    """An interval [lower, upper] that holds a best rate, its ends decimal strings."""
+    """An interval [lower, upper] that contains a best rate, with decimal strings as ends."""
 
     brief = ("lower", "upper")
 

@@ -18,7 +18,7 @@ from mcexact.exact.rational import as_fraction
 
 @dataclass(frozen=True)
 class ExceptionalFactor(Part):
-    """At every root g of f a row annihilates all blocks.
+    """A factor f, with a row that annihilates all blocks at every root g of f.
 
     Attributes
     ----------
@@ -27,7 +27,7 @@ class ExceptionalFactor(Part):
     row : PolynomialMatrix
         1 × n, reduced modulo f, with row · [B, (M+gA)B, …] = 0 modulo f.
     pivot : int
-        The place of an entry 1.
+        The position of an entry 1.
     """
 
     polynomial: Polynomial
@@ -37,7 +37,7 @@ class ExceptionalFactor(Part):
 
 @answer("exceptional_gains")
 class ExceptionalSet(Answer):
-    """Where the first blocks of [B, (M+gA)B, …] lose rank n.
+    """The values of g for which the first blocks of [B, (M+gA)B, …] lose rank n.
 
     K(g) = [B, (M+gA)B, …, (M+gA)^{blocks−1}B] loses rank n at the roots of a polynomial alone.
 
@@ -50,7 +50,7 @@ class ExceptionalSet(Answer):
     polynomial : Polynomial
         In g, monic and squarefree: the exceptional g, complex ones included, are its roots.
     roots : tuple of RootDisc
-        One for each root of the polynomial, its center real where the root is.
+        One for each root of the polynomial, with a real center if the root is real.
     modulus : int
         ℓ ≥ 2.
     factors : tuple of ExceptionalFactor
@@ -70,9 +70,9 @@ class ExceptionalSet(Answer):
 
     @cached_property
     def real_roots(self) -> tuple[tuple[Fraction, Fraction], ...]:
-        """Disjoint intervals, ascending, with one exceptional real g each.
+        """Ascending disjoint intervals, each with one exceptional real g.
 
-        Their ends are equal where it is a short decimal.
+        The ends are equal if g is a short decimal.
         """
         return real_root_intervals(self.polynomial)
 

@@ -1,4 +1,4 @@
-"""Answer: the fixed spectrum, where it lies, and which rate it leaves within reach."""
+"""Answer: the fixed spectrum, its location, and the best rate that it allows."""
 
 from __future__ import annotations
 
@@ -22,8 +22,9 @@ class FixedFactor(Part):
     multiplicity_in_A : int
         The exponent of p in χ_A.
     multiplicity_at_most : int
-        The exponent of p in χ_{A_F} for the drawn F.  The multiplicity that no constant gains
-        remove, the least such exponent, is at most this; drawn gains attain it but for an accident.
+        The exponent of p in χ_{A_F} for the drawn F.  The multiplicity of p as a fixed factor is
+        the least such exponent over all constant gains, which is at most this, and nearly always
+        equal.
     channels : tuple of str
         s, the largest set of channels whose pencil P_s(λ) = [λI − A, B_{m−s}; C_s, 0] has the
         least rank.
@@ -46,7 +47,7 @@ class FixedFactor(Part):
 
 @dataclass(frozen=True)
 class Completion(Part):
-    """B_0 (n × ρ) and C_0 (ρ × n): d columns and rows bound the deficiency of a factor by d."""
+    """B_0 (n × ρ) and C_0 (ρ × n), whose first d columns and rows bound a deficiency by d."""
 
     B0: Matrix
     C0: Matrix
@@ -54,7 +55,7 @@ class Completion(Part):
 
 @answer("fixed_spectrum")
 class FixedSpectrum(Answer):
-    """The modes that stay under every linear time-invariant decentralized feedback.
+    """The modes that are fixed under all linear time-invariant decentralized feedback.
 
     That is u_i = F_i y_i with constant F_i, or with a dynamic controller of its own at each channel
     (Wang and Davison 1973).  Feedback that varies with time can move some of them; the gallery has
@@ -63,7 +64,7 @@ class FixedSpectrum(Answer):
     Attributes
     ----------
     polynomial : Polynomial
-        The product of the distinct factors, 1 if there is none: its roots are the fixed modes.
+        The product of the distinct factors, whose roots are the fixed modes; 1 if there are none.
     factors : tuple of FixedFactor
         Sorted by degree, then by coefficients.
     stabilizable : bool
@@ -98,5 +99,5 @@ class FixedSpectrum(Answer):
         return not self.factors
 
     def outside(self, region: StabilityRegion) -> tuple[FixedFactor, ...]:
-        """The factors with a root outside a region: a design for this rate has to free them."""
+        """Return the factors with a root outside a region, which prevent a design for it."""
         return tuple(f for f in self.factors if not region.contains_roots_of(f.polynomial))

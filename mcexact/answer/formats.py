@@ -1,4 +1,4 @@
-"""Values in words: numbers, polynomials and names, cut between terms and never inside a number."""
+"""Numbers, polynomials and names as text, shortened between terms and never inside a number."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from mcexact.exact.rational import rational_text
 
 
 def number(x: Fraction, limit: int = 24) -> str:
-    """A rational number: exact where that is short, else about how much it is.
+    """Format a rational number: exactly if that is short, otherwise rounded.
 
     Examples
     --------
@@ -24,7 +24,7 @@ def number(x: Fraction, limit: int = 24) -> str:
 
 
 def decimal_number(text: str, limit: int = 24) -> str:
-    """A decimal string, the same way.
+    """Format a decimal string: exactly if that is short, otherwise rounded.
 
     Examples
     --------
@@ -35,7 +35,7 @@ def decimal_number(text: str, limit: int = 24) -> str:
 
 
 def rounded(x: Fraction) -> str:
-    """Six significant digits of a rational number of any size.
+    """Format a rational number of any size with six significant digits.
 
     Examples
     --------
@@ -47,7 +47,7 @@ def rounded(x: Fraction) -> str:
 
 
 def polynomial(p: Polynomial, limit: int = 60) -> str:
-    """A polynomial: whole where that is short, else its first and last terms and its degree.
+    """Format a polynomial: completely if that is short, otherwise its first and last terms.
 
     Examples
     --------
@@ -61,7 +61,7 @@ def polynomial(p: Polynomial, limit: int = 60) -> str:
         return exact
     terms = _terms(p)
     tail = f" (degree {p.degree})"
-    # The term of the least degree is kept where it is short; the leading one always is.
+    # The term of least degree is kept if it is short; the leading term always is.
     last = f" {terms[-1]}" if len(terms) > 1 and len(terms[-1]) <= limit // 3 else ""
     shown = terms[0]
     for term in terms[1:-1]:
@@ -72,7 +72,7 @@ def polynomial(p: Polynomial, limit: int = 60) -> str:
 
 
 def _terms(p: Polynomial) -> list[str]:
-    """The terms, highest power first, each but the first with its sign before it."""
+    """The terms, highest power first, each except the first with its sign."""
 
     def coefficient(c: Fraction) -> str:
         text = number(c)
@@ -82,7 +82,7 @@ def _terms(p: Polynomial) -> list[str]:
 
 
 def modes(p: Polynomial, limit: int = 30) -> str:
-    """The modes that are the roots of a polynomial: a rational one by its value.
+    """Name the roots of a polynomial as modes; a rational mode by its value.
 
     Examples
     --------
@@ -95,12 +95,12 @@ def modes(p: Polynomial, limit: int = 30) -> str:
 
 
 def count(size: int, noun: str) -> str:
-    """A number with its noun, such as 2 nodes."""
+    """Format a number with its noun, such as 2 nodes."""
     return f"{size} {noun}" if size == 1 else f"{size} {noun}s"
 
 
 def listed(words: Sequence[str]) -> str:
-    """Words with commas and an and.
+    """Join words with commas and "and".
 
     Examples
     --------
@@ -111,7 +111,7 @@ def listed(words: Sequence[str]) -> str:
 
 
 def channels(names: Iterable[str], limit: int = 8) -> str:
-    """Channels by name, as a phrase.
+    """Name channels as a phrase.
 
     Examples
     --------
@@ -125,7 +125,7 @@ def channels(names: Iterable[str], limit: int = 8) -> str:
 
 
 def name_set(names: Iterable[str], limit: int = 12) -> str:
-    """Channels in braces; of many the first few and how many more there are.
+    """Name channels in braces; of many channels the first few and the number of the others.
 
     Examples
     --------
@@ -136,7 +136,7 @@ def name_set(names: Iterable[str], limit: int = 12) -> str:
 
 
 def cut(words: Sequence[str], limit: int, more: str = "{} more") -> list[str]:
-    """The first few words, and how many more there are.
+    """Keep the first few words, and add the number of the others.
 
     Examples
     --------
@@ -147,12 +147,12 @@ def cut(words: Sequence[str], limit: int, more: str = "{} more") -> list[str]:
 
 
 def name_text(name: str, limit: int = 40) -> str:
-    """A name that a user gave; the end of a long one is left out."""
+    """Format a name given by the user, shortened at its end."""
     return name if len(name) <= limit else name[: limit - 1] + "…"
 
 
 def edges(edges: Sequence[tuple[str, str]], limit: int = 12) -> str:
-    """Edges of a graph, ``1 -> 2``; of many only how many there are.
+    """Format edges of a graph as ``1 -> 2``; of many edges only the number.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""How the fields of sentences are written: numbers, modes, channels, rates, who shares what."""
+"""The forms of the fields of sentences: numbers, modes, channels, rates, shared dimensions."""
 
 from __future__ import annotations
 
@@ -48,14 +48,14 @@ _SHARE = rf"\d+ states? by agent {_NAME}"
 
 @dataclass(frozen=True)
 class Form:
-    """How a field of a template is written, and what writings look like."""
+    """A form of template fields: a function that writes values, and a pattern of its results."""
 
     write: Callable[[Any], str]
     pattern: str
 
 
 def choice(**words: str) -> Form:
-    """A field that is one of a few phrases, each known by a keyword."""
+    """A form with a few phrases, each of which has a keyword."""
     return Form(words.__getitem__, "(?:" + "|".join(map(re.escape, words.values())) + ")")
 
 
@@ -63,7 +63,7 @@ _TIMES = {1: "once", 2: "twice", 3: "three times"}
 
 
 def _often(multiplicities: tuple[int, int]) -> str:
-    """How often a mode is in A, and how many of these at most stay."""
+    """Write the multiplicity of a mode in A, and how many of its eigenvalues are fixed at most."""
     times, stuck = multiplicities
     often = f"{_TIMES.get(times, f'{times} times')} in A"
     if stuck == times:
@@ -72,13 +72,13 @@ def _often(multiplicities: tuple[int, int]) -> str:
 
 
 def _behavior(slowest: tuple[str, str, str, bool]) -> str:
-    """How the slowest fixed mode behaves: from the time, the enclosure of its rate, its stability.
+    """Write the behavior of the slowest fixed mode, from time domain, rate enclosure and stability.
 
-    The enclosure can reach the boundary where the mode does not.
+    The enclosure may contain the boundary although the mode does not lie on it.
     """
     time, low, high, stable = slowest
     lower, upper = exact_decimal(low), exact_decimal(high)
-    limit = 24 if low == high else 0  # an end of an enclosure is rounded, and said to be
+    limit = 24 if low == high else 0  # an end of an enclosure is rounded, and the text says "about"
     if is_discrete(time):
         if upper < 1 or lower > 1:
             end = high if upper < 1 else low
@@ -91,7 +91,7 @@ def _behavior(slowest: tuple[str, str, str, bool]) -> str:
 
 
 def _roots(centers: Sequence[tuple[Fraction, Fraction]]) -> str:
-    """Centers of root discs in six digits, a conjugate pair as one; of many the first few."""
+    """Write centers of root discs with six digits, conjugate pairs as one; of many the first."""
     told = [
         rounded(re) if not im else f"{rounded(re)} ± {rounded(im)}i"
         for re, im in centers
@@ -101,12 +101,12 @@ def _roots(centers: Sequence[tuple[Fraction, Fraction]]) -> str:
 
 
 def _blocks(blocks: Sequence[tuple[int, Sequence[str]]]) -> str:
-    """The degrees of the parts, those of degree 0 left out; of many the first few."""
+    """Write the degrees of the parts, without those of degree 0; of many the first few."""
     return ", ".join(cut([f"{size} by {name_set(names, 6)}" for size, names in blocks if size], 8))
 
 
 def _components(components: Sequence[Sequence[str]]) -> str:
-    """Sets of channels, those with more than one first; of many the first few."""
+    """Write sets of channels, those with more than one first; of many the first few."""
     ordered = sorted(components, key=len, reverse=True)
     return " ".join(cut([name_set(names, 6) for names in ordered], 8))
 
@@ -116,13 +116,13 @@ def _indices(numbers: Sequence[int]) -> str:
 
 
 def _shared(sizes: Sequence[tuple[str, int]]) -> str:
-    """How many states each agent shares; those that share none are left out."""
+    """Write the number of states that each agent shares, without agents that share none."""
     told = [f"{count(size, 'state')} by agent {name_text(name)}" for name, size in sizes if size]
     return ", ".join(cut(told, 11, "by {} more agents"))
 
 
 def _scope(counted: tuple[str, Fraction | None, bool]) -> str:
-    """Of which modes none is fixed: from the time domain, the bound, and whether all are free."""
+    """Write which modes are not fixed, from the time domain, the region, and assignability."""
     time, bound, free = counted
     which = "no mode"
     if bound is not None:
@@ -132,7 +132,7 @@ def _scope(counted: tuple[str, Fraction | None, bool]) -> str:
 
 
 def _carried(sent: tuple[str, Sequence[int] | None]) -> str:
-    """What a link carries, with the dimensions of the states that are shared."""
+    """Write which signals a link carries, with the dimensions of shared states."""
     share, sizes = sent
     if sizes is None:
         return "outputs"
@@ -141,28 +141,28 @@ def _carried(sent: tuple[str, Sequence[int] | None]) -> str:
 
 
 def _agents(names: Sequence[str]) -> str:
-    """Agents by name, as a phrase."""
+    """Name agents as a phrase."""
     return channels(names).replace("channel", "agent", 1) if names else "no agents"
 
 
 def _dimensions(sizes: Sequence[tuple[str, int]]) -> str:
-    """How many states each agent shares, with those that share none."""
+    """Write the number of states that each agent shares, including agents that share none."""
     return ", ".join(cut([f"{name_text(name)}: {size}" for name, size in sizes], 12))
 
 
 def _region(region: StabilityRegion) -> str:
-    """Where eigenvalues have to lie, such as Re λ < -1."""
+    """Write the region of eigenvalues, such as Re λ < -1."""
     return f"{region.measure} < {number(region.limit)}"
 
 
 def _combinations(rows: Sequence[Sequence[Fraction]]) -> str:
-    """Combinations of set-points that an equilibrium cannot have."""
+    """Write combinations of set-points that no equilibrium has."""
     told = ["(" + ", ".join(number(Fraction(x)) for x in row) + ") r ≠ 0" for row in rows]
     return " or ".join(told)
 
 
 def _arrows(edges: Sequence[tuple[str, str]]) -> str:
-    """Every edge of a graph, in the words that stand for a picture of it."""
+    """Write every edge of a graph, as text that replaces a picture."""
     told = [f"{name_text(start)} → {name_text(end)}" for start, end in edges]
     return ", ".join(cut(told, 40)) or "none"
 
@@ -284,7 +284,7 @@ def _single(p: Polynomial) -> bool:
 
 
 def form(spec: str) -> Form:
-    """The form that a field names: one of `FORMS`, or ``count noun``."""
+    """Return the form that a field names: one of `FORMS`, or ``count noun``."""
     if spec.startswith("count "):
         noun = spec.removeprefix("count ")
         return Form(lambda size: count(size, noun), rf"(?:1 {noun}|\d+ {noun}s)")

@@ -14,7 +14,7 @@ _ESCAPES = {
 
 
 def escaped(text: str) -> str:
-    r"""Text that LaTeX sets as it is.
+    r"""Escape a text for LaTeX.
 
     Examples
     --------
@@ -25,7 +25,7 @@ def escaped(text: str) -> str:
 
 
 def matrix(M: Matrix) -> str:
-    r"""A matrix of exact entries.
+    r"""Format a matrix of exact entries.
 
     Examples
     --------

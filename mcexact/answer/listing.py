@@ -1,4 +1,4 @@
-"""The list of all sentences, as `SENTENCES.md` holds it."""
+"""The list of all sentences, which is written to `SENTENCES.md`."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _OWN = [
     if info.name != "listing"
     and hasattr(module := importlib.import_module(f"mcexact.answer.{info.name}"), "RULES")
 ]
-# The kinds of answers that bring their words and rules with them.
+# These kinds of answers define their own sentences and rules.
 
 TOPICS: dict[str, tuple[Rulebook, tuple[ModuleType, ...]]] = {
     "analyze": (
@@ -49,19 +49,19 @@ or whose it is. This file is written by `make sentences`.
 
 
 def everything() -> Iterator[Template]:
-    """All templates, in the order of the list."""
+    """Return all templates, in the order of the list."""
     for _, modules in TOPICS.values():
         yield from templates(*modules)
 
 
 def premises_of(template: Template, rulebook: Rulebook) -> tuple[str, ...]:
-    """The answers that the rules see which use a template, by the names of their questions."""
+    """Return the questions whose answers are premises of each template."""
     seen = (rule.premises.values() for rule in rulebook if template in rule.templates)
     return tuple(dict.fromkeys(name for names in seen for name in names))
 
 
 def listing() -> str:
-    """The text of `SENTENCES.md`."""
+    """Return the text of `SENTENCES.md`."""
     parts = [_INTRODUCTION]
     for topic, (rulebook, modules) in TOPICS.items():
         parts.append(f"## {topic}\n")

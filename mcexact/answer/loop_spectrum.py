@@ -1,4 +1,4 @@
-"""The spectrum of one matrix, every eigenvalue enclosed."""
+"""The spectrum of a matrix, with every eigenvalue enclosed."""
 
 from __future__ import annotations
 

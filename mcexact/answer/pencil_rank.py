@@ -18,7 +18,7 @@ class PencilRank(Answer):
     polynomial : Polynomial
         p, monic and irreducible over Q.
     rank : int
-        r; below n: the roots of p are fixed modes, and s says why.
+        r; if r < n, the roots of p are fixed modes because of s.
     modulus : int
         ℓ ≥ 2: elimination over (Z/ℓ)[x]/(p) with unit pivots reaches r.
     kernel : PolynomialMatrix

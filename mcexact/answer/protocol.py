@@ -1,8 +1,8 @@
-"""What an answer is: a claim about a system and the witness that proves it, declared once.
+"""The protocol of answers: a claim about a system with a witness that proves it, declared once.
 
 A kind of answer is a frozen dataclass in a file of its own.  Each field is a claim or a piece of
-the witness; whatever else an answer has is a property of these.  From the fields follow the
-certificate, how it is read back, the JSON view, and the ways in which an answer shows itself.
+the witness, and everything else is a property of these.  The certificate, reading it back, the JSON
+view and all forms of display are derived from the fields.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import canonical_document
 
 KINDS: dict[str, type[Answer]] = {}
-"""The kinds of answers whose files were imported, by name."""
+"""The kinds of answers whose files have been imported, by name."""
 
 AnyAnswer = TypeVar("AnyAnswer", bound="Answer")
 AnyFunction = TypeVar("AnyFunction", bound=Callable[..., Any])
@@ -32,9 +32,9 @@ def claim(label: str = "", *, key: str = "") -> Any:
     Parameters
     ----------
     label : str
-        What it is, for a table; by default the key in words.
+        Its label in tables; by default the key in words.
     key : str
-        Its key in the certificate, where that is not the name of the field.
+        Its key in the certificate, if that is not the name of the field.
     """
     return dataclasses.field(metadata={"role": "claim", "label": label, "key": key})
 
@@ -51,7 +51,7 @@ def witness(*, whole: bool = False) -> Any:
 
 
 def shown(label: str = "") -> Callable[[AnyFunction], AnyFunction]:
-    """Mark the function of a property that is shown beside the claims."""
+    """Mark a property that is displayed after the claims."""
 
     def marked(get: AnyFunction) -> AnyFunction:
         get.__dict__["label"] = label
@@ -64,25 +64,25 @@ def shown(label: str = "") -> Callable[[AnyFunction], AnyFunction]:
 class Part:
     """A piece of a claim or of a witness: a frozen dataclass whose keys are its fields.
 
-    A key that is no name in Python is the metadata ``key`` of its field.
+    A key that is not a Python name is given by the metadata ``key`` of its field.
     """
 
     brief: ClassVar[tuple[str, ...]] = ()
-    """The fields by which it is told in a line; the first one by default."""
+    """The fields that represent it on one line; by default the first."""
 
     def document(self) -> dict[str, Any]:
-        """The object of ``FORMAT.md``, its values still exact objects."""
+        """Return the object of ``FORMAT.md``, with exact objects as values."""
         return {key_of(each): getattr(self, each.name) for each in dataclasses.fields(self)}
 
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Answer:
-    """A decision about a system, with its proof; equal ones have equal certificates.
+    """A decision about a system, with its proof; two answers are equal if their certificates are.
 
     Attributes
     ----------
     about : MultiChannelSystem
-        What it is about: a plant, or a system made from one.
+        The plant or the derived system that the answer is about.
     """
 
     kind: ClassVar[str] = ""
@@ -96,15 +96,15 @@ class Answer:
 
     @property
     def subject(self) -> tuple[Document, ...]:
-        """The constructions that lead from the plant to what the answer is about, in order."""
+        """The constructions that lead from the plant to the system of the answer, in order."""
         return self.about.subject
 
     def claim(self) -> dict[str, Any]:
-        """The statement, as the keys of the kind's ``claim``."""
+        """Return the statement, with the keys of the kind's ``claim``."""
         return {key_of(each): getattr(self, each.name) for each in fields_of(type(self), "claim")}
 
     def witness(self) -> dict[str, Any]:
-        """The evidence, as the keys of the kind's ``witness``."""
+        """Return the evidence, with the keys of the kind's ``witness``."""
         found: dict[str, Any] = {}
         for each in fields_of(type(self), "witness"):
             value = getattr(self, each.name)
@@ -112,11 +112,11 @@ class Answer:
         return found
 
     def document(self) -> dict[str, Any]:
-        """Claim and witness, as they stand in the certificate of another answer."""
+        """Return claim and witness, as a part of the certificate of another answer."""
         return {"claim": self.claim(), "witness": self.witness()}
 
     def entries(self) -> Iterator[tuple[str, str, Any]]:
-        """Key, label and value of everything that is shown: the claims, and what follows."""
+        """Yield key, label and value of the claims and of the marked properties."""
         for each in fields_of(type(self), "claim"):
             key = key_of(each)
             yield key, each.metadata["label"] or in_words(key), getattr(self, each.name)
@@ -124,7 +124,7 @@ class Answer:
             yield name, label or in_words(name), getattr(self, name)
 
     def view(self) -> dict[str, Any]:
-        """What is shown, as plain data for programs."""
+        """Return everything displayed, as plain data."""
         return {key: showing.plain_view(value) for key, _, value in self.entries()}
 
     def _text(self) -> str:
@@ -154,12 +154,12 @@ class Answer:
 
 @dataclass_transform(frozen_default=True, field_specifiers=(claim, witness))
 def answer(kind: str) -> Callable[[type[AnyAnswer]], type[AnyAnswer]]:
-    """Make a class an answer of a kind: a frozen dataclass of claims and witnesses.
+    """Make a class a kind of answer: a frozen dataclass of claims and witnesses.
 
     Parameters
     ----------
     kind : str
-        Its name in certificates, which is that of the file and of the checker's rule.
+        Its name in certificates, which its file and the checker's rule also have.
     """
 
     def made(cls: type[AnyAnswer]) -> type[AnyAnswer]:
@@ -171,18 +171,18 @@ def answer(kind: str) -> Callable[[type[AnyAnswer]], type[AnyAnswer]]:
 
 
 def kind_named(name: str) -> type[Answer]:
-    """The class of a kind of answer, from the file of that name."""
+    """Return the class of a kind of answer, from the file of that name."""
     importlib.import_module(f"{__package__}.{name}")
     return KINDS[name]
 
 
 def fields_of(kind: type[Answer], role: str) -> list[dataclasses.Field[Any]]:
-    """The claims of a kind, or the fields of its witness."""
+    """Return the claims of a kind, or the fields of its witness."""
     return [each for each in dataclasses.fields(kind) if each.metadata.get("role") == role]
 
 
 def shown_of(kind: type[Answer]) -> dict[str, str]:
-    """The properties that are shown beside the claims, with their labels."""
+    """Return the marked properties with their labels."""
     found = {}
     for name, each in vars(kind).items():
         get = each.func if isinstance(each, cached_property) else getattr(each, "fget", None)
@@ -192,10 +192,10 @@ def shown_of(kind: type[Answer]) -> dict[str, str]:
 
 
 def key_of(each: dataclasses.Field[Any]) -> str:
-    """The key of a field in the certificate."""
+    """Return the key of a field in the certificate."""
     return each.metadata.get("key") or each.name
 
 
 def in_words(key: str) -> str:
-    """A key as a label."""
+    """Return a key in words, as a label."""
     return key.replace("_", " ")

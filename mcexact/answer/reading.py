@@ -1,4 +1,4 @@
-"""Answers read back from certificates: the inverse of `codec.encode`, by the fields' types."""
+"""Reading answers from certificates, according to the types of their fields."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ from mcexact.model.system import MultiChannelSystem
 
 
 def load_certificate(path: str | os.PathLike[str]) -> Answer:
-    """Read an answer from the file of its certificate, after the independent checker accepted it.
+    """Read an answer from the file of its certificate, once the checker has accepted it.
 
     Parameters
     ----------
@@ -44,11 +44,11 @@ def load_certificate(path: str | os.PathLike[str]) -> Answer:
     Raises
     ------
     InputError
-        If the file is missing, unreadable or too large, or the checker does not call it VALID.
+        If the file is missing, unreadable or too large, or the certificate is not VALID.
 
     Notes
     -----
-    A matrix without rows is written without its number of columns, and read with none.
+    A matrix without rows is written without its number of columns, and read with 0 columns.
     """
     with InputError.inside(place_of(path)):
         data = read_bytes(path)
@@ -57,7 +57,7 @@ def load_certificate(path: str | os.PathLike[str]) -> Answer:
         raise InputError(f"the checker does not accept it ({verdict.line()})", where=str(path))
     digits = sys.get_int_max_str_digits()
     try:
-        # Exact evidence may have longer numbers than the interpreter reads by default.
+        # A certificate may contain longer numbers than the interpreter reads by default.
         sys.set_int_max_str_digits(0)
         return answer_of(json.loads(data))
     finally:
@@ -65,7 +65,7 @@ def load_certificate(path: str | os.PathLike[str]) -> Answer:
 
 
 def answer_of(document: Mapping[str, Any]) -> Answer:
-    """The answer whose certificate a valid document is."""
+    """Make the answer of a valid certificate's document."""
     about = constructed(_plant(document["system"]), document["subject"])
     return _answer(kind_named(document["kind"]), document, about)
 
@@ -73,7 +73,7 @@ def answer_of(document: Mapping[str, Any]) -> Answer:
 def constructed(
     system: MultiChannelSystem, subject: Iterable[Mapping[str, Any]]
 ) -> MultiChannelSystem:
-    """The system to which constructions lead, each as plain data of a certificate."""
+    """Apply constructions, given as plain data of a certificate, to a plant."""
     for construction in subject:
         system = _CONSTRUCTIONS[construction["construction"]](system, construction)
     return system
@@ -90,7 +90,7 @@ def _closed_loop(system: MultiChannelSystem, given: Mapping[str, Any]) -> MultiC
 
 
 def _roomy(text: str) -> Limits:
-    """Limits that a text which was accepted already does not meet."""
+    """Limits for a text that was accepted already, which it cannot exceed."""
     return Limits(bytes=max(Limits.bytes, len(text)), digits=max(Limits.digits, len(text)))
 
 
@@ -120,7 +120,7 @@ _CONSTRUCTIONS: Mapping[
 
 
 def _answer(kind: type[Answer], document: Mapping[str, Any], about: MultiChannelSystem) -> Answer:
-    """Claim and witness as the fields of a kind of answer."""
+    """Convert claim and witness to the fields of a kind of answer."""
     hints = typing.get_type_hints(kind)
     values = {}
     for role in ("claim", "witness"):
@@ -132,7 +132,7 @@ def _answer(kind: type[Answer], document: Mapping[str, Any], about: MultiChannel
 
 
 def _value(wanted: Any, value: Any, about: MultiChannelSystem) -> Any:
-    """A value of a type, from plain data."""
+    """Convert plain data to a value of a type."""
     arguments = typing.get_args(wanted)
     if isinstance(wanted, types.UnionType):
         [wanted] = [each for each in arguments if _could_be(each, value)]
@@ -152,7 +152,7 @@ def _value(wanted: Any, value: Any, about: MultiChannelSystem) -> Any:
 
 
 def _could_be(wanted: Any, value: Any) -> bool:
-    """Whether plain data are of this one of several types."""
+    """Whether plain data have the form of one of several types."""
     if wanted is types.NoneType or value is None:
         return wanted is types.NoneType and value is None
     if is_dataclass(wanted) and wanted not in _READ and isinstance(value, dict):

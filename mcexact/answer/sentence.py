@@ -1,4 +1,4 @@
-"""Sentences bound to claims: rules that see certificates alone, and what they read of them."""
+"""Sentences bound to claims: rules read certificates alone, and the values read are recorded."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from mcexact.model.system import MultiChannelSystem
 
 FORMAT = "mcexact-manifest/1"
 MANIFEST = "manifest.json"
-"""The file beside the certificates."""
+"""The name of the manifest's file, in the folder of the certificates."""
 LOOP = ("closed_loop_spectrum", "stability", "distributed_observer")
-"""The kinds of which one is about a closed loop; rules call whichever is there first ``loop``."""
+"""The kinds about a closed loop; rules refer to the first one that is available as ``loop``."""
 _ALIASES = {"loop": LOOP, "bounded_loop": LOOP[1:]}
 
 Read = dict[tuple[str, str], Any]
@@ -27,14 +27,14 @@ F = TypeVar("F", bound=Callable[..., Iterator[Sentence]])
 
 @dataclass(frozen=True)
 class Given:
-    """What the user gave and asked for: a sentence may repeat it without a premise.
+    """The user's input, which a sentence may repeat without a premise.
 
     Attributes
     ----------
     system : MultiChannelSystem
-        For its sizes, names, time domain and neighbor graph, never for its matrices.
+        The system, used for its sizes, names, time domain and neighbor graph, not for its matrices.
     asked : mapping
-        What was asked for, and how a proof was found.
+        The user's requests, and how a proof was found.
     """
 
     system: MultiChannelSystem
@@ -53,7 +53,7 @@ class Given:
 
     @property
     def delays(self) -> str:
-        """``"delays"`` where messages take time, of which an answer may know nothing, or "none"."""
+        """``"delays"`` if links have delays, which an answer may ignore, or ``"none"``."""
         graph = self.system.plant.neighbors
         return "delays" if graph is not None and graph.delays else "none"
 
@@ -63,7 +63,7 @@ class Given:
         return [c.name for c in self.system.channels if c.B.is_zero() or c.C.is_zero()]
 
     def senders(self, subset: Sequence[str]) -> list[str]:
-        """N_s∖s by name: from whom some agents of a set receive, and who are not of it."""
+        """The names of N_s∖s: the agents outside a set from which agents of the set receive."""
         graph, inside = self.system.neighbors, set(subset)
         if graph is None:
             return []
@@ -72,11 +72,12 @@ class Given:
 
 
 class Claim:
-    """A part of a certificate as a rule sees it, by attribute, item or iteration.
+    """A part of a certificate as rules read it, by attribute, item or iteration.
 
-    An object or a list of objects is such a part again; anything else is handed out as it is, and
-    remembered with its place.  What was read of one member of a list is forgotten with the next
-    one, so that a sentence about a member rests on that one, and after the last on all of them.
+    An object or a list of objects is again such a part; any other value is returned, and recorded
+    with its place.  When the iteration over a list goes on to the next member, the values read of
+    the previous member are dropped, so that the premises of a sentence about one member contain
+    that member alone.
     """
 
     def __init__(self, value: Any, file: str, pointer: str, read: Read) -> None:
@@ -94,11 +95,11 @@ class Claim:
         return _each(self._read, [self._part(k) for k in range(len(self._value))])
 
     def has(self, key: str) -> bool:
-        """Whether it says something about this at all."""
+        """Whether the part has a key."""
         return key in self._value
 
     def ordered(self, by: str) -> Iterator[Any]:
-        """The members in the order of one of their values, which no sentence rests on."""
+        """Return the members in the order of one of their values, which is no premise."""
         places = sorted(range(len(self._value)), key=lambda k: _keys(self._value[k])[by])
         return _each(self._read, [self._part(k) for k in places])
 
@@ -129,7 +130,7 @@ def _keys(value: Any) -> Mapping[str, Any]:
 
 
 def _each(read: Read, parts: Iterable[Any]) -> Iterator[Any]:
-    """The parts, what is read of each forgotten with the next, and after the last not at all."""
+    """Yield the parts; the values read of a part are dropped at the next one."""
     before, seen = dict(read), dict(read)
     for part in parts:
         read.clear()
@@ -140,7 +141,7 @@ def _each(read: Read, parts: Iterable[Any]) -> Iterator[Any]:
 
 
 class Certified(Claim):
-    """The claims of an answer, by name, and what else a rule may read of its certificate."""
+    """The claims of an answer, by name, with the other data that a rule may read."""
 
     def __init__(self, answer: Answer, file: str, read: Read) -> None:
         self._made = answer
@@ -148,32 +149,32 @@ class Certified(Claim):
 
     @property
     def subject(self) -> Sequence[Mapping[str, Any]]:
-        """The constructions that lead from the plant to what the answer is about."""
+        """The constructions that lead from the plant to the system of the answer."""
         self._read[self._file, "/subject"] = self._made.subject
         return tuple(self._made.subject)
 
     @property
     def proof(self) -> Claim:
-        """What the checker verifies of the witness by itself, such as the cuts of an allocation."""
+        """The part of the witness that the checker verifies independently, such as cuts."""
         return Claim(self._made.witness(), self._file, "/witness", self._read)
 
 
 @dataclass(frozen=True)
 class Rule:
-    """How sentences follow from answers.
+    """A rule by which sentences follow from answers.
 
     Attributes
     ----------
     place : str
-        Where its sentences stand, such as ``"answer"`` or ``"table"``.
+        The place of its sentences, such as ``"answer"`` or ``"table"``.
     templates : tuple of Template
-        Those that it may use.
+        The templates that it may use.
     says : callable
-        Its parameters are questions, and ``given``; it yields sentences.
+        A function that yields sentences; its parameters are questions, and ``given``.
     about : mapping
         The question of a parameter that has another name.
     missing : str
-        A question that was asked and not decided, if that is what the rule tells.
+        For a rule about an undecided question, the name of the question.
     """
 
     place: str
@@ -184,14 +185,14 @@ class Rule:
 
     @cached_property
     def premises(self) -> dict[str, str]:
-        """The questions whose answers it sees, by its parameters."""
+        """The questions whose answers are its parameters."""
         names = inspect.signature(self.says).parameters
         return {name: self.about.get(name, name) for name in names if name != "given"}
 
     def apply(
         self, answers: Mapping[str, Answer], given: Given, missing: Collection[str]
     ) -> Iterator[Sentence]:
-        """What follows, each with its premises."""
+        """Return the sentences that follow, each with its premises."""
         if self.missing and self.missing not in missing:
             return
         read: Read = {}
@@ -208,7 +209,7 @@ class Rule:
 
 
 def _found(name: str, answers: Mapping[str, Answer], read: Read) -> Any:
-    """The answer of this name as a rule sees it, or the numbered ones; None if there is none."""
+    """Return the answer of a name for rules, or the numbered ones; None if there is none."""
     for each in _ALIASES.get(name, (name,)):
         if each in answers:
             return Certified(answers[each], f"{each}.json", read)
@@ -230,7 +231,7 @@ class _Several:
 
 
 class Rulebook(list[Rule]):
-    """Rules, in the order in which their sentences stand."""
+    """Rules, in the order of their sentences."""
 
     def rule(
         self,
@@ -239,7 +240,7 @@ class Rulebook(list[Rule]):
         about: Mapping[str, str] = MappingProxyType({}),
         missing: str = "",
     ) -> Callable[[F], F]:
-        """Make a function that yields sentences a rule."""
+        """Make a rule of a function that yields sentences."""
 
         def made(says: F) -> F:
             self.append(Rule(place, templates, says, about, missing))
@@ -250,7 +251,7 @@ class Rulebook(list[Rule]):
     def sentences(
         self, answers: Mapping[str, Answer], given: Given, missing: Collection[str] = ()
     ) -> Sentences:
-        """All that follows from answers, by the names of their questions."""
+        """Return all sentences that follow from answers, keyed by questions."""
         return Sentences(said for rule in self for said in rule.apply(answers, given, missing))
 
 
@@ -258,7 +259,7 @@ class Sentences(tuple[Sentence, ...]):
     """Sentences, each with its place."""
 
     def at(self, *places: str) -> list[Sentence]:
-        """Those that stand there."""
+        """Return the sentences of a place."""
         return [sentence for sentence in self if sentence.place in places]
 
 
@@ -267,14 +268,14 @@ def manifest(
     certificates: Mapping[str, str],
     subject: Sequence[Mapping[str, Any]] = (),
 ) -> dict[str, Any]:
-    """What the sentences rest on, for the checker.
+    """Make the manifest, from which the checker verifies the sentences.
 
     Parameters
     ----------
     sentences : iterable of Sentence
     certificates : mapping from names of files to texts
     subject : sequence of mapping
-        The constructions that lead from the plant to what the sentences are about.
+        The constructions that lead from the plant to the system of the sentences.
     """
     digests = {name: sha256(text) for name, text in certificates.items()}
     return {

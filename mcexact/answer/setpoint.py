@@ -1,4 +1,4 @@
-"""Answer: whether every output can be brought to any set-point."""
+"""Answer: whether every output can be held at any set-point."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ class SetpointSolvability(Answer):
     Attributes
     ----------
     solvable : bool
-        Whether r = n + Σ q_i: then the plant with an integrator behind every output is jointly
+        Whether r = n + Σ q_i; then the plant with integrators of all outputs is jointly
         controllable if the plant is.
     rank : int
         r.
     invariant_zero : bool or None
-        Where S has not full rank: whether [xI − A, B; C, 0] has it for other x, so that 0
+        If S does not have full rank, whether [xI − A, B; C, 0] has full rank for some x, so that 0
         (discrete time: 1) is an invariant zero.  If not, the outputs are dependent at every
         frequency.
     modulus : int
@@ -31,9 +31,9 @@ class SetpointSolvability(Answer):
         W, (n + Σ q_i − r) × (n + Σ q_i), W S = 0; its columns ``pivots`` form the identity.
     pivots : tuple of int
     point : int or None
-        Where the pencil has full rank modulo ℓ, for an invariant zero.
+        A point where the pencil has full rank modulo ℓ, for an invariant zero.
     normal : PolynomialMatrix or None
-        A nonzero row that annihilates the pencil identically, where there is no such point.
+        A nonzero row that annihilates the pencil identically, if there is no such point.
     """
 
     solvable: bool = claim("every set-point has an equilibrium")
@@ -48,9 +48,9 @@ class SetpointSolvability(Answer):
     @cached_property
     @shown("conditions on set-points")
     def combinations(self) -> Matrix:
-        """Rows w ≠ 0: w · r = 0 for every vector r of set-points that an equilibrium holds.
+        """Rows w ≠ 0 with w · r = 0 for every vector r of set-points that an equilibrium holds.
 
-        One entry for each output; no rows when every set-point can be held.
+        A row has one entry for each output; there are no rows if every set-point can be held.
         """
         outputs = self.about.output_matrix().nrows
         kept = []

@@ -10,24 +10,24 @@ from mcexact.answer.protocol import Answer, answer, claim, shown, witness
 
 @answer("shared_dimensions")
 class SharedDimensions(Answer):
-    """The least that must be shared so that the extended system has no fixed mode, if anything is.
+    """The least dimensions for which the extended system has no fixed mode, or that none suffice.
 
     Attributes
     ----------
     share : str
         ``"outputs+states"`` or ``"states"``.
     bound : Fraction or None
-        The rate or radius that a mode must violate to count; None: every mode counts.
+        A rate or radius: only modes that violate it are considered.  None means all modes.
     free_assignability : bool
-        Whether the extended transfer graph must be strongly connected as well.
+        Whether the extended transfer graph must also be strongly connected.
     costs : tuple of Fraction
         The positive cost of one dimension of each agent.
     upper : tuple of (int or None)
-        Upper bounds of the n_i.
+        Upper limits of the n_i.
     feasible : bool
-        Whether some dimensions within the upper bounds suffice.
+        Whether some dimensions within the upper limits suffice.
     dimensions : tuple of int, or None
-        The optimal n_i; None when nothing suffices.
+        The optimal n_i; None if no dimensions suffice.
     cost : Fraction or None
         Σ c_i n_i.
     absence : Absence or None

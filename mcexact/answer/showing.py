@@ -1,4 +1,4 @@
-"""Answers shown: one line, HTML, LaTeX and plain data; what does not fit is left out whole."""
+"""Display of answers: one line, HTML, LaTeX and plain data; items that do not fit are left out."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ if TYPE_CHECKING:
     from mcexact.answer.protocol import Answer
 
 LINE = 200
-"""Characters in the ``repr`` of an answer, at most."""
+"""The largest number of characters in the ``repr`` of an answer."""
 _CELL = 300
 
 
 def line(answer: Answer) -> str:
-    """The claims in one line; no number and no name is cut.
+    """Return the claims on one line, in which no number and no name is cut.
 
     Notes
     -----
-    Every claim is first given the room of its shortest form; the rest goes to the claims whose
-    whole form is the shortest.
+    Each claim first gets the space of its shortest form; the remaining space goes to the claims
+    with the shortest complete forms.
     """
     values = answer.claim()
     if answer.subject:
@@ -49,7 +49,7 @@ def _call(head: str, texts: dict[str, str]) -> str:
 
 
 def fitted(value: Any, room: int) -> str:
-    """A value in so many characters, or else in the fewest it can have.
+    """Return a value in a number of characters, or in its shortest form if it needs more.
 
     Examples
     --------
@@ -75,7 +75,7 @@ def fitted(value: Any, room: int) -> str:
 
 
 def _sequence(values: Sequence[Any], room: int) -> str:
-    """The first few items, each whole, and how many more there are."""
+    """Return the first few items, each complete, and the number of the others."""
     kept: list[str] = []
     used = len("(,)")
     for place, value in enumerate(values):
@@ -93,7 +93,7 @@ def _sequence(values: Sequence[Any], room: int) -> str:
 
 
 def plain_view(value: Any) -> Any:
-    """Plain data for programs: polynomials and matrices as lists of exact strings."""
+    """Return plain data, with polynomials and matrices as lists of exact strings."""
     if isinstance(value, Polynomial):
         return [rational_text(c) for c in value.coefficients]
     if isinstance(value, Matrix):
@@ -106,7 +106,7 @@ def plain_view(value: Any) -> Any:
 
 
 def html(answer: Answer) -> str:
-    """Everything that is shown, as a table."""
+    """Return everything displayed as an HTML table."""
     rows = "".join(
         f"<tr><th>{escape(label)}</th><td>{escape(fitted(value, _CELL))}</td></tr>"
         for _, label, value in answer.entries()
@@ -115,7 +115,7 @@ def html(answer: Answer) -> str:
 
 
 def latex(answer: Answer) -> str:
-    """Everything that is shown, as an array."""
+    """Return everything displayed as a LaTeX array."""
     rows = r" \\ ".join(
         rf"\text{{{escaped(label)}}} & {_latex(value)}" for _, label, value in answer.entries()
     )

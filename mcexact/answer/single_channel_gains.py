@@ -1,4 +1,4 @@
-"""Answer: gains with which single channels control or observe a system, or why none do."""
+"""Answer: gains with which single channels control or observe a system, or an obstruction."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ from mcexact.exact.polynomial import Polynomial
 
 @dataclass(frozen=True)
 class GainsWitness(Part):
-    """Evidence for yes: the gains, and rows that no index can be smaller for.
+    """Evidence for yes: the gains, and rows that exclude smaller indices.
 
     Attributes
     ----------
     gains : tuple of Matrix
-        F_i, p_i × q_i, one list for all channels named.
+        F_i, p_i × q_i, the same for all channels named.
     modulus : int
         ℓ ≥ 2, modulo which the ranks reach n.
     annihilators : tuple of tuple of Matrix
-        For each channel and each thing asked, a 1 × n row that annihilates the blocks before the
-        last one that is needed.
+        For each channel and each property, a 1 × n row that annihilates all blocks of the index
+        except the last.
     generator : Matrix or None
         b, n × 1, with b, A_F b, …, A_F^{n−1} b independent modulo ℓ: A_F is cyclic.
     """
@@ -57,7 +57,7 @@ class StuckWitness(Part):
 
 @dataclass(frozen=True)
 class UnreachedWitness(Part):
-    """Evidence for no: channels that nothing leads to from the channel in question.
+    """Evidence for no: channels that are not reachable from the channel.
 
     Attributes
     ----------
@@ -76,7 +76,7 @@ class UnreachedWitness(Part):
 
 @answer("single_channel_gains")
 class SingleChannelGains(Answer):
-    """Whether one list of decentralized gains lets every channel named control and observe.
+    """Whether some decentralized gains make each named channel control and observe the system.
 
     Attributes
     ----------
@@ -86,10 +86,10 @@ class SingleChannelGains(Answer):
         ``"controllable"``, ``"observable"`` or ``"both"``.
     exists : bool
     cyclic : bool
-        Whether the certificate says that A_F is cyclic, too; False says nothing.
+        Whether the certificate also proves that A_F is cyclic; False claims nothing.
     indices : tuple of tuple of int, or None
         For each channel the controllability index of (A_F, B_q) and the observability index of
-        (C_q, A_F), whichever was asked for.
+        (C_q, A_F), as far as asked.
     evidence : GainsWitness, StuckWitness or UnreachedWitness
         The first for yes, one of the others for no.
     """

@@ -1,4 +1,4 @@
-"""Answer: whether all eigenvalues of a matrix lie within a rate or a radius."""
+"""Answer: whether all eigenvalues of a matrix meet a rate or a radius."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from mcexact.exact.matrix import Matrix
 
 @dataclass(frozen=True)
 class PolynomialMethod(Part):
-    """The checker recomputes the characteristic polynomial over Q and places its roots exactly."""
+    """The checker recomputes the characteristic polynomial over Q and locates its roots exactly."""
 
     method: Literal["polynomial"] = "polynomial"
 
@@ -22,7 +22,7 @@ class PolynomialMethod(Part):
 class LyapunovBlock(Part):
     """A Lyapunov matrix of one diagonal block D, k × k, proposed in floating point.
 
-    Its numbers depend on the processor and on the versions of numpy and scipy; they are verified
+    The numbers depend on the processor and on the versions of numpy and scipy, and are verified
     exactly.
 
     Attributes
@@ -80,12 +80,12 @@ class InstabilityMethod(Part):
 
 @answer("stability")
 class StabilityVerdict(Answer):
-    """Whether every eigenvalue of the A of a system, which is mostly a loop, meets a bound.
+    """Whether every eigenvalue of the matrix A of a system, usually a loop, lies in a region.
 
     Attributes
     ----------
     bound : Fraction or None
-        A rate ≥ 0 (continuous time) or a radius in (0, 1] (discrete time); None: 0 or 1.
+        A rate ≥ 0 (continuous time) or a radius in (0, 1] (discrete time); None means 0 or 1.
     stable : bool
     evidence : PolynomialMethod, LyapunovMethod or InstabilityMethod
     """
@@ -96,17 +96,17 @@ class StabilityVerdict(Answer):
 
     @property
     def region(self) -> StabilityRegion:
-        """Where the eigenvalues were asked to lie."""
+        """The region in which the eigenvalues should lie."""
         return StabilityRegion(self.about.time, self.bound)
 
     @property
     def blocks(self) -> tuple[int, ...]:
-        """The sizes of the diagonal blocks that were decided one by one, or of the whole loop."""
+        """The sizes of the separately decided diagonal blocks, or the size of the loop."""
         if isinstance(self.evidence, LyapunovMethod):
             return tuple(block.size for block in self.evidence.blocks)
         return (self.about.n,)
 
     @property
     def method(self) -> str:
-        """``"polynomial"``, ``"lyapunov"`` or ``"instability"``: what decided."""
+        """The method that decided: ``"polynomial"``, ``"lyapunov"`` or ``"instability"``."""
         return self.evidence.method

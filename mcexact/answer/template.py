@@ -1,4 +1,4 @@
-"""Sentences about a user's system: the words, with fields for what was decided."""
+"""Sentences about a user's system, and their templates with fields for values."""
 
 from __future__ import annotations
 
@@ -12,21 +12,21 @@ from typing import Any
 from mcexact.answer.forms import form
 
 Premise = tuple[str, str, Any]
-"""File of a certificate, JSON pointer into it, and what stands there."""
+"""The file of a certificate, a JSON pointer into it, and the value there."""
 
 
 class Sentence(str):
-    """A text about a system, the template that made it, and what it rests on.
+    """A text about a system, with its template and its premises.
 
     Attributes
     ----------
     template : Template
     cells : tuple of str
-        The text as a row of a table: after its label, or in the columns of the template.
+        The text as a row of a table, after its label or in the columns of the template.
     place : str
-        Where it stands, once a rule has said it.
+        The place given by a rule.
     because : tuple of Premise
-        The claims that the rule has read.
+        The premises: the claims that the rule has read.
     """
 
     template: Template
@@ -40,14 +40,14 @@ class Sentence(str):
         return made
 
     def bound(self, place: str, because: tuple[Premise, ...]) -> Sentence:
-        """The sentence as a rule has said it."""
+        """Return the sentence with its place and premises."""
         made = Sentence(str(self), self.template, self.cells)
         made.place, made.because = place, because
         return made
 
     @property
     def line(self) -> str:
-        """The text, after its label if it has one."""
+        """The text, after the label if there is one."""
         return f"{self.template.label}: {self}" if self.template.label else str(self)
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -56,20 +56,20 @@ class Sentence(str):
 
 @dataclass(frozen=True)
 class Template:
-    """A sentence with fields.
+    """A template of sentences, with fields.
 
     Parameters
     ----------
     key : str
-        Its name in the list of all sentences.
+        Its key in the list of all sentences.
     text : str
-        Fields are ``{name:form}``, a form one of `FORMS`, or ``{name:count noun}``.  In a row of a
-        table ``" | "`` separates the columns.
+        Text with fields ``{name:form}``, where the form is one of `FORMS`, or ``{name:count
+        noun}``.  In a row of a table ``" | "`` separates the columns.
     theorem : str
-        Why the claims that a rule reads imply it, where it does not just repeat one of them:
-        machine-checked theorems of ``proofs/``, or whose theorem it is.
+        The theorem by which the premises imply the sentence, if it does not only repeat a claim:
+        machine-checked theorems of ``proofs/``, or the authors of a published theorem.
     label : str
-        What stands before it in a table of names and values.
+        Its label in a table of names and values.
     """
 
     key: str
@@ -78,18 +78,18 @@ class Template:
     label: str = ""
 
     def __call__(self, **values: Any) -> Sentence:
-        """The sentence with these values."""
+        """Make the sentence with some values."""
         cells = tuple(_Writer().vformat(part, (), values) for part in self.text.split(" | "))
         labeled = (self.label, *cells) if self.label else cells
         return Sentence(" | ".join(cells), self, labeled)
 
     def row(self, **values: Any) -> tuple[str, ...]:
-        """The sentence as a row of a table."""
+        """Make the sentence with some values as a row of a table."""
         return self(**values).cells
 
     @cached_property
     def pattern(self) -> re.Pattern[str]:
-        """What the sentence looks like, whatever the values; after its label, if it has one."""
+        """The pattern of the sentence for all values, after the label if there is one."""
         parts = [re.escape(self.label + " | ") if self.label else ""]
         for literal, name, spec, _ in string.Formatter().parse(self.text):
             parts.append(re.escape(literal))
@@ -104,7 +104,7 @@ class _Writer(string.Formatter):
 
 
 def templates(*modules: Any) -> Iterator[Template]:
-    """The templates that modules define, in their order, those in tuples and mappings too."""
+    """Return the templates that modules define, in order, also those in tuples and mappings."""
     for module in modules:
         for name, value in vars(module).items():
             if not name.startswith("__"):

@@ -1,4 +1,4 @@
-"""Answer: which channels reach which, and the strong components of that graph."""
+"""Answer: the edges and the strong components of the transfer graph."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from mcexact.answer.protocol import Answer, answer, claim, shown, witness
 
 @answer("transfer_graph")
 class TransferGraph(Answer):
-    """All edges j → i of the transfer graph, C_i (xI − A)⁻¹ B_j ≠ 0, and no others.
+    """The transfer graph: exactly the edges j → i with C_i (xI − A)⁻¹ B_j ≠ 0.
 
     Attributes
     ----------
     arcs : tuple of (str, str)
-        (from, to) by name, sorted by their places in the order of the channels.
+        The edges (from, to) by name, in the order of the channels.
     components : tuple of tuple of str
         The strong components, each in the order of the channels, sorted by first member.
     strongly_connected : bool
@@ -25,7 +25,7 @@ class TransferGraph(Answer):
     powers : tuple of int
         k < n, one for each edge.
     zeros : tuple of ZeroTransfer
-        They cover each pair that is not an edge.
+        Zero transfers for all pairs that are not edges.
     """
 
     arcs: tuple[tuple[str, str], ...] = claim()
@@ -38,12 +38,12 @@ class TransferGraph(Answer):
     @cached_property
     @shown("channels that take part in no feedback")
     def inactive(self) -> tuple[str, ...]:
-        """Channels with B_i = 0 or C_i = 0: they cannot take part in any feedback."""
+        """The channels with B_i = 0 or C_i = 0, which cannot take part in any feedback."""
         return tuple(c.name for c in self.about.channels if c.B.is_zero() or c.C.is_zero())
 
     @cached_property
     def successors(self) -> dict[str, tuple[str, ...]]:
-        """For each channel that an edge leaves, the channels it reaches directly."""
+        """For each channel that an edge leaves, the channels at the ends of its edges."""
         found: dict[str, list[str]] = {}
         for j, i in self.arcs:
             found.setdefault(j, []).append(i)

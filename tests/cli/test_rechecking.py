@@ -58,7 +58,7 @@ def test_a_certificate_that_is_not_accepted_is_an_internal_error(
         monkeypatch.setattr(module, "check_document", lambda *_: refused)
     status, out, err = call(*command, "--certificates", str(tmp_path / "evidence"))
     assert (status, out) == (70, "")
-    assert "not to be believed" in err
+    assert "cannot be trusted" in err
     assert not (tmp_path / "evidence").exists()
 
 
@@ -74,7 +74,7 @@ def test_a_sentence_that_the_checker_does_not_know_is_an_internal_error(
 ) -> None:
     monkeypatch.delitem(RULES, key)
     status, _, err = call(*command, "--certificates", str(tmp_path / "evidence"))
-    assert (status, "not to be believed" in err) == (70, True)
+    assert (status, "cannot be trusted" in err) == (70, True)
     assert not (tmp_path / "evidence").exists()
 
 

@@ -1,4 +1,4 @@
-"""When each sentence about a system is said: rules that read certified claims and nothing else."""
+"""Rules that say when a sentence holds; they read certified claims and nothing else."""
 
 import sys
 from collections.abc import Mapping
@@ -15,7 +15,7 @@ REFUSALS = refusals.RULES
 
 
 def with_own(rules: Rulebook, answers: Mapping[str, Any]) -> Rulebook:
-    """These rules, and the ``RULES`` that the kinds of the answers bring with them."""
+    """Join these rules and the ``RULES`` of kinds of answers."""
     homes = dict.fromkeys(type(answer).__module__ for answer in answers.values())
     own = (getattr(sys.modules[home], "RULES", ()) for home in homes)
     return Rulebook([*rules, *(rule for brought in own for rule in brought)])

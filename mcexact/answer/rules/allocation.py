@@ -1,4 +1,4 @@
-"""When `mcexact allocate` says what of the dimensions that the agents share."""
+"""The rules of the sentences of `mcexact allocate` about dimensions."""
 
 from __future__ import annotations
 
@@ -33,9 +33,9 @@ def _rows(
     joint_observability: Claim,
     given: Given,
 ) -> Said:
-    """What is least, beside the bound of the theorem where its hypotheses hold.
+    """The least dimensions, with the bound of the theorem if its hypotheses hold.
 
-    Theorem 2 leaves no mode fixed; that the whole spectrum can be assigned is more.
+    Theorem 2 says that no mode is fixed, but not that the whole spectrum is assignable.
     """
     found, reach = minimal_shared_dimensions, (joint_controllability, joint_observability)
     if found.dimensions is None:
@@ -64,9 +64,9 @@ def _proof(minimal_shared_dimensions: Claim, given: Given) -> Said:
 
 @rule("why", say.REASON, say.REASON_CUT_OFF, *say.REASON_UNREACHED.values())
 def _reasons(minimal_shared_dimensions: Claim, given: Given) -> Said:
-    """The cuts that the dimensions meet with equality; of those that none meet, all.
+    """The active cuts, which the dimensions meet with equality; if no dimensions suffice, all cuts.
 
-    Of no agents and of all of them it is not a matter of sharing.
+    The cuts of the empty set and of all agents do not depend on sharing.
     """
     found = minimal_shared_dimensions
     sizes = None

@@ -1,4 +1,4 @@
-"""When `mcexact analyze` says what: the answer in sentences, and the table of all answers."""
+"""The rules of the sentences of `mcexact analyze`: the answer, and the table of all answers."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Said = Iterator[Sentence]
 
 
 def control(spectrum: Claim, given: Given) -> str:
-    """Which control moves none of the fixed modes that a certificate claims."""
+    """The kind of control that moves none of the fixed modes of a certificate."""
     made = [each["construction"] for each in spectrum.subject]
     if made[-1:] != ["augmented_outputs"]:
         return "own"
@@ -25,7 +25,7 @@ def control(spectrum: Claim, given: Given) -> str:
 
 
 def slowest(spectrum: Claim, given: Given) -> tuple[str, str, str, bool]:
-    """What is said of the slowest fixed mode is made of this."""
+    """The data for sentences about the slowest fixed mode."""
     rate = spectrum.best_rate
     return given.time, rate.lower, rate.upper, spectrum.stabilizable
 
@@ -35,7 +35,7 @@ def empty(spectrum: Claim) -> bool:
     return bool(spectrum.polynomial.degree == 0)
 
 
-# The answer in plain words.
+# The answer in words.
 
 
 @rule("title", say.HEADING)
@@ -74,7 +74,7 @@ def _stabilized(fixed_spectrum: Claim, given: Given) -> Said:
 
 
 def fewest(links: Claim) -> bool:
-    """Whether as few links as possible were asked for that leave no mode fixed by outputs."""
+    """Whether an answer is about the fewest links that leave no mode fixed, for outputs alone."""
     return (
         links.share == "outputs"
         and links.bound is None
@@ -95,7 +95,7 @@ def _links_remove(minimal_communication: Claim, fixed_spectrum: Claim, given: Gi
 
 
 def usual(least: Claim, share: str) -> bool:
-    """Whether as few states as possible were asked for that leave no mode fixed."""
+    """Whether an answer is about the fewest states with which no mode is fixed."""
     return (
         least.share == share
         and least.bound is None
@@ -123,9 +123,10 @@ def _sharing_removes(
 
 @rule("answer.mode", say.BLAME, say.UNCONTROLLED, say.UNOBSERVED)
 def _blame(fixed_spectrum: Claim, given: Given) -> Said:
-    """Who does not control a mode, and who does not observe it.
+    """The channels that do not control a mode, and those that do not observe it.
 
-    rank P_s < n leaves [λI − A, B_T] and [λI − A; C_s] with less than n too, T the rest of s.
+    rank P_s < n implies that [λI − A, B_T] and [λI − A; C_s] have rank below n, T the complement of
+    s.
     """
     for factor in fixed_spectrum.factors.ordered("stable"):
         inside = factor.channels
@@ -201,7 +202,7 @@ def _complete(completeness: Claim) -> Said:
 
 
 def index_rules(question: str, one: Template, many: Template, none: Template) -> None:
-    """What is said of controllability or observability indices, or that they are left out."""
+    """Make the rules of controllability or observability indices, or of their omission."""
 
     @rule("table", one, many, about={"found": question})
     def _indices(found: Claim) -> Said:
@@ -231,7 +232,7 @@ def _spectrum_moved(fixed_spectrum: Claim, assignability: Claim, given: Given) -
 
     n − deg φ, φ the greatest common divisor of all det(xI − A_F): a factor p of the fixed
     polynomial is in φ at least once and at most as often as in the loop of the certificate, and
-    what belongs to no strong component of the transfer graph is in φ.
+    the eigenvalues that belong to no strong component of the transfer graph are roots of φ.
     """
     if empty(fixed_spectrum):
         return
@@ -266,7 +267,7 @@ def _setpoints(setpoint: Claim, joint_controllability: Claim, joint_observabilit
 def _setpoints_beside(
     setpoint: Claim, joint_controllability: Claim, joint_observability: Claim, fixed_spectrum: Claim
 ) -> Said:
-    """What is out of reach is fixed; whether it is stable stands with the fixed modes."""
+    """Modes that are not controllable or not observable are fixed, perhaps stable."""
     reach = (joint_controllability, joint_observability)
     if not setpoint.solvable or all(found.controllable for found in reach):
         return
@@ -288,7 +289,7 @@ def _every_channel(every_channel: Claim, given: Given) -> Said:
 
 
 def gains(want: str, found: Claim, names: Sequence[str]) -> Sentence:
-    """The indices that gains reach, or why there are none."""
+    """The indices for gains that exist, or the obstruction."""
     told = say.GAINS[want]
     if found.exists:
         return told["reached"](reached=found.indices)
@@ -347,7 +348,7 @@ def theorem_2(graph: Claim, *reach: Claim) -> bool:
 
 
 def sharing_rules(share: str, stem: str) -> None:
-    """What is said of the bound and of the least for one way of sharing."""
+    """Make the rules of the bound and of the least dimensions for one way of sharing."""
     some, none = say.ENOUGH[share]
 
     @rule("table", some, none, about={"bound": f"shared_dimension_bound_{stem}"})
@@ -364,7 +365,7 @@ def sharing_rules(share: str, stem: str) -> None:
 
 
 def least_rules(share: str, stem: str) -> None:
-    """What is said of the least that has to be shared in one way."""
+    """Make the rules of the least dimensions for one way of sharing."""
     some, none, impossible, limit = say.LEAST[share]
     question = f"minimal_shared_dimensions_{stem}"
 
@@ -390,7 +391,7 @@ for made in (sharing_rules, least_rules):
 
 
 def delayed_rules(network: str) -> None:
-    """What is said of the fixed modes of a network with delays."""
+    """Make the rules of the fixed modes of a network with delays."""
     nothing, something = say.DELAYED[network]
 
     @rule("table", nothing, something, about={"spectrum": f"{network}_fixed_spectrum"})

@@ -1,4 +1,4 @@
-"""When `mcexact analyze` says what of single modes, channels and sets of them, and in pictures."""
+"""The rules of the sentences of `mcexact analyze` about single modes, channels and pictures."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def _fixed_mode(fixed_spectrum: Claim) -> Said:
 
 
 def _centers(factor: Claim) -> list[tuple[Fraction, Fraction]]:
-    """The centers of the root discs; a rational root itself."""
+    """The centers of the root discs, or the value of a rational root."""
     if factor.polynomial.degree == 1:
         return [(-factor.polynomial.coefficients[0], Fraction(0))]
     return [(exact_decimal(disc.re), exact_decimal(disc.im)) for disc in factor.roots]
@@ -79,7 +79,7 @@ def _normal_rank(complementary_subsystem: Claim) -> Said:
 
 @rule("subsystem", say.ZEROS, say.NO_ZEROS)
 def _zeros(complementary_subsystem: Claim) -> Said:
-    """The largest invariant polynomial has all zeros: each of the others divides it."""
+    """The largest invariant polynomial has all invariant zeros: each of the others divides it."""
     polynomials = complementary_subsystem.invariant_polynomials
     if polynomials:
         yield say.ZEROS(zeros=[p for p, _ in polynomials[-1].factor()])
@@ -97,7 +97,7 @@ def _remnant(complementary_subsystem: Claim) -> Said:
     *(say.SUBSYSTEM_COMPLETE, say.SUBSYSTEM_ZERO, say.SUBSYSTEM_DROPS, say.SUBSYSTEM_BOTH),
 )
 def _subsystem_complete(complementary_subsystem: Claim) -> Said:
-    """The remnant polynomial vanishes where the rank is below n."""
+    """The roots of the remnant polynomial are the points where the rank is below n."""
     found = complementary_subsystem
     drops = [p for p, _ in found.remnant.factor()]
     if found.complete:
@@ -128,7 +128,7 @@ def _observed_alone(channel_observability: Claim) -> Said:
 
 
 def gains_rules(want: str) -> None:
-    """What is said of the gains that make one channel control or observe everything."""
+    """Make the rule of gains with which one channel controls or observes everything."""
 
     @rule("channel", *GAINS[want].values(), about={"found": f"channel_gains_{want}"})
     def _with_gains(found: Claim, given: Given) -> Said:
@@ -169,7 +169,7 @@ def _transfer_edges(transfer_graph: Claim) -> Said:
 
 @rule("graphs", say.PICTURE_OBSTRUCTION, say.PICTURE_HEARD)
 def _obstruction(fixed_spectrum: Claim, given: Given) -> Said:
-    """The picture marks the set of the first mode, and those outside it from whom it receives."""
+    """The picture marks the set of the first mode, and the outside agents that send to it."""
     for factor in fixed_spectrum.factors:
         subset = factor.channels
         if subset:

@@ -1,1 +1,1 @@
-"""The words of every sentence that the commands print about a system, and its theorem."""
+"""The templates of all sentences that the commands print about a system, with their theorems."""

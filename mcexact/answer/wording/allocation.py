@@ -1,4 +1,4 @@
-"""The words of `mcexact allocate`."""
+"""The sentences of `mcexact allocate`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The words of `mcexact analyze`: the answer in sentences, and the table of all answers."""
+"""The sentences of `mcexact analyze`: the answer, and the table of all answers."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ from mcexact.answer.template import Template
 
 _WANG_DAVISON = "S. H. Wang and E. J. Davison 1973"
 
-# What the user gave.
+# The user's input.
 
 HEADING = Template(
     "heading", "{name:name}: {n:count state}, {m:count channel} {names:set}, {time:time} time"
 )
 INFORMATION = Template("information", "{information:information}", label="information")
 
-# The answer in plain words.
+# The answer in words.
 
 NOTHING_FIXED = Template(
     "nothing-fixed",
@@ -126,7 +126,7 @@ COMPLETE = Template("complete", "{complete:yes}", label="complete")
 
 
 def _index_templates(name: str) -> tuple[Template, Template, Template]:
-    """The list of indices, with the index where there is one; or why it is left out."""
+    """The sentences on controllability or observability indices, or on their omission."""
     label = f"{name} indices"
     return (
         Template(f"{name}-index", "{indices:indices}; index {index:int}", label=label),
@@ -239,7 +239,7 @@ NEVER_OBSERVED = Template(
 
 
 def _least_templates(key: str, before: str, alone: str) -> tuple[Template, ...]:
-    """What is least, for one way of sharing: some states, none, or that nothing suffices."""
+    """The sentences on the least dimensions for one way of sharing."""
     label = "least to share"
     return (
         Template(f"least-{key}", before + "{sizes:shared}{time:instant}", label=label),
@@ -266,7 +266,7 @@ LEAST = {
 
 
 def _gains(key: str, label: str) -> dict[str, Template]:
-    """Whether there are gains, with the indices that they reach; or why not, by what is asked."""
+    """The sentences on gains for single channels: their indices, or an obstruction."""
     causes = {
         "controllable": "it does not act on {rest:channels}",
         "observable": "{rest:channels} {rest:do} not act on it",

@@ -1,4 +1,4 @@
-"""The words of `mcexact design` and `certify`."""
+"""The sentences of `mcexact design` and `certify`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The words of `mcexact analyze` about single modes, channels and sets of them; of its page."""
+"""The sentences of `mcexact analyze` about single modes, channels, sets of them, and pictures."""
 
 from __future__ import annotations
 
