@@ -68,6 +68,7 @@ from .derived.dual import dual as dual
 from .derived.error_system import error_system as error_system
 from .derived.extended import extended_system as extended_system
 from .derived.integrators import setpoint_system as setpoint_system
+from .derived.merged import merged as merged
 from .errors import FloatRefused as FloatRefused
 from .errors import Impossible as Impossible
 from .errors import InputError as InputError

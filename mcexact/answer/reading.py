@@ -22,6 +22,7 @@ from mcexact.derived.extended import extended_system
 from mcexact.derived.feedback import feedback, full_output
 from mcexact.derived.integrators import setpoint_system
 from mcexact.derived.links import add_links
+from mcexact.derived.merged import merged
 from mcexact.errors import InputError, place_of
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
@@ -114,6 +115,7 @@ _CONSTRUCTIONS: Mapping[
     "lifted": lambda system, given: lifted_system(system, given["dimensions"], given["share"]),
     "held": lambda system, given: held_system(system, given["dimensions"]),
     "integrators": lambda system, _: setpoint_system(system),
+    "merged": lambda system, given: merged(system, given["parts"]),
     "error": lambda system, given: error_system(system, _gains(given, [system.n] * system.m)),
     "closed_loop": _closed_loop,
 }

@@ -8,13 +8,12 @@ from .closed_loop import closed_loop
 from .delays import held, lifted
 from .feedback import dual, error, feedback, full_output, integrators
 from .information_structure import arcs, augmented_outputs, extended
+from .merged import merged
 from .reading import incomplete, items, malformed, shown
 from .system import System
 
-LISTED = (arcs, augmented_outputs, closed_loop, dual, error, extended)
-CONSTRUCTIONS = {
-    rule.__name__: rule for rule in (*LISTED, feedback, full_output, held, integrators, lifted)
-}
+LISTED = (arcs, augmented_outputs, closed_loop, dual, error, extended, feedback, full_output)
+CONSTRUCTIONS = {rule.__name__: rule for rule in (*LISTED, held, integrators, lifted, merged)}
 
 
 def read_subject(value: Any, plant: System) -> System:

@@ -18,8 +18,10 @@ from mcexact.model.names import checked_names, checked_text, nearest, quoted
 from mcexact.model.neighbor_graph import NeighborGraph, graph_for
 
 Construction = Mapping[str, Any]
-# These constructions depend on the neighbor graph of the plant.
-_GRAPH_IN_USE = frozenset({"augmented_outputs", "arcs", "extended", "lifted", "held", "error"})
+# These constructions depend on the neighbor graph of the plant, or lead to systems without one.
+_GRAPH_IN_USE = frozenset(
+    {"augmented_outputs", "arcs", "dual", "error", "extended", "held", "lifted", "merged"}
+)
 
 
 @dataclass(frozen=True)
@@ -246,6 +248,7 @@ class MultiChannelSystem:
         construction: Construction,
         *,
         neighbors: NeighborGraph | None = None,
+        names: Sequence[str] | None = None,
     ) -> MultiChannelSystem:
         """Return a system constructed from this one, which records the plant and the construction.
 
@@ -253,13 +256,16 @@ class MultiChannelSystem:
         ----------
         A : Matrix, N×N
         B, C : sequences of Matrix
-            One for each channel of this system, N×r_i and s_i×N; or none, for a closed loop.
+            One for each channel of the result, N×r_i and s_i×N; or none, for a closed loop.
         construction : mapping
             The construction in the words of the certificate format, appended to ``subject``.
         neighbors : NeighborGraph, optional
             The neighbor graph of the result.
+        names : sequence of str, optional
+            The channels of the result, by default those of this system.
         """
-        names = self.names if B else ()
+        if names is None:
+            names = self.names if B else ()
         made = object.__new__(MultiChannelSystem)
         made._fill(
             A=require_square(A, "A"),
@@ -285,8 +291,7 @@ class MultiChannelSystem:
         found = graph_for(graph, self.names)
         if found == self.neighbors:
             return self
-        used = [c["construction"] for c in self.subject if c["construction"] in _GRAPH_IN_USE]
-        if used or any(c["construction"] == "dual" for c in self.subject):
+        if any(c["construction"] in _GRAPH_IN_USE for c in self.subject):
             raise UsageError(
                 f"the system was already made by {self.subject[-1]['construction']!r}; "
                 "give the graph to the plant",

@@ -21,6 +21,7 @@ from mcexact.derived.extended import extended_system
 from mcexact.derived.feedback import feedback, full_output
 from mcexact.derived.integrators import setpoint_system
 from mcexact.derived.links import add_links
+from mcexact.derived.merged import merged
 from mcexact.exact.matrix import Matrix
 from mcexact.model import system_file
 from mcexact.model.canonical import plain
@@ -53,6 +54,13 @@ def drawn_plant(rng: random.Random, time: str) -> MultiChannelSystem:
 
 def sizes(rng: random.Random, system: MultiChannelSystem) -> list[int]:
     return [rng.randint(0, 2) for _ in range(system.m)]
+
+
+def drawn_parts(rng: random.Random, system: MultiChannelSystem) -> list[list[str]]:
+    found: dict[int, list[str]] = {}
+    for name in rng.sample(system.names, system.m):
+        found.setdefault(rng.randrange(system.m), []).append(name)
+    return list(found.values())
 
 
 def missing_arcs(system: MultiChannelSystem) -> list[tuple[int, int]]:
@@ -103,6 +111,7 @@ BUILDS: dict[str, list[Build]] = {
         lambda rng, s: lifted_system(s, sizes(rng, s)),
         lambda rng, s: lifted_system(s, sizes(rng, s), share="states"),
     ],
+    "merged": [lambda rng, s: merged(s, drawn_parts(rng, s))],
 }
 
 
@@ -114,7 +123,7 @@ def equal(ours: arithmetic.Matrix, theirs: Matrix) -> bool:
 
 def assert_same(ours: System, theirs: MultiChannelSystem) -> None:
     assert equal(ours.A, theirs.A)
-    assert ours.m == theirs.m
+    assert tuple(ours.names) == theirs.names
     for i in range(theirs.m):
         assert equal(ours.B[i], theirs.B(i))
         assert equal(ours.C[i], theirs.C(i))

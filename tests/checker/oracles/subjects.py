@@ -12,6 +12,7 @@ from mcexact.derived.extended import extended_system
 from mcexact.derived.feedback import feedback, full_output
 from mcexact.derived.integrators import setpoint_system
 from mcexact.derived.links import add_links
+from mcexact.derived.merged import merged
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.controller_file import read_controller
@@ -50,6 +51,8 @@ def _applied(system: MultiChannelSystem, step: Document) -> MultiChannelSystem:
             return full_output(system, names.index(step["channel"]))
         case "arcs":
             return add_links(system, [(names.index(j), names.index(i)) for j, i in step["added"]])
+        case "merged":
+            return merged(system, step["parts"])
         case "feedback":
             return feedback(system, [matrix_of(gain) for gain in step["gains"]])
         case "closed_loop":

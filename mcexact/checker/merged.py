@@ -1,0 +1,36 @@
+"""Construction ``merged``: channels that are taken together as one."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from . import reading
+from .evidence import inputs, outputs
+from .system import System
+
+
+def merged(system: System, step: dict[str, Any], place: str) -> System:
+    """One channel for each part T of a partition of the channels, (B_T, C_T); no neighbor graph.
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    (listed,) = reading.fields(step, place, "parts")
+    parts = [reading.names(part, place, system.names) for part in reading.items(listed, place)]
+    if not all(parts) or parts != sorted(parts):
+        reading.malformed(place, "expected parts that are not empty, by their first members")
+    whole = sorted(i for part in parts for i in part) == list(range(system.m))
+    reading.require(whole, "subject", place, "expected every channel in exactly one part")
+    known = ["+".join(system.names[i] for i in part) for part in parts]
+    distinct = len(set(known)) == len(known)
+    reading.require(distinct, "subject", place, "two channels would have the same name")
+    taken = [f"{_listed(system, part)} taken as one" for part in parts if len(part) > 1]
+    words = f"{system.words} with {' and '.join(taken) or 'each channel by itself'}"
+    B, C = [inputs(system, part) for part in parts], [outputs(system, part) for part in parts]
+    return System(system.time, known, system.A, B, C, words=words)
+
+
+def _listed(system: System, part: list[int]) -> str:
+    """The members of a part, such as the channels "1", "2" and "3"."""
+    *first, last = (json.dumps(system.names[i]) for i in part)
+    return f"the channels {', '.join(first)} and {last}"
