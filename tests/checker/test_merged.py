@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import pytest
+
 from tests.checker.handmade import (
     FIXED,
     FREE,
@@ -11,16 +13,18 @@ from tests.checker.handmade import (
     PAPER,
     RANK,
     RING,
+    Document,
     certificate,
     changed,
     checked,
     matrix,
     without,
 )
+from tests.checker.mutations import Tally, attack, registrations
 from tests.checker.tables import accepts, rejects
 
 
-def taken(*parts: Any) -> dict[str, Any]:
+def taken(*parts: Any) -> Document:
     """The construction with these parts."""
     return {"construction": "merged", "parts": list(parts)}
 
@@ -98,6 +102,15 @@ REJECTED = [
 
 test_a_true_claim_about_a_merged_plant_is_accepted = accepts(ACCEPTED)
 test_anything_else_is_rejected = rejects(REJECTED)
+
+
+@pytest.mark.parametrize("document", [FIRST_TWO, LAST_TWO, OUTER_TWO, APART])
+def test_no_mutant_is_accepted_for_nothing(document: Document) -> None:
+    registered, tally = registrations()[document["kind"]], Tally()
+    assert registered.confirms(document)
+    attack(document, registered, tally)
+    assert tally.failures == []
+    assert sum(tally.rejected.values()) > tally.mutants / 2
 
 
 def test_the_theorem_names_the_channels_that_are_taken_as_one() -> None:

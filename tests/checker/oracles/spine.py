@@ -64,8 +64,7 @@ def _pencil(system: MultiChannelSystem) -> Any:
 
 
 def _positions(document: Document, names: list[str]) -> list[int]:
-    known = [channel["name"] for channel in document["system"]["channels"]]
-    return [known.index(name) for name in names]
+    return [subject_of(document).index(name) for name in names]
 
 
 def confirms_controllability(document: Document) -> bool:
