@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
@@ -27,36 +25,22 @@ from mcexact.exact.enclosures import exact_decimal
 from mcexact.exact.location import TIMES, StabilityRegion, is_discrete
 from mcexact.exact.polynomial import Polynomial
 
-_INTEGER = r"\d+"
-_DECIMAL = r"(?:-?\d+(?:\.\d+)?|about -?\d(?:\.\d+)?e[+-]\d+|about -?\d+(?:\.\d+)?)"
-_NUMBER = rf"(?:-?\d+/\d+|{_DECIMAL})"
-_COEFFICIENT = rf"(?:\({_NUMBER}\)|{_NUMBER})"
-_POWER = r"x(?:\^\d+)?"
-_TERM = rf"(?:{_COEFFICIENT}(?:\*{_POWER})?|{_POWER}|…)"
-_POLYNOMIAL = rf"-?{_TERM}(?: [+-] {_TERM})*(?: \(degree \d+\))?"
-_NAME = r"[^,{}|\n]+?"
-_NAMES = rf"{_NAME}(?:, {_NAME})*"
-_MODES = rf"(?:the mode {_NUMBER}|the \d+ roots of {_POLYNOMIAL})"
-_SET = rf"\{{(?:{_NAMES})?\}}"
-_MORE = r"(?:, \d+ more)?"
-_REAL = r"-?\d+(?:\.\d+)?(?:e[+-]\d+)?"
-_ROOT = rf"{_REAL}(?: ± {_REAL}i)?"
-_ROW = rf"\({_NUMBER}(?:, {_NUMBER})*\)"
-_ARROW = rf"{_NAME} → {_NAME}"
-_SHARE = rf"\d+ states? by agent {_NAME}"
+Write = Callable[[Any], str]
 
 
-@dataclass(frozen=True)
-class Form:
-    """A form of template fields: a function that writes values, and a pattern of its results."""
-
-    write: Callable[[Any], str]
-    pattern: str
-
-
-def choice(**words: str) -> Form:
+def choice(**words: str) -> Write:
     """A form with a few phrases, each of which has a keyword."""
-    return Form(words.__getitem__, "(?:" + "|".join(map(re.escape, words.values())) + ")")
+    return words.__getitem__
+
+
+def agreeing(one: str, more: str) -> Write:
+    """A form that agrees with the number of the roots of a polynomial, or of names."""
+
+    def write(value: Any) -> str:
+        size = value.degree if isinstance(value, Polynomial) else len(value)
+        return one if size == 1 else more
+
+    return write
 
 
 _TIMES = {1: "once", 2: "twice", 3: "three times"}
@@ -171,17 +155,17 @@ def _capital(text: str) -> str:
     return text[0].upper() + text[1:]
 
 
-FORMS: dict[str, Form] = {
-    "int": Form(str, _INTEGER),
-    "name": Form(name_text, _NAME),
-    "number": Form(number, _NUMBER),
-    "decimal": Form(decimal_number, _DECIMAL),
-    "polynomial": Form(polynomial, _POLYNOMIAL),
-    "modes": Form(modes, _MODES),
-    "channels": Form(channels, rf"(?:channel {_NAME}|channels (?:{_NAMES} and )?{_NAME})"),
-    "set": Form(name_set, _SET),
-    "edges": Form(edges, rf"(?:no edges|\d+ edges|{_NAME} -> {_NAME}(?:, {_NAME} -> {_NAME})*)"),
-    "yes": Form(lambda value: "yes" if value else "no", "(?:yes|no)"),
+FORMS: dict[str, Write] = {
+    "int": str,
+    "name": name_text,
+    "number": number,
+    "decimal": decimal_number,
+    "polynomial": polynomial,
+    "modes": modes,
+    "channels": channels,
+    "set": name_set,
+    "edges": edges,
+    "yes": lambda value: "yes" if value else "no",
     "time": choice(**{time: time for time in TIMES}),
     "control": choice(
         own="linear time-invariant decentralized control",
@@ -193,65 +177,34 @@ FORMS: dict[str, Form] = {
         outputs="each agent feeds back the outputs of all its neighbors",
         instant="each agent feeds back the outputs of all its neighbors, received without delay",
     ),
-    "often": Form(
-        _often,
-        r"(?:once|twice|three times|\d+ times) in A(?:, of which (?:one stays|at most \d+ stay))?",
-    ),
-    "behavior": Form(
-        _behavior,
-        rf"(?:(?:decays|grows) at the rate {_DECIMAL}"
-        rf"|becomes {_DECIMAL} times as large in each step|decays very slowly|does not decay)",
-    ),
-    "Modes": Form(lambda p: _capital(modes(p, 60)), _MODES.replace("the", "The")),
-    "are": Form(lambda p: "is" if _single(p) else "are", "(?:is|are)"),
-    "them": Form(lambda p: "it" if _single(p) else "them", "(?:it|them)"),
-    "escape": Form(
-        lambda p: "which does not satisfy" if _single(p) else "which do not all satisfy",
-        "which (?:does not|do not all) satisfy",
-    ),
-    "lack": Form(lambda names: "lacks" if len(names) == 1 else "lack", "lacks?"),
-    "unstable": Form(
-        lambda p: "it is not stable" if _single(p) else "not all of them are stable",
-        "(?:it is not|not all of them are) stable",
-    ),
+    "often": _often,
+    "behavior": _behavior,
+    "Modes": lambda p: _capital(modes(p, 60)),
+    "are": agreeing("is", "are"),
+    "them": agreeing("it", "them"),
+    "escape": agreeing("which does not satisfy", "which do not all satisfy"),
+    "lack": agreeing("lacks", "lack"),
+    "unstable": agreeing("it is not stable", "not all of them are stable"),
     "price": choice(least="least", cheapest="cheapest"),
     "links": choice(least="the fewest links", cheapest="the cheapest links"),
     "limits": choice(none="", upper=", within the upper limits"),
     "instant": choice(none="", delays=", if messages took no time"),
-    "slow": Form(
-        lambda p: "it is not fast enough" if _single(p) else "not all of them are fast enough",
-        "(?:it is not|not all of them are) fast enough",
-    ),
-    "do": Form(lambda names: "does" if len(names) == 1 else "do", "(?:does|do)"),
-    "roots": Form(_roots, rf"{_ROOT}(?:, {_ROOT})*{_MORE}"),
-    "blocks": Form(_blocks, rf"\d+ by {_SET}(?:, \d+ by {_SET})*{_MORE}"),
-    "components": Form(_components, rf"{_SET}(?: {_SET})*(?: \d+ more)?"),
-    "indices": Form(_indices, rf"(?:none|\d+(?:, \d+)*){_MORE}"),
-    "factors": Form(
-        lambda found: ", ".join(cut([polynomial(p, 30) for p in found], 6)),
-        rf"{_POLYNOMIAL}(?:, {_POLYNOMIAL})*{_MORE}",
-    ),
+    "slow": agreeing("it is not fast enough", "not all of them are fast enough"),
+    "do": agreeing("does", "do"),
+    "roots": _roots,
+    "blocks": _blocks,
+    "components": _components,
+    "indices": _indices,
+    "factors": lambda found: ", ".join(cut([polynomial(p, 30) for p in found], 6)),
     "side": choice(controllable="controllable", observable="observable"),
-    "reached": Form(
-        lambda indices: ", ".join(cut([" and ".join(map(str, pair)) for pair in indices], 8)),
-        rf"\d+(?: and \d+)?(?:, \d+(?: and \d+)?)*{_MORE}",
-    ),
-    "arrows": Form(_arrows, rf"(?:none|{_ARROW}(?:, {_ARROW})*{_MORE})"),
-    "receive": Form(lambda names: "receives" if len(names) == 1 else "receive", "receives?"),
-    "list": Form(
-        lambda sizes: listed([str(size) for size in sizes]), r"\d+(?:, \d+)*(?: and \d+)?"
-    ),
-    "names": Form(
-        lambda names: ", ".join(cut([name_text(name) for name in names], 8)) or "nobody",
-        rf"{_NAME}(?:, {_NAME})*{_MORE}",
-    ),
-    "agents": Form(
-        _agents,
-        rf"(?:no agents|agent {_NAME}|agents (?:{_NAME}(?:, {_NAME})* and )?{_NAME})",
-    ),
-    "dimensions": Form(_dimensions, rf"{_NAME}: \d+(?:, {_NAME}: \d+)*{_MORE}"),
-    "region": Form(_region, rf"(?:Re λ < {_NUMBER}|\|λ\| < {_NUMBER})"),
-    "combinations": Form(_combinations, rf"{_ROW} r ≠ 0(?: or {_ROW} r ≠ 0)*"),
+    "reached": lambda found: ", ".join(cut([" and ".join(map(str, k)) for k in found], 8)),
+    "arrows": _arrows,
+    "list": lambda sizes: listed([str(size) for size in sizes]),
+    "names": lambda names: ", ".join(cut([name_text(name) for name in names], 8)) or "nobody",
+    "agents": _agents,
+    "dimensions": _dimensions,
+    "region": _region,
+    "combinations": _combinations,
     "network": choice(
         decentralized="decentralized",
         extended="distributed, through shared states,",
@@ -264,28 +217,18 @@ FORMS: dict[str, Form] = {
         lyapunov="by Lyapunov matrices",
         instability="by a quadratic form that decreases and is not positive",
     ),
-    "latex": Form(Polynomial.latex, r"[-+ x0-9^{}a-z\\]+"),
-    "latex_names": Form(lambda names: ", ".join(map(escaped, names)), r"[^\n]*"),
+    "latex": Polynomial.latex,
+    "latex_names": lambda names: ", ".join(map(escaped, names)),
     "share": choice(**{"outputs+states": "beside outputs", "states": "without outputs"}),
-    "carried": Form(
-        _carried, r"(?:outputs|(?:outputs and )?states \(dimensions \d+(?:, \d+)*(?: and \d+)?\))"
-    ),
-    "scope": Form(
-        _scope,
-        rf"no mode(?: with (?:Re λ|\|λ\|) ≥ {_NUMBER})? is fixed"
-        r"(?: and the whole spectrum can be assigned)?",
-    ),
-    "shared": Form(_shared, rf"{_SHARE}(?:, {_SHARE})*(?:, by \d+ more agents)?"),
+    "carried": _carried,
+    "scope": _scope,
+    "shared": _shared,
 }
 
 
-def _single(p: Polynomial) -> bool:
-    return p.degree == 1
-
-
-def form(spec: str) -> Form:
+def form(spec: str) -> Write:
     """Return the form that a field names: one of `FORMS`, or ``count noun``."""
     if spec.startswith("count "):
         noun = spec.removeprefix("count ")
-        return Form(lambda size: count(size, noun), rf"(?:1 {noun}|\d+ {noun}s)")
+        return lambda size: count(size, noun)
     return FORMS[spec]

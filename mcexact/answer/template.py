@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import re
 import string
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 from mcexact.answer.forms import form
@@ -83,24 +81,10 @@ class Template:
         labeled = (self.label, *cells) if self.label else cells
         return Sentence(" | ".join(cells), self, labeled)
 
-    def row(self, **values: Any) -> tuple[str, ...]:
-        """Make the sentence with some values as a row of a table."""
-        return self(**values).cells
-
-    @cached_property
-    def pattern(self) -> re.Pattern[str]:
-        """The pattern of the sentence for all values, after the label if there is one."""
-        parts = [re.escape(self.label + " | ") if self.label else ""]
-        for literal, name, spec, _ in string.Formatter().parse(self.text):
-            parts.append(re.escape(literal))
-            if name is not None:
-                parts.append(form(spec or "").pattern)
-        return re.compile("".join(parts))
-
 
 class _Writer(string.Formatter):
     def format_field(self, value: Any, format_spec: str) -> str:
-        return form(format_spec).write(value)
+        return form(format_spec)(value)
 
 
 def templates(*modules: Any) -> Iterator[Template]:
