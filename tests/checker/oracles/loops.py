@@ -64,7 +64,7 @@ def draw_spectrum(seed: int) -> Document:
     p = enumeration.characteristic_polynomial([list(row) for row in M.rows()])
     proposal = Proposal(controller, (Polynomial(p),))
     made = certify(system, proposal, StabilityRegion(system.time))
-    document: Document = json.loads(codec.encode(made.loop.proof))
+    document: Document = json.loads(codec.encode(made.proof))
     return document
 
 
