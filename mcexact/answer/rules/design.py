@@ -22,11 +22,12 @@ def inside(loop: Claim, region: StabilityRegion) -> bool:
 # Designs.
 
 
-@rule("title", say.OBSERVER, say.OBSERVER_FLOAT, say.NETWORK, say.SETPOINT)
+@rule("title", say.OBSERVER, say.OBSERVER_FLOAT, say.NETWORK, say.SETPOINT, say.LOOP)
 def _title(loop: Claim, given: Given) -> Said:
+    """What was designed; of a loop that was asked to be unstable nothing is said but what it is."""
     if not inside(loop, given.region):
-        return
-    if given.has("solvability"):
+        yield say.LOOP()
+    elif given.has("solvability"):
         yield say.SETPOINT(method=given.method)
     elif given.method == "observer":
         yield (say.OBSERVER if given.arithmetic == "exact" else say.OBSERVER_FLOAT)()
@@ -123,7 +124,9 @@ rule = RULES.rule
 
 
 @rule("title", say.LOOP)
-def _verdict(given: Given) -> Said:
+def _verdict(loop: Claim) -> Said:
+    """A title, whatever is claimed of the loop."""
+    _ = loop.stable
     yield say.LOOP()
 
 
