@@ -9,7 +9,7 @@ from typing import Any, Literal
 from mcexact.analysis.structure.controllability import joint_observability
 from mcexact.derived.error_system import error_system
 from mcexact.derived.feedback import checked_gains
-from mcexact.errors import InputError, UsageError
+from mcexact.errors import Impossible, InputError, LimitReached, UsageError
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.model.neighbor_graph import NeighborGraph
@@ -138,22 +138,54 @@ def observer_proposals(
         )
         return
     wanted = _checked_spectrum(request.spectrum, gains)
-    part, L = system, Matrix.identity(system.n)
     if request.spectrum is None and gains is None:
         hidden = joint_observability(system).uncontrollable_polynomial
         if hidden.degree > 0 and region.contains_roots_of(hidden):
-            # What all channels together do not see is fast enough: estimate the rest.
-            part, L = observable_part(system)
+            yield _of_the_observable_part(system, graph, carrier, request, order == "least")
+            return
     request.tell("state feedback")
-    feedback = _feedback(part, wanted.get("feedback"), region, exact)
+    feedback = _feedback(system, wanted.get("feedback"), region, exact)
+    request.tell("observer gains for the error system")
+    error = error_system(system, feedback.gains, graph)
+    task = ObserverTask(system, graph, carrier, feedback, error, wanted, request, order == "least")
+    yield _proposal(task, Matrix.identity(system.n))
+
+
+def _of_the_observable_part(
+    system: MultiChannelSystem,
+    graph: NeighborGraph,
+    carrier: int,
+    request: Request,
+    least: bool,
+) -> Proposal:
+    """Agents that estimate what all channels together see; what they do not is fast enough.
+
+    Raises
+    ------
+    Impossible
+        With evidence about the system, not about this part of it.
+    LimitReached
+        If the error system of the part is not complete, and no mode outside the region is fixed.
+    """
+    from mcexact.synthesis.observer_float import refuse_if_impossible
+
+    refuse_if_impossible(system, graph, request.region)
+    part, L = observable_part(system)
+    request.tell("state feedback")
+    feedback = feedback_for_region(part, request.region)
     request.tell("observer gains for the error system")
     error = error_system(part, feedback.gains, graph)
-    task = ObserverTask(part, graph, carrier, feedback, error, wanted, request, order == "least")
-    made = _proposal(task, L)
-    if part is not system:
-        controller = replace(made.controller, system=digest(system))
-        made = Proposal(controller, parts=made.parts)
-    yield made
+    task = ObserverTask(part, graph, carrier, feedback, error, {}, request, least)
+    try:
+        made = _proposal(task, L)
+    except Impossible:
+        refuse_if_impossible(system, graph, request.region, [F @ L for F in feedback.gains])
+        raise LimitReached(
+            "no constant K_i, H_ij let one agent control and observe all errors of what all "
+            "channels together see, for the F_i that were found: try arithmetic in floating point"
+        ) from None
+    controller = replace(made.controller, system=digest(system))
+    return Proposal(controller, parts=made.parts)
 
 
 def _proposal(task: ObserverTask, estimated: Matrix) -> Proposal:

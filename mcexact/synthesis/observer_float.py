@@ -120,7 +120,7 @@ def float_proposals(
             candidates, key=lambda found: (found.observer.channel.order, found.size)
         ):
             yield _proposal(system, graph, agent, F, each, tried)
-    _refuse_if_impossible(system, graph, region, gains)
+    refuse_if_impossible(system, graph, region, gains)
     raise LimitReached(
         f"{tried} draws of observer gains K_i, H_ij and their Riccati equations led to no loop "
         f"that could be certified for {region}; try another agent, or a milder bound"
@@ -268,11 +268,11 @@ def _rounded(A: Floats, B: Floats, F: Floats, target: StabilityRegion) -> Matrix
     return found if reached else dyadic_matrix(F, many)
 
 
-def _refuse_if_impossible(
+def refuse_if_impossible(
     system: MultiChannelSystem,
     graph: NeighborGraph,
     region: StabilityRegion,
-    gains: Sequence[Matrix] | None,
+    gains: Sequence[Matrix] | None = None,
 ) -> None:
     """Say why there is nothing to find, where that can be proved.
 

@@ -11,6 +11,7 @@ from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system_file import digest
 from mcexact.synthesis.fast_modes import feedback_for_region, observable_part
 from mcexact.synthesis.observer import design_observer
 
@@ -53,6 +54,22 @@ def test_a_mode_that_is_too_slow_is_refused_with_its_certificate(time, ports):
         design_observer(system, **BOUND[time])
     verdict = check_document(encode(caught.value.certificate).encode())
     assert verdict.verdict == "VALID" and "not controllable" in verdict.theorem
+
+
+@pytest.mark.parametrize(
+    ("B", "C", "kind"),
+    [
+        ([[[0], [1]], [[0], [1]]], [[[1, 0]], [[1, 0]]], "controllability"),
+        ([[[1], [1]], [[0], [1]]], [[[0, 0]], [[1, 0]]], "fixed_spectrum"),
+    ],
+)
+def test_a_refusal_beside_an_unseen_mode_is_about_the_plant(B, C, kind):
+    system = MultiChannelSystem([[1, 0], [0, -9]], B, C, neighbors={"1": [], "2": []})
+    with pytest.raises(Impossible) as caught:
+        design_observer(system, rate=1)
+    assert caught.value.certificate.kind == kind
+    verdict = check_document(encode(caught.value.certificate).encode(), digest(system))
+    assert verdict.verdict == "VALID", verdict.line()
 
 
 @pytest.mark.parametrize("ports", [UNSEEN, UNMOVED])
