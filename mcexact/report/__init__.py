@@ -1,4 +1,4 @@
-"""Results for people and for programs: text, JSON, HTML and figures.
+"""Display of results as text, JSON, HTML and figures.
 
-Takes results of the earlier stages and changes none of them.
+This stage takes answers, sentences and trajectories of earlier stages, and decides nothing itself.
 """

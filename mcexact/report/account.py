@@ -1,4 +1,4 @@
-"""An account of a system as text: the answer in sentences, and tables."""
+"""The account of a system as text: sentences and tables."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ _COLUMNS = {
 _COLUMNS_OF_ROWS = {"allocate-row": ("agent", "least"), "allocate-link": ("from", "to", "cost")}
 _BOUNDS = {"outputs+states": "Theorem 2's bound", "states": "Remark 2's bound"}
 _MORE = "Further fixed modes are listed below."
-_SHOWN = "the first {}; --json and --html list all. "
+_SHOWN = "the first {}; the JSON document and the HTML page list all. "
 
 
 def answer(sentences: Sentences) -> list[str]:
-    """What a user wants to know first, one sentence after the other."""
+    """The most important sentences, in order."""
     return [*sentences.at("answer", "answer.mode")]
 
 
 def in_lines(sentences: Sentences, most: int, width: int = WIDTH) -> str:
-    """The answer in so many lines; whole sentences are left out, which the table tells as well."""
+    """Return the answer in a number of lines; sentences that the table repeats may be left out."""
     said, modes = sentences.at("answer"), sentences.at("answer.mode")
     for shown in range(len(modes), -1, -1):
         more = [_MORE] if 0 < shown < len(modes) else []
@@ -43,13 +43,13 @@ def in_lines(sentences: Sentences, most: int, width: int = WIDTH) -> str:
 
 
 def tables(sentences: Sentences, *, most_modes: int | None = None) -> tuple[Table, ...]:
-    """All answers, then the tables about what was asked besides.
+    """Return the table of all answers, then the tables about further questions.
 
     Parameters
     ----------
     sentences : Sentences
     most_modes : int, optional
-        How many fixed modes are listed; all of them by default.
+        The largest number of fixed modes in the table, by default all.
     """
     rows = sentences.at("table")
     columns = _columns(rows[0]) if rows else ()
@@ -61,7 +61,7 @@ def tables(sentences: Sentences, *, most_modes: int | None = None) -> tuple[Tabl
 
 
 def _columns(row: Sentence) -> tuple[str, ...]:
-    """The names of the columns of a table that has some; a bound is called by its theorem."""
+    """Return the names of a table's columns; a bound is named after its theorem."""
     if row.template.key == "allocate-row-bound":
         read = {pointer: value for _, pointer, value in row.because}
         return ("agent", "least", _BOUNDS[read["/claim/share"]])
@@ -75,7 +75,7 @@ def _table(
     title: str = "",
     most: int | None = None,
 ) -> Table:
-    """The sentences that stand at a place, under the title and over the notes that go with it."""
+    """Return the table of the sentences of a place, with its title and notes."""
     rows = [sentence.cells for sentence in sentences.at(place)]
     note = "".join(sentences.at(f"{place}.note"))
     if place == "fixed-modes" and most is not None and len(rows) > most:
@@ -85,7 +85,7 @@ def _table(
 
 
 def measured(figures: Mapping[str, float | None], said: Sentences, discrete: bool) -> Table:
-    """Figures of a loop in floating point; a dash where they are beyond floats."""
+    """Return the robustness measures of a loop; a dash if numbers exceed floats."""
     what = "radius" if discrete else "abscissa"
     labels = {
         "largest_gain": "largest gain",
@@ -100,7 +100,7 @@ def measured(figures: Mapping[str, float | None], said: Sentences, discrete: boo
 
 
 def latex(account: Account) -> str:
-    """The system and its fixed modes."""
+    """Return the system and its fixed modes in LaTeX."""
     system = account.given.system
     lines = [f"% {escaped(system.name or 'system')}", r"\begin{align*}"]
     lines.append(rf"A &= {matrix(system.A)} \\")

@@ -16,7 +16,7 @@ from mcexact.report.text import Table
 
 @dataclass(frozen=True)
 class AccountPage:
-    """Everything that was decided about a system, but for the verdicts on its certificates.
+    """The contents of a report, except for the verdicts on certificates.
 
     Attributes
     ----------
@@ -38,14 +38,13 @@ class AccountPage:
     def rendered(
         self, certificates: Mapping[str, str], verdicts: Mapping[str, Any], latex: str | None = None
     ) -> str:
-        """The whole page.
+        """Return the whole page.
 
         Parameters
         ----------
         certificates : mapping from names of files to texts
         verdicts : mapping from names of files to Verdict
-            What the checker said of each; of one that is missing the page says that it was not
-            re-checked.
+            The checker's verdicts; a certificate without verdict is marked as not re-checked.
         latex : str, optional
             The results as LaTeX.
         """
@@ -66,7 +65,7 @@ class AccountPage:
 
 
 def account_page(account: Account) -> AccountPage:
-    """Everything that was decided about a system, the answer in plain words first."""
+    """Return the contents of the report on a system."""
     system, said = account.given.system, account.sentences
     first, *rest = tables(said)
     spectrum = account.answers.get("fixed_spectrum")
@@ -81,7 +80,7 @@ def account_page(account: Account) -> AccountPage:
 
 
 def _pictures(account: Account) -> list[Picture]:
-    """The graphs, and who shares how much, where these were asked for."""
+    """Return pictures of the graphs, and of shared dimensions if these were asked about."""
     drawn = []
     if {"fixed_spectrum", "transfer_graph"} <= account.answers.keys():
         drawn.append(graph_picture(account))

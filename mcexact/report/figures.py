@@ -1,4 +1,4 @@
-"""Figures: how a loop decays beside the certified rate, and where its eigenvalues are."""
+"""Figures of a trajectory with the certified rate, and of the eigenvalues of a closed loop."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from mcexact.simulation.trajectory import Trajectory
 
 
 def simulation_png(run: Trajectory, spectrum: LoopSpectrum | None, title: str = "") -> bytes:
-    """Three panels: the state and the certified rate, the estimation errors, the spectrum.
+    """Draw three panels: the state with the certified rate, the estimation errors, the spectrum.
 
     Parameters
     ----------
     run : Trajectory
     spectrum : LoopSpectrum, optional
-        Of the whole loop; without it, or where it reaches beyond floats, there is neither the line
-        of the rate nor the third panel.
+        The spectrum of the whole loop.  Without it, or if it exceeds floats, the line of the rate
+        and the third panel are left out.
     title : str
 
     Returns
@@ -55,7 +55,7 @@ def simulation_png(run: Trajectory, spectrum: LoopSpectrum | None, title: str = 
 
 
 def drawable(spectrum: LoopSpectrum | None) -> LoopSpectrum | None:
-    """The spectrum, unless an eigenvalue is beyond the floats that pictures are made of."""
+    """Return the spectrum, or None if an eigenvalue exceeds the range of floats."""
     if spectrum is None:
         return None
     parts = (to_float(part) for disc in spectrum.discs for part in (disc.re, disc.im))
@@ -69,7 +69,7 @@ def draw_decay(
     spectrum: LoopSpectrum | None,
     label: str,
 ) -> None:
-    """Norms on a logarithmic axis, with the certified rate through the largest first value."""
+    """Draw norms on a logarithmic axis, with a line of the certified rate."""
     times = [to_float(t) for t in run.times]
     marker = "." if is_discrete(run.time) else ""
     shown = [value for values in curves.values() for value in values if 0 < value < float("inf")]
@@ -91,14 +91,14 @@ def draw_decay(
 
 
 def elapsed_label(time: str) -> str:
-    """What the axis of times counts."""
+    """The label of the axis of times."""
     return "step" if is_discrete(time) else "time"
 
 
 def _slope(
     time: str, spectrum: LoopSpectrum, times: list[float], curves: list[list[float]]
 ) -> list[float]:
-    """The certified rate as a line from the highest point on; nothing for a radius of 0."""
+    """Draw the certified rate as a line from the highest point, except for a radius of 0."""
     rate = spectrum.rate
     if rate is None:
         return []
@@ -129,7 +129,7 @@ def rate_text(time: str, spectrum: LoopSpectrum) -> str:
 
 
 def draw_eigenvalues(axis: Any, time: str, spectrum: LoopSpectrum) -> None:
-    """The eigenvalues, and the stability region in gray."""
+    """Draw the eigenvalues, with the stability region in gray."""
     from matplotlib.patches import Circle
 
     re = [to_float(disc.re) for disc in spectrum.discs]

@@ -1,4 +1,4 @@
-"""Neighbor and transfer graphs with the channels of an obstruction colored; shared dimensions."""
+"""Pictures of neighbor and transfer graphs with a colored obstruction, and of dimensions."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from mcexact.report.picture import Picture, empty_figure
 
 MARKED, SENDERS, PLAIN = "#d95f02", "#7570b3", "#e8e8e8"
 LARGEST = 24
-"""Channels beyond which circles and arrows say nothing any more: a matrix is drawn instead."""
+"""The largest number of channels that are drawn as a circle; more are drawn as a matrix."""
 
 LEAST = {
     "outputs+states": "minimal_shared_dimensions_outputs_states",
@@ -28,13 +28,13 @@ Edge = tuple[str, str]
 
 
 def graph_picture(account: Account) -> Picture:
-    """Draw the neighbor graph, where there is one, beside the transfer graph.
+    """Draw the neighbor graph, if there is one, and the transfer graph.
 
     Parameters
     ----------
     account : Account
-        With the fixed spectrum, whose first factor's channels s are colored, and so is N_s∖s, from
-        whom s receives; and with the transfer graph.
+        An account with the transfer graph and the fixed spectrum; the set s of its first factor is
+        colored, and so is N_s∖s, from which s receives.
     """
     system, said = account.given.system, account.sentences
     fixed, transfer = account.answers["fixed_spectrum"], account.answers["transfer_graph"]
@@ -65,7 +65,7 @@ def _draw(
     subset: set[str],
     boundary: set[str],
 ) -> None:
-    """Channels on a circle, edges bent so that both directions are seen."""
+    """Draw channels on a circle, with bent edges so that both directions are visible."""
     from matplotlib.patches import Circle, FancyArrowPatch
 
     axis.set_title(title, fontsize="medium")
@@ -113,9 +113,10 @@ def _draw(
 def _draw_matrix(
     axis: Any, names: Sequence[str], edges: Sequence[Edge], subset: set[str], boundary: set[str]
 ) -> None:
-    """A column for the channel where an edge starts, a row for the one where it ends.
+    """Draw a matrix with a column for the start and a row for the end of each edge.
 
-    The obstruction comes first, then whom it hears: what it does not hear is an empty block.
+    The obstruction comes first, then the agents from which it receives; the other agents form an
+    empty block.
     """
     from matplotlib.colors import to_rgb
 
@@ -132,16 +133,16 @@ def _draw_matrix(
     axis.set_xticks([])
     axis.set_yticks([])
     axis.set_xlabel(f"from each of {len(names)} channels", fontsize="small")
-    axis.set_ylabel(f"to each: {len(edges)} arcs", fontsize="small")
+    axis.set_ylabel(f"to each: {len(edges)} edges", fontsize="small")
 
 
 def dimensions_picture(account: Account) -> Picture:
-    """Bars for every agent: the least for each way of sharing, beside the bound where it holds.
+    """Draw bars for every agent: the least dimensions for each way of sharing, and the bound.
 
     Parameters
     ----------
     account : Account
-        With the least dimensions for some way of sharing.
+        An account with the least dimensions for some way of sharing.
     """
     names, said, answers = account.given.names, account.sentences, account.answers
     least = {share: answers[name] for share, name in LEAST.items() if name in answers}

@@ -1,4 +1,4 @@
-"""Pages of HTML that need no other file: one layout, everything from outside escaped."""
+"""Self-contained HTML pages with one layout, in which all inserted texts are escaped."""
 
 from __future__ import annotations
 
@@ -25,15 +25,15 @@ def page(template: str, **content: Any) -> str:
     Parameters
     ----------
     template : str
-        Its name without the suffix.
+        The name of the template without its suffix.
     **content
-        Plain text and numbers; `EmbeddedPicture` for pictures.
+        Texts, numbers, and `EmbeddedPicture` for pictures.
 
     Returns
     -------
     str
-        A whole document: its styles and images are inside, and a content security policy forbids
-        everything else, scripts included.
+        A complete document with its styles and images; a content security policy forbids everything
+        else, including scripts.
     """
     text: str = _environment().get_template(f"{template}.html").render(**content)
     return text

@@ -1,4 +1,4 @@
-"""A figure with its text alternative, and how it is put into a page."""
+"""Figures with text alternatives, and their embedding in a page."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from typing import Any
 
 @dataclass(frozen=True, eq=False)
 class Picture:
-    """A matplotlib figure that says in words what it shows.
+    """A matplotlib figure with a description in words.
 
     Attributes
     ----------
     figure : matplotlib.figure.Figure
-        Free of the state of pyplot; restyle it before `embedded`.
+        A figure that does not depend on the state of pyplot; change its style before `embedded`.
     title : str
     alternative : str
-        What a reader who does not see it has to know.
+        A description for readers who cannot see the figure.
     """
 
     figure: Any
@@ -26,7 +26,7 @@ class Picture:
     alternative: str
 
     def embedded(self) -> EmbeddedPicture:
-        """The picture as an SVG that stands in the page itself; the same bytes every time."""
+        """Return the picture as an SVG to embed, always with the same bytes."""
         import matplotlib
 
         image = io.BytesIO()
@@ -40,15 +40,15 @@ class Picture:
 
 @dataclass(frozen=True)
 class EmbeddedPicture:
-    """What a page needs of a picture.
+    """A picture for a page.
 
     Attributes
     ----------
     title, alternative : str
     uri : str
-        A ``data:`` address that holds the whole image.
+        A ``data:`` address that contains the whole image.
     width : float
-        In inches, as it was drawn.
+        The width in inches.
     """
 
     title: str
@@ -58,7 +58,7 @@ class EmbeddedPicture:
 
 
 def empty_figure(width: float, height: float) -> Any:
-    """A figure of this size in inches, with a white background, that no global state knows."""
+    """Make a figure of a size in inches, with a white background and without global state."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 

@@ -1,4 +1,4 @@
-"""A simulation with everything that is shown of it: facts, warnings, table, figure, page."""
+"""The display of a simulation: facts, warnings, table, figure and page."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from mcexact.simulation.run import SimulatedLoop
 
 @dataclass(frozen=True)
 class SimulationReport:
-    """What is shown of a run.
+    """The displayed data of a simulation.
 
     Attributes
     ----------
@@ -30,7 +30,7 @@ class SimulationReport:
         return ("t", "state", *(f"error of {name}" for name in error_norms(self.done.run)))
 
     def facts(self) -> list[str]:
-        """What is known exactly."""
+        """Return exact statements about the loop."""
         lines = [f"{self.done.run.time} time, {self.done.run.arithmetic} arithmetic"]
         if self.done.spectrum is not None and self.done.spectrum.rate is not None:
             rate, stable = self.done.spectrum.rate, "" if self.done.spectrum.stable else "not "
@@ -42,14 +42,14 @@ class SimulationReport:
         return lines
 
     def tables(self) -> tuple[Table, ...]:
-        """The norms at some times."""
-        note = "largest absolute entries; the error of an agent is its estimate less the state"
+        """Return the table of norms at some times."""
+        note = "largest absolute entries; the error of an agent is its estimate minus the state"
         rows = trajectory_rows(self.done.run)
         title = f"{self.done.title}: {'; '.join(self.facts())}"
         return (Table(title, self.columns, rows, note=note),)
 
     def as_json(self) -> dict[str, Any]:
-        """The same as plain data, with the whole trajectory of the norms."""
+        """Return the data with the whole trajectory of the norms, as plain data."""
         rows = trajectory_rows(self.done.run, lines=len(self.done.run.times))
         found = self.done.spectrum
         return {
@@ -63,7 +63,7 @@ class SimulationReport:
         }
 
     def file(self, suffix: str) -> bytes:
-        """The content of a file that ends so: .csv, .png, .html; nothing for no suffix."""
+        """Return the content of a file with suffix .csv, .png or .html; empty without a suffix."""
         if suffix == ".csv":
             return trajectory_csv(self.done.run).encode("utf-8")
         if suffix == ".png":

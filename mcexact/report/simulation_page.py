@@ -1,4 +1,4 @@
-"""A simulation as one page of HTML that needs no other file."""
+"""A self-contained HTML page of a simulation."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def simulation_page(
     rows: tuple[tuple[str, ...], ...],
     png: bytes,
 ) -> str:
-    """The text of the page; everything from outside is escaped."""
+    """Return the text of the page, in which all inserted texts are escaped."""
     from jinja2 import Environment
 
     template = Environment(autoescape=True).from_string(_PAGE)

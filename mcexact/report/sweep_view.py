@@ -1,4 +1,4 @@
-"""A sweep for people and programs: one row for each system, and how many are how."""
+"""The display of a sweep: one row for each system, and counts."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Document = Mapping[str, Any]
 def sweep_view(
     documents: Sequence[Document], skipped: Sequence[tuple[str, str]] = ()
 ) -> dict[str, Any]:
-    """The counts, every record, and the files that were skipped, each with the reason."""
+    """Return counts, all records, and the skipped files with reasons, as plain data."""
     return {
         "counts": counts(documents),
         "records": list(documents),
@@ -30,19 +30,19 @@ def sweep_view(
 
 
 def skipped_table(skipped: Sequence[tuple[str, str]]) -> Table:
-    """The files of folders that are no system files, each with the reason."""
+    """Return the table of files in folders that are not system files, with reasons."""
     shown = [(shorten(name, 60), shorten(reason, 70)) for name, reason in skipped[:_MOST_SKIPPED]]
     more = len(skipped) - len(shown)
     return Table(
-        "skipped, because they are no system files",
+        "skipped, because they are not system files",
         ("file", "reason"),
         tuple(shown),
-        f"and {more} more; --json has all of them" if more else "",
+        f"and {more} more, which the JSON document lists" if more else "",
     )
 
 
 def counts(documents: Sequence[Document]) -> dict[str, int]:
-    """How many systems there are, how many were decided, and of how many each thing is true."""
+    """Return the table of counts: systems, decided systems, and systems with each property."""
     decided = [document["answers"] for document in documents if "answers" in document]
     found = {"systems": len(documents), "decided": len(decided)}
     for question, key in (
@@ -70,13 +70,13 @@ _COUNTED = {
 
 
 def sweep_tables(documents: Sequence[Document], questions: Sequence[str]) -> tuple[Table, ...]:
-    """A row for each system, the most telling ones if there are many, and the counts."""
+    """Return a row for each system, or for the most important ones, and the counts."""
     shown = list(documents)
     note = ""
     if len(shown) > _MOST_ROWS:
         shown = sorted(shown, key=_tells)[:_MOST_ROWS]
         shown.sort(key=lambda document: int(document["number"]))
-        note = f"{_MOST_ROWS} of {count(len(documents), 'system')}; --json has all of them"
+        note = f"{_MOST_ROWS} of {count(len(documents), 'system')}; the JSON document lists all"
     columns = ("system", "n", "m", *(name.replace("_", " ") for name in questions), "seconds")
     short = _short_names(documents)
     rows = tuple(_row(short[document["name"]], document, questions) for document in shown)
@@ -87,7 +87,7 @@ def sweep_tables(documents: Sequence[Document], questions: Sequence[str]) -> tup
 
 
 def _tells(document: Document) -> int:
-    """Errors first, then what has fixed modes, then the rest."""
+    """The order of rows: errors first, then systems with fixed modes, then the others."""
     if "error" in document:
         return 0
     claim = document["answers"].get("fixed_spectrum", {"claim": {}})["claim"]
@@ -95,7 +95,7 @@ def _tells(document: Document) -> int:
 
 
 def _short_names(documents: Sequence[Document]) -> dict[str, str]:
-    """Paths without the folder that all of them are in."""
+    """Shorten paths by their common folder."""
     names = {document["name"] for document in documents}
     folders = {os.path.dirname(name) for name in names if os.sep in name}
     try:
@@ -115,7 +115,7 @@ def _row(name: str, document: Document, questions: Sequence[str]) -> tuple[str, 
 
 
 def _said(question: str, claim: Mapping[str, Any]) -> str:
-    """A claim in a few words."""
+    """Write a claim in a few words."""
     if question == "fixed_spectrum":
         if not claim["factors"]:
             return "empty"

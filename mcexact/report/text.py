@@ -1,4 +1,4 @@
-"""Text for people: sentences and tables, no line longer than the terminal is wide."""
+"""Sentences and tables as text, with lines no longer than the width of the terminal."""
 
 from __future__ import annotations
 
@@ -8,15 +8,15 @@ from dataclasses import dataclass
 from typing import TextIO
 
 WIDTH = 80
-"""Columns where nobody says how many there are."""
+"""The default width of text."""
 WIDE = 200
-"""Columns for tables that have many, where they go to a pipe."""
+"""The width of tables with many columns when they are written to a pipe."""
 _NARROWEST = 8
 
 
 @dataclass(frozen=True)
 class Table:
-    """A table with a title; without columns it is a list of names and values."""
+    """A table with a title; without column names it lists names and values."""
 
     title: str
     columns: tuple[str, ...]
@@ -25,7 +25,7 @@ class Table:
 
 
 def shorten(text: str, limit: int = 60) -> str:
-    """The text, cut in the middle if it is long; for names and messages, never for numbers.
+    """Shorten a long name or message in the middle; numbers must not be shortened like this.
 
     Examples
     --------
@@ -39,17 +39,17 @@ def shorten(text: str, limit: int = 60) -> str:
 
 
 def wrapped(text: str, width: int) -> list[str]:
-    """The lines of a text, broken at blanks; a word that is longer than a line is broken too."""
+    """Break a text into lines at blanks, and also words longer than a line."""
     return textwrap.wrap(text, max(width, 8), break_on_hyphens=False) or [""]
 
 
 def plain(tables: Sequence[Table], width: int = WIDTH) -> str:
-    """The tables as aligned lines, a blank line between two."""
+    """Format tables as aligned lines, with blank lines between them."""
     return "\n\n".join("\n".join(_lines(table, width)) for table in tables) + "\n"
 
 
 def _lines(table: Table, width: int) -> Iterator[str]:
-    """Title, rows and note; cells that are too long go on in the lines below."""
+    """Format title, rows and note; cells that are too long continue in the lines below."""
     if table.title:
         yield from wrapped(table.title, width)
     rows = [table.columns, *table.rows] if table.columns else list(table.rows)
@@ -67,7 +67,7 @@ def _lines(table: Table, width: int) -> Iterator[str]:
 
 
 def _widths(rows: Sequence[Sequence[str]], room: int) -> list[int]:
-    """How wide each column is: as its longest cell, the widest narrowed alike until all fit."""
+    """The width of each column: that of its longest cell, the widest ones narrowed to fit."""
     widths = [max(len(cell) for cell in column) for column in zip(*rows, strict=True)]
     room -= 2 * (len(widths) - 1)
     fitting = (
@@ -80,7 +80,7 @@ def _widths(rows: Sequence[Sequence[str]], room: int) -> list[int]:
 
 
 def show(tables: Sequence[Table], stream: TextIO) -> None:
-    """The same lines on a terminal, titles and names of columns set off."""
+    """Draw tables on a terminal, with highlighted titles and column names."""
     from rich.console import Console
     from rich.text import Text
 

@@ -1,4 +1,4 @@
-"""A trajectory as a table for people and as comma-separated values for programs."""
+"""Trajectories as tables and as comma-separated values."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from mcexact.simulation.trajectory import Trajectory
 
 
 def trajectory_csv(run: Trajectory) -> str:
-    """One line for each time: t, x, then x_i and z_i of every agent.
+    """Write one line for each time: t, x, then x_i and z_i of every agent.
 
-    Rational numbers are written exactly, as "p/q"; others with all their digits.
+    Rational numbers are written exactly, as "p/q", other numbers with all their digits.
     """
     first = run.snapshots[0]
     header = ["t", *(f"x[{k + 1}]" for k in range(len(first.plant)))]
@@ -31,7 +31,7 @@ def trajectory_csv(run: Trajectory) -> str:
 
 
 def _written(value: Any, run: Trajectory) -> str:
-    """A number as text."""
+    """Format a number."""
     if isinstance(value, Fraction) and run.arithmetic == "float":
         return repr(to_float(value))
     if isinstance(value, Fraction):
@@ -40,12 +40,12 @@ def _written(value: Any, run: Trajectory) -> str:
 
 
 def state_norms(run: Trajectory) -> list[float]:
-    """The largest absolute value of an entry of x, at every time."""
+    """Return the largest absolute value of an entry of x at every time."""
     return [_largest(snapshot.plant) for snapshot in run.snapshots]
 
 
 def error_norms(run: Trajectory) -> dict[str, list[float]]:
-    """The largest absolute entry of e_i = x_i − x for every agent; empty without estimates."""
+    """Return the largest absolute entry of e_i = x_i − x for every agent with an estimate."""
     if not run.has_estimates():
         return {}
     rows = [[_largest(e) for e in run.errors(k)] for k in range(len(run.times))]
@@ -53,13 +53,13 @@ def error_norms(run: Trajectory) -> dict[str, list[float]]:
 
 
 def _largest(values: list[Any]) -> float:
-    """The largest absolute value as a float; inf beyond the floats, 0 without entries."""
+    """Return the largest absolute value as a float: infinity beyond floats, 0 without entries."""
     top = max((abs(value) for value in values), default=0)
     return to_float(top) if isinstance(top, (int, Fraction)) else float(top)
 
 
 def trajectory_rows(run: Trajectory, lines: int = 12) -> tuple[tuple[str, ...], ...]:
-    """At most so many lines: t, the norm of x, and those of the estimation errors."""
+    """Return a limited number of lines: t, the norm of x, and those of the estimation errors."""
     states, errors = state_norms(run), error_norms(run)
     count = len(run.times)
     chosen = sorted({round(k * (count - 1) / max(lines - 1, 1)) for k in range(lines)})

@@ -1,5 +1,6 @@
-"""Designs: from a system to a controller of m agent programs, and the gate that certifies the loop.
+"""Designs of controllers with m agent programs, and the gate that certifies closed loops.
 
-Takes systems and neighbor graphs, gives linear time-invariant controllers together with certified
-closed loops, and refuses, with a certificate that says why, what none of these could do.
+This stage takes systems and neighbor graphs, and gives linear time-invariant controllers with
+certified closed loops.  If no such controller exists, it raises an error with a certificate that
+proves this.
 """

@@ -1,4 +1,4 @@
-"""Certify a controller from anywhere: the loop is assembled, separated where it can be, decided."""
+"""`certify_controller` decides whether a given controller makes a loop stable or fast enough."""
 
 from __future__ import annotations
 
@@ -42,43 +42,44 @@ def certify_controller(
     largest: bool = False,
     progress: Progress | None = None,
 ) -> StabilityVerdict:
-    """Decide whether every eigenvalue of the loop around a plant meets a rate or a radius.
+    """Decide whether every eigenvalue of a closed loop meets a rate or a radius.
 
     Parameters
     ----------
     system : MultiChannelSystem
         A plant.
     controller : Controller
-        Any one that fits.
+        A controller for the plant, designed by any method.
     graph : NeighborGraph, optional
         Overrides ``system.neighbors``.
     rate, radius : rational, optional
-        The one of the time domain; by default stability alone.
+        A rate in continuous time, a radius in discrete time; by default only stability is decided.
     method : {"polynomial", "lyapunov"}, optional
         See `certify_stability`.
     largest : bool
-        Look for the largest rate (least radius) that can be certified, and certify that.
+        Whether to search for the largest rate (least radius) and certify it.
     progress : callable, optional
-        Is told, in a few words, what is being done.
+        A function that is called with a short description of each step.
 
     Returns
     -------
     StabilityVerdict
-        About the closed loop; with ``largest``, for the region that was found, or for stability
-        if there is none.
+        The verdict on the closed loop; with ``largest``, for the region that was found, or for
+        stability if none was.
 
     Raises
     ------
     UsageError
-        If the bound is out of range or for the other time domain, or the method does not decide.
+        If the rate or radius is out of range or for the other time domain, or the method is
+        inconclusive.
     LimitReached
-        If the loop is too large for its characteristic polynomial, and Lyapunov matrices do not
-        decide.
+        If the loop is too large for its characteristic polynomial, and the Lyapunov method is
+        inconclusive.
 
     Notes
     -----
-    Exact, both ways.  The loop of a distributed observer is recognized and goes block by block
-    (`observer_coordinates`).
+    Both answers are exact.  The loop of a distributed observer is recognized and decided block by
+    block (`observer_coordinates`).
 
     Examples
     --------
@@ -92,7 +93,7 @@ def certify_controller(
     tell = progress or (lambda _: None)
     region = StabilityRegion.of(system.time, rate, radius)
     if largest and region.bound is not None:
-        raise UsageError("either look for the largest rate or give one")
+        raise UsageError("give either a rate (radius) or `largest`, not both")
     tell("the closed loop")
     loop = closed_loop(system, controller, graph).system
     separation = None
@@ -120,15 +121,15 @@ def _decided(
     except UsageError:
         if loop.n > _POLYNOMIAL_UNASKED:
             raise LimitReached(
-                f"Lyapunov matrices do not decide this loop of {loop.n} states, and its "
-                "characteristic polynomial takes long: ask for the method polynomial, or for "
-                "another bound"
+                f"the Lyapunov method was inconclusive for this loop of {loop.n} states, and its "
+                "characteristic polynomial takes long: choose the method polynomial, or "
+                "another rate or radius"
             ) from None
     return certify_stability(loop, region, method="polynomial")
 
 
 def _largest(loop: MultiChannelSystem, separation: Separation | None) -> StabilityRegion | None:
-    """By bisection over the polynomial, or over parts of the computed bound for large loops."""
+    """Search by bisection with the polynomial, or for large loops with parts of the margin."""
     import numpy as np
 
     floats, whole = matrix_to_float(loop.A), StabilityRegion(loop.time)
@@ -141,7 +142,7 @@ def _largest(loop: MultiChannelSystem, separation: Separation | None) -> Stabili
     best, holds, fails = None, 0, _PARTS_TRIED
     while fails - holds > 1:
         middle = (holds + fails) // 2
-        # The region that uses so many of `_PARTS_TRIED` parts of what the eigenvalues leave.
+        # The region that uses some of the `_PARTS_TRIED` parts of the margin of the eigenvalues.
         region = whole.tightened(spare * middle / _PARTS_TRIED, offset=1)
         try:
             found = certify_stability(loop, region, method="lyapunov", separation=separation)
@@ -156,13 +157,13 @@ def _largest(loop: MultiChannelSystem, separation: Separation | None) -> Stabili
 
 
 def account_of_verdict(found: StabilityVerdict, *, largest: bool = False) -> Account:
-    """A verdict on a loop, told.
+    """Make the account of a verdict on a closed loop.
 
     Parameters
     ----------
     found : StabilityVerdict
     largest : bool
-        Whether its bound is the largest that was found.
+        Whether its rate (radius) is the largest (least) that was found.
     """
     asked = {"region": found.region, "states": found.about.n, "largest": largest}
     answers, given = {found.kind: found}, Given(found.about.plant, asked)

@@ -1,4 +1,4 @@
-"""Brasch–Pearson: a controller of low order that assigns the whole spectrum through one channel."""
+"""Brasch–Pearson controllers of low order, which assign the whole spectrum through one channel."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ class ChannelController:
     C : Matrix, p×k
     D : Matrix, p×q
     polynomial : Polynomial or None
-        The closed-loop polynomial that it was made for, of degree n + k; None if it was made for
-        a rate or a radius.
+        The prescribed closed-loop polynomial, of degree n + k; None if the controller was designed
+        for a rate or a radius.
     """
 
     A: Matrix
@@ -53,7 +53,7 @@ class ChannelController:
 
     @property
     def bit_length(self) -> int:
-        """Bits of the longest numerator or denominator."""
+        """The number of bits of the longest numerator or denominator."""
         return bit_length(self.matrices)
 
     @property
@@ -90,7 +90,7 @@ def channel_controller(
     row : sequence of int, optional
         h, 1×q, with (hC, A) observable; drawn if not given.
     seed : int
-        For the draws of h.
+        The seed for the draws of h.
 
     Returns
     -------
@@ -146,14 +146,14 @@ def channel_controller(
 def assigning_controllers(
     A: Matrix, B: Matrix, C: Matrix, polynomial: Polynomial, *, index: int, side: str, rng: Random
 ) -> Iterator[ChannelController]:
-    """The controllers of `channel_controller` for drawn rows h.
+    """Yield the controllers of `channel_controller` for drawn rows h.
 
     Parameters
     ----------
     A, B, C, polynomial, index
         As there.
     side : {"controllable", "observable"}
-        Whose index it is; of the other one the transposed loop is designed.
+        The property to which the index belongs; for "observable" the transposed loop is designed.
     rng : Random
     """
     if side == "observable":
@@ -167,7 +167,7 @@ def assigning_controllers(
 
 
 def transposed(controller: ChannelController) -> ChannelController:
-    """The controller for (A', C', B') as a controller for (A, B, C); the loop is transposed."""
+    """Transpose a controller for (A', C', B') into a controller for (A, B, C)."""
     return ChannelController(
         controller.A.T, controller.C.T, controller.B.T, controller.D.T, controller.polynomial
     )

@@ -1,4 +1,4 @@
-"""What single channels control and observe of a closed loop, and gains that make it the most."""
+"""Parts of a closed loop that single channels control and observe, and gains that enlarge them."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from mcexact.model.system import MultiChannelSystem
 
 @dataclass(frozen=True)
 class ChannelReach:
-    """What one channel controls and observes at the same time, by numbers alone.
+    """The dimension and an index of the part that one channel controls and observes.
 
     Attributes
     ----------
@@ -29,9 +29,9 @@ class ChannelReach:
     index : int
         The smaller of the two indices of that part, at least 1.
     side : {"controllable", "observable"}
-        Whose index it is.
+        The property to which the index belongs.
     cyclic : bool
-        Whether that part is cyclic, so that one drawn row of C_q observes it.
+        Whether this part is cyclic, so that one drawn row of C_q observes it.
     """
 
     channel: int
@@ -43,14 +43,14 @@ class ChannelReach:
 
 @dataclass(frozen=True)
 class DrawnGains:
-    """Decentralized gains with the channel chosen in every strong component.
+    """Decentralized gains, with the channel chosen in every strong component.
 
     Attributes
     ----------
     gains : tuple of Matrix
         F_i, p_i × q_i.
     reaches : tuple of ChannelReach
-        One for each component that a channel can move at all.
+        One for each component of which a channel moves some modes.
     """
 
     gains: tuple[Matrix, ...]
@@ -63,7 +63,7 @@ class DrawnGains:
 
     @property
     def order(self) -> int:
-        """What their controllers need, index − 1 each."""
+        """The order of their controllers: index − 1 each."""
         return sum(reach.index - 1 for reach in self.reaches)
 
     @property
@@ -89,12 +89,12 @@ class ChannelPart:
 
 
 def channel_part(A: Matrix, B: Matrix, C: Matrix, rng: Random) -> ChannelPart:
-    """Cut (A, B, C) down to what is controllable and observable, exactly.
+    """Compute the controllable and observable part of (A, B, C), exactly.
 
     Notes
     -----
-    On X = ⟨A | B⟩ in echelon form A acts as (AX)[pivots]; then the same for the dual.  When
-    everything is controllable and observable the triple comes back as it is.
+    On X = ⟨A | B⟩ in echelon form A acts as (AX)[pivots]; then the same for the dual.  A
+    controllable and observable triple is returned unchanged.
     """
     found = controllable_subspace(A, B, rng)
     A1, B1, C1 = (A @ found.X).take(found.pivots), B.take(found.pivots), C @ found.X
@@ -109,7 +109,7 @@ def drawn_gains(
     attempts: int,
     least: int = 0,
 ) -> list[DrawnGains]:
-    """Draw small decentralized gains; those that let the chosen channels move the most come first.
+    """Draw small decentralized gains, and sort them by the number of modes that channels move.
 
     Parameters
     ----------
@@ -117,9 +117,10 @@ def drawn_gains(
     components : sequence of sequences of int
         For each strong component of the transfer graph, the channels to choose from.
     attempts : int
-        How many draws are made.
+        The number of draws.
     least : int
-        Draws with a smaller degree are not kept; the search stops early when many reach it.
+        Draws with a smaller degree are dropped; the search ends early after many draws with this
+        degree.
 
     Returns
     -------
@@ -129,8 +130,8 @@ def drawn_gains(
 
     Notes
     -----
-    A search: everything is a rank modulo one word-size prime, which bounds the rank over Q from
-    below.  What it proposes is verified by who uses it.
+    The search uses ranks modulo one word-size prime, which bound ranks over Q from below.  The
+    caller verifies its proposals.
     """
     rng = generator(system, "drawn_gains")
     modular = next(iter(residue_systems(system, rng)))
@@ -143,7 +144,7 @@ def drawn_gains(
 
 
 def _draws(system: MultiChannelSystem, rng: Random, attempts: int) -> Iterator[tuple[Matrix, ...]]:
-    """No gains at all first, then sparse and full ones of growing range."""
+    """Yield zero gains first, then sparse and full gains of growing range."""
     for trial in range(attempts):
         bound = 1 + trial // 24
         density = 0.0 if trial == 0 else (0.25, 0.5, 1.0)[trial % 3]

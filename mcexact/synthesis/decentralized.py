@@ -1,4 +1,4 @@
-"""Decentralized control: a controller without any message."""
+"""Decentralized control, without communication."""
 
 from __future__ import annotations
 
@@ -21,21 +21,21 @@ def design_decentralized(
     arithmetic: Arithmetic = "exact",
     progress: Progress | None = None,
 ) -> Design:
-    """Design a linear time-invariant controller without communication: u_i is made of y_i alone.
+    """Design a linear time-invariant controller without communication: u_i depends on y_i alone.
 
     Parameters
     ----------
     system : MultiChannelSystem
-        A plant, or a system made from one.  Its neighbor graph is not used.
+        A plant or a derived system, whose neighbor graph is not used.
     agent : str, optional
-        Who is to carry a channel controller; by default those that need the least order.
+        The agent with a channel controller; by default those that need the least order.
     spectrum : polynomial, list of roots, or mapping ``{"closed_loop": …}``, optional
         See `network_proposals`.
     rate, radius : rational, optional
         Every eigenvalue gets real part below −rate (continuous time) or modulus below radius
         (discrete time).
     arithmetic : {"exact", "float"}
-        In floating point only a rate or radius can be asked for.
+        Floating point needs a rate or a radius instead of a spectrum.
     progress : callable, optional
 
     Returns
@@ -46,8 +46,8 @@ def design_decentralized(
     Raises
     ------
     Impossible
-        If a fixed mode is not fast enough; the certificate is that of the fixed spectrum.  A
-        controller that varies with time is not ruled out.
+        If a fixed mode is not fast enough; the certificate is that of the fixed spectrum.
+        Controllers that vary with time are not excluded.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""A design: a certified controller, what was proved of its loop, and what is only measured."""
+"""Designs: certified controllers, with proofs about their loops and measures in floating point."""
 
 from __future__ import annotations
 
@@ -31,18 +31,18 @@ _SHOWN = (
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Design:
-    """What every ``design_…`` function returns.
+    """The result of every ``design_…`` function.
 
     Attributes
     ----------
     method : {"decentralized", "observer", "extended"}
     arithmetic : {"exact", "float"}
-        In which the controller was found; what is proved of it is proved exactly.
+        The arithmetic in which the controller was found; all proofs are exact.
     loop : CertifiedLoop
     region : StabilityRegion
-        The one that was asked for: every eigenvalue of the loop lies in it, where it has a bound.
+        The requested region; if it has a bound, every eigenvalue of the loop lies in it.
     certificates : mapping
-        All that was proved, by the names of the files.
+        All certificates, keyed by the names of their files.
     parts : mapping
         What the method made the controller of, and ``"solvability"`` where it holds set-points:
 
@@ -78,7 +78,7 @@ class Design:
         return "setpoint" if "solvability" in self.parts else self.method
 
     def measures(self) -> dict[str, float | None]:
-        """Figures of the loop in floating point: measured, not proved; None beyond floats.
+        """Compute robustness measures of the loop in floating point; None if numbers exceed floats.
 
         See `LoopMargins`; ``largest_gain`` is the largest absolute entry of the programs.
         """
@@ -89,7 +89,7 @@ class Design:
         return {name: finite(figure) for name, figure in found.items()}
 
     def account(self) -> Account:
-        """What was proved, and the sentences that follow from it."""
+        """Return the certificates with the sentences that follow from them."""
         facts = {
             "method": self.method,
             "arithmetic": self.arithmetic,
@@ -101,7 +101,7 @@ class Design:
         return Account(self.certificates, given, DESIGN.sentences(self.certificates, given))
 
     def view(self) -> dict[str, Any]:
-        """The design as plain data; a polynomial is its coefficients as strings."""
+        """Return the design as plain data; a polynomial is a list of coefficients as strings."""
         polynomial, bound = self.loop.polynomial, self.region.bound
         return {
             "design": self.name,
@@ -130,7 +130,7 @@ def designed(
     *,
     stable: bool = False,
 ) -> Design:
-    """The design of the first proposal that passes the gate; see `first_certified`."""
+    """Make the design of the first proposal that passes the gate; see `first_certified`."""
     made, loop = first_certified(
         system, proposals, request.region, graph, stable=stable, tell=request.tell
     )
@@ -139,7 +139,7 @@ def designed(
 
 
 def _plain(value: Any) -> Any:
-    """A part as plain data."""
+    """Convert a part to plain data."""
     if isinstance(value, Polynomial):
         return [str(c) for c in value.coefficients]
     if isinstance(value, Mapping):

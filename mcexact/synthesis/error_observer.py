@@ -15,13 +15,13 @@ Gain = Callable[[Matrix, Matrix], Matrix | None]
 
 @dataclass(frozen=True)
 class ErrorObserver:
-    """A channel controller, and what its state estimates.
+    """A channel controller, with the combination of errors that its state estimates.
 
     Attributes
     ----------
     channel : ChannelController
     Y : Matrix, k×N
-        z estimates Y e, and Y e − z evolves by itself.
+        z estimates Y e, and the error Y e − z is autonomous.
     L : Matrix
         The gain of the observer.
     """
@@ -53,14 +53,15 @@ def full_order_observer(E: Matrix, B: Matrix, C: Matrix, G: Matrix, L: Matrix) -
 def reduced_order_observer(
     E: Matrix, B: Matrix, C: Matrix, G: Matrix, gain: Gain
 ) -> ErrorObserver | None:
-    """Observe only what the outputs do not show: of order N − rank C.
+    """Make an observer of reduced order N − rank C, for the states that the outputs do not measure.
 
     Parameters
     ----------
     E, B, C, G : Matrix
         As in `full_order_observer`.
     gain : callable
-        Gives L for a pair (E_22, E_12), such that E_22 − L E_12 is fast enough; or None.
+        A function that returns L for a pair (E_22, E_12), such that E_22 − L E_12 is fast enough,
+        or None.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""Distributed control by sharing sub-states: the extended system, channel by channel."""
+"""Distributed control with shared sub-states, by decentralized control of the extended system."""
 
 from __future__ import annotations
 
@@ -46,45 +46,44 @@ def design_extended(
     Parameters
     ----------
     system : MultiChannelSystem
-        A plant, or a system made from one, n states, m channels.
+        A plant or a derived system with n states and m channels.
     graph : NeighborGraph, optional
         With delays, in discrete time; overrides ``system.neighbors``.
     agent : str, optional
-        Who carries the channel controller; by default the one that needs the least
-        order.
+        The agent with the channel controller; by default the one that needs the least order.
     dimensions : {"minimal", "bound"} or sequence of m int
         n_1 … n_m: the least that suffice, Theorem 2's bound for every agent, or given ones.
     share : {"outputs+states", "states"}, optional
-        What agents send; by default both, with holding sub-states alone.
+        The signals that agents send; by default both, but with holding sub-states alone.
     network : {"extended", "lifted", "held"}, optional
-        With delays: the lifted system, in which only 0 stays fixed (the default), or the held one,
-        in which nothing does.
+        With delays, the lifted system, in which only 0 is fixed (the default), or the held one, in
+        which no mode is.
     spectrum : polynomial, list of roots, or mapping, optional
-        n̄ + k_q numbers, freely; see `network_proposals`.  Every mode is freed then, or where that
-        is impossible every mode that is not stable.
+        n̄ + k_q prescribed numbers; see `network_proposals`.  The dimensions then suffice for all
+        modes to be moved, or if that is impossible, all modes that are not stable.
     rate, radius : rational, optional
-        Instead of a spectrum, or besides it, to be certified.  Only modes that violate it need to
-        be freed; fixed modes that meet it stay, and are reported.
+        A rate or radius to be certified, instead of a spectrum or in addition to it.  Only modes
+        that violate it need to be moved; fixed modes that meet it remain, and are reported.
     free_assignability : bool
-        With ``"minimal"``: share so much that the transfer graph of the extended system is
-        strongly connected, so that the spectrum does not split.
+        With ``"minimal"``, share enough that the transfer graph of the extended system is strongly
+        connected, so that the spectrum does not split.
     arithmetic : {"exact", "float"}
     progress : callable, optional
 
     Returns
     -------
     Design
-        Of order k_q + Σ n_i; the distributed observer's is nm + m − 1.
+        A design of order k_q + Σ n_i; a distributed observer has order nm + m − 1.
 
     Raises
     ------
     Impossible
-        If no dimensions free every mode that is not fast enough, or the given ones do not.
+        If no dimensions, or not the given ones, allow every mode that is too slow to be moved.
 
     Notes
     -----
-    Paper, sections IV-D, IV-E and V.  The design is on the derived system, the programs are for the
-    network itself: messages are late on the links, and the agents hold.
+    Paper, sections IV-D, IV-E and V.  The design uses the derived system, and the programs are for
+    the network itself, where links have delays and agents hold signals.
 
     Examples
     --------
@@ -129,7 +128,7 @@ def sharing_network(
     network: Literal["extended", "lifted", "held"] | None = None,
     free_assignability: bool = False,
 ) -> tuple[DerivedNetwork, SharedDimensions | Deficiency | None]:
-    """The network that `design_extended` controls, of the same arguments, and why of this size."""
+    """Return the network that `design_extended` controls, and the allocation of its dimensions."""
     system, found = with_graph(system, graph)
     kind: NetworkKind = network or ("lifted" if found.delays else "extended")
     if kind not in ("extended", "lifted", "held"):
@@ -147,7 +146,7 @@ def _sizes(
     region: StabilityRegion,
     free_assignability: bool,
 ) -> tuple[SharedDimensions | Deficiency | None, tuple[int, ...]]:
-    """n_1 … n_m, and where they come from."""
+    """Return the dimensions n_1 … n_m, and the answer that determined them."""
     if dimensions == "bound":
         most = shared_dimension_bound(system, share=share)
         return most, (most.deficiency,) * system.m
@@ -163,7 +162,7 @@ def _sizes(
         plant, share=share, bound=region.bound, free_assignability=free_assignability
     )
     if least.dimensions is None and region.bound is None:
-        # Not every mode can be freed; the stable ones may stay.
+        # Not every mode can be moved; the stable ones may be fixed.
         stable = _rate_of_stable_modes(system)
         least = minimal_shared_dimensions(
             plant, share=share, bound=stable, free_assignability=free_assignability
@@ -178,7 +177,7 @@ def _sizes(
 
 
 def _rate_of_stable_modes(system: MultiChannelSystem) -> Fraction:
-    """A rate that every stable mode of A meets; in discrete time the radius 1."""
+    """Return a rate that every stable mode of A meets; in discrete time the radius 1."""
     region = StabilityRegion(system.time)
     if region.discrete:
         return region.edge

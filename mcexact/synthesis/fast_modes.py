@@ -1,4 +1,4 @@
-"""Modes that are fast enough already: designs for a rate leave them where they are."""
+"""Modes that are fast enough already, which designs for a rate do not move."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ from mcexact.synthesis.state_feedback import (
 
 
 def feedback_for_region(system: MultiChannelSystem, region: StabilityRegion) -> StateFeedback:
-    """F with every eigenvalue of A + Σ B_i F_i in a region; uncontrollable modes in it stay.
+    """Find F with every eigenvalue of A + Σ B_i F_i in a region; uncontrollable modes in it stay.
 
     Parameters
     ----------
     system : MultiChannelSystem
     region : StabilityRegion
-        With a bound.
+        A region with a rate or radius.
 
     Raises
     ------
@@ -67,7 +67,7 @@ def feedback_for_region(system: MultiChannelSystem, region: StabilityRegion) -> 
 
 
 def observable_part(system: MultiChannelSystem) -> tuple[MultiChannelSystem, Matrix]:
-    """The plant modulo what all channels together do not see.
+    """The observable quotient of a plant, with respect to all channels together.
 
     Parameters
     ----------
@@ -79,7 +79,8 @@ def observable_part(system: MultiChannelSystem) -> tuple[MultiChannelSystem, Mat
     part : MultiChannelSystem
         (A_o, L B_i, C_{o,i}), jointly observable, with the same channels and graph.
     L : Matrix, d×n
-        Of full row rank: L A = A_o L and C_i = C_{o,i} L, so that L x moves as the part does.
+        Of full row rank, with L A = A_o L and C_i = C_{o,i} L, so that L x is the state of the
+        part.
 
     Examples
     --------

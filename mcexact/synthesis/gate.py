@@ -1,4 +1,4 @@
-"""The gate: the one way from agent programs to a certified closed loop."""
+"""The gate, which alone makes certified closed loops from agent programs."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class Coordinates:
     T, inverse : Matrix, N×N
         The state is T times the new one.
     sizes : tuple of int
-        Of the diagonal blocks.
+        The sizes of the diagonal blocks.
     """
 
     T: Matrix
@@ -44,7 +44,7 @@ class Coordinates:
     sizes: tuple[int, ...]
 
     def separation(self, M: Matrix) -> Separation | None:
-        """The loop in these coordinates; None if something below the diagonal blocks is not 0."""
+        """Transform a loop to these coordinates; None if a block below the diagonal is not 0."""
         if M.shape != self.T.shape:
             return None
         Delta = self.inverse @ (M @ self.T)
@@ -55,25 +55,25 @@ class Coordinates:
         return Separation(self.T, Delta, tuple(filter(None, self.sizes)), self.inverse)
 
     def of_states(self, places: tuple[int, ...]) -> Coordinates:
-        """The same for a loop whose k-th state was the one at ``places[k]``."""
+        """Return the coordinates for a loop whose k-th state was the one at ``places[k]``."""
         T, inverse = self.T.take(rows=places), self.inverse.take(cols=places)
         return Coordinates(T, inverse, self.sizes)
 
 
 @dataclass(frozen=True)
 class Proposal:
-    """Agent programs that a designer puts before the gate, and what it promises of their loop.
+    """Agent programs proposed by a designer, with claims about their closed loop.
 
     Attributes
     ----------
     controller : Controller
     polynomials : tuple of Polynomial
-        The characteristic polynomials of the diagonal blocks in the coordinates, of which there
-        are those of a distributed observer; or the one of the whole loop; or none.
+        The claimed characteristic polynomials of the two diagonal blocks of a distributed
+        observer's loop, or of the whole loop, or none.
     coordinates : tuple of Coordinates
-        In which the loop may separate, the finest first.
+        Coordinates in which the loop may be block triangular, the finest first.
     parts : mapping
-        What the controller is made of, by names.
+        The parts of the controller by names.
     """
 
     controller: Controller
@@ -83,26 +83,26 @@ class Proposal:
 
     @property
     def is_tentative(self) -> bool:
-        """Whether Lyapunov matrices of diagonal blocks may fail to prove it: a next one may do."""
+        """Whether the Lyapunov method decides, which may fail for one proposal and not the next."""
         return bool(self.coordinates) and not self.polynomials
 
 
 @dataclass(frozen=True, eq=False)
 class CertifiedLoop:
-    """A loop whose claims were verified exactly; holding one is the proof that they were.
+    """A closed loop whose claims were verified exactly.
 
     Attributes
     ----------
     closed : ClosedLoop
     polynomial : Polynomial or None
-        The characteristic polynomial of the whole loop, where a certificate states it.
+        The characteristic polynomial of the whole loop, if a certificate states it.
     proofs : tuple of Answer
-        The first one is about all eigenvalues.
+        The certificates, of which the first is about all eigenvalues.
 
     Raises
     ------
     InternalError
-        If it is made anywhere but in this module.
+        If it is made outside this module.
     """
 
     closed: ClosedLoop
@@ -121,12 +121,12 @@ class CertifiedLoop:
 
     @property
     def matrix(self) -> Matrix:
-        """The matrix of the loop, state (x, x_1, z_1, …)."""
+        """The matrix of the loop, with the state (x, x_1, z_1, …)."""
         return self.closed.matrix
 
     @property
     def proof(self) -> Answer:
-        """The one about all eigenvalues."""
+        """The certificate about all eigenvalues."""
         return self.proofs[0]
 
 
@@ -138,7 +138,7 @@ def certify(
     *,
     stable: bool = False,
 ) -> CertifiedLoop:
-    """Assemble the loop of a proposal, and verify what it promises.
+    """Assemble the closed loop of a proposal, and verify its claims.
 
     Parameters
     ----------
@@ -146,27 +146,26 @@ def certify(
         A plant, or a system made from one.
     proposal : Proposal
     region : StabilityRegion
-        Where every eigenvalue is asked to lie, if it has a bound.
+        The region in which every eigenvalue should lie, if it has a bound.
     graph : NeighborGraph, optional
     stable : bool
-        Ask for stability where the region has no bound.
+        Whether to require stability if the region has no bound.
 
     Raises
     ------
     Impossible
-        If nothing is promised and an eigenvalue lies outside; the certificate proves it.
+        If the proposal has no claims and an eigenvalue lies outside; the certificate proves this.
     UsageError
-        If a promised eigenvalue lies outside, or Lyapunov matrices do not decide.
+        If a claimed eigenvalue lies outside, or the Lyapunov method was inconclusive.
     InternalError
-        If a promise does not hold: the design that made it is wrong.
+        If a claim is false, which is a bug in the designer.
 
     Notes
     -----
-    Exact, whatever arithmetic the controller was designed in.  The loop is assembled once, and
-    whether it is stable is decided once: of the promised polynomials, where there are some, which
-    agree with those of the loop modulo primes whose product exceeds twice a bound on their
-    coefficients (`proofs/closed_loop_spectrum.md`, `proofs/distributed_observer.md`,
-    `proofs/stability.md`).
+    Exact, for controllers designed in any arithmetic.  The loop is assembled once, and its
+    stability is decided once: by the claimed polynomials, if there are any, which must agree with
+    those of the loop modulo primes whose product exceeds twice a bound on their coefficients
+    (`proofs/closed_loop_spectrum.md`, `proofs/distributed_observer.md`, `proofs/stability.md`).
     """
     loop = closed_loop(system, proposal.controller, graph)
     if not proposal.polynomials:
@@ -197,12 +196,12 @@ def first_certified(
     stable: bool = False,
     tell: Progress,
 ) -> tuple[Proposal, CertifiedLoop]:
-    """The first of a designer's proposals that passes; see `certify`.
+    """Return the first of a designer's proposals that passes; see `certify`.
 
     Raises
     ------
     LimitReached
-        If none does.
+        If none passes.
     """
     for proposal in proposals:
         tell("certificate")
@@ -215,7 +214,7 @@ def first_certified(
 
 
 def _decided(loop: ClosedLoop, proposal: Proposal, region: StabilityRegion) -> CertifiedLoop:
-    """Decide stability, block by block where the loop separates."""
+    """Decide stability, block by block if the loop separates."""
     found = (each.separation(loop.matrix) for each in proposal.coordinates)
     separation = next(filter(None, found), None)
     method: Method | None = "lyapunov" if proposal.coordinates else None
@@ -226,11 +225,11 @@ def _decided(loop: ClosedLoop, proposal: Proposal, region: StabilityRegion) -> C
 
 
 def _observer(loop: ClosedLoop, proposal: Proposal, region: StabilityRegion) -> CertifiedLoop:
-    """The separation of a distributed observer, and the spectra of both parts."""
+    """Certify the separation of a distributed observer, and the spectra of both parts."""
     (coordinates,), (feedback, error) = proposal.coordinates, proposal.polynomials
     separation = coordinates.separation(loop.matrix)
     if separation is None:
-        raise InternalError("the estimation errors do not evolve by themselves")
+        raise InternalError("the estimation errors are not autonomous")
     M_F, M_E = replace(separation, sizes=coordinates.sizes).blocks()
     seed = generator(loop.system, "distributed_observer").getrandbits(64)
     proof = DistributedObserver(
@@ -244,8 +243,8 @@ def _observer(loop: ClosedLoop, proposal: Proposal, region: StabilityRegion) -> 
 
 
 def _of_the_messages_in_use(polynomial: Polynomial, dimension: int) -> Polynomial:
-    """Messages that no program uses are not part of the loop; each was a mode 0 of the design."""
+    """Remove the factors x of messages that no program uses, which are not part of the loop."""
     unused = max(polynomial.degree - dimension, 0)
     if any(polynomial.coefficients[:unused]):
-        raise InternalError("messages that nobody uses are no modes of the network")
+        raise InternalError("a polynomial lacks the modes 0 of unused messages")
     return Polynomial(polynomial.coefficients[unused:])

@@ -1,4 +1,4 @@
-"""Channel controllers for drawn gains, component by component, and the best of them."""
+"""Channel controllers for drawn gains in each strong component, and the choice of the best."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _SMALL_GAIN = 1000
 
 @dataclass(frozen=True)
 class NetworkTask:
-    """What has been settled before gains are drawn."""
+    """The task of a network design, before gains are drawn."""
 
     network: DerivedNetwork
     components: tuple[tuple[int, ...], ...]
@@ -63,10 +63,10 @@ class NetworkTask:
 
 
 def best_candidate(task: NetworkTask, drawn: Sequence[DrawnGains]) -> NetworkCandidate | None:
-    """The best of the most promising draws, or None if none leads to a controller.
+    """Return the best candidate of the most promising draws, or None.
 
-    Exact designs want the least order, then short numbers; in floating point the order is given,
-    and what counts are small gains.
+    Exact designs minimize the order, then the length of numbers; in floating point the order is
+    given, and the gains are minimized.
     """
     if not drawn:
         return None
@@ -88,7 +88,7 @@ def best_candidate(task: NetworkTask, drawn: Sequence[DrawnGains]) -> NetworkCan
 
 @dataclass(frozen=True)
 class NetworkCandidate:
-    """Gains, channel controllers, the polynomials of the blocks and what is kept."""
+    """Gains, channel controllers, the polynomials of the blocks, and the remaining fixed modes."""
 
     gains: tuple[Matrix, ...]
     channels: Mapping[int, ChannelController]
@@ -102,14 +102,14 @@ class NetworkCandidate:
 
     @property
     def cost(self) -> int:
-        """Bits of the numbers, above all of the largest ones."""
+        """A measure of the length of numbers, dominated by the largest ones."""
         return sum(
             made.bit_length + 3 * ceil(made.largest).bit_length() for made in self.channels.values()
         )
 
 
 def _candidate(task: NetworkTask, drawn: DrawnGains) -> NetworkCandidate | None:
-    """Channel controllers for drawn gains; None if a mode that is not fixed would stay."""
+    """Make channel controllers for drawn gains; None if a mode that is not fixed would remain."""
     system = task.network.system
     rng = generator(system, "channel_controller")
     M = closed_by(system, drawn.gains)
@@ -120,7 +120,7 @@ def _candidate(task: NetworkTask, drawn: DrawnGains) -> NetworkCandidate | None:
     moved = product(characteristic_polynomial(part.A) for part in parts.values())
     kept, remainder = divmod(characteristic_polynomial(M), moved)
     if not remainder.is_zero():
-        raise InternalError("the parts of a loop have modes that the loop does not have")
+        raise InternalError("a part of a loop has modes that the loop does not have")
     if not _only(kept, task.spectrum.polynomial):
         return None
     made, wanted = {}, {}
@@ -144,7 +144,7 @@ def _candidate(task: NetworkTask, drawn: DrawnGains) -> NetworkCandidate | None:
 def _riccati_controller(
     task: NetworkTask, M: Matrix, reach: ChannelReach
 ) -> tuple[int, ChannelController | None]:
-    """The controller with the smallest gains among the channels that move as much as this one."""
+    """Return the controller with the smallest gains among channels that move equally many modes."""
     system = task.network.system
     rng = generator(system, "channel_controller")
     best: tuple[int, ChannelController | None] = (reach.channel, None)

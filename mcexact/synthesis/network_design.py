@@ -1,4 +1,4 @@
-"""Decentralized control of a derived network, strong component by strong component, certified."""
+"""Decentralized control of a derived network, with a controller for each strong component."""
 
 from __future__ import annotations
 
@@ -28,14 +28,14 @@ _MORE_ATTEMPTS = 600
 
 @dataclass(frozen=True)
 class AssignedBlock:
-    """A strong component of the transfer graph, and the numbers that were assigned to it.
+    """A strong component of the transfer graph, with its assigned spectrum.
 
     Attributes
     ----------
     channels : tuple of str
         The component.
     agent : str
-        Who carries its channel controller.
+        The agent with its channel controller.
     order : int
         The order of that controller.
     polynomial : Polynomial
@@ -49,17 +49,17 @@ class AssignedBlock:
 
 
 def network_proposals(network: DerivedNetwork, request: Request) -> Iterator[Proposal]:
-    """Decentralized control of a derived network, one channel controller per component.
+    """Propose a decentralized controller of a derived network.
 
     Parameters
     ----------
     network : DerivedNetwork
         Of n̄ states.
     request : Request
-        Its spectrum a polynomial or list of roots, n̄ + k_q numbers (less those of kept modes), if
-        the transfer graph is strongly connected; else a mapping from one agent of each strong
-        component to the numbers of that component.  Either may stand under the key
-        ``"closed_loop"``.  A wrong length names the right one.
+        If the transfer graph is strongly connected, its spectrum is a polynomial or a list of
+        roots, n̄ + k_q numbers (without those of kept modes).  Otherwise it is a mapping from one
+        agent of each strong component to the numbers of that component.  Both forms may be the
+        value of a key ``"closed_loop"``.  The error for a wrong length states the right one.
 
     Yields
     ------
@@ -73,18 +73,18 @@ def network_proposals(network: DerivedNetwork, request: Request) -> Iterator[Pro
     InputError
         If the spectrum has the wrong length or the wrong agents.
     LimitReached
-        If the drawn gains did not do it.
+        If no drawn gains led to a controller.
 
     Notes
     -----
     Paper, sections IV-A, IV-E and V-B (Corfmat and Morse 1976; Brasch and Pearson 1970).  Small
     gains F̄_i are drawn.  For each strong component c of the transfer graph, one channel q of it
     controls and observes a part of the loop, which its feedback alone can move, and which feedback
-    in another component does not touch, because no path leads there and back.  What no part
-    contains must be fixed: that is decided exactly, on the characteristic polynomials.  With one
-    component and no fixed mode the part is everything.  A part gets the Brasch–Pearson controller
-    of order k_q, one less than the smaller of its indices; in floating point an observer-based one
-    from two Riccati equations, of the order of the part.
+    in another component does not touch, because no path leads there and back.  Modes in no part
+    must be fixed, which is decided exactly from the characteristic polynomials.  With one component
+    and no fixed mode, the part is the whole loop.  A part gets a Brasch–Pearson controller of order
+    k_q, one less than the smaller of its indices; in floating point it gets an observer-based
+    controller from two Riccati equations, of the order of the part.
     """
     prescribed = _prescribed(request.spectrum)
     request.tell("fixed modes")
@@ -101,7 +101,7 @@ def network_proposals(network: DerivedNetwork, request: Request) -> Iterator[Pro
     if request.arithmetic == "float":
         raise LimitReached(
             "no Riccati equations of single channels led to a controller in double precision: "
-            "share more, ask for less, or design in exact arithmetic"
+            "share more states, require a lower rate, or design in exact arithmetic"
         )
     raise LimitReached(
         f"gains exist, but {_MORE_ATTEMPTS} draws did not find ones that move every mode that is "
@@ -110,7 +110,7 @@ def network_proposals(network: DerivedNetwork, request: Request) -> Iterator[Pro
 
 
 def _prescribed(spectrum: Any) -> Any:
-    """The value of ``"closed_loop"``, or what stands in its place."""
+    """Return the value of ``"closed_loop"``, or the spectrum itself."""
     if isinstance(spectrum, Mapping) and set(spectrum) == {"closed_loop"}:
         return spectrum["closed_loop"]
     if isinstance(spectrum, Mapping) and set(spectrum) & {"feedback", "error"}:
@@ -122,7 +122,7 @@ def _prescribed(spectrum: Any) -> Any:
 
 
 def _require_fast(network: DerivedNetwork, fixed: FixedSpectrum, region: StabilityRegion) -> None:
-    """Refuse a network with a fixed mode that is too slow."""
+    """Raise an error for a network with a fixed mode that is too slow."""
     if fixed.outside(region):
         told = say.FIXED if network.graph is None else say.FIXED_SHARED
         raise refusal("fixed", fixed, told=told, region=region)
@@ -131,7 +131,7 @@ def _require_fast(network: DerivedNetwork, fixed: FixedSpectrum, region: Stabili
 def _choices(
     network: DerivedNetwork, agent: int | None
 ) -> tuple[tuple[tuple[int, ...], ...], tuple[tuple[int, ...], ...]]:
-    """The strong components, and for each the channels that may carry its controller."""
+    """Return the channels that may have the controller, for each strong component."""
     plant = network.given
     graph = transfer_graph(network.system)
     components = tuple(tuple(plant.index(name) for name in members) for members in graph.components)
@@ -141,7 +141,7 @@ def _choices(
 
 
 def _proposal(task: NetworkTask, candidate: NetworkCandidate) -> Proposal:
-    """A candidate as programs."""
+    """Write a candidate as agent programs."""
     network, names = task.network, task.network.given.names
     blocks = tuple(
         AssignedBlock(
@@ -167,10 +167,11 @@ def _proposal(task: NetworkTask, candidate: NetworkCandidate) -> Proposal:
 
 
 def network_design(method: Method, network: DerivedNetwork, request: Request) -> Design:
-    """The proposal for a network, certified, with what else was proved of the network.
+    """Certify the proposal for a network, and add certificates about the network.
 
-    The fixed modes; and, where nothing is kept and there is one strong component, that with F̄_i the
-    agent with the channel controller reaches everything.
+    These are about the fixed modes and, if no mode is kept and there is one strong component, about
+    the gains F̄_i with which the agent with the channel controller controls and observes the
+    network.
     """
     proposals = network_proposals(network, request)
     made = designed(method, request, network.given, network.graph, proposals)

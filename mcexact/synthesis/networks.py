@@ -1,4 +1,4 @@
-"""Decentralized gains of a derived network, written as programs that agents can run."""
+"""Networks derived from a plant, and agent programs of their decentralized controllers."""
 
 from __future__ import annotations
 
@@ -23,21 +23,21 @@ Signal = tuple[Literal["y", "x"], int]
 
 @dataclass(frozen=True)
 class DerivedNetwork:
-    """A plant, what its agents share, and the multi-channel system that these make.
+    """A plant with the dimensions that its agents share, and the resulting multi-channel system.
 
     Attributes
     ----------
     kind : {"decentralized", "extended", "lifted", "held"}
     given : MultiChannelSystem
-        A plant, or a system made from one, on which the agents run.
+        The plant or derived system on which the agents run.
     graph : NeighborGraph or None
-        None where nothing is sent.
+        None if no signals are sent.
     dimensions : tuple of int
         n_1 … n_m.
     system : MultiChannelSystem
-        Whose decentralized controllers are the distributed ones of the given.
+        The system whose decentralized controllers are the distributed controllers of the given one.
     signals : tuple
-        For each agent what it sees, in the order of its outputs: ("y", j) or ("x", j).
+        The signals that each agent receives, in the order of its outputs: ("y", j) or ("x", j).
     """
 
     kind: NetworkKind
@@ -48,12 +48,12 @@ class DerivedNetwork:
     signals: tuple[tuple[Signal, ...], ...]
 
     def size(self, signal: Signal) -> int:
-        """How many numbers a signal has."""
+        """The dimension of a signal."""
         what, j = signal
         return self.given.q(j) if what == "y" else self.dimensions[j]
 
     def holds(self, j: int) -> dict[int, int]:
-        """How long agent j keeps x_j before each follower, and itself, may use it."""
+        """The number of steps for which agent j holds x_j, for each follower and for itself."""
         if self.kind != "held" or self.graph is None or not self.dimensions[j]:
             return {}
         longest = self.graph.longest_delay(j)
@@ -64,7 +64,7 @@ class DerivedNetwork:
         return [i for i, seen in enumerate(self.signals) if ("x", j) in seen]
 
     def split(self, i: int, gains: Matrix) -> LinearMap:
-        """Gains that multiply ȳ_i, by the signals that they multiply."""
+        """Split gains of ȳ_i by the signals that they multiply."""
         maps: dict[str, dict[int, Matrix]] = {"y": {}, "x": {}}
         start = 0
         for what, j in self.signals[i]:
@@ -75,7 +75,7 @@ class DerivedNetwork:
 
 
 def decentralized_network(system: MultiChannelSystem) -> DerivedNetwork:
-    """The plant itself: agent i sees y_i."""
+    """Return the plant as a network in which agent i receives y_i alone."""
     signals: tuple[tuple[Signal, ...], ...] = tuple((("y", i),) for i in range(system.m))
     return DerivedNetwork("decentralized", system, None, (0,) * system.m, system, signals)
 
@@ -87,16 +87,16 @@ def shared_network(
     share: Share,
     kind: NetworkKind,
 ) -> DerivedNetwork:
-    """The extended, lifted or held system for these dimensions.
+    """Return the extended, lifted or held system for some dimensions.
 
     Raises
     ------
     UsageError
-        If the links have delays and the kind has none, or outputs are to be sent and held.
+        If the links have delays and the kind does not, or outputs should be sent and held.
     """
     own_only = kind == "held" or share == "states"
     if kind == "held" and share != "states":
-        raise UsageError('with holding only sub-states are sent: share must be "states"')
+        raise UsageError('with holding, agents send sub-states only: share must be "states"')
     if kind == "extended" and graph.delays:
         raise UsageError('the links have delays: choose the network "lifted" or "held"')
     if kind == "held":
@@ -121,7 +121,7 @@ def network_programs(
     gains: Sequence[Matrix],
     channels: Mapping[int, ChannelController],
 ) -> Controller:
-    """The agents' programs for ū_i = F̄_i ȳ_i, with channel controllers at some agents.
+    """Write the agent programs for ū_i = F̄_i ȳ_i, with channel controllers at some agents.
 
     Parameters
     ----------
@@ -129,12 +129,12 @@ def network_programs(
     gains : sequence of Matrix
         F̄_i, (p_i + n_i) × the size of ȳ_i; ū_i = (u_i, v_i) and v_i updates x_i.
     channels : mapping of int to ChannelController
-        ż = Az + Bȳ_q and what is added to ū_q: Cz + Dȳ_q.
+        ż = Az + Bȳ_q, with Cz + Dȳ_q added to ū_q.
 
     Notes
     -----
-    Paper, sections IV-C to IV-E and V.  Delays stay on the links and holding in the agents: a
-    program never holds a matrix of the lifted system.
+    Paper, sections IV-C to IV-E and V.  Delays belong to the links and holding to the agents, so
+    programs contain no matrix of the lifted system.
     """
     given, programs = network.given, []
     for i in range(given.m):

@@ -1,4 +1,4 @@
-"""The distributed observer: Theorem 1 as a program, from a system to m certified agent programs."""
+"""`design_observer` designs the distributed observer of Theorem 1 as m certified agent programs."""
 
 from __future__ import annotations
 
@@ -44,28 +44,27 @@ def design_observer(
     Parameters
     ----------
     system : MultiChannelSystem
-        A jointly controllable and observable plant, or a system made from one; n states, m
-        channels.
+        A jointly controllable and observable plant or derived system, with n states and m channels.
     graph : NeighborGraph, optional
-        Without delays; overrides ``system.neighbors``.
+        A graph without delays; overrides ``system.neighbors``.
     agent : str, optional
         The agent that carries the channel controller; the first by default.
     spectrum : mapping, optional
         ``{"feedback": P, "error": P}``: n numbers for A + Σ B_i F_i and mn + m − 1 for the error
         system, see `spectrum_polynomial`.
     rate, radius : rational, optional
-        Instead of a spectrum, or besides it, to be certified: every eigenvalue has real part below
-        −rate (continuous time), or modulus below radius (discrete time).
+        Instead of a spectrum, or besides it, to be certified: Every eigenvalue then has real part
+        below −rate (continuous time), or modulus below radius (discrete time).
     gains : sequence of m matrices, optional
-        F_i (p_i×n) from outside; then ``spectrum`` has no ``"feedback"``.  With F_i = 0 this is the
-        open-loop observer of section II-B: the agents estimate and do not act.
+        Given F_i (p_i×n); then ``spectrum`` has no ``"feedback"``.  With F_i = 0 this is the
+        open-loop observer of section II-B, whose agents estimate the state and do not act.
     order : {"least"}, optional
-        A channel controller of order one less than the smaller of the two indices; by default it
-        has order m − 1.  In floating point: nm less what the agent sees of the errors at once,
-        where that can be certified, instead of nm.
+        Use a channel controller of order one less than the smaller of the two indices, instead of m
+        − 1.  In floating point, use an observer of reduced order instead of nm, if it can be
+        certified.
     arithmetic : {"exact", "float"}
-        Exact assigns every number, for small systems; float designs for a rate or a radius alone,
-        and the proof is exact as well (`float_proposals`).
+        "exact" assigns the whole spectrum, for small systems.  "float" designs for a rate or a
+        radius, with a proof that is exact as well (`float_proposals`).
     progress : callable, optional
         Is told, in a few words, what is being done.
 
@@ -77,21 +76,22 @@ def design_observer(
     Raises
     ------
     Impossible
-        If a mode is not controllable or not observable by all channels together, or the error
-        system for these F_i has a fixed mode or a cut; the certificate says which.
+        If all channels together do not control or do not observe a mode, or the error system for
+        these F_i has a fixed mode or a cut; the certificate proves this.
     InputError
         If a spectrum has the wrong length; the message states the right one.
     UsageError
-        If neither spectrum nor bound is given, both and they disagree, or the graph has delays.
+        If no spectrum, rate or radius is given, if they contradict each other, or if the graph has
+        delays.
 
     Notes
     -----
     Exact; paper, section II and Theorem 1.  F_i by state feedback; small K_i, H_ij with which
     channel q controls the error system with index m and observes it, and its matrix is cyclic; then
-    the Brasch–Pearson controller.  Of several draws the one that leads to the shortest numbers is
-    kept.  The certificate (`proofs/distributed_observer.md`) holds the controller and proves the
-    separation and both polynomials.  A strongly connected graph is sufficient, not necessary: what
-    is decided is the error system itself.
+    the Brasch–Pearson controller.  Of several draws the one with the shortest numbers is kept.  The
+    certificate (`proofs/distributed_observer.md`) contains the controller and proves the separation
+    and both polynomials.  A strongly connected graph is sufficient, but not necessary, since the
+    question is decided for the error system itself.
 
     Examples
     --------
@@ -120,7 +120,7 @@ def observer_proposals(
     gains: Sequence[Any] | None = None,
     order: Literal["least"] | None = None,
 ) -> Iterator[Proposal]:
-    """What `design_observer` puts before the gate, of the same arguments: one, if exact."""
+    """Yield the proposals of `design_observer` for the gate; exact arithmetic yields one."""
     if graph.delays:
         raise UsageError(
             "the distributed observer has no delays on its links; remove them, or design with an "
@@ -158,14 +158,14 @@ def _of_the_observable_part(
     request: Request,
     least: bool,
 ) -> Proposal:
-    """Agents that estimate what all channels together see; what they do not is fast enough.
+    """Propose agents that estimate the observable part; the unobservable modes are fast enough.
 
     Raises
     ------
     Impossible
-        With evidence about the system, not about this part of it.
+        If there is an obstruction; the certificate is about the system, not about this part of it.
     LimitReached
-        If the error system of the part is not complete, and no mode outside the region is fixed.
+        If the error system of the part is not complete, although no mode outside the region is fixed.
     """
     from mcexact.synthesis.observer_float import refuse_if_impossible
 
@@ -181,15 +181,15 @@ def _of_the_observable_part(
     except Impossible:
         refuse_if_impossible(system, graph, request.region, [F @ L for F in feedback.gains])
         raise LimitReached(
-            "no constant K_i, H_ij let one agent control and observe all errors of what all "
-            "channels together see, for the F_i that were found: try arithmetic in floating point"
+            "for the F_i that were found, no constant K_i, H_ij let one agent control and observe all "
+            "errors of the observable part: try floating-point arithmetic"
         ) from None
     controller = replace(made.controller, system=digest(system))
     return Proposal(controller, parts=made.parts)
 
 
 def _proposal(task: ObserverTask, estimated: Matrix) -> Proposal:
-    """The best channel controller, as programs."""
+    """Write the best channel controller as agent programs."""
     found, channel, error = best_channel_controller(task)
     feedback = task.feedback
     controller = observer_programs(
@@ -211,7 +211,7 @@ def _proposal(task: ObserverTask, estimated: Matrix) -> Proposal:
 def _checked_spectrum(
     spectrum: Mapping[str, Any] | None, gains: Sequence[Any] | None
 ) -> Mapping[str, Any]:
-    """The keys of a prescribed spectrum, checked."""
+    """Check the keys of a prescribed spectrum."""
     if spectrum is None:
         return {}
     if not isinstance(spectrum, Mapping):
@@ -235,7 +235,7 @@ def _feedback(
     region: StabilityRegion,
     gains: Sequence[Matrix] | None,
 ) -> StateFeedback:
-    """F_i with the prescribed polynomial, one for the bound, or the gains from outside."""
+    """Return F_i with the prescribed polynomial, or for the region, or the given gains."""
     if gains is not None:
         return given_feedback(system, tuple(gains))
     if wanted is None and region.bound is not None:

@@ -11,19 +11,19 @@ from mcexact.synthesis.gate import Coordinates
 def observer_coordinates(
     n: int, controller: Controller, Y: Matrix | None = None
 ) -> tuple[Coordinates, ...]:
-    """Where the loop of n states, m estimates of them and a channel controller may separate.
+    """Return coordinates in which the loop of a distributed observer may separate.
 
     Parameters
     ----------
     n : int
     controller : Controller
     Y : Matrix, k × nm, optional
-        z, all z_i together, estimates Y e; by default the identity, where the dimensions fit.
+        All z_i together, z, estimate Y e; by default Y is the identity, if the dimensions fit.
 
     Returns
     -------
     tuple of Coordinates
-        The finest first; none if an agent shares something else than an estimate.
+        The finest first; none if an agent shares something other than a state estimate.
 
     Notes
     -----
@@ -33,8 +33,8 @@ def observer_coordinates(
                     ⎢      0         E − B̃G     *   ⎥                  ⎣      0         M_E ⎦
                     ⎣      0            0    E − LC̃ ⎦
 
-    The first where channel q has an observer of the errors; the second for every distributed
-    observer.
+    The first form applies if channel q has an observer of the errors, the second to every
+    distributed observer.
     """
     if any(agent.shared != n for agent in controller.agents):
         return ()

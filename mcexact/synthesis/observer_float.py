@@ -1,4 +1,4 @@
-"""The distributed observer designed in floating point and certified exactly."""
+"""Distributed observers designed in floating point and certified exactly."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ _GRID = 8
 
 @dataclass(frozen=True)
 class _Candidate:
-    """[K_i, H_ij …], and gains for the error system that they lead to."""
+    """Observer gains [K_i, H_ij …], with gains for the resulting error system."""
 
     observer_gains: tuple[Matrix, ...]
     G: Matrix
@@ -64,12 +64,12 @@ def float_proposals(
     gains: Sequence[Matrix] | None = None,
     reduced: bool = False,
 ) -> Iterator[Proposal]:
-    """Distributed observers for a region by Riccati equations, the most promising first.
+    """Propose distributed observers for a region from Riccati equations, the most promising first.
 
     Parameters
     ----------
     system : MultiChannelSystem
-        n states and m channels; modes inside the region need neither be controllable nor
+        A system with n states and m channels; modes inside the region need not be controllable or
         observable.
     graph : NeighborGraph
         Without delays.
@@ -77,30 +77,29 @@ def float_proposals(
         q, counted from 0.
     request : Request
     gains : sequence of m Matrix, optional
-        F_i (p_i×n) from outside.
+        Given F_i (p_i×n).
     reduced : bool
-        Observe only the errors that channel q does not see at once, where that can be certified.
+        Whether to propose observers of reduced order first.
 
     Raises
     ------
     Impossible
-        In the end, if a mode outside the region is not controllable or not observable by all
-        channels together, or fixed for the error system of these F_i; the certificate says which.
+        At the end, if all channels together do not control or do not observe a mode outside the
+        region, or it is fixed for the error system of these F_i; the certificate proves this.
     LimitReached
-        In the end, if that is not so.
+        At the end, if no such obstruction exists.
 
     Notes
     -----
-    Floating point proposes F_i, K_i, H_ij, G and L; the loop with these rational numbers is for the
-    gate to certify, diagonal block by diagonal block (`observer_coordinates`).  Of several draws of
-    K_i, H_ij the one with the smallest G and L comes first.  The channel controller, of order nm,
-    is
+    Floating point proposes F_i, K_i, H_ij, G and L; the gate certifies the loop with these rational
+    numbers block by block (`observer_coordinates`).  Of several draws of K_i, H_ij the one with the
+    smallest G and L comes first.  The channel controller, of order nm, is
 
         z' = (E − B̃G − LC̃) z + L ỹ,     ũ = −G z,
 
-    its first matrix exact, since the separation is; at reduced order nm − rank C̃ see
-    `reduced_order_observer`.  O((nm)³) operations.  What is proposed depends on the processor and
-    on the versions of numpy and scipy, and so do the controller and its certificate.
+    with its first matrix exact, so that the separation is exact; for the reduced order nm − rank C̃
+    see `reduced_order_observer`.  O((nm)³) operations.  The proposals, and hence the controller and
+    its certificate, depend on the processor and on the versions of numpy and scipy.
     """
     _require_doubles(system)
     tried, region = 0, request.region
@@ -123,7 +122,7 @@ def float_proposals(
     refuse_if_impossible(system, graph, region, gains)
     raise LimitReached(
         f"{tried} draws of observer gains K_i, H_ij and their Riccati equations led to no loop "
-        f"that could be certified for {region}; try another agent, or a milder bound"
+        f"that could be certified for {region}; try another agent, or a larger region"
     )
 
 
@@ -153,7 +152,7 @@ def _proposal(
 
 
 def _require_doubles(system: MultiChannelSystem) -> None:
-    """Refuse entries beyond the range of double precision.
+    """Raise an error for entries beyond the range of double precision.
 
     Raises
     ------
@@ -171,7 +170,7 @@ def _require_doubles(system: MultiChannelSystem) -> None:
 def _state_feedback(
     system: MultiChannelSystem, target: StabilityRegion
 ) -> tuple[Matrix, ...] | None:
-    """Dyadic F_i by a Riccati equation; None if there is no solution."""
+    """Compute dyadic F_i from a Riccati equation; None if there is no solution."""
     rounded = _gain(system.A, system.input_matrix(), target)
     if rounded is None:
         return None
@@ -184,7 +183,7 @@ def _drawn_gains(
     error: MultiChannelSystem,
     feedback: Sequence[Matrix],
 ) -> Iterator[tuple[Matrix, ...]]:
-    """Moderate [K_i, H_ij …]: each agent leans on one neighbor, and a little on the others.
+    """Draw moderate [K_i, H_ij …], with which each agent mostly follows one neighbor.
 
     In continuous time H_ij = −h I + noise for one j, which pulls x_i towards x_j; in discrete time
     a part of the difference is taken over.  Fewer draws for larger systems.
@@ -218,7 +217,7 @@ def _solved(
     target: StabilityRegion,
     reduced: bool,
 ) -> list[_Candidate]:
-    """Observers of the errors under these gains, of full order and, if asked for, of reduced."""
+    """Observers of the errors under these gains, of full order and, if asked, of reduced order."""
     import numpy as np
 
     E, B, C = closed_by(error, observer_gains), error.B(agent), error.C(agent)
@@ -245,14 +244,14 @@ def _solved(
 
 
 def _gain(A: Matrix, B: Matrix, target: StabilityRegion) -> Matrix | None:
-    """A dyadic F for A + B F by a Riccati equation; None if there is no solution."""
+    """Compute a dyadic F for A + B F from a Riccati equation; None if there is no solution."""
     floats, inputs = matrix_to_float(A), matrix_to_float(B)
     F = _first_feedback(floats, inputs, target)
     return None if F is None else _rounded(floats, inputs, F, target)
 
 
 def _first_feedback(A: Floats, B: Floats, target: StabilityRegion) -> Floats | None:
-    """A gain with the least effort that leads to a solution that computes as fast enough."""
+    """Compute a gain with the least effort for which the computed loop is fast enough."""
     for effort in _EFFORTS:
         F = riccati_feedback(A, B, target, effort=effort)
         if F is not None and is_within(A + B @ F, target):
@@ -261,7 +260,7 @@ def _first_feedback(A: Floats, B: Floats, target: StabilityRegion) -> Floats | N
 
 
 def _rounded(A: Floats, B: Floats, F: Floats, target: StabilityRegion) -> Matrix:
-    """A gain in few bits if these are enough, else in as many as a double has."""
+    """Round a gain to few bits if these suffice, otherwise to the bits of a double."""
     few, many = _BITS
     found = dyadic_matrix(F, few)
     reached = is_within(A + B @ matrix_to_float(found), target)
@@ -274,7 +273,7 @@ def refuse_if_impossible(
     region: StabilityRegion,
     gains: Sequence[Matrix] | None = None,
 ) -> None:
-    """Say why there is nothing to find, where that can be proved.
+    """Raise an error that proves that no observer exists, if that can be proved.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""The distributed observer written as agent programs."""
+"""Agent programs of distributed observers."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def observer_programs(
     observer_gains : sequence of Matrix
         [K_i, H_ij, j ∈ N_i∖{i}], n×(q_i + n(|N_i| − 1)), of the open-loop observer.
     channel : ChannelController
-        Of channel q of the error system.
+        The channel controller, for channel q of the error system.
 
     Notes
     -----

@@ -1,4 +1,4 @@
-"""The search for an exact observer: many small draws, a channel controller for each, the best."""
+"""The search for an exact observer: drawn gains, their channel controllers, and the best choice."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _ROWS_PER_CANDIDATE = 2
 
 @dataclass(frozen=True)
 class ObserverTask:
-    """What has been settled before observer gains and channel controller are chosen."""
+    """The task of an exact observer design, before gains and channel controller are chosen."""
 
     system: MultiChannelSystem
     graph: NeighborGraph
@@ -47,7 +47,7 @@ class ObserverTask:
         return default_polynomial(self.request.region, degree)
 
     def center(self) -> Fraction:
-        """The mean of the prescribed numbers; 0 where their number is not the usual one."""
+        """The mean of the prescribed numbers; 0 if the number of them is unusual."""
         degree = self.error.n + self.system.m - 1
         try:
             polynomial = self.polynomial(degree)
@@ -57,10 +57,10 @@ class ObserverTask:
 
 
 def _candidates(task: ObserverTask) -> list[ReachingGains]:
-    """Observer gains with which the agent reaches all errors, or the obstruction to all of them."""
+    """Find observer gains with which the agent controls and observes all errors."""
     system, agent = task.system, [task.agent]
     draw = error_gain_draws(system, task.graph, task.feedback.gains, task.center())
-    # More candidates give shorter numbers; each costs some n³ operations on longer ones.
+    # More candidates give shorter numbers, but each costs some n³ operations.
     count = max(32, min(240, 20_000 // max(1, task.error.n) ** 2))
     quick = reaching_gains(task.error, agent, draw, index=system.m, attempts=4 * count)
     found = list(islice(quick, count))
@@ -81,7 +81,7 @@ def _candidates(task: ObserverTask) -> list[ReachingGains]:
 def best_channel_controller(
     task: ObserverTask,
 ) -> tuple[ReachingGains, ChannelController, Polynomial]:
-    """The observer gains and the channel controller with the shortest and smallest numbers.
+    """Find the observer gains and the channel controller with the shortest and smallest numbers.
 
     Returns
     -------
@@ -94,7 +94,7 @@ def best_channel_controller(
     Raises
     ------
     Impossible
-        If there are none; the certificate says why.
+        If there are none; the certificate proves this.
     InputError
         If the prescribed spectrum has the wrong length.
     """
@@ -119,7 +119,7 @@ def best_channel_controller(
             each.matrix, B, C, polynomial, index=index, side=side, rng=rng
         )
         for made in islice(controllers, _ROWS_PER_CANDIDATE):
-            # Short numbers matter for the proof, small ones for whoever runs the controller.
+            # Short numbers matter for the proof, small ones for running the controller.
             size = made.bit_length + 8 * ceil(made.largest).bit_length()
             if best is None or size < best[0]:
                 best = (size, each, made)

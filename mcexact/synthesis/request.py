@@ -1,4 +1,4 @@
-"""What is asked of a design, whatever its method; checked before any work."""
+"""Requests: the arguments that all methods of design share, checked before any work."""
 
 from __future__ import annotations
 
@@ -16,20 +16,20 @@ Progress = Callable[[str], None]
 
 @dataclass(frozen=True)
 class Request:
-    """The part of the arguments that all methods of design share.
+    """The arguments that all methods of design share.
 
     Attributes
     ----------
     region : StabilityRegion
-        Where every eigenvalue of the loop is asked to lie; without a bound if a spectrum is
-        prescribed and nothing else.
+        The region in which every eigenvalue of the loop should lie; without a bound if only a
+        spectrum is prescribed.
     agent : int or None
-        Who is to carry the channel controller, counted from 0.
+        The position of the agent with the channel controller, from 0.
     spectrum : object
         The prescribed numbers, in the form of the method; None if they are free.
     arithmetic : {"exact", "float"}
     tell : callable
-        Is told, in a few words, what is being done.
+        A function that is called with a short description of each step.
     """
 
     region: StabilityRegion
@@ -54,13 +54,13 @@ class Request:
         Raises
         ------
         UsageError
-            If there is neither a spectrum nor a rate or radius, a spectrum in floating point, no
-            such agent or arithmetic; or as in `StabilityRegion.of`.
+            If there is no spectrum, rate or radius; if floating point gets a spectrum; if the agent
+            or the arithmetic is unknown; or as in `StabilityRegion.of`.
         """
         region = StabilityRegion.of(system.time, rate, radius)
         if spectrum is None and region.bound is None:
             raise UsageError(
-                f"give a {region.word} or a spectrum: nothing says how fast the loop must be"
+                f"give a {region.word} or a spectrum, which says how fast the loop has to be"
             )
         if arithmetic not in ("exact", "float"):
             raise UsageError(

@@ -1,4 +1,4 @@
-"""Gains from shifted Riccati equations: floating-point design with a degree of stability."""
+"""Gains from shifted Riccati equations, in floating point, for a rate or a radius."""
 
 from __future__ import annotations
 
@@ -18,26 +18,26 @@ if TYPE_CHECKING:
 def riccati_feedback(
     A: Floats, B: Floats, region: StabilityRegion, *, effort: float = 1.0
 ) -> Floats | None:
-    """F that brings the spectrum of A + B F into a region, in floating point.
+    """Compute F for which the spectrum of A + B F lies in a region, in floating point.
 
     Parameters
     ----------
     A : ndarray, n × n
     B : ndarray, n × p
     region : StabilityRegion
-        Of a rate α ≥ 0 or a radius ρ.
+        The region of a rate α ≥ 0 or a radius ρ.
     effort : float
         The weight of the input against that of the state.
 
     Returns
     -------
     ndarray, p × n, or None
-        None where the equation could not be solved, as when a mode outside is not controllable.
+        None if the equation could not be solved, for example if a mode outside is not controllable.
 
     Notes
     -----
-    Floating point: a proposal.  The regulator for A + αI, or for (A/ρ, B/ρ) in discrete time, with
-    its gain used as it is.  The gain of an observer is F' for (A', C').
+    A proposal in floating point: the gain of the regulator for A + αI, or for (A/ρ, B/ρ) in
+    discrete time.  The gain of an observer is F' for (A', C').
 
     Examples
     --------
@@ -55,7 +55,7 @@ def riccati_feedback(
         return np.zeros((p, n))
     Q, R = np.eye(n), effort * np.eye(p)
     with warnings.catch_warnings():
-        # What comes out is certified exactly or thrown away.
+        # The result is certified exactly or dropped.
         warnings.simplefilter("ignore")
         try:
             if region.discrete:

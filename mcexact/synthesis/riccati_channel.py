@@ -1,4 +1,4 @@
-"""A channel controller from two Riccati equations, in floating point, written exactly."""
+"""Channel controllers from two Riccati equations, in floating point."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _MARGINS = (Fraction(0), Fraction(1, 16), Fraction(1, 4))
 def riccati_channel_controller(
     part: ChannelPart, region: StabilityRegion
 ) -> ChannelController | None:
-    """An observer and a state feedback for a minimal triple, fast enough or nothing.
+    """Compute an observer and a state feedback for a minimal triple; None if they are too slow.
 
     Parameters
     ----------
@@ -32,7 +32,7 @@ def riccati_channel_controller(
     Returns
     -------
     ChannelController or None
-        Of order d: ż = (A + BG + LC) z − L y, u = G z.  Its closed-loop polynomial
+        The controller ż = (A + BG + LC) z − L y, u = G z, of order d.  Its closed-loop polynomial
         χ_{A+BG} χ_{A+LC} has every root in the region, decided exactly.
 
     Notes
@@ -52,7 +52,7 @@ def riccati_channel_controller(
 
 
 def _gain(A: Matrix, B: Matrix, region: StabilityRegion) -> tuple[Matrix, Polynomial] | None:
-    """A gain that brings A + BG into the region, and the polynomial that proves it."""
+    """Compute a gain for which A + BG lies in the region, and the polynomial that proves it."""
     states, inputs = matrix_to_float(A), matrix_to_float(B)
     for effort in _EFFORTS:
         for margin in _MARGINS:

@@ -1,4 +1,4 @@
-"""Set-point control: integrators in the agents, and a distributed controller around them."""
+"""Set-point control, by integrators in the agents and a distributed controller."""
 
 from __future__ import annotations
 
@@ -50,22 +50,23 @@ def design_setpoint(
     Parameters
     ----------
     system : MultiChannelSystem
-        A plant, or a system made from one.
+        A plant or a derived system.
     graph : NeighborGraph, optional
         Overrides ``system.neighbors``.
     agent : str, optional
-        Who carries the channel controller.
+        The agent with the channel controller.
     spectrum : optional
         For the plant with its integrators, of n + Σ q_i states: as in `design_observer`, or as in
         `design_extended`.
     rate, radius : rational, optional
         Instead of a spectrum, or besides it, to be certified.  In exact arithmetic and continuous
-        time the numbers are then placed beyond three times the rate, where no fixed mode forbids.
+        time, the eigenvalues are then placed beyond three times the rate, if no fixed mode prevents
+        this.
     method : {"observer", "extended"}
-        A distributed observer of the plant and all integrators, or shared sub-states of the least
-        dimension; agents send no outputs in either.
+        A distributed observer of the plant with all integrators, or shared sub-states of least
+        dimension; agents send no outputs with either method.
     dimensions : {"minimal", "bound"} or sequence of m int
-        For the method "extended".
+        Dimensions for the method "extended".
     arithmetic : {"exact", "float"}
     progress : callable, optional
 
@@ -73,22 +74,22 @@ def design_setpoint(
     -------
     Design
         Agent i integrates y_i − r_i as the first q_i entries of its private state.  Its ``parts``
-        are the ``solvability``, and ``designed``: those of the design for the plant with its
+        are the ``solvability``, and ``designed``, the parts of the design for the plant with its
         integrators.
 
     Raises
     ------
     Impossible
-        If no equilibrium holds some set-points (the certificate gives the combination), a mode
-        cannot be controlled or observed, or no linear time-invariant feedback by this method can
-        do it.
+        If no equilibrium holds some set-points (the certificate gives the combination), if a mode
+        is not controllable or not observable, or if no linear time-invariant controller of this
+        method exists.
 
     Notes
     -----
-    Paper, section III.  What is put before the gate is what the method proposes for the system of
-    `setpoint_system`, its output w_i made a part of agent i's own state.  With a stable loop,
-    constant r leads to an equilibrium, where ẇ_i = y_i − r_i = 0.  That the gain at s = 0 is the
-    identity is verified besides.
+    Paper, section III.  The proposals are those of the method for `setpoint_system`, with its
+    output w_i made a part of agent i's own state.  With a stable loop, constant r leads to an
+    equilibrium, where ẇ_i = y_i − r_i = 0.  It is also verified that the gain at s = 0 is the
+    identity.
 
     Examples
     --------
@@ -127,7 +128,7 @@ invariant zero of the plant
     made = designed(method, request, system, graph, moved, stable=True)
     gain = made.loop.closed.steady_gain
     if gain is None or gain != Matrix.identity(gain.nrows):
-        raise InternalError("a stable loop with integrators does not reach its set-points")
+        raise InternalError("a stable loop with integrators does not attain its set-points")
     return replace(
         made,
         certificates={**made.certificates, "setpoint": solvability},
@@ -136,7 +137,7 @@ invariant zero of the plant
 
 
 def _required(system: MultiChannelSystem) -> SetpointSolvability:
-    """Refuse a plant some of whose set-points cannot be held."""
+    """Raise an error if some set-points have no equilibrium."""
     found = setpoint_solvability(system)
     if found.solvable:
         return found
@@ -144,7 +145,7 @@ def _required(system: MultiChannelSystem) -> SetpointSolvability:
 
 
 def _require_reachable(augmented: MultiChannelSystem, region: StabilityRegion) -> None:
-    """Refuse modes that nobody controls or observes and that are not fast enough."""
+    """Raise an error for modes that are too slow and not controllable or not observable."""
     for decide, verb in ((joint_controllability, "control"), (joint_observability, "observe")):
         decision = decide(augmented)
         if not region.contains_roots_of(decision.uncontrollable_polynomial):
@@ -158,10 +159,10 @@ def _proposals(
     *,
     minimal: bool,
 ) -> Iterator[Proposal]:
-    """What a method proposes for the plant with its integrators, taken for a plant.
+    """Yield the proposals of a method for the plant with its integrators, taken as a plant.
 
-    Where the numbers are free, in continuous time, they are placed beyond the rate that is
-    certified: roots that repeat, behind large gains, take many time constants to fade.
+    If the spectrum is free, in continuous time, it is placed beyond the certified rate, since
+    repeated eigenvalues with large gains decay slowly at first.
     """
     asked, region = [request], request.region
     if request.spectrum is None and request.arithmetic == "exact" and not region.discrete:
@@ -173,7 +174,7 @@ def _proposals(
         except Impossible:
             continue
     try:
-        # Refused: once more, for evidence about the plant that the integrators are behind.
+        # After a refusal the decision is repeated, for a certificate about the plant itself.
         yield from proposed(integrated, request)
     except Impossible as refused:
         found = refused.certificate
@@ -183,7 +184,7 @@ def _proposals(
 
 
 def _for_the_plant(system: MultiChannelSystem, proposal: Proposal) -> Proposal:
-    """A proposal for the plant with its integrators, as one for the plant."""
+    """Convert a proposal for the plant with its integrators to one for the plant."""
     n, places = system.n, list(range(system.n))
     w, start = n, n + sum(system.q(i) for i in range(system.m))
     for i, agent in enumerate(proposal.controller.agents):
@@ -209,7 +210,7 @@ def with_integrators(system: MultiChannelSystem, controller: Controller) -> Cont
     system : MultiChannelSystem
         The plant.
     controller : Controller
-        For `setpoint_system` of it; agents use their own w_i alone.
+        A controller for its `setpoint_system`, in which agents use their own w_i alone.
 
     Returns
     -------
@@ -219,7 +220,7 @@ def with_integrators(system: MultiChannelSystem, controller: Controller) -> Cont
     Raises
     ------
     InputError
-        If an agent uses the integrators of another one: nobody sends them.
+        If an agent uses the integrators of another agent, which are not sent.
     """
     programs = []
     for i, agent in enumerate(controller.agents):
@@ -254,7 +255,7 @@ def with_integrators(system: MultiChannelSystem, controller: Controller) -> Cont
 
 
 def _on_own_state(each: LinearMap, i: int, nrows: int, q: int, k: int) -> LinearMap:
-    """A map with w_i read from the private state (w_i, z_i) instead of from the output."""
+    """Convert a map so that it reads w_i from the private state (w_i, z_i), not from the output."""
     measured = each.outputs.get(i, Matrix.zeros(nrows, q))
     private = each.private or Matrix.zeros(nrows, k)
     return LinearMap({}, each.shared, hstack([measured, private]))

@@ -1,4 +1,4 @@
-"""Prescribed spectra: coefficient lists, or roots and pairs, as monic polynomials over Q."""
+"""Prescribed spectra as monic polynomials over Q, from coefficients or from roots and pairs."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from mcexact.exact.rational import as_fraction
 
 
 def spectrum_polynomial(spectrum: Any, degree: int, *, where: str = "spectrum") -> Polynomial:
-    """The monic polynomial whose roots are a prescribed symmetric set of numbers.
+    """Return the monic polynomial whose roots are a prescribed symmetric set of numbers.
 
     Parameters
     ----------
@@ -21,7 +21,8 @@ def spectrum_polynomial(spectrum: Any, degree: int, *, where: str = "spectrum") 
         The coefficients of a monic polynomial, constant term first; or its roots, each a rational
         number, or ``{"re": a, "im": b}`` with b ≠ 0 for the pair a ± b i.
     degree : int
-        How many numbers are prescribed: it tells degree + 1 coefficients from degree roots.
+        The number of prescribed numbers, which distinguishes degree + 1 coefficients from degree
+        roots.
     where : str
         The place to name in an error.
 
@@ -77,7 +78,7 @@ polynomial, constant term first), found a list of 2
 
 
 def _from_roots(entries: Sequence[Any], degree: int, where: str) -> Polynomial:
-    """The product of the factors that the roots and pairs stand for."""
+    """The product of the factors of the roots and pairs."""
     result, count = Polynomial((Fraction(1),)), 0
     for k, entry in enumerate(entries):
         factor = _factor(entry, f"{where}[{k}]")
@@ -85,7 +86,7 @@ def _from_roots(entries: Sequence[Any], degree: int, where: str) -> Polynomial:
     if count != degree:
         found = f"a list of {len(entries)}"
         if count != len(entries):
-            found += f" that stands for {count} numbers (a pair counts twice)"
+            found += f" with {count} numbers (a pair counts twice)"
         raise InputError(
             f"expected {degree} numbers (or {degree + 1} coefficients of a monic polynomial, "
             f"constant term first), found {found}",
@@ -95,7 +96,7 @@ def _from_roots(entries: Sequence[Any], degree: int, where: str) -> Polynomial:
 
 
 def _factor(entry: Any, place: str) -> Polynomial:
-    """The factor that one root, or one pair, stands for."""
+    """The factor of one root or of one pair."""
     if not isinstance(entry, Mapping):
         return Polynomial((-as_fraction(entry, where=place), Fraction(1)))
     if set(entry) != {"re", "im"}:
@@ -113,9 +114,9 @@ def _factor(entry: Any, place: str) -> Polynomial:
 
 
 def require_numbers(spectrum: Any, where: str = "spectrum") -> None:
-    """Refuse a prescribed spectrum with an entry that is no number, before any other work.
+    """Raise an error for a prescribed spectrum with an entry that is not a number.
 
-    How many there have to be is only known when the order of the controller is.
+    The required number of entries is known only when the order of the controller is.
 
     Parameters
     ----------
@@ -125,7 +126,7 @@ def require_numbers(spectrum: Any, where: str = "spectrum") -> None:
     Raises
     ------
     InputError
-        If an entry is no rational number and no pair.
+        If an entry is neither a rational number nor a pair.
 
     Examples
     --------
@@ -145,7 +146,7 @@ def require_numbers(spectrum: Any, where: str = "spectrum") -> None:
 
 
 def default_polynomial(region: StabilityRegion, degree: int) -> Polynomial:
-    """A polynomial of short numbers with every root in a region.
+    """Return a polynomial with short numbers and every root in a region.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""State feedback u_i = F_i x, exact: a prescribed characteristic polynomial, or a rate."""
+"""Exact state feedback u_i = F_i x for a prescribed characteristic polynomial."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ _DRAWS_IF_FOUND = 600
 
 @dataclass(frozen=True)
 class StateFeedback:
-    """Gains F_i (p_i×n) with the characteristic polynomial of A + Σ B_i F_i.
+    """Gains F_i (p_i×n), with the characteristic polynomial of A + Σ B_i F_i.
 
     Attributes
     ----------
@@ -84,7 +84,7 @@ def state_feedback(system: MultiChannelSystem, polynomial: Polynomial) -> StateF
 
 
 def given_feedback(system: MultiChannelSystem, gains: tuple[Matrix, ...]) -> StateFeedback:
-    """Gains from outside, with the characteristic polynomial that they lead to."""
+    """Return given gains with the resulting characteristic polynomial."""
     return StateFeedback(gains, characteristic_polynomial(loop_matrix(system, gains)))
 
 
@@ -97,7 +97,7 @@ def loop_matrix(system: MultiChannelSystem, gains: tuple[Matrix, ...]) -> Matrix
 
 
 def assigning_feedback(A: Matrix, B: Matrix, polynomial: Polynomial, *, seed: int = 0) -> Matrix:
-    """One F (p×n) of small height with the given characteristic polynomial of A + B F.
+    """Find F (p×n) with short numbers and the given characteristic polynomial of A + B F.
 
     Parameters
     ----------
@@ -111,7 +111,7 @@ def assigning_feedback(A: Matrix, B: Matrix, polynomial: Polynomial, *, seed: in
     Raises
     ------
     LimitReached
-        If no suitable direction was drawn, which for a controllable pair does not happen.
+        If no suitable direction was drawn, which does not happen for a controllable pair.
 
     Notes
     -----
@@ -136,7 +136,7 @@ def assigning_feedback(A: Matrix, B: Matrix, polynomial: Polynomial, *, seed: in
         if not size:
             continue
         least = size if not found else min(least, size)
-        # Where the determinant is larger the denominators of F are longer: not worth the effort.
+        # A larger determinant leads to longer denominators of F, so the draw is dropped.
         if size > 4 * least and found >= _CANDIDATES:
             continue
         found += 1
@@ -149,7 +149,7 @@ def assigning_feedback(A: Matrix, B: Matrix, polynomial: Polynomial, *, seed: in
 
 
 def _cost(F: Matrix) -> int:
-    """What makes the numbers of a design that builds on F long: denominators above all."""
+    """A measure of the length of numbers in a design with F, dominated by denominators."""
     size = ceil(largest_entry([F])).bit_length()
     return 4 * F.denominator.bit_length() + bit_length([F]) + 3 * size
 
@@ -184,7 +184,7 @@ def _drawn_direction(
     rng: Random,
     draw: int,
 ) -> _Direction:
-    """The unit directions without feedback first, then sparse draws and targets by turns."""
+    """Yield unit directions without feedback first, then sparse draws and targets by turns."""
     n, p = B.shape
     bound = 1 + draw // 1000
     if draw < p:
@@ -219,12 +219,12 @@ def _left_inverse(B: Matrix) -> Matrix:
 
 
 def _rounded(M: Matrix) -> Matrix:
-    """The nearest integers."""
+    """Round to the nearest integers."""
     return Matrix.from_integers([[round(x) for x in row] for row in M.rows()], ncols=M.ncols)
 
 
 def _drawn_target(rng: Random, blocks: Sequence[Matrix]) -> tuple[Matrix, int]:
-    """The blocks in a drawn order of the coordinates, each linked to the next, and the first."""
+    """Chain the blocks in a drawn order of coordinates; return the matrix and the first state."""
     blocks = list(blocks)
     rng.shuffle(blocks)
     n = sum(block.nrows for block in blocks)
@@ -244,7 +244,7 @@ def _drawn_target(rng: Random, blocks: Sequence[Matrix]) -> tuple[Matrix, int]:
 
 
 def companions(polynomial: Polynomial) -> list[Matrix]:
-    """One companion matrix for each irreducible factor over Q, as often as it divides."""
+    """Companion matrices of the irreducible factors over Q, with multiplicity."""
     found = []
     for factor, times in polynomial.factor():
         found += [companion(factor)] * times
@@ -252,7 +252,7 @@ def companions(polynomial: Polynomial) -> list[Matrix]:
 
 
 def split_by_channel(system: MultiChannelSystem, F: Matrix) -> tuple[Matrix, ...]:
-    """The rows of F that belong to each channel."""
+    """Split F into the rows that belong to each channel."""
     gains, start = [], 0
     for i in range(system.m):
         stop = start + system.p(i)

@@ -190,7 +190,7 @@ def test_of_a_folder_only_system_files_are_read_and_the_others_are_named(
         assert found["counts"]["systems"] == found["counts"]["decided"] == 2
         assert [(Path(s["name"]).name, s["reason"]) for s in found["skipped"]] == expected
     told = " ".join(call(str(folder))[1].split())
-    assert "skipped, because they are no system files" in told
+    assert "skipped, because they are not system files" in told
     assert all(name in told and reason in told for name, reason in expected)
 
 

@@ -95,7 +95,7 @@ def test_the_design_as_json_tells_proof_from_measurement(folder):
     [
         (["--radius=1/2"], 2, "a radius is for discrete time"),
         (["--rate=0"], 2, "expected a rate above 0"),
-        (["--rate=1", "--largest"], 2, "either look for the largest rate or give one"),
+        (["--rate=1", "--largest"], 2, "give either a rate (radius) or `largest`, not both"),
         (["--method=guess"], 2, "guess"),
     ],
 )

@@ -201,7 +201,7 @@ def test_of_many_factors_the_first_are_listed() -> None:
     plant = MultiChannelSystem(diagonal, [[[0]] * n], [[[1] * n]])
     table = tables(account_of(plant).sentences, most_modes=6)[1]
     assert len(table.rows) == 6
-    assert table.note.startswith("the first 6; --json and --html list all.")
+    assert table.note.startswith("the first 6; the JSON document and the HTML page list all.")
     assert len(tables(account_of(plant).sentences)[1].rows) == n
 
 

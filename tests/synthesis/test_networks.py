@@ -72,7 +72,7 @@ def test_programs_of_drawn_gains_close_the_derived_loop(seed: int, kind: Network
     )
     quotient, remainder = divmod(whole, chi)
     assert remainder.is_zero()
-    assert is_power_of_x(quotient), "only messages that nobody uses are left out"
+    assert is_power_of_x(quotient), "only unused messages are left out"
 
 
 def test_the_best_draw_comes_first() -> None:

@@ -118,7 +118,7 @@ def test_an_agent_that_sees_every_error_needs_no_channel_controller():
 
 
 def test_a_bound_is_needed_and_the_arithmetic_has_two_names():
-    with pytest.raises(UsageError, match="nothing says how fast"):
+    with pytest.raises(UsageError, match="says how fast the loop has to be"):
         design_observer(three_channels(), arithmetic="float")
     with pytest.raises(UsageError, match='expected "exact" or "float"'):
         design_observer(three_channels(), rate=1, arithmetic="decimal")
