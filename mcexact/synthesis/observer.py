@@ -165,7 +165,7 @@ def _of_the_observable_part(
     Impossible
         If there is an obstruction; the certificate is about the system, not about this part of it.
     LimitReached
-        If the error system of the part is not complete, although no mode outside the region is fixed.
+        If the error system of the part is not complete without a fixed mode outside the region.
     """
     from mcexact.synthesis.observer_float import refuse_if_impossible
 
@@ -181,8 +181,8 @@ def _of_the_observable_part(
     except Impossible:
         refuse_if_impossible(system, graph, request.region, [F @ L for F in feedback.gains])
         raise LimitReached(
-            "for the F_i that were found, no constant K_i, H_ij let one agent control and observe all "
-            "errors of the observable part: try floating-point arithmetic"
+            "for the F_i that were found, no constant K_i, H_ij let one agent control and observe "
+            "all errors of the observable part: try floating-point arithmetic"
         ) from None
     controller = replace(made.controller, system=digest(system))
     return Proposal(controller, parts=made.parts)
