@@ -98,11 +98,11 @@ from .simulation.trajectory import simulate as simulate
 from .sweeps.records import Record as Record
 from .sweeps.run import sweep as sweep
 from .synthesis.certify import certify_controller as certify_controller
-from .synthesis.decentralized import design_decentralized as design_decentralized
 from .synthesis.design import Design as Design
-from .synthesis.extended import design_extended as design_extended
 from .synthesis.gate import CertifiedLoop as CertifiedLoop
-from .synthesis.observer import design_observer as design_observer
+from .synthesis.network.decentralized import design_decentralized as design_decentralized
+from .synthesis.network.extended import design_extended as design_extended
+from .synthesis.observer.observer import design_observer as design_observer
 from .synthesis.setpoint import design_setpoint as design_setpoint
 
 __version__: str

@@ -111,7 +111,7 @@ def _designed(
     from mcexact.model.controller_file import controller_text
     from mcexact.model.json_text import parse
     from mcexact.report.account import measured, tables
-    from mcexact.synthesis.spectrum import require_numbers
+    from mcexact.synthesis.methods.spectrum import require_numbers
 
     spectrum = None
     system = system_in(*plant, limits)

@@ -28,7 +28,7 @@ from mcexact.reproduce.material import (
     three_channels,
 )
 from mcexact.reproduce.notebook import Notebook, Procedure
-from mcexact.synthesis.decentralized import design_decentralized
+from mcexact.synthesis.network.decentralized import design_decentralized
 
 
 def definition(note: Notebook) -> None:

@@ -22,7 +22,7 @@ from mcexact.reproduce.figures import delays_picture
 from mcexact.reproduce.material import Numbers, drawn_plants, graph_of, plants, three_channels
 from mcexact.reproduce.notebook import Notebook, Procedure
 from mcexact.simulation.trajectory import simulate
-from mcexact.synthesis.extended import design_extended
+from mcexact.synthesis.network.extended import design_extended
 
 X = Polynomial.x()
 late = partial(plants, time="discrete", longest_delay=2)

@@ -36,7 +36,7 @@ from mcexact.reproduce.material import (
     three_channels,
 )
 from mcexact.reproduce.notebook import Notebook, Procedure
-from mcexact.synthesis.extended import design_extended
+from mcexact.synthesis.network.extended import design_extended
 
 SHARING: tuple[Share, ...] = ("outputs+states", "states")
 

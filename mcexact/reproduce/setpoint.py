@@ -22,9 +22,8 @@ from mcexact.reproduce.figures import setpoint_picture
 from mcexact.reproduce.material import Instance, Numbers, drawn_plants, plants
 from mcexact.reproduce.notebook import Notebook, Procedure
 from mcexact.simulation.trajectory import simulate
+from mcexact.synthesis.methods import default_polynomial, state_feedback
 from mcexact.synthesis.setpoint import SetpointMethod, design_setpoint
-from mcexact.synthesis.spectrum import default_polynomial
-from mcexact.synthesis.state_feedback import state_feedback
 
 METHODS: tuple[SetpointMethod, ...] = ("observer", "extended")
 

@@ -3,4 +3,15 @@
 This stage takes systems and neighbor graphs, and gives linear time-invariant controllers with
 certified closed loops.  If no such controller exists, it raises an error with a certificate that
 proves this.
+
+==============  ===========================================================================
+`request`       what is asked of a design
+`gate`          proposals, and the certification of the first loop that holds
+`design`        what every designer returns
+`methods`       how gains and single controllers are found
+`observer`      the distributed observer of Theorem 1
+`network`       decentralized control, and control of extended systems
+`setpoint`      control to set-points, by the observer for the plant with integrators
+`certify`       the certification of a controller from anywhere
+==============  ===========================================================================
 """

@@ -24,7 +24,7 @@ from mcexact.model.controller import Controller
 from mcexact.model.loop import closed_loop
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.observer_coordinates import observer_coordinates
+from mcexact.synthesis.observer.coordinates import observer_coordinates
 from mcexact.synthesis.request import Progress
 
 _PARTS_TRIED = 32

@@ -23,10 +23,10 @@ from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, as_plant, with_graph
 from mcexact.model.system_file import digest
 from mcexact.synthesis.design import Design, designed
-from mcexact.synthesis.extended import Dimensions, sharing_network
 from mcexact.synthesis.gate import Proposal
-from mcexact.synthesis.network_design import network_proposals
-from mcexact.synthesis.observer import observer_proposals
+from mcexact.synthesis.network.extended import Dimensions, sharing_network
+from mcexact.synthesis.network.network_design import network_proposals
+from mcexact.synthesis.observer.observer import observer_proposals
 from mcexact.synthesis.request import Arithmetic, Progress, Request
 
 SetpointMethod = Literal["observer", "extended"]

@@ -160,8 +160,11 @@ def test_nothing_is_validated_by_a_statement_that_an_option_deletes() -> None:
 
 ROOMS = {
     "analysis": {"engine", "structure", "fixed_modes", "sharing", "stability"},
+    "synthesis": {"methods", "observer", "network"},
 }
 """The rooms of a stage; what lies beside them puts their parts together."""
+FOR_ALL_ROOMS = {"analysis": set[str](), "synthesis": {"request", "gate", "design"}}
+"""What lies beside the rooms and every room may use: what is asked, and the way to certify it."""
 MOST_BETWEEN_ROOMS = 15
 
 
@@ -178,7 +181,7 @@ def imports_between_rooms(stage: str) -> list[tuple[str, str, str]]:
             found += [
                 (room, other, f"{path.relative_to(PACKAGE)}:{line}")
                 for other, line in sorted(places)
-                if other != room
+                if other not in {room, *FOR_ALL_ROOMS[stage]}
             ]
     return found
 

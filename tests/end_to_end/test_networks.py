@@ -10,7 +10,7 @@ from mcexact.model.controller_file import load_controller
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import save_system
 from tests.end_to_end.command_line import run
-from tests.synthesis.test_extended import late
+from tests.synthesis.network.test_extended import late
 from tests.synthesis.three_channels import three_channels
 
 

@@ -22,7 +22,7 @@ from mcexact.model.system import MultiChannelSystem
 from mcexact.report.account import measured, tables
 from mcexact.report.text import plain
 from mcexact.synthesis.certify import account_of_verdict, certify_controller
-from mcexact.synthesis.observer import design_observer
+from mcexact.synthesis.observer.observer import design_observer
 from tests.report.strict_html import Page, external_addresses
 from tests.synthesis.three_channels import three_channels
 

@@ -13,7 +13,7 @@ from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis import certify as certifying
 from mcexact.synthesis.certify import certify_controller
 from mcexact.synthesis.gate import Proposal, certify
-from mcexact.synthesis.observer import design_observer
+from mcexact.synthesis.observer.observer import design_observer
 from tests.synthesis.three_channels import three_channels
 
 PLANT = MultiChannelSystem([[1]], [[[1]]], [[[1]]])

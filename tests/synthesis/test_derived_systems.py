@@ -13,9 +13,9 @@ from mcexact.derived.feedback import feedback
 from mcexact.errors import Impossible
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import digest
-from mcexact.synthesis.decentralized import design_decentralized
-from mcexact.synthesis.extended import design_extended
-from mcexact.synthesis.observer import design_observer
+from mcexact.synthesis.network.decentralized import design_decentralized
+from mcexact.synthesis.network.extended import design_extended
+from mcexact.synthesis.observer.observer import design_observer
 from mcexact.synthesis.setpoint import design_setpoint
 from tests.synthesis.test_setpoint import two_tanks
 from tests.synthesis.three_channels import three_channels

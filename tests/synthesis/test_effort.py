@@ -10,9 +10,9 @@ import pytest
 
 from mcexact.model import loop
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.decentralized import design_decentralized
-from mcexact.synthesis.extended import design_extended
-from mcexact.synthesis.observer import design_observer
+from mcexact.synthesis.network.decentralized import design_decentralized
+from mcexact.synthesis.network.extended import design_extended
+from mcexact.synthesis.observer.observer import design_observer
 from mcexact.synthesis.setpoint import design_setpoint
 
 

@@ -15,8 +15,8 @@ from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.controller import LinearMap
 from mcexact.synthesis.gate import CertifiedLoop, Proposal, certify, first_certified
-from mcexact.synthesis.observer import design_observer
-from mcexact.synthesis.observer_coordinates import observer_coordinates
+from mcexact.synthesis.observer.coordinates import observer_coordinates
+from mcexact.synthesis.observer.observer import design_observer
 from tests.synthesis.three_channels import three_channels
 
 ANY = StabilityRegion("continuous")

@@ -17,11 +17,11 @@ from mcexact.checker import check_document
 from mcexact.model import gallery
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.certify import certify_controller
-from mcexact.synthesis.decentralized import design_decentralized
-from mcexact.synthesis.extended import design_extended
-from mcexact.synthesis.observer import design_observer
+from mcexact.synthesis.network.decentralized import design_decentralized
+from mcexact.synthesis.network.extended import design_extended
+from mcexact.synthesis.observer.observer import design_observer
 from mcexact.synthesis.setpoint import design_setpoint
-from tests.synthesis.test_extended import late
+from tests.synthesis.network.test_extended import late
 from tests.synthesis.test_setpoint import two_tanks
 from tests.synthesis.three_channels import three_channels
 

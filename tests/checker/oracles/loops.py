@@ -17,7 +17,7 @@ from mcexact.model.loop import closed_loop
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.gate import Proposal, certify
-from mcexact.synthesis.observer import design_observer
+from mcexact.synthesis.observer.observer import design_observer
 from tests.checker.mutations import Document, Registration
 from tests.checker.oracles.subjects import coefficients_of, subject_of
 from tests.oracle import enumeration

@@ -21,17 +21,16 @@ from mcexact.exact.matrix import Matrix
 from mcexact.floating.margins import is_within
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.error_observer import (
+from mcexact.synthesis.gate import Proposal
+from mcexact.synthesis.methods import riccati_feedback, split_by_channel
+from mcexact.synthesis.observer.coordinates import observer_coordinates
+from mcexact.synthesis.observer.error_observer import (
     ErrorObserver,
     full_order_observer,
     reduced_order_observer,
 )
-from mcexact.synthesis.gate import Proposal
-from mcexact.synthesis.observer_coordinates import observer_coordinates
-from mcexact.synthesis.observer_programs import observer_programs
+from mcexact.synthesis.observer.programs import observer_programs
 from mcexact.synthesis.request import Request
-from mcexact.synthesis.riccati import riccati_feedback
-from mcexact.synthesis.state_feedback import split_by_channel
 
 if TYPE_CHECKING:
     import numpy as np

@@ -18,8 +18,8 @@ from mcexact.exact.location import StabilityRegion
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, as_plant, with_graph
 from mcexact.synthesis.design import Design
-from mcexact.synthesis.network_design import network_design
-from mcexact.synthesis.networks import DerivedNetwork, NetworkKind, shared_network
+from mcexact.synthesis.network.network_design import network_design
+from mcexact.synthesis.network.networks import DerivedNetwork, NetworkKind, shared_network
 from mcexact.synthesis.request import Arithmetic, Progress, Request
 
 Dimensions = str | Sequence[int]

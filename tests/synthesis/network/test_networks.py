@@ -16,8 +16,8 @@ from mcexact.exact.matrix import Matrix
 from mcexact.model.loop import closed_loop
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.channel_parts import channel_part, drawn_gains
-from mcexact.synthesis.networks import NetworkKind, network_programs, shared_network
+from mcexact.synthesis.methods.channel_parts import channel_part, drawn_gains
+from mcexact.synthesis.network.networks import NetworkKind, network_programs, shared_network
 from tests.campaigns.networks import is_power_of_x
 
 

@@ -14,8 +14,8 @@ from mcexact.model.controller_file import controller_text, read_controller
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import digest
-from mcexact.synthesis.observer import design_observer
-from mcexact.synthesis.spectrum import spectrum_polynomial
+from mcexact.synthesis.methods.spectrum import spectrum_polynomial
+from mcexact.synthesis.observer.observer import design_observer
 from tests.campaigns.observer import one_design
 from tests.synthesis.three_channels import three_channels
 

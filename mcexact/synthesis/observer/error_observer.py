@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from mcexact.errors import InternalError
 from mcexact.exact.linear_algebra import inverse, row_echelon
 from mcexact.exact.matrix import Matrix
-from mcexact.synthesis.channel_controller import ChannelController
+from mcexact.synthesis.methods import ChannelController
 
 Gain = Callable[[Matrix, Matrix], Matrix | None]
 

@@ -8,8 +8,8 @@ from mcexact.errors import FloatRefused, InputError, UsageError
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.system import MultiChannelSystem
+from mcexact.synthesis.methods.spectrum import default_polynomial, spectrum_polynomial
 from mcexact.synthesis.request import Request
-from mcexact.synthesis.spectrum import default_polynomial, spectrum_polynomial
 
 
 @pytest.mark.parametrize(

@@ -19,10 +19,14 @@ from mcexact.errors import InputError, LimitReached
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.channel_controller import ChannelController, assigning_controllers
+from mcexact.synthesis.methods import (
+    ChannelController,
+    StateFeedback,
+    assigning_controllers,
+    default_polynomial,
+    spectrum_polynomial,
+)
 from mcexact.synthesis.request import Request
-from mcexact.synthesis.spectrum import default_polynomial, spectrum_polynomial
-from mcexact.synthesis.state_feedback import StateFeedback
 
 _ROWS_PER_CANDIDATE = 2
 

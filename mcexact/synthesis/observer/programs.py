@@ -9,8 +9,7 @@ from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import digest
-from mcexact.synthesis.channel_controller import ChannelController
-from mcexact.synthesis.state_feedback import loop_matrix
+from mcexact.synthesis.methods import ChannelController, loop_matrix
 
 
 def observer_programs(

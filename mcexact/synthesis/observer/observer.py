@@ -16,14 +16,19 @@ from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_graph
 from mcexact.model.system_file import digest
 from mcexact.synthesis.design import Design, designed
-from mcexact.synthesis.fast_modes import feedback_for_region, observable_part
 from mcexact.synthesis.gate import Proposal
-from mcexact.synthesis.observer_coordinates import observer_coordinates
-from mcexact.synthesis.observer_programs import observer_programs
-from mcexact.synthesis.observer_search import ObserverTask, best_channel_controller
+from mcexact.synthesis.methods import (
+    StateFeedback,
+    feedback_for_region,
+    given_feedback,
+    observable_part,
+    spectrum_polynomial,
+    state_feedback,
+)
+from mcexact.synthesis.observer.coordinates import observer_coordinates
+from mcexact.synthesis.observer.programs import observer_programs
+from mcexact.synthesis.observer.search import ObserverTask, best_channel_controller
 from mcexact.synthesis.request import Arithmetic, Progress, Request
-from mcexact.synthesis.spectrum import spectrum_polynomial
-from mcexact.synthesis.state_feedback import StateFeedback, given_feedback, state_feedback
 
 
 def design_observer(
@@ -131,7 +136,7 @@ def observer_proposals(
     carrier, region = request.agent or 0, request.region
     exact = None if gains is None else checked_gains(system, gains, [system.n] * system.m)
     if request.arithmetic == "float":
-        from mcexact.synthesis.observer_float import float_proposals
+        from mcexact.synthesis.observer.in_floating_point import float_proposals
 
         yield from float_proposals(
             system, graph, carrier, request, gains=exact, reduced=order == "least"
@@ -167,7 +172,7 @@ def _of_the_observable_part(
     LimitReached
         If the error system of the part is not complete without a fixed mode outside the region.
     """
-    from mcexact.synthesis.observer_float import refuse_if_impossible
+    from mcexact.synthesis.observer.in_floating_point import refuse_if_impossible
 
     refuse_if_impossible(system, graph, request.region)
     part, L = observable_part(system)

@@ -15,12 +15,18 @@ from mcexact.errors import InputError, InternalError
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial, product
-from mcexact.synthesis.channel_controller import ChannelController, assigning_controllers
-from mcexact.synthesis.channel_parts import ChannelReach, DrawnGains, channel_part
-from mcexact.synthesis.networks import DerivedNetwork
+from mcexact.synthesis.methods import (
+    ChannelController,
+    ChannelReach,
+    DrawnGains,
+    assigning_controllers,
+    channel_part,
+    default_polynomial,
+    riccati_channel_controller,
+    spectrum_polynomial,
+)
+from mcexact.synthesis.network.networks import DerivedNetwork
 from mcexact.synthesis.request import Request
-from mcexact.synthesis.riccati_channel import riccati_channel_controller
-from mcexact.synthesis.spectrum import default_polynomial, spectrum_polynomial
 
 _KEPT = 8
 _KEPT_FLOAT = 6

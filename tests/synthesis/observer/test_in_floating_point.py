@@ -12,7 +12,7 @@ from mcexact.exact.location import StabilityRegion
 from mcexact.model.loop import closed_loop
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis import gate
-from mcexact.synthesis.observer import design_observer
+from mcexact.synthesis.observer.observer import design_observer
 from tests.campaigns.floating import drawn_designs
 from tests.synthesis.three_channels import three_channels
 

@@ -11,8 +11,8 @@ from mcexact.exact.invariant_subspace import controllable_subspace
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.spectrum import default_polynomial
-from mcexact.synthesis.state_feedback import (
+from mcexact.synthesis.methods.spectrum import default_polynomial
+from mcexact.synthesis.methods.state_feedback import (
     StateFeedback,
     assigning_feedback,
     given_feedback,

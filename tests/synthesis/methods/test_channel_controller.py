@@ -13,7 +13,11 @@ from mcexact.exact.polynomial import Polynomial
 from mcexact.model.local_controllers import local_controllers
 from mcexact.model.loop import closed_loop
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.channel_controller import channel_controller, observing_rows, transposed
+from mcexact.synthesis.methods.channel_controller import (
+    channel_controller,
+    observing_rows,
+    transposed,
+)
 
 
 def drawn(rng, nrows, ncols, bound=2):

@@ -9,9 +9,9 @@ from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
-from mcexact.synthesis.channel_controller import ChannelController
-from mcexact.synthesis.channel_parts import ChannelPart
-from mcexact.synthesis.riccati import riccati_feedback
+from mcexact.synthesis.methods.channel_controller import ChannelController
+from mcexact.synthesis.methods.channel_parts import ChannelPart
+from mcexact.synthesis.methods.riccati import riccati_feedback
 
 _BITS = 36
 _EFFORTS = (1.0, 1e2, 1e-2)

@@ -22,7 +22,7 @@ from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.simulation.trajectory import simulate
 from mcexact.synthesis.design import Design
-from mcexact.synthesis.extended import design_extended
+from mcexact.synthesis.network.extended import design_extended
 from tests.synthesis.three_channels import three_channels
 
 

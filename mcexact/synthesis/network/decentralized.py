@@ -6,8 +6,8 @@ from typing import Any
 
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.design import Design
-from mcexact.synthesis.network_design import network_design
-from mcexact.synthesis.networks import decentralized_network
+from mcexact.synthesis.network.network_design import network_design
+from mcexact.synthesis.network.networks import decentralized_network
 from mcexact.synthesis.request import Arithmetic, Progress, Request
 
 

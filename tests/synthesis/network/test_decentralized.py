@@ -15,8 +15,8 @@ from mcexact.exact.polynomial import Polynomial
 from mcexact.model import gallery
 from mcexact.model.loop import closed_loop
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.decentralized import design_decentralized
 from mcexact.synthesis.design import Design
+from mcexact.synthesis.network.decentralized import design_decentralized
 from tests.synthesis.three_channels import three_channels
 
 

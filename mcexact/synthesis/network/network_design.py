@@ -15,11 +15,11 @@ from mcexact.answer.wording import refusals as say
 from mcexact.errors import InputError, LimitReached
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial, product
-from mcexact.synthesis.channel_parts import drawn_gains
 from mcexact.synthesis.design import Design, Method, designed
 from mcexact.synthesis.gate import Proposal
-from mcexact.synthesis.network_candidates import NetworkCandidate, NetworkTask, best_candidate
-from mcexact.synthesis.networks import DerivedNetwork, network_programs
+from mcexact.synthesis.methods import drawn_gains
+from mcexact.synthesis.network.candidates import NetworkCandidate, NetworkTask, best_candidate
+from mcexact.synthesis.network.networks import DerivedNetwork, network_programs
 from mcexact.synthesis.request import Request
 
 _ATTEMPTS = 96

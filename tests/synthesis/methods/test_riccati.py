@@ -7,7 +7,7 @@ import pytest
 
 from mcexact.exact.location import StabilityRegion
 from mcexact.floating.margins import is_within
-from mcexact.synthesis.riccati import riccati_feedback
+from mcexact.synthesis.methods.riccati import riccati_feedback
 
 SLOW = StabilityRegion("continuous", 1)
 
