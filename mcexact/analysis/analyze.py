@@ -59,6 +59,8 @@ class Analysis:
             self._require(
                 "neighbors", "the information 'outputs' is about messages between neighbors"
             )
+        if questions is not None:
+            self.left_out = ()
         self._asked = set(self.unbidden if questions is None else questions)
         for name in sorted(self._asked):
             self._require_known(name)

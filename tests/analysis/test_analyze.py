@@ -98,6 +98,8 @@ def test_indices_of_very_long_chains_are_asked_only_by_name() -> None:
     assert set(found.left_out) == {"controllability_indices", "observability_indices"}
     assert found.controllability_indices.index == n
     assert "controllability_indices" in found.asked
+    alone = analyze(found.plant, ["joint_controllability"])
+    assert not any("left out" in each for each in alone.sentences)
 
 
 @pytest.mark.parametrize(
