@@ -69,10 +69,7 @@ from mcexact.cli.failures import DEFINITE_NO
     show_default=True,
     help="Number of nodes of the branch tree after which the search ends with status 4.",
 )
-@options.certificates
-@options.as_json
-@options.work_limits
-@options.file_limits
+@options.answering
 def command(file: str, **given: Any) -> int:
     """Find the least dimensions that the agents of the system in FILE must share.
 

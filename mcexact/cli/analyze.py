@@ -62,10 +62,7 @@ def _besides(function: Callable[..., int]) -> Callable[..., int]:
     help="Write a report for a browser: the answer in plain words, graphs, and all evidence.",
 )
 @click.option("--latex", is_flag=True, help="Print the results in LaTeX (with --html: add them).")
-@options.certificates
-@options.as_json
-@options.work_limits
-@options.file_limits
+@options.answering
 def command(
     file: str,
     information: str,

@@ -23,10 +23,7 @@ from mcexact.cli.failures import DEFINITE_NO
     type=click.Choice(["polynomial", "lyapunov"]),
     help="Decide by the characteristic polynomial or by Lyapunov matrices; by default by size.",
 )
-@options.certificates
-@options.as_json
-@options.work_limits
-@options.file_limits
+@options.answering
 def command(file: str, controller: str, **given: Any) -> int:
     """Decide whether CONTROLLER stabilizes the system in FILE, or makes it fast enough.
 

@@ -27,10 +27,7 @@ def design_options(
         options.arithmetic,
         click.option("--agent", metavar="NAME", help=agent_help),
         options.controller_output,
-        options.certificates,
-        options.as_json,
-        options.work_limits,
-        options.file_limits,
+        options.answering,
     )
 
     def decorate(function: F) -> F:

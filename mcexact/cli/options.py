@@ -159,3 +159,10 @@ def draws(function: F) -> F:
     ):
         function = option(function)
     return function
+
+
+def answering(function: F) -> F:
+    """Add the options of every command whose answers have certificates."""
+    for add in (file_limits, work_limits, as_json, certificates):
+        function = add(function)
+    return function
