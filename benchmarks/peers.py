@@ -3,7 +3,7 @@
 - ``heuristic``: what practice does in floating point: the eigenvalues of A and of one drawn closed
   loop, matched.  Not rigorous.
 - ``floor``: the two characteristic polynomials modulo a word-size prime, on matrices that are
-  already there: no certificate can be had from less by this road.
+  already there: this method needs at least as much for a certificate.
 - ``pencil_enumeration``: the rank of every pencil P_s modulo a word-size prime at a root of each
   irreducible factor of χ_A, over Q[x]/(p) only where it drops.  Rigorous.
 - ``reduced_enumeration``: the same, with λI − A eliminated once for each factor, so that only a

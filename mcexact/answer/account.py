@@ -27,7 +27,7 @@ class Account:
         The answers by name; the name with ``.json`` is that of the certificate's file.
     given : Given
     sentences : Sentences
-        What follows by a rule, each sentence with its place and its premises.
+        The sentences that follow by the rules, each with its place and premises.
     subject : sequence of mapping
         The constructions that lead from the user's plant to the plant of this account.
     """

@@ -221,7 +221,7 @@ stuck("refused-integrators-fixed", ("integrators", "extended"), holds=shares_all
 
 
 def refuse(key: str, theorem: str, agents: str) -> None:
-    """Enter a rule about agents who lack something and hear nobody else, whatever is shared."""
+    """Enter a rule about agents that lack shared states and receive from no other agent."""
 
     @rule(key, DIMENSIONS, theorem=theorem)
     def say(least: Premise) -> str:

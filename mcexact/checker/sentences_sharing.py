@@ -121,7 +121,7 @@ def demands(least: Premise, agents: str, alone: bool = False) -> str:
     """Cuts of the evidence in words, and why: a mode, or no transfer to their agents.
 
     Of a mode those of none, some or all ``agents`` are meant, or those that are cut off; if
-    ``alone``, only those of agents who hear nobody else.
+    ``alone``, only those of agents that receive messages from no other agent.
     """
     system, told = least.system, []
     N = system.neighbors or [[i] for i in range(system.m)]
@@ -131,10 +131,10 @@ def demands(least: Premise, agents: str, alone: bool = False) -> str:
         senders = sorted({j for i in s for j in N[i]} - set(s))
         if agents == (which if p else "cut off") and not (alone and senders):
             why = f"the roots of {polynomial_text(p)}" if p else "the others do not act on it"
-            hears = f"{channel_set(system, s)} hears {channel_set(system, senders)}"
+            told_of = f"{channel_set(system, s)} receives from {channel_set(system, senders)}"
             needed = counted(cut.get("deficiency", 1), "sub-state")
-            told.append(f"{hears}, who must share at least {needed}: {why}")
-    least.expect(bool(told), "no cut of the evidence is so")
+            told.append(f"{told_of}, which must share at least {needed}: {why}")
+    least.expect(bool(told), "the evidence has no such cut")
     return f"in {described(system)} {'; '.join(told)}"
 
 

@@ -1,4 +1,4 @@
-"""`mcexact analyze`: everything that is decided about one system."""
+"""`mcexact analyze`: decide all questions about one system."""
 
 from __future__ import annotations
 
@@ -16,18 +16,19 @@ _LINES_OF_WORDS = 5
 _MODES = 6
 _ASKED = {question.option: question.help for question in reversed([*QUESTIONS.values()])}
 _BESIDES = {option: told for option, told in reversed(_ASKED.items()) if option}
-"""Options that ask something besides, with what that is: one for each in the table of questions."""
+"""The options that add questions, from the table of questions, with their help texts."""
 
 
 def _besides(function: Callable[..., int]) -> Callable[..., int]:
-    """Add these options."""
+    """Add the options that add questions."""
     for option, told in reversed(_BESIDES.items()):
         function = click.option(f"--{option}", is_flag=True, help=f"Also {told}.")(function)
     return function
 
 
 @click.command(
-    name="analyze", short_help="Decide which modes no linear time-invariant control can move."
+    name="analyze",
+    short_help="Decide which modes are fixed, and all other questions about a system.",
 )
 @click.argument("file")
 @click.option(
@@ -35,33 +36,35 @@ def _besides(function: Callable[..., int]) -> Callable[..., int]:
     type=click.Choice(["own", "outputs"]),
     default="own",
     show_default=True,
-    help="What agent i feeds back: its own output, or those of all its neighbors.",
+    help="The outputs that agent i feeds back: its own, or those of all its neighbors.",
 )
 @_besides
 @click.option(
     "--subset",
     metavar="NAMES",
-    help="Also the rank of the pencil for this set of channels, such as 1,3, at every mode of A, "
-    "and its complementary subsystem.",
+    help="Also decide the rank of the pencil of these channels, such as 1,3, at every mode of A, "
+    "and their complementary subsystem.",
 )
 @click.option(
     "--channel",
     metavar="NAME",
-    help="Also what this channel controls and observes, alone and with gains.",
+    help="Also decide what this channel controls and observes, alone and with gains.",
 )
 @click.option(
     "--assert",
     "asserted",
     type=click.Choice(["no-fixed-modes"]),
-    help="End with status 1 if this is false.",
+    help="End with status 1 if this property does not hold.",
 )
 @click.option(
     "--html",
     type=click.Path(path_type=Path),
     metavar="FILE",
-    help="Write a report for a browser: the answer in plain words, graphs, and all evidence.",
+    help="Write a report as an HTML page, with sentences, graphs and all certificates.",
 )
-@click.option("--latex", is_flag=True, help="Print the results in LaTeX (with --html: add them).")
+@click.option(
+    "--latex", is_flag=True, help="Print the results in LaTeX (with --html: add them to the page)."
+)
 @options.answering
 def command(
     file: str,
@@ -73,11 +76,11 @@ def command(
     latex: bool,
     **given: Any,
 ) -> int:
-    """Decide everything about the system in FILE (- for standard input).
+    """Decide the questions about the system in FILE (- for standard input).
 
-    Which modes are fixed under every linear time-invariant decentralized control, which channels
-    are to blame, whether the rest can be stabilized, joint controllability with its indices, the
-    transfer graph, completeness, and the parts into which the spectrum splits.
+    These are: which modes are fixed under every linear time-invariant decentralized control, which
+    channels cause that, whether the system can be stabilized, joint controllability with its
+    indices, the transfer graph, completeness, and the parts into which the spectrum splits.
     """
 
     from mcexact.cli import output
@@ -124,7 +127,7 @@ def command(
 
 
 def _named(subset: str | None) -> list[str] | None:
-    """The names in a list separated by commas; an empty text is the empty set."""
+    """Parse names separated by commas; an empty text is the empty set."""
     if subset is None:
         return None
     return [name.strip() for name in subset.split(",")] if subset.strip() else []
@@ -137,7 +140,7 @@ def _answer(
     question: dict[str, Any],
     with_page: bool,
 ) -> dict[str, Any]:
-    """Decide, and put the answer into text: what the child process does."""
+    """Decide and format the answer, in the child process."""
     from mcexact.analysis.analyze import analyze
     from mcexact.cli.files import system_in
     from mcexact.cli.running import told

@@ -1,4 +1,4 @@
-"""`mcexact design`: the group of designs, each in a module of its own."""
+"""`mcexact design`: the group of the design commands, each in its own module."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from mcexact.cli.commands import Commands
     cls=Commands,
     names=("decentralized", "observer", "extended", "setpoint"),
     prefix="design_",
-    short_help="Design a controller, with its proof.",
+    short_help="Design a controller and prove its closed loop.",
 )
 def command() -> None:
-    """Design a linear time-invariant controller and certify the closed loop that results."""
+    """Design a linear time-invariant controller and certify its closed loop."""

@@ -1,4 +1,4 @@
-"""`mcexact design decentralized`: a controller without any message."""
+"""`mcexact design decentralized`: design a controller without communication."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import click
 from mcexact.cli import designing
 
 
-@click.command(name="decentralized", short_help="A controller without any message.")
+@click.command(name="decentralized", short_help="Design a controller without communication.")
 @click.argument("file")
 @designing.design_options(
     'JSON {"closed_loop": P}, P a list of coefficients or of roots and pairs, or a mapping from '
@@ -18,8 +18,8 @@ from mcexact.cli import designing
 def command(file: str, **given: Any) -> None:
     """Design a decentralized controller for the system in FILE (- for standard input).
 
-    Agent i makes u_i of y_i alone. Fixed modes, which no linear time-invariant controller of this
-    kind moves, stay if they are fast enough; if one is not, the status is 1 and the certificate
-    says why.
+    Agent i computes u_i from y_i alone. No such linear time-invariant controller moves the fixed
+    modes, which remain if they are fast enough; if one is too slow, the status is 1 and a
+    certificate proves that no such controller exists.
     """
     designing.answer("decentralized", file, given, {})

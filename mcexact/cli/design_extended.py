@@ -1,4 +1,4 @@
-"""`mcexact design extended`: shared sub-states of least dimension, and one channel controller."""
+"""`mcexact design extended`: design a controller with shared sub-states of least dimension."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import click
 from mcexact.cli import designing, options
 
 
-@click.command(name="extended", short_help="Least shared sub-states, and a channel controller.")
+@click.command(name="extended", short_help="Design a controller with shared sub-states.")
 @click.argument("file")
 @designing.design_options(
     'JSON {"closed_loop": P}, P a list of coefficients or of roots and pairs, without constraint.'
@@ -19,23 +19,23 @@ from mcexact.cli import designing, options
     default="minimal",
     show_default=True,
     metavar="WHICH",
-    help="minimal, bound (Theorem 2's), or n_1,n_2,… in the order of the channels.",
+    help="`minimal`, `bound` (Theorem 2's), or n_1,n_2,… in the order of the channels.",
 )
 @click.option(
     "--share",
     type=click.Choice(["outputs+states", "states"]),
-    help="What agents send; both by default, sub-states alone where they hold.",
+    help="Signals that agents send; by default both, but with holding sub-states alone.",
 )
 @click.option(
     "--network",
     type=click.Choice(["extended", "lifted", "held"]),
-    help="With delays: lifted (0 stays fixed, the default) or held (nothing does).",
+    help="With delays: `lifted` (the mode 0 is fixed, the default) or `held` (no mode is fixed).",
 )
 @click.option(
     "--free",
     "free_assignability",
     is_flag=True,
-    help="Share enough for the whole spectrum to be assigned without splitting it.",
+    help="Share enough that the whole spectrum can be assigned without partition.",
 )
 def command(
     file: str,
@@ -48,8 +48,8 @@ def command(
     """Design a distributed controller through the extended system of FILE (- for standard input).
 
     FILE needs a neighbor graph, and may have delays in discrete time. Agents share sub-states; the
-    controller file holds how long they hold them. If no sharing is enough for linear
-    time-invariant control, the status is 1.
+    controller file says for how many steps agents hold them. If no shared dimensions suffice for
+    linear time-invariant control, the status is 1.
     """
     sizes: str | list[int] = dimensions
     if dimensions not in ("minimal", "bound"):

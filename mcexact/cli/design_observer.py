@@ -1,4 +1,4 @@
-"""`mcexact design observer`: the distributed observer with a prescribed spectrum."""
+"""`mcexact design observer`: design a distributed observer-based controller."""
 
 from __future__ import annotations
 
@@ -9,23 +9,23 @@ import click
 from mcexact.cli import designing
 
 
-@click.command(name="observer", short_help="A distributed observer with a prescribed spectrum.")
+@click.command(name="observer", short_help="Design a distributed observer-based controller.")
 @click.argument("file")
 @designing.design_options(
     'JSON {"feedback": P, "error": P}, P a list of coefficients or of roots and pairs.',
-    agent_help="Who carries the channel controller; else the first.",
+    agent_help="The agent with the channel controller; by default the first.",
 )
 @click.option(
     "--order",
     type=click.Choice(["least"]),
-    help="The least order that one of the indices allows, instead of m - 1; in floating point "
-    "an observer of reduced order.",
+    help="Use the least order that one of the indices allows, instead of m - 1; in floating point "
+    "use an observer of reduced order.",
 )
 def command(file: str, order: str | None, **given: Any) -> None:
     """Design a distributed observer-based controller for the system in FILE (- for standard input).
 
-    FILE needs a neighbor graph. Give a rate or radius, or all the numbers: n for the feedback and
-    nm + m - 1 for the estimation errors. If no linear time-invariant controller of this form
-    exists, the status is 1 and the certificate says why.
+    FILE needs a neighbor graph. Give a rate or radius, or prescribe the whole spectrum: n numbers
+    for the feedback and nm + m - 1 for the estimation errors. If no linear time-invariant
+    controller of this form exists, the status is 1 and a certificate proves this.
     """
     designing.answer("observer", file, given, {"order": order})

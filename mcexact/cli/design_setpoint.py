@@ -1,4 +1,4 @@
-"""`mcexact design setpoint`: every output at the set-point of its agent."""
+"""`mcexact design setpoint`: design a controller that holds every output at its set-point."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import click
 from mcexact.cli import designing
 
 
-@click.command(name="setpoint", short_help="Every output at the set-point of its agent.")
+@click.command(name="setpoint", short_help="Design a controller that holds outputs at set-points.")
 @click.argument("file")
 @designing.design_options(
     'JSON for the plant with its integrators: {"feedback": P, "error": P}, or {"closed_loop": P} '
@@ -20,12 +20,13 @@ from mcexact.cli import designing
     type=click.Choice(["observer", "extended"]),
     default="observer",
     show_default=True,
-    help="A distributed observer, or shared sub-states of the least dimension.",
+    help="Use a distributed observer, or shared sub-states of least dimension.",
 )
 def command(file: str, method: str, **given: Any) -> None:
     """Design a distributed controller that holds every output of FILE at its agent's set-point.
 
-    FILE needs a neighbor graph. Run it with simulate --reference. If no equilibrium holds some
-    set-points, the status is 1 and the certificate gives the combination.
+    FILE needs a neighbor graph. `mcexact simulate --reference` runs the controller with given
+    set-points. If some set-points have no equilibrium, the status is 1 and a certificate gives
+    their linear combinations.
     """
     designing.answer("setpoint", file, given, {"method": method})

@@ -1,4 +1,4 @@
-"""What the commands that design have in common: their options, and the way to an answer."""
+"""Options and work of all design commands."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from mcexact.cli import options
 F = TypeVar("F", bound=Callable[..., Any])
 
 HOW = ("rate", "radius", "arithmetic")
-"""The options that the functions of `mcexact.synthesis` take under the same names."""
+"""The options that are arguments of the functions of `mcexact.synthesis` with the same names."""
 
 
 def design_options(
     spectrum_help: str,
-    agent_help: str = "Who carries the channel controller; else who needs the least order.",
+    agent_help: str = "The agent with the channel controller; by default that of least order.",
 ) -> Callable[[F], F]:
-    """The options of every design, and the arguments of `answer`."""
+    """Add the options of every design command."""
     given = (
         options.rate,
         options.radius,
@@ -39,17 +39,17 @@ def design_options(
 
 
 def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any]) -> None:
-    """Design in a child process, show the answer, re-check its certificates and write the files.
+    """Design in a child process, show the result, verify its certificates and write the files.
 
     Parameters
     ----------
     name : str
-        The command: ``design_`` and this is the function of `mcexact.synthesis`.
+        The name of the command; the function of `mcexact.synthesis` is ``design_`` and this name.
     file : str
     given : dict
         The values of `design_options`.
     wanted : mapping
-        Further keywords of the function.
+        Further keyword arguments of the function.
     """
     from mcexact.cli.files import require_other, require_writable
     from mcexact.cli.output import emit, emit_tables
@@ -95,7 +95,7 @@ def _designed(
     limits: dict[str, int],
     wanted: dict[str, Any],
 ) -> dict[str, Any]:
-    """Design, and put the answer into text: what the child process does."""
+    """Design and format the result, in the child process."""
     import importlib
 
     from mcexact.answer.account import Account

@@ -1,4 +1,4 @@
-"""One run of a command: what it may use, reads and decides, and how every answer ends."""
+"""One run of a command: its limits, its inputs, and the common end of all commands."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ LIMITS = ("bytes", "depth", "digits", "exponent")
 
 
 def told(account: Account) -> dict[str, Any]:
-    """Return what a child process hands back of an account."""
+    """Return the parts of an account that a child process sends back."""
     from mcexact.model.system_file import digest
 
     return {
@@ -27,13 +27,13 @@ def told(account: Account) -> dict[str, Any]:
 
 
 class Run:
-    """The options that commands share, taken out of those that a command was given.
+    """The common options of commands, removed from the options given to a command.
 
     Parameters
     ----------
     given : dict
-        The values of `options.work_limits` and, where the command has them, of
-        `options.file_limits`, `options.certificates` and `options.as_json`; they are removed.
+        The values of `options.work_limits` and, if the command has them, of `options.file_limits`,
+        `options.certificates` and `options.as_json`, which are removed.
     """
 
     def __init__(self, given: dict[str, Any]) -> None:
@@ -44,7 +44,7 @@ class Run:
         self.as_json = given.pop("as_json", False)
 
     def read(self, file: str) -> tuple[str, bytes]:
-        """Return what messages call a file, and its bytes."""
+        """Return the name by which messages refer to a file, and its bytes."""
         from mcexact.cli.files import place_of, read
 
         return place_of(file), read(file, self.limits, self.deadline)
@@ -65,23 +65,24 @@ class Run:
         about: str,
         write: Callable[[Rechecked], None] = lambda _: None,
     ) -> Rechecked:
-        """Show an answer, let the checker verify its certificates and sentences, write the files.
+        """Show an answer, have its certificates and sentences verified, and write the files.
 
         Parameters
         ----------
         answer : mapping
-            What `told` returns, and ``json``.
+            The parts that `told` returns, and ``json``.
         show : callable
-            Prints the answer for people, and returns whether a line about the checker may follow.
+            A function that prints the answer and returns whether a line about the checker may
+            follow.
         about : str
-            What the answer is about, for progress.
+            A description of the answer, for progress.
         write : callable, optional
-            Writes the other files.
+            A function that writes the other files.
 
         Raises
         ------
         InternalError
-            If the checker rejects a certificate or a sentence; then nothing is written.
+            If the checker rejects a certificate or a sentence; no file is written then.
         """
         from mcexact.cli.files import directory
         from mcexact.cli.output import emit, emit_json

@@ -1,4 +1,4 @@
-"""A system's residues modulo a prime, drawn gains, and the closed loops they make there."""
+"""Systems modulo a prime, with drawn gains and their closed loops."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ from mcexact.model.system_file import digest
 Gains = tuple[tuple[tuple[int, ...], ...], ...]
 """One p_i × q_i matrix of residues for each channel."""
 
-# From here on two polynomials by floats save more than numpy takes to be imported, or nearly so:
-# 8 ms at n = 200, 1.1 s at n = 800.
+# From this size on, polynomials by floats save about the time of importing numpy: 8 ms at n = 200,
+# 1.1 s at n = 800.
 _KRYLOV_SIZE = 128
 
 
@@ -80,13 +80,13 @@ def _ranges(sizes: Sequence[int]) -> tuple[range, ...]:
 
 
 def generator(system: MultiChannelSystem, kind: str) -> random.Random:
-    """A source of draws that depends on the plant, the subject and the kind of question alone.
+    """Return a source of draws that depends on the plant, the subject and the kind alone.
 
     Parameters
     ----------
     system : MultiChannelSystem
     kind : str
-        The kind of certificate the draws are for.
+        The kind of certificate for which the draws are used.
     """
     text = canonical([digest(system.plant), plain(system.subject), kind])
     return random.Random(int(sha256(text), 16))
@@ -95,7 +95,7 @@ def generator(system: MultiChannelSystem, kind: str) -> random.Random:
 def residue_systems(
     system: MultiChannelSystem, rng: random.Random, bits: int = 30
 ) -> Iterator[ModularSystem]:
-    """The system modulo one prime of this size after another, denominators avoided."""
+    """Yield the system modulo primes of a size that divide no denominator."""
     denominators = [system.A.denominator]
     for channel in system.channels:
         denominators += [channel.B.denominator, channel.C.denominator]
@@ -106,7 +106,7 @@ def residue_systems(
 
 
 def drawn_gains(modular: ModularSystem, rng: random.Random) -> Gains:
-    """Uniform residues for every gain F_i, p_i × q_i."""
+    """Draw uniform residues for every gain F_i, p_i × q_i."""
     ell, randrange = modular.modulus, rng.randrange
     return tuple(
         tuple(tuple(randrange(ell) for _ in outputs) for _ in inputs)
@@ -115,7 +115,7 @@ def drawn_gains(modular: ModularSystem, rng: random.Random) -> Gains:
 
 
 def closed_loop(modular: ModularSystem, gains: Gains) -> ModularMatrix:
-    """A_F = A + B diag(F_1, …, F_m) C modulo ℓ, n × n."""
+    """Compute A_F = A + B diag(F_1, …, F_m) C modulo ℓ, n × n."""
     q = modular.C.nrows
     rows = []
     for F, outputs in zip(gains, modular.outputs, strict=True):
@@ -126,7 +126,7 @@ def closed_loop(modular: ModularSystem, gains: Gains) -> ModularMatrix:
 
 
 def quick_bits(system: MultiChannelSystem) -> int:
-    """The size of primes modulo which `loop_polynomials` is quickest."""
+    """The size of primes modulo which `loop_polynomials` is fastest."""
     if system.n < _KRYLOV_SIZE:
         return 30
     outputs = (system.q(i) for i in range(system.m))
@@ -137,7 +137,7 @@ def quick_bits(system: MultiChannelSystem) -> int:
 def loop_polynomials(
     modular: ModularSystem, gains: Gains
 ) -> tuple[ModularPolynomial, ModularPolynomial]:
-    """χ_A and χ_{A_F} modulo ℓ."""
+    """Compute χ_A and χ_{A_F} modulo ℓ."""
     system, ell = modular.system, modular.modulus
     if system.n < _KRYLOV_SIZE or ell.bit_length() > quick_bits(system):
         closed = closed_loop(modular, gains)

@@ -1,4 +1,4 @@
-"""Matrices as users hand them over, nested lists, arrays, sparse or symbolic, as rows."""
+"""Conversion of matrix-like values to rows: nested lists, arrays, sparse and symbolic matrices."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ def rows_of(value: Any, where: str | None = None, *, floats: bool = False) -> li
     ----------
     value : sequence of rows, numpy or scipy array, sympy matrix
     where : str, optional
-        Its place, for messages.
+        The place of the matrix, for messages.
     floats : bool
-        Whether an array may be one of floats.
+        Whether an array of floats is allowed.
 
     Raises
     ------
     FloatRefused
-        If it is an array of floats, and may not be.
+        If it is an array of floats, which is not allowed.
     InputError
-        If it is no matrix.
+        If the value is not a matrix.
 
     Examples
     --------
@@ -75,7 +75,7 @@ def _is_sequence(value: Any) -> bool:
 
 
 def common_width(rows: Sequence[Sequence[Any]], where: str | None = None) -> int | None:
-    """The number of entries of each row; None if there are no rows.
+    """Return the number of entries of each row; None if there are no rows.
 
     Raises
     ------

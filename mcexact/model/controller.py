@@ -90,8 +90,8 @@ class AgentProgram:
         """The three maps, in the order of `MAPS`."""
         return self.shared_update, self.private_update, self.input
 
-    def hears(self) -> tuple[int, ...]:
-        """The positions of the agents whose outputs or sub-states the program uses, ascending."""
+    def sources(self) -> tuple[int, ...]:
+        """Return the positions of the agents whose outputs or sub-states the program uses."""
         heard = {j for each in self.maps() for used in (each.outputs, each.shared) for j in used}
         return tuple(sorted(heard))
 
@@ -136,7 +136,9 @@ class Controller:
 
     def edges(self) -> tuple[tuple[int, int], ...]:
         """The edges (j, i), j ≠ i, for which agent i uses a signal of agent j."""
-        return tuple((j, i) for i, agent in enumerate(self.agents) for j in agent.hears() if j != i)
+        return tuple(
+            (j, i) for i, agent in enumerate(self.agents) for j in agent.sources() if j != i
+        )
 
     def warnings_for(self, system: MultiChannelSystem) -> tuple[str, ...]:
         """Return a warning if the controller was made for another plant, else None.

@@ -1,4 +1,4 @@
-"""The whole loop: plant, agents' states, and messages under way; assembled here and only here."""
+"""Closed loops of a plant, agents' states and messages under way, assembled in this file only."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from mcexact.model.system import MultiChannelSystem, require_discrete, with_link
 
 @dataclass(frozen=True, eq=False)
 class ClosedLoop:
-    """A system under a controller: where everything stands in the state, and how it moves.
+    """A closed loop: the layout of its state, and its matrix.
 
     The state is (x, x_1, z_1, x_2, z_2, …, x_m, z_m), then for each agent j in order
     x_j(t−1), …, x_j(t−b_j), y_j(t−1), …, y_j(t−a_j), with b_j and a_j the longest delays with which
@@ -26,7 +26,7 @@ class ClosedLoop:
     Attributes
     ----------
     given : MultiChannelSystem
-        A plant, or a system made from one.
+        A plant or a derived system.
     controller : Controller
     graph : NeighborGraph
     """
@@ -36,7 +36,7 @@ class ClosedLoop:
     graph: NeighborGraph
 
     def waits(self, j: int, i: int) -> tuple[int, int]:
-        """How old x_j and y_j are when agent i uses them."""
+        """The ages of x_j and y_j when agent i uses them, in steps."""
         link = self.graph.delay(i, j) if i != j else 0
         return link + self.controller.agents[j].hold.get(i, 0), link
 
@@ -46,7 +46,7 @@ class ClosedLoop:
         longest = [[0, 0] for _ in self.controller.agents]
         for i, agent in enumerate(self.controller.agents):
             for each in agent.maps():
-                # What is multiplied by zeros is not used, and is not written to files either.
+                # A signal with zero coefficients is not used, and is not written to files either.
                 used_for = each.without_zeros()
                 for kind, used in enumerate((used_for.shared, used_for.outputs)):
                     for j in used:
@@ -55,7 +55,7 @@ class ClosedLoop:
 
     @cached_property
     def blocks(self) -> Mapping[tuple[str, int, int], tuple[int, int]]:
-        """First position and size of ("x", 0, 0), ("x_", j, δ), ("z_", j, 0) and ("y_", j, δ)."""
+        """Position and size of the blocks ("x", 0, 0), ("x_", j, δ), ("z_", j, 0), ("y_", j, δ)."""
         found: dict[tuple[str, int, int], tuple[int, int]] = {("x", 0, 0): (0, self.given.n)}
         position = self.given.n
         order: list[tuple[str, int, int, int]] = []
@@ -72,7 +72,7 @@ class ClosedLoop:
 
     @cached_property
     def matrix(self) -> Matrix:
-        """The matrix of the whole loop, N×N, from the agents' own programs."""
+        """The matrix of the closed loop, N×N, assembled from the agents' programs."""
         plant = self.given.A @ self.pick("x")
         for i, agent in enumerate(self.controller.agents):
             plant = plant + self.given.B(i) @ self.rows(agent.input, i, self.given.p(i))
@@ -87,13 +87,13 @@ class ClosedLoop:
 
     @cached_property
     def system(self) -> MultiChannelSystem:
-        """The loop as a system without channels, which remembers the plant and the controller."""
+        """The loop as a system without channels, which records the plant and the controller."""
         construction = {"construction": "closed_loop", "controller": self.controller.document()}
         return self.given.derived(self.matrix, (), (), construction)
 
     @cached_property
     def reference(self) -> Matrix:
-        """What the set-points (r_1, …, r_m) add to the loop, N×Σ q_i."""
+        """The matrix by which the set-points (r_1, …, r_m) act on the loop, N×Σ q_i."""
         counts = [self.given.q(i) for i in range(self.given.m)]
 
         def spread(each: LinearMap, i: int, nrows: int) -> Matrix:
@@ -115,9 +115,9 @@ class ClosedLoop:
 
     @cached_property
     def steady_gain(self) -> Matrix | None:
-        """The gain from all set-points to all outputs at s = 0 (discrete time: z = 1), exactly.
+        """Compute the gain from all set-points to all outputs at s = 0 (discrete time: z = 1).
 
-        Σ q_i × Σ q_i; None if the loop has that eigenvalue.
+        The gain is Σ q_i × Σ q_i; it is None if the loop has this eigenvalue.
         """
         place = steady_point(self.given.time)
         steady = solve(Matrix.identity(self.dimension) * place - self.matrix, self.reference)
@@ -125,11 +125,11 @@ class ClosedLoop:
 
     @property
     def dimension(self) -> int:
-        """The dimension of the whole state."""
+        """The dimension of the loop's state."""
         return sum(size for _, size in self.blocks.values())
 
     def pick(self, kind: str, j: int = 0, delta: int = 0) -> Matrix:
-        """The rows that read a block from the state; y_j at delay 0 is C_j x."""
+        """Return the rows that select a block of the state; y_j at delay 0 is C_j x."""
         if kind == "y_" and not delta:
             return self.given.C(j) @ self.pick("x")
         start, size = self.blocks[kind, j, delta]
@@ -137,7 +137,7 @@ class ClosedLoop:
         return hstack([before, Matrix.identity(size), Matrix.zeros(size, after)])
 
     def rows(self, each: LinearMap, i: int, nrows: int) -> Matrix:
-        """What a map of agent i computes, nrows rows over the whole state, without set-points."""
+        """Return a map of agent i without set-points, as nrows rows over the loop's state."""
         result = Matrix.zeros(nrows, self.dimension)
         used = each.without_zeros()
         for j, M in used.shared.items():
@@ -152,14 +152,14 @@ class ClosedLoop:
 def closed_loop(
     system: MultiChannelSystem, controller: Controller, graph: NeighborGraph | None = None
 ) -> ClosedLoop:
-    """Check that the controller fits, and lay out the state of the loop.
+    """Make the closed loop of a controller that fits the system.
 
     Parameters
     ----------
     system : MultiChannelSystem
     controller : Controller
     graph : NeighborGraph, optional
-        Overrides ``system.neighbors``; without either nobody hears anybody.
+        Overrides ``system.neighbors``; by default there are no links.
 
     Raises
     ------

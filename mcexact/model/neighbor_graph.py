@@ -275,7 +275,7 @@ class NeighborGraph:
         if not getattr(graph, "is_directed", lambda: False)():
             raise InputError(
                 "expected a directed graph, found an undirected one; "
-                "use graph.to_directed() if everybody on an edge hears the other",
+                "use graph.to_directed() if messages go both ways along each edge",
                 where="graph",
             )
         if graph.is_multigraph():

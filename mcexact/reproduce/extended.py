@@ -219,7 +219,7 @@ def remark_2(note: Notebook) -> None:
         note.certify(bound, weaker, found, sight)
 
 
-def every_subset_hears(note: Notebook) -> None:
+def every_subset_receives(note: Notebook) -> None:
     """Strongly connected iff N_s∖s is never empty."""
     chosen: list[NeighborGraph] = [graph_of(three_channels())]
     chosen += [graph_of(plant) for _, plant in drawn_plants(16, connected=None, first=60)]
@@ -228,13 +228,13 @@ def every_subset_hears(note: Notebook) -> None:
             continue
         note.on("the cyclic graph" if not number else f"drawn graph, seed {59 + number}")
         names = graph.names
-        hears = all(
+        receives = all(
             {names[j] for j in graph.union([names.index(i) for i in s])} - set(s)
             for s in (tuple(names[int(k) - 1] for k in each) for each in SUBSETS_OF_THREE)
         )
         note.check(
             "strongly connected just when every subset receives messages from outside",
-            graph.is_strongly_connected() == hears,
+            graph.is_strongly_connected() == receives,
         )
         plant = three_channels()
         found = neighbor_graph(plant.with_neighbors(NeighborGraph(plant.names, graph.neighbors)))
@@ -320,7 +320,7 @@ PROCEDURES: dict[str, Procedure] = {
     "bound-reached": bound_reached,
     "tight": tightness,
     "rmk:no-yi": remark_2,
-    "every-subset": every_subset_hears,
+    "every-subset": every_subset_receives,
     "necessary": sub_states_needed,
     "prp:transfer-matrix-graph": proposition_3,
     "cor:free-assign": corollary_1,

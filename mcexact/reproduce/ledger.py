@@ -56,15 +56,15 @@ class Statement:
         """Whether a machine-checked theorem covers the whole statement."""
         return self.covers == "all" and bool(self.proofs)
 
-    def standing(self, instances: int) -> str:
+    def status(self, instances: int) -> str:
         """Return in words what is proved in general and what was checked on instances.
 
         Examples
         --------
-        >>> statement("thm:strg-graph").standing(7)
+        >>> statement("thm:strg-graph").status(7)
         'proved in general, checked on 7 instances'
         >>> from dataclasses import replace
-        >>> replace(statement("thm:strg-graph"), proofs=()).standing(1)
+        >>> replace(statement("thm:strg-graph"), proofs=()).status(1)
         'checked on 1 instance'
         """
         checked = f"checked on {instances} instance" + ("" if instances == 1 else "s")

@@ -75,7 +75,7 @@ def _shown(row: Row) -> dict[str, Any]:
         "anchor": said.key.replace(":", "-"),
         **{name: getattr(said, name) for name in (*_OF_STATEMENT, "says", "part", "code")},
         **{name: getattr(finding, name) for name in ("holds", "failure", "pictures")},
-        "standing": row.standing,
+        "status": row.status,
         "checks": [
             (check.instance, check.text, "yes" if check.holds else "NO") for check in finding.checks
         ],
@@ -94,7 +94,7 @@ def reproduction_table(found: Reproduction) -> Table:
                 row.statement.title,
                 row.statement.section,
                 "yes" if row.finding.holds else "NO",
-                row.standing + (" (corrected)" if row.statement.erratum else ""),
+                row.status + (" (corrected)" if row.statement.erratum else ""),
                 str(len(row.finding.certificates)),
             )
             for row in found.rows
@@ -110,7 +110,7 @@ def reproduction_view(found: Reproduction) -> dict[str, Any]:
             {
                 **{name: getattr(row.statement, name) for name in _OF_STATEMENT},
                 **{name: getattr(row.finding, name) for name in ("holds", "instances", "failure")},
-                "standing": row.standing,
+                "status": row.status,
                 "checks": len(row.finding.checks),
                 "certificates": [made.name for made in row.finding.certificates],
             }
@@ -123,7 +123,7 @@ def reproduction_latex(found: Reproduction) -> str:
     """The rows as a table in LaTeX."""
     lines = [r"\begin{tabular}{lll}", r"statement & section & what is known \\ \hline"]
     for row in found.rows:
-        cells = (row.statement.title, row.statement.section, row.standing)
+        cells = (row.statement.title, row.statement.section, row.status)
         lines.append(" & ".join(_typeset(cell) for cell in cells) + r" \\")
     return "\n".join([*lines, r"\end{tabular}"]) + "\n"
 

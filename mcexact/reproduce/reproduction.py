@@ -29,11 +29,11 @@ class Row:
     finding: Notebook
 
     @property
-    def standing(self) -> str:
+    def status(self) -> str:
         """What is known, in words."""
         if not self.finding.holds:
             return "does not hold"
-        return self.statement.standing(len(self.finding.instances))
+        return self.statement.status(len(self.finding.instances))
 
 
 @dataclass(frozen=True)

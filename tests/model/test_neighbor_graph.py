@@ -1,4 +1,4 @@
-"""Who hears whom: building, refusing, and the way to and from networkx."""
+"""Neighbor graphs: construction, refusals, and conversion to and from networkx."""
 
 import itertools
 

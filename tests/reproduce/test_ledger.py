@@ -60,7 +60,7 @@ def test_a_row_is_called_proved_only_where_theorems_cover_it(said: Statement) ->
     assert bool(said.proofs) == bool(said.covers)
     assert (said.covers == "part") == bool(said.part)
     if not said.proved:
-        assert "proved in general, " not in said.standing(3)
+        assert "proved in general, " not in said.status(3)
 
 
 def test_every_formal_proof_in_the_ledger_is_one_that_make_proofs_prints() -> None:

@@ -44,7 +44,7 @@ class ReachingGains:
     observability_indices: tuple[int, ...]
 
     @property
-    def height(self) -> int:
+    def largest(self) -> int:
         """The largest absolute numerator or denominator in the gains."""
         entries = [entry for F in self.gains for row in F.rows() for entry in row]
         return max((max(abs(e.numerator), e.denominator) for e in entries), default=0)

@@ -1,4 +1,4 @@
-"""Whether the agents can hear each other, directly or through others."""
+"""Whether the neighbor graph is strongly connected."""
 
 from __future__ import annotations
 

@@ -57,7 +57,7 @@ def test_every_agent_of_the_paper_reaches_all_errors_with_index_m():
     error, draw = errors_of(system, system.neighbors, 0)
     found = next(reaching_gains(error, [0, 1, 2], draw, index=3))
     hold_to(error, found, [0, 1, 2], 3)
-    assert found.height <= 20
+    assert found.largest <= 20
 
 
 @pytest.mark.parametrize("seed", range(12))

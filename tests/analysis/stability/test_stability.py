@@ -1,4 +1,4 @@
-"""Stability decided exactly, both ways, by both roads."""
+"""Stability decided exactly, both ways, by both methods."""
 
 from __future__ import annotations
 
