@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 from . import reading, region
@@ -10,6 +12,26 @@ from .reading import fields, require
 from .shared_dimensions import read_cut
 from .system import System
 from .words import described
+
+
+def _says(share: str, holds: Callable[[Any], Any], claim: Any) -> bool:
+    """Whether a claim is about this way of sharing and its dimension is so."""
+    return bool(claim["share"] == share and holds(claim["dimension"]))
+
+
+SENTENCES = {
+    f"common-dimension-{key}{end}": (theorem, partial(_says, share, held))
+    for key, share, name in (
+        ("outputs-states", "outputs+states", "outputs"),
+        ("states", "states", "states"),
+    )
+    for end, theorem, held in (
+        ("", f"shared_dimensions.common_dimension_{name}", lambda k: k),
+        ("-none", "", lambda k: k == 0),
+        ("-impossible", f"shared_dimensions.no_common_dimension_{name}", lambda k: k is None),
+    )
+}
+"""The sentences that repeat the claim: theorem, and the claim that each needs."""
 
 
 def check(claim: Any, witness: Any, system: System) -> str:

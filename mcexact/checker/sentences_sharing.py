@@ -13,7 +13,6 @@ OBSERVABLE_HAUTUS = "joint_controllability.observable_hautus"
 CONNECTED = Role(("neighbor_graph",), PLANT)
 LEAST = Role(("shared_dimensions",), PLANT)
 LINKS = Role(("communication",), PLANT)
-COMMON = Role(("common_dimension",), PLANT)
 HYPOTHESES = (CONNECTED, CONTROLLABLE, OBSERVABLE)
 
 VAIN = "sharing-in-vain-{}ability"
@@ -79,17 +78,6 @@ enter_least(
 enter_least("states", "least-states", "least-states-none", "least-states-impossible")
 
 
-def enter_common(share: str, key: str, theorem: str) -> None:
-    """Enter the rules about the least that suffices if all share the same, in one way."""
-    least = f"shared_dimensions.common_dimension_{theorem}"
-    never = f"shared_dimensions.no_common_dimension_{theorem}"
-    restate(key, COMMON, lambda c: c["share"] == share and c["dimension"], least)
-    restate(f"{key}-none", COMMON, lambda c: c["share"] == share and c["dimension"] == 0)
-    restate(f"{key}-impossible", COMMON, lambda c: c["share"] == share and not c["feasible"], never)
-
-
-enter_common("outputs+states", "common-dimension-outputs-states", "outputs")
-enter_common("states", "common-dimension-states", "states")
 restate("allocate-least allocate-row allocate-total", LEAST, lambda c: c["feasible"])
 restate("allocate-impossible", LEAST, lambda c: not c["feasible"])
 
