@@ -93,9 +93,21 @@ def _joint(about: str = "system", needs: str = "", option: str = "") -> dict[str
 
 # The question, the file of its function, the kind of its certificate, its option, what is decided.
 _SHARING = (
-    ("shared_dimension_bound", "allocation", "deficiency", "", "how much sharing is enough"),
-    ("minimal_shared_dimensions", "allocation", "shared_dimensions", "minimal", "the least in all"),
-    ("common_dimension", "common_dimension", "common_dimension", "minimal", "the least by each"),
+    ("shared_dimension_bound", "allocation", "deficiency", "", "dimensions that suffice"),
+    (
+        "minimal_shared_dimensions",
+        "allocation",
+        "shared_dimensions",
+        "minimal",
+        "the least dimensions that agents must share, in all and if all share equally many",
+    ),
+    (
+        "common_dimension",
+        "common_dimension",
+        "common_dimension",
+        "minimal",
+        "the least dimension that agents must share if all share equally many",
+    ),
 )
 _JOINT, _ALONE = _joint(), _joint(needs="channels")
 _SPECTRUM = {"spectrum": "fixed_spectrum"}
@@ -210,7 +222,7 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
             for name, question in {
                 "fixed_spectrum": Question(
                     "fixed_modes.fixed_spectrum:fixed_spectrum",
-                    "what is fixed with the delays of the neighbor graph, lifted and held",
+                    "which modes are fixed with the delays of the neighbor graph, lifted and held",
                     about=network,
                     needs="neighbors",
                     unbidden=False,

@@ -22,7 +22,7 @@ _BESIDES = {option: told for option, told in reversed(_ASKED.items()) if option}
 def _besides(function: Callable[..., int]) -> Callable[..., int]:
     """Add the options that add questions."""
     for option, told in reversed(_BESIDES.items()):
-        function = click.option(f"--{option}", is_flag=True, help=f"Also {told}.")(function)
+        function = click.option(f"--{option}", is_flag=True, help=f"Also decide {told}.")(function)
     return function
 
 
