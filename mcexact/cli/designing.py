@@ -96,8 +96,7 @@ def _designed(
     wanted: dict[str, Any],
 ) -> dict[str, Any]:
     """Design and format the result, in the child process."""
-    import importlib
-
+    import mcexact
     from mcexact.answer.account import Account
     from mcexact.answer.sentence import Given, Sentences
     from mcexact.answer.template import Sentence
@@ -116,8 +115,7 @@ def _designed(
         if prescribed is not None:
             spectrum = parse(prescribed[1], Limits(**limits))
             require_numbers(spectrum)
-        module = importlib.import_module(f"mcexact.synthesis.{name}")
-        found = getattr(module, f"design_{name}")(system, spectrum=spectrum, **wanted)
+        found = getattr(mcexact, f"design_{name}")(system, spectrum=spectrum, **wanted)
     except InputError as error:
         raise error.within(prescribed[0] if prescribed is not None else plant[0]) from None
     except Impossible as refused:
