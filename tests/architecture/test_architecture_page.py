@@ -1,0 +1,41 @@
+"""What ARCHITECTURE.md names is there."""
+
+import ast
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+PAGE = (ROOT / "ARCHITECTURE.md").read_text(encoding="utf-8")
+ROOMS = re.findall(r"^\| `(\w+/\w+)/` ", PAGE, re.MULTILINE)
+# Names in capitals stand for others.
+FILES = sorted(set(re.findall(r"`((?:mcexact|tests|proofs)/[a-z\d_/.]+)`", PAGE)))
+FORMULAS = re.findall(r"^\| (.+) \| `(mcexact/[\w/]+\.py)` \| `(\w+)` \|$", PAGE, re.MULTILINE)
+
+
+def test_at_least_ten_formulas_are_mapped() -> None:
+    assert len(FORMULAS) >= 10
+
+
+@pytest.mark.parametrize("formula, path, function", FORMULAS)
+def test_a_formula_leads_to_a_documented_function(formula: str, path: str, function: str) -> None:
+    tree = ast.parse((ROOT / path).read_text(encoding="utf-8"))
+    [found] = [
+        node for node in tree.body if isinstance(node, ast.FunctionDef) and node.name == function
+    ]
+    assert ast.get_docstring(found), formula
+
+
+@pytest.mark.parametrize("path", FILES)
+def test_every_file_named_is_there(path: str) -> None:
+    assert (ROOT / path).exists()
+
+
+def test_the_rooms_are_those_on_the_page() -> None:
+    rooms = {
+        f"{stage}/{path.parent.name}"
+        for stage in ("analysis", "synthesis")
+        for path in (ROOT / "mcexact" / stage).glob("*/__init__.py")
+    }
+    assert rooms == set(ROOMS)
