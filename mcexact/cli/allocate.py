@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from mcexact.cli import options
 from mcexact.cli.failures import DEFINITE_NO
+
+if TYPE_CHECKING:
+    from mcexact.exact.location import StabilityRegion
 
 
 @click.command(name="allocate", short_help="Find the least that agents must share, and prove it.")
@@ -102,12 +105,12 @@ def _answer(
     from mcexact.report.account import tables
 
     system = system_in(*plant, limits)
-    bound = _bound(system.time, question.pop("rate"), question.pop("radius"))
+    region = _region(system.time, question.pop("rate"), question.pop("radius"))
     if question.pop("links"):
-        account = account_of_links(system, **_links(question, bound))
+        account = account_of_links(system, **_links(question, region))
         least = account.answers["minimal_communication"]
     else:
-        account = account_of_dimensions(system, **_dimensions(system.names, question, bound))
+        account = account_of_dimensions(system, **_dimensions(system.names, question, region))
         least = account.answers["minimal_shared_dimensions"]
     return told(account) | {
         "json": account.as_json(),
@@ -116,8 +119,8 @@ def _answer(
     }
 
 
-def _bound(time: str, rate: Fraction | None, radius: Fraction | None) -> Fraction | None:
-    """Return the rate or the radius; one for the other time domain is wrong usage."""
+def _region(time: str, rate: Fraction | None, radius: Fraction | None) -> StabilityRegion | None:
+    """Return the region of the rate or the radius; a rate of 0 means stability."""
     from mcexact.errors import UsageError
     from mcexact.exact.location import StabilityRegion
 
@@ -126,11 +129,11 @@ def _bound(time: str, rate: Fraction | None, radius: Fraction | None) -> Fractio
     bound = given.pop(own)
     if any(other is not None for other in given.values()):
         raise UsageError(f"the system is in {time} time: give --{own}")
-    return bound
+    return None if bound is None else StabilityRegion.of(time, bound=bound)
 
 
 def _dimensions(
-    names: Sequence[str], question: dict[str, Any], bound: Fraction | None
+    names: Sequence[str], question: dict[str, Any], region: StabilityRegion | None
 ) -> dict[str, Any]:
     """Return the arguments of `minimal_shared_dimensions`."""
     from mcexact.errors import UsageError
@@ -144,7 +147,7 @@ def _dimensions(
         "share": question["share"],
         "costs": [prices.get(name, 1) for name in names],
         "upper": [most.get(name) for name in names],
-        "bound": bound,
+        "region": region,
         "free_assignability": question["free"],
         "node_limit": question["node_limit"],
     }
@@ -167,7 +170,7 @@ def _by_agent(
     return found
 
 
-def _links(question: dict[str, Any], bound: Fraction | None) -> dict[str, Any]:
+def _links(question: dict[str, Any], region: StabilityRegion | None) -> dict[str, Any]:
     """Return the arguments of `minimal_communication`."""
     from mcexact.errors import UsageError
     from mcexact.exact.rational import parse_rational
@@ -188,6 +191,6 @@ def _links(question: dict[str, Any], bound: Fraction | None) -> dict[str, Any]:
         "share": "outputs" if sizes is None else question["share"],
         "costs": costs,
         "forbidden": question["forbid"],
-        "bound": bound,
+        "region": region,
         "node_limit": question["node_limit"],
     }

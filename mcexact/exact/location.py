@@ -188,6 +188,23 @@ class StabilityRegion:
             return cls(time, None if name == "bound" and not discrete and found == 0 else found)
         return cls(time)
 
+    @classmethod
+    def asked(
+        cls, time: str, region: StabilityRegion | None, rate: Any = None, radius: Any = None
+    ) -> StabilityRegion | None:
+        """Return the region that is given, or that of a rate or a radius; None without any.
+
+        Raises
+        ------
+        UsageError
+            If a region is given with a number, or belongs to the other time domain; or as in `of`.
+        """
+        if region is None:
+            return None if rate is None and radius is None else cls.of(time, rate, radius)
+        if region.time != time or rate is not None or radius is not None:
+            raise UsageError("give a region of the same time domain, or a rate or a radius")
+        return region
+
     @property
     def discrete(self) -> bool:
         """Whether the region belongs to discrete time."""

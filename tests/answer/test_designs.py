@@ -15,6 +15,7 @@ from mcexact.answer.sentence import Given, Sentences
 from mcexact.answer.template import Sentence
 from mcexact.checker.manifest import manifest_verdicts
 from mcexact.errors import Impossible, LimitReached
+from mcexact.exact.location import StabilityRegion
 from mcexact.model import gallery
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
@@ -54,15 +55,16 @@ def test_what_is_said_of_allocations(start: int, tmp_path: Path) -> None:
         plant, rng = drawn(seed), random.Random(seed)
         if plant.neighbors is None:
             plant = plant.with_neighbors(NeighborGraph.ring(plant.names))
-        bound = rng.choice([None, Fraction(1, 2)])
+        number = rng.choice([None, Fraction(1, 2)])
+        region = None if number is None else StabilityRegion(plant.time, number)
         share = rng.choice(["outputs+states", "states"])
         free = rng.random() < 0.3
-        asked = {"share": share, "bound": bound, "free_assignability": free}
+        asked = {"share": share, "region": region, "free_assignability": free}
         if rng.random() < 0.5:
             asked["costs"] = [rng.randint(1, 9) for _ in plant.names]
         if rng.random() < 0.3:
             asked["upper"] = [rng.choice([None, 0, 1]) for _ in plant.names]
-        links: dict[str, Any] = {"dimensions": None, "bound": bound}
+        links: dict[str, Any] = {"dimensions": None, "region": region}
         if rng.random() < 0.5:
             links |= {"dimensions": [rng.randint(0, 1) for _ in plant.names], "share": share}
         for topic, account in (

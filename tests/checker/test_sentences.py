@@ -26,6 +26,7 @@ from mcexact.checker.reading import Limits
 from mcexact.checker.sentence import Premise, Rule
 from mcexact.checker.sentences_design import DIMENSIONS
 from mcexact.derived.extended import extended_system
+from mcexact.exact.location import StabilityRegion
 from mcexact.model import gallery
 from mcexact.model.canonical import canonical, plain
 from mcexact.model.neighbor_graph import NeighborGraph
@@ -166,11 +167,12 @@ def accounts(start: int, stop: int) -> Iterator[Account]:
         if system.neighbors is None:
             system = system.with_neighbors(NeighborGraph.ring(system.names))
         share, bound = rng.choice(["outputs+states", "states"]), rng.choice([None, Fraction(1, 2)])
+        region = None if bound is None else StabilityRegion(system.time, bound)
         free, costs = rng.random() < 0.3, [rng.randint(1, 2) for _ in system.names]
         yield account_of_dimensions(
-            system, share=share, bound=bound, free_assignability=free, costs=costs
+            system, share=share, region=region, free_assignability=free, costs=costs
         )
-        yield account_of_links(system, bound=bound)
+        yield account_of_links(system, region=region)
 
 
 def told(folder: Path, account: Account, listed: Any) -> list[Verdict]:

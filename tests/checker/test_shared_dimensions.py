@@ -23,7 +23,7 @@ BOTH = document(minimal_shared_dimensions(PLANT, RING))
 STATES = document(minimal_shared_dimensions(PLANT, RING, "states"))
 NOTHING = document(minimal_shared_dimensions(PLANT, NeighborGraph.empty(PLANT.names)))
 FREE = document(minimal_shared_dimensions(SQUARE, share="states", free_assignability=True))
-STABLE = document(minimal_shared_dimensions(PLANT, RING, "states", bound=1, costs=[2, 1, "1/3"]))
+STABLE = document(minimal_shared_dimensions(PLANT, RING, "states", rate=1, costs=[2, 1, "1/3"]))
 SPLIT: list[Document] = [{"agent": "1", "at_most": 0}, {"violated": 0}, {"violated": 0}]
 
 ACCEPTED = [

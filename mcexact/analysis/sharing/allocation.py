@@ -75,7 +75,9 @@ def minimal_shared_dimensions(
     *,
     costs: Sequence[Entry] | None = None,
     upper: Sequence[int | None] | None = None,
-    bound: Entry | None = None,
+    region: StabilityRegion | None = None,
+    rate: Entry | None = None,
+    radius: Entry | None = None,
     free_assignability: bool = False,
     node_limit: int = DEFAULT_NODE_LIMIT,
 ) -> SharedDimensions:
@@ -91,10 +93,11 @@ def minimal_shared_dimensions(
     costs : sequence of m rationals > 0, optional
         The price of one dimension of each agent, 1 by default.
     upper : sequence of m int or None, optional
-        Upper bounds of the n_i.
-    bound : rational, optional
-        A rate R (continuous time: only modes whose real part is not below −R count) or a radius
-        (discrete time: modulus not below it).
+        Upper limits of the n_i.
+    region : StabilityRegion, optional
+        Modes inside this region may be fixed; by default no mode may be.
+    rate, radius : rational, optional
+        The rate (continuous time) or the radius (discrete time) of the region.
     free_assignability : bool
         Require also a strongly connected extended transfer graph, so that the whole closed-loop
         spectrum is freely assignable.
@@ -104,8 +107,8 @@ def minimal_shared_dimensions(
     Raises
     ------
     UsageError
-        If there is no neighbor graph, the system is a derived one, or a price, an upper bound,
-        the bound or the node limit is out of range.
+        If there is no neighbor graph, the system is a derived one, or a price, an upper limit,
+        the rate, the radius or the node limit is out of range.
     LimitReached
         At the node limit, where its ``lower`` and ``upper`` bound the least cost; or if the prices
         are too far apart.
@@ -133,8 +136,7 @@ def minimal_shared_dimensions(
     """
     system, found = plant_with_graph(system, graph, share)
     program = _program(system.m, costs, upper)
-    exact = None if bound is None else as_fraction(bound, where="bound")
-    region = None if exact is None else StabilityRegion.of(system.time, bound=exact)
+    region = StabilityRegion.asked(system.time, region, rate, radius)
     base, factors = base_system(system, share), violating_factors(system, region)
     rng = generator(base, SharedDimensions.kind)
 
@@ -154,7 +156,7 @@ def minimal_shared_dimensions(
     return SharedDimensions(
         system,
         share=share,
-        bound=exact,
+        bound=None if region is None else region.edge,
         free_assignability=free_assignability,
         costs=program.costs,
         upper=program.upper,

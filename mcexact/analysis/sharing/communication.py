@@ -85,7 +85,9 @@ def minimal_communication(
     share: Carried | None = None,
     costs: Mapping[tuple[str, str], Entry] | None = None,
     forbidden: Iterable[tuple[str, str]] = (),
-    bound: Entry | None = None,
+    region: StabilityRegion | None = None,
+    rate: Entry | None = None,
+    radius: Entry | None = None,
     node_limit: int = DEFAULT_NODE_LIMIT,
 ) -> MinimalCommunication:
     """Compute the cheapest links to add to the neighbor graph so that no mode is fixed.
@@ -105,8 +107,10 @@ def minimal_communication(
         Prices of links, 1 by default.
     forbidden : iterable of (from, to)
         Links that must not be added.
-    bound : rational, optional
-        A rate or radius: only modes that violate it count.
+    region : StabilityRegion, optional
+        Modes inside this region may be fixed; by default no mode may be.
+    rate, radius : rational, optional
+        The rate (continuous time) or the radius (discrete time) of the region.
     node_limit : int
         Nodes of the branch tree after which to give up, at least 1.
 
@@ -135,8 +139,7 @@ def minimal_communication(
     given, found = with_links(system, graph)
     links = _checked(given.with_neighbors(found), found, dimensions, share, forbidden)
     plant, names = links.plant, links.plant.names
-    exact = None if bound is None else as_fraction(bound, where="bound")
-    region = None if exact is None else StabilityRegion.of(plant.time, bound=exact)
+    region = StabilityRegion.asked(plant.time, region, rate, radius)
     factors = violating_factors(plant, region)
     rng = generator(links.chosen(()), MinimalCommunication.kind)
 
@@ -158,7 +161,7 @@ def minimal_communication(
         given,
         share=links.share,
         dimensions=links.dimensions,
-        bound=exact,
+        bound=None if region is None else region.edge,
         candidates=tuple((*edge, c) for edge, c in zip(edges, program.costs, strict=True)),
         feasible=added is not None,
         added=added,

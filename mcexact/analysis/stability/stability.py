@@ -126,10 +126,7 @@ def certify_stability(
     >>> certify_stability(matrix_system(M), rate=1).stable
     False
     """
-    asked = StabilityRegion.of(loop.time, rate, radius)
-    if region is not None and (asked.bound is not None or region.time != loop.time):
-        raise UsageError("give a region of the time domain of the loop, or a rate or a radius")
-    region = region or asked
+    region = StabilityRegion.asked(loop.time, region, rate, radius) or StabilityRegion(loop.time)
     if separation is not None:
         _require_separation(loop.A, separation)
     tried = (method,) if method is not None else _order(loop.n, separation)

@@ -159,13 +159,16 @@ def _sizes(
         )
     plant = system if not system.subject else as_plant(system)
     least = minimal_shared_dimensions(
-        plant, share=share, bound=region.bound, free_assignability=free_assignability
+        plant,
+        share=share,
+        region=None if region.bound is None else region,
+        free_assignability=free_assignability,
     )
     if least.dimensions is None and region.bound is None:
         # Not every mode can be moved; the stable ones may be fixed.
-        stable = _rate_of_stable_modes(system)
+        stable = _region_of_stable_modes(system)
         least = minimal_shared_dimensions(
-            plant, share=share, bound=stable, free_assignability=free_assignability
+            plant, share=share, region=stable, free_assignability=free_assignability
         )
     if system.subject:
         # The answer is about the system taken for a plant, so it is only followed.  Where no
@@ -176,14 +179,15 @@ def _sizes(
     return least, least.dimensions
 
 
-def _rate_of_stable_modes(system: MultiChannelSystem) -> Fraction:
-    """Return a rate that every stable mode of A meets; in discrete time the radius 1."""
+def _region_of_stable_modes(system: MultiChannelSystem) -> StabilityRegion:
+    """Return the region of a rate that every stable mode of A meets, or of the radius 1."""
     region = StabilityRegion(system.time)
     if region.discrete:
-        return region.edge
+        return region
     modes = [p for p, _ in characteristic_polynomial(system.A).factor()]
     stable = [p for p in modes if region.contains_roots_of(p)]
-    rate = Fraction(1)
-    while not all(StabilityRegion(system.time, rate).contains_roots_of(p) for p in stable):
+    region, rate = StabilityRegion(system.time, Fraction(1)), Fraction(1)
+    while not all(region.contains_roots_of(p) for p in stable):
         rate /= 2
-    return rate
+        region = StabilityRegion(system.time, rate)
+    return region

@@ -164,8 +164,8 @@ def test_only_modes_that_violate_the_rate_have_to_be_freed() -> None:
         neighbors=graph,
     )
     everything = minimal_shared_dimensions(slow, share="states")
-    violating = minimal_shared_dimensions(slow, share="states", bound=3)
-    nothing = minimal_shared_dimensions(slow, share="states", bound=Fraction(1, 2))
+    violating = minimal_shared_dimensions(slow, share="states", rate=3)
+    nothing = minimal_shared_dimensions(slow, share="states", rate=Fraction(1, 2))
     assert (everything.total, violating.total, nothing.total) == (2, 1, 0)
     for found in (everything, violating, nothing):
         assert_valid(found)
@@ -211,7 +211,7 @@ def test_a_radius_of_0_is_not_taken_for_the_unit_disc() -> None:
     discrete = MultiChannelSystem([[0]], [[[1]]], [[[1]]], time="discrete", neighbors={})
     for decide in (minimal_shared_dimensions, minimal_communication):
         with pytest.raises(UsageError, match="a radius above 0"):
-            decide(discrete, bound=0)
+            decide(discrete, radius=0)
 
 
 def test_what_an_arc_cannot_carry_is_refused() -> None:
@@ -225,7 +225,7 @@ def test_what_an_arc_cannot_carry_is_refused() -> None:
         ({"costs": [1, 0, 1]}, "positive"),
         ({"upper": [1, 2]}, "3 integers"),
         ({"upper": [0.5, 1, 1]}, "3 integers"),
-        ({"bound": -1}, "a rate above 0, found -1"),
+        ({"rate": -1}, "a rate above 0, found -1"),
         ({"graph": None}, "neighbor graph is needed"),
     ],
 )

@@ -177,6 +177,6 @@ def test_no_states_are_stable() -> None:
 def test_a_region_of_the_other_time_domain_is_refused() -> None:
     loop = matrix_system([[-1]])
     for options in ({}, {"rate": 1}):
-        with pytest.raises(UsageError, match="region of the time domain of the loop"):
+        with pytest.raises(UsageError, match="region of the same time domain"):
             time = "continuous" if options else "discrete"
             certify_stability(loop, StabilityRegion(time), **options)  # type: ignore[arg-type]
