@@ -52,7 +52,7 @@ class _Question:
 
 def single_channel_gains(
     system: MultiChannelSystem,
-    q: str | None = None,
+    channel: str | None = None,
     *,
     want: str = "both",
     cyclic: bool = False,
@@ -64,8 +64,8 @@ def single_channel_gains(
     Parameters
     ----------
     system : MultiChannelSystem
-    q : str, optional
-        The channel q; by default all channels, with the same gains.
+    channel : str, optional
+        The name of q; by default all channels, with the same gains.
     want : {"both", "controllable", "observable"}
     cyclic : bool
         Whether A_F also has to be cyclic, with a minimal polynomial of degree n.
@@ -104,7 +104,7 @@ def single_channel_gains(
         raise UsageError(f"expected one of {', '.join(SIDES)}, found {want!r}")
     if cyclic and want != "both":
         raise UsageError("a cyclic matrix is available only with both properties")
-    channels = tuple(range(system.m)) if q is None else tuple(system.indices([q]))
+    channels = tuple(range(system.m)) if channel is None else tuple(system.indices([channel]))
     question = _Question(system, channels, want, cyclic, index)
     rng = generator(system, "single_channel_gains")
     for modular in residue_systems(system, rng, bits=61):
@@ -112,8 +112,8 @@ def single_channel_gains(
         failing = list(_failing(question, modular, closed))
         if not failing:
             return _with_gains(_attainable(question, modular, closed), modular, draw, rng)
-        for channel, side in failing:
-            found = _obstruction(system, channel, side, rng)
+        for q, side in failing:
+            found = _obstruction(system, q, side, rng)
             if found is not None:
                 return SingleChannelGains(
                     system,

@@ -121,7 +121,7 @@ def test_bad_questions_are_refused() -> None:
     system = MultiChannelSystem([[0]], [[[1]]], [[[1]]])
     with pytest.raises(UsageError, match="expected one of controllable, observable, both"):
         single_channel_gains(system, want="stable")
-    with pytest.raises(UsageError, match="together with both properties"):
+    with pytest.raises(UsageError, match="available only with both properties"):
         single_channel_gains(system, want="observable", cyclic=True)
     with pytest.raises(UsageError):
         single_channel_gains(system, "nobody")
