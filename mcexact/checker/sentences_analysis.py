@@ -54,7 +54,7 @@ def meant(known: list[Premise]) -> System:
 
 @rule("heading page-heading information controllability-indices-left-out")
 @rule("observability-indices-left-out")
-def given(known: list[Premise]) -> str:
+def _given(known: list[Premise]) -> str:
     """The sizes of what the manifest is about, and the names of its channels."""
     plant = meant(known)
     p, q = sum(M.ncols for M in plant.B), sum(M.nrows for M in plant.C)
@@ -64,13 +64,13 @@ def given(known: list[Premise]) -> str:
 
 @rule("subsystem channel picture-graphs picture-graphs-outputs picture-dimensions certify-loop")
 @rule("design-measured table-links-limit least-outputs-states-limit least-states-limit")
-def nothing(known: list[Premise]) -> str:
+def _nothing(known: list[Premise]) -> str:
     """A title, a remark that something is not proved, or that it was not decided."""
     return f"nothing is claimed of {described(meant(known))}"
 
 
 @rule("inactive-channels")
-def inactive(known: list[Premise]) -> str:
+def _inactive(known: list[Premise]) -> str:
     """The channels that no edge of the transfer graph can touch."""
     seen = [premise for premise in known if premise.kind == "transfer_graph"]
     system = seen[0].system if seen else meant(known)
@@ -81,7 +81,7 @@ def inactive(known: list[Premise]) -> str:
 
 
 @rule("picture-neighbor-graph picture-heard")
-def neighbors(known: list[Premise]) -> str:
+def _neighbors(known: list[Premise]) -> str:
     """Who receives messages from whom."""
     plant = meant(known)
     known[0].expect(plant.neighbors is not None, "the plant has no neighbor graph")
@@ -145,7 +145,7 @@ restate(
 
 
 @rule("free spectrum-free", FIXED, BLOCKS, theorem=SPLIT)
-def free(spectrum: Premise, split: Premise) -> str:
+def _free(spectrum: Premise, split: Premise) -> str:
     """Nothing is fixed, and there is one part at most."""
     spectrum.expect(not spectrum["factors"], "a mode is fixed")
     split.expect(sum(b["dimension"] > 0 for b in split["blocks"]) <= 1, "the spectrum splits")
@@ -153,7 +153,7 @@ def free(spectrum: Premise, split: Premise) -> str:
 
 
 @rule("parts spectrum-parts", FIXED, BLOCKS, theorem=SPLIT)
-def parts(spectrum: Premise, split: Premise) -> str:
+def _parts(spectrum: Premise, split: Premise) -> str:
     """Nothing is fixed, and strong components have parts of their own."""
     spectrum.expect(not spectrum["factors"], "a mode is fixed")
     blocks = [(b["dimension"], split.set_of(b["channels"])) for b in split["blocks"]]
@@ -180,7 +180,7 @@ def moved_between(spectrum: Premise, split: Premise) -> str:
 
 
 @rule("spectrum-moved", FIXED, BLOCKS, theorem=MOVED)
-def moved_exactly(spectrum: Premise, split: Premise) -> str:
+def _moved_exactly(spectrum: Premise, split: Premise) -> str:
     """How many eigenvalues gains move, where the bounds meet."""
     least, most = moved(spectrum, split)
     spectrum.expect(least == most, f"only known to be from {least} to {most}")
@@ -226,7 +226,7 @@ restate("subsystem-zero-and-drops", SUBSYSTEM, lambda c: completeness(c) == (Tru
 
 
 @rule("pencil", SPECTRUM, RANKS, theorem="closed_loop_spectrum.closed_loop_spectrum")
-def pencil(spectrum: Premise, ranks: list[Premise]) -> str:
+def _pencil(spectrum: Premise, ranks: list[Premise]) -> str:
     """The rank of one pencil at every root of the polynomial of A."""
     left, listed = polynomial(spectrum["polynomial"], spectrum.file), ranks[0]["subset"]
     for found in ranks:
@@ -277,7 +277,7 @@ def unreached(c: Premise, o: Premise) -> list[str]:
 
 
 @rule("setpoint", SETPOINT, CONTROLLABLE, OBSERVABLE, theorem=DAVISON)
-def setpoint(found: Premise, c: Premise, o: Premise, *_: Premise) -> str:
+def _setpoint(found: Premise, c: Premise, o: Premise, *_: Premise) -> str:
     """Integrators behind all outputs, and everything within reach."""
     found.expect(found["solvable"], "the rank of [A, B; C, 0] is not full")
     c.expect(controls(c) and controls(o), "not jointly controllable and observable")
@@ -285,7 +285,7 @@ def setpoint(found: Premise, c: Premise, o: Premise, *_: Premise) -> str:
 
 
 @rule("setpoint-stable-rest", SETPOINT, CONTROLLABLE, OBSERVABLE, FIXED, theorem=DAVISON)
-def setpoint_beside(found: Premise, c: Premise, o: Premise, _: Premise) -> str:
+def _setpoint_beside(found: Premise, c: Premise, o: Premise, _: Premise) -> str:
     """Integrators behind all outputs, and what is out of reach is stable."""
     found.expect(found["solvable"], "the rank of [A, B; C, 0] is not full")
     c.expect(not unreached(c, o), "what is out of reach is not stable")
@@ -293,7 +293,7 @@ def setpoint_beside(found: Premise, c: Premise, o: Premise, _: Premise) -> str:
 
 
 @rule("setpoint-unstable-rest", SETPOINT, CONTROLLABLE, OBSERVABLE, FIXED, theorem=HAUTUS)
-def setpoint_lost(found: Premise, c: Premise, o: Premise, _: Premise) -> str:
+def _setpoint_lost(found: Premise, c: Premise, o: Premise, _: Premise) -> str:
     """No loop is stable: a mode out of reach is not."""
     c.expect(bool(unreached(c, o)), "what is out of reach is stable")
     lost = f"out of reach are roots of {' and of '.join(unreached(c, o))}"

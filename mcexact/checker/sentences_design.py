@@ -47,7 +47,7 @@ def controller(known: list[Premise]) -> tuple[Premise, list[Any]]:
 
 
 @rule("design-carrier design-carrier-for design-order design-order-integrators design-shared")
-def sizes(known: list[Premise]) -> str:
+def _sizes(known: list[Premise]) -> str:
     """How many states each agent has, shared and of its own."""
     found, agents = controller(known)
     order = sum(agent["shared"] + agent["private"] for agent in agents)
@@ -59,7 +59,7 @@ def sizes(known: list[Premise]) -> str:
 
 
 @rule("design-observer-order")
-def observer_order(known: list[Premise]) -> str:
+def _observer_order(known: list[Premise]) -> str:
     """The order of the paper's observer for this plant, n m + m − 1."""
     plant = known[0].plant
     order = plant.n * plant.m + plant.m - 1
@@ -67,7 +67,7 @@ def observer_order(known: list[Premise]) -> str:
 
 
 @rule("design-longest-number")
-def longest(known: list[Premise]) -> str:
+def _longest(known: list[Premise]) -> str:
     """The bits of the longest numerator or denominator in the controller."""
     found, agents = controller(known)
     bits = [0]
@@ -86,14 +86,14 @@ def entries(value: Any) -> list[list[Fraction]]:
 
 
 @rule("certify-states")
-def states(known: list[Premise]) -> str:
+def _states(known: list[Premise]) -> str:
     """The number of states of the loop."""
     found, _ = controller(known)
     return f"{found.about}: {counted(found.system.n, 'state')}"
 
 
 @rule("certify-decided certify-decided-blocks")
-def decided(known: list[Premise]) -> str:
+def _decided(known: list[Premise]) -> str:
     """By which evidence it is decided where the eigenvalues of the loop lie."""
     found, _ = controller([premise for premise in known if STABLE.fits(premise, False)] or known)
     found.expect(found.kind == "stability", "expected a certificate of the kind stability")
@@ -140,14 +140,14 @@ restate("certify-least", STABLE, lambda c: bounded(c, "discrete"))
 
 
 @rule("design-kept", LOOP, KEPT)
-def kept(_: Premise, spectrum: Premise) -> str:
+def _kept(_: Premise, spectrum: Premise) -> str:
     """The fixed modes, which every controller leaves where they are."""
     spectrum.expect(bool(spectrum["factors"]), "no mode is fixed")
     return spectrum.theorem
 
 
 @rule("design-steady-state", LOOP, theorem="B. A. Francis and W. M. Wonham 1976")
-def steady_state(loop: Premise) -> str:
+def _steady_state(loop: Premise) -> str:
     """The loop is stable, and agents integrate the difference of output and set-point."""
     loop.expect(is_stable(loop), "the loop is not stable")
     _, agents = controller([loop])
@@ -224,7 +224,7 @@ def refuse(key: str, theorem: str, agents: str) -> None:
     """Enter a rule about agents that lack shared states and receive from no other agent."""
 
     @rule(key, DIMENSIONS, theorem=theorem)
-    def say(least: Premise) -> str:
+    def _say(least: Premise) -> str:
         least.expect(not least["feasible"], "some dimensions suffice")
         return demands(least, agents, alone=True)
 
@@ -251,14 +251,14 @@ def no_equilibrium(found: Premise) -> str:
 
 
 @rule("refused-no-equilibrium-zero", SETPOINT, theorem="setpoint.setpoint_unreachable")
-def no_equilibrium_zero(found: Premise) -> str:
+def _no_equilibrium_zero(found: Premise) -> str:
     """Some set-points have no equilibrium, because of an invariant zero."""
     found.expect(found["invariant_zero"] is True, "the defect is no invariant zero")
     return f"{no_equilibrium(found)}; {int(found.system.time == 'discrete')} is an invariant zero"
 
 
 @rule("refused-mode-of-the-integrators", SETPOINT, theorem="setpoint.setpoint_output_part")
-def mode_of_the_integrators(found: Premise) -> str:
+def _mode_of_the_integrators(found: Premise) -> str:
     """A mode of the plant at the place of the integrators is not controlled."""
     lost = not found["solvable"] and not conditions(found)
     found.expect(lost, "every row of the evidence is about the outputs, or there is none")

@@ -41,7 +41,7 @@ def enter_bound(key: str, paths: tuple[Path, ...], theorem: str, positive: bool)
     """Enter the rule about a bound for one way of sharing that is positive, or 0."""
 
     @rule(key, Role(("deficiency",), paths), *HYPOTHESES, theorem=theorem)
-    def say(bound: Premise, *hypotheses: Premise) -> str:
+    def _say(bound: Premise, *hypotheses: Premise) -> str:
         bound.expect((bound["deficiency"] > 0) == positive, "the bound is another one")
         return enough(bound, *hypotheses)
 
@@ -89,7 +89,7 @@ restate("allocate-impossible", LEAST, lambda c: not c["feasible"])
     *HYPOTHESES,
     theorem="extended_bound.theorem_2, extended_bound.remark_2",
 )
-def allocated(least: Premise, bound: Premise, *hypotheses: Premise) -> str:
+def _allocated(least: Premise, bound: Premise, *hypotheses: Premise) -> str:
     """What is least, beside the bound for the same way of sharing."""
     fits = bound.path == (HEARD if least["share"] == "outputs+states" else PLANT)[0]
     bound.expect(fits, "the bound is for the other way of sharing")
@@ -99,7 +99,7 @@ def allocated(least: Premise, bound: Premise, *hypotheses: Premise) -> str:
 
 @rule("allocate-proof allocate-cost-proof", LEAST)
 @rule("allocate-links-proof", LINKS)
-def proved(least: Premise) -> str:
+def _proved(least: Premise) -> str:
     """How long the proof is that nothing costs less."""
     cuts, nodes = (len(least.witness[key]) for key in ("cuts", "tree"))
     return f"{least.theorem}, by {counted(cuts, 'cut')} and {counted(nodes, 'node')} of a tree"
