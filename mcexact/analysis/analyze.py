@@ -114,7 +114,8 @@ class Analysis:
                 + ", and this system names no neighbors: add 'neighbors' to the file"
             )
         argument = needed.removesuffix("s")
-        raise UsageError(f"{asked.format(f'one {argument} of channels')}: give {argument}=")
+        meant = {"subset": "a set of channels", "channel": "one channel"}[argument]
+        raise UsageError(f"{asked.format(meant)}: give {argument}=")
 
     @cached_property
     def system(self) -> MultiChannelSystem:
@@ -168,7 +169,6 @@ class Analysis:
 
     def _answer(self, name: str) -> Any:
         """Return the answer, or the limit that prevented it."""
-        self._asked.add(name)
         if name not in self._found:
             question = QUESTIONS[name]
             arguments = [getattr(self, question.about)]
@@ -179,6 +179,7 @@ class Analysis:
                 self._found[name] = question.decide(*arguments, **reused)
             except LimitReached as reached:
                 self._found[name] = reached
+        self._asked.add(name)
         return self._found[name]
 
     def decided(self) -> dict[str, Any]:

@@ -11,6 +11,7 @@ from .reading import polynomial
 from .sentence import Path, Premise, Role, restate, rule
 from .sentences_analysis import FIXED_DYNAMIC, controls
 from .sentences_sharing import demands
+from .subject import read_subject
 from .system import System, read_matrix
 from .words import channel, counted, described
 
@@ -46,6 +47,11 @@ def controller(known: list[Premise]) -> tuple[Premise, list[Any]]:
     return known[0], []
 
 
+def controlled(loop: Premise) -> System:
+    """The system in the loop: the plant, or what was made from it."""
+    return read_subject(loop.document["subject"][:-1], loop.plant)
+
+
 @rule("design-carrier design-carrier-for design-order design-order-integrators design-shared")
 def _sizes(known: list[Premise]) -> str:
     """How many states each agent has, shared and of its own."""
@@ -60,10 +66,10 @@ def _sizes(known: list[Premise]) -> str:
 
 @rule("design-observer-order")
 def _observer_order(known: list[Premise]) -> str:
-    """The order of the paper's observer for this plant, n m + m − 1."""
-    plant = known[0].plant
-    order = plant.n * plant.m + plant.m - 1
-    return f"the paper's observer for {described(plant)} has {counted(order, 'state')}"
+    """The order of the paper's observer for what the controller controls, n m + m − 1."""
+    system = controlled(controller(known)[0])
+    order = system.n * system.m + system.m - 1
+    return f"the paper's observer for {described(system)} has {counted(order, 'state')}"
 
 
 @rule("design-longest-number")
@@ -151,30 +157,31 @@ def _steady_state(loop: Premise) -> str:
     """The loop is stable, and agents integrate the difference of output and set-point."""
     loop.expect(is_stable(loop), "the loop is not stable")
     _, agents = controller([loop])
+    system = controlled(loop)
     for i, agent in enumerate(agents):
-        good = integrates(loop.plant, i, agent)
+        good = integrates(system, i, agent)
         loop.expect(good, f"agent number {i + 1} does not integrate its outputs less set-points")
     return f"in {loop.about}, every output tends to the set-point of its agent, if that is constant"
 
 
-def integrates(plant: System, i: int, agent: Any) -> bool:
+def integrates(system: System, i: int, agent: Any) -> bool:
     """Whether for every output y of agent i some z of it follows z' = y − r or z(t+1) = z + y − r.
 
     r is the set-point of y: where z is constant, y = r.
     """
-    update, k, q = agent["private_update"], agent["private"], plant.C[i].nrows
+    update, k, q = agent["private_update"], agent["private"], system.C[i].nrows
     outputs, shared = update.get("outputs") or {}, update.get("shared") or {}
 
     def rows(value: Any, width: int) -> list[list[Fraction]]:
         return [[Fraction(0)] * width for _ in range(k)] if value is None else entries(value)
 
-    own = rows(outputs.get(plant.names[i]), q)
+    own = rows(outputs.get(system.names[i]), q)
     reference, stay = rows(update.get("reference"), q), rows(update.get("private"), k)
-    rest = [M for name, M in outputs.items() if name != plant.names[i]] + [*shared.values()]
+    rest = [M for name, M in outputs.items() if name != system.names[i]] + [*shared.values()]
     others = [entries(value) for value in rest]
     found = set()
     for z in range(k):
-        kept = [int(plant.time == "discrete" and j == z) for j in range(k)]
+        kept = [int(system.time == "discrete" and j == z) for j in range(k)]
         alone = stay[z] == kept and not any(any(M[z]) for M in others)
         difference = own[z] == [-entry for entry in reference[z]]
         if alone and difference and sorted(own[z]) == [0] * (q - 1) + [1]:

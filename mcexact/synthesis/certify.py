@@ -167,4 +167,4 @@ def account_of_verdict(found: StabilityVerdict, *, largest: bool = False) -> Acc
     """
     asked = {"region": found.region, "states": found.about.n, "largest": largest}
     answers, given = {found.kind: found}, Given(found.about.plant, asked)
-    return Account(answers, given, VERDICT.sentences(answers, given))
+    return Account(answers, given, VERDICT.sentences(answers, given), found.about.subject[:-1])

@@ -97,8 +97,9 @@ class Design:
             "order": self.order,
             "bits": self.controller.bit_length(),
         }
-        given = Given(self.loop.closed.system.plant, {**facts, **self.parts})
-        return Account(self.certificates, given, DESIGN.sentences(self.certificates, given))
+        closed, found = self.loop.closed.system, self.certificates
+        given = Given(closed.plant, {**facts, **self.parts})
+        return Account(found, given, DESIGN.sentences(found, given), closed.subject[:-1])
 
     def view(self) -> dict[str, Any]:
         """Return the design as plain data; a polynomial is a list of coefficients as strings."""

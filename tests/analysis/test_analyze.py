@@ -107,8 +107,8 @@ def test_indices_of_very_long_chains_are_asked_only_by_name() -> None:
     [
         ({"information": "outputs"}, "add 'neighbors' to the file"),
         ({"besides": ["minimal_shared_dimensions_states"]}, "add 'neighbors' to the file"),
-        ({"questions": ["pencil_rank"]}, "give subset="),
-        ({"questions": ["channel_gains_both"]}, "give channel="),
+        ({"questions": ["pencil_rank"]}, "'pencil_rank' is about a set of channels: give subset="),
+        ({"questions": ["channel_gains_both"]}, "is about one channel: give channel="),
         ({"questions": ["completness"]}, "there is no question 'completness'"),
         ({"information": "all"}, "'own' or 'outputs'"),
     ],
@@ -116,6 +116,14 @@ def test_indices_of_very_long_chains_are_asked_only_by_name() -> None:
 def test_what_makes_no_sense_is_refused_before_the_work(given: dict[str, Any], said: str) -> None:
     with pytest.raises(UsageError, match=said):
         analyze(PAPER, **given)
+
+
+def test_a_question_that_cannot_be_decided_does_not_stop_the_others() -> None:
+    found = analyze(PAPER.with_neighbors(NeighborGraph.ring(PAPER.names)), ["fixed_spectrum"])
+    with pytest.raises(UsageError, match="discrete time only"):
+        found["lifted_fixed_spectrum"]
+    assert "lifted_fixed_spectrum" not in found.asked
+    assert found.sentences.at("answer")
 
 
 def test_a_name_that_is_no_question_is_an_attribute_error() -> None:

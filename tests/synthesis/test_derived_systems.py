@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import pytest
 
+from mcexact.answer.account import Account
 from mcexact.answer.codec import encode
 from mcexact.checker import check_document
+from mcexact.checker.manifest import manifest_verdicts
+from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.derived.extended import extended_system
-from mcexact.derived.feedback import feedback
+from mcexact.derived.feedback import feedback, full_output
 from mcexact.errors import Impossible
+from mcexact.model.local_controllers import local_controllers
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import digest
+from mcexact.synthesis.certify import account_of_verdict, certify_controller
 from mcexact.synthesis.network.decentralized import design_decentralized
 from mcexact.synthesis.network.extended import design_extended
 from mcexact.synthesis.observer.observer import design_observer
@@ -33,7 +39,7 @@ from tests.synthesis.three_channels import three_channels
     ],
 )
 def test_every_method_takes_a_plant_with_feedback(
-    design: Any, options: dict[str, str], arithmetic: str
+    design: Any, options: dict[str, str], arithmetic: str, tmp_path: Path
 ) -> None:
     plant = two_tanks()
     made = design(feedback(plant, [[[1]], [["1/2"]]]), rate=1, arithmetic=arithmetic, **options)
@@ -41,6 +47,34 @@ def test_every_method_takes_a_plant_with_feedback(
         assert certificate.subject[0]["construction"] == "feedback"
         verdict = check_document(encode(certificate).encode(), digest(plant))
         assert verdict.verdict == "VALID", verdict.line()
+    require_implied(made.account(), tmp_path)
+
+
+def test_what_is_said_of_a_loop_of_a_derived_system_is_implied(tmp_path: Path) -> None:
+    plant = MultiChannelSystem([[1]], [[[1]], [[1]]], [[[1]], [[2]]])
+    heard = augmented_outputs(plant, {"1": ["2"], "2": []})
+    tall = MultiChannelSystem([[1]], [[[1]]], [[[1], [2]]], neighbors={"1": []})
+    made = design_setpoint(full_output(tall, 0), rate=1)
+    require_implied(made.account(), tmp_path)
+    local = local_controllers(heard, [[[-3, 0]], [[0]]])
+    require_implied(account_of_verdict(certify_controller(heard, local, rate=1)), tmp_path)
+
+
+def test_the_order_of_the_observer_is_that_for_the_system_in_the_loop(tmp_path: Path) -> None:
+    made = design_decentralized(extended_system(three_channels(), [0, 0, 1]), rate=1)
+    account = made.account()
+    told = [each for each in account.manifest()["sentences"] if "observer-order" in each["rule"]]
+    assert [each["text"] for each in told] == ["states of the paper's observer: 14"]
+    account.save(tmp_path)
+    said = [verdict.theorem for _, verdict in manifest_verdicts(str(tmp_path))]
+    assert [each for each in said if "has 14 states" in each and "paper's observer" in each]
+
+
+def require_implied(account: Account, folder: Path) -> None:
+    """The checker finds that the certificates imply every sentence."""
+    account.save(folder)
+    for said, verdict in manifest_verdicts(str(folder)):
+        assert verdict.verdict == "IMPLIED", (said, verdict.line())
 
 
 def test_decentralized_control_of_the_extended_system_is_distributed_control_of_the_plant() -> None:
