@@ -53,6 +53,7 @@ class Analysis:
             "channels": None if channel is None else [channel],
         }
         self._found: dict[str, Any] = {}
+        _require_several(questions=questions, subset=subset)
         if information not in {"own", "outputs"}:
             raise UsageError(f"expected the information 'own' or 'outputs', found {information!r}")
         if information == "outputs":
@@ -254,6 +255,13 @@ class Analysis:
         return {name: self._found[name] for name in self.asked}
 
 
+def _require_several(**given: Iterable[str] | None) -> None:
+    """Raise an error where one text stands for several, which would be taken letter by letter."""
+    for argument, names in given.items():
+        if isinstance(names, str):
+            raise UsageError(f"expected several names, such as [{names!r}]", where=argument)
+
+
 def _written(bound: Fraction | None) -> Any:
     return None if bound is None else written(bound)
 
@@ -303,6 +311,7 @@ def analyze(
     >>> sorted(found.minimal_communication.added)
     [('1', '2')]
     """
+    _require_several(besides=besides)
     made = Analysis(plant, questions, information=information, subset=subset, channel=channel)
     named = {*besides}
     for name in sorted(named):

@@ -111,6 +111,9 @@ def test_indices_of_very_long_chains_are_asked_only_by_name() -> None:
         ({"questions": ["channel_gains_both"]}, "is about one channel: give channel="),
         ({"questions": ["completness"]}, "there is no question 'completness'"),
         ({"information": "all"}, "'own' or 'outputs'"),
+        ({"questions": "completeness"}, "questions: expected several names"),
+        ({"besides": "completeness"}, "besides: expected several names"),
+        ({"subset": "12"}, "subset: expected several names, such as ..12"),
     ],
 )
 def test_what_makes_no_sense_is_refused_before_the_work(given: dict[str, Any], said: str) -> None:
