@@ -37,9 +37,9 @@ class CommonDimension(Answer):
 
 def _templates(key: str, theorem: str, some: str, none: str, never: str) -> tuple[Template, ...]:
     """The sentences on the least common dimension for one way of sharing."""
-    label, proved = "least if all share the same", f"common_dimension_{theorem}"
+    label, proved = "least if all share equally", f"common_dimension_{theorem}"
     least = some + "{k:count state} by each agent: {total:int} in all{time:instant}"
-    never += "no number of states is enough"
+    never += "no number of states suffices"
     return (
         Template(f"common-dimension-{key}", least, f"shared_dimensions.{proved}", label),
         Template(f"common-dimension-{key}-none", none + "{time:instant}", label=label),
@@ -51,7 +51,7 @@ def _templates(key: str, theorem: str, some: str, none: str, never: str) -> tupl
 
 WORDS = {
     "outputs+states": _templates(
-        "outputs-states", "outputs", "outputs, and ", "outputs alone", "beside outputs, "
+        "outputs-states", "outputs", "outputs, and ", "outputs alone", "in addition to outputs, "
     ),
     "states": _templates("states", "states", "without outputs, ", "nothing", "without outputs, "),
 }

@@ -30,21 +30,21 @@ TOPICS: dict[str, tuple[Rulebook, tuple[ModuleType, ...]]] = {
     "allocate": (rules.ALLOCATION, (allocation,)),
     "allocate --links": (rules.LINKS, (links,)),
     "design, certify": (Rulebook([*rules.DESIGN, *rules.VERDICT]), (design,)),
-    "design, where there is none": (rules.REFUSALS, (refusals,)),
+    "design, if there is none": (rules.REFUSALS, (refusals,)),
 }
 FILE = Path(__file__).with_name("SENTENCES.md")
 
 _INTRODUCTION = """\
 # Every sentence about a system
 
-What `mcexact analyze`, `allocate`, `design` and `certify` say about a user's system is made by the
-templates below, in text, JSON, HTML and LaTeX. A rule of `rules/` says when: it sees the claims of
-its premises and nothing else, and what it reads stands in the manifest, which the independent
-checker verifies with rules of its own. A premise is a certificate, by the stem of its file (`loop`
-is the one about the closed loop); every certificate goes through the checker before the command
-ends. Without a premise a sentence repeats what the user gave or how a proof was found. The theorem
-says why the claims imply it where it does not just repeat them: a machine-checked one of `proofs/`,
-or whose it is. This file is written by `make sentences`.
+The templates below make all sentences of `mcexact analyze`, `allocate`, `design` and `certify` on a
+user's system, in text, JSON, HTML and LaTeX. A rule of `rules/` decides when a sentence holds. It
+reads the claims of its premises and nothing else; the manifest records the values that it read, and
+the independent checker verifies the manifest with its own rules. A premise is a certificate, given
+by the stem of its file (`loop` is the one about the closed loop); the checker verifies every
+certificate before the command ends. A sentence without premises repeats the user's input, or says
+how a proof was found. If a sentence does not only repeat claims, it has a theorem: machine-checked
+theorems of `proofs/`, or the authors of a published one. `make sentences` writes this file.
 """
 
 

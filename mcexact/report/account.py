@@ -11,7 +11,7 @@ from mcexact.answer.template import Sentence
 from mcexact.report.text import WIDTH, Table, wrapped
 
 _COLUMNS = {
-    "fixed-modes": ("factor", "roots, about", "stable", "in A", "stay", "s", "rank"),
+    "fixed-modes": ("factor", "roots, about", "stable", "in A", "fixed", "s", "rank"),
     "pencil": ("factor of det(xI-A)", "rank", "below n"),
     "why": ("these agents", "can receive from", "need", "because of"),
 }

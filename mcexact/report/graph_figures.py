@@ -22,7 +22,7 @@ _BOUNDS = {
     "outputs+states": "shared_dimension_bound_outputs_states",
     "states": "shared_dimension_bound_states",
 }
-_SHARING = ("enough to share", "least to share")
+_SHARING = ("sufficient to share", "least to share")
 
 Edge = tuple[str, str]
 

@@ -102,7 +102,7 @@ def test_what_is_said_of_designs_and_of_refusals(name: str, seed: int, tmp_path:
         said, proof = refusal.message, refusal.certificate
         assert isinstance(said, Sentence) and said.template.key.startswith("refused-")
         account = Account({proof.kind: proof}, Given(plant), Sentences([said]))
-        require_certified(account, "design, where there is none")
+        require_certified(account, "design, if there is none")
         account.save(tmp_path)
         [(_, verdict)] = manifest_verdicts(str(tmp_path))
         assert verdict.verdict == "IMPLIED", verdict.line()

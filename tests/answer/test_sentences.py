@@ -36,7 +36,7 @@ AT_ONCE = 10
 
 # What is no sentence about the system: names of columns and parts of the page.
 CHROME = {
-    "factor | roots, about | stable | in A | stay | s | rank",
+    "factor | roots, about | stable | in A | fixed | s | rank",
     "factor of det(xI-A) | rank | below n",
     "All answers",
     "Evidence",
@@ -208,7 +208,7 @@ def test_every_sentence_has_a_name_of_its_own() -> None:
         "No mode is fixed.",
         "stabilizable | by anything",
         "The plant cannot be stabilized by decentralized control: the slowest fixed mode grows.",
-        "enough to share | 1 by each agent, 3 together",
+        "sufficient to share | 1 by each agent, 3 together",
     ],
 )
 def test_a_text_that_no_rule_said_is_found(text: str) -> None:

@@ -88,8 +88,8 @@ def test_sharing_is_said_to_be_in_vain_where_a_mode_is_not_controlled() -> None:
         [[1, 0], [0, 2]], [[[1], [0]]] * 2, [[[1, 1]]] * 2, neighbors=COMPLETE
     )
     rows = rows_of(plant, minimal=True)
-    assert rows["enough to share"] == (
-        "no amount of sharing frees the mode 2, which all agents together do not control"
+    assert rows["sufficient to share"] == (
+        "no sharing allows control to move the mode 2, which all agents together do not control"
     )
     assert "no dimensions suffice" in rows["least to share"]
 
@@ -99,33 +99,35 @@ def test_sharing_is_said_to_be_in_vain_where_a_mode_is_not_observed() -> None:
         [[1, 0], [0, 2]], [[[1], [1]]] * 2, [[[1, 0]]] * 2, neighbors=COMPLETE
     )
     rows = rows_of(plant)
-    assert rows["enough to share"].endswith("the mode 2, which all agents together do not observe")
+    assert rows["sufficient to share"].endswith(
+        "the mode 2, which all agents together do not observe"
+    )
 
 
 def test_without_a_strongly_connected_graph_no_bound_is_claimed() -> None:
     plant = MultiChannelSystem(**EXAMPLE, neighbors={"2": ["1"], "3": ["1"]})
     rows = rows_of(plant, minimal=True)
-    assert rows["enough to share"] == "no bound: the neighbor graph is not strongly connected"
+    assert rows["sufficient to share"] == "no bound: the neighbor graph is not strongly connected"
     assert rows["least to share"].startswith("outputs alone")
 
 
 def test_what_the_agents_have_to_share_is_said_when_they_have_neighbors() -> None:
     plant = MultiChannelSystem(**EXAMPLE)
     rows = rows_of(plant.with_neighbors(NeighborGraph.ring(plant.names)), minimal=True)
-    assert rows["enough to share"] == (
+    assert rows["sufficient to share"] == (
         "outputs, and 1 state by each agent: 3 in all; without outputs, 1 state by each agent: "
         "3 in all"
     )
     assert rows["least to share"] == (
-        "beside outputs, 1 state by agent 3; without outputs, 1 state by agent 1, 1 state by "
-        "agent 3"
+        "in addition to outputs, 1 state by agent 3; without outputs, 1 state by agent 1, 1 state "
+        "by agent 3"
     )
 
 
 def test_set_points_are_not_promised_where_an_unstable_mode_is_out_of_reach() -> None:
     hidden = MultiChannelSystem([[1, 0], [0, 2]], [[[1], [0]]], [[[1, 1]]])
     assert rows_of(hidden)["set-points"] == (
-        "no stable loop holds them: the mode 2 is out of reach, and it is not stable"
+        "no loop is stable: the mode 2 is not controllable or not observable, and it is not stable"
     )
     stable = MultiChannelSystem([[1, 0], [0, -2]], [[[1], [0]]], [[[1, 1]]])
     assert rows_of(stable)["set-points"].startswith("centralized control holds every output")
@@ -213,7 +215,7 @@ def test_a_graph_with_delays_is_said_to_be_taken_without_them() -> None:
     rows = rows_of(plant, minimal=True, links=True, information="outputs")
     assert rows["information"].endswith("received without delay")
     assert rows["stabilizable"].endswith("by the outputs of all neighbors without delay")
-    for label in ("enough to share", "least to share", "fewest links to add"):
+    for label in ("sufficient to share", "least to share", "fewest links to add"):
         assert "if messages took no time" in rows[label]
 
 
@@ -236,9 +238,9 @@ def test_the_answer_says_who_does_not_control_a_mode_and_who_does_not_observe_it
     assert said(plant, minimal=True) == [
         "The plant cannot be stabilized by linear time-invariant decentralized control: the "
         "slowest fixed mode grows at the rate 1.",
-        "No sharing over the neighbor graph frees every mode.",
+        "Over the neighbor graph, some mode is fixed however much the agents share.",
         "The mode 1 (once in A) is fixed: channel 2 does not control it, channel 1 does not "
-        "observe it, and no constant gains help.",
+        "observe it, and no constant gains change that.",
     ]
 
 

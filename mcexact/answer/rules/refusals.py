@@ -79,7 +79,7 @@ def _integrators_fixed(fixed_spectrum: Claim) -> Said:
 
 @rule("dimensions", say.NO_DIMENSIONS, say.NOT_CONTROLLED, say.NOT_OBSERVED, say.NO_CONNECTION)
 def _no_dimensions(shared_dimensions: Claim, given: Given) -> Said:
-    """A set of agents that lacks something and receives from nobody."""
+    """A set of agents that need shared states and receive from no other agent."""
     if shared_dimensions.feasible:
         return
     for cut in shared_dimensions.proof.cuts:

@@ -11,7 +11,7 @@ LEAST = Template(
 )
 IMPOSSIBLE = Template(
     "allocate-impossible",
-    "{name:name}: no shared states {share:share} are enough so that {scope:scope}{limits:limits}",
+    "{name:name}: no shared states {share:share} suffice so that {scope:scope}{limits:limits}",
 )
 ROW = Template("allocate-row", "{agent:name} | {size:int}")
 TOTAL = Template("allocate-total", "total | {size:int}")

@@ -55,7 +55,7 @@ BLAME = Template(
     "fixed-mode",
     _BLAME
     + ": {outside:channels} {outside:do} not control {p:them}, {inside:channels} {inside:do} "
-    "not observe {p:them}, and no constant gains help.",
+    "not observe {p:them}, and no constant gains change that.",
     _PBH,
 )
 UNCONTROLLED = Template(
@@ -79,16 +79,21 @@ LINKS = {
 LINKS_NONE = Template(
     "links-none", "Sending outputs over the neighbor graph leaves no mode fixed{time:instant}."
 )
-NO_LINKS = Template("no-links", "Sending outputs between all agents does not free every mode.")
+NO_LINKS = Template(
+    "no-links", "Even if every agent sends its outputs to all others, some mode is fixed."
+)
 SHARING_REMOVES = Template(
     "sharing-removes",
-    "Over the neighbor graph it is enough to send outputs and to share {sizes:shared}"
-    "{time:instant}, and no smaller number of states is.",
+    "Over the neighbor graph, sending outputs and sharing {sizes:shared} leaves no mode fixed"
+    "{time:instant}, and no smaller number of states does.",
 )
 OUTPUTS_REMOVE = Template(
-    "outputs-remove", "Over the neighbor graph it is enough to send outputs{time:instant}."
+    "outputs-remove",
+    "Over the neighbor graph, sending outputs leaves no mode fixed{time:instant}.",
 )
-NO_SHARING = Template("no-sharing", "No sharing over the neighbor graph frees every mode.")
+NO_SHARING = Template(
+    "no-sharing", "Over the neighbor graph, some mode is fixed however much the agents share."
+)
 
 # The table of all answers.
 
@@ -171,13 +176,13 @@ SETPOINT = Template(
 )
 SETPOINT_STABLE_REST = Template(
     "setpoint-stable-rest",
-    "centralized control holds every output at any value, beside stable modes that it cannot move",
+    "centralized control holds every output at any value; some stable modes cannot be moved",
     _INTEGRATORS,
     "set-points",
 )
 SETPOINT_UNSTABLE_REST = Template(
     "setpoint-unstable-rest",
-    "no stable loop holds them: {p:modes} {p:are} out of reach, and {p:unstable}",
+    "no loop is stable: {p:modes} {p:are} not controllable or not observable, and {p:unstable}",
     "joint_controllability.controllable_hautus",
     "set-points",
 )
@@ -198,7 +203,7 @@ CONNECTED = Template("neighbor-graph-connected", "strongly connected", label="ne
 NOT_CONNECTED = Template(
     "neighbor-graph-not-connected", "not strongly connected", label="neighbor graph"
 )
-_ENOUGH = "enough to share"
+_ENOUGH = "sufficient to share"
 ENOUGH = {
     "outputs+states": (
         Template(
@@ -226,13 +231,13 @@ NO_BOUND = Template(
 )
 NEVER_CONTROLLED = Template(
     "sharing-in-vain-controllability",
-    "no amount of sharing frees {p:modes}, which all agents together do not control",
+    "no sharing allows control to move {p:modes}, which all agents together do not control",
     "joint_controllability.controllable_hautus",
     _ENOUGH,
 )
 NEVER_OBSERVED = Template(
     "sharing-in-vain-observability",
-    "no amount of sharing frees {p:modes}, which all agents together do not observe",
+    "no sharing allows control to move {p:modes}, which all agents together do not observe",
     "joint_controllability.observable_hautus",
     _ENOUGH,
 )
@@ -253,14 +258,16 @@ TABLE_LINKS = {
     "some": Template("table-links", "{added:arrows}{time:instant}", label="fewest links to add"),
     "none": Template("table-links-none", "none{time:instant}", label="fewest links to add"),
     "impossible": Template(
-        "table-links-impossible", "no links are enough", label="fewest links to add"
+        "table-links-impossible", "no links suffice", label="fewest links to add"
     ),
     "limit": Template(
         "table-links-limit", "not decided within the node limit", label="fewest links to add"
     ),
 }
 LEAST = {
-    "outputs+states": _least_templates("outputs-states", "beside outputs, ", "outputs alone"),
+    "outputs+states": _least_templates(
+        "outputs-states", "in addition to outputs, ", "outputs alone"
+    ),
     "states": _least_templates("states", "without outputs, ", "nothing"),
 }
 
@@ -299,12 +306,12 @@ DELAYED = {
     name: (
         Template(
             f"{name}-nothing-fixed",
-            "nothing, where each agent shares {k:count state}",
+            "none, if each agent shares {k:count state}",
             label=f"fixed with delays, {name}",
         ),
         Template(
             f"{name}-fixed",
-            "{p:modes}, where each agent shares {k:count state}",
+            "{p:modes}, if each agent shares {k:count state}",
             label=f"fixed with delays, {name}",
         ),
     )

@@ -36,8 +36,8 @@ OBSERVER_ORDER = Template(
     "design-observer-order", "{order:int}", label="states of the paper's observer"
 )
 SHARED = Template("design-shared", "{sizes:dimensions}", label="shared dimensions")
-ASSIGNED = Template("design-assigned", "{p:polynomial}", label="spectrum that it assigns")
-KEPT = Template("design-kept", "{p:modes}", label="fixed modes kept")
+ASSIGNED = Template("design-assigned", "{p:polynomial}", label="assigned spectrum")
+KEPT = Template("design-kept", "{p:modes}", label="remaining fixed modes")
 LONGEST = Template("design-longest-number", "{bits:int} bits", label="longest number")
 STEADY = Template(
     "design-steady-state",

@@ -18,8 +18,8 @@ FIXED_MODE = Template(
 )
 FIXED_MODES_NOTE = Template(
     "fixed-modes-note",
-    "in A: how often; stay: at most so often; rank, below n = {n:int}: that of [xI-A, B of the "
-    "channels outside s; C of those in s, 0]",
+    "in A: multiplicity in A; fixed: how many of these are fixed at most; rank: that of [xI-A, B "
+    "of the channels outside s; C of those in s, 0], which is below n = {n:int}",
 )
 
 # A set of channels.
@@ -75,7 +75,7 @@ PICTURE_OBSTRUCTION = Template(
     "picture-obstruction", "orange: {s:channels}, the set s of {p:modes}"
 )
 PICTURE_HEARD = Template(
-    "picture-heard", "purple: {heard:channels}, from whom some of them receive"
+    "picture-heard", "purple: {heard:channels}, from which some of them receive"
 )
 PICTURE_DIMENSIONS = Template("picture-dimensions", "Shared states by agent")
 

@@ -14,8 +14,7 @@ NONE_NEEDED = Template(
 )
 IMPOSSIBLE = Template(
     "allocate-no-links",
-    "{name:name}: no links that may be added are enough so that {scope:scope}, sending "
-    "{what:carried}",
+    "{name:name}: no links that may be added suffice so that {scope:scope}, sending {what:carried}",
 )
 ROW = Template("allocate-link", "{start:name} | {end:name} | {cost:number}")
 TOTAL = Template("allocate-links-total", "total | – | {cost:number}")

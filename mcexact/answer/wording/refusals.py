@@ -24,14 +24,14 @@ UNREACHED = {
     ),
     "see": Template(
         "refused-unobservable",
-        "no controller sees {p:modes}, {p:escape} {region:region}: all channels together do not "
-        "observe {p:them}",
+        "no controller observes {p:modes}, {p:escape} {region:region}: all channels together do "
+        "not observe {p:them}",
         "controllability.uncontrollable_modes",
     ),
 }
 NOT_OBSERVABLE = Template(
     "refused-not-observable",
-    "no distributed observer sees {p:modes}: all channels together do not observe {p:them}",
+    "no distributed observer estimates {p:modes}: all channels together do not observe {p:them}",
     "controllability.uncontrollable_modes",
 )
 ERRORS_NOT_COMPLETE = Template(
@@ -59,17 +59,20 @@ FIXED_SHARED = Template(
     + " (shared dimensions {sizes:dimensions})",
     "evidence.shrunk_subspace_fixed_dynamic",
 )
-_LACK = ": {agents:agents} can receive from {senders:names} and {agents:lack} {k:count state}"
+_LACK = (
+    ": {agents:agents} {agents:need} {k:count shared state} of other agents, and can receive from "
+    "{senders:names}"
+)
 NO_DIMENSIONS = Template(
     "refused-no-dimensions",
-    "no shared dimensions let linear time-invariant control move the modes that are not fast enough"
-    + _LACK,
+    "no shared dimensions allow linear time-invariant control to move the modes that are not fast "
+    "enough" + _LACK,
     "extended_bound.extended_no_fixed, extended_bound.extended_states_no_fixed",
 )
 NOT_CONTROLLED, NOT_OBSERVED = (
     Template(
         f"refused-sharing-in-vain-{verb}",
-        "no amount of sharing lets linear time-invariant control move {p:modes}: all agents "
+        "no sharing allows linear time-invariant control to move {p:modes}: all agents "
         f"together do not {verb} {{p:them}}",
         "extended_bound.extended_no_fixed, extended_bound.extended_states_no_fixed",
     )
@@ -95,7 +98,7 @@ NO_EQUILIBRIUM_ZERO = Template(
 )
 MODE_OF_THE_INTEGRATORS = Template(
     "refused-mode-of-the-integrators",
-    "no stable loop has integrators behind the outputs: all channels together do not control the "
+    "no stable loop has integrators of the outputs: all channels together do not control the "
     "mode {place:int} of the plant",
     "setpoint.setpoint_output_part",
 )

@@ -96,8 +96,9 @@ def design_extended(
     >>> design_extended(plant, NeighborGraph.empty(plant.names), rate=1)
     Traceback (most recent call last):
         ...
-    mcexact.errors.Impossible: no shared dimensions let linear time-invariant control move the \
-modes that are not fast enough: agents 2 and 3 can receive from nobody and lack 1 state
+    mcexact.errors.Impossible: no shared dimensions allow linear time-invariant control to move \
+the modes that are not fast enough: agents 2 and 3 need 1 shared state of other agents, and can \
+receive from nobody
     """
     request = Request.of(system, agent, spectrum, rate, radius, arithmetic, progress)
     derived, allocation = sharing_network(
