@@ -223,7 +223,7 @@ def test_links_have_a_row_whenever_they_were_asked_for() -> None:
     free = MultiChannelSystem([[0]], [[[1]], [[1]]], [[[1]], [[1]]])
     assert rows_of(free, links=True)["fewest links to add"] == "none"
     lost = MultiChannelSystem([[1]], [[[0]], [[0]]], [[[1]], [[1]]])
-    assert rows_of(lost, links=True)["fewest links to add"] == "no links are enough"
+    assert rows_of(lost, links=True)["fewest links to add"] == "no links suffice"
 
 
 def said(system: MultiChannelSystem, **question: Any) -> list[str]:
