@@ -1,10 +1,10 @@
 """Exact, certified analysis of multi-channel linear systems.
 
-Control and controllers are linear and time-invariant here, with states of their own or without:
-a fixed mode is one that none of these moves.  Controllers that vary with time can move some.
+Controllers are linear and time-invariant here, static or dynamic, and a fixed mode is one that none
+of these moves.  Controllers that vary with time can move some fixed modes.
 
 The public names are those of ``__init__.pyi``.  Each is loaded when it is first used, so that
-importing the package is quick and loads none of the heavy libraries.
+importing the package is fast and loads no large libraries.
 """
 
 import lazy_loader

@@ -270,7 +270,7 @@ def analyze(
     plant: MultiChannelSystem,
     questions: Iterable[str] | None = None,
     *,
-    besides: Iterable[str] = (),
+    also: Iterable[str] = (),
     information: str = "own",
     subset: Sequence[str] | None = None,
     channel: str | None = None,
@@ -282,7 +282,7 @@ def analyze(
     plant : MultiChannelSystem
     questions : iterable of str, optional
         Names in `QUESTIONS`; an NP-hard question is asked only by name.
-    besides : iterable of str
+    also : iterable of str
         Further questions.
     information : {"own", "outputs"}
         The signals that agent i feeds back: y_i, or the y_j of all j ∈ N_i.
@@ -311,9 +311,9 @@ def analyze(
     >>> sorted(found.minimal_communication.added)
     [('1', '2')]
     """
-    _require_several(besides=besides)
+    _require_several(also=also)
     made = Analysis(plant, questions, information=information, subset=subset, channel=channel)
-    named = {*besides}
+    named = {*also}
     for name in sorted(named):
         made._require_known(name)
     made._asked |= named

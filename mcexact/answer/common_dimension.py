@@ -29,7 +29,7 @@ class CommonDimension(Answer):
     """
 
     share: str = claim("what is shared")
-    feasible: bool = claim("some common dimension is enough")
+    feasible: bool = claim("some common dimension suffices")
     dimension: int | None = claim("least common dimension")
     absence: Absence | None = witness()
     cut: DeficiencyCut | None = witness()

@@ -1,4 +1,4 @@
-"""Kind ``common_dimension``: one dimension for all to share; ``proofs/common_dimension.md``."""
+"""Kind ``common_dimension``: the least common dimension; ``proofs/common_dimension.md``."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .words import described
 
 
 def _says(share: str, holds: Callable[[Any], Any], claim: Any) -> bool:
-    """Whether a claim is about this way of sharing and its dimension is so."""
+    """Whether a claim is about a way of sharing, and its dimension has a property."""
     return bool(claim["share"] == share and holds(claim["dimension"]))
 
 
@@ -35,7 +35,7 @@ SENTENCES = {
 
 
 def check(claim: Any, witness: Any, system: System) -> str:
-    """Check that k dimensions of each agent suffice, and that around one subset k − 1 do not.
+    """Check that k dimensions of each agent suffice, and that for one subset k − 1 do not.
 
     Theorems ``shared_dimensions.common_dimension_outputs``,
     ``shared_dimensions.common_dimension_states``, ``shared_dimensions.frees_more``,

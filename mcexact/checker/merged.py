@@ -1,4 +1,4 @@
-"""Construction ``merged``: channels that are taken together as one."""
+"""Construction ``merged``: channels that are merged into one."""
 
 from __future__ import annotations
 

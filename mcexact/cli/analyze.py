@@ -15,13 +15,13 @@ from mcexact.cli.failures import DEFINITE_NO
 _LINES_OF_WORDS = 5
 _MODES = 6
 _ASKED = {question.option: question.help for question in reversed([*QUESTIONS.values()])}
-_BESIDES = {option: told for option, told in reversed(_ASKED.items()) if option}
+_ALSO = {option: told for option, told in reversed(_ASKED.items()) if option}
 """The options that add questions, from the table of questions, with their help texts."""
 
 
-def _besides(function: Callable[..., int]) -> Callable[..., int]:
+def _also(function: Callable[..., int]) -> Callable[..., int]:
     """Add the options that add questions."""
-    for option, told in reversed(_BESIDES.items()):
+    for option, told in reversed(_ALSO.items()):
         function = click.option(f"--{option}", is_flag=True, help=f"Also decide {told}.")(function)
     return function
 
@@ -38,7 +38,7 @@ def _besides(function: Callable[..., int]) -> Callable[..., int]:
     show_default=True,
     help="The outputs that agent i feeds back: its own, or those of all its neighbors.",
 )
-@_besides
+@_also
 @click.option(
     "--subset",
     metavar="NAMES",
@@ -92,13 +92,13 @@ def command(
     run = Run(given)
     require_other(html, file)
     require_writable(html, run.certificates)
-    besides = [option for option in _BESIDES if given[option.replace("-", "_")]]
+    also = [option for option in _ALSO if given[option.replace("-", "_")]]
     plant = run.read(file)
     answer = run.result(
         _answer,
         plant,
         run.limits,
-        besides,
+        also,
         {"information": information, "subset": _named(subset), "channel": channel},
         html is not None,
         doing=f"analyzing {plant[0]}",
@@ -136,7 +136,7 @@ def _named(subset: str | None) -> list[str] | None:
 def _answer(
     plant: tuple[str, bytes],
     limits: dict[str, int],
-    besides: list[str],
+    also: list[str],
     question: dict[str, Any],
     with_page: bool,
 ) -> dict[str, Any]:
@@ -147,7 +147,7 @@ def _answer(
     from mcexact.report.account import in_lines, latex, tables
 
     system = system_in(*plant, limits)
-    found = analyze(system, besides=asked_by(*besides), **question)
+    found = analyze(system, also=asked_by(*also), **question)
     account = found.account
     page = None
     if with_page:

@@ -1,4 +1,4 @@
-"""The plant with some of its channels taken together as one."""
+"""The plant with some of its channels merged."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from mcexact.model.system import MultiChannelSystem
 
 
 def merged(system: MultiChannelSystem, parts: Sequence[Sequence[str]]) -> MultiChannelSystem:
-    """Take the channels of each part together as one, whose agents measure and act as one.
+    """Merge the channels of each part into one channel.
 
     Parameters
     ----------
@@ -28,7 +28,7 @@ def merged(system: MultiChannelSystem, parts: Sequence[Sequence[str]]) -> MultiC
     Raises
     ------
     UsageError
-        If a part is empty, a name is unknown, the parts are no partition of the channels, or two
+        If a part is empty, a name is unknown, the parts are not a partition of the channels, or two
         of the new channels would have the same name.
 
     Notes

@@ -1,4 +1,4 @@
-"""How long and how large the entries of matrices are."""
+"""The bit length and the size of the entries of matrices."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from mcexact.exact.matrix import Matrix
 
 
 def bit_length(matrices: Iterable[Matrix]) -> int:
-    """Bits of the longest reduced numerator or denominator among the entries; 0 without entries."""
+    """Return the bits of the longest reduced numerator or denominator of the entries, or 0."""
     longest = 0
     for M in matrices:
         d = M.denominator
         for entry in {x for row in M.numerators for x in row}:
-            # Most entries would not be longer even if nothing canceled.
+            # For most entries the bound without cancellation is already small enough.
             if max(entry.bit_length(), d.bit_length()) > longest:
                 p, q = Fraction(entry, d).as_integer_ratio()
                 longest = max(longest, p.bit_length(), q.bit_length())
@@ -22,7 +22,7 @@ def bit_length(matrices: Iterable[Matrix]) -> int:
 
 
 def largest_entry(matrices: Iterable[Matrix]) -> Fraction:
-    """The largest absolute value among the entries; 0 without entries."""
+    """Return the largest absolute value of the entries; 0 without entries."""
     return max(
         (
             Fraction(max((abs(x) for row in M.numerators for x in row), default=0), M.denominator)

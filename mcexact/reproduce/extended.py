@@ -175,7 +175,7 @@ def bound_reached(note: Notebook) -> None:
     note.certify(*ranks.values())
     pair = note.at(still_pair())
     bound = shared_dimension_bound(pair)
-    note.check("a bound of 0 is reached, and nobody could share less", bound.deficiency == 0)
+    note.check("a bound of 0 is reached, and no agent could share less", bound.deficiency == 0)
     note.certify(bound)
 
 
@@ -186,7 +186,7 @@ def tightness(note: Notebook) -> None:
     """
     plant = three_channels()
     note.on(PAPER)
-    found = analyze(plant, besides=LEAST.values())
+    found = analyze(plant, also=LEAST.values())
     for share, total in zip(SHARING, (1, 2), strict=True):
         stem = SHARES[share]
         bound = found[f"shared_dimension_bound_{stem}"]

@@ -1,4 +1,4 @@
-"""A run of a loop, and beside it the spectrum of the loop, which the run itself never uses."""
+"""A simulation together with the spectrum of the closed loop, which the simulation does not use."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from mcexact.model.loop import closed_loop
 from mcexact.model.system import MultiChannelSystem
 from mcexact.simulation.trajectory import InitialState, Trajectory, default_initial, simulate
 
-# Beyond this the numbers in the characteristic polynomial take longer than anybody waits.
+# Beyond this size the exact characteristic polynomial takes too long.
 _LARGEST_SPECTRUM = 60
 
 
 @dataclass(frozen=True)
 class SimulatedLoop:
-    """A run, and the spectrum of the loop where it was computed.
+    """A simulation, with the spectrum of the closed loop if it was computed.
 
     Attributes
     ----------
@@ -48,7 +48,7 @@ def simulated_loop(
     reference: Sequence[Fraction] | None = None,
     arithmetic: str | None = None,
 ) -> SimulatedLoop:
-    """Run a controller, with the spectrum of its loop and the warnings that belong to the run.
+    """Simulate a controller, and compute the spectrum of its loop and warnings.
 
     Parameters
     ----------
@@ -57,9 +57,9 @@ def simulated_loop(
     initial : sequence of Fraction, optional
         The plant's initial state.
     horizon : Fraction, optional
-        By default long enough to see the decay, from the spectrum.
+        By default chosen from the spectrum, long enough to show the decay.
     reference : sequence of Fraction, optional
-        Set-points of all outputs, in the order of the channels.
+        The set-points of all outputs, in the order of the channels.
     arithmetic : str, optional
         As in `simulate`.
     """
@@ -85,7 +85,7 @@ def simulated_loop(
 
 
 def _horizon(time: str, spectrum: LoopSpectrum | None, states: int) -> Fraction:
-    """Some time constants, within reason."""
+    """Return a horizon of some time constants, within limits."""
     rate = None if spectrum is None else spectrum.rate
     if is_discrete(time):
         radius = 0.9 if rate is None else min(0.95, to_float(rate.upper))
@@ -100,7 +100,7 @@ def _horizon(time: str, spectrum: LoopSpectrum | None, states: int) -> Fraction:
 def _by_channel(
     system: MultiChannelSystem, reference: Sequence[Fraction] | None
 ) -> list[list[Fraction]] | None:
-    """The set-points of each channel."""
+    """Split set-points by channels."""
     if reference is None:
         return None
     total = sum(system.q(i) for i in range(system.m))

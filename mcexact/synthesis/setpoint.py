@@ -59,9 +59,9 @@ def design_setpoint(
         For the plant with its integrators, of n + Σ q_i states: as in `design_observer`, or as in
         `design_extended`.
     rate, radius : rational, optional
-        Instead of a spectrum, or besides it, to be certified.  In exact arithmetic and continuous
-        time, the eigenvalues are then placed beyond three times the rate, if no fixed mode prevents
-        this.
+        A rate or radius to be certified, instead of a spectrum or in addition to it.  In exact
+        arithmetic and continuous time, the eigenvalues are then placed beyond three times the rate,
+        if no fixed mode prevents this.
     method : {"observer", "extended"}
         A distributed observer of the plant with all integrators, or shared sub-states of least
         dimension; agents send no outputs with either method.

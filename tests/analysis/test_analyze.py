@@ -59,7 +59,7 @@ def test_nothing_np_hard_is_asked_unless_it_is_named(calls: list[str]) -> None:
 
 def test_a_question_that_is_named_alone_is_asked_alone() -> None:
     assert analyze(RING, ["joint_observability"]).decided().keys() == {"joint_observability"}
-    found = analyze(RING, ["joint_observability"], besides=["minimal_communication"])
+    found = analyze(RING, ["joint_observability"], also=["minimal_communication"])
     assert found.decided().keys() == {"joint_observability", "minimal_communication"}
 
 
@@ -106,13 +106,13 @@ def test_indices_of_very_long_chains_are_asked_only_by_name() -> None:
     ("given", "said"),
     [
         ({"information": "outputs"}, "add 'neighbors' to the file"),
-        ({"besides": ["minimal_shared_dimensions_states"]}, "add 'neighbors' to the file"),
+        ({"also": ["minimal_shared_dimensions_states"]}, "add 'neighbors' to the file"),
         ({"questions": ["pencil_rank"]}, "'pencil_rank' is about a set of channels: give subset="),
         ({"questions": ["channel_gains_both"]}, "is about one channel: give channel="),
         ({"questions": ["completness"]}, "there is no question 'completness'"),
         ({"information": "all"}, "'own' or 'outputs'"),
         ({"questions": "completeness"}, "questions: expected several names"),
-        ({"besides": "completeness"}, "besides: expected several names"),
+        ({"also": "completeness"}, "also: expected several names"),
         ({"subset": "12"}, "subset: expected several names, such as ..12"),
     ],
 )

@@ -14,7 +14,7 @@ def asked(plant: MultiChannelSystem, **question: Any) -> Analysis:
     """As the command asks, with ``minimal=True`` and so on."""
     options = [name for name in ("minimal", "links", "delayed") if question.pop(name, False)]
     options += ["every-channel"] * question.pop("every_channel", False)
-    return analyze(plant, besides=asked_by(*options), **question)
+    return analyze(plant, also=asked_by(*options), **question)
 
 
 def account_of(plant: MultiChannelSystem, **question: Any) -> Account:

@@ -65,7 +65,7 @@ def answers(system: MultiChannelSystem) -> dict[str, Document]:
         if system.time == "discrete":
             asked += asked_by("delayed")
     for name in system.names:
-        analysis = analyze(system, besides=asked, subset=[name], channel=name)
+        analysis = analyze(system, also=asked, subset=[name], channel=name)
         for name_of, answer in analysis.decided().items():
             number = "" if name_of in found else f"_of_{system.names.index(name)}"
             found[name_of + number] = document(answer)

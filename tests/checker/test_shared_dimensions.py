@@ -30,7 +30,7 @@ ACCEPTED = [
     ("the paper's example, outputs and sub-states", BOTH),
     ("the paper's example, sub-states alone", STATES),
     ("nothing suffices without a graph", NOTHING),
-    ("a connected graph asked for besides", FREE),
+    ("a connected graph required as well", FREE),
     ("only modes beyond a rate, at other prices", STABLE),
     ("more split than needed", changed(
         STATES,

@@ -9,7 +9,7 @@ from mcexact.model.system_file import save_system
 from tests.end_to_end.command_line import run
 
 GRAPHS = {"without neighbors": None, "with neighbors": {"1": ["2"], "2": ["1"]}}
-# Those besides need a neighbor graph.
+# The others need a neighbor graph.
 DESIGNS = [
     ("decentralized", "without neighbors"),
     *((name, "with neighbors") for name in ("decentralized", "observer", "extended", "setpoint")),

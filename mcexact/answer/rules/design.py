@@ -1,4 +1,4 @@
-"""When `mcexact design` and `certify` say what of a closed loop."""
+"""The rules of the sentences of `mcexact design` and `certify`."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ rule = RULES.rule
 
 
 def inside(loop: Claim, region: StabilityRegion) -> bool:
-    """Whether the claim about a loop says that every eigenvalue lies in a region."""
+    """Whether the claim about a loop is that every eigenvalue lies in a region."""
     if loop.has("stable"):
         return bool(loop.stable and loop.bound == region.bound)
     parts = (loop.polynomial,) if loop.has("polynomial") else (loop.feedback, loop.error)
@@ -24,7 +24,7 @@ def inside(loop: Claim, region: StabilityRegion) -> bool:
 
 @rule("title", say.OBSERVER, say.OBSERVER_FLOAT, say.NETWORK, say.SETPOINT, say.LOOP)
 def _title(loop: Claim, given: Given) -> Said:
-    """What was designed; of a loop that was asked to be unstable nothing is said but what it is."""
+    """The heading of a design; without a certified region there is no other sentence."""
     if not inside(loop, given.region):
         yield say.LOOP()
     elif given.has("solvability"):
@@ -73,7 +73,7 @@ def _assigned(loop: Claim, given: Given) -> Said:
 
 @rule("table", say.KEPT)
 def _kept(loop: Claim, fixed_spectrum: Claim, given: Given) -> Said:
-    """The modes that the design does not move; each of them is fixed."""
+    """The fixed modes that remain under the design."""
     if given.has("kept") and given.kept.degree and inside(loop, given.region):
         fixed = fixed_spectrum.polynomial
         if all(p.divides(fixed) for p, _ in given.kept.factor()):
@@ -125,7 +125,7 @@ rule = RULES.rule
 
 @rule("title", say.LOOP)
 def _verdict(loop: Claim) -> Said:
-    """A title, whatever is claimed of the loop."""
+    """The title of a verdict."""
     _ = loop.stable
     yield say.LOOP()
 
@@ -143,7 +143,7 @@ def _location(loop: Claim, given: Given) -> Said:
 
 @rule("table", say.DECIDED, say.DECIDED_BLOCKS)
 def _decided(loop: Claim) -> Said:
-    """How it was decided, and on which blocks."""
+    """The method of the decision, and the blocks to which it was applied."""
     proof = loop.proof
     sizes = [block.size for block in proof.blocks] if proof.has("blocks") else []
     yield say.DECIDED_BLOCKS(sizes=sizes) if len(sizes) > 1 else say.DECIDED(method=proof.method)

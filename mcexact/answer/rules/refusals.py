@@ -1,4 +1,4 @@
-"""Why there is no design as it was asked for: each reason read off the certificate of a refusal."""
+"""The rules of refusals: why no requested design exists, from the certificate of the refusal."""
 
 from __future__ import annotations
 
@@ -16,21 +16,21 @@ rule = RULES.rule
 
 
 def refusal(place: str, answer: Answer, **asked: Any) -> Impossible:
-    """The error that says why there is no design, with the certificate that proves it.
+    """Return the error that says why no design exists, with the certificate that proves it.
 
     Parameters
     ----------
     place : str
-        Which rules say so.
+        The place of the rules.
     answer : Answer
     **asked
-        What was asked for, such as the ``region``; and the template that is ``told``, where the
-        certificate alone does not say which.
+        The request, such as the ``region``; and the template ``told``, if the certificate does not
+        determine it.
 
     Raises
     ------
     InternalError
-        If the certificate does not say so.
+        If no rule applies to the certificate.
     """
     rules = Rulebook(rule for rule in RULES if rule.place == place)
     for sentence in rules.sentences({answer.kind: answer}, Given(answer.about, asked)):

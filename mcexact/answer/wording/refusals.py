@@ -1,4 +1,4 @@
-"""Why there is no design as it was asked for."""
+"""The sentences of refusals: why no requested design exists."""
 
 from __future__ import annotations
 

@@ -1,11 +1,11 @@
-"""How gains and single controllers are found, exactly and in floating point.
+"""Methods for gains and channel controllers, exact and in floating point.
 
 ====================  =====================================================================
 `spectrum`            the spectrum of a design, from a rate or as prescribed
 `state_feedback`      gains for given eigenvalues
-`fast_modes`          gains that leave fast modes alone
+`fast_modes`          gains that do not move fast modes
 `channel_controller`  a controller at one channel for a given spectrum (Brasch and Pearson)
-`channel_parts`       the parts of a system that one channel each controls
+`channel_parts`       the parts of a loop that single channels control and observe
 `riccati`             Riccati equations in floating point
 `riccati_channel`     a controller at one channel by Riccati equations
 ====================  =====================================================================

@@ -173,7 +173,7 @@ def _sizes(
         )
     if system.subject:
         # The answer is about the system taken for a plant, so it is only followed.  Where no
-        # dimensions are enough, neither are as many as there are states.
+        # dimensions suffice, neither do as many as there are states.
         return None, least.dimensions or (system.n,) * system.m
     if least.dimensions is None:
         raise refusal("dimensions", least)

@@ -58,8 +58,9 @@ def design_observer(
         ``{"feedback": P, "error": P}``: n numbers for A + Σ B_i F_i and mn + m − 1 for the error
         system, see `spectrum_polynomial`.
     rate, radius : rational, optional
-        Instead of a spectrum, or besides it, to be certified: Every eigenvalue then has real part
-        below −rate (continuous time), or modulus below radius (discrete time).
+        A rate or radius to be certified, instead of a spectrum or in addition to it: every
+        eigenvalue has real part below −rate (continuous time), or modulus below radius (discrete
+        time).
     gains : sequence of m matrices, optional
         Given F_i (p_i×n); then ``spectrum`` has no ``"feedback"``.  With F_i = 0 this is the
         open-loop observer of section II-B, whose agents estimate the state and do not act.
