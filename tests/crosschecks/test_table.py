@@ -63,4 +63,4 @@ def test_numbers_beyond_doubles_are_no_error():
 
 
 def test_the_package_is_called_by_the_name_that_it_exports():
-    assert len(mcexact.crosschecks(PLAIN).rows) == len(crosscheck(PLAIN).rows)
+    assert len(mcexact.crosscheck(PLAIN).rows) == len(crosscheck(PLAIN).rows)
