@@ -58,7 +58,7 @@ class CrossCheck:
     agree: bool | None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class CrossChecks:
     """The cross-checks of one system.
 
@@ -76,6 +76,10 @@ class CrossChecks:
     rows: tuple[CrossCheck, ...]
     distance: FixedModeDistance | None
     libraries: Libraries
+
+    def __repr__(self) -> str:
+        wrong = len(self.disagreements)
+        return f"CrossChecks({len(self.rows)} questions, {wrong} wrong in floating point)"
 
     @property
     def disagreements(self) -> tuple[CrossCheck, ...]:

@@ -117,6 +117,9 @@ class Controller:
     system: str
     agents: tuple[AgentProgram, ...]
 
+    def __repr__(self) -> str:
+        return f"Controller({len(self.agents)} agents, order {self.order}, {self.time} time)"
+
     @property
     def order(self) -> int:
         """The sum of the dimensions of all agents' states."""

@@ -61,6 +61,13 @@ class Trajectory:
     snapshots: tuple[Snapshot, ...]
     warning: str | None = None
 
+    def __repr__(self) -> str:
+        start, end = self.times[0], self.times[-1]
+        return (
+            f"Trajectory({len(self.agents)} agents, {len(self.times)} times from {start} to {end}, "
+            f"{self.time} time, {self.arithmetic})"
+        )
+
     def has_estimates(self) -> bool:
         """Whether each agent's shared sub-state has the dimension of the plant's state."""
         first = self.snapshots[0]

@@ -114,6 +114,10 @@ class CertifiedLoop:
         if self.key is not _KEY:
             raise InternalError("a certified closed loop is made by the functions of the gate")
 
+    def __repr__(self) -> str:
+        proved = ", ".join(each.kind for each in self.proofs)
+        return f"CertifiedLoop({self.matrix.nrows} states, proved: {proved})"
+
     @property
     def controller(self) -> Controller:
         """m agent programs."""

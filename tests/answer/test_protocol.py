@@ -54,6 +54,17 @@ def about(name: str) -> tuple[tuple[str, Answer], ...]:
     return tuple(found)
 
 
+def test_loops_controllers_and_trajectories_are_told_in_one_line() -> None:
+    plant = gallery.load("liu2020-3ch-no-communication")
+    plant = plant.with_neighbors(mcexact.NeighborGraph.ring(plant.names))
+    design = mcexact.design_observer(plant, rate=1)
+    moved = mcexact.simulate(plant, design.controller, points=3)
+    for found in (design, design.loop, design.controller, moved, mcexact.crosscheck(plant)):
+        line = repr(found)
+        assert len(line) <= LINE and "\n" not in line
+        assert line.startswith(f"{type(found).__name__}(") and line.endswith(")")
+
+
 @pytest.mark.parametrize("name", gallery.names())
 def test_an_answer_is_told_in_one_line_that_cuts_nothing(name: str) -> None:
     for question, found in about(name):
