@@ -4,6 +4,7 @@ from .analysis.analyze import Analysis as Analysis
 from .analysis.analyze import analyze as analyze
 from .analysis.fixed_modes.assignability import assignability as assignability
 from .analysis.fixed_modes.completeness import completeness as completeness
+from .analysis.fixed_modes.error_gains import ErrorGains as ErrorGains
 from .analysis.fixed_modes.error_gains import error_gains as error_gains
 from .analysis.fixed_modes.fixed_spectrum import fixed_spectrum as fixed_spectrum
 from .analysis.fixed_modes.pencil import pencil_rank as pencil_rank
@@ -28,6 +29,7 @@ from .analysis.structure.controllability_indices import (
 from .analysis.structure.controllability_indices import (
     observability_indices as observability_indices,
 )
+from .analysis.structure.exceptional_gains import ExceptionalGains as ExceptionalGains
 from .analysis.structure.exceptional_gains import exceptional_gains as exceptional_gains
 from .analysis.structure.setpoint import setpoint_solvability as setpoint_solvability
 from .analysis.structure.transfer_graph import transfer_graph as transfer_graph

@@ -2,6 +2,7 @@
 
 import importlib
 import inspect
+import typing
 from pathlib import Path
 
 import pytest
@@ -24,6 +25,16 @@ def test_every_public_name_says_what_it_is(name: str) -> None:
     said = inspect.getdoc(getattr(mcexact, name))
     assert said, name
     assert len(said.splitlines()[0]) > len(name), name
+
+
+def test_what_a_public_function_returns_is_public() -> None:
+    public = [getattr(mcexact, name) for name in mcexact.__all__]
+    for function in filter(inspect.isfunction, public):
+        home = {name: getattr(mcexact, name) for name in mcexact.__all__} | function.__globals__
+        found = typing.get_type_hints(function, home)["return"]
+        for each in (found, *typing.get_args(found)):
+            if getattr(each, "__module__", "").startswith("mcexact."):
+                assert each in public, function.__name__
 
 
 def test_every_error_is_public() -> None:

@@ -45,12 +45,12 @@ class ErrorGains:
         return self.found.indices
 
     @property
-    def lists(self) -> tuple[tuple[Matrix, ...], ...] | None:
+    def gains(self) -> tuple[tuple[Matrix, ...], ...] | None:
         """The gains of each agent i: K_i, n × q_i, then H_ij, n × n, for j ∈ N_i∖{i}, in order."""
-        plant, gains = self.error.plant, self.found.gains
-        if gains is None:
+        plant, found = self.error.plant, self.found.gains
+        if found is None:
             return None
-        return tuple(_split(gain, plant.q(i), plant.n) for i, gain in enumerate(gains))
+        return tuple(_split(gain, plant.q(i), plant.n) for i, gain in enumerate(found))
 
 
 def error_gains(

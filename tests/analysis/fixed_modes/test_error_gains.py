@@ -25,15 +25,15 @@ F = [[[-1, 0, 0]], [[0, -2, -1]], [[0, 1, 0]]]
 def test_the_lists_make_the_error_matrix_of_the_paper_cyclic() -> None:
     found = error_gains(PLANT, F)
     assert found.exists
-    assert found.lists is not None
-    assert [len(each) for each in found.lists] == [2, 2, 2]
+    assert found.gains is not None
+    assert [len(each) for each in found.gains] == [2, 2, 2]
     # E_ii = A + ΣBF + K_iC_i + ΣH_ij − B_iF_i, E_ij = −H_ij − B_jF_j for neighbors j.
     gains = [Matrix.from_rows(rows) for rows in F]
     driven = [PLANT.B(j) @ gains[j] for j in range(3)]
     whole = sum(driven, PLANT.A)
     rows = []
     for i in range(3):
-        K, H = found.lists[i]
+        K, H = found.gains[i]
         j = PLANT.indices([PLANT.names[(i + 1) % 3]])[0]
         row = [-driven[k] for k in range(3)]
         row[i] = whole - driven[i] + K @ PLANT.C(i) + H
@@ -66,7 +66,7 @@ def test_a_plant_that_is_not_jointly_observable_is_refused_with_a_mode() -> None
     )
     found = error_gains(plant, [[[0, 0]], [[0, 0]]])
     assert not found.exists
-    assert found.lists is None
+    assert found.gains is None
     assert isinstance(found.found.evidence, StuckWitness)
     assert str(found.found.evidence.polynomial) == "x - 2"
 
