@@ -281,7 +281,8 @@ def analyze(
     ----------
     plant : MultiChannelSystem
     questions : iterable of str, optional
-        Names in `QUESTIONS`; an NP-hard question is asked only by name.
+        Names of questions, which `dir` of the result lists; an NP-hard question is asked only by
+        name.
     also : iterable of str
         Further questions.
     information : {"own", "outputs"}

@@ -37,6 +37,11 @@ def test_the_eigenvalue_minus_two_is_faster_than_one(rate, stable, method):
     assert_valid(found)
 
 
+def test_an_unknown_method_is_refused():
+    with pytest.raises(UsageError, match=r"method: expected .* found 'guess'"):
+        certify_controller(PLANT, STATIC, method="guess")  # type: ignore[arg-type]
+
+
 def test_a_large_loop_is_recognized_and_goes_block_by_block():
     plant = three_channels()
     design = design_observer(plant, rate=1, arithmetic="float")

@@ -51,13 +51,13 @@ def pencil(system: MultiChannelSystem, s: Iterable[int]) -> tuple[Matrix, Matrix
     return M0, M1
 
 
-def pencil_rank(system: MultiChannelSystem, s: Iterable[str], mode: Any) -> PencilRank:
+def pencil_rank(system: MultiChannelSystem, subset: Iterable[str], mode: Any) -> PencilRank:
     """Compute the rank of P_s(λ) = [λI − A, B_{m−s}; C_s, 0].
 
     Parameters
     ----------
     system : MultiChannelSystem
-    s : iterable of str
+    subset : iterable of str
         Names of channels; the empty set and all channels are allowed.
     mode : Polynomial, or a rational number
         An irreducible polynomial whose roots are the λ, or λ itself.
@@ -84,7 +84,7 @@ def pencil_rank(system: MultiChannelSystem, s: Iterable[str], mode: Any) -> Penc
     2
     """
     p = _irreducible(mode)
-    inside = system.indices(s)
+    inside = system.indices(subset)
     M0, M1 = pencil(system, inside)
     kernel, pivots = kernel_at(M0, M1, p)
     rank = M0.ncols - len(pivots)
@@ -100,21 +100,24 @@ def pencil_rank(system: MultiChannelSystem, s: Iterable[str], mode: Any) -> Penc
 
 
 def pencil_ranks(
-    system: MultiChannelSystem, s: Iterable[str], *, spectrum: ClosedLoopSpectrum | None = None
+    system: MultiChannelSystem,
+    subset: Iterable[str],
+    *,
+    spectrum: ClosedLoopSpectrum | None = None,
 ) -> tuple[PencilRank, ...]:
     """Compute the rank of P_s at every mode of A, one for each irreducible factor of det(xI − A).
 
     Parameters
     ----------
     system : MultiChannelSystem
-    s : iterable of str
+    subset : iterable of str
         Names of channels.
     spectrum : ClosedLoopSpectrum, optional
         ``open_loop_spectrum(system)``, if it is known already.
     """
-    subset = list(s)
+    names = system.named(system.indices(subset))
     found = open_loop_spectrum(system) if spectrum is None else spectrum
-    return tuple(pencil_rank(system, subset, mode) for mode, _ in found.polynomial.factor())
+    return tuple(pencil_rank(system, names, mode) for mode, _ in found.polynomial.factor())
 
 
 def _irreducible(mode: Any) -> Polynomial:

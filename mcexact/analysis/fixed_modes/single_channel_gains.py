@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from random import Random
+from typing import Literal
 
 from mcexact.analysis.engine import decide, evidence, suspected_edges, zero_transfer
 from mcexact.analysis.fixed_modes.gains import Draw, drawn_integers, reach_index
@@ -36,6 +37,7 @@ SIDES = {
     "observable": ("observable",),
     "both": ("controllable", "observable"),
 }
+Want = Literal["controllable", "observable", "both"]
 Indices = tuple[int, ...]
 
 
@@ -54,7 +56,7 @@ def single_channel_gains(
     system: MultiChannelSystem,
     channel: str | None = None,
     *,
-    want: str = "both",
+    want: Want = "both",
     cyclic: bool = False,
     index: int | None = None,
     draw: Draw | None = None,

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import accumulate, pairwise
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
 from mcexact.analysis.engine import QuadraticForm, quadratic_form, separated_instability
 from mcexact.answer.stability import (
@@ -111,8 +111,8 @@ def certify_stability(
     Raises
     ------
     UsageError
-        If the rate or radius is out of range, the separation does not fit the loop, or the Lyapunov
-        method was inconclusive.
+        If the rate or radius is out of range, the method is unknown, the separation does not fit
+        the loop, or the Lyapunov method was inconclusive.
 
     Notes
     -----
@@ -127,6 +127,8 @@ def certify_stability(
     False
     """
     region = StabilityRegion.asked(loop.time, region, rate, radius) or StabilityRegion(loop.time)
+    if method not in {None, *get_args(Method)}:
+        raise UsageError(f'expected "polynomial" or "lyapunov", found {method!r}', where="method")
     if separation is not None:
         _require_separation(loop.A, separation)
     tried = (method,) if method is not None else _order(loop.n, separation)

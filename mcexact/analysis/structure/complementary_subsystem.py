@@ -32,19 +32,21 @@ class _Outside:
     N: Matrix
 
 
-def complementary_subsystem(system: MultiChannelSystem, s: Iterable[str]) -> ComplementarySubsystem:
+def complementary_subsystem(
+    system: MultiChannelSystem, subset: Iterable[str]
+) -> ComplementarySubsystem:
     """Analyze the complementary subsystem (C_s, A, B_{m−s}).
 
     Parameters
     ----------
     system : MultiChannelSystem
-    s : iterable of str
-        Names of channels, at least one but not all.
+    subset : iterable of str
+        The set s: names of channels, at least one but not all.
 
     Raises
     ------
     UsageError
-        If there is no channel of that name, or s is empty or holds all channels.
+        If there is no channel of that name, or the subset is empty or holds all channels.
 
     Notes
     -----
@@ -72,7 +74,7 @@ def complementary_subsystem(system: MultiChannelSystem, s: Iterable[str]) -> Com
     >>> found.transfer_zero, [(str(zeros.polynomial), zeros.rank) for zeros in found.zeros]
     (True, [('x - 1', 2)])
     """
-    inside = system.indices(s)
+    inside = system.indices(subset)
     if not 0 < len(inside) < system.m:
         raise UsageError("expected a nonempty proper subset of the channels")
     rng = generator(system, "complementary_subsystem")

@@ -2,7 +2,7 @@
 
 import pytest
 
-from mcexact.analysis.fixed_modes.pencil import pencil_rank
+from mcexact.analysis.fixed_modes.pencil import pencil_rank, pencil_ranks
 from mcexact.answer import codec
 from mcexact.checker import check_document
 from mcexact.errors import FloatRefused, InputError, UsageError
@@ -39,3 +39,9 @@ def test_a_reducible_polynomial_is_refused_with_its_factors() -> None:
         pencil_rank(system, [], 0.5)
     with pytest.raises(UsageError, match="no channel"):
         pencil_rank(system, ["7"], 1)
+
+
+def test_one_text_is_no_subset() -> None:
+    plant = gallery.load("liu2020-3ch-no-communication")
+    with pytest.raises(UsageError, match="expected a list of names"):
+        pencil_ranks(plant, "23")
