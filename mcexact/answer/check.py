@@ -26,7 +26,7 @@ def check(
     certificate : Answer or path
         An answer, or the file of its certificate.
     system : MultiChannelSystem, optional
-        The plant that the certificate must be about.
+        The plant that the certificate must be about, or a system derived from it.
 
     Returns
     -------
