@@ -1,4 +1,4 @@
-"""The public names; whatever is not here may change without notice."""
+"""The public names; all other names may change without notice."""
 
 from .analysis.analyze import Analysis as Analysis
 from .analysis.analyze import analyze as analyze

@@ -29,7 +29,7 @@ def recorded_text(shown: Demonstration) -> str:
         "   stay under every decentralized gain?",
         "",
         *(f"   numpy    {line}" for line in _rounded(recorded)),
-        f"   mcexact  {powers}: unstable, whatever constant gains",
+        f"   mcexact  {powers}: unstable under all constant gains",
         "",
         "numpy's answers depend on how a processor rounds; these were recorded with",
         f"{recorded.libraries}.",

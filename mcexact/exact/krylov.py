@@ -1,7 +1,7 @@
 """Characteristic polynomials modulo primes so small that sums of products are exact in float64.
 
 A double holds every integer up to 2**53.  With n(ℓ/2)² below that, a product of n × n matrices of
-symmetric residues is exact whatever the order of its additions, and the processor's fastest
+symmetric residues is exact for every order of its additions, and the processor's fastest
 routine for floats computes it.  The sequence uMᵏv of 2n terms, in steps of b and of one
 (M^b by repeated squaring), and the algorithm of Berlekamp and Massey then give the least
 recurrence; its polynomial divides the minimal polynomial of M, so where it has degree n it is the

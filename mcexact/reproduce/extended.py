@@ -89,7 +89,7 @@ def construction(note: Notebook) -> None:
 
 
 def any_graph(note: Notebook) -> None:
-    """Jointly controllable and observable, whatever the graph."""
+    """Jointly controllable and observable for every graph."""
     for name, plant in (*plants(5, connected=None), *plants(1, connected=False)):
         for share in SHARING:
             note.on(f"{name}, {share}")
