@@ -97,10 +97,10 @@ def test_what_is_said_to_be_enough_to_share_leaves_nothing_fixed(start: int) -> 
 
 
 @pytest.mark.parametrize("start", SEEDS)
-def test_what_no_amount_of_sharing_frees_stays_with_much_of_it(start: int) -> None:
+def test_a_mode_that_no_sharing_allows_to_move_is_fixed_with_much_of_it(start: int) -> None:
     for plant in plants(start):
         account = account_of(plant)
-        told = [each for each in account.sentences if "no amount of sharing" in each]
+        told = [each for each in account.sentences if "no sharing allows" in each]
         reach = (account.answers["joint_controllability"], account.answers["joint_observability"])
         lost = [found.uncontrollable_polynomial for found in reach if not found.controllable]
         assert len(told) == len(lost)
