@@ -54,6 +54,11 @@ def encode(answer: Answer) -> str:
 def save_certificate(answer: Answer, path: str | os.PathLike[str]) -> None:
     """Write an answer to a certificate file, completely or not at all.
 
+    Parameters
+    ----------
+    answer : Answer
+    path : path
+
     Raises
     ------
     InputError

@@ -29,6 +29,12 @@ FORMAT = "mcexact-controller/1"
 def load_controller(path: str | os.PathLike[str], limits: Limits = DEFAULT_LIMITS) -> Controller:
     """Read a controller from a file, or from standard input for ``-``.
 
+    Parameters
+    ----------
+    path : path
+        ``-`` is the standard input.
+    limits : Limits, optional
+
     Raises
     ------
     InputError
@@ -118,6 +124,11 @@ def controller_text(controller: Controller) -> str:
 
 def save_controller(controller: Controller, path: str | os.PathLike[str]) -> None:
     """Write a controller file, completely or not at all.
+
+    Parameters
+    ----------
+    controller : Controller
+    path : path
 
     Raises
     ------

@@ -40,7 +40,7 @@ def sweep(
     sources : iterable
         Paths of system files, `MultiChannelSystem`, `Draw`; consumed as processes become free.
     questions : iterable of str
-        Names in ``QUESTIONS``.
+        Names of questions that `analyze` asks by default and that need the plant alone.
     results : path, optional
         A file to which every record is appended when it is finished.  Systems with a record in it
         are skipped, unless the record says that a limit or a failure ended the work.
