@@ -37,6 +37,9 @@ class Account:
     sentences: Sentences
     subject: Sequence[Mapping[str, Any]] = ()
 
+    def __repr__(self) -> str:
+        return f"Account({len(self.answers)} answers, {len(self.sentences)} sentences)"
+
     @cached_property
     def certificates(self) -> dict[str, str]:
         """The text of every certificate, keyed by the name of its file."""

@@ -44,6 +44,10 @@ class ExceptionalGains:
     index_set: ExceptionalSet
     controllability_set: ExceptionalSet
 
+    def __repr__(self) -> str:
+        index, ctrl = len(self.index_set.roots), len(self.controllability_set.roots)
+        return f"ExceptionalGains(values of g: {index} in E_index, {ctrl} in E_ctrl)"
+
     @property
     def index(self) -> int:
         """m, the controllability index of (A, B)."""
