@@ -96,7 +96,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         for about, verdict in verdicts(options.files, options.manifest, options.system, limits):
             found.append((about, verdict))
             if not options.json:
-                print(verdict.line(), flush=True)
+                print(verdict.line().replace("(Limits.", "(--max-"), flush=True)
     except Refused as error:
         print(f"checker: {options.system}: {error.place}: {error.message}", file=sys.stderr)
         return 3

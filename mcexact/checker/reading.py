@@ -62,7 +62,7 @@ def parse(data: bytes, limits: Limits, decimal_of: Callable[[str], Any] | None =
     ``decimal_of`` reads a number with a point or an exponent; without it such a number is refused.
     """
     if len(data) > limits.bytes:
-        incomplete("size", "file", f"more than {limits.bytes} bytes (--max-bytes)")
+        incomplete("size", "file", f"more than {limits.bytes} bytes (Limits.bytes)")
     try:
         text = data.decode("utf-8")
     except UnicodeDecodeError as error:
@@ -71,11 +71,11 @@ def parse(data: bytes, limits: Limits, decimal_of: Callable[[str], Any] | None =
     for token in TOKEN.finditer(text):
         depth += (token[0] in "[{") - (token[0] in "]}")
         if depth > limits.depth:
-            malformed("file", f"nested deeper than {limits.depth} levels (--max-depth)")
+            malformed("file", f"nested deeper than {limits.depth} levels (Limits.depth)")
     long_number = re.compile(f"[0-9]{{{min(20, limits.digits + 1)}}}[0-9]*+")
     plain = re.sub(r"\\u003([0-9])", r"\1", text)  # digits may be written as escapes
     if any(len(number[0]) > limits.digits for number in long_number.finditer(plain)):
-        incomplete("size", "file", f"a number of more than {limits.digits} digits (--max-digits)")
+        incomplete("size", "file", f"a number of more than {limits.digits} digits (Limits.digits)")
 
     def refuse(number: str) -> NoReturn:
         malformed(f"number {number[:24]}", 'expected an integer or a string "p/q"')

@@ -51,7 +51,7 @@ def command(
         for about, verdict in verdicts(certificates, manifest, system, allowed):
             found.append((about, verdict))
             if not as_json:
-                emit(verdict.line() + "\n")
+                emit(verdict.line().replace("(Limits.", "(--max-") + "\n")
     except Refused as refused:
         raise InputError(refused.message, where=f"{system}: {refused.place}") from None
     if as_json:
