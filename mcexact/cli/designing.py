@@ -126,7 +126,7 @@ def _designed(
             "impossible": str(refused),
             "json": account.as_json(design=name, possible=False, reason=reason),
         }
-    account = found.account()
+    account = found.account
     figures = measured(found.measures(), account.sentences, found.region.discrete)
     return told(account) | {
         "controller": controller_text(found.controller),

@@ -88,8 +88,9 @@ class Design:
             found |= vars(loop_margins(M, self.region.time))
         return {name: finite(figure) for name, figure in found.items()}
 
+    @property
     def account(self) -> Account:
-        """Return the certificates with the sentences that follow from them."""
+        """The certificates, with the sentences that follow from them."""
         facts = {
             "method": self.method,
             "arithmetic": self.arithmetic,

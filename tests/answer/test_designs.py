@@ -107,7 +107,7 @@ def test_what_is_said_of_designs_and_of_refusals(name: str, seed: int, tmp_path:
         [(_, verdict)] = manifest_verdicts(str(tmp_path))
         assert verdict.verdict == "IMPLIED", verdict.line()
         return
-    require_said(design.account(), "design, certify", tmp_path)
+    require_said(design.account, "design, certify", tmp_path)
 
 
 @pytest.mark.parametrize(
@@ -124,13 +124,13 @@ def test_what_is_said_of_controllers(options: dict[str, Any], tmp_path: Path) ->
 def test_a_loop_that_was_asked_to_be_unstable_is_not_called_certified(tmp_path: Path) -> None:
     plant = gallery.load("quadruple-tank-pminus")
     unstable = {"closed_loop": ["1", "2", "3", "4", "-1", "-2", "-3"]}
-    account = design_decentralized(plant, spectrum=unstable).account()
+    account = design_decentralized(plant, spectrum=unstable).account
     assert account.sentences.at("title") == ["closed loop"]
     require_said(account, "design, certify", tmp_path)
 
 
 def test_a_design_without_a_neighbor_graph_is_said_in_json_as_in_the_tables() -> None:
     plant = gallery.load("quadruple-tank-pminus")
-    account = design_decentralized(plant, rate="1/100", arithmetic="float").account()
+    account = design_decentralized(plant, rate="1/100", arithmetic="float").account
     said = {each["text"] for each in account.as_json()["sentences"]}
     assert said == {each["text"] for each in account.manifest()["sentences"]}

@@ -59,7 +59,7 @@ def test_loops_controllers_and_trajectories_are_told_in_one_line() -> None:
     plant = plant.with_neighbors(mcexact.NeighborGraph.ring(plant.names))
     design = mcexact.design_observer(plant, rate=1)
     moved = mcexact.simulate(plant, design.controller, points=3)
-    results = [design, design.loop, design.controller, design.account(), moved]
+    results = [design, design.loop, design.controller, design.account, moved]
     results += [mcexact.crosscheck(plant), mcexact.exceptional_gains([[0]], [[1]], [[1]])]
     for found in results:
         line = repr(found)

@@ -29,7 +29,7 @@ from tests.synthesis.three_channels import three_channels
 
 def test_what_is_proved_stands_apart_from_what_is_measured():
     design = design_observer(three_channels(), rate=1, arithmetic="float")
-    said = design.account().sentences
+    said = design.account.sentences
     [proved] = tables(said)
     figures = measured(design.measures(), said, discrete=False)
     assert "certified" in proved.title and "not proved" in figures.title

@@ -47,7 +47,7 @@ def test_every_method_takes_a_plant_with_feedback(
         assert certificate.subject[0]["construction"] == "feedback"
         verdict = check_document(encode(certificate).encode(), digest(plant))
         assert verdict.verdict == "VALID", verdict.line()
-    require_implied(made.account(), tmp_path)
+    require_implied(made.account, tmp_path)
 
 
 def test_what_is_said_of_a_loop_of_a_derived_system_is_implied(tmp_path: Path) -> None:
@@ -55,14 +55,14 @@ def test_what_is_said_of_a_loop_of_a_derived_system_is_implied(tmp_path: Path) -
     heard = augmented_outputs(plant, {"1": ["2"], "2": []})
     tall = MultiChannelSystem([[1]], [[[1]]], [[[1], [2]]], neighbors={"1": []})
     made = design_setpoint(full_output(tall, 0), rate=1)
-    require_implied(made.account(), tmp_path)
+    require_implied(made.account, tmp_path)
     local = local_controllers(heard, [[[-3, 0]], [[0]]])
     require_implied(account_of_verdict(certify_controller(heard, local, rate=1)), tmp_path)
 
 
 def test_the_order_of_the_observer_is_that_for_the_system_in_the_loop(tmp_path: Path) -> None:
     made = design_decentralized(extended_system(three_channels(), [0, 0, 1]), rate=1)
-    account = made.account()
+    account = made.account
     told = [each for each in account.manifest()["sentences"] if "observer-order" in each["rule"]]
     assert [each["text"] for each in told] == ["states of the paper's observer: 14"]
     account.save(tmp_path)
