@@ -75,6 +75,14 @@ class InputError(McexactError, ValueError):
         except InputError as error:
             raise error.within(place) from None
 
+    @staticmethod
+    def require(value: object, kind: type, where: str) -> None:
+        """Refuse an argument of another type than the one expected."""
+        if not isinstance(value, kind):
+            raise InputError(
+                f"expected a {kind.__name__}, found {type(value).__name__}", where=where
+            )
+
     exit_status = 3
 
 

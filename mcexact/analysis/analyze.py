@@ -12,7 +12,7 @@ from mcexact.analysis.questions import QUESTIONS
 from mcexact.answer.account import Account
 from mcexact.answer.rules import ANALYSIS, with_own
 from mcexact.answer.sentence import Given, Sentences
-from mcexact.errors import LimitReached, UsageError
+from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.exact.rational import written
 from mcexact.model.system import MultiChannelSystem
 
@@ -44,6 +44,7 @@ class Analysis:
         subset: Sequence[str] | None = None,
         channel: str | None = None,
     ) -> None:
+        InputError.require(plant, MultiChannelSystem, "system")
         self.plant = plant
         self.information = information
         self._arguments: dict[str, Any] = {

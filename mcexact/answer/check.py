@@ -57,10 +57,8 @@ fixed_spectrum(system), or the name of a certificate file, found dict
     from mcexact.model.system import MultiChannelSystem
     from mcexact.model.system_file import digest
 
-    if system is not None and not isinstance(system, MultiChannelSystem):
-        raise InputError(
-            f"expected a MultiChannelSystem, found {type(system).__name__}", where="system"
-        )
+    if system is not None:
+        InputError.require(system, MultiChannelSystem, "system")
     expected = None if system is None else digest(system.plant)
     return check_document(_text(certificate), expected)
 

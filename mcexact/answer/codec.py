@@ -12,6 +12,7 @@ import os
 from typing import Any
 
 from mcexact.answer.protocol import Answer
+from mcexact.errors import InputError
 from mcexact.model.atomic import write_text
 from mcexact.model.canonical import PlainObject, plain, text_of
 
@@ -62,6 +63,7 @@ def save_certificate(answer: Answer, path: str | os.PathLike[str]) -> None:
     Raises
     ------
     InputError
-        If the file cannot be written.
+        If the file cannot be written, or the answer is something else.
     """
+    InputError.require(answer, Answer, "answer")
     write_text(path, encode(answer))

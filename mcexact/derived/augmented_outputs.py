@@ -39,8 +39,8 @@ def augmented_outputs(
     >>> augmented_outputs(plant)
     Traceback (most recent call last):
         ...
-    mcexact.errors.UsageError: a neighbor graph is needed: give the system file a key 'neighbors',
-        or pass graph=
+    mcexact.errors.UsageError: a neighbor graph is needed, and the system has none: add 'neighbors'
+        to it
     """
     system, found = with_graph(system, graph)
     return system.derived(

@@ -357,7 +357,7 @@ def with_graph(
         system = system.with_neighbors(graph)
     if system.neighbors is None:
         raise UsageError(
-            "a neighbor graph is needed: give the system file a key 'neighbors', or pass graph="
+            "a neighbor graph is needed, and the system has none: add 'neighbors' to it"
         )
     return system, system.neighbors
 

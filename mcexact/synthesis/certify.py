@@ -15,7 +15,7 @@ from mcexact.answer.account import Account
 from mcexact.answer.rules import VERDICT
 from mcexact.answer.sentence import Given
 from mcexact.answer.stability import StabilityVerdict
-from mcexact.errors import LimitReached, UsageError
+from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.exact.floats import matrix_to_float, to_float
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.rational import Entry
@@ -69,6 +69,8 @@ def certify_controller(
 
     Raises
     ------
+    InputError
+        If the system or the controller is something else.
     UsageError
         If the rate or radius is out of range or for the other time domain, or the method is
         inconclusive.
@@ -90,6 +92,8 @@ def certify_controller(
     >>> certify_controller(plant, local_controllers(plant, [[[-3]]]), rate=2).stable
     False
     """
+    InputError.require(system, MultiChannelSystem, "system")
+    InputError.require(controller, Controller, "controller")
     tell = progress or (lambda _: None)
     region = StabilityRegion.of(system.time, rate, radius)
     if largest and region.bound is not None:

@@ -1,6 +1,7 @@
 """Everything about one system: asked for lazily, decided once, and nothing slow unless named."""
 
 import inspect
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -160,3 +161,18 @@ def test_what_is_saved_is_what_the_checker_verifies(tmp_path: Path) -> None:
 def test_the_line_of_an_analysis_is_short() -> None:
     for name in gallery.names():
         assert len(repr(analyze(gallery.load(name)))) < 200
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda plant: mcexact.analyze("plant.json"),  # type: ignore[arg-type]
+        lambda plant: mcexact.analyze(None, information="outputs"),  # type: ignore[arg-type]
+        lambda plant: mcexact.certify_controller(plant, None),  # type: ignore[arg-type]
+        lambda plant: mcexact.save_certificate(3, "answer.json"),  # type: ignore[arg-type]
+    ],
+)
+def test_an_argument_of_another_type_is_named(call: Callable[[MultiChannelSystem], Any]) -> None:
+    plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    with pytest.raises(mcexact.InputError, match=r"\w+: expected a \w+, found \w+"):
+        call(plant)
