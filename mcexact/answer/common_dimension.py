@@ -53,7 +53,9 @@ WORDS = {
     "outputs+states": _templates(
         "outputs-states", "outputs", "outputs, and ", "outputs alone", "in addition to outputs, "
     ),
-    "states": _templates("states", "states", "without outputs, ", "nothing", "without outputs, "),
+    "states": _templates(
+        "states", "states", "without outputs, ", "without outputs, nothing", "without outputs, "
+    ),
 }
 RULES = Rulebook()
 

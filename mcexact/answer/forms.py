@@ -99,6 +99,13 @@ def _indices(numbers: Sequence[int]) -> str:
     return ", ".join(cut([str(k) for k in numbers], 15)) or "none"
 
 
+def _reached(found: Sequence[Sequence[int]]) -> str:
+    """Write the least lengths k with which each channel reaches all states."""
+    single = len(found) == 1 and len(found[0]) == 1
+    listed_pairs = cut([" and ".join(map(str, k)) for k in found], 8)
+    return f"{'index' if single else 'indices'} {', '.join(listed_pairs)}"
+
+
 def _shared(sizes: Sequence[tuple[str, int]]) -> str:
     """Write the number of states that each agent shares, without agents that share none."""
     told = [f"{count(size, 'state')} by agent {name_text(name)}" for name, size in sizes if size]
@@ -197,7 +204,7 @@ FORMS: dict[str, Write] = {
     "indices": _indices,
     "factors": lambda found: ", ".join(cut([polynomial(p, 30) for p in found], 6)),
     "side": choice(controllable="controllable", observable="observable"),
-    "reached": lambda found: ", ".join(cut([" and ".join(map(str, k)) for k in found], 8)),
+    "reached": _reached,
     "arrows": _arrows,
     "list": lambda sizes: listed([str(size) for size in sizes]),
     "names": lambda names: ", ".join(cut([name_text(name) for name in names], 8)) or "nobody",
@@ -206,10 +213,10 @@ FORMS: dict[str, Write] = {
     "region": _region,
     "combinations": _combinations,
     "network": choice(
-        decentralized="decentralized",
-        extended="distributed, through shared states,",
-        lifted="distributed, through shared states with delays,",
-        held="distributed, through shared states held for the delays,",
+        decentralized="decentralized controller",
+        extended="distributed controller with shared states",
+        lifted="distributed controller with shared states, sent with delays",
+        held="distributed controller with shared states, held for the delays",
     ),
     "method": choice(observer="by an observer", extended="through shared states"),
     "decided": choice(

@@ -62,8 +62,9 @@ arithmetic = click.option(
     type=click.Choice(["exact", "float"]),
     default="exact",
     show_default=True,
-    help="`exact` assigns the whole spectrum, for small systems; `float` meets a rate or radius. "
-    "The proof is exact in both cases; float gains differ slightly between processors.",
+    help="`exact` assigns the whole spectrum, for small systems; its gains can be very large. "
+    "`float` meets a rate or radius. The proof is exact in both cases; float gains differ "
+    "slightly between processors.",
 )
 
 controller_output = click.option(

@@ -46,7 +46,7 @@ _NUMBER = re.compile(
 _GRAMMAR = 'an integer, a decimal such as "-0.25" or "1e-3", or a quotient such as "1/3"'
 TWO_WAYS_IN = (
     "a float is not exact: write the number as an integer, a Fraction or a string such as "
-    '"0.25" or "1/3", or say how floats are to be read with '
+    '"0.25" or "1/3"; matrices of floats are read by '
     'MultiChannelSystem.from_float(..., rounding="decimal" | "dyadic")'
 )
 # CPython refuses int() of longer digit strings; below it, conversion is quick enough.
@@ -169,7 +169,7 @@ def as_fraction(entry: Entry, *, where: str | None = None) -> Fraction:
     Traceback (most recent call last):
     ...
     mcexact.errors.FloatRefused: a float is not exact: write the number as an integer, a Fraction \
-or a string such as "0.25" or "1/3", or say how floats are to be read with \
+or a string such as "0.25" or "1/3"; matrices of floats are read by \
 MultiChannelSystem.from_float(..., rounding="decimal" | "dyadic")
     """
     if type(entry) is int:

@@ -35,10 +35,9 @@ class SimulationReport:
         if self.done.spectrum is not None and self.done.spectrum.rate is not None:
             rate, stable = self.done.spectrum.rate, "" if self.done.spectrum.stable else "not "
             what = "spectral radius" if is_discrete(self.done.run.time) else "decay rate"
-            lines.append(
-                f"the closed loop is {stable}stable; its {what} is between {rate.lower} and "
-                f"{rate.upper}"
-            )
+            between = f"between {rate.lower} and {rate.upper}"
+            size = rate.lower if rate.lower == rate.upper else between
+            lines.append(f"the closed loop is {stable}stable; its {what} is {size}")
         return lines
 
     def tables(self) -> tuple[Table, ...]:

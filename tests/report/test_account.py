@@ -175,7 +175,7 @@ def test_indices_and_what_a_channel_reaches_are_said() -> None:
     assert rows["controllability indices"] == "2, 1; index 2"
     assert rows["remnant polynomial"] == "x - 1"
     assert rows["complete"].startswith("no")
-    assert rows["observable with gains"] == "yes, indices 2"
+    assert rows["observable with gains"] == "yes, index 2"
     assert rows["both with gains"].endswith("at the mode 1")
 
 

@@ -223,7 +223,7 @@ ENOUGH = {
             "extended_bound.remark_2",
             _ENOUGH,
         ),
-        Template("enough-nothing", "nothing", "extended_bound.remark_2", _ENOUGH),
+        Template("enough-nothing", "without outputs, nothing", "extended_bound.remark_2", _ENOUGH),
     ),
 }
 NO_BOUND = Template(
@@ -268,7 +268,7 @@ LEAST = {
     "outputs+states": _least_templates(
         "outputs-states", "in addition to outputs, ", "outputs alone"
     ),
-    "states": _least_templates("states", "without outputs, ", "nothing"),
+    "states": _least_templates("states", "without outputs, ", "without outputs, nothing"),
 }
 
 
@@ -279,7 +279,7 @@ def _gains(key: str, label: str) -> dict[str, Template]:
         "observable": "{rest:channels} {rest:do} not act on it",
     }
     return {
-        "reached": Template(f"{key}-gains", "yes, indices {reached:reached}", label=label),
+        "reached": Template(f"{key}-gains", "yes, {reached:reached}", label=label),
         "stuck": Template(
             f"{key}-stuck",
             "no: no constant gains make channel {name:name} {side:side} at {p:modes}",

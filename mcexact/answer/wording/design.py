@@ -9,7 +9,7 @@ OBSERVER_FLOAT = Template(
     "design-observer-float",
     "distributed observer, designed in floating point; closed loop certified",
 )
-NETWORK = Template("design-network", "{kind:network} controller; closed loop certified")
+NETWORK = Template("design-network", "{kind:network}; closed loop certified")
 SETPOINT = Template(
     "design-setpoint", "set-point controller ({method:method}); closed loop certified"
 )
