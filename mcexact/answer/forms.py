@@ -33,7 +33,7 @@ def choice(**words: str) -> Write:
     return words.__getitem__
 
 
-def agreeing(one: str, more: str) -> Write:
+def _agreeing(one: str, more: str) -> Write:
     """A form that agrees with the number of the roots of a polynomial, or of names."""
 
     def write(value: Any) -> str:
@@ -187,17 +187,17 @@ FORMS: dict[str, Write] = {
     "often": _often,
     "behavior": _behavior,
     "Modes": lambda p: _capital(modes(p, 60)),
-    "are": agreeing("is", "are"),
-    "them": agreeing("it", "them"),
-    "escape": agreeing("which does not satisfy", "which do not all satisfy"),
-    "need": agreeing("needs", "need"),
-    "unstable": agreeing("it is not stable", "not all of them are stable"),
+    "are": _agreeing("is", "are"),
+    "them": _agreeing("it", "them"),
+    "escape": _agreeing("which does not satisfy", "which do not all satisfy"),
+    "need": _agreeing("needs", "need"),
+    "unstable": _agreeing("it is not stable", "not all of them are stable"),
     "price": choice(least="least", cheapest="cheapest"),
     "links": choice(least="the fewest links", cheapest="the cheapest links"),
     "limits": choice(none="", upper=", within the upper limits"),
     "instant": choice(none="", delays=", if messages took no time"),
-    "slow": agreeing("it is not fast enough", "not all of them are fast enough"),
-    "do": agreeing("does", "do"),
+    "slow": _agreeing("it is not fast enough", "not all of them are fast enough"),
+    "do": _agreeing("does", "do"),
     "roots": _roots,
     "blocks": _blocks,
     "components": _components,

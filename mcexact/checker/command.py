@@ -19,7 +19,7 @@ from .system import digest, read_system_file
 PRECEDENCE = (70, 3, 1, 5, 0)
 
 
-def read_file(path: str, limits: Limits) -> bytes:
+def _read_file(path: str, limits: Limits) -> bytes:
     """The bytes of a file, or of standard input for ``-``; one more than the limit is enough."""
     try:
         if path == "-":
@@ -33,9 +33,9 @@ def read_file(path: str, limits: Limits) -> bytes:
         ) from error
 
 
-def check_file(path: str, wanted: str | None, limits: Limits) -> Verdict:
+def _check_file(path: str, wanted: str | None, limits: Limits) -> Verdict:
     """The verdict on the certificate in a file."""
-    return check_document(read_file(path, limits), wanted, limits)
+    return check_document(_read_file(path, limits), wanted, limits)
 
 
 def verdicts(
@@ -50,12 +50,14 @@ def verdicts(
     Refused
         If the system file cannot be read.
     """
-    wanted = None if system is None else digest(read_system_file(read_file(system, limits), limits))
+    wanted = (
+        None if system is None else digest(read_system_file(_read_file(system, limits), limits))
+    )
     for path in paths:
         if os.path.basename(path) == NAME:
             yield from manifest_verdicts(path, wanted, limits)
         else:
-            check = partial(check_file, path, wanted, limits)
+            check = partial(_check_file, path, wanted, limits)
             yield {"file": path}, answer(check)
     if manifest is not None:
         yield from manifest_verdicts(manifest, wanted, limits)

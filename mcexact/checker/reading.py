@@ -177,7 +177,7 @@ def polynomial(value: Any, place: str, least_degree: int = 0) -> Polynomial:
     return result
 
 
-def integer_rows(value: Any, place: str, nrows: int, ncols: int) -> list[list[int]]:
+def _integer_rows(value: Any, place: str, nrows: int, ncols: int) -> list[list[int]]:
     """Rows of integers, of the prescribed shape."""
     for i, row in enumerate(items(value, place, nrows)):
         if not all(type(entry) is int for entry in items(row, f"{place}[{i}]", ncols)):
@@ -188,7 +188,7 @@ def integer_rows(value: Any, place: str, nrows: int, ncols: int) -> list[list[in
 def matrix(value: Any, place: str, nrows: int, ncols: int) -> Matrix:
     """A matrix of the prescribed shape: integer entries over one denominator."""
     denominator, entries = fields(value, place, "denominator", "entries")
-    rows = integer_rows(entries, f"{place}.entries", nrows, ncols)
+    rows = _integer_rows(entries, f"{place}.entries", nrows, ncols)
     return Matrix(rows, ncols, integer(denominator, f"{place}.denominator", 1))
 
 
@@ -204,7 +204,7 @@ def polynomial_matrix(value: Any, place: str, nrows: int, ncols: int, degree: in
     d = integer(denominator, f"{place}.denominator", 1)
     if not 1 <= len(items(layers, f"{place}.coefficients")) <= degree:
         malformed(f"{place}.coefficients", f"expected 1 to {degree} matrices, found {len(layers)}")
-    rows = [integer_rows(layer, f"{place}.coefficients", nrows, ncols) for layer in layers]
+    rows = [_integer_rows(layer, f"{place}.coefficients", nrows, ncols) for layer in layers]
     padding = [Matrix.zeros(nrows, ncols)] * (degree - len(layers))
     return [Matrix(layer, ncols, d) for layer in rows] + padding
 

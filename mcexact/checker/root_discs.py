@@ -23,7 +23,7 @@ def root_discs(value: Any, place: str, p: Polynomial) -> list[Disc]:
         where = f"{place}[{k}]"
         parts = fields(entry, where, "re", "im", "radius")
         re, im, radius = (decimal(part, where) for part in parts)
-        value_at, slope = horner(p, re, im)
+        value_at, slope = _horner(p, re, im)
         enough = value_at * (len(p) - 1) ** 2 <= radius**2 * slope
         require(slope > 0 and radius >= 0 and enough, "disc", where, "may hold no root")
         for a, b, r in discs:
@@ -49,7 +49,7 @@ def rate_interval(value: Any, place: str, discs: list[Disc], time: str) -> str:
     return f"between {value['lower']} and {value['upper']}"
 
 
-def horner(p: Polynomial, re: Fraction, im: Fraction) -> tuple[Fraction, Fraction]:
+def _horner(p: Polynomial, re: Fraction, im: Fraction) -> tuple[Fraction, Fraction]:
     """|p(c)|² and |p'(c)|² at c = re + i·im."""
     value, slope = (Fraction(0), Fraction(0)), (Fraction(0), Fraction(0))
     for c in reversed(p):

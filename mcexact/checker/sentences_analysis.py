@@ -109,7 +109,7 @@ restate(f"fixed slowest {LISTED}", FIXED, lambda c: c["factors"])
 restate("fixed-modes", FIXED, lambda c: c["factors"], FIXED_DYNAMIC)
 
 
-def blame(key: str, told: str, wanted: Callable[[int, int], bool]) -> None:
+def _blame(key: str, told: str, wanted: Callable[[int, int], bool]) -> None:
     """Enter the rule about the fixed modes whose sets have a wanted size, among m channels."""
 
     def chosen(found: Premise) -> list[Any]:
@@ -128,9 +128,9 @@ def blame(key: str, told: str, wanted: Callable[[int, int], bool]) -> None:
     restate(key, FIXED, chosen, PENCIL, words)
 
 
-blame("fixed-mode", "not controlled by {} and not observed by {}", lambda size, m: 0 < size < m)
-blame("fixed-mode-uncontrolled", "not controlled by all of {}", lambda size, m: size == 0)
-blame("fixed-mode-unobserved", "not observed by all of {1}", lambda size, m: size == m)
+_blame("fixed-mode", "not controlled by {} and not observed by {}", lambda size, m: 0 < size < m)
+_blame("fixed-mode-uncontrolled", "not controlled by all of {}", lambda size, m: size == 0)
+_blame("fixed-mode-unobserved", "not observed by all of {1}", lambda size, m: size == m)
 
 
 # How the spectrum can be assigned.

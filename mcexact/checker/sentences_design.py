@@ -111,7 +111,7 @@ def _decided(known: list[Premise]) -> str:
 # The loop.
 
 
-def is_stable(loop: Premise) -> bool:
+def _is_stable(loop: Premise) -> bool:
     """Whether every eigenvalue of the loop is where it decays."""
     if loop.kind == "stability":
         return bool(loop["stable"])
@@ -127,9 +127,9 @@ def decays(loop: Premise) -> str:
 
 
 CERTIFIED = "design-observer design-observer-float design-network design-setpoint"
-restate(CERTIFIED, LOOP, is_stable, words=decays)
+restate(CERTIFIED, LOOP, _is_stable, words=decays)
 BOUNDED = Role(("stability", "distributed_observer"), CLOSED)
-restate("design-region", BOUNDED, lambda c: is_stable(c) and c["bound"] is not None)
+restate("design-region", BOUNDED, lambda c: _is_stable(c) and c["bound"] is not None)
 restate("design-feedback design-errors", OBSERVER, lambda c: True)
 restate("design-assigned", LOOP, lambda c: True)
 restate("certify-inside", STABLE, lambda c: c["stable"])
@@ -155,7 +155,7 @@ def _kept(_: Premise, spectrum: Premise) -> str:
 @rule("design-steady-state", LOOP, theorem="B. A. Francis and W. M. Wonham 1976")
 def _steady_state(loop: Premise) -> str:
     """The loop is stable, and agents integrate the difference of output and set-point."""
-    loop.expect(is_stable(loop), "the loop is not stable")
+    loop.expect(_is_stable(loop), "the loop is not stable")
     _, agents = controller([loop])
     system = controlled(loop)
     for i, agent in enumerate(agents):
@@ -215,7 +215,7 @@ def stuck(key: str, *paths: Path, holds: Callable[[Premise], Any] = lambda c: Tr
     restate(key, role, lambda c: c["factors"] and holds(c), FIXED_DYNAMIC)
 
 
-def shares_all(spectrum: Premise) -> bool:
+def _shares_all(spectrum: Premise) -> bool:
     """Whether every agent shares as many states as the system has that is extended."""
     sizes = spectrum.document["subject"][-1]["dimensions"]
     return all(size >= spectrum.system.n - sum(sizes) for size in sizes)
@@ -224,7 +224,7 @@ def shares_all(spectrum: Premise) -> bool:
 stuck("refused-fixed", *behind(()))
 stuck("refused-fixed-shared", *behind(*NETWORKS))
 stuck("refused-errors-fixed", *behind(("error",)))
-stuck("refused-integrators-fixed", ("integrators", "extended"), holds=shares_all)
+stuck("refused-integrators-fixed", ("integrators", "extended"), holds=_shares_all)
 
 
 def refuse(key: str, theorem: str, agents: str) -> None:

@@ -37,7 +37,7 @@ def enough(bound: Premise, *hypotheses: Premise) -> str:
     )
 
 
-def enter_bound(key: str, paths: tuple[Path, ...], theorem: str, positive: bool) -> None:
+def _enter_bound(key: str, paths: tuple[Path, ...], theorem: str, positive: bool) -> None:
     """Enter the rule about a bound for one way of sharing that is positive, or 0."""
 
     @rule(key, Role(("deficiency",), paths), *HYPOTHESES, theorem=theorem)
@@ -46,10 +46,10 @@ def enter_bound(key: str, paths: tuple[Path, ...], theorem: str, positive: bool)
         return enough(bound, *hypotheses)
 
 
-enter_bound("enough-outputs-states", HEARD, "extended_bound.theorem_2", positive=True)
-enter_bound("enough-outputs", HEARD, "extended_bound.theorem_2", positive=False)
-enter_bound("enough-states", PLANT, "extended_bound.remark_2", positive=True)
-enter_bound("enough-nothing", PLANT, "extended_bound.remark_2", positive=False)
+_enter_bound("enough-outputs-states", HEARD, "extended_bound.theorem_2", positive=True)
+_enter_bound("enough-outputs", HEARD, "extended_bound.theorem_2", positive=False)
+_enter_bound("enough-states", PLANT, "extended_bound.remark_2", positive=True)
+_enter_bound("enough-nothing", PLANT, "extended_bound.remark_2", positive=False)
 
 
 # The least dimensions.
@@ -62,20 +62,20 @@ def usual(least: Premise, share: str) -> bool:
     return asked and prices and all(most is None for most in least["upper"])
 
 
-def enter_least(share: str, some: str, none: str, impossible: str) -> None:
+def _enter_least(share: str, some: str, none: str, impossible: str) -> None:
     """Enter the rules about the least dimensions for one way of sharing."""
     restate(some, LEAST, lambda c: usual(c, share) and c["feasible"] and any(c["dimensions"]))
     restate(none, LEAST, lambda c: usual(c, share) and c["feasible"] and not any(c["dimensions"]))
     restate(impossible, LEAST, lambda c: usual(c, share) and not c["feasible"])
 
 
-enter_least(
+_enter_least(
     "outputs+states",
     "sharing-removes least-outputs-states",
     "outputs-remove least-outputs-states-none",
     "no-sharing least-outputs-states-impossible",
 )
-enter_least("states", "least-states", "least-states-none", "least-states-impossible")
+_enter_least("states", "least-states", "least-states-none", "least-states-impossible")
 
 
 restate("allocate-least allocate-row allocate-total", LEAST, lambda c: c["feasible"])

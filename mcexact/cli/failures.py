@@ -58,7 +58,7 @@ def one_message(error: BaseException) -> str:
             f"mcexact: internal error, {_described(error)}. This is a bug in mcexact, "
             "not in your input: please report it with the command and the file"
         )
-    return printable(text)
+    return _printable(text)
 
 
 def _option(question: re.Match[str]) -> str:
@@ -71,12 +71,12 @@ def _described(error: BaseException) -> str:
     return str(error) if isinstance(error, InternalError) else f"{type(error).__name__}: {error}"
 
 
-def printable(text: str, limit: int = 2000) -> str:
+def _printable(text: str, limit: int = 2000) -> str:
     """Return a text in one line, with control and bidirectional characters escaped and shortened.
 
     Examples
     --------
-    >>> printable("a\\nb")
+    >>> _printable("a\\nb")
     'a\\\\nb'
     """
     escaped = "".join(

@@ -9,10 +9,10 @@ from mcexact.crosschecks.demonstration import SEEDS, STATES, Demonstration, Floa
 
 def demonstration_text(shown: Demonstration) -> str:
     """What was recorded beside what is true, then what this machine says."""
-    return f"{recorded_text(shown)}\n{text_here(shown)}"
+    return f"{_recorded_text(shown)}\n{_text_here(shown)}"
 
 
-def recorded_text(shown: Demonstration) -> str:
+def _recorded_text(shown: Demonstration) -> str:
     """What was recorded beside what is true: nothing here is computed in floating point."""
     powers = " * ".join(
         f"({factor})" + (f"^{multiplicity}" if multiplicity > 1 else "")
@@ -38,7 +38,7 @@ def recorded_text(shown: Demonstration) -> str:
     return "\n".join(lines)
 
 
-def text_here(shown: Demonstration) -> str:
+def _text_here(shown: Demonstration) -> str:
     """What floating point answers on this machine, if it is anything else."""
     here, recorded = shown.here, shown.recorded
     now = [f"1. {_rank(here)}", *(f"2. {line}" for line in _rounded(here))]

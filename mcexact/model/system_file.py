@@ -199,13 +199,13 @@ def canonical_document(system: MultiChannelSystem) -> PlainObject:
         ],
     }
     if plant.neighbors is not None:
-        document.update(graph_json(plant.neighbors))
+        document.update(_graph_json(plant.neighbors))
     # Systems are immutable, so the document is made once and shared by all certificates.
     object.__setattr__(plant, "_canonical_document", document)
     return document
 
 
-def graph_json(graph: NeighborGraph) -> dict[str, Any]:
+def _graph_json(graph: NeighborGraph) -> dict[str, Any]:
     """Return the keys ``neighbors`` and, if there are delays, ``delays``, by names."""
     names = graph.names
     document: dict[str, Any] = {
@@ -263,10 +263,12 @@ def system_text(system: MultiChannelSystem) -> str:
     head.append(("time", json.dumps(system.time)))
     if system.sample_time is not None:
         head.append(("sample_time", json_text_of_number(number_json(system.sample_time))))
-    head.append(("A", matrix_text(system.A, "  ")))
+    head.append(("A", _matrix_text(system.A, "  ")))
     head.append(("channels", _channels_text(system)))
     if system.neighbors is not None:
-        head.extend((key, json.dumps(value)) for key, value in graph_json(system.neighbors).items())
+        head.extend(
+            (key, json.dumps(value)) for key, value in _graph_json(system.neighbors).items()
+        )
     return "{\n" + ",\n".join(f'  "{key}": {text}' for key, text in head) + "\n}\n"
 
 
@@ -275,14 +277,14 @@ def _channels_text(system: MultiChannelSystem) -> str:
     for channel in system.channels:
         lines = [
             f'      "name": {json.dumps(channel.name)}',
-            f'      "B": {matrix_text(channel.B, "      ")}',
-            f'      "C": {matrix_text(channel.C, "      ")}',
+            f'      "B": {_matrix_text(channel.B, "      ")}',
+            f'      "C": {_matrix_text(channel.C, "      ")}',
         ]
         blocks.append("    {\n" + ",\n".join(lines) + "\n    }")
     return "[\n" + ",\n".join(blocks) + "\n  ]"
 
 
-def matrix_text(M: Matrix, indent: str) -> str:
+def _matrix_text(M: Matrix, indent: str) -> str:
     """Return the JSON text of a matrix, on one line if it is short, else one line for each row."""
     value = matrix_json(M)
     if isinstance(value, dict) or not value:

@@ -33,7 +33,7 @@ def simulation_png(run: Trajectory, spectrum: LoopSpectrum | None, title: str = 
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    spectrum = drawable(spectrum)
+    spectrum = _drawable(spectrum)
     errors = error_norms(run)
     panels = 1 + bool(errors) + (spectrum is not None)
     figure = Figure(figsize=(4.6 * panels, 4.0), layout="constrained")
@@ -54,7 +54,7 @@ def simulation_png(run: Trajectory, spectrum: LoopSpectrum | None, title: str = 
     return image.getvalue()
 
 
-def drawable(spectrum: LoopSpectrum | None) -> LoopSpectrum | None:
+def _drawable(spectrum: LoopSpectrum | None) -> LoopSpectrum | None:
     """Return the spectrum, or None if an eigenvalue exceeds the range of floats."""
     if spectrum is None:
         return None

@@ -41,14 +41,14 @@ from mcexact.synthesis.network.extended import design_extended
 SHARING: tuple[Share, ...] = ("outputs+states", "states")
 
 
-def still_pair() -> Instance:
+def _still_pair() -> Instance:
     """Two agents that exchange messages, with one state that each controls and observes."""
     one = [[1]]
     plant = MultiChannelSystem([[0]], [one] * 2, [one] * 2)
     return "A = 0, two equal agents", plant.with_neighbors(NeighborGraph.complete(plant.names))
 
 
-def two_between() -> Instance:
+def _two_between() -> Instance:
     """Agent 1 drives two integrators, 4 measures them, and 1 receives from 2 and 3 alone."""
     units: list[list[int]] = [[1, 0], [0, 1]]
     plant = MultiChannelSystem(
@@ -133,7 +133,7 @@ def theorem_2(note: Notebook) -> None:
 
 def bound_zero(note: Notebook) -> None:
     """Without fixed modes the bound is 0."""
-    for name, plant in (*drawn_plants(16, channels=2, first=51), still_pair()):
+    for name, plant in (*drawn_plants(16, channels=2, first=51), _still_pair()):
         found = fixed_spectrum(plant)
         if not found.empty:
             continue
@@ -173,7 +173,7 @@ def bound_reached(note: Notebook) -> None:
         note.check(f"agent {agent}: the criterion decides", some != short.empty)
         note.certify(short)
     note.certify(*ranks.values())
-    pair = note.at(still_pair())
+    pair = note.at(_still_pair())
     bound = shared_dimension_bound(pair)
     note.check("a bound of 0 is reached, and no agent could share less", bound.deficiency == 0)
     note.certify(bound)
@@ -197,7 +197,7 @@ def tightness(note: Notebook) -> None:
         note.check("as all share the same it is the least", common.dimension == bound.deficiency)
         note.certify(bound, least, common)
     note.show(dimensions_picture(found.account))
-    name, plant = two_between()
+    name, plant = _two_between()
     note.on(name)
     bound, common = shared_dimension_bound(plant), common_dimension(plant)
     note.check(

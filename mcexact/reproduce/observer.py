@@ -200,7 +200,7 @@ def lemma_1(note: Notebook) -> None:
         note.joint(made)
 
 
-def graph_scalars(graph: NeighborGraph) -> MultiChannelSystem:
+def _graph_scalars(graph: NeighborGraph) -> MultiChannelSystem:
     """(0, b_i, c_ij): one state for each agent; φ_ij are its decentralized gains."""
     m = graph.m
     unit = Matrix.identity(m)
@@ -212,9 +212,9 @@ def graph_scalars(graph: NeighborGraph) -> MultiChannelSystem:
     return MultiChannelSystem(Matrix.zeros(m, m), B, C, names=graph.names)
 
 
-def lifted_scalars(plant: MultiChannelSystem) -> tuple[list[Matrix], list[Matrix], Matrix]:
+def _lifted_scalars(plant: MultiChannelSystem) -> tuple[list[Matrix], list[Matrix], Matrix]:
     """Ĥ_i = φ_i ⊗ I_n beside a zero K_i, as gains of the error system; φ; D = Σ b_i φ_ij c_ij."""
-    scalars = graph_scalars(graph_of(plant))
+    scalars = _graph_scalars(graph_of(plant))
     found = single_channel_gains(scalars, want="controllable")
     if found.gains is None:
         raise ValueError("the neighbor graph is not strongly connected")
@@ -233,8 +233,8 @@ def lifted_scalars(plant: MultiChannelSystem) -> tuple[list[Matrix], list[Matrix
 def lemma_2(note: Notebook) -> None:
     """Lemma 2: Σ B̃_i Ĥ_i C̃_i = D ⊗ I reaches everything from every B̃_q, with index m."""
     for plant in note.each(plants(10)):
-        note.certify(single_channel_gains(graph_scalars(graph_of(plant)), want="controllable"))
-        wide, _, D = lifted_scalars(plant)
+        note.certify(single_channel_gains(_graph_scalars(graph_of(plant)), want="controllable"))
+        wide, _, D = _lifted_scalars(plant)
         still = MultiChannelSystem(
             Matrix.zeros(plant.n, plant.n),
             [channel.B for channel in plant.channels],
@@ -277,7 +277,7 @@ def lemma_4(note: Notebook) -> None:
     numbers = Numbers(10)
     for plant in note.each(plants(5)):
         made = error_system(plant, numbers.feedbacks(plant))
-        wide, _, _ = lifted_scalars(plant)
+        wide, _, _ = _lifted_scalars(plant)
         given = [
             hstack(
                 [

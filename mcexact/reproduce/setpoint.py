@@ -28,13 +28,13 @@ from mcexact.synthesis.setpoint import SetpointMethod, design_setpoint
 METHODS: tuple[SetpointMethod, ...] = ("observer", "extended")
 
 
-def washed_out() -> Instance:
+def _washed_out() -> Instance:
     """A plant with an invariant zero at 0."""
     plant = MultiChannelSystem([[0, 1], [-2, -3]], [[[0], [1]]], [[[0, 1]]])
     return "a zero at 0: y = s/(s² + 3s + 2) u", plant
 
 
-def two_channels() -> Instance:
+def _two_channels() -> Instance:
     """Two scalar outputs; set-points can be held."""
     plant = MultiChannelSystem(
         [[0, 1], [2, -1]],
@@ -46,7 +46,7 @@ def two_channels() -> Instance:
     return "two states, two agents with one output each", plant
 
 
-def hidden_zero() -> Instance:
+def _hidden_zero() -> Instance:
     """The instance of the erratum: det G has no zero at 0, and yet set-points cannot be held."""
     A = [[0, 0, 0], [0, -2, -1], [0, 1, 0]]
     B = [[[1], [0], [0]], [[0], [1], [0]]]
@@ -66,7 +66,7 @@ def integrators(note: Notebook) -> None:
 
 def any_stabilizing_control(note: Notebook) -> None:
     """A stabilizing control holds y at r: at the equilibrium ẇ = y − r = 0."""
-    for name, plant in (two_channels(), *drawn_plants(10, states=3, channels=2, first=31)):
+    for name, plant in (_two_channels(), *drawn_plants(10, states=3, channels=2, first=31)):
         made = setpoint_system(plant)
         if not joint_controllability(made).controllable:
             continue
@@ -87,7 +87,7 @@ def any_stabilizing_control(note: Notebook) -> None:
 
 def always_observable(note: Notebook) -> None:
     """`ober`: the plant with integrators is jointly observable if the plant is."""
-    for plant in note.each(plants(8), (washed_out(), hidden_zero())):
+    for plant in note.each(plants(8), (_washed_out(), _hidden_zero())):
         found = joint_observability(setpoint_system(plant))
         note.check("jointly observable through the w_i", found.controllable)
         note.certify(found)
@@ -95,7 +95,7 @@ def always_observable(note: Notebook) -> None:
 
 def only_zero_matters(note: Notebook) -> None:
     """`thy` holds at every s ≠ 0: uncontrollable modes are at 0."""
-    for plant in note.each(plants(8), (washed_out(), hidden_zero())):
+    for plant in note.each(plants(8), (_washed_out(), _hidden_zero())):
         found = joint_controllability(setpoint_system(plant))
         lost = found.uncontrollable_polynomial
         note.check("what is out of reach is at 0", not any(lost.coefficients[:-1]))
@@ -104,7 +104,7 @@ def only_zero_matters(note: Notebook) -> None:
 
 def condition(note: Notebook) -> None:
     """`gnd` is joint controllability of `b1`."""
-    for plant in note.each(plants(10), (two_channels(), washed_out(), hidden_zero())):
+    for plant in note.each(plants(10), (_two_channels(), _washed_out(), _hidden_zero())):
         found = setpoint_solvability(plant)
         B, C = plant.input_matrix(), plant.output_matrix()
         S = block([[plant.A, B], [C, Matrix.zeros(C.nrows, B.ncols)]])
@@ -119,14 +119,14 @@ def condition(note: Notebook) -> None:
 
 def determinant_at_zero(note: Notebook) -> None:
     """If G is square and 0 ∉ σ(A), `gnd` iff det C A⁻¹ B ≠ 0; refuted for a pole at 0."""
-    for plant in note.each((two_channels(), washed_out())):
+    for plant in note.each((_two_channels(), _washed_out())):
         B, C = plant.input_matrix(), plant.output_matrix()
         inside = solve(plant.A, B)
         nonzero = inside is not None and determinant(C @ inside) != 0
         found = setpoint_solvability(plant)
         note.check("no pole at 0: solvable just when det C A⁻¹ B ≠ 0", found.solvable == nonzero)
         note.certify(found)
-    plant = note.at(hidden_zero())
+    plant = note.at(_hidden_zero())
     found = setpoint_solvability(plant)
     note.check("0 is a pole", characteristic_polynomial(plant.A)(0) == 0)
     # det [sI − A, B; −C, 0] = det(sI − A) det G(s) = s here: det G = 1/(s + 1)² hides the zero.
@@ -140,7 +140,7 @@ def determinant_at_zero(note: Notebook) -> None:
 
 def distributed_setpoints(note: Notebook) -> None:
     """Both methods lead every output to the set-point of its agent; run on the network."""
-    plant = note.at(two_channels())
+    plant = note.at(_two_channels())
     for method in METHODS:
         design = design_setpoint(plant, rate=1, method=method)
         note.check(f"a stable loop by the method {method}", "stability" in design.certificates)
@@ -155,7 +155,7 @@ def distributed_setpoints(note: Notebook) -> None:
     near = all(abs(y[-1] - r) < 1e-3 for y, r in zip(outputs, goals, strict=True))
     note.check("the run ends at the set-points 1 and −2", near)
     note.show(setpoint_picture(run, outputs, goals, ["y of agent 1", "y of agent 2"]))
-    plant = note.at(washed_out())
+    plant = note.at(_washed_out())
     try:
         design_setpoint(plant.with_neighbors({plant.names[0]: []}), rate=1)
     except Impossible as refused:

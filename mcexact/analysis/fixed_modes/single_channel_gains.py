@@ -168,7 +168,7 @@ def _obstruction(
     return UnreachedWitness(name, side, zero_transfer(target, T, space))
 
 
-def growing_draws(system: MultiChannelSystem) -> Draw:
+def _growing_draws(system: MultiChannelSystem) -> Draw:
     """Make integer gains: zeros first, then sparse signs, then larger and denser ones.
 
     Parameters
@@ -199,7 +199,7 @@ def _with_gains(
     question: _Question, modular: ModularSystem, draw: Draw | None, rng: Random
 ) -> SingleChannelGains:
     """Try gains until some are accepted; all outside a proper algebraic set are."""
-    grown = growing_draws(question.system)
+    grown = _growing_draws(question.system)
     given = 0 if draw is None else 400
     for trial in range(10**6):
         gains = draw(trial, rng) if draw and trial < given else grown(trial - given, rng)
@@ -277,7 +277,7 @@ def _annihilators(
         rows = []
         for side, nu in zip(SIDES[question.wanted], numbers, strict=True):
             A, B = (A_F, system.B(q)) if side == "controllable" else (A_F.T, system.C(q).T)
-            row = unreached_row(A, B, nu - 1, ell) if nu else Matrix.zeros(1, system.n)
+            row = _unreached_row(A, B, nu - 1, ell) if nu else Matrix.zeros(1, system.n)
             if row is None:
                 return None
             rows.append(row)
@@ -285,7 +285,7 @@ def _annihilators(
     return tuple(result)
 
 
-def unreached_row(A: Matrix, B: Matrix, blocks: int, ell: int) -> Matrix | None:
+def _unreached_row(A: Matrix, B: Matrix, blocks: int, ell: int) -> Matrix | None:
     """A row w ≠ 0 with w A^k B = 0 for k < blocks, or None if there is none modulo ℓ.
 
     Parameters

@@ -70,7 +70,7 @@ def least_minimizers(
             yield found.channels_T
 
 
-def extreme_minimizers(
+def _extreme_minimizers(
     system: MultiChannelSystem, p: Polynomial, rng: random.Random
 ) -> Iterator[tuple[Channels, Channels]]:
     """The least and the greatest T with rank P_s(λ) least and below n, prime after prime.
@@ -107,7 +107,7 @@ def violated_subsets(
     """
     found: list[CoveringCut] = []
     for p in factors:
-        for pair in extreme_minimizers(extended, p, rng):
+        for pair in _extreme_minimizers(extended, p, rng):
             here = []
             for T in dict.fromkeys(pair):
                 s = complement(base.m, T)

@@ -100,14 +100,14 @@ def exceptional_gains(M: Any, A: Any, B: Any) -> ExceptionalGains:
             joint_controllability(system),
         )
     rng = generator(system, "exceptional_gains")
-    within = exceptional_set(system, M, max(indices.index, 1), rng)
+    within = _exceptional_set(system, M, max(indices.index, 1), rng)
     everything = within
     if system.n > within.blocks:
-        everything = exceptional_set(system, M, system.n, rng)
+        everything = _exceptional_set(system, M, system.n, rng)
     return ExceptionalGains(indices, within, everything)
 
 
-def blocks_of_g(M: Matrix, A: Matrix, B: Matrix, blocks: int) -> PolynomialMatrix:
+def _blocks_of_g(M: Matrix, A: Matrix, B: Matrix, blocks: int) -> PolynomialMatrix:
     """K(g) = [B, (M+gA)B, …, (M+gA)^{blocks−1}B], n × blocks·p, as a polynomial matrix in g."""
     layers = [[B]]
     for _ in range(blocks - 1):
@@ -123,7 +123,7 @@ def blocks_of_g(M: Matrix, A: Matrix, B: Matrix, blocks: int) -> PolynomialMatri
     )
 
 
-def exceptional_set(
+def _exceptional_set(
     system: MultiChannelSystem, M: Matrix, blocks: int, rng: Random
 ) -> ExceptionalSet:
     """Find all g where some number of blocks of [B, (M+gA)B, …] have rank below n.
@@ -139,7 +139,7 @@ def exceptional_set(
     rng : Random
         The source of the compressions, which affects the running time but not the answer.
     """
-    K = blocks_of_g(M, system.A, system.input_matrix(), blocks)
+    K = _blocks_of_g(M, system.A, system.input_matrix(), blocks)
     for bound in _growing():
         R, S = (_compression(rng, K.ncols, K.nrows, bound) for _ in range(2))
         first, second = _determinant(K @ R), _determinant(K @ S)

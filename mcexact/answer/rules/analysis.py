@@ -201,7 +201,7 @@ def _complete(completeness: Claim) -> Said:
     yield say.COMPLETE(complete=completeness.complete)
 
 
-def index_rules(question: str, one: Template, many: Template, none: Template) -> None:
+def _index_rules(question: str, one: Template, many: Template, none: Template) -> None:
     """Make the rules of controllability or observability indices, or of their omission."""
 
     @rule("table", one, many, about={"found": question})
@@ -214,8 +214,8 @@ def index_rules(question: str, one: Template, many: Template, none: Template) ->
         yield none()
 
 
-index_rules("controllability_indices", *say.CONTROLLABILITY_INDICES)
-index_rules("observability_indices", *say.OBSERVABILITY_INDICES)
+_index_rules("controllability_indices", *say.CONTROLLABILITY_INDICES)
+_index_rules("observability_indices", *say.OBSERVABILITY_INDICES)
 
 
 @rule("table", say.SPECTRUM_FREE, say.SPECTRUM_PARTS)
@@ -347,7 +347,7 @@ def theorem_2(graph: Claim, *reach: Claim) -> bool:
     return bool(graph.strongly_connected and all(found.controllable for found in reach))
 
 
-def sharing_rules(share: str, stem: str) -> None:
+def _sharing_rules(share: str, stem: str) -> None:
     """Make the rules of the bound and of the least dimensions for one way of sharing."""
     some, none = say.ENOUGH[share]
 
@@ -364,7 +364,7 @@ def sharing_rules(share: str, stem: str) -> None:
             yield (some if k else none)(k=k, total=k * given.m, time=given.delays)
 
 
-def least_rules(share: str, stem: str) -> None:
+def _least_rules(share: str, stem: str) -> None:
     """Make the rules of the least dimensions for one way of sharing."""
     some, none, impossible, limit = say.LEAST[share]
     question = f"minimal_shared_dimensions_{stem}"
@@ -385,12 +385,12 @@ def least_rules(share: str, stem: str) -> None:
 
 
 SHARES = {"outputs+states": "outputs_states", "states": "states"}
-for made in (sharing_rules, least_rules):
+for made in (_sharing_rules, _least_rules):
     for share, stem in SHARES.items():
         made(share, stem)
 
 
-def delayed_rules(network: str) -> None:
+def _delayed_rules(network: str) -> None:
     """Make the rules of the fixed modes of a network with delays."""
     nothing, something = say.DELAYED[network]
 
@@ -402,4 +402,4 @@ def delayed_rules(network: str) -> None:
 
 
 for network in ("lifted", "held"):
-    delayed_rules(network)
+    _delayed_rules(network)

@@ -127,7 +127,7 @@ def _observed_alone(channel_observability: Claim) -> Said:
     yield from reached(channel_observability, *say.ALONE["observability"])
 
 
-def gains_rules(want: str) -> None:
+def _gains_rules(want: str) -> None:
     """Make the rule of gains with which one channel controls or observes everything."""
 
     @rule("channel", *GAINS[want].values(), about={"found": f"channel_gains_{want}"})
@@ -136,7 +136,7 @@ def gains_rules(want: str) -> None:
 
 
 for want in ("controllable", "observable", "both"):
-    gains_rules(want)
+    _gains_rules(want)
 
 
 # The page, its pictures, and LaTeX.
