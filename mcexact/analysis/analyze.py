@@ -55,6 +55,7 @@ class Analysis:
         }
         self._found: dict[str, Any] = {}
         _require_several(questions=questions, subset=subset)
+        plant.indices([*(subset or ()), *([] if channel is None else [channel])])
         if information not in {"own", "outputs"}:
             raise UsageError(f"expected the information 'own' or 'outputs', found {information!r}")
         if information == "outputs":

@@ -176,3 +176,9 @@ def test_an_argument_of_another_type_is_named(call: Callable[[MultiChannelSystem
     plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
     with pytest.raises(mcexact.InputError, match=r"\w+: expected a \w+, found \w+"):
         call(plant)
+
+
+@pytest.mark.parametrize("unknown", [{"channel": "nowhere"}, {"subset": ["1", "nowhere"]}])
+def test_an_unknown_channel_is_refused_at_once(unknown: dict[str, Any]) -> None:
+    with pytest.raises(UsageError, match="there is no channel"):
+        analyze(PAPER, **unknown)
