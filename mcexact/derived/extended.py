@@ -20,7 +20,13 @@ LARGEST = 20_000
 
 
 def checked_share(share: str) -> str:
-    """Check and return the way of sharing."""
+    """Check and return the way of sharing.
+
+    Raises
+    ------
+    InputError
+        If it is neither ``"outputs+states"`` nor ``"states"``.
+    """
     if share not in get_args(Share):
         raise InputError(
             f'expected "outputs+states" or "states", found {quoted(share)}', where="share"
@@ -29,7 +35,13 @@ def checked_share(share: str) -> str:
 
 
 def checked_dimensions(system: MultiChannelSystem, dimensions: Sequence[int]) -> tuple[int, ...]:
-    """Check and return the dimensions n_1 … n_m."""
+    """Check and return the dimensions n_1 … n_m of the shared sub-states.
+
+    Raises
+    ------
+    InputError
+        If their number is not m, or one is negative or not an integer.
+    """
     found = tuple(dimensions)
     if len(found) != system.m:
         raise InputError(
@@ -46,6 +58,11 @@ def selector(start: int, size: int, total: int) -> Matrix:
     """The ``total``×``size`` matrix with an identity at the rows from ``start``, else zeros.
 
     This is the paper's E_i, H_iδ, Q_iδ' and L_iδ.
+
+    Examples
+    --------
+    >>> selector(1, 2, 3).numerators
+    ((0, 0), (1, 0), (0, 1))
     """
     rows = [[int(row - start == column) for column in range(size)] for row in range(total)]
     return Matrix.from_integers(rows, ncols=size)

@@ -33,7 +33,14 @@ def checked_gains(
 
 
 def closed_by(system: MultiChannelSystem, gains: Sequence[Matrix]) -> Matrix:
-    """Return A_F = A + Σ B_i F_i C_i, n×n."""
+    """Return A_F = A + Σ B_i F_i C_i, n×n, for gains whose shapes were checked.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    gains : sequence of m Matrix
+        F_i, p_i×q_i; `checked_gains` makes them of what a user gives.
+    """
     A = system.A
     for channel, F in zip(system.channels, gains, strict=True):
         A = A + channel.B @ (F @ channel.C)

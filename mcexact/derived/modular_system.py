@@ -95,7 +95,20 @@ def generator(system: MultiChannelSystem, kind: str) -> random.Random:
 def residue_systems(
     system: MultiChannelSystem, rng: random.Random, bits: int = 30
 ) -> Iterator[ModularSystem]:
-    """Yield the system modulo primes of a size that divide no denominator."""
+    """Yield the system modulo primes of a size that divide no denominator.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    rng : random.Random
+        Gives the seed of the primes, by one draw.
+    bits : int
+        The bit length of the primes.
+
+    Notes
+    -----
+    The systems go on without end, so a caller whose draw failed takes the next one.
+    """
     denominators = [system.A.denominator]
     for channel in system.channels:
         denominators += [channel.B.denominator, channel.C.denominator]
@@ -115,7 +128,14 @@ def drawn_gains(modular: ModularSystem, rng: random.Random) -> Gains:
 
 
 def closed_loop(modular: ModularSystem, gains: Gains) -> ModularMatrix:
-    """Compute A_F = A + B diag(F_1, …, F_m) C modulo ℓ, n × n."""
+    """Compute A_F = A + B diag(F_1, …, F_m) C modulo ℓ, n × n.
+
+    Parameters
+    ----------
+    modular : ModularSystem
+    gains : Gains
+        F_i, p_i × q_i residues modulo ℓ, as `drawn_gains` gives them.
+    """
     q = modular.C.nrows
     rows = []
     for F, outputs in zip(gains, modular.outputs, strict=True):
@@ -137,7 +157,20 @@ def quick_bits(system: MultiChannelSystem) -> int:
 def loop_polynomials(
     modular: ModularSystem, gains: Gains
 ) -> tuple[ModularPolynomial, ModularPolynomial]:
-    """Compute χ_A and χ_{A_F} modulo ℓ."""
+    """Compute χ_A and χ_{A_F} modulo ℓ.
+
+    Parameters
+    ----------
+    modular : ModularSystem
+    gains : Gains
+        F_i, p_i × q_i residues modulo ℓ.
+
+    Notes
+    -----
+    If the two are coprime modulo ℓ, no mode is fixed over Q: every fixed mode is a root of both.
+    For large systems and primes of at most `quick_bits` bits, Krylov sequences in floats compute
+    them; all numbers that occur are integers that floats represent exactly.
+    """
     system, ell = modular.system, modular.modulus
     if system.n < _KRYLOV_SIZE or ell.bit_length() > quick_bits(system):
         closed = closed_loop(modular, gains)
@@ -147,7 +180,13 @@ def loop_polynomials(
 
 
 def lifted(M: ModularMatrix) -> Matrix:
-    """The integer matrix with the symmetric residues."""
+    """The integer matrix with the symmetric residues, which lie between −ℓ/2 and ℓ/2.
+
+    Examples
+    --------
+    >>> lifted(residues(Matrix.from_rows([[6, "1/2"]]), 7)).numerators
+    ((-1, -3),)
+    """
     return Matrix.from_integers([integers(row, M.modulus) for row in M.rows()], ncols=M.ncols)
 
 

@@ -92,12 +92,38 @@ def nullspace(M: Matrix) -> Matrix:
 
 
 def left_nullspace(M: Matrix) -> Matrix:
-    """A basis of {w : wM = 0} as rows, in echelon form."""
+    """A basis of {w : wM = 0} as rows, in echelon form.
+
+    Returns
+    -------
+    Matrix, (nrows − rank M) × nrows
+
+    Examples
+    --------
+    >>> left_nullspace(Matrix.column([1, 2])).numerators
+    ((-2, 1),)
+    """
     return nullspace(M.T).T
 
 
 def solve(M: Matrix, right: Matrix) -> Matrix | None:
     """Compute an X with MX = right whose free unknowns are 0; None if there is none.
+
+    Parameters
+    ----------
+    M : Matrix, r × c
+    right : Matrix, r × k
+        One column for each system of equations; all of them must have a solution.
+
+    Returns
+    -------
+    Matrix or None
+        X, c × k.
+
+    Raises
+    ------
+    InputError
+        If M and the right side have different numbers of rows.
 
     Examples
     --------
@@ -123,6 +149,18 @@ def solve_nonsingular(M: Matrix, right: Matrix) -> Matrix | None:
     """Compute the X with MX = right for a square M; None if M is singular.
 
     This is faster than `solve` if the right side has few columns.
+
+    Raises
+    ------
+    InputError
+        If M is not square, or the right side has another number of rows.
+
+    Examples
+    --------
+    >>> solve_nonsingular(Matrix.from_rows([[2, 0], [0, 4]]), Matrix.column([1, 1])).rows()
+    ((Fraction(1, 2),), (Fraction(1, 4),))
+    >>> solve_nonsingular(Matrix.from_rows([[2, 1], [4, 2]]), Matrix.column([1, 2])) is None
+    True
     """
     _require_square(M)
     if M.nrows != right.nrows:
@@ -138,13 +176,37 @@ def solve_nonsingular(M: Matrix, right: Matrix) -> Matrix | None:
 
 
 def inverse(M: Matrix) -> Matrix | None:
-    """The inverse of a square matrix; None if it is singular."""
+    """The inverse of a square matrix; None if it is singular.
+
+    Raises
+    ------
+    InputError
+        If the matrix is not square.
+
+    Examples
+    --------
+    >>> inverse(Matrix.from_rows([[1, 1], [0, 2]])).rows()[0]
+    (Fraction(1, 1), Fraction(-1, 2))
+    >>> inverse(Matrix.from_rows([[1, 1], [1, 1]])) is None
+    True
+    """
     _require_square(M)
     return solve(M, Matrix.identity(M.nrows)) if rank(M) == M.nrows else None
 
 
 def determinant(M: Matrix) -> Fraction:
-    """The determinant of a square matrix; 1 if it is 0 × 0."""
+    """The determinant of a square matrix; 1 if it is 0 × 0.
+
+    Raises
+    ------
+    InputError
+        If the matrix is not square.
+
+    Examples
+    --------
+    >>> determinant(Matrix.from_rows([["1/2", 1], [1, 4]]))
+    Fraction(1, 1)
+    """
     _require_square(M)
     return Fraction(int(M._integer.det()), M.denominator**M.nrows)
 
@@ -162,7 +224,21 @@ def characteristic_polynomial(M: Matrix) -> Polynomial:
 
 
 def minimal_polynomial(M: Matrix) -> Polynomial:
-    """The monic polynomial of least degree that M satisfies; 1 if M is 0 × 0."""
+    """The monic polynomial of least degree that M satisfies; 1 if M is 0 × 0.
+
+    It has the same irreducible factors as the characteristic polynomial.
+
+    Raises
+    ------
+    InputError
+        If the matrix is not square.
+
+    Examples
+    --------
+    >>> identity = Matrix.identity(3)
+    >>> str(minimal_polynomial(identity)), characteristic_polynomial(identity).degree
+    ('x - 1', 3)
+    """
     _require_square(M)
     if M.nrows == 0:
         return Polynomial.of(1)

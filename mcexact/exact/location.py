@@ -39,7 +39,15 @@ def is_discrete(time: str) -> bool:
 
 
 def steady_point(time: str) -> int:
-    """The eigenvalue of a constant: 0 in continuous time, 1 in discrete time."""
+    """The eigenvalue of a constant: 0 in continuous time, 1 in discrete time.
+
+    An integrator has this eigenvalue, as has the system that generates a constant reference.
+
+    Raises
+    ------
+    InputError
+        If the time domain is neither ``"continuous"`` nor ``"discrete"``.
+    """
     return int(is_discrete(time))
 
 
@@ -256,7 +264,21 @@ class StabilityRegion:
         return p.scale(self.bound) if self.discrete else p.compose_shift(-self.bound)
 
     def contains_roots_of(self, p: Polynomial) -> bool:
-        """Whether every complex root of a nonzero polynomial lies in the region."""
+        """Whether every complex root of a nonzero polynomial lies in the region.
+
+        A root on the border, such as the rate itself, is outside.
+
+        Raises
+        ------
+        InputError
+            If the polynomial is 0.
+
+        Examples
+        --------
+        >>> region = StabilityRegion("continuous", 1)
+        >>> [region.contains_roots_of(Polynomial.of(c, 1)) for c in (2, 1)]
+        [True, False]
+        """
         standard = self.shifted(p)
         return is_schur(standard) if self.discrete else is_hurwitz(standard)
 

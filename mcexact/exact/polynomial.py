@@ -69,7 +69,13 @@ class Polynomial:
 
     @classmethod
     def from_roots(cls, roots: Iterable[Entry]) -> Polynomial:
-        """The monic polynomial with these rational roots, repeated as given."""
+        """The monic polynomial with these rational roots, repeated as given.
+
+        Examples
+        --------
+        >>> str(Polynomial.from_roots([1, 1, "1/2"]))
+        'x^3 - 5/2*x^2 + 2*x - 1/2'
+        """
         return product(cls((-as_fraction(root), Fraction(1))) for root in roots)
 
     @classmethod
@@ -202,7 +208,17 @@ class Polynomial:
         return divmod(self, other)[1]
 
     def divides(self, other: Polynomial) -> bool:
-        """Whether other is a multiple of this polynomial."""
+        """Whether other is a multiple of this polynomial.
+
+        Every polynomial divides 0, and 0 divides nothing else.
+
+        Examples
+        --------
+        >>> Polynomial.of(1, 1).divides(Polynomial.of(-1, 0, 1))
+        True
+        >>> Polynomial.of(2, 1).divides(Polynomial.of(-1, 0, 1))
+        False
+        """
         if self.is_zero():
             return other.is_zero()
         return (other % self).is_zero()
@@ -211,6 +227,17 @@ class Polynomial:
         """The largest e with this polynomial to the e dividing other.
 
         This polynomial has degree at least 1, other is not 0.
+
+        Raises
+        ------
+        InputError
+            If this polynomial is constant, or the other one is 0.
+
+        Examples
+        --------
+        >>> p = Polynomial.from_roots([1, 1, 3])
+        >>> Polynomial.of(-1, 1).multiplicity_in(p), Polynomial.of(1, 1).multiplicity_in(p)
+        (2, 0)
         """
         if self.degree < 1 or other.is_zero():
             raise InputError("expected a divisor of degree at least 1 and a nonzero polynomial")
@@ -222,7 +249,13 @@ class Polynomial:
         return count
 
     def gcd(self, other: Polynomial) -> Polynomial:
-        """The monic greatest common divisor; 0 only of two zeros."""
+        """The monic greatest common divisor; 0 only of two zeros.
+
+        Examples
+        --------
+        >>> str(Polynomial.from_roots([1, 2]).gcd(Polynomial.from_roots([2, 3])))
+        'x - 2'
+        """
         return _from_rational(self._rational.gcd(other._rational))
 
     def squarefree_part(self) -> Polynomial:
@@ -256,11 +289,23 @@ class Polynomial:
         return len(factors) == 1 and factors[0][1] == 1
 
     def compose_shift(self, a: Fraction | int) -> Polynomial:
-        """p(x + a)."""
+        """p(x + a), whose roots are those of p reduced by a.
+
+        Examples
+        --------
+        >>> Polynomial.from_roots([5]).compose_shift(2) == Polynomial.from_roots([3])
+        True
+        """
         return _from_rational(self._rational(flint.fmpq_poly([_fmpq(a), 1])))
 
     def scale(self, a: Fraction | int) -> Polynomial:
-        """p(a x)."""
+        """p(a x), whose roots are those of p divided by a; the constant p(0) if a = 0.
+
+        Examples
+        --------
+        >>> str(Polynomial.of(-6, 1).scale(2))
+        '2*x - 6'
+        """
         power, scaled = Fraction(1), []
         for c in self.coefficients:
             scaled.append(c * power)

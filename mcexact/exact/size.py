@@ -9,7 +9,13 @@ from mcexact.exact.matrix import Matrix
 
 
 def bit_length(matrices: Iterable[Matrix]) -> int:
-    """Return the bits of the longest reduced numerator or denominator of the entries, or 0."""
+    """Return the bits of the longest reduced numerator or denominator of the entries, or 0.
+
+    Examples
+    --------
+    >>> bit_length([Matrix.from_rows([["1/8", 3]]), Matrix.zeros(0, 2)])
+    4
+    """
     longest = 0
     for M in matrices:
         d = M.denominator
@@ -22,7 +28,13 @@ def bit_length(matrices: Iterable[Matrix]) -> int:
 
 
 def largest_entry(matrices: Iterable[Matrix]) -> Fraction:
-    """Return the largest absolute value of the entries; 0 without entries."""
+    """Return the largest absolute value of the entries; 0 without entries.
+
+    Examples
+    --------
+    >>> largest_entry([Matrix.from_rows([["-3/2", 1]]), Matrix.identity(2)])
+    Fraction(3, 2)
+    """
     return max(
         (
             Fraction(max((abs(x) for row in M.numerators for x in row), default=0), M.denominator)

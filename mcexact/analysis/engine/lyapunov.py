@@ -52,7 +52,21 @@ class QuadraticForm:
 
 
 def decrease(D: Matrix, P: Matrix, region: StabilityRegion) -> Matrix:
-    """S, the symmetric matrix that must be positive definite."""
+    """Compute S, k × k and symmetric, which is positive definite iff xᵀPx decreases fast enough.
+
+    Parameters
+    ----------
+    D, P : Matrix
+        k × k; P is symmetric.
+    region : StabilityRegion
+        S = −(DᵀP + PD + 2bP) for a rate b, S = r²P − DᵀPD for a radius r.
+
+    Examples
+    --------
+    >>> D, P = Matrix.from_rows([[-2]]), Matrix.identity(1)
+    >>> decrease(D, P, StabilityRegion("continuous", 1)).numerators
+    ((2,),)
+    """
     if region.discrete:
         return P * region.edge**2 - D.T @ (P @ D)
     half = D.T @ P
@@ -60,7 +74,17 @@ def decrease(D: Matrix, P: Matrix, region: StabilityRegion) -> Matrix:
 
 
 def is_dominant(S: Matrix) -> bool:
-    """Whether every diagonal entry exceeds the sum of the absolute values of its row's rest."""
+    """Whether every diagonal entry exceeds the sum of the absolute values of its row's rest.
+
+    A symmetric matrix with this property is positive definite; many positive definite ones lack it.
+
+    Examples
+    --------
+    >>> is_dominant(Matrix.from_rows([[2, -1], [-1, 2]]))
+    True
+    >>> is_dominant(Matrix.from_rows([[5, 2], [2, 1]]))
+    False
+    """
     return all(row[i] > sum(map(abs, row)) - abs(row[i]) for i, row in enumerate(S.numerators))
 
 

@@ -28,7 +28,20 @@ def _nonzero_blocks(modular: ModularSystem, G: ModularMatrix) -> set[Edge]:
 
 
 def suspected_edges(modular: ModularSystem, rng: random.Random) -> set[Edge]:
-    """The pairs with C_i (zI − A)⁻¹ B_j ≠ 0 modulo ℓ at a drawn z."""
+    """The pairs (j, i) with C_i (zI − A)⁻¹ B_j ≠ 0 modulo ℓ at a drawn z.
+
+    Parameters
+    ----------
+    modular : ModularSystem
+        The system modulo a prime ℓ.
+    rng : random.Random
+        Draws z again until zI − A is invertible modulo ℓ.
+
+    Notes
+    -----
+    Each pair is an edge of the transfer graph over Q.  An edge is missed if its transfer matrix
+    vanishes modulo ℓ at z, so a pair that is missing proves nothing.
+    """
     n, ell = modular.system.n, modular.modulus
     if n == 0 or not modular.B.ncols or not modular.C.nrows:
         return set()
@@ -40,7 +53,18 @@ def suspected_edges(modular: ModularSystem, rng: random.Random) -> set[Edge]:
 
 
 def witnessed_powers(modular: ModularSystem, suspected: set[Edge]) -> dict[Edge, int]:
-    """The least k with C_i A^k B_j ≠ 0 modulo ℓ, for every pair that has one below n."""
+    """The least k with C_i A^k B_j ≠ 0 modulo ℓ, for every pair (j, i) that has one below n.
+
+    Parameters
+    ----------
+    modular : ModularSystem
+    suspected : set of (int, int)
+        The search ends as soon as each of these pairs has its k; other pairs found are kept.
+
+    Notes
+    -----
+    The rational C_i A^k B_j is then not 0 either, so k proves the edge j → i.
+    """
     found: dict[Edge, int] = {}
     if not suspected:
         return found
@@ -63,7 +87,19 @@ def zero_transfer(
 
 
 def strong_components(m: int, edges: Sequence[Edge]) -> tuple[tuple[int, ...], ...]:
-    """Strong components of a graph on 0 … m−1, each ascending, sorted by first member."""
+    """Strong components of a graph on 0 … m−1, each ascending, sorted by first member.
+
+    Parameters
+    ----------
+    m : int
+    edges : sequence of (int, int)
+        (j, i) is the edge j → i.
+
+    Examples
+    --------
+    >>> strong_components(3, [(0, 1), (1, 0), (1, 2)])
+    ((0, 1), (2,))
+    """
     import networkx
 
     graph = networkx.DiGraph()

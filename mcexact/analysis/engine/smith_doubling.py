@@ -66,7 +66,15 @@ def doubled_lyapunov(D: Matrix, region: StabilityRegion) -> Matrix | None:
 
 
 def rounded(M: Matrix, bits: int = _BITS) -> Matrix:
-    """M rounded down to multiples of 2^−bits."""
+    """M rounded down to multiples of 2^−bits.
+
+    A matrix whose entries are such multiples is returned as it is.
+
+    Examples
+    --------
+    >>> rounded(Matrix.from_rows([["1/3", "-1/3"]]), 2).rows()
+    ((Fraction(1, 4), Fraction(-1, 2)),)
+    """
     d = M.denominator
     if d & (d - 1) == 0 and d.bit_length() <= bits + 1:
         return M

@@ -110,7 +110,22 @@ def _indices(
 
 
 def reach_index(M: ModularMatrix, B: ModularMatrix, bound: int) -> int | None:
-    """The least ν ≤ bound with rank [B, MB, …, M^{ν−1}B] = n modulo ℓ, at least 1, or None."""
+    """The least ν ≤ bound with rank [B, MB, …, M^{ν−1}B] = n modulo ℓ, at least 1, or None.
+
+    Parameters
+    ----------
+    M : ModularMatrix, n × n
+    B : ModularMatrix, n × p
+    bound : int
+        The largest ν to try; n or more decides whether the pair is controllable modulo ℓ.
+
+    Examples
+    --------
+    >>> M = ModularMatrix.from_rows([[0, 0], [1, 0]], 7)
+    >>> b = ModularMatrix.from_rows([[1], [0]], 7)
+    >>> reach_index(M, b, 2), reach_index(M, b, 1), reach_index(M.T, b, 2)
+    (2, None, None)
+    """
     n, rows = M.nrows, []
     if n == 0:
         return 1
@@ -185,7 +200,16 @@ def error_gain_draws(
 
 
 def drawn_integers(rng: Random, nrows: int, ncols: int, bound: int, density: float) -> Matrix:
-    """A matrix of integers in −bound … bound, most of them 0 where the density is low."""
+    """Draw a matrix of integers in −bound … bound, most of them 0 where the density is low.
+
+    Parameters
+    ----------
+    rng : Random
+    nrows, ncols : int
+    bound : int
+    density : float
+        From 0 to 1: the probability that an entry is drawn; others are 0.
+    """
 
     def entry() -> int:
         return rng.randint(-bound, bound) if rng.random() < density else 0

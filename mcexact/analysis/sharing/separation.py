@@ -37,13 +37,36 @@ Channels = tuple[int, ...]
 def violating_factors(
     system: MultiChannelSystem, region: StabilityRegion | None
 ) -> tuple[Polynomial, ...]:
-    """The irreducible factors of det(xI − A) with a root outside the region; all if it is None."""
+    """The irreducible factors of det(xI − A) with a root outside the region; all if it is None.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    region : StabilityRegion or None
+        The modes outside of it must not be fixed.
+
+    Examples
+    --------
+    >>> system = MultiChannelSystem([[1, 0], [0, -1]], [[[1], [1]]], [[[1, 1]]])
+    >>> [str(p) for p in violating_factors(system, StabilityRegion("continuous"))]
+    ['x - 1']
+    """
     factors = [p for p, _ in characteristic_polynomial(system.A).factor()]
     return tuple(p for p in factors if region is None or not region.contains_roots_of(p))
 
 
 def boundary(graph: NeighborGraph, s: Sequence[int]) -> frozenset[int]:
-    """N_s∖s, the agents outside s whose messages agents in s receive."""
+    """N_s∖s, the agents outside s whose messages agents in s receive.
+
+    The extended system has a fixed mode unless, for every s, the dimensions of their shared
+    sub-states sum up to at least the deficiency of P_s.
+
+    Examples
+    --------
+    >>> ring = NeighborGraph.ring(["1", "2", "3"])
+    >>> boundary(ring, [0]), boundary(ring, [0, 1, 2])
+    (frozenset({1}), frozenset())
+    """
     return frozenset(graph.union(s)) - frozenset(s)
 
 

@@ -84,12 +84,32 @@ def state_feedback(system: MultiChannelSystem, polynomial: Polynomial) -> StateF
 
 
 def given_feedback(system: MultiChannelSystem, gains: tuple[Matrix, ...]) -> StateFeedback:
-    """Return given gains with the resulting characteristic polynomial."""
+    """Return given gains with the characteristic polynomial of A + Σ B_i F_i, which may be any.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    gains : tuple of m Matrix
+        F_i, p_i × n.
+    """
     return StateFeedback(gains, characteristic_polynomial(loop_matrix(system, gains)))
 
 
 def loop_matrix(system: MultiChannelSystem, gains: tuple[Matrix, ...]) -> Matrix:
-    """A + Σ B_i F_i, n×n."""
+    """A + Σ B_i F_i, n×n, the loop in which every agent measures the whole state.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    gains : tuple of m Matrix
+        F_i, p_i × n.
+
+    Examples
+    --------
+    >>> system = MultiChannelSystem([[0, 1], [0, 0]], [[[0], [1]]], [[[1, 0]]])
+    >>> loop_matrix(system, (Matrix.from_rows([[-2, -3]]),)).numerators
+    ((0, 1), (-2, -3))
+    """
     result = system.A
     for i, F in enumerate(gains):
         result = result + system.B(i) @ F
@@ -244,7 +264,14 @@ def _drawn_target(rng: Random, blocks: Sequence[Matrix]) -> tuple[Matrix, int]:
 
 
 def companions(polynomial: Polynomial) -> list[Matrix]:
-    """Companion matrices of the irreducible factors over Q, with multiplicity."""
+    """Companion matrices of the irreducible factors over Q, each as often as its multiplicity.
+
+    Examples
+    --------
+    >>> p = Polynomial.of(-1, 1)**2 * Polynomial.of(-2, 0, 1)
+    >>> [M.shape for M in companions(p)]
+    [(1, 1), (1, 1), (2, 2)]
+    """
     found = []
     for factor, times in polynomial.factor():
         found += [companion(factor)] * times
@@ -252,7 +279,14 @@ def companions(polynomial: Polynomial) -> list[Matrix]:
 
 
 def split_by_channel(system: MultiChannelSystem, F: Matrix) -> tuple[Matrix, ...]:
-    """Split F into the rows that belong to each channel."""
+    """Split F = [F_1; …; F_m], Σ p_i rows, into the gains F_i of the channels, p_i rows each.
+
+    Examples
+    --------
+    >>> system = MultiChannelSystem([[0]], [[[1, 1]], [[1]]], [[[1]], [[1]]])
+    >>> [F.numerators for F in split_by_channel(system, Matrix.column([4, 5, 6]))]
+    [((4,), (5,)), ((6,),)]
+    """
     gains, start = [], 0
     for i in range(system.m):
         stop = start + system.p(i)
