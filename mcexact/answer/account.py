@@ -54,7 +54,15 @@ class Account:
         return self.certificates | {MANIFEST: canonical(self.manifest()) + "\n"}
 
     def save(self, folder: str | os.PathLike[str]) -> None:
-        """Write the certificates and the manifest into a folder, which is made if it is missing."""
+        """Write the certificates and the manifest into a folder, which is made if it is missing.
+
+        Raises
+        ------
+        InputError
+            If a file cannot be written.
+        OSError
+            If the folder cannot be made.
+        """
         os.makedirs(folder, exist_ok=True)
         for name, text in self.files().items():
             write_text(os.path.join(folder, name), text)

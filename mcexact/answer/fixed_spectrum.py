@@ -99,5 +99,15 @@ class FixedSpectrum(Answer):
         return not self.factors
 
     def outside(self, region: StabilityRegion) -> tuple[FixedFactor, ...]:
-        """Return the factors with a root outside a region, which prevent a design for it."""
+        """Return the factors with a root outside a region, which prevent a design for it.
+
+        Examples
+        --------
+        >>> from mcexact import MultiChannelSystem, fixed_spectrum
+        >>> spectrum = fixed_spectrum(MultiChannelSystem([[-1]], [[[0]]], [[[1]]]))
+        >>> spectrum.outside(StabilityRegion("continuous"))
+        ()
+        >>> [str(f.polynomial) for f in spectrum.outside(StabilityRegion("continuous", 2))]
+        ['x + 1']
+        """
         return tuple(f for f in self.factors if not region.contains_roots_of(f.polynomial))

@@ -95,7 +95,13 @@ def modes(p: Polynomial, limit: int = 30) -> str:
 
 
 def count(size: int, noun: str) -> str:
-    """Format a number with its noun, such as 2 nodes."""
+    """Format a number with its noun, such as 2 nodes.
+
+    Examples
+    --------
+    >>> count(1, "node"), count(2, "node")
+    ('1 node', '2 nodes')
+    """
     return f"{size} {noun}" if size == 1 else f"{size} {noun}s"
 
 

@@ -33,7 +33,25 @@ def hstack(matrices: Sequence[Matrix], nrows: int | None = None) -> Matrix:
 
 
 def vstack(matrices: Sequence[Matrix], ncols: int | None = None) -> Matrix:
-    """Return the matrix [M1; M2; …] of matrices with equal numbers of columns (see `hstack`)."""
+    """Return the matrix [M1; M2; …].
+
+    Parameters
+    ----------
+    matrices : sequence of Matrix
+        All with the same number of columns.
+    ncols : int, optional
+        This number, which is required if there may be no matrices.
+
+    Raises
+    ------
+    InputError
+        If the numbers of columns differ, or there are no matrices and no number.
+
+    Examples
+    --------
+    >>> vstack([Matrix.identity(2), Matrix.from_rows([[5, "1/2"]])]).rows()[2]
+    (Fraction(5, 1), Fraction(1, 2))
+    """
     width = _common(matrices, [M.ncols for M in matrices], ncols, "columns", "vstack")
     tables, denominator = _over_one_denominator(matrices)
     return from_numerators([row for table in tables for row in table], denominator, width)

@@ -86,7 +86,13 @@ def _integers(rows: Sequence[Sequence[int]]) -> list[list[int]]:
 
 
 def canonical(value: Any) -> str:
-    """Return the canonical JSON text: sorted keys, no blanks, non-ASCII characters escaped."""
+    """Return the canonical JSON text: sorted keys, no blanks, non-ASCII characters escaped.
+
+    Examples
+    --------
+    >>> print(canonical({"b": [1, 2], "a": "é"}))
+    {"a":"\\u00e9","b":[1,2]}
+    """
     digits = sys.get_int_max_str_digits()
     try:
         # A certificate may contain longer numbers than the interpreter prints by default.

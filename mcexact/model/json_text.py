@@ -208,14 +208,27 @@ def expect_object(
 
 
 def expect_list(value: Any, where: str) -> list[Any]:
-    """Return a JSON list."""
+    """Return a JSON list.
+
+    Raises
+    ------
+    InputError
+        If the value is anything else; the error names the place and what was found there.
+    """
     if not isinstance(value, list):
         raise InputError(f"expected a list, found {kind_of(value)}", where=where)
     return value
 
 
 def expect_integer(value: Any, where: str) -> int:
-    """Return a nonnegative integer that is not too large."""
+    """Return a nonnegative integer that is not too large.
+
+    Raises
+    ------
+    InputError
+        If the value is negative, or is no integer; true and false are none, although Python's
+        Booleans are.
+    """
     if type(value) is not int or value < 0:
         shown = str(value)[:40] if isinstance(value, (int, NumberText)) else kind_of(value)
         raise InputError(f"expected an integer >= 0, found {shown}", where=where)
@@ -263,7 +276,13 @@ _KINDS = {
 
 
 def kind_of(value: Any) -> str:
-    """Name the type of a JSON value, for a message."""
+    """Name the type of a JSON value, for a message.
+
+    Examples
+    --------
+    >>> kind_of([1]), kind_of("a"), kind_of(None)
+    ('a list', "the string 'a'", 'null')
+    """
     if value is None:
         return "null"
     if isinstance(value, bool):

@@ -28,7 +28,13 @@ def quoted(text: object, width: int = 40) -> str:
 
 
 def nearest(name: str, known: Collection[str]) -> str:
-    """Return the end of a message that suggests the nearest known name, or an empty text."""
+    """Return the end of a message that suggests the nearest known name, or an empty text.
+
+    Examples
+    --------
+    >>> nearest("stabilty", ["stability", "setpoint"]), nearest("xyz", ["stability"])
+    (" (did you mean 'stability'?)", '')
+    """
     close = difflib.get_close_matches(name[:LONGEST_NAME], list(known), n=1)
     return f" (did you mean {quoted(close[0])}?)" if close else ""
 

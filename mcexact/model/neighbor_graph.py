@@ -167,7 +167,13 @@ class NeighborGraph:
 
     @classmethod
     def ring(cls, names: Sequence[str]) -> NeighborGraph:
-        """Return the cyclic graph N_i = {i, i+1}, N_m = {m, 1}, as in the paper's example."""
+        """Return the cyclic graph N_i = {i, i+1}, N_m = {m, 1}, as in the paper's example.
+
+        Examples
+        --------
+        >>> NeighborGraph.ring(["1", "2", "3"]).neighbors
+        ((0, 1), (1, 2), (0, 2))
+        """
         m = len(names)
         return cls(names, [[(i + 1) % m] for i in range(m)])
 
@@ -186,11 +192,23 @@ class NeighborGraph:
         return self.neighbors[i]
 
     def union(self, channels: Iterable[int]) -> tuple[int, ...]:
-        """Return N_s, the union of the N_i over i in s, in the order of the channels."""
+        """Return N_s, the union of the N_i over i in s, in the order of the channels.
+
+        Examples
+        --------
+        >>> NeighborGraph.ring(["1", "2", "3", "4"]).union([0, 1])
+        (0, 1, 2)
+        """
         return tuple(sorted({j for i in channels for j in self.neighbors[i]}))
 
     def followers(self, j: int) -> tuple[int, ...]:
-        """Return F_j, the agents that receive messages of j, and j itself."""
+        """Return F_j, the agents that receive messages of j, and j itself.
+
+        Examples
+        --------
+        >>> NeighborGraph.ring(["1", "2", "3"]).followers(0)
+        (0, 2)
+        """
         return tuple(i for i in range(self.m) if j in self.neighbors[i])
 
     def edges(self) -> tuple[tuple[int, int], ...]:
@@ -200,7 +218,10 @@ class NeighborGraph:
         )
 
     def delay(self, i: int, j: int) -> int:
-        """Return d_ij, the number of steps that a message takes from j to i."""
+        """Return d_ij, the number of steps that a message takes from j to i.
+
+        The result is 0 also where no link leads from j to i; ``neighbors`` says which links exist.
+        """
         return self._delay_of.get((i, j), 0)
 
     def longest_delay(self, j: int) -> int:
@@ -212,7 +233,20 @@ class NeighborGraph:
         return {(i, j): d for i, j, d in self.delays}
 
     def with_edges(self, added: Iterable[tuple[int, int]]) -> NeighborGraph:
-        """Return the graph with further edges (j, i) without delay: j joins N_i."""
+        """Return the graph with further edges (j, i) without delay: j joins N_i.
+
+        Edges that exist already keep their delays.
+
+        Raises
+        ------
+        InputError
+            If a position is out of range.
+
+        Examples
+        --------
+        >>> NeighborGraph.empty(["1", "2"]).with_edges([(0, 1)]).edges()
+        ((0, 1),)
+        """
         sets = [set(heard) for heard in self.neighbors]
         for j, i in added:
             _position(j, self.m, "edges")
@@ -220,7 +254,15 @@ class NeighborGraph:
         return NeighborGraph(self.names, sets, self.delays)
 
     def is_strongly_connected(self) -> bool:
-        """Whether the graph is strongly connected."""
+        """Whether the graph is strongly connected.
+
+        Examples
+        --------
+        >>> NeighborGraph.ring(["1", "2"]).is_strongly_connected()
+        True
+        >>> NeighborGraph.empty(["1", "2"]).is_strongly_connected()
+        False
+        """
         import networkx
 
         return bool(networkx.is_strongly_connected(self._digraph(range(self.m))))

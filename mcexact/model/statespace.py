@@ -133,7 +133,20 @@ def _matrices(statespace: Any, parts: str, rounding: Rounding) -> list[Matrix]:
 
 
 def sampling(dt: Any, rounding: Rounding) -> tuple[str, Fraction | None]:
-    """Time domain and sample time; None and 0 mean continuous time, True an unknown sample time."""
+    """Time domain and sample time; None and 0 mean continuous time, True an unknown sample time.
+
+    Parameters
+    ----------
+    dt : None, bool or float
+        The attribute ``dt`` of a state-space system.
+    rounding : {"decimal", "dyadic"}
+        How the sample time becomes a rational number, as in `MultiChannelSystem.from_float`.
+
+    Examples
+    --------
+    >>> sampling(0.1, "decimal"), sampling(True, "decimal"), sampling(None, "decimal")
+    (('discrete', Fraction(1, 10)), ('discrete', None), ('continuous', None))
+    """
     if dt is True:
         return "discrete", None
     if dt is None or dt == 0:

@@ -200,12 +200,24 @@ class MultiChannelSystem:
         return self.channels[i].C.shape[0]
 
     def input_matrix(self, channels: Iterable[int] | None = None) -> Matrix:
-        """Return B_T = [B_i, i ∈ T], in the order of the channels; T is all channels by default."""
+        """Return B_T = [B_i, i ∈ T], n × Σ p_i; T is all channels by default.
+
+        The blocks are in the order of the channels, whatever the order of the argument.
+
+        Examples
+        --------
+        >>> system = MultiChannelSystem([[0]], [[[1]], [[2, 3]]], [[[1]], [[1]]])
+        >>> system.input_matrix().numerators, system.input_matrix([]).shape
+        (((1, 2, 3),), (1, 0))
+        """
         chosen = range(self.m) if channels is None else sorted(set(channels))
         return hstack([self.B(i) for i in chosen], nrows=self.n)
 
     def output_matrix(self, channels: Iterable[int] | None = None) -> Matrix:
-        """Return C_T, which stacks the C_i, i ∈ T; T is all channels by default."""
+        """Return C_T, Σ q_i × n, which stacks the C_i, i ∈ T, in the order of the channels.
+
+        T is all channels by default; the dual of this is `input_matrix`.
+        """
         chosen = range(self.m) if channels is None else sorted(set(channels))
         return vstack([self.C(i) for i in chosen], ncols=self.n)
 
@@ -237,7 +249,15 @@ class MultiChannelSystem:
         return tuple(sorted({self.index(name) for name in names}))
 
     def named(self, channels: Iterable[int]) -> tuple[str, ...]:
-        """Return the names of some channels, in the order of the system."""
+        """Return the names of some channels, in the order of the system.
+
+        Examples
+        --------
+        >>> ones = [[[1]], [[1]]]
+        >>> system = MultiChannelSystem([[0]], ones, ones, names=["left", "right"])
+        >>> system.named([1, 0])
+        ('left', 'right')
+        """
         return tuple(self.channels[i].name for i in sorted(set(channels)))
 
     def derived(
@@ -326,7 +346,11 @@ def require_discrete(system: MultiChannelSystem) -> None:
 
 
 def as_plant(system: MultiChannelSystem) -> MultiChannelSystem:
-    """A derived system, as if it were a plant: it forgets what it was made from."""
+    """A derived system, as if it were a plant: it forgets what it was made from.
+
+    It keeps the matrices, the time domain, the names of the channels and the neighbor graph.  A
+    certificate about it contains these matrices, and names no construction.
+    """
     return MultiChannelSystem(
         system.A,
         [channel.B for channel in system.channels],

@@ -27,7 +27,17 @@ def answer(sentences: Sentences) -> list[str]:
 
 
 def in_lines(sentences: Sentences, most: int, width: int = WIDTH) -> str:
-    """Return the answer in a number of lines; sentences that the table repeats may be left out."""
+    """Return the answer in a number of lines; sentences that the table repeats may be left out.
+
+    Parameters
+    ----------
+    sentences : Sentences
+    most : int
+        The largest number of lines.  Fixed modes are left out first, last ones first; then whole
+        sentences from the end.  No sentence is cut.
+    width : int
+        The largest number of characters in a line.
+    """
     said, modes = sentences.at("answer"), sentences.at("answer.mode")
     for shown in range(len(modes), -1, -1):
         more = [_MORE] if 0 < shown < len(modes) else []

@@ -69,7 +69,20 @@ def draw_decay(
     spectrum: LoopSpectrum | None,
     label: str,
 ) -> None:
-    """Draw norms on a logarithmic axis, with a line of the certified rate."""
+    """Draw norms on a logarithmic axis, with a line of the certified rate.
+
+    Parameters
+    ----------
+    axis : matplotlib.axes.Axes
+    run : Trajectory
+    curves : dict of str to list of float
+        Norms at the times of the run, keyed by the label in the legend.  Zeros, infinities and NaN
+        leave gaps.
+    spectrum : LoopSpectrum or None
+        Its rate is drawn as a dashed line; None draws no line.
+    label : str
+        The title of the panel.
+    """
     times = [to_float(t) for t in run.times]
     marker = "." if is_discrete(run.time) else ""
     shown = [value for values in curves.values() for value in values if 0 < value < float("inf")]

@@ -39,7 +39,13 @@ def shorten(text: str, limit: int = 60) -> str:
 
 
 def wrapped(text: str, width: int) -> list[str]:
-    """Break a text into lines at blanks, and also words longer than a line."""
+    """Break a text into lines at blanks, and also words longer than a line.
+
+    Examples
+    --------
+    >>> wrapped("one two three", 8), wrapped("", 8)
+    (['one two', 'three'], [''])
+    """
     return textwrap.wrap(text, max(width, 8), break_on_hyphens=False) or [""]
 
 

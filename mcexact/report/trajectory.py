@@ -45,7 +45,10 @@ def state_norms(run: Trajectory) -> list[float]:
 
 
 def error_norms(run: Trajectory) -> dict[str, list[float]]:
-    """Return the largest absolute entry of e_i = x_i − x for every agent with an estimate."""
+    """Return the largest absolute entry of e_i = x_i − x for every agent with an estimate.
+
+    The result is empty if the agents share no estimates of the plant's state.
+    """
     if not run.has_estimates():
         return {}
     rows = [[_largest(e) for e in run.errors(k)] for k in range(len(run.times))]
@@ -59,7 +62,14 @@ def _largest(values: list[Any]) -> float:
 
 
 def trajectory_rows(run: Trajectory, lines: int = 12) -> tuple[tuple[str, ...], ...]:
-    """Return a limited number of lines: t, the norm of x, and those of the estimation errors."""
+    """Return a limited number of lines: t, the norm of x, and those of the estimation errors.
+
+    Parameters
+    ----------
+    run : Trajectory
+    lines : int
+        The first and the last time are shown, the others at nearly equal distances between these.
+    """
     states, errors = state_norms(run), error_norms(run)
     count = len(run.times)
     chosen = sorted({round(k * (count - 1) / max(lines - 1, 1)) for k in range(lines)})

@@ -71,7 +71,22 @@ def integrated(network: Network, times: Sequence[Fraction]) -> list[Snapshot]:
 
 
 def taylor(network: Network, times: Sequence[Fraction], digits: int) -> list[Snapshot]:
-    """Sum Taylor series in multiple precision until further terms change nothing."""
+    """Sum Taylor series in multiple precision until further terms change nothing.
+
+    Parameters
+    ----------
+    network : Network
+        At its initial state, with arithmetic in multiple precision; afterwards at the last time.
+    times : sequence of Fraction
+        Ascending; the first one belongs to the initial state.
+    digits : int
+        The decimal digits of the arithmetic.
+
+    Returns
+    -------
+    list of Snapshot
+        One for each time.  These numbers are not enclosed, and prove nothing.
+    """
     snapshots = [network.snapshot()]
     for before, after in pairwise(times):
         rest = after - before

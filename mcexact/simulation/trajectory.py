@@ -74,7 +74,18 @@ class Trajectory:
         return all(len(x_i) == len(first.plant) for x_i in first.shared)
 
     def errors(self, k: int) -> list[list[Any]]:
-        """The errors e_i = x_i − x at the k-th time, where agents share state estimates."""
+        """The errors e_i = x_i − x at the k-th time, where agents share state estimates.
+
+        Parameters
+        ----------
+        k : int
+            A position in ``times``.
+
+        Returns
+        -------
+        list of list
+            e_i, n native numbers, for each agent.
+        """
         snapshot = self.snapshots[k]
         return [
             [a - b for a, b in zip(x_i, snapshot.plant, strict=True)] for x_i in snapshot.shared

@@ -123,7 +123,21 @@ def failure(error: BaseException) -> Outcome:
 def entries(
     sources: Iterable[Source], questions: tuple[str, ...], limits: Limits, read: Reader
 ) -> Iterable[tuple[int, str, Job | McexactError]]:
-    """Yield number, name and job of every entry, or the error instead of the job."""
+    """Yield number, name and job of every entry, or the error instead of the job.
+
+    Parameters
+    ----------
+    sources : iterable of Source
+        Read one at a time, so that it may be a generator of any length.
+    questions : tuple of str
+    limits : Limits
+    read : Reader
+        Reads the file of a source that is a path.
+
+    Notes
+    -----
+    A source that cannot be read, or is too large, gives its error; the sources after it go on.
+    """
     for number, source in enumerate(sources):
         try:
             made: Job | McexactError = job(source, number, questions, limits, read)

@@ -44,7 +44,18 @@ class Coordinates:
     sizes: tuple[int, ...]
 
     def separation(self, M: Matrix) -> Separation | None:
-        """Transform a loop to these coordinates; None if a block below the diagonal is not 0."""
+        """Transform a loop to these coordinates; None if a block below the diagonal is not 0.
+
+        Parameters
+        ----------
+        M : Matrix, N×N
+            A loop of another size gives None, too.
+
+        Returns
+        -------
+        Separation or None
+            With T⁻¹ M T, block upper triangular, and the sizes of its nonempty diagonal blocks.
+        """
         if M.shape != self.T.shape:
             return None
         Delta = self.inverse @ (M @ self.T)

@@ -97,7 +97,20 @@ class CoveringProgram:
         return sum((c * x for c, x in zip(self.costs, values, strict=True)), Fraction(0))
 
     def violated_cut(self, upper: Sequence[int | None]) -> int | None:
-        """The first cut that no x ≤ upper satisfies, or None."""
+        """The first cut that no x ≤ upper satisfies, or None.
+
+        Parameters
+        ----------
+        upper : sequence of int or None
+            An upper bound of each variable; None is no bound.
+
+        Examples
+        --------
+        >>> cuts = (CoveringCut(frozenset({0, 1}), 2, None),)
+        >>> program = CoveringProgram((Fraction(1), Fraction(1)), (None, None), cuts)
+        >>> program.violated_cut((0, 1)), program.violated_cut((0, None))
+        (0, None)
+        """
         for number, cut in enumerate(self.cuts):
             bounds = [upper[i] for i in cut.support]
             finite = [bound for bound in bounds if bound is not None]
@@ -344,7 +357,22 @@ def leaf_bound(
     upper: Sequence[int | None],
     multipliers: Sequence[tuple[int, Fraction]],
 ) -> Fraction | None:
-    """The bound Σ y_k d_k + Σ_i min over [l_i, u_i] of r_i x_i, or None when it is unbounded."""
+    """The bound Σ y_k d_k + Σ_i min over [l_i, u_i] of r_i x_i, or None when it is unbounded.
+
+    Parameters
+    ----------
+    program : CoveringProgram
+        With costs c_i and cuts Σ x_i ≥ d_k over the support of cut k.
+    lower, upper : sequence of int, of int or None
+        The box [l_i, u_i] of a leaf of the branch tree.
+    multipliers : sequence of (int, Fraction)
+        Pairs of k and y_k ≥ 0, which define r_i = c_i − Σ y_k over the cuts k whose support has i.
+
+    Notes
+    -----
+    By weak duality every point of the box that satisfies the cuts costs at least this much, for
+    all multipliers y ≥ 0; so they may come from floating point.
+    """
     reduced = list(program.costs)
     bound = Fraction(0)
     for k, y in multipliers:

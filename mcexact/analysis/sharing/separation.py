@@ -154,6 +154,16 @@ def absence(
 ) -> Absence:
     """Prove that no mode outside a region is fixed and, on request, that the graph is connected.
 
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        The extended system, or another one of which earlier cuts have removed the fixed modes.
+    region : StabilityRegion or None
+        Modes inside of it may be fixed; with None no mode may be.
+    rng : random.Random
+    connected : bool
+        Whether to prove also that the transfer graph is strongly connected.
+
     Raises
     ------
     InternalError

@@ -108,7 +108,19 @@ def agreeing_moduli(claims: list[tuple[Matrix, Polynomial]], seed: int) -> tuple
 
 
 def coefficient_bound(M: Matrix) -> tuple[int, int]:
-    """(D, β): the product of the row denominators, and the bound on the coefficients of D·χ_M."""
+    """(D, β): the product of the row denominators, and the bound on the coefficients of D·χ_M.
+
+    Notes
+    -----
+    D·χ_M = det(diag(d_i)(xI − M)) has integer coefficients of absolute value at most β, the product
+    of the sums of absolute values in the rows.  An integer polynomial with the same bound equals it
+    if the two agree modulo primes whose product exceeds 2β.
+
+    Examples
+    --------
+    >>> coefficient_bound(Matrix.from_rows([["1/2", 0], [1, 1]]))
+    (2, 9)
+    """
     D = beta = 1
     for row in M.rows():
         d = lcm(*(entry.denominator for entry in row))

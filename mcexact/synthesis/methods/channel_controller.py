@@ -167,7 +167,10 @@ def assigning_controllers(
 
 
 def transposed(controller: ChannelController) -> ChannelController:
-    """Transpose a controller for (A', C', B') into a controller for (A, B, C)."""
+    """Transpose a controller for (A', C', B') into a controller for (A, B, C).
+
+    The two loops are transposes of each other, so they have the same characteristic polynomial.
+    """
     return ChannelController(
         controller.A.T, controller.C.T, controller.B.T, controller.D.T, controller.polynomial
     )

@@ -129,7 +129,23 @@ def sharing_network(
     network: Literal["extended", "lifted", "held"] | None = None,
     free_assignability: bool = False,
 ) -> tuple[DerivedNetwork, SharedDimensions | Deficiency | None]:
-    """Return the network that `design_extended` controls, and the allocation of its dimensions."""
+    """Return the network that `design_extended` controls, and the allocation of its dimensions.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    graph : NeighborGraph, optional
+        Overrides ``system.neighbors``.
+    request : Request
+    dimensions, share, network, free_assignability
+        As in `design_extended`; without ``network`` links with delays give the lifted system.
+
+    Raises
+    ------
+    UsageError
+        If there is no neighbor graph, there is no such network, or it does not fit the delays or
+        the way of sharing.
+    """
     system, found = with_graph(system, graph)
     kind: NetworkKind = network or ("lifted" if found.delays else "extended")
     if kind not in ("extended", "lifted", "held"):

@@ -64,7 +64,19 @@ class DerivedNetwork:
         return [i for i, seen in enumerate(self.signals) if ("x", j) in seen]
 
     def split(self, i: int, gains: Matrix) -> LinearMap:
-        """Split gains of ȳ_i by the signals that they multiply."""
+        """Split gains of ȳ_i by the signals that they multiply.
+
+        Parameters
+        ----------
+        i : int
+        gains : Matrix
+            Its columns belong to the signals of agent i, in their order.
+
+        Returns
+        -------
+        LinearMap
+            The blocks of columns of each y_j and x_j, without those that are 0.
+        """
         maps: dict[str, dict[int, Matrix]] = {"y": {}, "x": {}}
         start = 0
         for what, j in self.signals[i]:

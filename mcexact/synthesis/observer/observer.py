@@ -126,7 +126,24 @@ def observer_proposals(
     gains: Sequence[Any] | None = None,
     order: Literal["least"] | None = None,
 ) -> Iterator[Proposal]:
-    """Yield the proposals of `design_observer` for the gate; exact arithmetic yields one."""
+    """Yield the proposals of `design_observer` for the gate; exact arithmetic yields one.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    graph : NeighborGraph
+        Without delays.
+    request : Request
+    gains, order
+        As in `design_observer`.
+
+    Raises
+    ------
+    UsageError
+        If links have delays, or there is no such order.
+    InputError
+        If gains are given that are not m matrices of p_i rows and n columns.
+    """
     if graph.delays:
         raise UsageError(
             "the distributed observer has no delays on its links; remove them, or design with an "
