@@ -1,5 +1,6 @@
 """Long work can be limited and interrupted at any moment, also inside compiled code."""
 
+import contextlib
 import multiprocessing
 import os
 import signal
@@ -11,7 +12,6 @@ import pytest
 from mcexact.cli import supervision
 from mcexact.cli.supervision import supervised
 from mcexact.errors import Impossible, InputError, InternalError, LimitReached
-from tests.effort import PATIENCE
 from tests.end_to_end.command_line import interruptible
 
 
@@ -108,6 +108,10 @@ def test_an_interrupt_ends_compiled_code_and_leaves_no_process() -> None:
     ):
         os.close(begun)
         assert told.readline() == b"begun\n"
-        process.send_signal(signal.SIGINT)
-        assert process.wait(timeout=PATIENCE) == -signal.SIGINT
+        while process.poll() is None:
+            # One that comes while a callback runs is ignored by Python, as on a busy machine.
+            process.send_signal(signal.SIGINT)
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                process.wait(timeout=1)
+        assert process.returncode == -signal.SIGINT
         assert told.read() == b"", "it ends when no process holds the other end"
