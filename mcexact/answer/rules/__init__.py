@@ -1,4 +1,4 @@
-"""Rules that say when a sentence holds; they read certified claims and nothing else."""
+"""Rules that say when a sentence holds; they read checked certificates and nothing else."""
 
 import sys
 from collections.abc import Mapping
