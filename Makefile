@@ -5,7 +5,7 @@ BIN := .venv/bin
 STAMP := .venv/.installed
 GALLERY := mcexact/model/gallery
 
-.PHONY: records reproduce look ledger sentences demo test lint types tests matrix agreement mutations bench proofs checked-proofs weakened-proofs
+.PHONY: records reproduce look ledger sentences demo test lint types tests matrix agreement mutations readers bench proofs checked-proofs weakened-proofs
 
 demo: $(STAMP)
 	$(BIN)/mcexact demo
@@ -40,6 +40,10 @@ agreement: $(STAMP)
 # Every place of 200 certificates changed, one at a time, and judged by slow oracles: minutes.
 mutations: $(STAMP)
 	$(BIN)/python -m tests.checker.mutations 200
+
+# The package's reader of system files beside the checker's, on 100,000 drawn and damaged files: minutes.
+readers: $(STAMP)
+	$(BIN)/python -m tests.campaigns.grammar 100000
 
 # Every statement of the paper, with a report and certificates in reproduction/: less than a minute.
 reproduce: $(STAMP)
