@@ -37,6 +37,11 @@ bench: $(STAMP)
 agreement: $(STAMP)
 	$(BIN)/python -m tests.oracle.agreement 10000
 
+# So many mutants and forgeries of certificates, judged by an oracle that is written from FORMAT.md
+# alone: N=500000 takes minutes, N=5000000 an hour.
+attack: $(STAMP)
+	$(BIN)/python -m tests.attack $(or $(N),500000)
+
 # Every place of 200 certificates changed, one at a time, and judged by slow oracles: minutes.
 mutations: $(STAMP)
 	$(BIN)/python -m tests.checker.mutations 200
