@@ -6,6 +6,9 @@ from typing import Any
 
 import pytest
 
+from mcexact.checker.reading import Refused
+from mcexact.checker.subject import read_subject
+from mcexact.checker.system import read_plant
 from tests.checker.handmade import (
     FIXED,
     FREE,
@@ -129,3 +132,23 @@ def test_a_name_cannot_pass_for_words() -> None:
     )
     said = r'the plant with the channels "a\" and \"b", "\u00fc" and "c" taken as one'
     assert said in checked(document).theorem
+
+
+@pytest.mark.parametrize(
+    ("reason", "parts", "verdict"),
+    [
+        ("the first channel left out", [["2"], ["3"]], "INVALID"),
+        ("the last channel left out", [["1"], ["2"]], "INVALID"),
+        ("the first channel twice", [["1"], ["1", "2", "3"]], "INVALID"),
+        ("the last channel twice", [["1", "2", "3"], ["3"]], "INVALID"),
+        ("no parts", [], "INVALID"),
+        ("the last part first", [["3"], ["1", "2"]], "MALFORMED"),
+        ("the first part last", [["2"], ["3"], ["1"]], "MALFORMED"),
+        ("an empty part, the first", [[], ["1", "2", "3"]], "MALFORMED"),
+        ("an empty part, the last", [["1", "2", "3"], []], "MALFORMED"),
+    ],
+)
+def test_only_partitions_in_order_are_taken(reason: str, parts: Any, verdict: str) -> None:
+    with pytest.raises(Refused) as found:
+        read_subject([taken(*parts)], read_plant(PAPER))
+    assert found.value.verdict == verdict
