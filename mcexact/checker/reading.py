@@ -9,7 +9,6 @@ from __future__ import annotations
 import json
 import math
 import re
-import unicodedata
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
@@ -21,8 +20,6 @@ from .arithmetic import Matrix, Polynomial
 TOKEN = re.compile(r'"(?:[^"\\]++|\\.)*+"?|[\[{]|[\]}]', re.DOTALL)
 QUOTIENT = re.compile(r"-?(?:0|[1-9][0-9]*+)/[1-9][0-9]*+")
 DECIMAL = re.compile(r"-?(?:0|[1-9][0-9]*+)(?:\.[0-9]++)?")
-HIDDEN = ("Cc", "Cf", "Cs", "Zl", "Zp")
-"""The Unicode categories of characters that do not print."""
 
 
 class Refused(Exception):
@@ -110,7 +107,7 @@ def shown(value: Any) -> str:
 
 
 def fields(value: Any, place: str, *names: str, optional: tuple[str, ...] = ()) -> list[Any]:
-    """The values of an object that has exactly these keys; None for an optional one left out."""
+    """The values of an object that has exactly these keys; an optional one may be None."""
     if not isinstance(value, Mapping):
         malformed(place, f"expected an object, found {shown(value)}")
     for name in names:
@@ -120,8 +117,6 @@ def fields(value: Any, place: str, *names: str, optional: tuple[str, ...] = ()) 
     for key in value:
         if key not in allowed:
             malformed(place, f"unknown key {shown(key)}")
-        if key in optional and value[key] is None:
-            malformed(place, f"the key {shown(key)} is null; leave it out")
     return [value.get(name) for name in names + optional]
 
 
@@ -154,14 +149,6 @@ def string(value: Any, place: str, *choices: str) -> str:
         expected = " or ".join(map(shown, choices)) or "a string"
         malformed(place, f"expected {expected}, found {shown(value)}")
     return value
-
-
-def printable(value: Any, place: str, longest: int, allowed: str = "") -> str:
-    """A string of at most so many characters, all of which print or are allowed."""
-    hidden = {c for c in string(value, place)[:longest] if unicodedata.category(c) in HIDDEN}
-    if len(value) > longest or hidden - set(allowed):
-        malformed(place, f"expected at most {longest} characters that print, found {shown(value)}")
-    return str(value)
 
 
 def rational(value: Any, place: str) -> Fraction:

@@ -1,1 +1,0 @@
-"""What the campaign starts from: drawn plants, subjects and true certificates."""

@@ -1,0 +1,212 @@
+"""What is changed: Cosmic Ray's operators, a choice of their many replacements, and four more."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from typing import Any
+
+import cosmic_ray.plugins
+import parso
+from cosmic_ray.operators.operator import Operator
+
+REPLACED = {
+    "Add": "Sub Mul",
+    "Sub": "Add Mul",
+    "Mul": "Add FloorDiv",
+    "Div": "Mul FloorDiv",
+    "FloorDiv": "Mul Add",
+    "Mod": "Add FloorDiv",
+    "Pow": "Mul Add",
+    "RShift": "LShift",
+    "LShift": "RShift",
+    "BitOr": "BitAnd BitXor",
+    "BitAnd": "BitOr BitXor",
+    "BitXor": "BitOr BitAnd",
+    "Eq": "NotEq LtE GtE",
+    "NotEq": "Eq Lt Gt",
+    "Lt": "LtE NotEq GtE",
+    "LtE": "Lt Eq Gt",
+    "Gt": "GtE NotEq LtE",
+    "GtE": "Gt Eq Lt",
+    "Is": "IsNot",
+    "IsNot": "Is",
+}
+"""By what Cosmic Ray's two families of replacements replace an operator; it knows all pairs."""
+
+MESSAGES = {"malformed": 1, "incomplete": 2, "require": 3, "expect": 1, "Refused": 3}
+"""The position of the message for a human in calls of these functions."""
+
+COSTS = {"spend", "expect"}
+"""The functions that are told how much work a step is; so are those of the module ``budget``."""
+
+
+PAIRS = (
+    ("any", "all"),
+    ("min", "max"),
+    ("floor", "ceil"),
+    ("inputs", "outputs"),
+    ("lcm", "gcd"),
+    ("B", "C"),
+    ("nrows", "ncols"),
+    ("controllable", "observable"),
+)
+COUNTERPARTS = {a: b for pair in PAIRS for a, b in (pair, pair[::-1])}
+"""Names, and those that one could write in their place by mistake."""
+
+
+class DeleteStatement(Operator):  # type: ignore[misc]
+    """Replace a call that stands alone, ``raise`` or an augmented assignment by ``pass``."""
+
+    def mutation_positions(self, node: Any) -> Iterator[tuple[Any, Any]]:
+        if node.type == "simple_stmt" and _acts(node.children[0]):
+            yield node.start_pos, node.children[0].end_pos
+
+    def mutate(self, node: Any, index: int) -> Any:
+        first = node.children[0]
+        node.children[0] = parso.python.tree.Name("pass", first.start_pos, _blanks(first))
+        return node
+
+    @classmethod
+    def examples(cls) -> tuple[Any, ...]:
+        return ()
+
+
+def _acts(node: Any) -> bool:
+    """Whether a simple statement does something besides giving a name to a value."""
+    augmented = node.type == "expr_stmt" and getattr(node.children[1], "type", "") in (
+        "augassign",
+        "operator",
+    )
+    if augmented:
+        sign = node.children[1].get_code().strip()
+        return len(sign) > 1 and sign.endswith("=")
+    return node.type in ("atom_expr", "power", "raise_stmt")
+
+
+def _blanks(node: Any) -> str:
+    return str(node.get_first_leaf().prefix)
+
+
+class NegateFilter(Operator):  # type: ignore[misc]
+    """Negate the condition of a comprehension."""
+
+    def mutation_positions(self, node: Any) -> Iterator[tuple[Any, Any]]:
+        if node.type in ("comp_if", "old_comp_if"):
+            yield node.children[1].start_pos, node.children[1].end_pos
+
+    def mutate(self, node: Any, index: int) -> Any:
+        node.children[1] = parso.parse(f" (not ({node.children[1].get_code().strip()}))")
+        return node
+
+    @classmethod
+    def examples(cls) -> tuple[Any, ...]:
+        return ()
+
+
+class SwapMembership(Operator):  # type: ignore[misc]
+    """Replace ``in`` by ``not in`` and the other way round."""
+
+    def mutation_positions(self, node: Any) -> Iterator[tuple[Any, Any]]:
+        if node.type == "comparison":
+            for sign in node.children[1::2]:
+                if sign.get_code().split() in (["in"], ["not", "in"]):
+                    yield sign.start_pos, sign.end_pos
+
+    def mutate(self, node: Any, index: int) -> Any:
+        signs = [
+            k
+            for k in range(1, len(node.children), 2)
+            if node.children[k].get_code().split() in (["in"], ["not", "in"])
+        ]
+        other = " in" if "not" in node.children[signs[index]].get_code().split() else " not in"
+        node.children[signs[index]] = parso.parse(other)
+        return node
+
+    @classmethod
+    def examples(cls) -> tuple[Any, ...]:
+        return ()
+
+
+class SwapName(Operator):  # type: ignore[misc]
+    """Replace a name by its counterpart."""
+
+    def mutation_positions(self, node: Any) -> Iterator[tuple[Any, Any]]:
+        called = node.type == "name" and node.value in COUNTERPARTS
+        if called and not node.is_definition():
+            yield node.start_pos, node.end_pos
+
+    def mutate(self, node: Any, index: int) -> Any:
+        node.value = COUNTERPARTS[node.value]
+        return node
+
+    @classmethod
+    def examples(cls) -> tuple[Any, ...]:
+        return ()
+
+
+KNOWN = {each.__name__: each for each in (DeleteStatement, NegateFilter, SwapMembership, SwapName)}
+
+
+class Provider:
+    """The operators of this file, in the form in which Cosmic Ray takes those of others."""
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(KNOWN)
+
+    def __getitem__(self, name: str) -> Any:
+        return KNOWN[name]
+
+
+def register() -> None:
+    """Let Cosmic Ray know the operators of this file."""
+    cosmic_ray.plugins.OPERATOR_PROVIDERS["mcexact"] = Provider()
+
+
+def chosen(operator: str) -> bool:
+    """Whether an operator of Cosmic Ray is used: of the replacements only those in ``REPLACED``."""
+    _, _, name = operator.partition("/")
+    if name == "NoOp":
+        return False
+    if not name.startswith(("ReplaceBinaryOperator_", "ReplaceComparisonOperator_")):
+        return True
+    _, before, after = name.split("_")
+    return after in REPLACED[before].split()
+
+
+Span = tuple[tuple[int, int], tuple[int, int]]
+
+
+def outside(source: str) -> list[Span]:
+    """The parts of a file whose changes nothing depends on: annotations, messages and costs."""
+    spans = []
+    for node in ast.walk(ast.parse(source)):
+        parts: list[ast.AST | None] = []
+        if isinstance(node, ast.arg | ast.AnnAssign):
+            parts = [node.annotation]
+        elif isinstance(node, ast.FunctionDef):
+            parts = [node.returns]
+        elif isinstance(node, ast.Call):
+            name = getattr(node.func, "id", getattr(node.func, "attr", ""))
+            if _is_about_cost(node.func):
+                parts = [node]
+            elif name in MESSAGES:
+                parts = list(node.args[MESSAGES[name] :])
+        for part in parts:
+            if part is not None:
+                start, end = (part.lineno, part.col_offset), (part.end_lineno, part.end_col_offset)  # type: ignore[attr-defined]
+                spans.append((start, end))
+    return spans
+
+
+def _is_about_cost(function: ast.expr) -> bool:
+    """Whether a call says how much work a step is."""
+    if isinstance(function, ast.Name):
+        return function.id in COSTS
+    owner = function.value if isinstance(function, ast.Attribute) else None
+    return isinstance(owner, ast.Name) and owner.id == "budget"
+
+
+def within(start: tuple[int, int], end: tuple[int, int], spans: list[Span]) -> bool:
+    """Whether a place lies in one of some parts."""
+    return any(a <= tuple(start) and tuple(end) <= b for a, b in spans)

@@ -1,0 +1,60 @@
+"""The table of what came out, and the survivors."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from pathlib import Path
+
+from tests.mutants import operators, session
+
+EXPLAINED = Path("tests/checker/SURVIVORS.md")
+ENTRY = re.compile(r"^- `(?P<before>.+?)` → `(?P<after>.+?)`", re.MULTILINE)
+SCORE = 95
+
+
+def explained(text: str) -> set[tuple[str, str, str]]:
+    """The survivors that a file explains: the stem of the file, and the line before and after."""
+    found = set()
+    for part in re.split(r"^## ", text, flags=re.MULTILINE)[1:]:
+        stem = part.split("\n", 1)[0].strip().removesuffix(".py")
+        found |= {(stem, entry["before"], entry["after"]) for entry in ENTRY.finditer(part)}
+    return found
+
+
+def write(folder: Path, checker: Path, stems: list[str]) -> int:
+    """Print the table and write the survivors that are not explained; return the exit status."""
+    operators.register()
+    known = explained(EXPLAINED.read_text(encoding="utf-8")) if EXPLAINED.exists() else set()
+    total: Counter[str] = Counter()
+    open_: list[str] = []
+    print(f"{'file':28}{'mutants':>9}" + "".join(f"{word:>13}" for word in session.OUTCOMES))
+    for stem in stems:
+        database = folder / f"{stem}.sqlite"
+        if not database.exists():
+            continue
+        count: Counter[str] = Counter()
+        for mutant in session.mutants(checker / f"{stem}.py", database):
+            count[mutant.outcome] += 1
+            if mutant.outcome != "killed":
+                if (stem, mutant.before, mutant.after) in known:
+                    count["explained"] += 1
+                else:
+                    open_.append(
+                        f"{stem}:{mutant.line}: {mutant.outcome}\n"
+                        f"    {mutant.before}\n    {mutant.after}\n"
+                    )
+        total += count
+        print(_row(stem, count))
+    print(_row("all", total))
+    tried = sum(total[word] for word in session.OUTCOMES)
+    score = 100 * total["killed"] / (tried or 1)
+    print(f"score {score:.1f} %, {total['explained']} of the others explained, {len(open_)} not")
+    target = folder / "survivors.txt"
+    target.write_text("".join(open_), encoding="utf-8")
+    return int(score < SCORE or bool(open_))
+
+
+def _row(name: str, count: Counter[str]) -> str:
+    tried = sum(count[word] for word in session.OUTCOMES)
+    return f"{name:28}{tried:9}" + "".join(f"{count[word]:13}" for word in session.OUTCOMES)

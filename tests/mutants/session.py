@@ -1,0 +1,201 @@
+"""One session of Cosmic Ray for each file: its mutants, the tests for each, and what came out."""
+
+from __future__ import annotations
+
+import ast
+import hashlib
+import json
+import os
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from cosmic_ray.commands import init
+from cosmic_ray.mutating import mutate_code
+from cosmic_ray.plugins import get_operator
+from cosmic_ray.work_db import WorkDB, use_db
+from cosmic_ray.work_item import MutationSpec, TestOutcome, WorkerOutcome, WorkItem, WorkResult
+
+from tests.mutants import operators, warm
+
+OUTCOMES = ("killed", "survived", "timeout", "not covered", "abnormal")
+
+
+@dataclass(frozen=True)
+class Selection:
+    """The tests that run each line of the checker, and the seconds that each test takes."""
+
+    seconds: list[tuple[str, float]]
+    lines: Mapping[str, Mapping[str, list[int]]]
+
+    @staticmethod
+    def read(path: Path) -> Selection:
+        """Read what ``tests.mutants.selection`` wrote."""
+        return Selection(**json.loads(path.read_text(encoding="utf-8")))
+
+    def tests(self, stem: str, first: int, last: int) -> list[int]:
+        """The tests that run one of some lines; all, if the lines run when the file is loaded."""
+        known = self.lines.get(stem, {})
+        found = {k for line in range(first, last + 1) for k in known.get(str(line), ())}
+        own = found - {-1}
+        return sorted(own or (range(len(self.seconds)) if found else ()))
+
+    def ordered(self, stem: str, tests: list[int], most: float) -> tuple[list[str], float]:
+        """Tests by what they promise: those of the same name first, short ones first.
+
+        They end where they would take more than ``most`` seconds.
+        """
+
+        def key(k: int) -> tuple[bool, float]:
+            name, seconds = self.seconds[k]
+            return f"test_{stem}.py" not in name, seconds
+
+        chosen, total = [], 0.0
+        for k in sorted(tests, key=key):
+            name, seconds = self.seconds[k]
+            if total + seconds <= most or not chosen:
+                chosen.append(name)
+                total += seconds
+        return chosen, total
+
+
+def headers(source: str) -> list[tuple[int, int]]:
+    """The first and last line of every statement, of a compound one without what it contains."""
+    found = []
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.stmt | ast.ExceptHandler):
+            first = min([node.lineno, *(d.lineno for d in getattr(node, "decorator_list", ()))])
+            body = getattr(node, "body", None)
+            last = body[0].lineno - 1 if body else node.end_lineno or node.lineno
+            found.append((first, max(first, last)))
+    return found
+
+
+def plan(path: Path, database: Path) -> None:
+    """Write the mutants of a file to its session, unless that is there and the file is the same."""
+    source = path.read_text(encoding="utf-8")
+    about = {"source": hashlib.sha256(source.encode()).hexdigest()}
+    mark = database.with_suffix(".json")
+    if (
+        database.exists()
+        and mark.exists()
+        and json.loads(mark.read_text())["source"] == about["source"]
+    ):
+        return
+    database.unlink(missing_ok=True)
+    with use_db(str(database), WorkDB.Mode.create) as session:
+        init([path], session, {})
+        spans = operators.outside(source)
+        seen, counts = {source}, {"outside": 0, "others": 0, "same or no program": 0}
+        for item in session.work_items:
+            spec = item.mutations[0]
+            reason = _needless(spec, source, spans, seen)
+            if reason:
+                counts[reason] += 1
+                session.set_result(item.job_id, WorkResult(WorkerOutcome.SKIPPED))
+    mark.write_text(json.dumps(about | counts), encoding="utf-8")
+
+
+def _needless(
+    spec: MutationSpec, source: str, spans: list[operators.Span], seen: set[str]
+) -> str | None:
+    """Why a mutant is left out, if it is."""
+    if not operators.chosen(spec.operator_name):
+        return "others"
+    if operators.within(spec.start_pos, spec.end_pos, spans):
+        return "outside"
+    code = mutated(spec, source)
+    try:
+        ast.parse(code)
+    except SyntaxError:
+        return "same or no program"
+    if code in seen:
+        return "same or no program"
+    seen.add(code)
+    return None
+
+
+def mutated(spec: MutationSpec, source: str) -> str:
+    """The file with one change."""
+    operator = get_operator(spec.operator_name)()
+    return mutate_code(source, operator, spec.occurrence) or source
+
+
+def work(stem: str, path: Path, database: Path, selection: Selection, most: float) -> None:
+    """Try what is left of a session."""
+    source = path.read_text(encoding="utf-8")
+    stamp = os.stat(path).st_mtime_ns
+    lines = headers(source)
+    with use_db(str(database), WorkDB.Mode.open) as session:
+        for number, item in enumerate(session.pending_work_items, start=1):
+            spec = item.mutations[0]
+            first, last = spec.start_pos[0], spec.end_pos[0]
+            around = [(a, b) for a, b in lines if a <= first <= b] or [(first, last)]
+            first, last = max(around)[0], max(last, max(around)[1])
+            tests, seconds = selection.ordered(stem, selection.tests(stem, first, last), most)
+            code = mutated(spec, source)
+            if not tests:
+                outcome = "not covered"
+            else:
+                try:
+                    path.write_text(code, encoding="utf-8")
+                    # as if it were changed much later: no compiled file fits
+                    os.utime(path, ns=(stamp, stamp + number * 10**10))
+                    outcome = warm.run(tests, 10 + 5 * seconds)
+                finally:
+                    path.write_text(source, encoding="utf-8")
+                    os.utime(path, ns=(stamp, stamp))
+            session.set_result(item.job_id, _result(outcome))
+
+
+def _result(outcome: str) -> WorkResult:
+    """What came out, as Cosmic Ray records it; the word itself stands in the output."""
+    worker = {
+        "not covered": WorkerOutcome.NO_TEST,
+        "abnormal": WorkerOutcome.ABNORMAL,
+    }.get(outcome, WorkerOutcome.NORMAL)
+    verdict = TestOutcome.KILLED if outcome in ("killed", "timeout") else TestOutcome.SURVIVED
+    return WorkResult(worker_outcome=worker, output=outcome, test_outcome=verdict)
+
+
+@dataclass(frozen=True)
+class Mutant:
+    """A mutant, what came out, and the lines that differ."""
+
+    item: WorkItem
+    outcome: str
+    line: int
+    before: str
+    after: str
+
+
+def mutants(path: Path, database: Path) -> Iterator[Mutant]:
+    """The mutants of a session that were tried."""
+    source = path.read_text(encoding="utf-8")
+    old = source.splitlines()
+    with use_db(str(database), WorkDB.Mode.open) as session:
+        for item, result in session.completed_work_items:
+            if result.worker_outcome != WorkerOutcome.SKIPPED:
+                new = mutated(item.mutations[0], source).splitlines()
+                k = next(
+                    (k for k, pair in enumerate(zip(old, new, strict=False)) if len(set(pair)) > 1),
+                    0,
+                )
+                yield Mutant(item, str(result.output), k + 1, old[k].strip(), new[k].strip())
+
+
+def forget(path: Path, database: Path, outcomes: set[str]) -> None:
+    """Let mutants with some outcomes be tried again."""
+    again = [mutant.item for mutant in mutants(path, database) if mutant.outcome in outcomes]
+    if again:
+        with use_db(str(database), WorkDB.Mode.open) as session:
+            _delete(session, [item.job_id for item in again])
+
+
+def _delete(session: Any, jobs: list[str]) -> None:
+    from cosmic_ray.work_db import WorkResultStorage
+
+    with session._session_maker.begin() as transaction:
+        for job in jobs:
+            transaction.query(WorkResultStorage).filter_by(job_id=job).delete()
