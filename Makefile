@@ -5,7 +5,7 @@ BIN := .venv/bin
 STAMP := .venv/.installed
 GALLERY := mcexact/model/gallery
 
-.PHONY: coverage mutants records reproduce look ledger sentences demo test lint types tests matrix agreement mutations bench proofs checked-proofs weakened-proofs
+.PHONY: coverage mutants records reproduce look ledger sentences demo test lint types tests matrix agreement mutations readers bench proofs checked-proofs weakened-proofs
 
 demo: $(STAMP)
 	$(BIN)/mcexact demo
@@ -37,9 +37,18 @@ bench: $(STAMP)
 agreement: $(STAMP)
 	$(BIN)/python -m tests.oracle.agreement 10000
 
+# So many mutants and forgeries of certificates, judged by an oracle that is written from FORMAT.md
+# alone: N=500000 takes minutes, N=5000000 an hour.
+attack: $(STAMP)
+	$(BIN)/python -m tests.attack $(or $(N),500000)
+
 # Every place of 200 certificates changed, one at a time, and judged by slow oracles: minutes.
 mutations: $(STAMP)
 	$(BIN)/python -m tests.checker.mutations 200
+
+# The package's reader of system files beside the checker's, on 100,000 drawn and damaged files: minutes.
+readers: $(STAMP)
+	$(BIN)/python -m tests.campaigns.grammar 100000
 
 # Every line and branch of the checker is run by the tests of its own folder: minutes.
 coverage: $(STAMP)

@@ -92,7 +92,8 @@ def _closed_loop(system: MultiChannelSystem, given: Mapping[str, Any]) -> MultiC
 
 def _roomy(text: str) -> Limits:
     """Limits for a text that was accepted already, which it cannot exceed."""
-    return Limits(bytes=max(Limits.bytes, len(text)), digits=max(Limits.digits, len(text)))
+    digits = max(Limits.digits, len(text) + Limits.exponent)
+    return Limits(bytes=max(Limits.bytes, len(text)), digits=digits)
 
 
 def _gains(given: Mapping[str, Any], widths: list[int]) -> list[Matrix]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import math
 import re
+import unicodedata
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
@@ -20,6 +21,8 @@ from .arithmetic import Matrix, Polynomial
 TOKEN = re.compile(r'"(?:[^"\\]++|\\.)*+"?|[\[{]|[\]}]', re.DOTALL)
 QUOTIENT = re.compile(r"-?(?:0|[1-9][0-9]*+)/[1-9][0-9]*+")
 DECIMAL = re.compile(r"-?(?:0|[1-9][0-9]*+)(?:\.[0-9]++)?")
+HIDDEN = ("Cc", "Cf", "Cs", "Zl", "Zp")
+"""The Unicode categories of characters that do not print."""
 
 
 class Refused(Exception):
@@ -107,7 +110,7 @@ def shown(value: Any) -> str:
 
 
 def fields(value: Any, place: str, *names: str, optional: tuple[str, ...] = ()) -> list[Any]:
-    """The values of an object that has exactly these keys; an optional one may be None."""
+    """The values of an object that has exactly these keys; None for an optional one left out."""
     if not isinstance(value, Mapping):
         malformed(place, f"expected an object, found {shown(value)}")
     for name in names:
@@ -117,6 +120,8 @@ def fields(value: Any, place: str, *names: str, optional: tuple[str, ...] = ()) 
     for key in value:
         if key not in allowed:
             malformed(place, f"unknown key {shown(key)}")
+        if key in optional and value[key] is None:
+            malformed(place, f"the key {shown(key)} is null; leave it out")
     return [value.get(name) for name in names + optional]
 
 
@@ -149,6 +154,14 @@ def string(value: Any, place: str, *choices: str) -> str:
         expected = " or ".join(map(shown, choices)) or "a string"
         malformed(place, f"expected {expected}, found {shown(value)}")
     return value
+
+
+def printable(value: Any, place: str, longest: int, allowed: str = "") -> str:
+    """A string of at most so many characters, all of which print or are allowed."""
+    hidden = {c for c in string(value, place)[:longest] if unicodedata.category(c) in HIDDEN}
+    if len(value) > longest or hidden - set(allowed):
+        malformed(place, f"expected at most {longest} characters that print, found {shown(value)}")
+    return str(value)
 
 
 def rational(value: Any, place: str) -> Fraction:

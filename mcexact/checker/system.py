@@ -6,13 +6,14 @@ import hashlib
 import json
 import math
 import re
+import unicodedata
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
 from . import reading
 from .arithmetic import LARGEST, Matrix
-from .reading import Limits, fields, integer, items, malformed, shown, string
+from .reading import Limits, fields, incomplete, integer, items, malformed, printable, shown, string
 
 NUMBER = re.compile(r"-?[0-9]++(?:/0*+[1-9][0-9]*+|(?:\.[0-9]++)?(?:[eE][+-]?[0-9]++)?)")
 
@@ -51,76 +52,124 @@ class System:
         return reading.names([name], place, self.names)[0]
 
 
-def number(value: Any, place: str, exponent: int = Limits.exponent) -> Fraction:
-    """A number of a system file: an integer, a decimal as typed, or a string "p/q"."""
+def number(value: Any, place: str, limits: Limits | None = None) -> Fraction:
+    """A number of a system file: an integer, a decimal as typed, or a string "p/q".
+
+    ``limits`` are those of a file; a certificate's numbers were limited when it was parsed.
+    """
     if type(value) is int or isinstance(value, Fraction):
-        return Fraction(value)
-    good = type(value) is str and NUMBER.fullmatch(value)
-    if not good or abs(int([*re.split("[eE]", value), "0"][1])) > exponent:
-        malformed(place, f'expected an integer, a decimal or "p/q", found {shown(value)}')
-    return Fraction(value)
+        result = Fraction(value)
+    else:
+        good = type(value) is str and NUMBER.fullmatch(value)
+        mantissa, exponent, *_ = [*re.split("[eE]", value), "0"] if good else ["", "0"]
+        if not good or abs(int(exponent)) > (limits or Limits).exponent:
+            malformed(place, f'expected an integer, a decimal or "p/q", found {shown(value)}')
+        if (
+            limits
+            and "/" not in mantissa
+            and len(mantissa.strip("-").replace(".", "")) > limits.digits
+        ):
+            incomplete(
+                "size", place, f"a number of more than {limits.digits} digits (Limits.digits)"
+            )
+        result = Fraction(value)
+    if limits and too_long(max(abs(result.numerator), result.denominator), limits.digits):
+        incomplete("size", place, f"more than {limits.digits} digits written out (Limits.digits)")
+    return result
 
 
-def read_matrix(value: Any, place: str, nrows: int | None, ncols: int | None) -> Matrix:
+def too_long(value: int, digits: int) -> bool:
+    """Whether an integer that is not negative has more than so many digits."""
+    return value.bit_length() > 3 * digits and value >= 10**digits
+
+
+def read_matrix(
+    value: Any, place: str, nrows: int | None, ncols: int | None, limits: Limits | None = None
+) -> Matrix:
     """A matrix of a system: a list of rows, or an object that lists its nonzero entries."""
     if isinstance(value, dict):
         shape, entries = fields(value, place, "shape", "entries")
         r, c = (integer(size, f"{place}.shape") for size in items(shape, f"{place}.shape", 2))
         if max(r, 1) * max(c, 1) > LARGEST:
-            reading.incomplete("size", f"{place}.shape", f"{r} by {c} is too large")
+            incomplete("size", f"{place}.shape", f"{r} by {c} is too large")
         rows: list[list[Any]] = [[Fraction(0)] * c for _ in range(r)]
         seen = set()
         for i, j, entry in (items(triple, place, 3) for triple in items(entries, place)):
             if integer(i, place) >= r or integer(j, place) >= c or (i, j) in seen:
                 malformed(place, f"expected a position of its own inside {r} by {c}")
             seen.add((i, j))
-            rows[i][j] = number(entry, place)
+            rows[i][j] = number(entry, place, limits)
     else:
         r, listed = len(items(value, place)), value
         c = len(items(listed[0], place)) if listed else ncols or 0
-        rows = [[number(entry, place) for entry in items(row, place, c)] for row in listed]
+        rows = [[number(entry, place, limits) for entry in items(row, place, c)] for row in listed]
     if nrows not in (None, r) or ncols not in (None, c):
         malformed(place, f"expected another shape, found {r} by {c}")
     d = math.lcm(*(entry.denominator for row in rows for entry in row))
     return Matrix([[e.numerator * (d // e.denominator) for e in row] for row in rows], c, d)
 
 
-def read_system(value: Any, *ignored: str) -> System:
-    """Read a system object by the grammar of system files, perhaps with further keys."""
-    time, A_rows, listed, heard, waits, *_ = fields(
-        value, "system", "time", "A", "channels", optional=("neighbors", "delays", *ignored)
+def read_system(value: Any, limits: Limits | None = None) -> System:
+    """Read a system object by the grammar of system files; without limits, of a certificate."""
+    extra = () if limits is None else ("format", "name", "source", "sample_time", "D")
+    time, A_rows, listed, heard, waits, *more = fields(
+        value, "system", "time", "A", "channels", optional=("neighbors", "delays", *extra)
     )
-    A = read_matrix(A_rows, "A", None, None)
+    A = read_matrix(A_rows, "A", None, None, limits)
     if A.nrows != A.ncols or not items(listed, "channels"):
         malformed("system", "expected a square A and at least one channel")
     known: list[str] = []
+    forms: set[str] = set()
     B, C = [], []
     for k, channel in enumerate(listed):
         where = f"channels[{k}]"
         B_rows, C_rows, name, D = fields(channel, where, "B", "C", optional=("name", "D"))
-        B.append(read_matrix(B_rows, f"{where}.B", A.nrows, None))
-        C.append(read_matrix(C_rows, f"{where}.C", None, A.nrows))
-        known.append(string(str(k + 1) if name is None else name, f"{where}.name"))
-        if not known[k] or known[k] in known[:k]:
+        B.append(read_matrix(B_rows, f"{where}.B", A.nrows, None, limits))
+        C.append(read_matrix(C_rows, f"{where}.C", None, A.nrows, limits))
+        known.append(printable(str(k + 1) if name is None else name, f"{where}.name", 256))
+        form = unicodedata.normalize("NFC", known[k])
+        if not form or form in forms:
             malformed(f"{where}.name", f"expected a name of its own, found {shown(name)}")
-        if D is not None and not read_matrix(D, f"{where}.D", None, None).is_zero():
-            malformed(f"{where}.D", "expected no feedthrough: outputs are y_i = C_i x")
+        forms.add(form)
+        _require_no_feedthrough(D, f"{where}.D", limits)
     plant = System(string(time, "time", "continuous", "discrete"), known, A, B, C)
-    return plant if heard is None and waits is None else _with_graph(plant, heard, waits or {})
+    if limits is not None:
+        _check_unused(plant, more[1:], limits)
+    return plant if heard is None and waits is None else _with_graph(plant, heard, waits)
+
+
+def _check_unused(plant: System, given: list[Any], limits: Limits) -> None:
+    """Read the parts of a system file on which no claim depends: they are not in the digest."""
+    name, source, sample_time, D = given
+    for key, text in (("name", name), ("source", source)):
+        printable("" if text is None else text, key, 10_000, allowed="\n\t")
+    period = None if sample_time is None else number(sample_time, "sample_time", limits)
+    if period is not None and (period <= 0 or plant.time != "discrete"):
+        malformed("sample_time", "expected a number above 0, in discrete time only")
+    _require_no_feedthrough(D, "D", limits)
+
+
+def _require_no_feedthrough(D: Any, place: str, limits: Limits | None) -> None:
+    """Refuse a D that is not zero, of any shape."""
+    if D is not None and not read_matrix(D, place, None, None, limits).is_zero():
+        malformed(place, "expected no feedthrough: outputs are y_i = C_i x")
 
 
 def _with_graph(plant: System, heard: Any, waits: Any) -> System:
     known = tuple(plant.names)
     sets = []
     for i, row in enumerate(fields(heard, "neighbors", optional=known)):
-        found = [plant.place_of(name, "neighbors") for name in items(row or [], "neighbors")]
+        listed = [] if row is None else items(row, "neighbors")
+        found = [plant.place_of(name, "neighbors") for name in listed]
         if len(set(found)) < len(found):
             malformed("neighbors", f"{shown(known[i])} lists a neighbor twice")
         sets.append(sorted({i, *found}))
     delays = {}
-    for i, row in enumerate(fields(waits, "delays", optional=known)):
-        for j, steps in enumerate(fields(row or {}, "delays", optional=known)):
-            if integer(steps or 0, "delays") and (i == j or j not in sets[i]):
+    for i, row in enumerate(fields({} if waits is None else waits, "delays", optional=known)):
+        for j, steps in enumerate(fields({} if row is None else row, "delays", optional=known)):
+            if steps is None:
+                continue
+            if (integer(steps, "delays") and i == j) or j not in sets[i]:
                 malformed(
                     "delays", f"{shown(known[i])} does not receive messages of {shown(known[j])}"
                 )
@@ -165,8 +214,7 @@ def read_plant(value: Any) -> System:
 
 def read_system_file(data: bytes, limits: Limits) -> System:
     """The system of a system file, numbers as typed."""
-    most = limits.exponent
-    document = reading.parse(data, limits, lambda text: number(text, f"number {text[:24]}", most))
+    document = reading.parse(data, limits, lambda text: number(text, f"number {text[:24]}", limits))
     if not isinstance(document, dict) or document.get("format") != "mcexact-system/1":
         malformed("format", 'expected a system file, "format": "mcexact-system/1"')
-    return read_system(document, "format", "name", "source", "sample_time", "D")
+    return read_system(document, limits)

@@ -123,6 +123,8 @@ def _integer(digits: str) -> int:
 
 
 def _exponent(digits: str, limits: Limits, where: str | None) -> int:
+    if len(digits.lstrip("+-")) > limits.digits:
+        raise _too_long(limits, where)
     significant = digits.lstrip("+-").lstrip("0")
     if len(significant) > 18 or int(significant or "0") > limits.exponent:
         raise InputError(

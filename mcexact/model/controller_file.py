@@ -16,9 +16,12 @@ from mcexact.model.json_text import (
     expect_format,
     expect_integer,
     expect_list,
+    expect_name,
     expect_object,
+    expect_string,
     parse,
     read_bytes,
+    require_short_numbers,
 )
 from mcexact.model.matrix_json import read_matrix
 from mcexact.model.names import checked_names, nearest, quoted
@@ -55,8 +58,7 @@ def read_controller(text: bytes | str, limits: Limits = DEFAULT_LIMITS) -> Contr
     document = expect_format(parse(text, limits), FORMAT)
     expect_object(document, None, ("format", "time", "system", "agents"))
     require_time(document["time"])
-    if not isinstance(document["system"], str):
-        raise InputError("expected the digest of a system, a string", where="system")
+    expect_string(document["system"], "system", "the digest of a system, a string")
     agents = expect_list(document["agents"], "agents")
     if not agents:
         raise InputError("expected at least one agent, found none", where="agents")
@@ -64,8 +66,10 @@ def read_controller(text: bytes | str, limits: Limits = DEFAULT_LIMITS) -> Contr
     for k, agent in enumerate(agents):
         expect_object(agent, f"agents[{k}]", keys, ("hold",))
     places = [f"agents[{k}].name" for k in range(len(agents))]
-    names = checked_names([agent["name"] for agent in agents], places)
+    given = [expect_name(agent["name"], place) for agent, place in zip(agents, places, strict=True)]
+    names = checked_names(given, places)
     programs = [_read_agent(agent, f"agents[{k}]", names, limits) for k, agent in enumerate(agents)]
+    require_short_numbers(text, limits)
     return Controller(document["time"], document["system"], tuple(programs))
 
 

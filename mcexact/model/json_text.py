@@ -8,6 +8,7 @@ import re
 import stat
 import sys
 from collections.abc import Collection, Iterable, Iterator
+from decimal import Decimal
 from typing import Any
 
 from mcexact.errors import InputError, OtherFormat
@@ -20,6 +21,8 @@ _SHORT = 18
 REMEMBERED = 10_000
 """The number of different numbers that are kept to be recognized when they occur again."""
 _LONG = re.compile(rf"[0-9]{{{_SHORT + 1}}}")
+_DIGITS = re.compile(r"[0-9]+", re.ASCII)
+_ESCAPED_DIGIT = re.compile(r"\\u003([0-9])")
 
 
 class NumberText(str):
@@ -131,6 +134,22 @@ def parse(data: bytes | str, limits: Limits = DEFAULT_LIMITS) -> Any:
     return document
 
 
+def require_short_numbers(data: bytes | str, limits: Limits = DEFAULT_LIMITS) -> None:
+    """Refuse a document with too many digits in a row, in numbers, texts and escapes alike.
+
+    Raises
+    ------
+    InputError
+        If there are more than ``limits.digits``.
+    """
+    text = data.decode("utf-8") if isinstance(data, bytes) else data
+    plain = _ESCAPED_DIGIT.sub(r"\1", text)
+    if limits.digits > _SHORT and not _LONG.search(plain):
+        return
+    if any(len(found[0]) > limits.digits for found in _DIGITS.finditer(plain)):
+        raise InputError(f"expected at most {limits.digits} digits in a row (Limits.digits)")
+
+
 def _decoded(data: bytes, limits: Limits) -> str:
     """Decode UTF-8."""
     if len(data) > limits.bytes:
@@ -221,7 +240,7 @@ def expect_list(value: Any, where: str) -> list[Any]:
 
 
 def expect_integer(value: Any, where: str) -> int:
-    """Return a nonnegative integer that is not too large.
+    """Return a nonnegative integer.
 
     Raises
     ------
@@ -229,10 +248,47 @@ def expect_integer(value: Any, where: str) -> int:
         If the value is negative, or is no integer; true and false are none, although Python's
         Booleans are.
     """
+    if isinstance(value, NumberText) and _DIGITS.fullmatch(value):
+        return int(Decimal(value))  # however long it is
     if type(value) is not int or value < 0:
         shown = str(value)[:40] if isinstance(value, (int, NumberText)) else kind_of(value)
         raise InputError(f"expected an integer >= 0, found {shown}", where=where)
     return value
+
+
+def shown_integer(value: int) -> str:
+    """An integer as a message shows it.
+
+    Examples
+    --------
+    >>> shown_integer(12), shown_integer(10**40)
+    ('12', 'a large integer')
+    """
+    return str(value) if value.bit_length() < 100 else "a large integer"
+
+
+def expect_string(value: Any, where: str, what: str = "a string") -> str:
+    """Return a JSON string.
+
+    Raises
+    ------
+    InputError
+        If the value is anything else; a number is none, although its text is kept as typed.
+    """
+    if not isinstance(value, str) or isinstance(value, NumberText):
+        raise InputError(f"expected {what}, found {kind_of(value)}", where=where)
+    return value
+
+
+def expect_name(value: Any, where: str) -> str:
+    """Return a JSON string that should be the name of a channel or agent.
+
+    Raises
+    ------
+    InputError
+        If the value is no string.
+    """
+    return expect_string(value, where, 'a name as a string, such as "1"')
 
 
 def expect_format(document: Any, expected: str) -> dict[str, Any]:

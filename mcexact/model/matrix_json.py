@@ -24,10 +24,12 @@ from mcexact.model.json_text import (
     expect_list,
     expect_object,
     kind_of,
+    shown_integer,
 )
 from mcexact.model.matrix_entry import Table, require_shape
 
-_BITS_PER_DIGIT = math.log2(10)
+LARGEST_SPARSE = 2**22
+"""The number of cells of the largest sparse matrix; a few bytes must not fill the memory."""
 
 
 def read_number(value: Any, where: str, limits: Limits = DEFAULT_LIMITS) -> Fraction:
@@ -44,8 +46,9 @@ def read_number(value: Any, where: str, limits: Limits = DEFAULT_LIMITS) -> Frac
         raise InputError(f"expected a number, found {kind_of(value)}", where=where)
     number = parse_rational(str(value), limits, where=where)
     # A decimal with an exponent can have more digits when it is written out.
-    bits = max(number.numerator.bit_length(), number.denominator.bit_length())
-    if bits > limits.digits * _BITS_PER_DIGIT + 1:
+    longest = max(abs(number.numerator), number.denominator)
+    # Of the two conditions the first one is quick, and false for nearly all numbers.
+    if longest.bit_length() > 3 * limits.digits and longest >= 10**limits.digits:
         raise InputError(
             f"expected at most {limits.digits} digits when written out (Limits.digits), "
             f"found {len(value)} characters that stand for more",
@@ -112,7 +115,7 @@ def unread_matrix(
     """
     if isinstance(value, dict):
         expect_object(value, where, ("shape", "entries"))
-        shape = _sparse_shape(value["shape"], where, limits)
+        shape = _sparse_shape(value["shape"], where)
         rows = expect_list(value["entries"], f"{where}.entries")
         table = Table(shape, partial(_sparse, rows, shape, where, limits))
     else:
@@ -149,7 +152,7 @@ def _dense(rows: list[list[Any]], width: int, where: str, limits: Limits) -> Mat
     return Matrix.from_rows(rows, ncols=width)
 
 
-def _sparse_shape(value: Any, where: str, limits: Limits) -> tuple[int, int]:
+def _sparse_shape(value: Any, where: str) -> tuple[int, int]:
     """Read the shape of a sparse matrix."""
     sizes = expect_list(value, f"{where}.shape")
     if len(sizes) != 2:
@@ -157,11 +160,10 @@ def _sparse_shape(value: Any, where: str, limits: Limits) -> tuple[int, int]:
             f"expected [rows, columns], found {len(sizes)} numbers", where=f"{where}.shape"
         )
     r, c = (expect_integer(size, f"{where}.shape[{k}]") for k, size in enumerate(sizes))
-    # Each cell of a dense matrix takes two bytes or more; the size of a sparse matrix is limited
-    # alike.
-    if max(r, c) * max(min(r, c), 1) > limits.bytes // 4:
+    if max(r, c) * max(min(r, c), 1) > LARGEST_SPARSE:
         raise InputError(
-            f"expected at most {limits.bytes // 4} cells (Limits.bytes / 4), found {r} × {c}",
+            f"expected at most {LARGEST_SPARSE} cells in a sparse matrix, "
+            f"found {shown_integer(r)} × {shown_integer(c)}",
             where=where,
         )
     return r, c
@@ -179,7 +181,8 @@ def _sparse(entries: list[Any], shape: tuple[int, int], where: str, limits: Limi
             )
         i, j = (expect_integer(entry[axis], f"{place}[{axis}]") for axis in (0, 1))
         if i >= r or j >= c:
-            raise InputError(f"expected a position inside {r} × {c}, found [{i}, {j}]", where=place)
+            found = f"[{shown_integer(i)}, {shown_integer(j)}]"
+            raise InputError(f"expected a position inside {r} × {c}, found {found}", where=place)
         if (i, j) in values:
             raise InputError(f"the position [{i}, {j}] is listed twice", where=place)
         values[i, j] = read_number(entry[2], f"{place}[2]", limits)

@@ -16,10 +16,13 @@ from mcexact.model.json_text import (
     expect_format,
     expect_integer,
     expect_list,
+    expect_name,
     expect_object,
+    expect_string,
     kind_of,
     parse,
     read_bytes,
+    require_short_numbers,
 )
 from mcexact.model.matrix_entry import Table, require_square
 from mcexact.model.matrix_json import (
@@ -97,7 +100,7 @@ def read_system(data: bytes | str, *, limits: Limits = DEFAULT_LIMITS) -> MultiC
     sample_time = None
     if "sample_time" in document:
         sample_time = read_number(document["sample_time"], "sample_time", limits)
-    return MultiChannelSystem(
+    system = MultiChannelSystem(
         A.matrix(),
         [B_i.matrix() for B_i in B],
         [C_i.matrix() for C_i in C],
@@ -108,10 +111,12 @@ def read_system(data: bytes | str, *, limits: Limits = DEFAULT_LIMITS) -> MultiC
         name=_optional_text(document, "name"),
         source=_optional_text(document, "source"),
     )
+    require_short_numbers(data, limits)
+    return system
 
 
 def _optional_text(document: dict[str, Any], key: str) -> str | None:
-    return checked_text(document[key], key) if key in document else None
+    return checked_text(expect_string(document[key], key), key) if key in document else None
 
 
 def _read_channels(
@@ -125,8 +130,8 @@ def _read_channels(
     for k, channel in enumerate(channels):
         where = f"channels[{k}]"
         expect_object(channel, where, ("B", "C"), ("name", "D"))
-        names.append(channel.get("name", str(k + 1)))
         places.append(f"{where}.name")
+        names.append(expect_name(channel.get("name", str(k + 1)), places[k]))
         B.append(unread_matrix(channel["B"], f"{where}.B", nrows=n, limits=limits))
         C.append(unread_matrix(channel["C"], f"{where}.C", ncols=n, limits=limits))
     return checked_names(names, places), B, C
@@ -150,7 +155,9 @@ def _read_graph(document: dict[str, Any], names: tuple[str, ...]) -> NeighborGra
         return None
     neighbors = _mapping(document["neighbors"], "neighbors")
     for name, heard in neighbors.items():
-        expect_list(heard, f"neighbors[{quoted(name)}]")
+        where = f"neighbors[{quoted(name)}]"
+        for k, other in enumerate(expect_list(heard, where)):
+            expect_name(other, f"{where}[{k}]")
     delays = {}
     for name, row in _mapping(document.get("delays", {}), "delays").items():
         where = f"delays[{quoted(name)}]"

@@ -1,0 +1,148 @@
+"""The campaign: every try is checked, what is accepted is judged, and everything is counted."""
+
+from __future__ import annotations
+
+import json
+import multiprocessing
+import signal
+import time
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from mcexact.checker import Verdict, check_document
+
+from .oracle.judge import FALSE, UNDECIDED, judge
+from .report import Report
+from .tries import SIZE, Batch, Try, drawn_batch, tries
+
+SECONDS = 20.0
+"""Of processor time, after which a check is given up; an honest one takes milliseconds."""
+
+Check = Callable[[bytes | Mapping[str, Any]], Verdict]
+
+
+class Hung(BaseException):
+    """No handler of errors takes this for one of its own."""
+
+
+@contextmanager
+def patience(seconds: float) -> Iterator[None]:
+    """Stop what does not end."""
+
+    def stop(*_: Any) -> None:
+        raise Hung
+
+    before = signal.signal(signal.SIGVTALRM, stop)
+    signal.setitimer(signal.ITIMER_VIRTUAL, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_VIRTUAL, 0)
+        signal.signal(signal.SIGVTALRM, before)
+
+
+def checked(made: Any, check: Check = check_document) -> Verdict | None:
+    """The checker's verdict, or None if it does not end."""
+    data = made.encode("utf-8", "surrogatepass") if isinstance(made, str) else made
+    try:
+        with patience(SECONDS):
+            return check(data)
+    except Hung:
+        return None
+
+
+def judged(document: Mapping[str, Any]) -> tuple[str, str]:
+    """The oracle's verdict."""
+    try:
+        with patience(SECONDS):
+            return judge(document)
+    except Hung:
+        return UNDECIDED, "the oracle takes too long"
+
+
+def parsed(made: Any) -> Any:
+    """The document of a try that was accepted."""
+    return json.loads(made) if isinstance(made, str) else made
+
+
+def rows_of(attempt: Try, batch: Batch) -> list[tuple[str, str]]:
+    """The rows of the report in which a try is counted."""
+    rows = [("all", "all"), ("kind", attempt.kind), ("mutator", attempt.mutator)]
+    steps = {step["construction"] for step in batch.original["subject"]}
+    return rows + [("construction", name) for name in sorted(steps or {"none"})]
+
+
+def run_batch(number: int, report: Report, only: int | None = None) -> Try | None:
+    """All tries of a batch; with ``only``, those up to one of them, which is given back."""
+    batch = drawn_batch(number)
+    for attempt in tries(number, batch):
+        verdict = checked(attempt.document)
+        outcome, why = _outcome(attempt, verdict, report)
+        if outcome == "rejected" and isinstance(attempt.document, dict) and verdict is not None:
+            batch.rejected = attempt.document, verdict.place
+        rows = rows_of(attempt, batch)
+        report.count([*rows, ("verdict", verdict.verdict if verdict else "none")], outcome)
+        if outcome in ("false", "errors", "time-outs"):
+            report.findings.append(_finding(attempt, outcome, why))
+        if attempt.number == only:
+            return attempt
+    return None
+
+
+def _finding(attempt: Try, what: str, why: str) -> dict[str, Any]:
+    return {
+        "what": what,
+        "why": why,
+        "try": attempt.number,
+        "kind": attempt.kind,
+        "mutator": attempt.mutator,
+        "document": attempt.document,
+    }
+
+
+def _outcome(attempt: Try, verdict: Verdict | None, report: Report) -> tuple[str, str]:
+    if verdict is None:
+        return "time-outs", "the check does not end"
+    if verdict.verdict == "ERROR":
+        return "errors", verdict.line()
+    if verdict.verdict != "VALID":
+        if attempt.mutator == "original":
+            return "errors", f"a true certificate is refused: {verdict.line()}"
+        return "rejected", ""
+    document = parsed(attempt.document)
+    judgment, why = judged(document)
+    if judgment == FALSE:
+        return "false", why
+    return judgment, why
+
+
+def _share(first: int, step: int, batches: int) -> Report:
+    """The batches first, first + step, … as one process runs them."""
+    report, start = Report(), time.process_time()
+    for number in range(first, batches, step):
+        run_batch(number, report)
+    report.seconds = time.process_time() - start
+    return report
+
+
+def run(count: int, processes: int = 2) -> Report:
+    """At least so many tries, in several processes."""
+    batches = -(-count // SIZE)
+    report = Report()
+    if processes == 1:
+        report.add(_share(0, 1, batches))
+        return report
+    # many small shares, so that a report is there soon and no process waits long for the others
+    shares = min(batches, processes * 16)
+    with multiprocessing.get_context("fork").Pool(processes) as pool:
+        jobs = [pool.apply_async(_share, (k, shares, batches)) for k in range(shares)]
+        for job in jobs:
+            report.add(job.get())
+    return report
+
+
+def save(report: Report, path: Path) -> None:
+    """Write every finding to a file, one a line."""
+    path.write_text("".join(json.dumps(found) + "\n" for found in report.findings))

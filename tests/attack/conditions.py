@@ -1,0 +1,158 @@
+"""The checker with every condition as a gate that can be left open: a copy, made from its sources.
+
+A condition is a ``require``, each part of one that joins several by ``and``, and each ``if`` that
+does nothing but refuse.  The copy is the checker itself as long as :attr:`Gates.open` is None.
+"""
+
+from __future__ import annotations
+
+import ast
+import importlib
+import importlib.abc
+import importlib.machinery
+import importlib.util
+import sys
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import CodeType, ModuleType
+from typing import Any
+
+import mcexact
+
+SOURCES = Path(mcexact.__file__).parent / "checker"
+PACKAGE = "weakened_checker"
+REFUSALS = ("malformed", "incomplete", "Refused", "NotAUnit")
+
+
+@dataclass(frozen=True)
+class Site:
+    """A condition: its file, the function that it is in, and its text."""
+
+    file: str
+    function: str
+    line: int
+    text: str
+
+
+@dataclass
+class Gates:
+    """Every condition, the one that is left out, and the one that refused last."""
+
+    sites: list[Site] = field(default_factory=list)
+    open: int | None = None
+    last: int | None = None
+
+    def passes(self, site: int, condition: Any) -> bool:
+        """What a condition is, unless it is left out."""
+        if condition or site == self.open:
+            return True
+        self.last = site
+        return False
+
+    def refuses(self, site: int, condition: Any) -> bool:
+        """Whether an ``if`` refuses, unless it is left out."""
+        if not condition or site == self.open:
+            return False
+        self.last = site
+        return True
+
+
+GATES = Gates()
+
+
+class _Gated(ast.NodeTransformer):
+    """Conditions become calls of the gates."""
+
+    def __init__(self, file: str) -> None:
+        self.file, self.function = file, ""
+
+    def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
+        """Remember in which function a condition is."""
+        before, self.function = self.function, node.name
+        self.generic_visit(node)
+        self.function = before
+        return node
+
+    def visit_Call(self, node: ast.Call) -> ast.AST:
+        """``require(condition, …)``."""
+        self.generic_visit(node)
+        name = (
+            node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
+        )
+        if name == "require" and node.args:
+            node.args[0] = self._gate("passes", self._parts(node.args[0]), node.args[0])
+        return node
+
+    def visit_If(self, node: ast.If) -> ast.AST:
+        """``if condition: malformed(…)``."""
+        self.generic_visit(node)
+        if self.function == "require":
+            return node  # its callers are the conditions
+        first = node.body[0]
+        value = first.exc if isinstance(first, ast.Raise) else getattr(first, "value", None)
+        if len(node.body) == 1 and isinstance(value, ast.Call | ast.Name):
+            callee = value.func if isinstance(value, ast.Call) else value
+            if getattr(callee, "attr", getattr(callee, "id", "")) in REFUSALS:
+                node.test = self._gate("refuses", node.test, node.test)
+        return node
+
+    def _parts(self, node: ast.expr) -> ast.expr:
+        if isinstance(node, ast.BoolOp) and isinstance(node.op, ast.And):
+            node.values = [self._gate("passes", value, value) for value in node.values]
+        return node
+
+    def _gate(self, method: str, node: ast.expr, shown: ast.expr) -> ast.expr:
+        GATES.sites.append(Site(self.file, self.function, node.lineno, _plain(shown)))
+        call = ast.parse(f"GATES_.{method}({len(GATES.sites) - 1}, 0)", mode="eval").body
+        assert isinstance(call, ast.Call)
+        call.args[1] = node
+        return ast.copy_location(call, node)
+
+
+def _plain(node: ast.expr) -> str:
+    """The text of a condition without the gates of its parts."""
+
+    class Plain(ast.NodeTransformer):
+        def visit_Call(self, call: ast.Call) -> ast.AST:
+            self.generic_visit(call)
+            gated = getattr(getattr(call.func, "value", None), "id", "") == "GATES_"
+            return call.args[1] if gated else call
+
+    return ast.unparse(Plain().visit(ast.parse(ast.unparse(node), mode="eval")))
+
+
+class _Loader(importlib.machinery.SourceFileLoader):
+    """Source files, transformed; nothing is cached."""
+
+    def get_code(self, fullname: str) -> CodeType:
+        """Compile the transformed tree."""
+        path = self.get_filename(fullname)
+        tree = _Gated(Path(path).name).visit(ast.parse(self.get_data(path), path))
+        return compile(ast.fix_missing_locations(tree), path, "exec")
+
+    def exec_module(self, module: ModuleType) -> None:
+        """Run it with the gates at hand."""
+        module.__dict__["GATES_"] = GATES
+        super().exec_module(module)
+
+
+class _Finder(importlib.abc.MetaPathFinder):
+    """Finds the copy's modules in the folder of the checker."""
+
+    def find_spec(self, fullname: str, path: Any, target: Any = None) -> Any:
+        """The module of a file of the same name."""
+        head, _, stem = fullname.partition(".")
+        if head != PACKAGE:
+            return None
+        file = SOURCES / f"{stem or '__init__'}.py"
+        search = None if stem else [str(SOURCES)]
+        return importlib.util.spec_from_file_location(
+            fullname, file, loader=_Loader(fullname, str(file)), submodule_search_locations=search
+        )
+
+
+def weakened_checker() -> ModuleType:
+    """The copy, imported once."""
+    if PACKAGE not in sys.modules:
+        sys.meta_path.insert(0, _Finder())
+    return importlib.import_module(PACKAGE)

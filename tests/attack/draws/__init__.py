@@ -1,0 +1,1 @@
+"""What the campaign starts from: drawn plants, subjects and true certificates."""

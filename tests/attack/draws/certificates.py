@@ -1,0 +1,159 @@
+"""True certificates of every kind, found by the package's own decisions."""
+
+from __future__ import annotations
+
+import json
+import random
+from collections.abc import Callable, Mapping
+from fractions import Fraction
+from typing import Any
+
+import mcexact
+from mcexact.analysis.sharing.deficiency import deficiency
+from mcexact.answer import codec
+from mcexact.answer.reading import constructed
+from mcexact.errors import McexactError
+from mcexact.exact.location import StabilityRegion
+from mcexact.exact.polynomial import Polynomial
+from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system_file import read_system
+from tests.attack.oracle.judge import ABOUT_THE_PLANT
+
+from .observers import drawn_observer
+from .plants import Document, drawn_plant
+from .subjects import drawn_subject
+
+Found = Any
+
+
+def _some(rng: random.Random, names: Any) -> list[str]:
+    return [name for name in names if rng.random() < 0.6]
+
+
+def _pencil(rng: random.Random, system: MultiChannelSystem) -> Found:
+    chi = mcexact.open_loop_spectrum(system).polynomial
+    factors = [p for p, _ in chi.factors()] if hasattr(chi, "factors") else [chi]
+    p = rng.choice([*factors, Polynomial.from_coefficients([rng.randint(-1, 1), 1])])
+    return mcexact.pencil_rank(system, _some(rng, system.names), p)
+
+
+def _single(rng: random.Random, system: MultiChannelSystem) -> Found:
+    want: Any = rng.choice(["both", "controllable", "observable"])
+    channel = rng.choice([None, *system.names])
+    return mcexact.single_channel_gains(
+        system, channel, want=want, cyclic=want == "both" and system.m > 0 and rng.random() < 0.3
+    )
+
+
+def _exceptional(rng: random.Random, system: MultiChannelSystem) -> Found:
+    n = system.n
+    M = [[rng.randint(-1, 1) for _ in range(n)] for _ in range(n)]
+    found = mcexact.exceptional_gains(M, system.A, system.input_matrix())
+    return found.index_set if rng.random() < 0.5 else found.controllability_set
+
+
+def _bound(rng: random.Random, time: str) -> Fraction | None:
+    some = {"continuous": (0, 1, Fraction(1, 2)), "discrete": (1, Fraction(1, 2), Fraction(3, 4))}
+    return rng.choice([None, *map(Fraction, some[time])])
+
+
+def _stability(rng: random.Random, system: MultiChannelSystem) -> Found:
+    bound = _bound(rng, system.time)
+    if system.time == "continuous" and bound == 0:
+        bound = None
+    method: Any = rng.choice(["polynomial", "lyapunov", "lyapunov"])
+    return mcexact.certify_stability(system, StabilityRegion(system.time, bound), method=method)
+
+
+def _dimensions(rng: random.Random, system: MultiChannelSystem) -> Found:
+    m = system.m
+    return mcexact.minimal_shared_dimensions(
+        system,
+        None,
+        rng.choice(["outputs+states", "states"]),  # type: ignore[arg-type]
+        costs=[Fraction(rng.randint(1, 3), rng.randint(1, 2)) for _ in range(m)],
+        upper=[rng.choice([None, None, 1, 0]) for _ in range(m)],
+        free_assignability=rng.random() < 0.4,
+        region=_region(rng, system.time),
+    )
+
+
+def _region(rng: random.Random, time: str) -> StabilityRegion | None:
+    bound = _bound(rng, time)
+    if bound is None:
+        return None
+    return StabilityRegion(time, None if bound == (time == "discrete") else bound)
+
+
+def _links(rng: random.Random, system: MultiChannelSystem) -> Found:
+    share: Any = rng.choice(["outputs", "outputs+states", "states"])
+    sizes = None if share == "outputs" else [rng.randint(0, 2) for _ in range(system.m)]
+    return mcexact.minimal_communication(
+        system, dimensions=sizes, share=share, region=_region(rng, system.time)
+    )
+
+
+def _common(rng: random.Random, system: MultiChannelSystem) -> Found:
+    share: Any = rng.choice(["outputs+states", "states"])
+    return mcexact.common_dimension(system, None, share)
+
+
+DECISIONS: Mapping[str, Callable[[random.Random, MultiChannelSystem], Found]] = {
+    "assignability": lambda rng, s: mcexact.assignability(s),
+    "closed_loop_spectrum": lambda rng, s: mcexact.open_loop_spectrum(s),
+    "common_dimension": _common,
+    "communication": _links,
+    "complementary_subsystem": lambda rng, s: mcexact.complementary_subsystem(
+        s, s.names[: rng.randint(1, s.m - 1)] if s.m > 1 else s.names
+    ),
+    "completeness": lambda rng, s: mcexact.completeness(s),
+    "controllability": lambda rng, s: mcexact.joint_controllability(s, _some(rng, s.names) or None),
+    "controllability_indices": lambda rng, s: mcexact.controllability_indices(
+        s, _some(rng, s.names) or None
+    ),
+    "deficiency": lambda rng, s: deficiency(s),
+    "exceptional_gains": _exceptional,
+    "fixed_spectrum": lambda rng, s: mcexact.fixed_spectrum(s),
+    "neighbor_graph": lambda rng, s: mcexact.neighbor_graph(s),
+    "pencil_rank": _pencil,
+    "setpoint": lambda rng, s: mcexact.setpoint_solvability(s),
+    "shared_dimensions": _dimensions,
+    "single_channel_gains": _single,
+    "stability": _stability,
+    "transfer_graph": lambda rng, s: mcexact.transfer_graph(s),
+}
+WITH_GRAPH = ("common_dimension", "neighbor_graph", "shared_dimensions")
+
+
+def certified(
+    rng: random.Random, kind: str, plant: Document, steps: list[Document]
+) -> Document | None:
+    """The certificate that the package gives, or None where it refuses the question."""
+    text = json.dumps({"format": "mcexact-system/1", **plant})
+    try:
+        system = constructed(read_system(text), steps)
+        found = codec.document(DECISIONS[kind](rng, system))
+    except (McexactError, ValueError):
+        return None
+    if found["kind"] != kind:
+        return None
+    subject = steps if len(found["subject"]) in (0, len(steps)) else found["subject"]
+    return {**found, "system": plant, "subject": subject}
+
+
+def drawn_certificate(rng: random.Random, kind: str, focus: str | None) -> Document | None:
+    """One attempt at a true certificate of a kind, about a construction."""
+    graph = kind in WITH_GRAPH or focus in (
+        "augmented_outputs",
+        "extended",
+        "held",
+        "lifted",
+        "error",
+    )
+    if kind == "distributed_observer":
+        return drawn_observer(rng)
+    plant = drawn_plant(rng, graph=graph)
+    if kind in ABOUT_THE_PLANT:
+        return certified(rng, kind, plant, [])
+    steps = drawn_subject(rng, plant, focus)
+    return None if steps is None else certified(rng, kind, plant, steps)

@@ -1,0 +1,72 @@
+"""What a certificate says, however it is written: two that say different things must differ here.
+
+Written from ``FORMAT.md``, like the oracle; statements of a checker are compared with it.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from fractions import Fraction
+from typing import Any
+
+from .oracle.constructions import subject_of
+from .oracle.controllers import read_agents
+from .oracle.systems import read_plant
+
+DECIMALS = ("re", "im", "radius", "lower", "upper")
+
+
+def meaning(document: Mapping[str, Any]) -> str:
+    """One text for each meaning of a readable document."""
+    steps = [_step(document, k) for k in range(len(document["subject"]))]
+    parts = (document["kind"], _plant(document["system"]), steps, _plain(document["claim"], ""))
+    return json.dumps(parts, sort_keys=True)
+
+
+def _plant(value: Mapping[str, Any]) -> Any:
+    plant = read_plant(value)
+    channels = [
+        [name, _matrix(B), _matrix(C)]
+        for name, B, C in zip(plant.names, plant.B, plant.C, strict=True)
+    ]
+    delays = sorted([i, j, steps] for (i, j), steps in plant.delays.items())
+    return [plant.time, _matrix(plant.A), channels, plant.heard, delays]
+
+
+def _matrix(M: Any) -> Any:
+    return [M.nrows(), M.ncols(), [str(v) for v in M.entries()]]
+
+
+def _step(document: Mapping[str, Any], k: int) -> Any:
+    step = document["subject"][k]
+    if step["construction"] != "closed_loop":
+        return _plain(step, "")
+    system = subject_of(document, k)
+    agents = [
+        [
+            agent.shared,
+            agent.private,
+            {label: _map(parts) for label, parts in agent.maps.items()},
+            sorted([i, steps] for i, steps in agent.hold.items() if steps),
+        ]
+        for agent in read_agents(system, step["controller"])
+    ]
+    return ["closed_loop", agents]
+
+
+def _map(parts: Mapping[tuple[str, int], Any]) -> Any:
+    return sorted([kind, j, _matrix(M)] for (kind, j), M in parts.items())
+
+
+def _plain(value: Any, key: str) -> Any:
+    if isinstance(value, dict):
+        if set(value) == {"denominator", "entries"}:
+            d = value["denominator"]
+            return [[str(Fraction(v, d)) for v in row] for row in value["entries"]]
+        return {k: _plain(v, k) for k, v in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(v, key) for v in value]
+    if key in DECIMALS and isinstance(value, str):
+        return str(Fraction(value))
+    return value

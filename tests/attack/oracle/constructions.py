@@ -1,0 +1,186 @@
+"""The subject of a certificate: constructions applied to the plant, in their order."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+from flint import fmpq_mat
+
+from .algebra import below, beside, identity, selection, stacked
+from .controllers import closed_loop
+from .networks import held, lifted
+from .reading import demand, edges, integer, listed, matrix, place, positions, record
+from .systems import System, read_plant
+
+
+def subject_of(document: Mapping[str, Any], most: int | None = None) -> System:
+    """The system that the claim of a document is about.
+
+    Parameters
+    ----------
+    most : int, optional
+        How many constructions to apply; all by default.
+    """
+    system = read_plant(document["system"])
+    for step in listed(document["subject"])[:most]:
+        demand(isinstance(step, Mapping), "expected a construction")
+        name = step.get("construction")
+        demand(isinstance(name, str) and name in CONSTRUCTIONS, "expected a known construction")
+        keys, build = CONSTRUCTIONS[name]
+        system = build(system, record(step, "construction", *keys))
+    return system
+
+
+def augmented_outputs(system: System, _: Mapping[str, Any]) -> System:
+    """C_i becomes C_{N_i}."""
+    return replace(system, C=tuple(system.outputs(heard) for heard in system.graph()))
+
+
+def dual(system: System, _: Mapping[str, Any]) -> System:
+    """A', and B_i and C_i change places, transposed."""
+    B, C = ([M.transpose() for M in Ms] for Ms in (system.C, system.B))
+    return replace(system, A=system.A.transpose(), B=tuple(B), C=tuple(C)).plain()
+
+
+def feedback(system: System, given: Mapping[str, Any]) -> System:
+    """A_F instead of A."""
+    A = system.A
+    for B, F, C in zip(system.B, output_gains(system, given["gains"]), system.C, strict=True):
+        A = A + B * F * C
+    return replace(system, A=A)
+
+
+def output_gains(system: System, value: Any) -> list[fmpq_mat]:
+    """Matrices F_i of p_i rows and q_i columns."""
+    return [
+        matrix(F, B.ncols(), C.nrows())
+        for F, B, C in zip(listed(value, system.m), system.B, system.C, strict=True)
+    ]
+
+
+def full_output(system: System, given: Mapping[str, Any]) -> System:
+    """C_q becomes the identity."""
+    q = place(given["channel"], system.names)
+    C = [identity(system.n) if i == q else C for i, C in enumerate(system.C)]
+    return replace(system, C=tuple(C))
+
+
+def arcs(system: System, given: Mapping[str, Any]) -> System:
+    """Every link [j, i] that is added makes j a member of N_i."""
+    added = edges(given["added"], system.names)
+    heard = [set(h) for h in system.heard or [(i,) for i in range(system.m)]]
+    for j, i in added:
+        demand(j not in heard[i], "expected links that the graph lacks")
+        heard[i].add(j)
+    return replace(system, heard=tuple(tuple(sorted(h)) for h in heard))
+
+
+def shares(system: System, given: Mapping[str, Any]) -> tuple[list[int], bool]:
+    """The dimensions of the shared sub-states, and whether outputs are shared."""
+    sizes = [integer(d, 0) for d in listed(given["dimensions"], system.m)]
+    share = given.get("share", "states")
+    demand(share in ("outputs+states", "states"), "expected what is shared")
+    return sizes, share == "outputs+states"
+
+
+def extended(system: System, given: Mapping[str, Any]) -> System:
+    """State (x, x_1, …, x_m), with Ā, B̄_i and C̄_i of the table."""
+    sizes, outputs = shares(system, given)
+    graph, n, total = system.graph(), system.n, sum(sizes)
+    starts = [sum(sizes[:i]) for i in range(system.m + 1)]
+
+    def own(i: int) -> fmpq_mat:
+        return selection(total, range(starts[i], starts[i + 1]))
+
+    A = stacked(
+        [[system.A, fmpq_mat(n, total)], [fmpq_mat(total, n), fmpq_mat(total, total)]],
+        n + total,
+        n + total,
+    )
+    B, C = [], []
+    for i in range(system.m):
+        p = system.B[i].ncols()
+        E = own(i).transpose()
+        upper, lower = [system.B[i], fmpq_mat(n, sizes[i])], [fmpq_mat(total, p), E]
+        B.append(stacked([upper, lower], n + total, p + sizes[i]))
+        sent = system.outputs(graph[i]) if outputs else system.C[i]
+        received = below([own(j) for j in graph[i]], total)
+        rows = sent.nrows() + received.nrows()
+        first = [sent, fmpq_mat(sent.nrows(), total)]
+        C.append(stacked([first, [fmpq_mat(received.nrows(), n), received]], rows, n + total))
+    return replace(system, A=A, B=tuple(B), C=tuple(C))
+
+
+def integrators(system: System, _: Mapping[str, Any]) -> System:
+    """State (x, w), w' = C x or w(t+1) = C x + w; the outputs of channel i are its part of w."""
+    n, C = system.n, system.outputs()
+    q = C.nrows()
+    memory = identity(q) if system.time == "discrete" else fmpq_mat(q, q)
+    A = stacked([[system.A, fmpq_mat(n, q)], [C, memory]], n + q, n + q)
+    B = [below([b, fmpq_mat(q, b.ncols())], b.ncols()) for b in system.B]
+    outputs, start = [], n
+    for c in system.C:
+        outputs.append(selection(n + q, range(start, start + c.nrows())))
+        start += c.nrows()
+    return replace(system, A=A, B=tuple(B), C=tuple(outputs))
+
+
+def error(system: System, given: Mapping[str, Any]) -> System:
+    """The open-loop error system of gains F_i of n columns."""
+    graph, n, m = system.graph(), system.n, system.m
+    gains = [
+        matrix(F, B.ncols(), n) for F, B in zip(listed(given["gains"], m), system.B, strict=True)
+    ]
+    moved = [B * F for B, F in zip(system.B, gains, strict=True)]
+    loop = system.A
+    for BF in moved:
+        loop = loop + BF
+    A = stacked(
+        [[(loop if i == j else fmpq_mat(n, n)) - moved[j] for j in range(m)] for i in range(m)],
+        n * m,
+        n * m,
+    )
+    unit, zero = identity(n), fmpq_mat(n, n)
+    B = [below([unit if i == k else zero for i in range(m)], n) for k in range(m)]
+    C = []
+    for i in range(m):
+        blocks = [beside([system.C[i] if k == i else fmpq_mat(system.C[i].nrows(), n)
+                          for k in range(m)], system.C[i].nrows())]  # fmt: skip
+        for j in graph[i]:
+            if j != i:
+                signs = [unit if k == i else -unit if k == j else zero for k in range(m)]
+                blocks.append(beside(signs, n))
+        C.append(below(blocks, n * m))
+    return replace(system, A=A, B=tuple(B), C=tuple(C))
+
+
+def merged(system: System, given: Mapping[str, Any]) -> System:
+    """The channels of each part taken as one."""
+    parts = [positions(part, system.names) for part in listed(given["parts"])]
+    demand(all(parts), "expected parts that are not empty")
+    demand(sorted(i for part in parts for i in part) == list(range(system.m)), "expected parts")
+    demand(parts == sorted(parts), "expected parts by their first members")
+    names = tuple("+".join(system.names[i] for i in part) for part in parts)
+    demand(len(set(names)) == len(names), "expected different names")
+    B = tuple(system.inputs(part) for part in parts)
+    C = tuple(system.outputs(part) for part in parts)
+    return replace(system, names=names, B=B, C=C).plain()
+
+
+Build = Callable[[System, Mapping[str, Any]], System]
+CONSTRUCTIONS: Mapping[str, tuple[Sequence[str], Build]] = {
+    "augmented_outputs": ((), augmented_outputs),
+    "dual": ((), dual),
+    "feedback": (("gains",), feedback),
+    "full_output": (("channel",), full_output),
+    "arcs": (("added",), arcs),
+    "extended": (("share", "dimensions"), extended),
+    "lifted": (("share", "dimensions"), lambda system, g: lifted(system, *shares(system, g))),
+    "held": (("dimensions",), lambda system, g: held(system, shares(system, g)[0])),
+    "integrators": ((), integrators),
+    "error": (("gains",), error),
+    "merged": (("parts",), merged),
+    "closed_loop": (("controller",), lambda system, g: closed_loop(system, g["controller"])),
+}

@@ -1,0 +1,56 @@
+"""The verdict on a document that a checker has accepted."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from . import fixed, loops, sharing, structure
+from .constructions import subject_of
+from .reading import Unspecified, demand, record
+from .systems import System
+
+TRUE, FALSE, UNDECIDED = "true", "false", "undecided"
+
+KINDS: Mapping[str, Callable[[Any, Any, System], bool]] = {
+    "assignability": structure.assignability,
+    "closed_loop_spectrum": loops.closed_loop_spectrum,
+    "common_dimension": sharing.common_dimension,
+    "communication": sharing.communication,
+    "complementary_subsystem": structure.complementary_subsystem,
+    "completeness": fixed.completeness,
+    "controllability": structure.controllability,
+    "controllability_indices": structure.controllability_indices,
+    "deficiency": fixed.deficiency,
+    "distributed_observer": loops.distributed_observer,
+    "exceptional_gains": fixed.exceptional_gains,
+    "fixed_spectrum": fixed.fixed_spectrum,
+    "neighbor_graph": structure.neighbor_graph,
+    "pencil_rank": fixed.rank_of_pencil,
+    "setpoint": structure.setpoint,
+    "shared_dimensions": sharing.shared_dimensions,
+    "single_channel_gains": fixed.single_channel_gains,
+    "stability": loops.stability,
+    "transfer_graph": structure.transfer_graph,
+}
+ABOUT_THE_PLANT = ("common_dimension", "communication", "shared_dimensions")
+MOST_STATES = 30
+
+
+def judge(document: Mapping[str, Any]) -> tuple[str, str]:
+    """Whether the claim of a document is true, and why not."""
+    try:
+        record(document, "format", "kind", "system", "subject", "claim", "witness")
+        demand(document["format"] == "mcexact-certificate/1", "expected a certificate")
+        kind = document["kind"]
+        demand(isinstance(kind, str) and kind in KINDS, "expected a known kind")
+        system = subject_of(document)
+        if kind in ABOUT_THE_PLANT:
+            demand(document["subject"] == [], "expected a claim about the plant")
+        if system.n > MOST_STATES or system.m > 6:
+            return UNDECIDED, f"{system.n} states, {system.m} channels"
+        hint = document if kind == "distributed_observer" else document["witness"]
+        holds = KINDS[kind](document["claim"], hint, system)
+    except Unspecified as error:
+        return FALSE, f"not as the format says: {error}"
+    return (TRUE, "") if holds else (FALSE, "the claim is not true")

@@ -1,0 +1,103 @@
+"""Multi-channel systems, read from the object ``system`` of a certificate."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from flint import fmpq_mat
+
+from . import algebra
+from .reading import demand, integer, listed, place, record, table, text
+
+
+@dataclass(frozen=True)
+class System:
+    """ẋ = A x + Σ B_i u_i, y_i = C_i x (discrete time: x(t+1)).
+
+    Attributes
+    ----------
+    heard : list of lists of int, optional
+        N_i for each i, with i in it, in the order of the channels; None without neighbor graph.
+    delays : mapping
+        d_ij under (i, j), where it is not 0.
+    """
+
+    time: str
+    A: fmpq_mat
+    names: tuple[str, ...]
+    B: tuple[fmpq_mat, ...]
+    C: tuple[fmpq_mat, ...]
+    heard: tuple[tuple[int, ...], ...] | None = None
+    delays: Mapping[tuple[int, int], int] = field(default_factory=dict)
+
+    @property
+    def n(self) -> int:
+        """The number of states."""
+        return int(self.A.nrows())
+
+    @property
+    def m(self) -> int:
+        """The number of channels."""
+        return len(self.names)
+
+    def inputs(self, channels: Sequence[int] | None = None) -> fmpq_mat:
+        """B of the channels named, side by side; of all by default."""
+        chosen = range(self.m) if channels is None else channels
+        return algebra.beside([self.B[i] for i in chosen], self.n)
+
+    def outputs(self, channels: Sequence[int] | None = None) -> fmpq_mat:
+        """C of the channels named, below each other; of all by default."""
+        chosen = range(self.m) if channels is None else channels
+        return algebra.below([self.C[i] for i in chosen], self.n)
+
+    def graph(self) -> tuple[tuple[int, ...], ...]:
+        """The neighbor graph, which the system must have."""
+        demand(self.heard is not None, "expected a system with a neighbor graph")
+        return self.heard or ()
+
+    def plain(self) -> System:
+        """The same system without a neighbor graph."""
+        return replace(self, heard=None, delays={})
+
+
+def read_plant(value: Any) -> System:
+    """The user's plant."""
+    found = record(value, "time", "A", "channels", optional=("neighbors", "delays"))
+    demand(found["time"] in ("continuous", "discrete"), "expected a time domain")
+    A = table(found["A"], None, None)
+    n = A.nrows()
+    demand(A.ncols() == n, "expected a square matrix")
+    channels = [record(c, "name", "B", "C") for c in listed(found["channels"])]
+    names = tuple(text(c["name"]) for c in channels)
+    demand(len(set(names)) == len(names), "expected different names")
+    B = tuple(table(c["B"], n, None) for c in channels)
+    C = tuple(table(c["C"], None, n) for c in channels)
+    heard = _graph(found["neighbors"], names) if "neighbors" in found else None
+    delays = _delays(found["delays"], names, heard) if "delays" in found else {}
+    return System(found["time"], A, names, B, C, heard, delays)
+
+
+def _graph(value: Any, names: Sequence[str]) -> tuple[tuple[int, ...], ...]:
+    found = record(value, *names)
+    heard = []
+    for i, name in enumerate(names):
+        others = [place(j, names) for j in listed(found[name])]
+        demand(others == sorted(set(others)) and i not in others, "expected sorted neighbors")
+        heard.append(tuple(sorted({i, *others})))
+    return tuple(heard)
+
+
+def _delays(value: Any, names: Sequence[str], heard: Any) -> dict[tuple[int, int], int]:
+    demand(isinstance(value, Mapping), "expected delays")
+    demand(heard is not None or not value, "expected delays along links")
+    found = {}
+    for receiver, row in value.items():
+        i = place(receiver, names)
+        demand(isinstance(row, Mapping), "expected delays")
+        for sender, steps in row.items():
+            j = place(sender, names)
+            demand(j in heard[i] and j != i, "expected a delay along a link")
+            found[i, j] = integer(steps, 1)
+    return found

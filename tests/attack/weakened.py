@@ -1,0 +1,118 @@
+"""Which conditions of the checker the campaign needs: each is left out, and the hole is found.
+
+Every try that one condition refuses is checked again without that condition.  What is accepted
+then, and is false, is a hole that the condition closes.
+"""
+
+from __future__ import annotations
+
+import json
+import multiprocessing
+from collections import Counter
+from dataclasses import dataclass, field
+from typing import Any
+
+from .campaign import checked, judged, parsed
+from .conditions import GATES, Site, weakened_checker
+from .oracle.judge import FALSE, TRUE
+from .tries import SIZE, Try, drawn_batch, tries
+
+
+@dataclass
+class Holes:
+    """What leaving out each condition has led to.
+
+    Attributes
+    ----------
+    refused : Counter
+        How many tries a condition refused, as the only one or as the first.
+    alone : Counter
+        How many of them no other condition refused.
+    found : dict
+        The first try that is false and accepted without the condition.
+    """
+
+    refused: Counter[int] = field(default_factory=Counter)
+    alone: Counter[int] = field(default_factory=Counter)
+    true: Counter[int] = field(default_factory=Counter)
+    found: dict[int, tuple[int, str, str, Any]] = field(default_factory=dict)
+    tries: int = 0
+
+    def add(self, other: Holes) -> None:
+        """What another process has found."""
+        self.refused.update(other.refused)
+        self.alone.update(other.alone)
+        self.true.update(other.true)
+        self.tries += other.tries
+        for site, hole in other.found.items():
+            self.found[site] = min(self.found.get(site, hole), hole, key=lambda h: h[0])
+
+
+def attempt(made: Try, holes: Holes, batch: Any) -> None:
+    """Check one try, and once more without the condition that refused it."""
+    check = weakened_checker().check_document
+    GATES.open, GATES.last = None, None
+    verdict = checked(made.document, check)
+    holes.tries += 1
+    if verdict is None or verdict.verdict in ("VALID", "ERROR"):
+        return
+    if isinstance(made.document, dict):
+        batch.rejected = made.document, verdict.place
+    GATES.open = GATES.last
+    if GATES.open is None:
+        return
+    holes.refused[GATES.open] += 1
+    if GATES.open in holes.found:
+        return
+    again = checked(made.document, check)
+    if again is None or again.verdict != "VALID":
+        return
+    holes.alone[GATES.open] += 1
+    judgment, why = judged(parsed(made.document))
+    if judgment == FALSE:
+        holes.found[GATES.open] = made.number, made.mutator, why, made.document
+    elif judgment == TRUE:
+        holes.true[GATES.open] += 1
+
+
+def _share(first: int, step: int, batches: int) -> Holes:
+    holes = Holes()
+    weakened_checker()
+    for number in range(first, batches, step):
+        batch = drawn_batch(number)
+        for made in tries(number, batch):
+            attempt(made, holes, batch)
+    return holes
+
+
+def search(count: int, processes: int = 2) -> tuple[list[Site], Holes]:
+    """Leave out conditions in so many tries."""
+    batches, holes = -(-count // SIZE), Holes()
+    weakened_checker()
+    if processes == 1:
+        return GATES.sites, _share(0, 1, batches)
+    shares = min(batches, processes * 16)
+    with multiprocessing.get_context("fork").Pool(processes) as pool:
+        jobs = [pool.apply_async(_share, (k, shares, batches)) for k in range(shares)]
+        for job in jobs:
+            holes.add(job.get())
+    return GATES.sites, holes
+
+
+def table(sites: list[Site], holes: Holes) -> list[str]:
+    """The conditions of every file, and what found the hole."""
+    made = []
+    for k, site in sorted(enumerate(sites), key=lambda pair: (pair[1].file, pair[1].line, pair[0])):
+        counts = (
+            f"{holes.refused[k]:7} refused, {holes.alone[k]:6} by it alone, {holes.true[k]:6} true"
+        )
+        said = f"{holes.found[k][1]} (try {holes.found[k][0]})" if k in holes.found else "-"
+        made.append(
+            f"{site.file}:{site.line} {site.function}: {site.text[:90]} | {counts} | {said}"
+        )
+    return made
+
+
+def documents(holes: Holes) -> list[str]:
+    """Every hole with its document, one a line."""
+    return [json.dumps([site, *found]) for site, found in sorted(holes.found.items())]

@@ -1,0 +1,70 @@
+"""The package and the checker read the same system files, with the same digests."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from typing import Any
+
+import pytest
+
+from mcexact.checker import reading
+from mcexact.checker import system as checker
+from mcexact.exact import rational
+from mcexact.model import matrix_json, system_file
+from tests.campaigns.grammar import Tally, run
+from tests.campaigns.grammar_tokens import GOOD_NUMBERS, NAMES, NASTY, TEXTS
+
+
+def test_both_readers_accept_the_same_files_with_the_same_digests() -> None:
+    tally = run(3000)
+    assert tally.failures == []
+    assert tally.accepted > 600, tally.summary()
+    # Not all files that are accepted are undamaged.
+    assert sum(tally.kinds.values()) - tally.kinds["nothing"] > 60
+
+
+def test_the_tokens_have_no_repetitions() -> None:
+    for tokens in (NAMES, NASTY, TEXTS):
+        assert len(tokens) == len(set(tokens))
+    assert set(GOOD_NUMBERS) < set(NASTY)
+
+
+def lenient_fields(value: Any, place: str, *names: str, optional: tuple[str, ...] = ()) -> Any:
+    """The checker's ``fields``, but a null is as good as a key left out."""
+    if isinstance(value, Mapping):
+        value = {key: part for key, part in value.items() if part is not None or key in names}
+    return reading.fields(value, place, *names, optional=optional)
+
+
+def hidden(value: Any, place: str, longest: int, allowed: str = "") -> str:
+    """The checker's ``printable``, but any string will do."""
+    return reading.string(value, place)
+
+
+SIGNED = re.compile(rational._NUMBER.pattern.replace("-?", "[+-]?", 1), re.ASCII)
+LOOSENED = [
+    ("nulls are keys left out", checker, "fields", lenient_fields),
+    ("the rest of a file is ignored", checker, "_check_unused", lambda *_: None),
+    ("feedthrough is ignored", checker, "_require_no_feedthrough", lambda *_: None),
+    ("names may be hidden", checker, "printable", hidden),
+    ("a number may be as long as it likes", checker, "too_long", lambda *_: False),
+    ("names may be numbers", system_file, "expect_name", lambda value, where: value),
+    ("long numbers may be texts", system_file, "require_short_numbers", lambda *_: None),
+    ("sparse matrices may be larger", matrix_json, "LARGEST_SPARSE", 2**24),
+    ("feedthrough is ignored here", system_file, "_refuse_feedthrough", lambda *_: None),
+    ("a number may have a plus sign", rational, "_NUMBER", SIGNED),
+]
+
+
+@pytest.mark.parametrize(("what", "module", "name", "loose"), LOOSENED)
+def test_a_reader_that_is_loosened_is_found_out(
+    what: str, module: Any, name: str, loose: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(module, name, loose)
+    found = Tally()
+    for seed in range(25):
+        found = run(200, seed)
+        if found.failures:
+            return
+    raise AssertionError(found.summary())
