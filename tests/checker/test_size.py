@@ -53,9 +53,9 @@ def test_a_rule_takes_at_most_60_lines(stem: str) -> None:
     assert lines_of_code(FOLDER / f"{stem}.py") <= 60
 
 
-def test_what_all_rules_share_takes_at_most_600_lines() -> None:
+def test_what_all_rules_share_takes_at_most_1100_lines() -> None:
     shared = {stem: lines_of_code(FOLDER / f"{stem}.py") for stem in sorted(SHARED)}
-    assert sum(shared.values()) <= 600, shared
+    assert sum(shared.values()) <= 1100, shared
 
 
 def test_the_sentences_take_at_most_750_lines() -> None:

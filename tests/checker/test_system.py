@@ -11,6 +11,8 @@ from mcexact.checker.system import digest, read_plant, read_system_file
 from mcexact.model import gallery, system_file
 from tests.checker.handmade import PAPER
 
+NO_ROWS = (None, 0, "", False)
+NO_DELAYS = (None, "", False, 1.0, -1)
 BASE = {"format": "mcexact-system/1", **PAPER}
 
 
@@ -59,12 +61,51 @@ def test_neighbors_may_be_listed_in_any_order_and_with_the_agent_itself() -> Non
     assert digest_of(json.dumps(listed)) == digest(read_plant(PAPER))
 
 
+def test_delays_without_links_are_refused() -> None:
+    plain = {key: value for key, value in BASE.items() if key != "neighbors"}
+    assert digest_of(json.dumps(plain))
+    with pytest.raises(Refused):
+        digest_of(json.dumps({**plain, "delays": {}}))
+
+
+def test_what_no_claim_depends_on_is_not_in_the_digest() -> None:
+    sampled = {
+        **BASE,
+        "time": "discrete",
+        "name": "a",
+        "source": "b\n",
+        "sample_time": 0.5,
+        "D": [],
+    }
+    plain = {**BASE, "time": "discrete"}
+    assert digest_of(json.dumps(sampled)) == digest_of(json.dumps(plain))
+
+
 @pytest.mark.parametrize(
     ("reason", "edit"),
     [
         ("a certificate", {"format": "mcexact-certificate/1"}),
         ("another version", {"format": "mcexact-system/2"}),
         ("an unknown key", {"channel": []}),
+        ("feedthrough of the whole system", {"D": [[0, "1/2"]]}),
+        ("feedthrough that is no matrix", {"D": 0}),
+        ("a sample time in continuous time", {"sample_time": 1}),
+        ("a sample time of 0", {"time": "discrete", "sample_time": 0}),
+        ("a name that is a number", {"name": 1.5}),
+        ("a source with characters that do not print", {"source": "a\u202eb"}),
+        ("a source that is null", {"source": None}),
+        ("neighbors that are null", {"neighbors": None}),
+        *(
+            (f"neighbors of an agent that are {row!r}", {"neighbors": {"1": row}})
+            for row in NO_ROWS
+        ),
+        *((f"delays that are {row!r}", {"delays": {"1": row}}) for row in (*NO_ROWS, [])),
+        *((f"a delay that is {row!r}", {"delays": {"1": {"2": row}}}) for row in NO_DELAYS),
+        ("no delay where there is no link", {"delays": {"1": {"3": 0}}}),
+        ("a D that is null", {"channels": [{"B": [[1]] * 3, "C": [[1, 0, 0]], "D": None}]}),
+        ("a name that is null", {"channels": [{"B": [[1]] * 3, "C": [[1, 0, 0]], "name": None}]}),
+        ("digits beyond the limit", {"A": [["1e4301"] * 3] * 3}),
+        ("digits that an exponent hides", {"A": [["9" * 4300 + "e9"] * 3] * 3}),
         ("feedthrough", {"channels": [{"B": [[1], [0], [0]], "C": [[1, 0, 0]], "D": [[1]]}]}),
         ("a zero denominator", {"A": [["1/0"] * 3] * 3}),
         ("a huge exponent", {"A": [["1e1001"] * 3] * 3}),
@@ -73,7 +114,6 @@ def test_neighbors_may_be_listed_in_any_order_and_with_the_agent_itself() -> Non
         ("an entry twice", {"A": {"shape": [3, 3], "entries": [[0, 0, 1], [0, 0, 1]]}}),
         ("an entry outside", {"A": {"shape": [3, 3], "entries": [[3, 0, 1]]}}),
         ("an entry from the end", {"A": {"shape": [3, 3], "entries": [[-1, 0, 1]]}}),
-        ("delays without links", {"neighbors": None, "delays": {"1": {"2": 1}}}),
         ("no channels", {"channels": []}),
     ],
 )
