@@ -199,6 +199,18 @@ def outside(source: str) -> list[Span]:
     return spans
 
 
+def without_order(source: str) -> list[Span]:
+    """The comparisons with a text, such as ``time == "discrete"``, where < and > mean nothing."""
+    spans = []
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.Compare):
+            parts = [node.left, *node.comparators]
+            if any(isinstance(part, ast.Constant) and type(part.value) is str for part in parts):
+                end = (node.end_lineno or node.lineno, node.end_col_offset or 0)
+                spans.append(((node.lineno, node.col_offset), end))
+    return spans
+
+
 def _is_about_cost(function: ast.expr) -> bool:
     """Whether a call says how much work a step is."""
     if isinstance(function, ast.Name):

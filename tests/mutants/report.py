@@ -22,6 +22,14 @@ def explained(text: str) -> set[tuple[str, str, str]]:
     return found
 
 
+def _is_known(stem: str, mutant: session.Mutant, known: set[tuple[str, str, str]]) -> bool:
+    """Whether a mutant is explained, by its lines or by a change that is explained everywhere."""
+    if (stem, mutant.before, mutant.after) in known:
+        return True
+    pairs = ((old, new) for place, old, new in known if place == "everywhere")
+    return any(mutant.before.replace(old, new, 1) == mutant.after for old, new in pairs)
+
+
 def write(folder: Path, checker: Path, stems: list[str]) -> int:
     """Print the table and write the survivors that are not explained; return the exit status."""
     operators.register()
@@ -34,10 +42,14 @@ def write(folder: Path, checker: Path, stems: list[str]) -> int:
         if not database.exists():
             continue
         count: Counter[str] = Counter()
+        if not session.is_current(checker / f"{stem}.py", database):
+            print(f"{stem:28}has changed since")
+            open_.append(f"{stem}: has changed since\n")
+            continue
         for mutant in session.mutants(checker / f"{stem}.py", database):
             count[mutant.outcome] += 1
             if mutant.outcome != "killed":
-                if (stem, mutant.before, mutant.after) in known:
+                if _is_known(stem, mutant, known):
                     count["explained"] += 1
                 else:
                     open_.append(

@@ -74,34 +74,52 @@ def headers(source: str) -> list[tuple[int, int]]:
 
 def plan(path: Path, database: Path) -> None:
     """Write the mutants of a file to its session, unless that is there and the file is the same."""
-    source = path.read_text(encoding="utf-8")
-    about = {"source": hashlib.sha256(source.encode()).hexdigest()}
-    mark = database.with_suffix(".json")
-    if (
-        database.exists()
-        and mark.exists()
-        and json.loads(mark.read_text())["source"] == about["source"]
-    ):
+    if is_current(path, database):
         return
+    source = path.read_text(encoding="utf-8")
     database.unlink(missing_ok=True)
     with use_db(str(database), WorkDB.Mode.create) as session:
         init([path], session, {})
         spans = operators.outside(source)
+        ranks = operators.without_order(source)
         seen, counts = {source}, {"outside": 0, "others": 0, "same or no program": 0}
         for item in session.work_items:
             spec = item.mutations[0]
-            reason = _needless(spec, source, spans, seen)
+            reason = _needless(spec, source, spans, ranks, seen)
             if reason:
                 counts[reason] += 1
                 session.set_result(item.job_id, WorkResult(WorkerOutcome.SKIPPED))
-    mark.write_text(json.dumps(about | counts), encoding="utf-8")
+    about = {"source": _digest(path), "operators": _digest(Path(operators.__file__))}
+    database.with_suffix(".json").write_text(json.dumps(about | counts), encoding="utf-8")
+
+
+def is_current(path: Path, database: Path) -> bool:
+    """Whether a session is about a file as it is now, and about the operators of now."""
+    mark = database.with_suffix(".json")
+    if not database.exists() or not mark.exists():
+        return False
+    about = json.loads(mark.read_text(encoding="utf-8"))
+    now = (_digest(path), _digest(Path(operators.__file__)))
+    return (about.get("source"), about.get("operators")) == now
+
+
+def _digest(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
 def _needless(
-    spec: MutationSpec, source: str, spans: list[operators.Span], seen: set[str]
+    spec: MutationSpec,
+    source: str,
+    spans: list[operators.Span],
+    ranks: list[operators.Span],
+    seen: set[str],
 ) -> str | None:
     """Why a mutant is left out, if it is."""
     if not operators.chosen(spec.operator_name):
+        return "others"
+    if spec.operator_name.endswith(("_LtE", "_GtE", "_Lt", "_Gt")) and operators.within(
+        spec.start_pos, spec.end_pos, ranks
+    ):
         return "others"
     if operators.within(spec.start_pos, spec.end_pos, spans):
         return "outside"
