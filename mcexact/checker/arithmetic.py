@@ -9,8 +9,12 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from operator import mul
 from typing import Any
+
+from . import budget
+from .budget import build, counted, spend
 
 Polynomial = list[Any]
 """Coefficients, constant term first: Fractions over Q, integers modulo ℓ."""
@@ -18,22 +22,8 @@ Polynomial = list[Any]
 Rows = list[list[int]]
 
 
-LARGEST = 2**22
-"""The number of entries of the largest matrix that is built from a few numbers of a document."""
-
-
 class NotAUnit(Exception):
     """A number to be inverted is not a unit modulo ℓ."""
-
-
-class TooLarge(Exception):
-    """A document requires a matrix of more than ``LARGEST`` entries."""
-
-
-def require_size(entries: int) -> None:
-    """Stop if a few numbers in a document require a huge matrix."""
-    if entries > LARGEST:
-        raise TooLarge
 
 
 @dataclass(frozen=True)
@@ -47,13 +37,13 @@ class Matrix:
     @staticmethod
     def zeros(nrows: int, ncols: int) -> Matrix:
         """The zero matrix."""
-        require_size(nrows * ncols)
+        spend(budget.table(nrows, ncols))
         return Matrix([[0] * ncols for _ in range(nrows)], ncols)
 
     @staticmethod
     def unit_rows(n: int, start: int, size: int) -> Matrix:
         """[0 I 0]: ``size`` rows of the n × n identity from row ``start`` on."""
-        require_size(size * n)
+        spend(budget.table(size, n))
         return Matrix([[int(j == start + i) for j in range(n)] for i in range(size)], n)
 
     @property
@@ -61,21 +51,35 @@ class Matrix:
         """The number of rows."""
         return len(self.rows)
 
+    @cached_property
+    def limbs(self) -> int:
+        """The limbs of the longest entry, or of the denominator."""
+        spend(self.nrows * (8 + self.ncols))
+        longest = max(map(budget.limbs, self.rows), default=1)
+        return max(longest, budget.limbs([self.denominator]))
+
     @property
     def T(self) -> Matrix:
         """The transpose."""
+        spend(budget.table(self.ncols, self.nrows))
         columns = [[row[j] for row in self.rows] for j in range(self.ncols)]
         return Matrix(columns, self.nrows, self.denominator)
 
     def __matmul__(self, other: Matrix) -> Matrix:
         if self.ncols != other.nrows:
             raise ValueError(f"no product of {self.ncols} columns and {other.nrows} rows")
+        a, b = self.limbs, other.limbs
+        build(self.nrows + 1, other.ncols, a, b, other.nrows)
         rows = product(self.rows, other.rows, other.ncols)
         return Matrix(rows, other.ncols, self.denominator * other.denominator)
 
     def __add__(self, other: Matrix) -> Matrix:
+        a, b = self.limbs, other.limbs
+        spend(budget.fractions(1, a + b))
         d = math.lcm(self.denominator, other.denominator)
         f, g = d // self.denominator, d // other.denominator
+        c = max(a + budget.limbs([f]), b + budget.limbs([g]))
+        build(self.nrows, self.ncols, c, a + b, 2)
         pairs = zip(self.rows, other.rows, strict=True)
         rows = [[f * a + g * b for a, b in zip(r, s, strict=True)] for r, s in pairs]
         return Matrix(rows, self.ncols, d)
@@ -85,11 +89,14 @@ class Matrix:
 
     def times(self, factor: Fraction) -> Matrix:
         """The multiple by a rational factor."""
+        a, b = self.limbs, budget.limbs_of([factor])
+        build(self.nrows, self.ncols, a, b)
         rows = [[factor.numerator * entry for entry in row] for row in self.rows]
         return Matrix(rows, self.ncols, self.denominator * factor.denominator)
 
     def is_zero(self) -> bool:
         """Whether every entry is 0."""
+        spend(self.nrows * (8 + self.ncols))
         return not any(map(any, self.rows))
 
     def equals(self, other: Matrix) -> bool:
@@ -105,6 +112,9 @@ class Matrix:
 
     def modulo(self, ell: int) -> Rows:
         """The residues modulo ℓ; the denominator must be a unit."""
+        a = self.limbs + budget.limbs([ell])
+        spend(budget.table(self.nrows, self.ncols, a) + budget.inversions(1, a))
+        spend(budget.reductions(self.nrows * self.ncols, a))
         f = inverse(self.denominator, ell)
         return [[f * entry % ell for entry in row] for row in self.rows]
 
@@ -112,7 +122,12 @@ class Matrix:
 def stack(parts: Iterable[Matrix], ncols: int) -> Matrix:
     """The matrices one above the other, all of ``ncols`` columns."""
     above = list(parts)
-    d = math.lcm(*(part.denominator for part in above))
+    longest = max((part.limbs for part in above), default=1)
+    denominators = {part.denominator for part in above}
+    spend(budget.fractions(len(denominators), sum(budget.limbs([d]) for d in denominators)))
+    d = math.lcm(*denominators)
+    nrows, more = sum(part.nrows for part in above), budget.limbs([d])
+    build(nrows, ncols, longest, more)
     rows = [[d // M.denominator * entry for entry in row] for M in above for row in M.rows]
     return Matrix(rows, ncols, d)
 
@@ -130,7 +145,10 @@ def diagonal(A: Matrix, B: Matrix) -> Matrix:
 
 
 def product(A: Rows, B: Rows, ncols: int, ell: int = 0) -> Rows:
-    """A·B over the integers, or modulo ℓ if one is given."""
+    """A·B over the integers, or modulo ℓ if one is given, which reduces the factors."""
+    if ell:
+        a = budget.limbs([ell])
+        build(len(A) + 1, ncols, a, a, len(B) + 4)
     columns: Iterable[Any] = list(zip(*B, strict=True)) if B else [()] * ncols
     rows = [[sum(map(mul, row, column)) for column in columns] for row in A]
     return [[entry % ell for entry in row] for row in rows] if ell else rows
@@ -149,13 +167,16 @@ def rank(A: Matrix) -> int:
     Theorems ``elimination.bareiss_exact``, ``elimination.bareiss_step``,
     ``elimination.bareiss_rank``.
     """
+    spend(budget.table(A.nrows, A.ncols, A.limbs))
     rows, found, previous = [list(row) for row in A.rows], 0, 1
-    for column in range(A.ncols):
+    for column in counted(range(A.ncols)):
         pivot = next((i for i in range(found, len(rows)) if rows[i][column]), None)
         if pivot is None:
             continue
         rows[found], rows[pivot] = rows[pivot], rows[found]
         top, p = rows[found], rows[found][column]
+        longest = max(map(budget.limbs, rows[found:]))
+        spend(budget.reductions((A.nrows - found - 1) * A.ncols, longest) + 20 * A.nrows)
         for i in range(found + 1, len(rows)):
             f = rows[i][column]
             rows[i] = [(p * a - f * b) // previous for a, b in zip(rows[i], top, strict=True)]
@@ -175,6 +196,9 @@ class Echelon:
 
     def add(self, vector: Sequence[int]) -> list[int] | None:
         """Reduce a vector; keep and return the remainder, or return None if it is zero."""
+        a = budget.limbs([self.ell])
+        spend(budget.reductions((len(self.rows) + 1) * len(vector), a) + budget.inversions(1, a))
+        spend(budget.table(1, len(vector), a))
         left = list(vector)
         for pivot, row in self.rows:
             if f := left[pivot]:
@@ -189,6 +213,8 @@ class Echelon:
 
 def poly_modulo(p: Polynomial, ell: int) -> Polynomial:
     """A polynomial over Q modulo ℓ; its denominators must be units."""
+    a = budget.limbs_of(p) + budget.limbs([ell])
+    spend(budget.inversions(len(p), a) + budget.table(1, len(p), a))
     return stripped([c.numerator * inverse(c.denominator, ell) % ell for c in p])
 
 
@@ -201,6 +227,7 @@ def stripped(p: Polynomial) -> Polynomial:
 
 def poly_product(a: Polynomial, b: Polynomial) -> Polynomial:
     """The product a·b."""
+    spend(_terms(len(a) * len(b), a, b, 1))
     result: Polynomial = [0] * (len(a) + len(b) - 1)
     for i, f in enumerate(a):
         for k, g in enumerate(b):
@@ -210,6 +237,8 @@ def poly_product(a: Polynomial, b: Polynomial) -> Polynomial:
 
 def poly_divide(a: Polynomial, b: Polynomial, ell: int = 0) -> tuple[Polynomial, Polynomial]:
     """Quotient and remainder of a by b ≠ 0, over Q, or modulo ℓ if one is given."""
+    turns = max(len(a) - len(b) + 1, 0)
+    spend(_terms(turns * len(b) + 1, a, b, 0 if ell else turns))
     f = inverse(b[-1], ell) if ell else 1 / Fraction(b[-1])
     rest, quotient = list(a), []
     while len(rest) >= len(b):
@@ -219,6 +248,16 @@ def poly_divide(a: Polynomial, b: Polynomial, ell: int = 0) -> tuple[Polynomial,
             rest[k - len(b)] -= quotient[-1] * b[k]
         rest.pop()
     return quotient[::-1], stripped([entry % ell for entry in rest] if ell else rest)
+
+
+def _terms(number: int, a: Polynomial, b: Polynomial, turns: int) -> int:
+    """The units of so many products of coefficients, which grow in every turn."""
+    first, second = budget.limbs_of(a), budget.limbs_of(b)
+    units = 100 + len(a) + len(b)
+    if all(type(c) is int for c in (*a, *b)):
+        longest = max(first, second)
+        return units + budget.reductions(number, longest) + budget.inversions(1, longest)
+    return units + budget.fractions(number, first + second * turns)
 
 
 def exponent(p: Polynomial, f: Polynomial, ell: int = 0) -> tuple[int, Polynomial]:

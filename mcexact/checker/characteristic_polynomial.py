@@ -7,7 +7,9 @@ from fractions import Fraction
 from itertools import count
 from operator import mul
 
+from . import budget
 from .arithmetic import Matrix, NotAUnit, Polynomial, Rows, inverse
+from .budget import spend
 
 
 def characteristic_polynomial_modulo(A: Rows, ell: int) -> Polynomial:
@@ -18,7 +20,10 @@ def characteristic_polynomial_modulo(A: Rows, ell: int) -> Polynomial:
 
     Theorem ``hessenberg.characteristic_polynomial_modulo``.
     """
-    n, A = len(A), [list(row) for row in A]
+    n, longest, a = len(A), max(map(budget.limbs, A), default=1), budget.limbs([ell])
+    spend(budget.products(n**3, longest, a) + budget.products(n**3 // 2, a, a))
+    spend(budget.reductions(2 * n * n, a) + budget.inversions(n, a) + budget.table(3 * n, n, a))
+    A = [list(row) for row in A]
     L: Rows = [[int(i == 0)] for i in range(n)]
     H: Rows = []
     below: list[int] = []
@@ -74,6 +79,8 @@ def characteristic_polynomial(A: Matrix) -> Polynomial:
 
     Theorem ``characteristic_polynomial.characteristic_polynomial_rule``.
     """
+    n, d, a = A.nrows, A.denominator, A.limbs
+    spend(budget.products(4 * n * n, a, a) + budget.products(n, n * a, a))
     bound = math.prod(2 + math.isqrt(sum(entry * entry for entry in row)) for row in A.rows)
     for q in count(2**61 - 1, 2):
         ell = q ** (bound.bit_length() // 60 + 1)
@@ -82,6 +89,6 @@ def characteristic_polynomial(A: Matrix) -> Polynomial:
         except NotAUnit:
             continue
         lifted = [c - ell if 2 * c > ell else c for c in residues]
-        n, d = A.nrows, A.denominator
+        spend(budget.fractions(n + 1, n * a + 1))
         return [Fraction(c, d ** (n - k)) for k, c in enumerate(lifted)]
     raise NotAUnit

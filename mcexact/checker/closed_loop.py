@@ -5,7 +5,8 @@ from __future__ import annotations
 from itertools import accumulate
 from typing import Any
 
-from .arithmetic import Matrix, require_size, stack
+from .arithmetic import Matrix, stack
+from .budget import spend, table
 from .reading import fields, integer, items, require
 from .system import System, read_matrix
 
@@ -30,14 +31,15 @@ def closed_loop(system: System, step: dict[str, Any], place: str) -> System:
         width["x"][j], width["z"][j] = integer(sizes[0], place), integer(sizes[1], place)
     terms = [_terms(system, agents, i, width, place) for i in range(m)]
     used = {signal for maps in terms for found in maps for signal, _ in found}
+    spend(30 * m * len(used))
     order: list[Signal] = [("X", 0, 0), *((what, j, 0) for j in range(m) for what in "xz")]
     for what, j in ((what, j) for j in range(m) for what in "xy"):
         oldest = max((age for w, k, age in used if (w, k) == (what, j)), default=0)
-        require_size((len(order) - 2 * m + oldest) ** 2)
+        spend(500 * oldest)
         order += [(what, j, age + 1) for age in range(oldest)]
     widths = [width[what][j] for what, j, _ in order]
     total, starts = sum(widths), accumulate(widths, initial=0)
-    require_size(total**2)
+    spend(table(total, total))
     reads = {s: Matrix.unit_rows(total, *part) for s, *part in zip(order, starts, widths)}  # noqa: B905
     reads |= {("y", j, 0): C_j @ reads["X", 0, 0] for j, C_j in enumerate(system.C)}
 

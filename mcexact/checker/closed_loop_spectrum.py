@@ -5,7 +5,9 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from . import budget
 from .arithmetic import Matrix, Polynomial, poly_modulo
+from .budget import counted, spend
 from .characteristic_polynomial import characteristic_polynomial_modulo
 from .reading import fields, integer, items, polynomial, require
 from .system import System
@@ -29,6 +31,8 @@ def moduli(value: Any, place: str) -> list[int]:
     found, product = [], 1
     for k, entry in enumerate(items(value, place)):
         found.append(integer(entry, f"{place}[{k}]", 2))
+        longest, more = budget.limbs([product]), budget.limbs(found[-1:])
+        spend(budget.reductions(longest, more) + budget.fractions(1, more))
         coprime = math.gcd(product, found[-1]) == 1
         require(coprime, "modulus", f"{place}[{k}]", "not coprime to those before it")
         product *= found[-1]
@@ -44,15 +48,20 @@ def require_spectrum(A: Matrix, p: Polynomial, place: str, ells: list[int]) -> N
     Theorem ``closed_loop_spectrum.closed_loop_spectrum``.
     """
     D = beta = 1
+    n, a = A.nrows, A.limbs
+    spend(budget.fractions(n * (n + 1), a) + budget.products(4 * n, n * (a + 1), a + 1))
     for row in A.rows:
         common = math.gcd(A.denominator, *row)
         D *= A.denominator // common
         beta *= (A.denominator + sum(map(abs, row))) // common
     require(len(p) == A.nrows + 1, "degree", place, f"expected degree {A.nrows}")
+    longest = budget.limbs([beta]) + budget.limbs_of(p)
+    spend(budget.fractions(3 * len(p), longest))
     small = all(D % c.denominator == 0 and abs(D * c) <= beta for c in p)
     require(small, "bound", place, "a coefficient that no matrix with these rows has")
     require(math.prod(ells) > 2 * beta, "moduli", "witness.moduli", "too few for these entries")
-    for ell in ells:
+    for ell in counted(ells):
+        spend(budget.fractions(1, longest))
         require(math.gcd(D, ell) == 1, "modulus", "witness.moduli", "divides a denominator")
         found = characteristic_polynomial_modulo(A.modulo(ell), ell)
         require(found == poly_modulo(p, ell), "spectrum", place, f"differs modulo {ell}")

@@ -85,10 +85,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     for name in ("bytes", "digits", "depth"):
         default = getattr(Limits, name)
         parser.add_argument(f"--max-{name}", type=int, default=default, metavar="N")
+    parser.add_argument(
+        "--max-work",
+        type=int,
+        metavar="N",
+        help="units of work that each check may take; by default they grow with the bytes read",
+    )
     options = parser.parse_args(arguments)
     if not options.files and options.manifest is None:
         parser.error("expected a FILE or --manifest")
-    limits = Limits(options.max_bytes, options.max_depth, options.max_digits)
+    limits = Limits(options.max_bytes, options.max_depth, options.max_digits, work=options.max_work)
     sys.set_int_max_str_digits(0)
     # A character that the terminal's encoding lacks must not raise an error.
     if isinstance(sys.stdout, io.TextIOWrapper):

@@ -8,6 +8,7 @@ from fractions import Fraction
 from typing import Any
 
 from . import covering, links, reading, region, subspaces
+from .budget import spend
 from .information_structure import arcs, augmented_outputs, extended
 from .reading import fields, items, require
 from .system import System
@@ -46,10 +47,12 @@ def check(claim: Any, witness: Any, system: System) -> str:
         U = reading.polynomial_matrix(subspace["U"], place, subject.n, width, len(p) - 1)
         rows = [links.carried(system, share, sizes, j) for j in range(system.m)]
         sends = [j for j, S in enumerate(rows) if any(not (S @ part).is_zero() for part in U)]
+        spend(4 * len(ends) * (2 + len(sends) + len(T)))
         found.append(({v for v, (j, i) in enumerate(ends) if j in sends and i not in T}, 1))
     value = region.claimed_cost(claim, "added", absence)
     if value is not None:
         chosen = [links.link(e, "claim.added", system) for e in items(added, "claim.added")]
+        spend(4 * len(chosen) * len(candidates))
         right = chosen == sorted(set(chosen)) and set(chosen) <= set(ends)
         total = sum((c for j, i, c in candidates if (j, i) in chosen), Fraction(0))
         require(right and value == total, "claim", "claim.cost", "not the cost of such candidates")

@@ -5,14 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from .arithmetic import Matrix, beside, require_size, stack
-from .information_structure import (
-    SHARED,
-    neighbors_of,
-    read_dimensions,
-    read_shares,
-    require_outputs,
-)
+from .arithmetic import Matrix, beside, stack
+from .budget import spend, table
+from .information_structure import SHARED, neighbors_of, read_dimensions, read_shares
 from .reading import fields, require
 from .system import System
 
@@ -47,8 +42,7 @@ def _delayed(
     d = [max([system.delays.get((i, j), 0) for i in range(m)]) for j in range(m)]
     q = [C_j.nrows if with_outputs else 0 for C_j in system.C]
     widths = [(d[j] + 1) * sizes[j] + d[j] * q[j] for j in range(m)]
-    require_size((n + sum(widths) + sum(d)) ** 2)
-    require_outputs(n + sum(widths), [system.C[j].nrows + sizes[j] for N_i in N for j in N_i])
+    spend(500 * sum(d) + table(n + sum(widths), n + sum(widths)) + m * m)
     total, starts = n + sum(widths), [n + sum(widths[:j]) for j in range(m)]
     plant = Matrix.unit_rows(total, 0, n)
 

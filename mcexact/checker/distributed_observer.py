@@ -5,7 +5,9 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
+from . import budget
 from .arithmetic import Matrix, Polynomial
+from .budget import spend
 from .closed_loop_spectrum import moduli, require_spectrum
 from .location import in_region
 from .reading import fields, polynomial, rational, require
@@ -40,6 +42,7 @@ def separated(system: System) -> tuple[Matrix, Matrix]:
     blocks = list(system.blocks)
     good = len(blocks) > 1 and sum(blocks) == system.n and set(blocks[1::2]) == {blocks[0]}
     require(good, "subject", "subject", "not a loop in which every agent estimates the state")
+    spend(2 * budget.table(system.n, system.n, system.A.limbs) + len(blocks) ** 2)
     n, rows = blocks[0], [list(row) for row in system.A.rows]
     starts = [sum(blocks[:k]) for k in range(1, len(blocks), 2)]
     for start in starts:

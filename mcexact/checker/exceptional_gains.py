@@ -6,8 +6,9 @@ from fractions import Fraction
 from functools import reduce
 from typing import Any
 
-from . import evidence, reading, root_discs
+from . import budget, evidence, reading, root_discs
 from .arithmetic import Matrix, Polynomial, exponent, poly_product, stripped
+from .budget import counted, spend
 from .characteristic_polynomial import characteristic_polynomial
 from .reading import fields, integer, items, matrix, require
 from .system import System
@@ -54,7 +55,7 @@ def _lost_at(value: Any, place: str, A: Matrix, M: Matrix, B: Matrix, blocks: in
     w = reading.polynomial_matrix(row, f"{place}.row", 1, A.nrows, len(f) - 1)
     pivots = reading.positions([pivot], f"{place}.pivot", A.nrows)
     evidence.require_identity([layer.T for layer in w], pivots, f"{place}.pivot")
-    for _ in range(blocks):
+    for _ in counted(range(blocks)):
         gone = all((layer @ B).is_zero() for layer in w)
         require(gone, "identity", f"{place}.row", "it does not annihilate every block")
         moved = [Matrix.zeros(1, A.nrows), *(layer @ A for layer in w)]
@@ -69,11 +70,14 @@ def _determinant(A: Matrix, M: Matrix, B: Matrix, R: Matrix, blocks: int) -> Pol
     Theorem ``interpolation.determinant_by_values``.
     """
     result, basis = Polynomial(), [Fraction(1)]
-    for g in range(A.nrows * (blocks - 1) + 1):
+    for g in counted(range(A.nrows * (blocks - 1) + 1)):
         total = Matrix.zeros(A.nrows, A.nrows)
         for k in reversed(range(0, R.nrows, B.ncols or 1)):
             total = B @ R.take(range(k, k + B.ncols)) + (M + A.times(Fraction(g))) @ total
         wanted = (-1) ** A.nrows * characteristic_polynomial(total)[0]
+        longest = budget.limbs_of((wanted, *result, *basis))
+        longest += g.bit_length() * len(basis) // budget.LIMB
+        spend(budget.fractions(8 * len(basis), longest))
         now, room = (sum(c * g**k for k, c in enumerate(p)) for p in (result, basis))
         slope = (wanted - now) / room
         result = [a + slope * b for a, b in zip([*result, Fraction(0)], basis, strict=True)]

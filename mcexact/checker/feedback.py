@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from .arithmetic import Matrix, beside, require_size, stack
+from .arithmetic import Matrix, beside, stack
 from .evidence import closed_loop, outputs, read_gains
-from .information_structure import neighbors_of, require_outputs
+from .information_structure import neighbors_of
 from .reading import fields, matrices
 from .system import System
 
@@ -67,10 +67,6 @@ def error(system: System, step: dict[str, Any], place: str) -> System:
     """
     (listed,) = fields(step, place, "gains")
     n, N = system.n, neighbors_of(system, place)
-    require_size((n * system.m) ** 2)
-    require_outputs(
-        n * system.m, [len(N_i) * n + C_i.nrows for N_i, C_i in zip(N, system.C, strict=True)]
-    )
     F = matrices(listed, place, [(B_i.ncols, n) for B_i in system.B])
     BF = [B_i @ F_i for B_i, F_i in zip(system.B, F, strict=True)]
     e = [Matrix.unit_rows(n * system.m, i * n, n) for i in range(system.m)]

@@ -6,7 +6,8 @@ from dataclasses import replace
 from typing import Any
 
 from . import reading
-from .arithmetic import Matrix, diagonal, require_size, stack
+from .arithmetic import Matrix, diagonal, stack
+from .budget import spend
 from .evidence import outputs
 from .system import System
 
@@ -20,11 +21,6 @@ def neighbors_of(system: System, place: str) -> list[list[int]]:
     return system.neighbors or []
 
 
-def require_outputs(n: int, counts: list[int]) -> None:
-    """Stop if the outputs of all agents, n columns each, exceed 8 large matrices."""
-    require_size((n + 64) * sum(counts) // 8)  # even a short row takes memory
-
-
 def augmented_outputs(system: System, step: dict[str, Any], place: str) -> System:
     """C_i becomes C_{N_i}.
 
@@ -32,7 +28,6 @@ def augmented_outputs(system: System, step: dict[str, Any], place: str) -> Syste
     """
     reading.fields(step, place)
     N = neighbors_of(system, place)
-    require_outputs(system.n, [system.C[j].nrows for N_i in N for j in N_i])
     C = [outputs(system, N_i) for N_i in N]
     return replace(system, C=C, words=f"{system.words} with neighbors' outputs shared")
 
@@ -43,6 +38,7 @@ def arcs(system: System, step: dict[str, Any], place: str) -> System:
     Open: see ``proofs/OPEN.md``.
     """
     (listed,) = reading.fields(step, place, "added")
+    spend(40 * sum(map(len, neighbors_of(system, place))) + 100 * system.m)
     sets = [set(N_i) for N_i in neighbors_of(system, place)]
     for arc in reading.items(listed, place):
         j, i = (system.place_of(end, place) for end in reading.items(arc, place, 2))
@@ -70,8 +66,6 @@ def extended(system: System, step: dict[str, Any], place: str) -> System:
     """
     (share, sizes), N = read_shares(system, step, place), neighbors_of(system, place)
     total = sum(sizes)
-    counts = [system.C[j].nrows + sizes[j] for N_i in N for j in N_i]
-    require_outputs(system.n + total, counts)
     E = [Matrix.unit_rows(total, sum(sizes[:i]), size) for i, size in enumerate(sizes)]
     B = [diagonal(B_i, E_i.T) for B_i, E_i in zip(system.B, E, strict=True)]
     own = [outputs(system, N_i if share == "outputs+states" else [i]) for i, N_i in enumerate(N)]

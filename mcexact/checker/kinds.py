@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import json
 import sys
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from importlib import import_module
 from typing import Any
 
-from .arithmetic import NotAUnit, TooLarge
+from .arithmetic import NotAUnit
+from .budget import current, limited
 from .reading import Limits, Refused, fields, incomplete, malformed, parse, require, shown, string
 from .subject import read_subject
 from .system import System, digest, read_plant
@@ -45,6 +47,8 @@ class Verdict:
         The SHA-256 of the certificate's plant; empty if it could not be read.
     code, place, message : str
         If it is not VALID, a word for the reason, the place in the document, and a sentence.
+    spent : int
+        The units of work that it took.
     """
 
     verdict: str
@@ -53,6 +57,7 @@ class Verdict:
     code: str = ""
     place: str = ""
     message: str = ""
+    spent: int = field(default=0, compare=False)
 
     @property
     def status(self) -> int:
@@ -85,11 +90,11 @@ def check_document(
     Verdict
         After anything unexpected, including an exception, the verdict is not VALID.
     """
-    known = ""
+    known, allowed = "", limits or Limits()
 
     def check() -> Verdict:
         nonlocal known
-        document = parse(data, limits or Limits()) if isinstance(data, bytes) else data
+        document = parse(data, allowed) if isinstance(data, bytes) else data
         kind, plant, steps, claim, witness = _parts(document)
         system = read_plant(plant)
         known = digest(system)
@@ -98,7 +103,15 @@ def check_document(
             require(same, "system", "system", f"about another system, of digest {known}")
         return Verdict("VALID", KINDS[kind](claim, witness, read_subject(steps, system)))
 
-    return replace(answer(check), digest=known)
+    def check_within() -> Verdict:
+        text = data if isinstance(data, bytes) else json.dumps(data, skipkeys=True, default=repr)
+        with limited(budget, len(text)):
+            return check()
+
+    budget = current(allowed.work)
+    before = budget.spent
+    verdict = answer(check_within)
+    return replace(verdict, digest=known, spent=budget.spent - before)
 
 
 def answer(check: Callable[[], Verdict]) -> Verdict:
@@ -111,8 +124,8 @@ def answer(check: Callable[[], Verdict]) -> Verdict:
         return check()
     except Refused as found:
         return Verdict(found.verdict, "", "", found.code, found.place, found.message)
-    except TooLarge:
-        return Verdict("INCOMPLETE", "", "", "size", "subject", "matrices too large to build")
+    except MemoryError:
+        return Verdict("INCOMPLETE", "", "", "memory", "checker", "more memory than there is")
     except NotAUnit:
         message = "a number that has to be inverted is not a unit modulo l"
         return Verdict("INVALID", "", "", "unit", "witness.modulus", message)

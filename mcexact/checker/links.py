@@ -6,6 +6,7 @@ from fractions import Fraction
 from typing import Any
 
 from .arithmetic import Matrix, diagonal
+from .budget import spend
 from .information_structure import neighbors_of
 from .reading import items, malformed, names, rational, require
 from .system import System
@@ -23,6 +24,7 @@ def candidates(value: Any, system: System) -> list[tuple[int, int, Fraction]]:
     for *ends, price in (items(entry, place, 3) for entry in items(value, place)):
         found.append((*link(ends, place, system), rational(price, place)))
     keys = [(j, i) for j, i, _ in found]
+    spend(len(keys) * (100 + system.m))
     if keys != sorted(set(keys)) or any(j in N[i] for j, i in keys):
         malformed(place, "expected links that the graph lacks, sorted, none twice")
     require(all(c > 0 for *_, c in found), "claim", place, "expected positive costs")

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from . import sentences_analysis, sentences_design, sentences_sharing
+from .budget import Budget, current, limited, spend
 from .kinds import KINDS, Verdict, answer, check_document
 from .reading import Limits, Refused, fields, items, malformed, parse, require, shown, string
 from .sentence import RULES, Premise, enter_own
@@ -63,9 +64,12 @@ def verdicts_of(
 ) -> Iterator[tuple[dict[str, str], Verdict]]:
     """The verdicts on a manifest from anywhere: ``read`` takes the name of a file, or "" for it."""
     parts: list[Any] = []
+    budget = current(limits.work)
 
     def start() -> Verdict:
-        parts.extend(_parts(parse(read(""), limits)))
+        data = read("")
+        with limited(budget, len(data)):
+            parts.extend(_parts(parse(data, limits)))
         return Verdict("READ")
 
     verdict = answer(start)
@@ -73,7 +77,7 @@ def verdicts_of(
         yield {"file": NAME}, verdict
         return
     digests, sentences, base = parts
-    known = Evidence(read, base, limits, system_digest)
+    known = Evidence(read, base, limits, system_digest, budget)
     for name in sorted(digests):
         yield {"file": name}, known.taken(name, digests[name])
     for k, sentence in enumerate(sentences):
@@ -131,6 +135,8 @@ class Evidence:
     limits : Limits
     digest : str or None
         The digest of the plant, by default that of the first VALID certificate.
+    budget : Budget
+        The work that all of them may take together.
     verdicts, premises : dict
         The verdicts on all certificates, and the premises made of VALID ones.
     """
@@ -139,6 +145,7 @@ class Evidence:
     base: list[Any]
     limits: Limits
     digest: str | None
+    budget: Budget = field(default_factory=lambda: current(None))
     verdicts: dict[str, Verdict] = field(default_factory=dict)
     premises: dict[str, Premise] = field(default_factory=dict)
 
@@ -150,12 +157,13 @@ class Evidence:
             large = len(data) > self.limits.bytes
             right = large or hashlib.sha256(data).hexdigest() == wanted
             require(right, "digest", "file", "not the bytes that the manifest names")
-            document = parse(data, self.limits)
-            verdict = check_document(document, self.digest, self.limits)
-            if verdict.verdict == "VALID":
-                self.premises[name] = self._premise(name, document, verdict.theorem)
-                self.digest = verdict.digest
-            return verdict
+            with limited(self.budget, len(data)):
+                document = parse(data, self.limits)
+                verdict = check_document(document, self.digest, self.limits)
+                if verdict.verdict == "VALID":
+                    self.premises[name] = self._premise(name, document, verdict.theorem)
+                    self.digest = verdict.digest
+                return verdict
 
         self.verdicts[name] = answer(check)
         return self.verdicts[name]
@@ -177,6 +185,7 @@ class Evidence:
             theorem = RULES[key].theorem
             named = sentence["theorem"] == theorem
             require(named, "theorem", "theorem", f"expected {theorem or 'none'}")
+            spend(1000 + 10 * len(because))
             cited = list(dict.fromkeys(name for name, *_ in because))
             for name in cited if self.premises else self.verdicts:
                 open_ = "INCOMPLETE" if self.verdicts[name].status == 5 else "INVALID"
@@ -186,13 +195,16 @@ class Evidence:
                 found = pointed(self.premises[name].document, pointer, name)
                 require(same(found, value), "value", name, f"another value at {shown(pointer)}")
             require(bool(self.premises), "premise", "because", "no certificate is about the plant")
+            spend(2 * len(cited) * len(because) + 100 * len(self.premises))
             pointers = {name: tuple(p for n, p, _ in because if n == name) for name in cited}
             told = [replace(self.premises[name], pointers=pointers[name]) for name in cited]
             words = RULES[key].implied(told, [*self.premises.values()])
             words += f" [{theorem}]" if theorem else ""
+            spend(len(words))
             return Verdict("IMPLIED", f"{words} from {', '.join(cited)}" if cited else words)
 
-        verdict = answer(check)
+        with limited(self.budget):
+            verdict = answer(check)
         where = f"{place} {shown(key)} {verdict.place}" if verdict.status else ""
         return replace(verdict, place=where)
 

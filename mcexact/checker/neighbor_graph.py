@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
+from .budget import spend
 from .information_structure import neighbors_of
 from .reading import boolean, fields, require
 from .system import System
@@ -38,6 +39,7 @@ def components(m: int, arcs: Iterable[tuple[int, int]]) -> list[list[int]]:
 
     Theorems ``strong_components.closure_connect``, ``strong_components.component_rule``.
     """
+    spend(m * m * (12 + m // 500) + 100)
     ahead, behind = ([1 << j for j in range(m)] for _ in range(2))  # sets of nodes, as bits
     for j, i in arcs:
         ahead[j] |= 1 << i

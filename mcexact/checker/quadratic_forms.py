@@ -7,6 +7,7 @@ from typing import Any
 
 from . import evidence
 from .arithmetic import Echelon, Matrix
+from .budget import products, spend
 from .reading import fields, matrix, require
 
 
@@ -47,6 +48,7 @@ def require_dominant(S: Matrix, place: str) -> None:
 
     Theorem ``stability.dominant_congruence``.
     """
+    spend(products(2 * S.nrows * (S.nrows + 4), S.limbs, 1))
     fits = all(
         2 * row[i] > row[i] + sum(map(abs, row)) - abs(row[i]) for i, row in enumerate(S.rows)
     )

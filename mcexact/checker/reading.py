@@ -16,6 +16,8 @@ from fractions import Fraction
 from typing import Any, NoReturn
 
 from .arithmetic import Matrix, Polynomial
+from .budget import spend
+from .refused import Refused as Refused
 
 # A string is one match, also without its end; possessive quantifiers make the scans linear.
 TOKEN = re.compile(r'"(?:[^"\\]++|\\.)*+"?|[\[{]|[\]}]', re.DOTALL)
@@ -25,22 +27,18 @@ HIDDEN = ("Cc", "Cf", "Cs", "Zl", "Zp")
 """The Unicode categories of characters that do not print."""
 
 
-class Refused(Exception):
-    """The end of a check that is not VALID: a verdict, a code, a place and a message."""
-
-    def __init__(self, verdict: str, code: str, place: str, message: str) -> None:
-        super().__init__(verdict, code, place, message)
-        self.verdict, self.code, self.place, self.message = verdict, code, place, message
-
-
 @dataclass(frozen=True)
 class Limits:
-    """The limits on a document: bytes, nesting, digits of a number, size of an exponent."""
+    """The limits on a document: bytes, nesting, digits of a number, size of an exponent, work.
+
+    The work is in units of ``budget``; None stands for what is granted to a document of its size.
+    """
 
     bytes: int = 64 * 2**20
     depth: int = 16
     digits: int = 4300
     exponent: int = 1000
+    work: int | None = None
 
 
 def malformed(place: str, message: str) -> NoReturn:
@@ -66,6 +64,7 @@ def parse(data: bytes, limits: Limits, decimal_of: Callable[[str], Any] | None =
     """
     if len(data) > limits.bytes:
         incomplete("size", "file", f"more than {limits.bytes} bytes (Limits.bytes)")
+    spend(40 * len(data))
     try:
         text = data.decode("utf-8")
     except UnicodeDecodeError as error:
@@ -77,8 +76,12 @@ def parse(data: bytes, limits: Limits, decimal_of: Callable[[str], Any] | None =
             malformed("file", f"nested deeper than {limits.depth} levels (Limits.depth)")
     long_number = re.compile(f"[0-9]{{{min(20, limits.digits + 1)}}}[0-9]*+")
     plain = re.sub(r"\\u003([0-9])", r"\1", text)  # digits may be written as escapes
-    if any(len(number[0]) > limits.digits for number in long_number.finditer(plain)):
-        incomplete("size", "file", f"a number of more than {limits.digits} digits (Limits.digits)")
+    for number in long_number.finditer(plain):
+        digits = len(number[0])
+        if digits > limits.digits:
+            message = f"a number of more than {limits.digits} digits (Limits.digits)"
+            incomplete("size", "file", message)
+        spend(digits * digits // 500)  # Python converts them in quadratic time, and both ways
 
     def refuse(number: str) -> NoReturn:
         malformed(f"number {number[:24]}", 'expected an integer or a string "p/q"')
@@ -113,6 +116,7 @@ def fields(value: Any, place: str, *names: str, optional: tuple[str, ...] = ()) 
     """The values of an object that has exactly these keys; None for an optional one left out."""
     if not isinstance(value, Mapping):
         malformed(place, f"expected an object, found {shown(value)}")
+    spend(20 + 10 * (len(value) + len(names) + len(optional)))
     for name in names:
         if name not in value:
             malformed(place, f"the key {shown(name)} is missing")
@@ -184,6 +188,7 @@ def decimal(value: Any, place: str) -> Fraction:
 
 def polynomial(value: Any, place: str, least_degree: int = 0) -> Polynomial:
     """A monic polynomial: its coefficients, constant term first, the last one 1."""
+    spend(100 * len(items(value, place)))
     result = [rational(entry, f"{place}[{k}]") for k, entry in enumerate(items(value, place))]
     if len(result) <= least_degree or result[-1] != 1:
         malformed(place, f"expected a monic polynomial of degree at least {least_degree}")
@@ -232,10 +237,12 @@ def positions(value: Any, place: str, below: int) -> list[int]:
 
 def names(value: Any, place: str, known: list[str]) -> list[int]:
     """The positions of named channels, each known, in the order of the system, none twice."""
-    for entry in items(value, place):
-        if type(entry) is not str or entry not in known:
+    spend(4 * (len(items(value, place)) + len(known)))
+    place_of = {name: i for i, name in enumerate(known)}
+    for entry in value:
+        if type(entry) is not str or entry not in place_of:
             malformed(place, f"expected the name of a channel, found {shown(entry)}")
-    result = [known.index(entry) for entry in value]
+    result = [place_of[entry] for entry in value]
     if result != sorted(set(result)):
         malformed(place, "expected channels in the order of the system, none of them twice")
     return result

@@ -5,7 +5,9 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
+from . import budget
 from .arithmetic import Polynomial
+from .budget import spend
 from .reading import decimal, fields, items, require
 from .words import polynomial_text
 
@@ -19,10 +21,13 @@ def root_discs(value: Any, place: str, p: Polynomial) -> list[Disc]:
     Theorem ``root_discs.root_discs``.
     """
     discs: list[Disc] = []
+    longest = 1
     for k, entry in enumerate(items(value, place, len(p) - 1)):
         where = f"{place}[{k}]"
         parts = fields(entry, where, "re", "im", "radius")
         re, im, radius = (decimal(part, where) for part in parts)
+        longest = max(longest, budget.limbs_of((re, im, radius)))
+        spend(budget.fractions(8 * len(discs) + 8, 2 * longest))
         value_at, slope = _horner(p, re, im)
         enough = value_at * (len(p) - 1) ** 2 <= radius**2 * slope
         require(slope > 0 and radius >= 0 and enough, "disc", where, "may hold no root")
@@ -51,6 +56,8 @@ def rate_interval(value: Any, place: str, discs: list[Disc], time: str) -> str:
 
 def _horner(p: Polynomial, re: Fraction, im: Fraction) -> tuple[Fraction, Fraction]:
     """|p(c)|² and |p'(c)|² at c = re + i·im."""
+    longest = budget.limbs_of(p) + len(p) * budget.limbs_of((re, im))
+    spend(budget.fractions(8 * len(p), longest))
     value, slope = (Fraction(0), Fraction(0)), (Fraction(0), Fraction(0))
     for c in reversed(p):
         slope = (slope[0] * re - slope[1] * im + value[0], slope[0] * im + slope[1] * re + value[1])

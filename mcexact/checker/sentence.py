@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
+from .budget import spend
 from .reading import require
 from .system import System
 from .words import channel_set, described
@@ -81,6 +82,7 @@ class Premise:
 
     def set_of(self, channels: Sequence[str]) -> str:
         """A set of channels by name."""
+        spend(len(channels) * (100 + self.system.m))
         return channel_set(self.system, [self.system.names.index(name) for name in channels])
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from .budget import spend
 from .closed_loop import closed_loop
 from .delays import held, lifted
 from .feedback import dual, error, feedback, full_output, integrators
@@ -29,6 +30,7 @@ def read_subject(value: Any, plant: System) -> System:
         name = step["construction"]
         if name not in CONSTRUCTIONS:
             incomplete("construction", place, f"{shown(name)} is not a construction known here")
+        spend(1000 + 200 * system.m + len(system.words))
         parameters = {key: part for key, part in step.items() if key != "construction"}
         system = CONSTRUCTIONS[name](system, parameters, place)
     return system

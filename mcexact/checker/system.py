@@ -11,9 +11,13 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
-from . import reading
-from .arithmetic import LARGEST, Matrix
+from . import budget, reading
+from .arithmetic import Matrix
+from .budget import build, current, limited, spend
 from .reading import Limits, fields, incomplete, integer, items, malformed, printable, shown, string
+
+LARGEST = 2**22
+"""The cells of the largest sparse matrix, a side of length 0 counted as 1."""
 
 NUMBER = re.compile(r"-?[0-9]++(?:/0*+[1-9][0-9]*+|(?:\.[0-9]++)?(?:[eE][+-]?[0-9]++)?)")
 
@@ -72,6 +76,7 @@ def number(value: Any, place: str, limits: Limits | None = None) -> Fraction:
             incomplete(
                 "size", place, f"a number of more than {limits.digits} digits (Limits.digits)"
             )
+        spend(300 + (len(value) + abs(int(exponent))) ** 2 // 500)
         result = Fraction(value)
     if limits and too_long(max(abs(result.numerator), result.denominator), limits.digits):
         incomplete("size", place, f"more than {limits.digits} digits written out (Limits.digits)")
@@ -92,6 +97,7 @@ def read_matrix(
         r, c = (integer(size, f"{place}.shape") for size in items(shape, f"{place}.shape", 2))
         if max(r, 1) * max(c, 1) > LARGEST:
             incomplete("size", f"{place}.shape", f"{r} by {c} is too large")
+        spend(budget.table(r + 1, c))
         rows: list[list[Any]] = [[Fraction(0)] * c for _ in range(r)]
         seen = set()
         for i, j, entry in (items(triple, place, 3) for triple in items(entries, place)):
@@ -105,7 +111,12 @@ def read_matrix(
         rows = [[number(entry, place, limits) for entry in items(row, place, c)] for row in listed]
     if nrows not in (None, r) or ncols not in (None, c):
         malformed(place, f"expected another shape, found {r} by {c}")
-    d = math.lcm(*(entry.denominator for row in rows for entry in row))
+    different = {entry.denominator for row in rows for entry in row}
+    spend(budget.fractions(len(different), sum(budget.limbs([d]) for d in different)))
+    d = math.lcm(*different)
+    longest = (budget.limbs([entry.numerator for entry in row]) for row in rows)
+    size = max(longest, default=1) + budget.limbs([d])
+    build(r, c, size, size)
     return Matrix([[e.numerator * (d // e.denominator) for e in row] for row in rows], c, d)
 
 
@@ -121,6 +132,7 @@ def read_system(value: Any, limits: Limits | None = None) -> System:
     known: list[str] = []
     forms: set[str] = set()
     B, C = [], []
+    spend(4 * len(listed) ** 2)  # names are compared, and delays looked up, for every pair
     for k, channel in enumerate(listed):
         where = f"channels[{k}]"
         B_rows, C_rows, name, D = fields(channel, where, "B", "C", optional=("name", "D"))
@@ -184,6 +196,7 @@ def canonical(system: System) -> dict[str, Any]:
     def rows(M: Matrix) -> Any:
         if not M.nrows and M.ncols:
             return {"shape": [0, M.ncols], "entries": []}
+        spend(budget.fractions(M.nrows * M.ncols, M.limbs))
         values = [[Fraction(entry, M.denominator) for entry in row] for row in M.rows]
         return [[v.numerator if v.denominator == 1 else str(v) for v in row] for row in values]
 
@@ -200,6 +213,7 @@ def canonical(system: System) -> dict[str, Any]:
 
 def digest(system: System) -> str:
     """The SHA-256 of the canonical object: sorted keys, no blanks, non-ASCII characters escaped."""
+    spend(8 * sum(map(len, system.names)))
     text = json.dumps(canonical(system), sort_keys=True, separators=(",", ":"))
     return hashlib.sha256(text.encode("ascii")).hexdigest()
 
@@ -214,7 +228,10 @@ def read_plant(value: Any) -> System:
 
 def read_system_file(data: bytes, limits: Limits) -> System:
     """The system of a system file, numbers as typed."""
-    document = reading.parse(data, limits, lambda text: number(text, f"number {text[:24]}", limits))
-    if not isinstance(document, dict) or document.get("format") != "mcexact-system/1":
-        malformed("format", 'expected a system file, "format": "mcexact-system/1"')
-    return read_system(document, limits)
+    with limited(current(limits.work), len(data)):
+        document = reading.parse(
+            data, limits, lambda text: number(text, f"number {text[:24]}", limits)
+        )
+        if not isinstance(document, dict) or document.get("format") != "mcexact-system/1":
+            malformed("format", 'expected a system file, "format": "mcexact-system/1"')
+        return read_system(document, limits)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from .arithmetic import Rows, product
+from .budget import counted, spend
 from .evidence import modulus
 from .neighbor_graph import components
 from .reading import boolean, fields, integer, items, malformed, names, require
@@ -26,10 +27,12 @@ def check(claim: Any, witness: Any, system: System) -> str:
     triples = read_arcs(joined, "claim.arcs", system)
     require_arcs(system, triples, modulus(number, "witness.modulus"))
     arcs = [(j, i) for j, i, _ in triples]
+    spend(20 * system.m**2)
     missing = {(j, i) for j in range(system.m) for i in range(system.m)} - set(arcs)
     for k, entry in enumerate(items(zeros, "witness.zeros")):
         sources, X = zero_transfer(entry, f"witness.zeros[{k}]", system)
         unseen = [i for i, C in enumerate(system.C) if (C @ X).is_zero()]
+        spend(10 * len(sources) * len(unseen))
         missing -= {(j, i) for j in sources for i in unseen}
     pair = [(system.names[j], system.names[i]) for j, i in sorted(missing)][:1]
     require(not missing, "arc", "witness.zeros", f"nothing proves that {pair!a} is not an edge")
@@ -68,10 +71,10 @@ def require_arcs(system: System, triples: list[tuple[int, int, int]], ell: int) 
     for j, i, k in triples:
         require(k < system.n, "arc", "witness", f"the power {k} is not below {system.n}")
         wanted.setdefault(j, {}).setdefault(k, []).append(i)
-    for j, targets in wanted.items():
+    for j, targets in counted(list(wanted.items())):
         width = system.B[j].ncols
         power: Rows = system.B[j].modulo(ell)
-        for k in range(max(targets) + 1):
+        for k in counted(range(max(targets) + 1)):
             for i in targets.get(k, []):
                 seen = any(map(any, product(C[i], power, width, ell)))
                 message = f"C A^{k} B is 0 modulo l from channel number {j + 1} to {i + 1}"

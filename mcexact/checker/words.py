@@ -7,7 +7,9 @@ import re
 from collections.abc import Iterable
 from fractions import Fraction
 
+from . import budget
 from .arithmetic import Polynomial
+from .budget import spend
 from .system import System
 
 SLOWEST = {
@@ -24,6 +26,7 @@ PLAIN_NAME = re.compile(r"[\w.+-]{1,256}")
 def channel(system: System, i: int) -> str:
     """The name of a channel; in quotes and escaped unless it is a plain word."""
     name = system.names[i]
+    spend(100 + len(name))
     return name if PLAIN_NAME.fullmatch(name) and name.isprintable() else json.dumps(name)
 
 
@@ -34,8 +37,9 @@ def channel_set(system: System, channels: Iterable[int]) -> str:
 
 def polynomial_text(p: Polynomial) -> str:
     """A polynomial, highest power first, such as x^2 - 3/2*x + 1."""
-    terms = []
-    for k, c in reversed(list(enumerate(map(Fraction, p)))):
+    terms, p = [], [Fraction(c) for c in p]
+    spend(budget.fractions(len(p), budget.limbs_of(p)))
+    for k, c in reversed(list(enumerate(p))):
         if c:
             power = "" if k == 0 else "x" if k == 1 else f"x^{k}"
             size = str(abs(c)) if abs(c) != 1 or not power else ""

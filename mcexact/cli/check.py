@@ -21,6 +21,13 @@ from mcexact.cli import options
     help="Require that each certificate is about the system in this file.",
 )
 @options.as_json
+@click.option(
+    "--max-work",
+    "work",
+    type=click.IntRange(min=1, max=10**30),
+    metavar="N",
+    help="Units of work that the check of a file may take; by default they grow with its size.",
+)
 @options.file_limits
 def command(
     certificates: tuple[str, ...],

@@ -1,0 +1,154 @@
+"""The work that a check may take, counted before it is done, alike on every machine.
+
+One unit is about the product of two limbs (30 bits) in a loop, or one byte of a matrix that is
+built.  A document of N bytes is granted ``GRANTED`` + ``PER_BYTE`` · N units unless ``Limits.work``
+says otherwise; a check that would take more is INCOMPLETE.  Units say nothing of the claim.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
+from dataclasses import dataclass, field
+from typing import Any, TypeVar
+
+from .refused import Refused
+
+GRANTED = 4 * 10**7
+PER_BYTE = 2500
+LIMB = 30
+"""The bits of a limb."""
+
+Item = TypeVar("Item")
+
+
+@dataclass
+class Budget:
+    """The units that a check may take, those that are granted by default, and those taken.
+
+    With ``grows``, reading a document adds what is granted for its bytes.
+    ``loops`` holds four numbers for each loop under way: the units that were spent when it began
+    and when its turn began, the turns before this one, and all turns.
+    """
+
+    most: int
+    usual: int
+    grows: bool
+    spent: int = 0
+    loops: list[list[int]] = field(default_factory=list)
+
+    def spend(self, units: int) -> None:
+        """Count the units of a step that follows, or stop before it.
+
+        Raises
+        ------
+        Refused
+            If they are more than are left.
+        """
+        if self.spent + units > self.most:
+            named = f"allow {self._named(units)} (Limits.work)"
+            message = f"takes more than {self.most} units of work: {named}"
+            raise Refused("INCOMPLETE", "work", "checker", message)
+        self.spent += units
+
+    def _named(self, whole: int) -> int:
+        """A budget that should do where a step was refused: loops are counted to their ends."""
+        reached = self.spent
+        for start, turn, before, turns in reversed(self.loops):
+            each = max(whole + reached - turn, (turn - start) // max(before, 1))
+            whole, reached = each * (turns - before), turn
+        total = max(4 * (reached + whole), self.usual)
+        digit = int(10 ** max(len(str(total)) - 2, 0))
+        return -(-total // digit) * digit
+
+
+_current: ContextVar[Budget | None] = ContextVar("budget", default=None)
+
+
+@contextmanager
+def limited(budget: Budget, size: int = 0) -> Iterator[None]:
+    """Charge what is done inside, perhaps after a document of so many bytes was read."""
+    budget.usual += PER_BYTE * size
+    budget.most += PER_BYTE * size if budget.grows else 0
+    token = _current.set(budget)
+    try:
+        yield
+    finally:
+        _current.reset(token)
+
+
+def current(work: int | None) -> Budget:
+    """The budget of the check under way, or else a new one of so many units.
+
+    None stands for what is granted, which grows with the bytes that are read.
+    """
+    most = GRANTED if work is None else work
+    return _current.get() or Budget(most, GRANTED, grows=work is None)
+
+
+def spend(units: int) -> None:
+    """Charge a step that follows to the current budget."""
+    budget = _current.get()
+    if budget is not None:
+        budget.spend(units)
+
+
+def counted(items: Sequence[Item]) -> Iterator[Item]:
+    """The items of a loop of similar turns, for the estimate of what all of them take."""
+    budget = _current.get()
+    if budget is None:
+        yield from items
+        return
+    loop = [budget.spent, budget.spent, 0, len(items)]
+    depth = len(budget.loops)
+    budget.loops.append(loop)
+    try:
+        for turn, item in enumerate(items):
+            loop[1:3] = budget.spent, turn
+            yield item
+    finally:
+        del budget.loops[depth:]
+
+
+# What a step takes.
+
+
+def limbs(numbers: Iterable[int]) -> int:
+    """The limbs of the longest number; looking takes a unit for each."""
+    return max(map(int.bit_length, numbers), default=0) // LIMB + 1
+
+
+def limbs_of(p: Iterable[Any]) -> int:
+    """The limbs of the longest numerator or denominator of rationals."""
+    return max((limbs((c.numerator, c.denominator)) for c in p), default=1)
+
+
+def products(number: int, a: int, b: int) -> int:
+    """So many products of numbers of a and b limbs, added up."""
+    return number * (20 + a * b) // 20
+
+
+def reductions(number: int, a: int) -> int:
+    """So many steps of an elimination: a product of numbers of a limbs or two, and a division."""
+    return number * (24 + a * a) // 6
+
+
+def inversions(number: int, a: int) -> int:
+    """So many inverses modulo a number of a limbs."""
+    return number * (20 + 50 * a + a * a)
+
+
+def fractions(number: int, a: int) -> int:
+    """So many sums or products of rationals of a limbs, with the gcd, or their texts."""
+    return number * (600 + 60 * a + a * a) // 12
+
+
+def build(nrows: int, ncols: int, a: int, b: int = 0, terms: int = 1) -> None:
+    """Charge a table of new numbers, each a sum of products of numbers of a and b limbs."""
+    spend(table(nrows, ncols, a + b) + products((nrows * ncols + 1) * terms, a, b))
+
+
+def table(nrows: int, ncols: int, a: int = 0) -> int:
+    """The bytes of a table of new numbers of a limbs; without a, of numbers that exist."""
+    return nrows * (64 + ncols * (36 + 4 * a if a else 8))

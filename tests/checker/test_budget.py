@@ -1,0 +1,200 @@
+"""The work of a check is counted before it is done, and the count is that of the document alone."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import threading
+from typing import Any
+
+import pytest
+
+from mcexact.checker import Limits, budget, check_document, kinds
+from mcexact.checker.arithmetic import Echelon, Matrix, poly_divide, poly_product, product, rank
+from mcexact.checker.budget import GRANTED, PER_BYTE, Budget, current, limited
+from mcexact.checker.characteristic_polynomial import characteristic_polynomial
+from mcexact.checker.location import in_region, is_hurwitz, is_schur
+from mcexact.checker.manifest import verdicts_of
+from mcexact.checker.neighbor_graph import components
+from mcexact.checker.reading import Refused
+from mcexact.checker.system import read_system_file
+from tests import effort
+from tests.checker import heavy
+from tests.checker.handmade import FIXED, VALID, changed
+
+ENOUGH = Limits(work=10**15)
+
+
+def data_of(document: Any) -> bytes:
+    return json.dumps(document, separators=(",", ":")).encode()
+
+
+def named(message: str) -> int:
+    """The work that a message asks for."""
+    return int(message.split("allow ")[1].split()[0])
+
+
+# Documents that ask for much work.
+
+
+@pytest.mark.parametrize("name", heavy.HEAVY)
+def test_a_heavy_document_is_small_and_gets_the_verdict_for_it(name: str) -> None:
+    data, (verdict, code) = heavy.text(name), heavy.EXPECTED.get(name, ("INCOMPLETE", "work"))
+    assert len(data) <= 10_000
+    found = check_document(data)
+    assert (found.verdict, found.code) == (verdict, code), found.line()
+    assert found.spent <= GRANTED + PER_BYTE * len(data)
+
+
+@pytest.mark.parametrize("name", heavy.HEAVY)
+def test_no_more_steps_are_taken_than_are_counted(name: str) -> None:
+    data = heavy.text(name)
+    allowed = 10**6 + 50 * len(data)
+    with effort.at_most(allowed):
+        found = check_document(data, limits=Limits(work=allowed))
+    assert found.verdict in {"INCOMPLETE", heavy.EXPECTED.get(name, ("", ""))[0]}
+
+
+@pytest.mark.parametrize("name", heavy.FINISHED)
+def test_the_work_that_is_named_suffices(name: str) -> None:
+    data = data_of(heavy.FINISHED[name])
+    needed = check_document(data, limits=ENOUGH)
+    assert needed.code != "work", needed.line()
+    for part in (2, 5, 20, 100):
+        refused = check_document(data, limits=Limits(work=needed.spent // part))
+        assert (refused.verdict, refused.code) == ("INCOMPLETE", "work")
+        again = check_document(data, limits=Limits(work=named(refused.message)))
+        assert again == needed
+
+
+# The count.
+
+
+@pytest.mark.parametrize("kind", VALID)
+def test_the_count_is_that_of_the_document_and_exactly_what_is_needed(kind: str) -> None:
+    data = data_of(VALID[kind])
+    first = check_document(data, limits=ENOUGH)
+    assert first.verdict == "VALID"
+    assert first.spent == check_document(data).spent > 40 * len(data)
+    assert check_document(data, limits=Limits(work=first.spent)) == first
+    refused = check_document(data, limits=Limits(work=first.spent - 1))
+    assert (refused.verdict, refused.code) == ("INCOMPLETE", "work")
+    assert named(refused.message) >= first.spent
+    assert refused.message.endswith("(Limits.work)")
+
+
+def test_a_document_in_memory_is_granted_as_much_as_its_text() -> None:
+    assert check_document(FIXED).verdict == "VALID"
+    large = json.loads(heavy.text("a zero of 1400 rows in a controller"))
+    assert check_document(large).code == "work"
+
+
+def test_a_check_in_another_thread_has_a_budget_of_its_own() -> None:
+    found = []
+    with limited(Budget(10, 10, grows=False)):
+        thread = threading.Thread(target=lambda: found.append(check_document(data_of(FIXED))))
+        thread.start()
+        thread.join()
+        assert check_document(data_of(FIXED)).code == "work"
+    assert found[0].verdict == "VALID"
+    assert current(None).spent == 0
+
+
+def test_a_manifest_and_its_certificates_share_one_budget() -> None:
+    folder = {f"{k}.json": data_of(document) for k, document in enumerate(VALID.values())}
+    digests = {name: sha256(data) for name, data in folder.items()}
+    sentence = {"text": "", "rule": "subsystem", "theorem": "", "because": []}
+    manifest = {"format": "mcexact-manifest/1", "certificates": digests, "sentences": [sentence]}
+    folder[""] = data_of(manifest)
+
+    def verdicts(limits: Limits) -> list[str]:
+        return [found.code for _, found in verdicts_of(folder.__getitem__, None, limits)]
+
+    alone = max(check_document(data).spent for name, data in folder.items() if name)
+    assert "work" not in verdicts(Limits())
+    assert "work" in verdicts(Limits(work=3 * alone))
+
+
+def sha256(data: bytes) -> str:
+    """The SHA-256 of a file."""
+    return hashlib.sha256(data).hexdigest()
+
+
+def test_a_system_file_is_read_within_a_budget() -> None:
+    entries = {"shape": [2000, 2000], "entries": []}
+    text = data_of({"format": "mcexact-system/1", "time": "discrete", "A": entries, "channels": []})
+    with pytest.raises(Refused, match=r"Limits\.work"):
+        read_system_file(text, Limits(work=10**6))
+
+
+def test_memory_that_is_not_there_leaves_a_check_open(monkeypatch: pytest.MonkeyPatch) -> None:
+    def exhausted(*arguments: object) -> str:
+        raise MemoryError
+
+    monkeypatch.setitem(kinds.KINDS, "fixed_spectrum", exhausted)
+    found = check_document(FIXED)
+    assert (found.verdict, found.code) == ("INCOMPLETE", "memory")
+
+
+# Steps that are charged for.
+
+
+class Number(int):
+    """An integer that must not be computed with: its operations fail."""
+
+    def _refuse(self, *others: object) -> Any:
+        raise AssertionError("computed before it was charged for")
+
+    __mul__ = __rmul__ = __add__ = __radd__ = __sub__ = __rsub__ = __mod__ = _refuse
+    __floordiv__ = __truediv__ = __pow__ = _refuse
+
+
+SQUARE = Matrix([[Number(2), Number(3)], [Number(5), Number(7)]], 2)
+ROWS = [[Number(2), Number(3)], [Number(5), Number(7)]]
+ONE: Any = Number(1)
+POLYNOMIAL = [Number(2), Number(3), Number(1)]
+CHARGED = {
+    "a product": lambda: SQUARE @ SQUARE,
+    "a product modulo a number": lambda: product(ROWS, ROWS, 2, 11),
+    "a sum": lambda: SQUARE + SQUARE,
+    "residues": lambda: SQUARE.modulo(11),
+    "a rank": lambda: rank(SQUARE),
+    "a row of an echelon form": lambda: Echelon(11).add(ROWS[0]),
+    "a characteristic polynomial": lambda: characteristic_polynomial(SQUARE),
+    "a product of polynomials": lambda: poly_product(POLYNOMIAL, POLYNOMIAL),
+    "a division": lambda: poly_divide(POLYNOMIAL, POLYNOMIAL, 11),
+    "a rate": lambda: in_region(POLYNOMIAL, "continuous", ONE),
+    "Routh's array": lambda: is_hurwitz(POLYNOMIAL),
+    "a polynomial moved to the half-plane": lambda: is_schur(POLYNOMIAL),
+    "components": lambda: components(3, []),
+    "a zero matrix": lambda: Matrix.zeros(10**9, 10**9),
+    "unit rows": lambda: Matrix.unit_rows(10**9, 0, 10**9),
+    "a transpose": lambda: Matrix([], 10**12).T,
+}
+
+
+@pytest.mark.parametrize("step", CHARGED)
+def test_a_step_is_charged_before_it_is_done(step: str) -> None:
+    with limited(Budget(0, 0, grows=False)), pytest.raises(Refused, match="units of work"):
+        CHARGED[step]()
+
+
+@pytest.mark.parametrize("change", [("claim.bound", "1/3"), ("subject", [])])
+def test_reading_alone_is_charged_for(change: tuple[str, Any]) -> None:
+    data = data_of(changed(FIXED, change))
+    assert check_document(data, limits=Limits(work=40 * len(data) - 1)).code == "work"
+
+
+def test_long_numbers_are_charged_by_the_square_of_their_length() -> None:
+    spent = [
+        check_document(data_of(changed(FIXED, ("format", "1" * k)))).spent for k in (1000, 4000)
+    ]
+    assert spent[1] - spent[0] > (4000**2 - 1000**2) // 500
+
+
+def test_the_work_of_a_loop_is_named_to_its_end() -> None:
+    with limited(Budget(1000, 0, grows=False)), pytest.raises(Refused) as refused:
+        for _ in budget.counted(range(50)):
+            for _ in budget.counted(range(10)):
+                budget.spend(10)
+    assert 5000 <= named(refused.value.message) <= 25_000
