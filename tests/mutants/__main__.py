@@ -1,6 +1,6 @@
 """Mutation testing of the checker with Cosmic Ray.
 
-    python -m tests.mutants [--workers N] [--seconds S] [--fresh] [--report] [STEM…]
+    python -m tests.mutants [OPTION…] [STEM…]
 
 Tries every small change of the files of ``mcexact/checker`` (all, or those with these stems) in
 copies of the tree below ``build/mutants``, and prints for each file how many changes made a test of
@@ -8,8 +8,9 @@ copies of the tree below ``build/mutants``, and prints for each file how many ch
 the same name first and then the shorter ones, up to S seconds of tests.
 
 What was killed stays so while its file is the same; the rest is tried again in every run, since
-tests may have been added.  ``--fresh`` starts anew, ``--report`` tries nothing.  The exit status is
-1 if the score is below 95 %, or if a survivor is not explained in ``tests/checker/SURVIVORS.md``.
+tests may have been added.  ``--only DeleteStatement`` tries the changes of one operator.
+``--fresh`` starts anew, ``--report`` tries nothing.  The exit status is 1 if the score is below
+95 %, or if a survivor is not explained in ``tests/checker/SURVIVORS.md``.
 """
 
 from __future__ import annotations
@@ -62,6 +63,7 @@ def main() -> int:
     parser.add_argument("stems", nargs="*", metavar="STEM")
     parser.add_argument("--workers", type=int, default=os.cpu_count() or 1)
     parser.add_argument("--seconds", type=float, default=20.0)
+    parser.add_argument("--only", default="")
     parser.add_argument("--fresh", action="store_true")
     parser.add_argument("--report", action="store_true")
     options = parser.parse_args()
@@ -76,10 +78,11 @@ def main() -> int:
         for tree in trees:
             copy(tree)
         chosen = FOLDER / "selection.json"
+        worker = ["-m", "tests.mutants.worker", str(FOLDER), str(options.seconds), options.only]
         finished(inside(trees[0], "-m", "tests.mutants.selection", str(chosen)))
         finished(
             *(
-                inside(tree, "-m", "tests.mutants.worker", str(FOLDER), str(options.seconds), *part)
+                inside(tree, *worker, *part)
                 for tree, part in zip(trees, _parts(stems, len(trees)), strict=True)
                 if part
             )

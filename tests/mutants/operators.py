@@ -148,24 +148,15 @@ class SwapName(Operator):  # type: ignore[misc]
 KNOWN = {each.__name__: each for each in (DeleteStatement, NegateFilter, SwapMembership, SwapName)}
 
 
-class Provider:
-    """The operators of this file, in the form in which Cosmic Ray takes those of others."""
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(KNOWN)
-
-    def __getitem__(self, name: str) -> Any:
-        return KNOWN[name]
-
-
 def register() -> None:
-    """Let Cosmic Ray know the operators of this file."""
-    cosmic_ray.plugins.OPERATOR_PROVIDERS["mcexact"] = Provider()
+    """Let Cosmic Ray know the operators of this file, and use a choice of its own."""
+    known = cosmic_ray.plugins.OPERATOR_PROVIDERS
+    known["core"] = {name: known["core"][name] for name in known["core"] if _is_chosen(name)}
+    known["mcexact"] = KNOWN
 
 
-def chosen(operator: str) -> bool:
+def _is_chosen(name: str) -> bool:
     """Whether an operator of Cosmic Ray is used: of the replacements only those in ``REPLACED``."""
-    _, _, name = operator.partition("/")
     if name == "NoOp":
         return False
     if not name.startswith(("ReplaceBinaryOperator_", "ReplaceComparisonOperator_")):

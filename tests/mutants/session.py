@@ -82,7 +82,7 @@ def plan(path: Path, database: Path) -> None:
         init([path], session, {})
         spans = operators.outside(source)
         ranks = operators.without_order(source)
-        seen, counts = {source}, {"outside": 0, "others": 0, "same or no program": 0}
+        seen, counts = {source}, {"outside": 0, "texts compared": 0, "same or no program": 0}
         for item in session.work_items:
             spec = item.mutations[0]
             reason = _needless(spec, source, spans, ranks, seen)
@@ -115,12 +115,10 @@ def _needless(
     seen: set[str],
 ) -> str | None:
     """Why a mutant is left out, if it is."""
-    if not operators.chosen(spec.operator_name):
-        return "others"
     if spec.operator_name.endswith(("_LtE", "_GtE", "_Lt", "_Gt")) and operators.within(
         spec.start_pos, spec.end_pos, ranks
     ):
-        return "others"
+        return "texts compared"
     if operators.within(spec.start_pos, spec.end_pos, spans):
         return "outside"
     code = mutated(spec, source)
@@ -140,14 +138,18 @@ def mutated(spec: MutationSpec, source: str) -> str:
     return mutate_code(source, operator, spec.occurrence) or source
 
 
-def work(stem: str, path: Path, database: Path, selection: Selection, most: float) -> None:
-    """Try what is left of a session."""
+def work(
+    stem: str, path: Path, database: Path, selection: Selection, most: float, only: str
+) -> None:
+    """Try what is left of a session, of all operators or of those of one name."""
     source = path.read_text(encoding="utf-8")
     stamp = os.stat(path).st_mtime_ns
     lines = headers(source)
     with use_db(str(database), WorkDB.Mode.open) as session:
         for number, item in enumerate(session.pending_work_items, start=1):
             spec = item.mutations[0]
+            if not spec.operator_name.endswith(only):
+                continue
             first, last = spec.start_pos[0], spec.end_pos[0]
             around = [(a, b) for a, b in lines if a <= first <= b] or [(first, last)]
             first, last = max(around)[0], max(last, max(around)[1])
@@ -203,9 +205,13 @@ def mutants(path: Path, database: Path) -> Iterator[Mutant]:
                 yield Mutant(item, str(result.output), k + 1, old[k].strip(), new[k].strip())
 
 
-def forget(path: Path, database: Path, outcomes: set[str]) -> None:
+def forget(path: Path, database: Path, outcomes: set[str], only: str) -> None:
     """Let mutants with some outcomes be tried again."""
-    again = [mutant.item for mutant in mutants(path, database) if mutant.outcome in outcomes]
+    again = [
+        mutant.item
+        for mutant in mutants(path, database)
+        if mutant.outcome in outcomes and mutant.item.mutations[0].operator_name.endswith(only)
+    ]
     if again:
         with use_db(str(database), WorkDB.Mode.open) as session:
             _delete(session, [item.job_id for item in again])

@@ -1,6 +1,6 @@
 """Try the mutants of some files in the copy that is the current folder.
 
-python -m tests.mutants.worker FOLDER SECONDS STEM…
+python -m tests.mutants.worker FOLDER SECONDS OPERATOR STEM…
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from pathlib import Path
 from tests.mutants import operators, selection, session, warm
 
 
-def main(folder: str, most: str, *stems: str) -> int:
+def main(folder: str, most: str, only: str, *stems: str) -> int:
     """Try them, after a change that has to be noticed and one that must not."""
     operators.register()
     chosen = session.Selection.read(Path(folder) / "selection.json")
@@ -20,8 +20,8 @@ def main(folder: str, most: str, *stems: str) -> int:
     for stem in stems:
         path, database = Path("mcexact/checker", f"{stem}.py"), Path(folder, f"{stem}.sqlite")
         session.plan(path, database)
-        session.forget(path, database, {"survived", "timeout", "not covered", "abnormal"})
-        session.work(stem, path, database, chosen, float(most))
+        session.forget(path, database, {"survived", "timeout", "not covered", "abnormal"}, only)
+        session.work(stem, path, database, chosen, float(most), only)
         print(f"{stem}: done", flush=True)
     return 0
 

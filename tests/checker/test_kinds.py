@@ -1,0 +1,125 @@
+"""The verdict on a certificate, whatever happens on the way to it."""
+
+from __future__ import annotations
+
+import json
+import sys
+from typing import Any
+
+import pytest
+
+from mcexact.checker import Verdict, check_document
+from mcexact.checker.arithmetic import NotAUnit
+from mcexact.checker.kinds import KINDS, answer
+from mcexact.checker.reading import Refused
+from tests.checker.handmade import FIXED, FREE, changed, checked, without
+
+STATUSES = [
+    ("VALID", 0),
+    ("IMPLIED", 0),
+    ("INVALID", 1),
+    ("MALFORMED", 3),
+    ("INCOMPLETE", 5),
+    ("ERROR", 70),
+    ("READ", 70),
+    ("", 70),
+]
+
+
+@pytest.mark.parametrize(("verdict", "status"), STATUSES)
+def test_every_verdict_has_a_status_and_only_good_ones_have_none(verdict: str, status: int) -> None:
+    assert Verdict(verdict).status == status
+
+
+def test_a_refusal_is_told_with_its_reason() -> None:
+    told = Verdict("INVALID", code="rank", place="claim.rank", message="it is 2").line()
+    assert told == "INVALID rank claim.rank: it is 2"
+
+
+@pytest.mark.parametrize(
+    ("error", "verdict", "code"),
+    [
+        (Refused("INVALID", "rank", "claim", "no"), "INVALID", "rank"),
+        (Refused("MALFORMED", "form", "claim", "no"), "MALFORMED", "form"),
+        (NotAUnit(), "INVALID", "unit"),
+        (ZeroDivisionError("division by zero"), "ERROR", "internal"),
+        (KeyError("a\nb"), "ERROR", "internal"),
+        (ValueError("\u00e9" * 999), "ERROR", "internal"),
+    ],
+)
+def test_an_exception_becomes_a_verdict(error: Exception, verdict: str, code: str) -> None:
+    def check() -> Verdict:
+        raise error
+
+    found = answer(check)
+    assert (found.verdict, found.code) == (verdict, code)
+    assert found.line().isascii() and len(found.line().splitlines()) == 1
+    assert len(found.message) < 2000
+
+
+def test_an_interruption_is_no_verdict() -> None:
+    def check() -> Verdict:
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        answer(check)
+
+
+def test_the_interpreter_s_limit_on_digits_is_as_before() -> None:
+    before = sys.get_int_max_str_digits()
+    during = []
+
+    def check() -> Verdict:
+        during.append(sys.get_int_max_str_digits())
+        raise ZeroDivisionError
+
+    try:
+        for digits in (0, 5000):
+            sys.set_int_max_str_digits(digits)
+            answer(check)
+            assert sys.get_int_max_str_digits() == digits
+    finally:
+        sys.set_int_max_str_digits(before)
+    assert during == [0, 0]
+
+
+def test_a_document_is_checked_like_its_text() -> None:
+    for document in (FIXED, FREE, changed(FREE, ("claim.stabilizable", False))):
+        assert check_document(document) == check_document(json.dumps(document).encode())
+
+
+@pytest.mark.parametrize(
+    ("document", "verdict", "code"),
+    [
+        (FREE, "VALID", ""),
+        ([FREE], "MALFORMED", "form"),
+        ("certificate", "MALFORMED", "form"),
+        (None, "MALFORMED", "form"),
+        ({}, "MALFORMED", "form"),
+        (without(FREE, "format"), "MALFORMED", "form"),
+        (changed(FREE, ("format", "mcexact-certificate/2")), "INCOMPLETE", "version"),
+        (changed(FREE, ("format", "mcexact-certificate")), "MALFORMED", "form"),
+        (changed(FREE, ("format", "mcexact-manifest/1")), "MALFORMED", "form"),
+        (changed(FREE, ("format", 1)), "MALFORMED", "form"),
+        (changed(FREE, ("kind", "fixed_spectra")), "INCOMPLETE", "kind"),
+        (changed(FREE, ("kind", ["fixed_spectrum"])), "MALFORMED", "form"),
+        (changed(FREE, ("kind", "location")), "INCOMPLETE", "kind"),
+        (without(FREE, "kind"), "MALFORMED", "form"),
+        (without(FREE, "system"), "MALFORMED", "form"),
+        (without(FREE, "subject"), "MALFORMED", "form"),
+        (without(FREE, "claim"), "MALFORMED", "form"),
+        (without(FREE, "witness"), "MALFORMED", "form"),
+        (changed(FREE, ("verified", True)), "MALFORMED", "form"),
+        (changed(FREE, ("system.A", [[1, 2]])), "MALFORMED", "form"),
+        (changed(FREE, ("subject", None)), "MALFORMED", "form"),
+    ],
+)
+def test_a_document_has_six_parts_of_one_version(document: Any, verdict: str, code: str) -> None:
+    found = checked(document)
+    assert (found.verdict, found.code) == (verdict, code), found.line()
+
+
+@pytest.mark.parametrize("kind", sorted(KINDS))
+def test_no_other_kind_s_evidence_is_read(kind: str) -> None:
+    if kind != FREE["kind"]:
+        assert checked(changed(FREE, ("kind", kind))).verdict == "MALFORMED"
