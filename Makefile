@@ -5,7 +5,7 @@ BIN := .venv/bin
 STAMP := .venv/.installed
 GALLERY := mcexact/model/gallery
 
-.PHONY: coverage mutants records reproduce look ledger sentences demo test lint types tests matrix agreement mutations readers bench proofs checked-proofs weakened-proofs
+.PHONY: coverage mutants records reproduce look ledger sentences demo test lint types tests matrix attack agreement mutations readers zipapp bench proofs checked-proofs weakened-proofs
 
 demo: $(STAMP)
 	$(BIN)/mcexact demo
@@ -60,6 +60,11 @@ coverage: $(STAMP)
 mutants: $(STAMP)
 	$(BIN)/python -m pip install --quiet --quiet --disable-pip-version-check --editable '.[mutants]'
 	HYPOTHESIS_PROFILE=ci $(BIN)/python -m tests.mutants $(FILES)
+
+# The checker alone as one file, which `python -I` runs: seconds.
+zipapp: $(STAMP)
+	mkdir -p dist
+	$(BIN)/mcexact check --export dist/mcexact-checker.pyz
 
 # Every statement of the paper, with a report and certificates in reproduction/: less than a minute.
 reproduce: $(STAMP)

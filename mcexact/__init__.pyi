@@ -77,6 +77,7 @@ from .errors import InputError as InputError
 from .errors import InternalError as InternalError
 from .errors import LimitReached as LimitReached
 from .errors import McexactError as McexactError
+from .errors import NotWritten as NotWritten
 from .errors import OtherFormat as OtherFormat
 from .errors import UsageError as UsageError
 from .exact.location import StabilityRegion as StabilityRegion

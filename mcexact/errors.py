@@ -143,6 +143,26 @@ class LimitReached(McexactError):
         self.lower, self.upper = lower, upper
 
 
+class NotWritten(McexactError):
+    """Standard output cannot be written: the disk is full, or it is closed.
+
+    Parameters
+    ----------
+    message : str
+    where : str, optional
+    reader_left : bool
+        Whether the reader of a pipe has closed it.
+    """
+
+    exit_status = 74
+
+    def __init__(
+        self, message: str, *, where: str | None = None, reader_left: bool = False
+    ) -> None:
+        super().__init__(message, where=where)
+        self.reader_left = reader_left
+
+
 class InternalError(McexactError):
     """A check inside this package failed, which is a bug in it."""
 

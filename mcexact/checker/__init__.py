@@ -3,11 +3,23 @@
 The checker takes documents of ``mcexact-certificate/1`` and gives verdicts.  It never searches: a
 VALID claim follows from equalities that the checker has recomputed, by rules proved in ``proofs/``.
 For a manifest (``mcexact-manifest/1``) it states in its own words what the certificates imply.  The
-folder shares no code with the rest of mcexact; it can be copied and run with ``python -S -E -m
-checker FILE…`` or ``--manifest FOLDER``.
+folder shares no code with the rest of mcexact; it can be copied and run with ``python checker
+FILE…`` or ``--manifest FOLDER``, and as an archive with ``python -I mcexact-checker.pyz FILE…``.
+
+Importing this package imports nothing of the standard library, and leaves ``sys.path`` alone.
 """
 
-from .kinds import Verdict, check_document
-from .reading import Limits
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from .kinds import Verdict, check_document
+    from .reading import Limits
 
 __all__ = ["Limits", "Verdict", "check_document"]
+_FILES = {"Limits": "reading", "Verdict": "kinds", "check_document": "kinds"}
+
+
+def __getattr__(name: str) -> object:
+    """Load a public name when it is first used."""
+    if name not in _FILES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(__import__(f"{__name__}.{_FILES[name]}", fromlist=[name]), name)

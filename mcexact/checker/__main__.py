@@ -1,17 +1,43 @@
-"""``python -m checker`` and ``python checker``: the command line of the checker alone."""
+"""``python checker``, ``python -m checker`` and the archive: the command line of the checker alone.
 
+No file beside the checker or in the working directory may pass for a module of the standard
+library.  What is imported before the path is cleared is a part of the interpreter itself.
+"""
+
+import os
 import sys
+from importlib.machinery import ModuleSpec
 
-if not __package__:
-    # Python puts the folder that it runs first in the path; imports need the folder around it.
-    import os
 
-    folder = os.path.dirname(os.path.abspath(__file__))
-    sys.path[0], __package__ = os.path.split(folder)
-    __spec__ = None  # it says that there is no package, and later versions of Python warn of that
-    __import__(__package__)
+def clear_path() -> None:
+    """Leave on the path what belongs to the standard library, and nothing else."""
+    home = os.path.dirname(os.__file__)
+    around, version = os.path.dirname(home), sys.version_info
+    kept = {home, os.path.join(home, "lib-dynload")}
+    kept.add(os.path.join(around, f"python{version[0]}{version[1]}.zip"))
+    for prefix in (sys.base_prefix, sys.base_exec_prefix):
+        named = f"python{version[0]}.{version[1]}"
+        kept.add(os.path.join(prefix, "DLLs"))
+        kept.add(os.path.join(prefix, sys.platlibdir, named, "lib-dynload"))
+    if home.endswith(".zip"):
+        kept.add(around)
+    sys.path[:] = [entry for entry in sys.path if entry in kept]
 
-from .command import main
 
 if __name__ == "__main__":
-    sys.exit(main())
+    folder = os.path.dirname(os.path.abspath(__file__))
+    clear_path()
+    if not __package__:
+        # The folder or an archive of it was run: the package gets a name, but no place on the path.
+        from importlib.util import module_from_spec
+
+        __package__, __spec__ = "checker", ModuleSpec("checker", None, is_package=True)
+        __spec__.submodule_search_locations = [folder]
+        sys.modules[__package__] = module_from_spec(__spec__)
+        __spec__ = None  # it is not that of this module, and later versions of Python compare
+    try:
+        from .command import main
+
+        sys.exit(main())
+    except KeyboardInterrupt:
+        sys.exit(130)

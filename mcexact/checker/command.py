@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import errno
 import io
 import json
 import os
@@ -10,22 +11,29 @@ import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 from functools import partial
+from typing import IO
 
+from .allowance import Clock, Found, OutOfTime, memory, unsupported
 from .kinds import Verdict, answer, check_document
 from .manifest import NAME, manifest_verdicts
-from .reading import Limits, Refused
+from .reading import Limits, Refused, read_bytes
 from .system import digest, read_system_file
 
 PRECEDENCE = (70, 3, 1, 5, 0)
+"""Of these statuses the first that any verdict has is that of the run."""
+UNWRITTEN = 74
+"""The status if the verdicts cannot be written."""
 
 
 def _read_file(path: str, limits: Limits) -> bytes:
-    """The bytes of a file, or of standard input for ``-``; one more than the limit is enough."""
+    """The bytes of a file, or of standard input for ``-``."""
     try:
-        if path == "-":
-            return sys.stdin.buffer.read(limits.bytes + 1)
-        with open(path, "rb") as stream:
-            return stream.read(limits.bytes + 1)
+        if path != "-":
+            with open(path, "rb") as stream:
+                return read_bytes(stream, limits)
+        if sys.stdin is None:
+            raise OSError(errno.EBADF, "standard input is closed")
+        return read_bytes(sys.stdin.buffer, limits)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise Refused(
@@ -39,8 +47,12 @@ def _check_file(path: str, wanted: str | None, limits: Limits) -> Verdict:
 
 
 def verdicts(
-    paths: Sequence[str], manifest: str | None, system: str | None, limits: Limits
-) -> Iterator[tuple[dict[str, str], Verdict]]:
+    paths: Sequence[str],
+    manifest: str | None,
+    system: str | None,
+    limits: Limits,
+    clock: Clock,
+) -> Iterator[Found]:
     """Yield each verdict after its subject, a ``file`` or the ``text`` of a sentence.
 
     A path that ends with the usual name of a manifest is read as a manifest.
@@ -48,28 +60,60 @@ def verdicts(
     Raises
     ------
     Refused
-        If the system file cannot be read.
+        If the system file cannot be read, or not in time.
     """
-    wanted = (
-        None if system is None else digest(read_system_file(_read_file(system, limits), limits))
-    )
+    try:
+        wanted = clock.within(lambda: system_digest(system, limits))
+    except OutOfTime:
+        late = clock.verdict()
+        raise Refused(late.verdict, late.code, late.place, late.message) from None
     for path in paths:
+        about = {"file": path}
         if os.path.basename(path) == NAME:
-            yield from manifest_verdicts(path, wanted, limits)
+            yield from clock.limited(manifest_verdicts(path, wanted, limits), about)
         else:
             check = partial(_check_file, path, wanted, limits)
-            yield {"file": path}, answer(check)
+            yield from clock.limited(((about, answer(each)) for each in [check]), about)
     if manifest is not None:
-        yield from manifest_verdicts(manifest, wanted, limits)
+        found = manifest_verdicts(manifest, wanted, limits)
+        yield from clock.limited(found, {"file": manifest})
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Check files, print one line for each (or one JSON document), and return the exit status.
+def system_digest(system: str | None, limits: Limits) -> str | None:
+    """The digest of the system in a file."""
+    if system is None:
+        return None
+    return digest(read_system_file(_read_file(system, limits), limits))
 
-    The status is the first that applies of 70, 3, 1, 5, 0; wrong usage ends with 2, an interruption
-    with 130.
-    """
-    parser = argparse.ArgumentParser(prog="checker", description=__doc__, allow_abbrev=False)
+
+def count(text: str) -> int:
+    """An integer from 1 on, in digits alone."""
+    if not (text.isascii() and text.isdigit() and int(text)):
+        raise argparse.ArgumentTypeError(f"expected an integer from 1 on, found {text!a}")
+    return int(text)
+
+
+def seconds(text: str) -> float:
+    """A number of seconds above 0."""
+    try:
+        found = float(text)
+    except ValueError:
+        found = 0.0
+    if not 0 < found < float("inf"):
+        raise argparse.ArgumentTypeError(f"expected a number of seconds above 0, found {text!a}")
+    return found
+
+
+def _parser() -> argparse.ArgumentParser:
+    """The options."""
+    parser = argparse.ArgumentParser(
+        prog="checker",
+        description=__doc__,
+        epilog="Exit status: the first that applies of 70 a bug in this checker, 3 MALFORMED, "
+        "1 INVALID, 5 INCOMPLETE, 0 all VALID or IMPLIED; 2 wrong usage, 74 the verdicts cannot be "
+        "written, 130 interrupted.",
+        allow_abbrev=False,
+    )
     parser.add_argument(
         "files", nargs="*", metavar="FILE", help="certificates; - is standard input"
     )
@@ -84,32 +128,107 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--json", action="store_true", help="print one JSON document")
     for name in ("bytes", "digits", "depth"):
         default = getattr(Limits, name)
-        parser.add_argument(f"--max-{name}", type=int, default=default, metavar="N")
+        parser.add_argument(f"--max-{name}", type=count, default=default, metavar="N")
     parser.add_argument(
         "--max-work",
-        type=int,
+        type=count,
         metavar="N",
         help="units of work that each check may take; by default they grow with the bytes read",
     )
+    parser.add_argument(
+        "--timeout",
+        type=seconds,
+        metavar="SECONDS",
+        help="the time for the whole run; what is not decided by then is INCOMPLETE",
+    )
+    parser.add_argument(
+        "--max-memory",
+        type=count,
+        metavar="MIB",
+        help="the memory that may be added; what needs more is INCOMPLETE",
+    )
+    return parser
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Check files, print one line for each (or one JSON document), and return the exit status.
+
+    The status is the first that applies of 70, 3, 1, 5, 0; wrong usage ends with 2, an output that
+    cannot be written with 74, an interruption with 130.
+    """
+    try:
+        try:
+            status = _run(_parser(), arguments)
+        except SystemExit as end:  # help, or wrong usage
+            status = int(end.code or 0)
+        _flush(sys.stdout)
+    except OSError as error:
+        # An OSError about an input has become a verdict.
+        if not isinstance(error, BrokenPipeError):
+            _complain(f"the verdicts cannot be written: {error.strerror}")
+        status = UNWRITTEN
+        _drop(sys.stdout)
+    except KeyboardInterrupt:
+        status = 130
+    try:
+        _flush(sys.stderr)
+    except OSError:
+        _drop(sys.stderr)
+    return status
+
+
+def _run(parser: argparse.ArgumentParser, arguments: Sequence[str] | None) -> int:
+    """Check what the arguments name, print the verdicts, and return the exit status."""
     options = parser.parse_args(arguments)
     if not options.files and options.manifest is None:
         parser.error("expected a FILE or --manifest")
+    if [*options.files, options.system].count("-") > 1:
+        parser.error("standard input can be read once: give - once")
+    missing = unsupported(options.timeout, options.max_memory)
+    if missing:
+        parser.error(missing)
     limits = Limits(options.max_bytes, options.max_depth, options.max_digits, work=options.max_work)
     sys.set_int_max_str_digits(0)
     # A character that the terminal's encoding lacks must not raise an error.
     if isinstance(sys.stdout, io.TextIOWrapper):
         sys.stdout.reconfigure(errors="backslashreplace")
-    found = []
+    found, clock = [], Clock(options.timeout)
     try:
-        for about, verdict in verdicts(options.files, options.manifest, options.system, limits):
-            found.append((about, verdict))
-            if not options.json:
-                print(verdict.line().replace("(Limits.", "(--max-"), flush=True)
+        with memory(options.max_memory), clock.running():
+            asked = options.manifest, options.system, limits, clock
+            for about, verdict in verdicts(options.files, *asked):
+                found.append((about, verdict))
+                if not options.json:
+                    _say(verdict.line().replace("(Limits.", "(--max-"))
     except Refused as error:
-        print(f"checker: {options.system}: {error.place}: {error.message}", file=sys.stderr)
-        return 3
-    except KeyboardInterrupt:
-        return 130
+        _complain(f"{ascii(options.system)[1:-1]}: {error.place}: {error.message}")
+        return Verdict(error.verdict).status
     if options.json:
-        print(json.dumps({"verdicts": [about | asdict(v) for about, v in found]}, indent=1))
+        _say(json.dumps({"verdicts": [about | asdict(v) for about, v in found]}, indent=1))
     return next(status for status in PRECEDENCE if status in {0, *(v.status for _, v in found)})
+
+
+def _say(text: str) -> None:
+    """Print a line, or raise an OSError if that is impossible."""
+    if sys.stdout is None:
+        raise OSError(errno.EBADF, "standard output is closed")
+    print(text, flush=True)
+
+
+def _complain(text: str) -> None:
+    """Print a line on standard error, if that is possible."""
+    try:
+        print(f"checker: {text}", file=sys.stderr, flush=True)
+    except OSError:
+        _drop(sys.stderr)
+
+
+def _flush(stream: IO[str] | None) -> None:
+    if stream is not None:
+        stream.flush()
+
+
+def _drop(stream: IO[str] | None) -> None:
+    """Lead a stream nowhere: the interpreter flushes it at its end, which must not fail again."""
+    if stream is not None:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())

@@ -13,7 +13,18 @@ from typing import Any
 from . import sentences_analysis, sentences_design, sentences_sharing
 from .budget import Budget, current, limited, spend
 from .kinds import KINDS, Verdict, answer, check_document
-from .reading import Limits, Refused, fields, items, malformed, parse, require, shown, string
+from .reading import (
+    Limits,
+    Refused,
+    fields,
+    items,
+    malformed,
+    parse,
+    read_bytes,
+    require,
+    shown,
+    string,
+)
 from .sentence import RULES, Premise, enter_own
 from .subject import read_subject
 from .system import read_plant
@@ -90,7 +101,7 @@ def _bytes(path: str, limits: Limits) -> bytes:
         regular = stat.S_ISREG(os.lstat(path).st_mode)
         require(regular, "file", "file", "not a regular file of this folder")
         with open(path, "rb") as stream:
-            return stream.read(limits.bytes + 1)
+            return read_bytes(stream, limits)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise Refused("MALFORMED", "unreadable", "file", f"cannot be read: {reason}") from error

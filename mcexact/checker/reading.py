@@ -13,7 +13,7 @@ import unicodedata
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, NoReturn
+from typing import IO, Any, NoReturn
 
 from .arithmetic import Matrix, Polynomial
 from .budget import spend
@@ -101,6 +101,17 @@ def parse(data: bytes, limits: Limits, decimal_of: Callable[[str], Any] | None =
         malformed(f"line {error.lineno} column {error.colno}", f"not JSON: {error.msg}")
     except RecursionError:
         malformed("file", "nested deeper than any certificate")
+
+
+def read_bytes(stream: IO[bytes], limits: Limits) -> bytes:
+    """Read a stream in parts, until it ends or has one byte more than the limit."""
+    data = bytearray()
+    while len(data) <= limits.bytes:
+        part = stream.read(min(2**20, limits.bytes + 1 - len(data)))
+        if not part:
+            break
+        data += part
+    return bytes(data)
 
 
 def shown(value: Any) -> str:

@@ -5,6 +5,7 @@ The modules import the rest of mcexact inside functions only, so that ``--help``
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Sequence
 
@@ -19,7 +20,7 @@ from mcexact.cli.failures import exit_status, one_message
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
     epilog="Exit status: 0 done, 1 the answer is no, 2 wrong usage, 3 malformed or missing input, "
     "4 a limit was reached, 5 the checker cannot handle a certificate, 70 a bug in mcexact, "
-    "130 interrupted.",
+    "74 the output cannot be written, 130 interrupted.",
 )
 @click.version_option(package_name="mcexact")
 def command_line() -> None:
@@ -50,7 +51,15 @@ def main(arguments: Sequence[str] | None = None) -> None:
         returned = command_line.main(arguments, prog_name="mcexact", standalone_mode=False)
         sys.exit(returned if isinstance(returned, int) else 0)
     except Exception as error:
-        click.echo(one_message(error), err=True)
+        _complain(one_message(error))
         sys.exit(exit_status(error))
     except KeyboardInterrupt:
         sys.exit(130)
+
+
+def _complain(message: str) -> None:
+    """Print a message on standard error, if that is possible: the status tells as much."""
+    try:
+        click.echo(message, err=True)
+    except OSError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stderr.fileno())

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import click
 
 from mcexact.cli import options
@@ -20,6 +22,24 @@ from mcexact.cli import options
     metavar="FILE",
     help="Require that each certificate is about the system in this file.",
 )
+@click.option(
+    "--timeout",
+    type=options.seconds,
+    metavar="SECONDS",
+    help="Limit on the time of the whole run; what is not decided by then is INCOMPLETE.",
+)
+@click.option(
+    "--max-memory",
+    type=click.IntRange(min=1),
+    metavar="MIB",
+    help="Limit on memory in MiB; what needs more is INCOMPLETE.",
+)
+@click.option(
+    "--export",
+    type=options.FOLDER,
+    metavar="FILE",
+    help="Check nothing, but write the checker to this file, an archive that `python -I` runs.",
+)
 @options.as_json
 @click.option(
     "--max-work",
@@ -33,6 +53,9 @@ def command(
     certificates: tuple[str, ...],
     manifest: str | None,
     system: str | None,
+    timeout: float | None,
+    max_memory: int | None,
+    export: Path | None,
     as_json: bool,
     **limits: int | None,
 ) -> int:
@@ -42,25 +65,55 @@ def command(
     INVALID, MALFORMED and INCOMPLETE are followed by a code and a place. A sentence of a manifest
     is IMPLIED instead of VALID; the statement printed for it is made from the certificates, not
     from the text of the sentence.
+
+    The status is the first that applies of 70, 3 (MALFORMED), 1 (INVALID), 5 (INCOMPLETE) and 0, or
+    74 if the verdicts cannot be written. The file that --export writes prints the same verdicts:
+    python -I FILE CERTIFICATE...
     """
     from dataclasses import asdict
 
-    from mcexact.checker.command import PRECEDENCE, verdicts
+    from mcexact.checker.allowance import Clock, memory, unsupported
+    from mcexact.checker.command import PRECEDENCE, UNWRITTEN, verdicts
+    from mcexact.checker.kinds import Verdict
     from mcexact.checker.reading import Limits, Refused
-    from mcexact.cli.output import emit, emit_json
-    from mcexact.errors import InputError
+    from mcexact.cli.output import deliver, json_text
+    from mcexact.errors import InputError, NotWritten
 
+    if export is not None:
+        if certificates or manifest is not None:
+            raise click.UsageError("--export checks nothing: give it alone")
+        _export(export)
+        return 0
     if not certificates and manifest is None:
         raise click.UsageError("expected a CERTIFICATE or --manifest")
-    found = []
+    if [*certificates, system].count("-") > 1:
+        raise click.UsageError("standard input can be read once: give - once")
+    if missing := unsupported(timeout, max_memory):
+        raise click.UsageError(missing)
+    found, clock = [], Clock(timeout)
     allowed = Limits(**options.given(limits))
     try:
-        for about, verdict in verdicts(certificates, manifest, system, allowed):
-            found.append((about, verdict))
-            if not as_json:
-                emit(verdict.line().replace("(Limits.", "(--max-") + "\n")
+        with memory(max_memory), clock.running():
+            for about, verdict in verdicts(certificates, manifest, system, allowed, clock):
+                found.append((about, verdict))
+                if not as_json:
+                    deliver(verdict.line().replace("(Limits.", "(--max-") + "\n")
+        if as_json:
+            deliver(json_text({"verdicts": [about | asdict(verdict) for about, verdict in found]}))
     except Refused as refused:
-        raise InputError(refused.message, where=f"{system}: {refused.place}") from None
-    if as_json:
-        emit_json({"verdicts": [about | asdict(verdict) for about, verdict in found]})
+        error = InputError(refused.message, where=f"{system}: {refused.place}")
+        error.exit_status = Verdict(refused.verdict).status
+        raise error from None
+    except NotWritten as error:
+        if not error.reader_left:
+            raise
+        return UNWRITTEN
     return next(status for status in PRECEDENCE if status in {0, *(v.status for _, v in found)})
+
+
+def _export(file: Path) -> None:
+    """Write the archive of the checker."""
+    from mcexact.cli.checker_archive import checker_archive
+    from mcexact.model.atomic import write_bytes
+
+    write_bytes(file, checker_archive())

@@ -6,18 +6,30 @@ import json
 import os
 import sys
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TextIO
+
+from mcexact.errors import NotWritten
 
 if TYPE_CHECKING:
     from mcexact.report.text import Table
 
 
-def emit(text: str) -> None:
-    """Write text to standard output, and stop without an error if its reader has closed it.
+_PLACE = "standard output"
+
+
+def deliver(text: str) -> None:
+    """Write text to standard output.
 
     A character that the terminal's encoding lacks is written as an escape.
+
+    Raises
+    ------
+    NotWritten
+        If that is impossible, also because the reader of a pipe has closed it.
     """
-    stream = sys.stdout
+    stream: TextIO | None = sys.stdout
+    if stream is None:
+        raise NotWritten("cannot be written: it is closed", where=_PLACE)
     try:
         try:
             stream.write(text)
@@ -25,14 +37,37 @@ def emit(text: str) -> None:
             encoding = stream.encoding or "ascii"
             stream.write(text.encode(encoding, "backslashreplace").decode(encoding))
         stream.flush()
-    except BrokenPipeError:
+    except OSError as error:
         # The interpreter flushes again when it exits, which must not raise another error.
         os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+        left = isinstance(error, BrokenPipeError)
+        reason = f"cannot be written: {error.strerror}"
+        raise NotWritten(reason, where=_PLACE, reader_left=left) from None
+
+
+def emit(text: str) -> None:
+    """Write text to standard output, and stop without an error if its reader has closed it.
+
+    Raises
+    ------
+    NotWritten
+        If it cannot be written for another reason.
+    """
+    try:
+        deliver(text)
+    except NotWritten as error:
+        if not error.reader_left:
+            raise
 
 
 def emit_json(document: Any) -> None:
     """Write one JSON document to standard output."""
-    emit(json.dumps(document, indent=2, ensure_ascii=True) + "\n")
+    emit(json_text(document))
+
+
+def json_text(document: Any) -> str:
+    """The text of one JSON document, as it is printed."""
+    return json.dumps(document, indent=2, ensure_ascii=True) + "\n"
 
 
 def emit_tables(tables: Sequence[Table], width: int | None = None) -> None:
