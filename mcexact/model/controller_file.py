@@ -68,19 +68,22 @@ def read_controller(text: bytes | str, limits: Limits = DEFAULT_LIMITS) -> Contr
     places = [f"agents[{k}].name" for k in range(len(agents))]
     given = [expect_name(agent["name"], place) for agent, place in zip(agents, places, strict=True)]
     names = checked_names(given, places)
-    programs = [_read_agent(agent, f"agents[{k}]", names, limits) for k, agent in enumerate(agents)]
+    sizes = [expect_integer(a["shared"], f"agents[{k}].shared") for k, a in enumerate(agents)]
+    programs = [
+        _read_agent(agent, f"agents[{k}]", names, sizes, limits) for k, agent in enumerate(agents)
+    ]
     require_short_numbers(text, limits)
     return Controller(document["time"], document["system"], tuple(programs))
 
 
 def _read_agent(
-    agent: dict[str, Any], where: str, names: tuple[str, ...], limits: Limits
+    agent: dict[str, Any], where: str, names: tuple[str, ...], sizes: list[int], limits: Limits
 ) -> AgentProgram:
-    """Read one program."""
-    shared = expect_integer(agent["shared"], f"{where}.shared")
+    """Read one program; ``sizes`` are the dimensions of all shared sub-states."""
+    shared = sizes[names.index(agent["name"])]
     private = expect_integer(agent["private"], f"{where}.private")
     shared_update, private_update, given = (
-        _read_map(agent[label], f"{where}.{label}", size, names, limits)
+        _read_map(agent[label], f"{where}.{label}", size, names, (sizes, private), limits)
         for label, size in zip(MAPS, (shared, private, None), strict=True)
     )
     hold = {}
@@ -90,22 +93,30 @@ def _read_agent(
 
 
 def _read_map(
-    value: Any, where: str, nrows: int | None, names: tuple[str, ...], limits: Limits
+    value: Any,
+    where: str,
+    nrows: int | None,
+    names: tuple[str, ...],
+    widths: tuple[list[int], int],
+    limits: Limits,
 ) -> LinearMap:
-    """Read one linear map."""
+    """Read one linear map; ``widths`` are the dimensions of all x_j, and that of z_i."""
     expect_object(value, where, (), ("outputs", "shared", "private", "reference"))
 
-    def matrix(entry: Any, place: str) -> Matrix:
-        return read_matrix(entry, place, nrows=nrows, limits=limits)
+    def matrix(entry: Any, place: str, ncols: int | None = None) -> Matrix:
+        return read_matrix(entry, place, nrows, ncols, limits)
 
-    def by_agent(key: str) -> dict[int, Matrix]:
+    def by_agent(key: str, sizes: list[int] | None) -> dict[int, Matrix]:
         found = _by_agent(value.get(key, {}), f"{where}.{key}", names)
-        return {j: matrix(M, f"{where}.{key}[{quoted(names[j])}]") for j, M in found.items()}
+        return {
+            j: matrix(M, f"{where}.{key}[{quoted(names[j])}]", sizes[j] if sizes else None)
+            for j, M in found.items()
+        }
 
     return LinearMap(
-        by_agent("outputs"),
-        by_agent("shared"),
-        matrix(value["private"], f"{where}.private") if "private" in value else None,
+        by_agent("outputs", None),
+        by_agent("shared", widths[0]),
+        matrix(value["private"], f"{where}.private", widths[1]) if "private" in value else None,
         matrix(value["reference"], f"{where}.reference") if "reference" in value else None,
     )
 

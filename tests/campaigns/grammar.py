@@ -218,9 +218,9 @@ def damaged_bytes(data: bytes, rng: random.Random) -> bytes:
     return data[:a] + rng.choice([b"", *BYTES]) + data[b:]
 
 
-def drawn_file(rng: random.Random) -> tuple[bytes, str]:
-    """A file and how it was damaged."""
-    document, done = drawn_document(rng), []
+def damaged_file(document: Pairs, rng: random.Random) -> tuple[bytes, str]:
+    """The file of a document, and how it was damaged."""
+    done: list[str] = []
     for _ in range(rng.choice([0, 0, 1, 1, 1, 1, 2, 3])):
         done.append(damaged(document, rng))
     data = text_of(document, rng).encode("utf-8", "surrogatepass")
@@ -334,7 +334,7 @@ def run(count: int, seed: int = 0) -> Tally:
     tally = Tally()
     for k in range(count):
         rng = random.Random(f"{seed} {k}")
-        data, what = drawn_file(rng)
+        data, what = damaged_file(drawn_document(rng), rng)
         compare(data, drawn_limits(rng), tally, what)
     return tally
 

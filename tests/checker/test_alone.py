@@ -96,12 +96,18 @@ def test_no_file_around_passes_for_a_standard_module(hostile: Path, start: Seque
     assert run(hostile / "checker", "-I", "../checker.pyz", "../fixed.json").returncode == 0
 
 
-def test_as_a_module_it_clears_the_path_before_it_imports_anything(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    "start", [("-E", "-m", "checker"), ("checker",), ("checker.pyz",)], ids=" ".join
+)
+def test_a_path_that_leads_to_files_around_is_cleared_before_anything_is_imported(
+    tmp_path: Path, start: Sequence[str]
+) -> None:
     shutil.copytree(FOLDER, tmp_path / "checker", ignore=shutil.ignore_patterns("__pycache__"))
+    (tmp_path / "checker.pyz").write_bytes(checker_archive())
     for name in SHADOWS:
         (tmp_path / f"{name}.py").write_text(f"raise RuntimeError('{name}')\n")
     (tmp_path / "valid.json").write_text(json.dumps(FREE))
-    done = run(tmp_path, "-S", "-E", "-m", "checker", "valid.json")
+    done = run(tmp_path, "-S", *start, "valid.json", PYTHONPATH=".")
     assert (done.returncode, done.stderr) == (0, "")
 
 
