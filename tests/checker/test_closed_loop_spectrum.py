@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import copy
 
+import pytest
+
 from tests.checker.handmade import Document, certificate, changed, checked, plant
 from tests.checker.tables import accepts, rejects
 
@@ -75,3 +77,23 @@ test_a_change_of_one_place_is_rejected = rejects(REJECTED)
 
 def test_the_theorem_states_the_polynomial() -> None:
     assert "x^2 + 6*x + 8" in checked(copy.deepcopy(LOOP)).theorem
+
+
+@pytest.mark.parametrize(
+    ("document", "edit", "code"),
+    [
+        (LOOP, ("claim.polynomial", [6, 1]), "degree"),
+        (LOOP, ("claim.polynomial", [0, 8, 6, 1]), "degree"),
+        (LOOP, ("claim.polynomial", [66, 6, 1]), "bound"),
+        (LOOP, ("claim.polynomial", ["1/2", 6, 1]), "bound"),
+        (LOOP, ("witness.moduli", [131]), "VALID"),
+        (LOOP, ("witness.moduli", [130]), "moduli"),
+        (LOOP, ("claim.polynomial", [9, 6, 1]), "spectrum"),
+        (FRACTION, ("witness.moduli", [2, 101, 103]), "modulus"),
+    ],
+)
+def test_each_condition_refuses_by_itself(
+    document: Document, edit: tuple[str, object], code: str
+) -> None:
+    verdict = checked(changed(document, edit))
+    assert (verdict.code or verdict.verdict) == code, verdict.line()

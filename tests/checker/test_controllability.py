@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from mcexact.checker.controllability import krylov_ranks, require_reached
+from mcexact.checker.reading import Refused
+from mcexact.checker.system import read_plant
 from tests.checker.handmade import (
     CONTROLLABLE,
     UNCONTROLLABLE,
@@ -45,8 +48,48 @@ ROW = certificate(
     },
     {"modulus": 5, "annihilator": matrix([1, 1]), "pivots": [1]},
 )
+STILL = certificate(
+    "controllability",
+    plant([[0, 0], [0, 0]], ([[0], [0]], [[0, 0]])),
+    NOTHING["claim"],
+    NOTHING["witness"],
+)
+"""Two states that nothing moves."""
+CHAINED = certificate(
+    "controllability",
+    plant([[0, 1], [0, 0]], ([[0], [1]], [[0, 0]]), ([[0], [0]], [[0, 0]])),
+    {**NOTHING["claim"], "channels": ["2"]},
+    NOTHING["witness"],
+)
+HALF = {
+    "channels": ["1"],
+    "dimension": 1,
+    "controllable": False,
+    "uncontrollable_polynomial": [0, 1],
+}
+FIRST = changed(
+    CHAINED,
+    ("claim", HALF),
+    ("witness", {"modulus": 7, "annihilator": matrix([1, 0]), "pivots": [0]}),
+)
+"""W B = 0, but W A = (0, 1) is no multiple of W = (1, 0): channel 1 controls both states."""
+ZEROS = changed(
+    STILL, ("system.channels.0.B", [[1], [0]]), ("witness.annihilator", matrix([0, 0], [0, 0]))
+)
+"""W = 0 annihilates everything, also x_1, which the channel controls."""
+DRIVEN = changed(
+    ROW,
+    ("system.A", [[1, 0], [0, 2]]),
+    ("system.channels.0.B", [[1], [0]]),
+    ("witness.annihilator", matrix([0, 1])),
+)
+
+FORGED = [("a state that the input drives on", FIRST), ("a W of zeros", ZEROS)]
 
 ACCEPTED = [
+    ("two states that nothing moves", STILL),
+    ("the channel that does not control", CHAINED),
+    ("a mode beside the input", DRIVEN),
     ("a mode that the input does not reach", UNCONTROLLABLE),
     ("the other pivot of the same row", changed(ROW, ("witness.pivots", [0]))),
     ("a row that is no unit vector", ROW),
@@ -63,6 +106,9 @@ ACCEPTED = [
 ]
 
 REJECTED = [
+    ("W that says nothing", STILL, ("witness.annihilator", matrix([0, 0], [0, 0])), "INVALID"),
+    ("W that the states leave", CHAINED, ("claim.channels", ["1"]), "INVALID"),
+    ("W that the input drives", DRIVEN, ("system.channels.0.B", [[1], [1]]), "INVALID"),
     ("called controllable", UNCONTROLLABLE, ("claim.controllable", True), "INVALID"),
     ("called uncontrollable", CONTROLLABLE, ("claim.controllable", False), "INVALID"),
     ("an empty W", UNCONTROLLABLE, ("witness.annihilator", matrix()), "MALFORMED"),
@@ -118,3 +164,39 @@ def test_the_words_say_which_system_and_which_channels() -> None:
         "a subspace of dimension exactly 1: not controllable through them together; "
         "uncontrollable polynomial x - 2"
     )
+
+
+@pytest.mark.parametrize(("reason", "document"), FORGED)
+def test_a_forgery_is_rejected(reason: str, document: Document) -> None:
+    assert checked(document).verdict == "INVALID"
+
+
+@pytest.mark.parametrize(
+    ("channel", "blocks", "good"), [(0, 2, True), (0, 3, True), (0, 1, False), (1, 2, False)]
+)
+def test_a_channel_reaches_every_state_in_some_blocks(
+    channel: int, blocks: int, good: bool
+) -> None:
+    system = read_plant(CHAINED["system"])
+    if good:
+        require_reached(system, channel, 7, blocks)
+    else:
+        with pytest.raises(Refused) as found:
+            require_reached(system, channel, 7, blocks)
+        assert found.value.verdict == "INVALID"
+
+
+@pytest.mark.parametrize(
+    ("channels", "blocks", "ranks"),
+    [
+        ([0], 9, [0, 1, 2, 2]),
+        ([0], 2, [0, 1, 2]),
+        ([0], 1, [0, 1]),
+        ([0], 0, [0]),
+        ([1], 9, [0, 0]),
+        ([0, 1], 9, [0, 1, 2, 2]),
+        ([], 9, [0]),
+    ],
+)
+def test_ranks_grow_until_they_stop(channels: list[int], blocks: int, ranks: list[int]) -> None:
+    assert krylov_ranks(read_plant(CHAINED["system"]), channels, 7, blocks) == ranks

@@ -31,8 +31,15 @@ NO_STATES = certificate(
     {"channels": ["1"], "ranks": [], "index": 0, "indices": []},
     {"modulus": 7, "annihilator": matrix()},
 )
+THREE = certificate(
+    "controllability_indices",
+    plant([[0, 0, 0], [5, 0, 0], [0, 1, 0]], ([[1], [0], [0]], [[0, 0, 1]])),
+    {"channels": ["1"], "ranks": [1, 2, 3], "index": 3, "indices": [3]},
+    {"modulus": 7, "annihilator": matrix([0, 0, 1], [0, 1, 0])},
+)
 
 ACCEPTED = [
+    ("a chain of three", THREE),
     ("a chain of two", INDICES),
     ("a mode that stays out of reach", NO_INDEX),
     ("two inputs, indices 2 and 1", TWO_INPUTS),
@@ -43,6 +50,9 @@ ACCEPTED = [
 ]
 
 REJECTED = [
+    ("a rank that is claimed once more", NO_INDEX, ("claim.ranks", [1, 1])),
+    ("ranks that fall", INDICES, ("claim.ranks", [2, 1])),
+    ("a plant whose ranks stop early modulo ℓ", THREE, ("witness.modulus", 5)),
     ("an index too low", INDICES, ("claim.index", 1)),
     ("an index where there is none", NO_INDEX, ("claim.index", 1)),
     ("no index where there is one", INDICES, ("claim.index", None)),

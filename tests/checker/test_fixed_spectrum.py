@@ -331,3 +331,9 @@ def test_the_claim_is_about_the_subject_not_the_plant() -> None:
     assert "the plant with neighbors' outputs shared" in verdict.theorem
     assert checked(changed(fitting, (f"{FACTOR}.channels", ["2", "3"]))).verdict == "INVALID"
     assert checked(shared).verdict == "MALFORMED"
+
+
+def test_a_mode_is_counted_in_one_factor() -> None:
+    factors, spaces = FIXED["claim"]["factors"] * 2, FIXED["witness"]["subspaces"] * 2
+    verdict = checked(changed(FIXED, ("claim.factors", factors), ("witness.subspaces", spaces)))
+    assert (verdict.verdict, verdict.code) == ("INVALID", "common_factor"), verdict.line()

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import random
+
+import networkx
 import pytest
 
+from mcexact.checker.neighbor_graph import components
 from tests.checker.handmade import COMPLETE, RING, Document, changed, checked, without
 
 BROKEN = changed(RING, ("system.neighbors.3", []), ("claim.strongly_connected", False))
@@ -41,3 +45,14 @@ def test_a_true_answer_is_accepted(reason: str, document: Document) -> None:
 def test_anything_else_is_rejected(reason: str, document: Document) -> None:
     verdict = checked(document)
     assert verdict.verdict in ("INVALID", "MALFORMED"), verdict.line()
+
+
+def test_strong_components_are_networkx_s_in_the_order_of_their_first_members() -> None:
+    rng = random.Random(8)
+    for _ in range(300):
+        m = rng.randint(0, 7)
+        arcs = [(j, i) for j in range(m) for i in range(m) if rng.random() < rng.choice([0.1, 0.3])]
+        graph = networkx.DiGraph(arcs)
+        graph.add_nodes_from(range(m))
+        expected = sorted(sorted(part) for part in networkx.strongly_connected_components(graph))
+        assert components(m, arcs) == expected

@@ -39,8 +39,24 @@ TWO_ROOTS = certificate(
     {"subset": ["1"], "polynomial": [0, -1, 1], "rank": 2},
     {"modulus": 101, "kernel": layers([[], []]), "pivots": []},
 )
+# At 0 the first column of xI − A is (2, 1): modulo 6 only its second entry has an inverse.
+UNITS = certificate(
+    "pencil_rank",
+    plant([[-2, -1], [-1, -1]], ([[0], [0]], [[0, 0]])),
+    {"subset": ["1"], "polynomial": [0, 1], "rank": 2},
+    {"modulus": 6, "kernel": layers([[], []]), "pivots": []},
+)
+# At 1 the kernel of xI − A is (1, 0), which the channel measures.
+SEEN = certificate(
+    "pencil_rank",
+    plant([[1, 0], [0, 2]], ([[], []], [[1, 0]]), ([[], []], [[0, 1]])),
+    {"subset": ["2"], "polynomial": [-1, 1], "rank": 1},
+    {"modulus": 101, "kernel": layers([[1], [0]]), "pivots": [0]},
+)
 
 ACCEPTED = [
+    ("a kernel that the other channel sees", SEEN),
+    ("a number without inverse above one with", UNITS),
     ("the paper's pencil drops at 1", RANK),
     ("and at 2 it does not", ELSEWHERE),
     ("full rank at a pair of roots", OSCILLATOR_RANK),
@@ -51,6 +67,10 @@ ACCEPTED = [
 ]
 
 REJECTED = [
+    ("a kernel that the outputs see, and that claims a lower rank", SEEN, ("claim.subset", ["1"])),
+    ("a pivot too few", RANK, ("witness.pivots", [0, 2])),
+    ("a pivot too many", RANK, ("witness.pivots", [0, 1, 2, 3])),
+    ("a column without a number that has an inverse", UNITS, ("system.A", [[-2, -1], [0, -1]])),
     ("a rank too high", RANK, ("claim.rank", 3)),
     ("a rank too low", RANK, ("claim.rank", 1)),
     ("a rank beyond the columns", RANK, ("claim.rank", 6)),

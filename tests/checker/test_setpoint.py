@@ -72,6 +72,18 @@ ACCEPTED = [
 ]  # fmt: skip
 
 REJECTED = [
+    ("solvable called an invariant zero", POSITION, (
+        ("claim", claim(False, 3, True)), ("witness.point", 5)
+    )),
+    ("an invariant zero called solvable", VELOCITY, (
+        ("claim", claim(True, 2)), ("witness.point", None)
+    )),
+    ("dependent outputs called solvable", TWICE, (
+        ("claim", claim(True, 3)), ("witness.normal", None)
+    )),
+    ("a row besides the point", VELOCITY, ("witness.normal", layers([[0, 0, 0]]))),
+    ("a point besides the row", TWICE, ("witness.point", 3)),
+    ("an unused row", POSITION, ("witness.normal", layers([[0, 0, 0]]))),
     ("solvable called unsolvable", POSITION, ("claim.solvable", False)),
     ("unsolvable called solvable", VELOCITY, ("claim.solvable", True)),
     ("a rank too large", VELOCITY, ("claim.rank", 3)),

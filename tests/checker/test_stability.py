@@ -61,8 +61,18 @@ UNSTABLE = certificate(
     {"method": "instability", "P": matrix([-1, 0], [0, 1]), "R2": UNIT, "v": matrix([1], [0])},
 )
 ROTATION = certificate("stability", loop([[0, 1], [-1, 0]]), claim(False), POLYNOMIAL)
+ALONE = form(matrix([1]), matrix([1]), matrix([1]))
+APART = certificate(
+    "stability",
+    loop([[-1, 2], [0, -1]]),
+    claim(True),
+    {"method": "lyapunov", "transformation": None, "blocks": [ALONE, ALONE]},
+)
+"""The second state drives the first; if the first drives the second, too, 1 is an eigenvalue."""
+THREE = matrix([1, 0, 0], [0, 1, 0], [0, 0, 1])
 
 ACCEPTED = [
+    ("a block that drives another", APART),
     ("two real eigenvalues, by the polynomial", BY_POLYNOMIAL),
     ("the same by a quadratic form", BY_LYAPUNOV),
     ("a rate just below the slowest", changed(BY_LYAPUNOV, ("claim.bound", "99/100"))),
@@ -79,6 +89,11 @@ ACCEPTED = [
 ]  # fmt: skip
 
 REJECTED = [
+    ("a block beyond the states", BY_LYAPUNOV, ("witness.blocks", [form(THREE, THREE, THREE)])),
+    ("a block too many", BY_LYAPUNOV, ("witness.blocks", [form(UNIT), form(matrix([1]))])),
+    ("blocks that act on each other", APART, ("system.A.1.0", 2)),
+    ("a stable loop called unstable, by the same form", BY_LYAPUNOV, ("claim.stable", False)),
+    ("a form besides the polynomial", BY_POLYNOMIAL, ("witness.P", UNIT)),
     ("the opposite claim", BY_POLYNOMIAL, ("claim.stable", False)),
     ("a rate met only with equality", BY_LYAPUNOV, ("claim.bound", 1)),
     ("a rate met only with equality, by the polynomial", BY_POLYNOMIAL, ("claim.bound", 1)),

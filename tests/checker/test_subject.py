@@ -124,6 +124,9 @@ def equal(ours: arithmetic.Matrix, theirs: Matrix) -> bool:
 def assert_same(ours: System, theirs: MultiChannelSystem) -> None:
     assert equal(ours.A, theirs.A)
     assert tuple(ours.names) == theirs.names
+    assert ours.time == theirs.time
+    graph, hears = theirs.neighbors, range(theirs.m)
+    assert ours.neighbors == (graph and [sorted(graph.neighborhood(i)) for i in hears])
     for i in range(theirs.m):
         assert equal(ours.B[i], theirs.B(i))
         assert equal(ours.C[i], theirs.C(i))
@@ -139,6 +142,32 @@ def test_every_construction_is_built_as_the_finder_builds_it(name: str) -> None:
             derived = build(rng, drawn_plant(rng, domain))
             document = system_file.canonical_document(derived)
             assert_same(read_subject(plain(derived.subject), read_plant(document)), derived)
+
+
+@pytest.mark.parametrize("name", sorted(CONSTRUCTIONS))
+def test_a_construction_has_its_own_arguments_and_no_others(name: str) -> None:
+    for build in BUILDS[name]:
+        derived = build(random.Random(name), drawn_plant(random.Random(name), "discrete"))
+        document = system_file.canonical_document(derived)
+        (step,) = plain(derived.subject)
+        read_subject([step], read_plant(document))
+        fewer = [{key: step[key] for key in step if key != left_out} for left_out in step]
+        for wrong in ({**step, "more": None}, *fewer):
+            with pytest.raises(Refused) as found:
+                read_subject([wrong], read_plant(document))
+            assert found.value.verdict == "MALFORMED"
+
+
+def test_an_edge_is_added_once() -> None:
+    graph = {"1": ["2"], "2": ["1"], "3": []}
+    plant = {**FREE["system"], "neighbors": graph}
+    plant["channels"] = [{**FREE["system"]["channels"][0], "name": name} for name in "123"]
+    ours = read_subject([{"construction": "arcs", "added": [["3", "1"]]}], read_plant(plant))
+    assert ours.neighbors == [[0, 1, 2], [0, 1], [2]]
+    for added in ([["2", "1"]], [["3", "1"], ["3", "1"]], [["1", "1"]]):
+        with pytest.raises(Refused) as found:
+            read_subject([{"construction": "arcs", "added": added}], read_plant(plant))
+        assert found.value.verdict == "INVALID"
 
 
 def test_constructions_are_applied_in_order() -> None:

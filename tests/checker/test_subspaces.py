@@ -15,6 +15,7 @@ from tests.checker.handmade import CHAIN, OSCILLATOR, PAIR, layers, matrix, plan
 
 LOST = {"channels_T": [], "U": layers([[0], [1]]), "V": layers([]), "pivots": [1]}
 """x_2' = 2 x_2, which no channel sees."""
+REPEATED = {**LOST, "U": layers([[0, 0], [1, 1]]), "V": layers([]), "pivots": [0, 1]}
 DRIVEN = {
     "channels_T": ["1"],
     "U": layers([[1, 0], [0, 1]]),
@@ -73,6 +74,8 @@ SHRUNK: list[tuple[str, Any, Any, list[Fraction], int, str]] = [
         "INVALID",
     ),
     ("another input", PAIR, {**DRIVEN, "V": layers([[2, 0]])}, TWO, 1, "INVALID"),
+    ("one direction twice", PAIR, REPEATED, TWO, 2, "INVALID"),
+    ("one direction twice, for one loss", PAIR, REPEATED, TWO, 1, "INVALID"),
     ("a direction that moves", PAIR, {**LOST, "U": layers([[1], [1]])}, TWO, 1, "INVALID"),
     ("dependent directions", PAIR, {**DRIVEN, "U": layers([[1, 1], [1, 1]])}, TWO, 1, "INVALID"),
     (

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from tests.checker.handmade import GRAPH, changed, checked, matrix
+from mcexact.checker.reading import Refused
+from mcexact.checker.system import read_plant
+from mcexact.checker.transfer_graph import read_arcs
+from tests.checker.handmade import GRAPH, certificate, changed, checked, matrix, plant
 from tests.checker.tables import accepts
 
 WHOLE = {"from": ["1", "2"], "X": matrix([1, 0], [0, 1]), "pivots": [0, 1]}
@@ -19,7 +22,16 @@ DEAD = changed(
     ("witness.zeros", [WHOLE, *ZEROS]),
 )
 
+GROWING = certificate(
+    "transfer_graph",
+    plant([[2]], ([[1]], [[1]])),
+    {"arcs": [["1", "1"]], "components": [["1"]], "strongly_connected": True},
+    {"modulus": 7, "powers": [0], "zeros": []},
+)
+"""C A^k B = 2^k for every k."""
+
 ACCEPTED = [
+    ("one state", GROWING),
     ("a chain of two channels", GRAPH),
     ("a channel whose outputs see nothing", DEAD),
     ("a zero transfer that is not needed", changed(GRAPH, ("witness.zeros", [*ZEROS, WHOLE]))),
@@ -52,6 +64,35 @@ REJECTED = [
     ("a transfer that vanishes modulo ℓ", ("system.A.1.0", 7)),
     ("a plant with a transfer back", ("system.A.0.1", 1)),
 ]  # fmt: skip
+
+
+@pytest.mark.parametrize("power", [1, 2, 10**9])
+def test_no_power_beyond_the_number_of_states_is_computed(power: int) -> None:
+    verdict = checked(changed(GROWING, ("witness.powers", [power])))
+    assert (verdict.verdict, verdict.code) == ("INVALID", "arc"), verdict.line()
+
+
+@pytest.mark.parametrize(
+    ("arcs", "good"),
+    [
+        ([["1", "1", 0], ["1", "2", 1], ["2", "2", 0]], True),
+        ([["1", "2", 1], ["1", "1", 0], ["2", "2", 0]], False),
+        ([["2", "2", 0], ["1", "1", 0]], False),
+        ([["1", "1", 0], ["1", "1", 0]], False),
+        ([["1", "1", 0], ["1", "1", 1]], False),
+        ([["1", "1", 0], ["1", "1", 0], ["2", "2", 0]], False),
+        ([["1", "1", -1]], False),
+        ([["1", "1"]], False),
+    ],
+)
+def test_edges_are_sorted_and_none_is_given_twice(arcs: list[list[object]], good: bool) -> None:
+    system = read_plant(GRAPH["system"])
+    if good:
+        assert read_arcs(arcs, "arcs", system) == [(0, 0, 0), (0, 1, 1), (1, 1, 0)]
+    else:
+        with pytest.raises(Refused) as found:
+            read_arcs(arcs, "arcs", system)
+        assert found.value.verdict == "MALFORMED"
 
 
 test_sound_evidence_is_accepted = accepts(ACCEPTED)

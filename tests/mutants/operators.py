@@ -37,8 +37,14 @@ REPLACED = {
 MESSAGES = {"malformed": 1, "incomplete": 2, "require": 3, "expect": 1, "Refused": 3}
 """The position of the message for a human in calls of these functions."""
 
-COSTS = {"spend", "expect"}
-"""The functions that are told how much work a step is; so are those of the module ``budget``."""
+CHARGED = {"spend", "build"}
+"""The functions that are told how much work a step is."""
+
+ESTIMATES = {
+    "_limbs", "_terms", "build", "fractions", "inversions", "limbs", "limbs_of", "products",
+    "reductions", "table",
+}  # fmt: skip
+"""The functions that say how much work a step is, or how long its numbers are."""
 
 
 PAIRS = (
@@ -176,12 +182,14 @@ def outside(source: str) -> list[Span]:
         if isinstance(node, ast.arg | ast.AnnAssign):
             parts = [node.annotation]
         elif isinstance(node, ast.FunctionDef):
-            parts = [node.returns]
+            parts = [node if node.name in ESTIMATES else node.returns]
+        elif isinstance(node, ast.Expr | ast.Assign | ast.AugAssign):
+            several = isinstance(node, ast.Assign) and isinstance(node.value, ast.Tuple)
+            values = node.value.elts if several else [node]
+            parts = [part for part in values if any(map(_is_about_cost, ast.walk(part)))]
         elif isinstance(node, ast.Call):
             name = getattr(node.func, "id", getattr(node.func, "attr", ""))
-            if _is_about_cost(node.func):
-                parts = [node]
-            elif name in MESSAGES:
+            if name in MESSAGES:
                 parts = list(node.args[MESSAGES[name] :])
         for part in parts:
             if part is not None:
@@ -202,12 +210,11 @@ def without_order(source: str) -> list[Span]:
     return spans
 
 
-def _is_about_cost(function: ast.expr) -> bool:
-    """Whether a call says how much work a step is."""
-    if isinstance(function, ast.Name):
-        return function.id in COSTS
-    owner = function.value if isinstance(function, ast.Attribute) else None
-    return isinstance(owner, ast.Name) and owner.id == "budget"
+def _is_about_cost(node: ast.AST) -> bool:
+    """Whether a part of a statement says how much work a step is."""
+    if isinstance(node, ast.Attribute):
+        return node.attr in ESTIMATES
+    return isinstance(node, ast.Call) and getattr(node.func, "id", "") in CHARGED | ESTIMATES
 
 
 def within(start: tuple[int, int], end: tuple[int, int], spans: list[Span]) -> bool:
