@@ -112,9 +112,9 @@ class Matrix:
 
     def modulo(self, ell: int) -> Rows:
         """The residues modulo ℓ; the denominator must be a unit."""
-        a = self.limbs + budget.limbs([ell])
-        spend(budget.table(self.nrows, self.ncols, a) + budget.inversions(1, a))
-        spend(budget.reductions(self.nrows * self.ncols, a))
+        a, b = self.limbs, budget.limbs([ell])
+        spend(budget.table(self.nrows, self.ncols, b) + budget.inversions(1, b))
+        spend(budget.reductions(self.nrows * self.ncols + 1, a + b, b))
         f = inverse(self.denominator, ell)
         return [[f * entry % ell for entry in row] for row in self.rows]
 
@@ -213,8 +213,8 @@ class Echelon:
 
 def poly_modulo(p: Polynomial, ell: int) -> Polynomial:
     """A polynomial over Q modulo ℓ; its denominators must be units."""
-    a = budget.limbs_of(p) + budget.limbs([ell])
-    spend(budget.inversions(len(p), a) + budget.table(1, len(p), a))
+    a, b = budget.limbs_of(p), budget.limbs([ell])
+    spend(budget.inversions(len(p), b) + budget.reductions(2 * len(p), a + b, b))
     return stripped([c.numerator * inverse(c.denominator, ell) % ell for c in p])
 
 

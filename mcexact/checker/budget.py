@@ -7,6 +7,7 @@ says otherwise; a check that would take more is INCOMPLETE.  Units say nothing o
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -16,7 +17,7 @@ from typing import Any, TypeVar
 from .refused import Refused
 
 GRANTED = 4 * 10**7
-PER_BYTE = 2500
+PER_BYTE = 4000
 LIMB = 30
 """The bits of a limb."""
 
@@ -125,13 +126,13 @@ def limbs_of(p: Iterable[Any]) -> int:
 
 
 def products(number: int, a: int, b: int) -> int:
-    """So many products of numbers of a and b limbs, added up."""
-    return number * (20 + a * b) // 20
+    """So many products of numbers of a and b limbs, which Python splits if they are long."""
+    return number * (20 + a * b * 8 // max(8, math.isqrt(min(a, b)))) // 20
 
 
-def reductions(number: int, a: int) -> int:
-    """So many steps of an elimination: a product of numbers of a limbs or two, and a division."""
-    return number * (24 + a * a) // 6
+def reductions(number: int, a: int, b: int = 0) -> int:
+    """So many products of numbers of a limbs, or two of them, each divided by a number of b."""
+    return number * (32 + a * (b or a)) // 8
 
 
 def inversions(number: int, a: int) -> int:

@@ -64,7 +64,7 @@ def is_hurwitz(p: Polynomial) -> bool:
     while lower:
         if lower[0] <= 0:
             return False
-        spend(budget.reductions(3 * len(upper), budget.limbs([*upper, *lower])))
+        spend(budget.reductions(2 * len(upper), budget.limbs([*upper, *lower])))
         rows = zip(upper[1:], [*lower[1:], 0], strict=False)
         pairs = [divmod(lower[0] * a - upper[0] * b, divisors[0]) for a, b in rows]
         if any(rest for _, rest in pairs):
