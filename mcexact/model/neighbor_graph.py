@@ -153,11 +153,10 @@ class NeighborGraph:
                 if j in sets[i]:
                     raise InputError(f"{quoted(other)} is listed twice", where=f"{where}[{k}]")
                 sets[i].append(j)
-        late = [
-            (at(name, "delays"), at(other, f"delays[{quoted(name)}]"), delay)
-            for name, row in (delays or {}).items()
-            for other, delay in row.items()
-        ]
+        late: list[tuple[int, int, int]] = []
+        for name, row in (delays or {}).items():
+            i, where = at(name, "delays"), f"delays[{quoted(name)}]"
+            late.extend((i, at(other, where), delay) for other, delay in row.items())
         return cls(names, sets, late)
 
     @classmethod

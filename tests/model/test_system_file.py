@@ -279,6 +279,7 @@ def test_bytes_that_are_no_json_object_are_refused(data, message):
         ({"neighbors": []}, "neighbors: expected an object keyed by agents, found a list"),
         ({"neighbors": {"u3": []}}, r"neighbors: there is no agent 'u3'"),
         ({"neighbors": {"u1": "u2"}}, r"neighbors\['u1'\]: expected a list"),
+        ({"delays": {"u3": {}}}, r"delays: there is no agent 'u3'"),
         ({"delays": {"u2": {"u1": 1}}}, "there is no such link"),
         ({"delays": {"u1": {"u2": -1}}}, r"delays\['u1'\]\['u2'\]: expected an integer >= 0"),
         ({"delays": {"u1": {"u2": 0.5}}}, r"delays\['u1'\]\['u2'\]: .* found 0.5"),
