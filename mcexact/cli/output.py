@@ -81,7 +81,7 @@ def emit_tables(tables: Sequence[Table], width: int | None = None) -> None:
     """
     from mcexact.report.text import WIDTH, plain, show
 
-    if sys.stdout.isatty():
+    if sys.stdout is not None and sys.stdout.isatty():
         show(tables, sys.stdout)
     else:
         emit(plain(tables, width or WIDTH))

@@ -77,8 +77,9 @@ def supervised(
     deadline = timeout if isinstance(timeout, Deadline) else Deadline(timeout)
     limits = (max_memory, tuple(libraries))
     child = context.Process(target=_child, args=(sender, limits, work, arguments))
-    sys.stdout.flush()
-    sys.stderr.flush()
+    for stream in (sys.stdout, sys.stderr):
+        if stream is not None:
+            stream.flush()
     child.start()
     sender.close()
     try:
@@ -175,7 +176,7 @@ def _terminable() -> Iterator[None]:
 @contextlib.contextmanager
 def _progress(doing: str) -> Iterator[Callable[[float], None]]:
     """Show on standard error what is being done, once it has taken a second."""
-    if sys.stderr.isatty():
+    if sys.stderr is not None and sys.stderr.isatty():
         from rich.console import Console
 
         with contextlib.ExitStack() as stack:

@@ -243,7 +243,7 @@ def _progress(total: int) -> Iterator[Any]:
     """Show progress on standard error: a bar on a terminal, otherwise a line at intervals."""
     import sys
 
-    if sys.stderr.isatty():
+    if sys.stderr is not None and sys.stderr.isatty():
         from rich.console import Console
         from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
 

@@ -1,6 +1,7 @@
 """What cannot be written is refused before the work, and work that fails leaves nothing behind."""
 
 import os
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -142,3 +143,17 @@ def test_a_file_may_go_into_the_folder_that_is_made_for_other_results(tmp_path: 
 @pytest.mark.skipif(not os.path.exists("/dev/null"), reason="there are no devices")
 def test_a_device_is_written_as_it_is() -> None:
     require_writable(Path("/dev/null"))
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs a full device")
+def test_output_that_cannot_be_written_ends_with_74(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for closed in (False, True):
+        with open("/dev/full", "w") as full, pytest.raises(SystemExit) as ended:
+            monkeypatch.setattr(sys, "stdout", None if closed else full)
+            main(["sample"])
+        assert ended.value.code == 74
+        monkeypatch.undo()
+        [line] = capsys.readouterr().err.splitlines()
+        assert line.startswith("mcexact: standard output: cannot be written: ")
