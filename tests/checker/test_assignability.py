@@ -43,7 +43,18 @@ STAYS = certificate(
     },
 )
 
+SPREAD = changed(
+    STAYS,
+    ("system.channels.0.B", [[1], [1]]),
+    (
+        "witness.realizations.0",
+        {"X": UNIT, "pivots": [0, 1], "W": matrix([1, 0]), "columns": [0]},
+    ),
+)
+"""The input moves both modes, the output sees the first."""
+
 ACCEPTED = [
+    ("a mode that is moved and not seen", SPREAD),
     ("a chain splits in two", SPLIT),
     ("a mode that no gain moves", STAYS),
     ("another modulus", changed(SPLIT, ("witness.modulus", 15))),
@@ -59,7 +70,26 @@ ACCEPTED = [
     ),
 ]
 
+WHOLE = {"X": UNIT, "pivots": [0, 1], "W": UNIT, "columns": [0, 1]}
+TOO_MUCH = (
+    ("claim.blocks.0.dimension", 2),
+    ("claim.fixed_degree", 0),
+    ("witness.realizations.0", WHOLE),
+)
+
 REJECTED = [
+    (
+        "a mode that is seen and not moved",
+        changed(STAYS, ("system.channels.0.C", [[1, 1]])),
+        TOO_MUCH,
+        "INVALID",
+    ),
+    (
+        "a mode that is moved and not seen",
+        SPREAD,
+        TOO_MUCH,
+        "INVALID",
+    ),
     ("a degree too high", STAYS, (("claim.blocks.0.dimension", 2), ("claim.fixed_degree", 0))),
     (
         "a degree too low",

@@ -20,7 +20,16 @@ BLOCKED = document(
     minimal_communication(PLANT, SILENT, forbidden=[(j, i) for j in "123" for i in "123"])
 )
 
+DECAYS = changed(
+    BLOCKED,
+    ("system.A", [[-2, 0, 0], [0, -2, 0], [0, 1, -2]]),
+    ("witness.cuts.0.polynomial", [2, 1]),
+)
+"""The fixed mode of the paper's example, moved to −2."""
+
 ACCEPTED = [
+    ("no candidate for a mode that decays", DECAYS),
+    ("nor where it may decay less", changed(DECAYS, ("claim.bound", 2))),
     ("outputs alone", OUTPUTS),
     ("a plant without a neighbor graph", WITHOUT_GRAPH),
     ("one more link for the extended system", EXTENDED),
@@ -29,6 +38,10 @@ ACCEPTED = [
 ]
 
 REJECTED = [
+    ("a mode that may stay where it is", DECAYS, ("claim.bound", 1)),
+    ("sub-states of no dimensions", OUTPUTS, ("claim.share", "outputs+states")),
+    ("an unknown way of sharing", EXTENDED, ("claim.share", "wishes")),
+    ("a price of nothing for what costs something", EXTENDED, ("claim.cost", 0)),
     ("no arc for a plant without a neighbor graph", WITHOUT_GRAPH, ("claim.added", [])),
     ("an arc that does not help", EXTENDED, ("claim.added", [["2", "3"]])),
     ("no arc at all", EXTENDED, ("claim.added", [])),

@@ -4,7 +4,18 @@ from __future__ import annotations
 
 from typing import Any
 
-from tests.checker.handmade import CHAIN, certificate, changed, matrix, plant
+import pytest
+
+from tests.checker.handmade import (
+    CHAIN,
+    INTEGRATOR,
+    Document,
+    certificate,
+    changed,
+    checked,
+    matrix,
+    plant,
+)
 from tests.checker.tables import accepts, rejects
 
 CLAIM: dict[str, Any] = {
@@ -108,6 +119,44 @@ APART = changed(
 )
 """Apart at 2 and at 3: one invariant polynomial, no remnant polynomial, and complete."""
 
+OF_NONE = certificate(
+    "complementary_subsystem",
+    INTEGRATOR,
+    {**CLAIM, "subset": [], "normal_rank": 1, "transfer_zero": True, "complete": False},
+    {
+        "modulus": 7,
+        "reachable": 1,
+        "X": matrix([1]),
+        "F": matrix([0]),
+        "A1": matrix([0]),
+        "S": matrix([1]),
+        "B1": matrix([1]),
+        "L": matrix(),
+        "G": matrix(),
+        "N": matrix(),
+    },
+)
+"""[x, 1]: the outputs of no channel, and the inputs of all."""
+
+OF_ALL = certificate(
+    "complementary_subsystem",
+    INTEGRATOR,
+    {**CLAIM, "normal_rank": 1, "transfer_zero": True, "complete": False},
+    {
+        "modulus": 7,
+        "reachable": 0,
+        "X": matrix([]),
+        "F": matrix(),
+        "A1": matrix(),
+        "S": matrix(),
+        "B1": matrix(),
+        "L": matrix([1]),
+        "G": matrix([1]),
+        "N": matrix([0]),
+    },
+)
+"""[x; 1]: the outputs of all channels, and the inputs of none."""
+
 ACCEPTED = [
     ("one integrator between two channels", FREE),
     ("a transfer matrix of zeros", NOTHING),
@@ -186,3 +235,15 @@ REJECTED = [
 
 test_sound_evidence_is_accepted = accepts(ACCEPTED)
 test_a_change_of_one_place_is_rejected = rejects(REJECTED)
+
+
+@pytest.mark.parametrize("document", [OF_NONE, OF_ALL])
+def test_a_subset_is_proper_and_not_empty(document: Document) -> None:
+    verdict = checked(document)
+    assert (verdict.verdict, verdict.place) == ("INVALID", "claim.subset"), verdict.line()
+
+
+@pytest.mark.parametrize("edit", [("witness.reachable", 2), ("claim.normal_rank", 3)])
+def test_dimensions_that_do_not_fit_are_named(edit: tuple[str, object]) -> None:
+    verdict = checked(changed(FREE, edit))
+    assert (verdict.verdict, verdict.place) == ("INVALID", "claim.normal_rank"), verdict.line()

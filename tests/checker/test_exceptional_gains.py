@@ -53,6 +53,8 @@ SQUARE = certificate(
 )
 """A chain of three: the determinant is g³ up to its sign."""
 
+LONGER = [[1, 0, 0], [0, 1, 0], [0, 0, 1], [0, 0, 0]]
+
 ACCEPTED = [
     ("one root", ROOT),
     ("blocks that never lose rank", NEVER),
@@ -67,6 +69,15 @@ ACCEPTED = [
 ]
 
 REJECTED = [
+    (
+        "a block more than there are states",
+        SQUARE,
+        (
+            ("claim.blocks", 4),
+            ("witness.compressions", [matrix(*LONGER)] * 2),
+        ),
+        "INVALID",
+    ),
     (
         "no root where there is one",
         ROOT,

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from mcexact.analysis.sharing.allocation import minimal_shared_dimensions
 from mcexact.answer.codec import document
 from mcexact.model import gallery
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from tests.checker.handmade import Document, changed
+from tests.checker.handmade import Document, changed, matrix
 from tests.checker.tables import accepts, rejects
 
 PLANT = gallery.load("liu2020-3ch-no-communication")
@@ -26,7 +28,16 @@ FREE = document(minimal_shared_dimensions(SQUARE, share="states", free_assignabi
 STABLE = document(minimal_shared_dimensions(PLANT, RING, "states", rate=1, costs=[2, 1, "1/3"]))
 SPLIT: list[Document] = [{"agent": "1", "at_most": 0}, {"violated": 0}, {"violated": 0}]
 
+DECAYS = changed(
+    NOTHING,
+    ("system.A", [[-2, 0, 0], [0, -2, 0], [0, 1, -2]]),
+    ("witness.cuts.0.polynomial", [2, 1]),
+)
+"""The fixed mode of the paper's example, moved to −2: nothing makes it not fixed."""
+
 ACCEPTED = [
+    ("nothing suffices for a mode that decays", DECAYS),
+    ("nor where it may decay less", changed(DECAYS, ("claim.bound", 2))),
     ("the paper's example, outputs and sub-states", BOTH),
     ("the paper's example, sub-states alone", STATES),
     ("nothing suffices without a graph", NOTHING),
@@ -46,7 +57,29 @@ ACCEPTED = [
     ("an upper bound that does not bind", changed(BOTH, ("claim.upper", [0, 0, 1]))),
 ]  # fmt: skip
 
+
+def impossible(sources: list[str], X: list[list[int]]) -> tuple[tuple[str, Any], ...]:
+    """What a cut proves behind which no agent has anything to share."""
+    subset = [name for name in ("1", "2") if name not in sources]
+    rows = X or [[], []]
+    zero = {"from": sources, "X": matrix(*rows), "pivots": list(range(len(rows[0])))}
+    return (
+        ("claim.feasible", False),
+        ("claim.dimensions", None),
+        ("claim.cost", None),
+        ("witness.absence", None),
+        ("witness.cuts", [{"subset": subset, "zero": zero}]),
+        ("witness.tree", [{"violated": 0}]),
+    )
+
+
 REJECTED = [
+    ("a mode that may stay where it is", DECAYS, ("claim.bound", 1)),
+    ("an unknown way of sharing, in which nothing suffices", NOTHING, ("claim.share", "outputs")),
+    ("a cut of connectivity that something crosses", FREE, ("system.channels.1.C", [[1, 1]])),
+    ("a cut around everyone", FREE, impossible([], [])),
+    ("a cut around nobody", FREE, impossible(["1", "2"], [[1, 0], [0, 1]])),
+    ("a price of nothing for what costs something", STATES, ("claim.cost", 0)),
     ("an optimum that is too high", BOTH, ("claim.dimensions", [1, 0, 1])),
     ("dimensions that leave the mode fixed", BOTH, ("claim.dimensions", [1, 0, 0])),
     ("the mode left fixed, at its own cost", STATES, ("claim.dimensions", [0, 0, 1])),

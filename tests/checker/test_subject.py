@@ -201,6 +201,7 @@ def test_the_digest_is_recomputed_independently() -> None:
         ({"construction": "feedback", "gains": []}, "MALFORMED"),
         ({"construction": "closed_loop", "controller": {}}, "MALFORMED"),
         ({"construction": ["dual"]}, "MALFORMED"),
+        ({"construction": "transposed"}, "INCOMPLETE"),
         ({}, "MALFORMED"),
         ("dual", "MALFORMED"),
         (None, "MALFORMED"),

@@ -41,7 +41,7 @@ CHARGED = {"spend", "build"}
 """The functions that are told how much work a step is."""
 
 ESTIMATES = {
-    "_limbs", "_terms", "build", "fractions", "inversions", "limbs", "limbs_of", "products",
+    "LIMB", "_limbs", "_terms", "build", "fractions", "inversions", "limbs", "limbs_of", "products",
     "reductions", "table",
 }  # fmt: skip
 """The functions that say how much work a step is, or how long its numbers are."""

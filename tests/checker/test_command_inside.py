@@ -1,0 +1,270 @@
+"""The checker's command line in the process of the tests; ``test_command.py`` runs it outside."""
+
+from __future__ import annotations
+
+import errno
+import io
+import json
+import os
+import runpy
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from mcexact import checker
+from mcexact.checker import Verdict, allowance, command
+from mcexact.checker.command import main
+from tests.checker.handmade import FIXED, FREE, PAPER, changed
+from tests.checker.manifests import SENTENCES, write
+
+
+class Stream(io.TextIOWrapper):
+    """A stream that fails with an error as soon as it is written to, or only at the end."""
+
+    def __init__(self, path: Path, error: OSError, late: bool = False) -> None:
+        super().__init__(path.open("wb"), encoding="ascii")
+        self.error, self.late = error, late
+
+    def write(self, text: str) -> int:
+        if not self.late:
+            raise self.error
+        return len(text)
+
+    def flush(self) -> None:
+        if self.late:
+            raise self.error
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The working directory, with some files in it."""
+    documents = {
+        "valid": FREE,
+        "fixed": FIXED,
+        "invalid": changed(FREE, ("witness.gains.0.entries", [[0]])),
+        "malformed": changed(FREE, ("verified", True)),
+        "incomplete": changed(FREE, ("kind", "is_nice")),
+        "system": {"format": "mcexact-system/1", "name": "paper", **PAPER},
+        "other": {"format": "mcexact-system/1", **PAPER, "A": [[0.1, 0, 0]] * 3},
+    }
+    for name, document in documents.items():
+        (tmp_path / f"{name}.json").write_text(json.dumps(document), encoding="utf-8")
+    (tmp_path / "evidence").mkdir()
+    write(tmp_path / "evidence")
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.mark.parametrize(
+    ("files", "status", "words"),
+    [
+        ("valid", 0, "VALID"),
+        ("invalid", 1, "INVALID"),
+        ("malformed", 3, "MALFORMED"),
+        ("incomplete", 5, "INCOMPLETE"),
+        ("missing", 3, "MALFORMED"),
+        ("valid invalid fixed", 1, "VALID INVALID VALID"),
+        ("incomplete invalid malformed", 3, "INCOMPLETE INVALID MALFORMED"),
+        ("incomplete valid", 5, "INCOMPLETE VALID"),
+        ("incomplete invalid", 1, "INCOMPLETE INVALID"),
+    ],
+)
+def test_files_are_judged_in_order_and_the_status_is_the_worst(
+    folder: Path, capsys: pytest.CaptureFixture[str], files: str, status: int, words: str
+) -> None:
+    assert main([f"{name}.json" for name in files.split()]) == status
+    told = capsys.readouterr().out.splitlines()
+    assert [line.split()[0] for line in told] == words.split()
+
+
+def test_a_bug_comes_before_everything_else(
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def check(*arguments: Any) -> Verdict:
+        raise ZeroDivisionError
+
+    monkeypatch.setattr(command, "check_document", check)
+    assert main(["valid.json", "missing.json"]) == 70
+    assert capsys.readouterr().out.startswith("ERROR internal checker: ")
+
+
+def test_one_document_says_the_same(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["--json", "fixed.json", "invalid.json"]) == 1
+    found = json.loads(capsys.readouterr().out)["verdicts"]
+    assert [(row["file"], row["verdict"]) for row in found] == [
+        ("fixed.json", "VALID"),
+        ("invalid.json", "INVALID"),
+    ]
+
+
+def test_manifests_are_options_or_files_of_that_name(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for arguments in (["--manifest", "evidence"], ["evidence/manifest.json"]):
+        assert main([*arguments, "--json"]) == 0
+        found = json.loads(capsys.readouterr().out)["verdicts"]
+        assert [row["text"] for row in found if "text" in row] == [
+            sentence["text"] for sentence in SENTENCES
+        ]
+    assert main(["--manifest", "nowhere"]) == 3
+    assert main(["--manifest", "evidence", "--system", "other.json"]) == 1
+
+
+@pytest.mark.parametrize(
+    ("system", "status"),
+    [("system.json", 0), ("other.json", 1), ("fixed.json", 3), ("missing.json", 3)],
+)
+def test_a_system_can_be_insisted_on(
+    folder: Path, capsys: pytest.CaptureFixture[str], system: str, status: int
+) -> None:
+    assert main(["fixed.json", "--system", system]) == status
+    told = capsys.readouterr()
+    assert bool(told.err) == (status == 3)
+    assert bool(told.out) == (status != 3)
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        [],
+        ["-", "-"],
+        ["-", "--system", "-"],
+        ["valid.json", "--sytem", "system.json"],
+        *(["valid.json", "--max-bytes", number] for number in ("0", "-1", "many", "1.5", "\u0663")),
+        *(["valid.json", "--timeout", number] for number in ("0", "-1", "nan", "inf", "soon")),
+    ],
+)
+def test_wrong_usage_ends_with_2(
+    folder: Path, capsys: pytest.CaptureFixture[str], arguments: list[str]
+) -> None:
+    assert main(arguments) == 2
+    told = capsys.readouterr()
+    assert told.out == ""
+    assert told.err
+
+
+def test_help_is_no_wrong_usage(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["--help"]) == 0
+    assert "--manifest" in capsys.readouterr().out
+
+
+def test_limits_that_the_platform_lacks_are_wrong_usage(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(command, "unsupported", lambda *limits: "no such limits here")
+    assert main(["valid.json"]) == 2
+
+
+def test_every_limit_reaches_the_reader(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for option, few, enough in (
+        ("--max-bytes", "100", "100000"),
+        ("--max-digits", "2", "3"),
+        ("--max-work", "100", "40000000"),
+    ):
+        assert main(["fixed.json", option, few]) == 5
+        assert f"({option})" in capsys.readouterr().out
+        assert main(["fixed.json", option, enough]) == 0
+    assert main(["fixed.json", "--max-depth", "3"]) == 3
+    assert main(["fixed.json", "--timeout", "900", "--max-memory", "100000"]) == 0
+
+
+def test_standard_input_is_read_once(
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(json.dumps(FREE).encode())))
+    assert main(["-"]) == 0
+    monkeypatch.setattr(sys, "stdin", None)
+    assert main(["-"]) == 3
+
+
+def test_an_interruption_ends_with_130(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def check(*arguments: Any) -> Verdict:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(command, "check_document", check)
+    assert main(["valid.json"]) == 130
+
+
+def test_when_the_time_is_over_the_rest_is_incomplete(
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def late(self: allowance.Clock, work: Any) -> Any:
+        raise allowance.OutOfTime
+
+    monkeypatch.setattr(allowance.Clock, "within", late)
+    assert main(["valid.json", "--timeout", "900"]) == 5
+    told = capsys.readouterr()
+    assert "time" in told.out + told.err
+
+
+@pytest.mark.parametrize("late", [False, True])
+def test_verdicts_that_cannot_be_written_end_with_74(
+    folder: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+    late: bool,
+) -> None:
+    for error, told in ((OSError(errno.ENOSPC, "full"), True), (BrokenPipeError(), False)):
+        stream = Stream(folder / "out", error, late)
+        with monkeypatch.context() as changes:
+            changes.setattr(sys, "stdout", stream)
+            assert main(["valid.json"]) == 74
+        stream.late, stream.error = True, OSError()
+        assert bool(capsys.readouterr().err) == told
+        with pytest.raises(OSError):
+            stream.close()
+    monkeypatch.setattr(sys, "stdout", None)
+    assert main(["valid.json"]) == 74
+
+
+def test_complaints_that_cannot_be_written_change_no_status(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for late in (False, True):
+        stream = Stream(folder / "err", BrokenPipeError(), late)
+        with monkeypatch.context() as changes:
+            changes.setattr(sys, "stderr", stream)
+            assert main(["valid.json", "--system", "missing.json"]) == 3
+        stream.late = True
+        with pytest.raises(OSError):
+            stream.close()
+    monkeypatch.setattr(sys, "stderr", None)
+    assert main(["valid.json", "--system", "missing.json"]) == 3
+
+
+def test_a_stream_of_another_kind_is_written_to_as_it_is(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    stream = io.StringIO()
+    monkeypatch.setattr(sys, "stdout", stream)
+    assert main(["valid.json"]) == 0
+    assert stream.getvalue().startswith("VALID ")
+
+
+@pytest.mark.parametrize("as_module", [True, False])
+def test_the_folder_starts_by_itself(
+    folder: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+    as_module: bool,
+) -> None:
+    start = Path(checker.__file__).parent
+    monkeypatch.setattr(sys, "argv", ["checker", "valid.json"])
+    monkeypatch.setattr(sys, "path", ["", str(folder), *sys.path])
+    before = dict(sys.modules)
+    try:
+        with pytest.raises(SystemExit) as end:
+            if as_module:
+                runpy.run_module("mcexact.checker", run_name="__main__", alter_sys=False)
+            else:
+                runpy.run_path(str(start / "__main__.py"), run_name="__main__")
+    finally:
+        for name in sys.modules.keys() - before.keys():
+            if name.split(".")[0] == "checker":
+                del sys.modules[name]
+    assert end.value.code == 0
+    assert capsys.readouterr().out.startswith("VALID ")
+    assert not {"", str(folder)} & set(sys.path)
+    assert os.path.dirname(os.__file__) in sys.path
