@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import re
 import signal
 from collections.abc import Callable, Iterator
 from types import FrameType
@@ -13,6 +12,8 @@ from .kinds import Verdict
 
 T = TypeVar("T")
 
+SUPPORTED = hasattr(signal, "setitimer")
+"""Whether the platform has alarms, and limits on memory."""
 AGAIN = 0.05
 """Seconds between two alarms: the first is lost if Python runs a callback that ignores errors."""
 
@@ -72,15 +73,11 @@ class Clock:
 
     def limited(self, found: Iterator[Found], about: dict[str, str]) -> Iterator[Found]:
         """Yield the same verdicts as long as there is time, then an INCOMPLETE one."""
-        while True:
-            try:
-                item = self.within(lambda: next(found, None))
-            except OutOfTime:
-                yield about, self.verdict()
-                return
-            if item is None:
-                return
-            yield item
+        try:
+            while (item := self.within(lambda: next(found, None))) is not None:
+                yield item
+        except OutOfTime:
+            yield about, self.verdict()
 
 
 @contextlib.contextmanager
@@ -91,32 +88,13 @@ def memory(mebibytes: int | None) -> Iterator[None]:
         return
     import resource
 
-    before = resource.getrlimit(resource.RLIMIT_AS)
-    most = _occupied() + mebibytes * 2**20
-    if before[1] != resource.RLIM_INFINITY:
-        most = min(most, before[1])
-    resource.setrlimit(resource.RLIMIT_AS, (min(most, 2**62), before[1]))
+    occupied = 0
+    with contextlib.suppress(OSError), open("/proc/self/statm", encoding="ascii") as pages:
+        occupied = int(pages.read().split()[0]) * resource.getpagesize()
+    soft, hard = resource.getrlimit(resource.RLIMIT_AS)
+    most = min(occupied + mebibytes * 2**20, 2**62 if hard == resource.RLIM_INFINITY else hard)
+    resource.setrlimit(resource.RLIMIT_AS, (most, hard))
     try:
         yield
     finally:
-        resource.setrlimit(resource.RLIMIT_AS, before)
-
-
-def _occupied() -> int:
-    """The bytes of address space that this process occupies; 0 where the system does not say."""
-    with contextlib.suppress(OSError), open("/proc/self/status", encoding="ascii") as status:
-        found = re.search(r"^VmSize:\s*(\d+) kB$", status.read(), re.MULTILINE)
-        return int(found[1]) * 1024 if found else 0
-    return 0
-
-
-def unsupported(seconds: float | None, mebibytes: int | None) -> str:
-    """Why this platform cannot keep these limits; empty if it can."""
-    if seconds is not None and not hasattr(signal, "setitimer"):
-        return "this platform has no alarms: leave out --timeout"
-    if mebibytes is not None:
-        try:
-            import resource  # noqa: F401
-        except ImportError:
-            return "this platform has no limit on memory: leave out --max-memory"
-    return ""
+        resource.setrlimit(resource.RLIMIT_AS, (soft, hard))

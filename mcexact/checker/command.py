@@ -13,7 +13,7 @@ from dataclasses import asdict
 from functools import partial
 from typing import IO
 
-from .allowance import Clock, Found, OutOfTime, memory, unsupported
+from .allowance import SUPPORTED, Clock, Found, OutOfTime, memory
 from .kinds import Verdict, answer, check_document
 from .manifest import NAME, manifest_verdicts
 from .reading import Limits, Refused, read_bytes
@@ -184,9 +184,8 @@ def _run(parser: argparse.ArgumentParser, arguments: Sequence[str] | None) -> in
         parser.error("expected a FILE or --manifest")
     if [*options.files, options.system].count("-") > 1:
         parser.error("standard input can be read once: give - once")
-    missing = unsupported(options.timeout, options.max_memory)
-    if missing:
-        parser.error(missing)
+    if not SUPPORTED and (options.timeout or options.max_memory):
+        parser.error("this platform has no limits on time and memory")
     limits = Limits(options.max_bytes, options.max_depth, options.max_digits, work=options.max_work)
     sys.set_int_max_str_digits(0)
     # A character that the terminal's encoding lacks must not raise an error.

@@ -72,7 +72,7 @@ def command(
     """
     from dataclasses import asdict
 
-    from mcexact.checker.allowance import Clock, memory, unsupported
+    from mcexact.checker.allowance import SUPPORTED, Clock, memory
     from mcexact.checker.command import PRECEDENCE, UNWRITTEN, verdicts
     from mcexact.checker.kinds import Verdict
     from mcexact.checker.reading import Limits, Refused
@@ -88,8 +88,8 @@ def command(
         raise click.UsageError("expected a CERTIFICATE or --manifest")
     if [*certificates, system].count("-") > 1:
         raise click.UsageError("standard input can be read once: give - once")
-    if missing := unsupported(timeout, max_memory):
-        raise click.UsageError(missing)
+    if not SUPPORTED and (timeout or max_memory):
+        raise click.UsageError("this platform has no limits on time and memory")
     found, clock = [], Clock(timeout)
     allowed = Limits(**options.given(limits))
     try:
