@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
-from itertools import count
 from operator import mul
 
 from . import budget
@@ -82,13 +81,14 @@ def characteristic_polynomial(A: Matrix) -> Polynomial:
     n, d, a = A.nrows, A.denominator, A.limbs
     spend(budget.products(4 * n * n, a, a) + budget.products(n, n * a, a))
     bound = math.prod(2 + math.isqrt(sum(entry * entry for entry in row)) for row in A.rows)
-    for q in count(2**61 - 1, 2):
+    q = 2**61 - 1
+    while True:
         ell = q ** (bound.bit_length() // 60 + 1)
         try:
             residues = characteristic_polynomial_modulo(A.rows, ell)
+            break
         except NotAUnit:
-            continue
-        lifted = [c - ell if 2 * c > ell else c for c in residues]
-        spend(budget.fractions(n + 1, n * a + 1))
-        return [Fraction(c, d ** (n - k)) for k, c in enumerate(lifted)]
-    raise NotAUnit
+            q += 2
+    lifted = [c - ell if 2 * c > ell else c for c in residues]
+    spend(budget.fractions(n + 1, n * a + 1))
+    return [Fraction(c, d ** (n - k)) for k, c in enumerate(lifted)]

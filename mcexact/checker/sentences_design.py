@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 from .location import in_stability_region
-from .reading import polynomial
+from .reading import Refused, polynomial
 from .sentence import Path, Premise, Role, restate, rule
 from .sentences_analysis import FIXED_DYNAMIC, controls
 from .sentences_sharing import demands
@@ -43,8 +43,8 @@ def controller(known: list[Premise]) -> tuple[Premise, list[Any]]:
         if premise.path and premise.path[-1] == "closed_loop":
             agents: list[Any] = premise.document["subject"][-1]["controller"]["agents"]
             return premise, agents
-    known[0].expect(False, "expected a certificate about a closed loop")
-    return known[0], []
+    message = "expected a certificate about a closed loop"
+    raise Refused("INVALID", "claim", known[0].file, message)
 
 
 def controlled(loop: Premise) -> System:

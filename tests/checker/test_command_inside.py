@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import importlib
 import io
 import json
 import os
@@ -268,3 +269,31 @@ def test_the_folder_starts_by_itself(
     assert capsys.readouterr().out.startswith("VALID ")
     assert not {"", str(folder)} & set(sys.path)
     assert os.path.dirname(os.__file__) in sys.path
+
+
+def test_an_interruption_before_the_checker_is_loaded_ends_with_130_too(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def interrupted() -> int:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(command, "main", interrupted)
+    monkeypatch.setattr(sys, "path", list(sys.path))
+    with pytest.raises(SystemExit) as end:
+        runpy.run_module("mcexact.checker", run_name="__main__", alter_sys=False)
+    assert end.value.code == 130
+
+
+def test_only_the_standard_library_stays_on_the_path(monkeypatch: pytest.MonkeyPatch) -> None:
+    start = importlib.import_module("mcexact.checker.__main__")
+    home = os.path.dirname(os.__file__)
+    library = [home, os.path.join(home, "lib-dynload")]
+    others = ["", ".", "elsewhere", os.path.join(home, "site-packages"), os.path.dirname(home)]
+    monkeypatch.setattr(sys, "path", [*others, *library, *others])
+    start.clear_path()
+    assert sys.path == library
+    packed = os.path.join("lib", "python.zip")
+    monkeypatch.setattr(os, "__file__", os.path.join(packed, "os.py"))
+    monkeypatch.setattr(sys, "path", ["", packed, "lib", "elsewhere"])
+    start.clear_path()
+    assert sys.path == [packed, "lib"]

@@ -136,7 +136,7 @@ PLACES = {
 LOOPS = "design-observer design-observer-float design-network design-setpoint"
 SIZES = (
     "design-carrier design-carrier-for design-order design-order-integrators design-shared "
-    "design-longest-number certify-states"
+    "design-longest-number design-observer-order certify-states"
 )
 OBSERVERS = "design-feedback design-errors"
 REFUSALS = {key: [REFUSED[place]] for keys, place in PLACES.items() for key in keys.split()}
@@ -226,5 +226,7 @@ def test_what_is_said_of_a_controller_is_read_off_its_programs(tmp_path: Path) -
         "design-order": f"the controller in {name} has 1 state (1: 1 shared, 0 private)",
         "design-longest-number": f"the longest numerator or denominator in {name} has 3 bits",
         "certify-states": f"{name}: 2 states",
+        "design-observer-order": "the paper's observer for the plant (continuous time, 1 state, "
+        "1 channel) has 1 state",
     }.items():
         assert judged(tmp_path, key, [LOOP]).theorem == f"{words} from premise_0.json"
