@@ -20,6 +20,8 @@ GRANTED = 4 * 10**7
 PER_BYTE = 4000
 LIMB = 30
 """The bits of a limb."""
+MOST = 10**30
+"""More than any machine can do; no more is named."""
 
 Item = TypeVar("Item")
 
@@ -59,7 +61,7 @@ class Budget:
         for start, turn, before, turns in reversed(self.loops):
             each = max(whole + reached - turn, (turn - start) // max(before, 1))
             whole, reached = each * (turns - before), turn
-        total = max(4 * (reached + whole), self.usual)
+        total = min(max(4 * (reached + whole), self.usual), MOST)
         digit = int(10 ** max(len(str(total)) - 2, 0))
         return -(-total // digit) * digit
 

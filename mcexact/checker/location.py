@@ -29,7 +29,8 @@ def in_region(p: Polynomial, time: str, bound: Fraction | None) -> bool:
     """
     if bound is None:
         return len(p) == 1
-    longest = budget.limbs_of(p) + len(p) * budget.limbs_of([bound])
+    bits = max(bound.numerator, bound.denominator).bit_length() + 1
+    longest = budget.limbs_of(p) + len(p) * bits // budget.LIMB
     spend(budget.fractions(len(p) ** 2, longest))
     if time == "continuous":
         moved: Polynomial = []  # p(x − bound), by Horner's rule

@@ -67,6 +67,21 @@ def test_the_work_that_is_named_suffices(name: str) -> None:
         assert again == needed
 
 
+@pytest.mark.parametrize("kind", VALID)
+def test_the_work_that_is_named_decides_a_certificate_of_each_kind(kind: str) -> None:
+    data = data_of(VALID[kind])
+    needed = check_document(data, limits=ENOUGH).spent
+    for part in (2, 5, 20, 100):
+        refused = check_document(data, limits=Limits(work=needed // part))
+        again = check_document(data, limits=Limits(work=named(refused.message)))
+        assert again.verdict == "VALID"
+
+
+def test_no_more_work_is_named_than_any_machine_can_do() -> None:
+    name = "an extension by more states than a number can count"
+    assert named(check_document(heavy.text(name)).message) == budget.MOST
+
+
 # The count.
 
 
