@@ -3,21 +3,26 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from mcexact.answer.protocol import Answer
-from mcexact.checker import Limits, Verdict, check_document
+from mcexact.checker import Expectation, Limits, Verdict, check_document
 from mcexact.checker.manifest import NAME, verdicts_of
+from mcexact.checker.reading import Refused
 from mcexact.errors import InputError, InternalError, place_of
 
 if TYPE_CHECKING:
+    from mcexact.model.controller import Controller
     from mcexact.model.system import MultiChannelSystem
 
 
 def check(
     certificate: Answer | str | os.PathLike[str],
     system: MultiChannelSystem | None = None,
+    controller: Controller | str | os.PathLike[str] | None = None,
+    expect: str | Mapping[str, Any] | None = None,
 ) -> Verdict:
     """Check a certificate with the independent checker.
 
@@ -27,17 +32,22 @@ def check(
         An answer, or the file of its certificate.
     system : MultiChannelSystem, optional
         The plant that the certificate must be about, or a system derived from it.
+    controller : Controller or path, optional
+        The controller of the closed loop that the certificate must be about, or its file.
+    expect : str or mapping, optional
+        The statement that the certificate must make, its SHA-256, or the claim as in the
+        certificate.
 
     Returns
     -------
     Verdict
-        Its ``verdict`` is VALID, INVALID, MALFORMED or INCOMPLETE.  ``theorem`` is the verified
+        Its ``verdict`` is VALID, INVALID, MALFORMED or INCOMPLETE.  ``statement`` is the verified
         statement; ``code``, ``place`` and ``message`` say why a certificate is not valid.
 
     Raises
     ------
     InputError
-        If the file is missing, unreadable or too large, or an argument has another type.
+        If a file is missing, unreadable, malformed or too large, or an argument has another type.
 
     Examples
     --------
@@ -48,6 +58,8 @@ def check(
     >>> other = MultiChannelSystem([[2]], [[[1]]], [[[1]]])
     >>> check(fixed_spectrum(plant), other).verdict
     'INVALID'
+    >>> check(fixed_spectrum(plant), expect={"complete": True}).message[:13]
+    'another claim'
     >>> check({})
     Traceback (most recent call last):
         ...
@@ -59,8 +71,37 @@ fixed_spectrum(system), or the name of a certificate file, found dict
 
     if system is not None:
         InputError.require(system, MultiChannelSystem, "system")
-    expected = None if system is None else digest(system.plant)
-    return check_document(_text(certificate), expected)
+    wanted = Expectation() if system is None else Expectation(system=digest(system.plant))
+    if controller is not None:
+        wanted = _asked("controller", wanted.controlled, _controller(controller))
+    if isinstance(expect, Mapping):
+        wanted = replace(wanted, claim=dict(expect))
+    elif expect is not None:
+        InputError.require(expect, str, "expect")
+        wanted = _asked("expect", wanted.saying, expect.encode())
+    return check_document(_text(certificate), wanted)
+
+
+def _asked(where: str, ask: Callable[[bytes, Limits], Expectation], data: bytes) -> Expectation:
+    """What a text asks of the certificate."""
+    try:
+        return ask(data, _limits(len(data)))
+    except Refused as refused:
+        raise InputError(refused.message, where=f"{where}: {refused.place}") from None
+
+
+def _controller(controller: Any) -> bytes:
+    """The bytes of a controller's file."""
+    from mcexact.model.controller import Controller
+    from mcexact.model.controller_file import controller_text
+    from mcexact.model.json_text import read_bytes
+
+    if isinstance(controller, Controller):
+        return controller_text(controller).encode("ascii")
+    if not isinstance(controller, str | os.PathLike):
+        InputError.require(controller, Controller, "controller")
+    with InputError.inside(place_of(controller)):
+        return read_bytes(controller)
 
 
 def recheck(files: Mapping[str, str], system_digest: str) -> dict[str, Verdict]:
@@ -84,7 +125,7 @@ def recheck(files: Mapping[str, str], system_digest: str) -> dict[str, Verdict]:
         can be trusted.
     """
     size, verdicts = max(map(len, files.values()), default=0), {}
-    for about, found in _verdicts(files, system_digest, _limits(size)):
+    for about, found in _verdicts(files, Expectation(system=system_digest), _limits(size)):
         if found.verdict not in {"VALID", "IMPLIED", "INCOMPLETE"} or found.code == "rule":
             [what] = about.values()
             raise InternalError(
@@ -97,14 +138,14 @@ def recheck(files: Mapping[str, str], system_digest: str) -> dict[str, Verdict]:
 
 
 def _verdicts(
-    files: Mapping[str, str], system_digest: str, limits: Limits
+    files: Mapping[str, str], expected: Expectation, limits: Limits
 ) -> Iterator[tuple[dict[str, str], Verdict]]:
     """Return the verdicts on the certificates and on the sentences of the manifest."""
     if NAME in files:
-        yield from verdicts_of(lambda name: files[name or NAME].encode(), system_digest, limits)
+        yield from verdicts_of(lambda name: files[name or NAME].encode(), expected, limits)
         return
     for name, text in files.items():
-        yield {"file": name}, check_document(text.encode("ascii"), system_digest, limits)
+        yield {"file": name}, check_document(text.encode("ascii"), expected, limits)
 
 
 def _limits(size: int) -> Limits:
@@ -118,7 +159,7 @@ def _limits(size: int) -> Limits:
 
 def checked(data: bytes, system_digest: str | None = None) -> Verdict:
     """Return the checker's verdict on the text of a certificate of any length."""
-    return check_document(data, system_digest, _limits(len(data)))
+    return check_document(data, Expectation(system=system_digest or ""), _limits(len(data)))
 
 
 def _text(certificate: Any) -> bytes:

@@ -11,11 +11,17 @@ Importing this package imports nothing of the standard library, and leaves ``sys
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from .expectation import Expectation
     from .kinds import Verdict, check_document
     from .reading import Limits
 
-__all__ = ["Limits", "Verdict", "check_document"]
-_FILES = {"Limits": "reading", "Verdict": "kinds", "check_document": "kinds"}
+__all__ = ["Expectation", "Limits", "Verdict", "check_document"]
+_FILES = {
+    "Expectation": "expectation",
+    "Limits": "reading",
+    "Verdict": "kinds",
+    "check_document": "kinds",
+}
 
 
 def __getattr__(name: str) -> object:

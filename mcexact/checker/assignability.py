@@ -8,11 +8,11 @@ from typing import Any
 from . import evidence, subspaces, transfer_graph
 from .controllability import require_reached
 from .reading import fields, integer, items, malformed, matrix, names, positions, require
+from .statement import channel_set
 from .system import System
-from .words import channel_set, described
 
 
-def check(claim: Any, witness: Any, system: System) -> str:
+def check(claim: Any, witness: Any, system: System) -> None:
     """Check the components, and a minimal realization of the transfer within each.
 
     Theorems ``assignability.assignability_rule``, ``assignability.component_own_gains``,
@@ -39,13 +39,18 @@ def check(claim: Any, witness: Any, system: System) -> str:
         _require_minimal(system, c, degrees[-1], entry, ell)
     fixed = integer(left, "claim.fixed_degree")
     require(fixed == system.n - sum(degrees), "degree", "claim.fixed_degree", "does not follow")
-    parts = ", ".join(
-        f"{d} for {channel_set(system, names(c, 'claim', system.names))}" for c, d in blocks
-    )
+
+
+def statement(claim: Any, system: System) -> str:
+    """How the characteristic polynomial of every loop splits."""
+    blocks = ((block["channels"], block["dimension"]) for block in claim["blocks"])
+    parts = ", ".join(f"{degree} for {channel_set(c)}" for c, degree in blocks)
     return (
-        f"for all gains, det(xI - A_F) of {described(system)} has a factor of degree {fixed}, the "
-        f"same for all of them, times one for each strong component, dependent on its gains alone, "
-        f"of degree {parts}"
+        "for all constant gains F, det(xI - A_F) = phi(x) times the product of chi_c(x) over the "
+        "strong components c of the transfer graph; phi is monic of degree "
+        f"{claim['fixed_degree']} and the same for all F; chi_c is monic, depends on the F_i with "
+        "i in c alone, and its degree is the McMillan degree of C_c (xI - A)^-1 B_c, "
+        f"{parts or 'none'}"
     )
 
 

@@ -7,11 +7,12 @@ from typing import Any
 
 from .arithmetic import Matrix, stack
 from .budget import spend, table
-from .reading import fields, integer, items, require
-from .system import System, read_matrix
+from .controller import MAPS, read_controller
+from .reading import fields, require
+from .statement import canonical_json, digest_of, prefixed, with_digest
+from .system import System
 
-MAPS = ("shared_update", "private_update", "input")
-USED = ("shared", "outputs", "private", "reference")
+STATES = (("x", "shared"), ("z", "private"))
 Signal = tuple[str, int, int]
 """(signal, j, age): signal is "X" for the plant's state, "x", "y" or "z" for x_j, y_j, z_j."""
 
@@ -21,15 +22,14 @@ def closed_loop(system: System, step: dict[str, Any], place: str) -> System:
 
     Open: see ``proofs/OPEN.md``.
     """
-    time, listed = fields(*fields(step, place, "controller"), place, "time", "agents")
-    agents, m = items(listed, place, system.m), system.m
-    width = {"X": [system.n], "x": [0] * m, "y": [C_j.nrows for C_j in system.C], "z": [0] * m}
-    for j, agent in enumerate(agents):
-        name, *sizes = fields(agent, place, "name", "shared", "private", *MAPS, optional=("hold",))
-        fits = time == system.time and name == system.names[j]
-        require(fits, "subject", place, "expected a controller for these agents and this time")
-        width["x"][j], width["z"][j] = integer(sizes[0], place), integer(sizes[1], place)
-    terms = [_terms(system, agents, i, width, place) for i in range(m)]
+    (given,) = fields(step, place, "controller")
+    controller, m = read_controller(given, place, system), system.m
+    agents = controller["agents"]
+    fits = controller["time"] == system.time and [a["name"] for a in agents] == system.names
+    require(fits, "subject", place, "expected a controller for these agents and this time")
+    width = {what: [agent[key] for agent in agents] for what, key in STATES}
+    width |= {"X": [system.n], "y": [C_j.nrows for C_j in system.C]}
+    terms = [_terms(system, agents, i, place) for i in range(m)]
     used = {signal for maps in terms for found in maps for signal, _ in found}
     spend(30 * m * len(used))
     order: list[Signal] = [("X", 0, 0), *((what, j, 0) for j in range(m) for what in "xz")]
@@ -51,31 +51,29 @@ def closed_loop(system: System, step: dict[str, Any], place: str) -> System:
         rows[0] += B_i @ computed(i, 2, B_i.ncols)
         rows += [computed(i, 0, width["x"][i]), computed(i, 1, width["z"][i])]
     rows += [reads[what, j, age - 1] for what, j, age in order if age]
-    words, A = f"the closed loop of {system.words} and the controller given", stack(rows, total)
-    return System(time, [], A, [], [], words=words, blocks=tuple(widths[: 2 * m + 1]))
+    A, blocks, text = stack(rows, total), tuple(widths[: 2 * m + 1]), canonical_json(controller)
+    words = prefixed(f"the closed loop with the controller with {with_digest(text)}", system)
+    key = digest_of(text)
+    return System(system.time, [], A, [], [], words=words, blocks=blocks, controller=key)
 
 
 def _terms(
-    system: System, agents: list[Any], i: int, width: dict[str, list[int]], place: str
+    system: System, agents: list[Any], i: int, place: str
 ) -> list[list[tuple[Signal, Matrix]]]:
     """The signals that the three maps of agent i use, with their coefficients."""
     N_i, result = system.neighbors[i] if system.neighbors else [i], []
-    for label, nrows in zip(MAPS, (width["x"][i], width["z"][i], system.B[i].ncols), strict=True):
-        where, found = f"{place}.{label}", []
-        shared, outputs, z, reference = fields(agents[i][label], where, optional=USED)
-        for what, given in (("x", shared), ("y", outputs)):
-            for j, M in _by_agent(given, where, system):
-                steps = dict(_by_agent(agents[j].get("hold"), where, system)).get(i, 0)
-                age = system.delays.get((i, j), 0) + integer(steps, where) * (what == "x")
+    for label in MAPS:
+        used, found = agents[i].get(label, {}), []
+        for what, key in (("x", "shared"), ("y", "outputs")):
+            for name, M in used.get(key, {}).items():
+                j = system.names.index(name)
+                steps = agents[j].get("hold", {}).get(system.names[i], 0)
+                age = system.delays.get((i, j), 0) + steps * (what == "x")
                 right = j in N_i and (not age or system.time == "discrete")
-                require(right, "subject", where, f"agent {i + 1} does not get this from {j + 1}")
-                found.append(((what, j, age), read_matrix(M, where, nrows, width[what][j])))
-        for what, M in (part for part in (("z", z), ("y", reference)) if part[1] is not None):
-            found.append(((what, i, 0), read_matrix(M, where, nrows, width[what][i])))
-        result.append(found if reference is None else found[:-1])
+                message = f"agent {i + 1} does not get this from {j + 1}"
+                require(right, "subject", f"{place}.{label}", message)
+                found.append(((what, j, age), M))
+        if "private" in used:
+            found.append((("z", i, 0), used["private"]))
+        result.append(found)
     return result
-
-
-def _by_agent(value: Any, place: str, system: System) -> list[tuple[int, Any]]:
-    given = fields({} if value is None else value, place, optional=tuple(system.names))
-    return [(j, entry) for j, entry in enumerate(given) if entry is not None]

@@ -10,11 +10,11 @@ from .arithmetic import Matrix, Polynomial, poly_modulo
 from .budget import counted, spend
 from .characteristic_polynomial import characteristic_polynomial_modulo
 from .reading import fields, integer, items, polynomial, require
+from .statement import polynomial_text
 from .system import System
-from .words import described, polynomial_text
 
 
-def check(claim: Any, witness: Any, system: System) -> str:
+def check(claim: Any, witness: Any, system: System) -> None:
     """Compare with det(xI − A) modulo every ℓ; the moduli suffice to prove equality.
 
     Theorem ``closed_loop_spectrum.closed_loop_spectrum``.
@@ -23,7 +23,11 @@ def check(claim: Any, witness: Any, system: System) -> str:
     (numbers,) = fields(witness, "witness", "moduli")
     p = polynomial(listed, "claim.polynomial")
     require_spectrum(system.A, p, "claim.polynomial", moduli(numbers, "witness.moduli"))
-    return f"the characteristic polynomial of {described(system)} is {polynomial_text(p)}"
+
+
+def statement(claim: Any, system: System) -> str:
+    """The characteristic polynomial."""
+    return f"the characteristic polynomial of A is {polynomial_text(claim['polynomial'])}"
 
 
 def moduli(value: Any, place: str) -> list[int]:

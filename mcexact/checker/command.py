@@ -8,16 +8,16 @@ import io
 import json
 import os
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict
 from functools import partial
 from typing import IO
 
 from .allowance import SUPPORTED, Clock, Found, OutOfTime, memory
+from .expectation import Expectation
 from .kinds import Verdict, answer, check_document
-from .manifest import NAME, manifest_verdicts
+from .manifest import NAME, every_verdict
 from .reading import Limits, Refused, read_bytes
-from .system import digest, read_system_file
 
 PRECEDENCE = (70, 3, 1, 5, 0)
 """Of these statuses the first that any verdict has is that of the run."""
@@ -41,49 +41,75 @@ def _read_file(path: str, limits: Limits) -> bytes:
         ) from error
 
 
-def _check_file(path: str, wanted: str | None, limits: Limits) -> Verdict:
-    """The verdict on the certificate in a file."""
-    return check_document(_read_file(path, limits), wanted, limits)
-
-
-def verdicts(
-    paths: Sequence[str],
-    manifest: str | None,
+def asked(
     system: str | None,
+    controller: str | None,
+    expect: str | None,
     limits: Limits,
     clock: Clock,
-) -> Iterator[Found]:
-    """Yield each verdict after its subject, a ``file`` or the ``text`` of a sentence.
-
-    A path that ends with the usual name of a manifest is read as a manifest.
+) -> Expectation:
+    """What these files ask of every certificate.
 
     Raises
     ------
     Refused
-        If the system file cannot be read, or not in time.
+        If one of them cannot be read, or not in time.
     """
+    wanted, new = Expectation(), Expectation
+    files = (system, new.about), (controller, new.controlled), (expect, new.saying)
+    for path, read in files:
+        if path is not None:
+            wanted = _told(path, partial(read, wanted), limits, clock)
+    return wanted
+
+
+def _told(path: str, read: Callable[..., Expectation], limits: Limits, clock: Clock) -> Expectation:
+    """What one file asks."""
+    found: Refused | Verdict
     try:
-        wanted = clock.within(lambda: system_digest(system, limits))
+        return clock.within(lambda: read(_read_file(path, limits), limits))
     except OutOfTime:
-        late = clock.verdict()
-        raise Refused(late.verdict, late.code, late.place, late.message) from None
+        found = clock.verdict()
+    except Refused as error:
+        found = error
+    place = f"{ascii(path)[1:-1]}: {found.place}"
+    raise Refused(found.verdict, found.code, place, found.message)
+
+
+def _check_file(path: str, wanted: Expectation, limits: Limits) -> Verdict:
+    """The verdict on the certificate in a file."""
+    return check_document(_read_file(path, limits), wanted, limits)
+
+
+def _counted(path: str, wanted: Expectation, limits: Limits) -> Iterator[Found]:
+    """The verdicts on a manifest without those of VALID certificates, and then their numbers."""
+    good = {"file": [0, 0], "text": [0, 0]}
+    for about, verdict in every_verdict(path, wanted, limits):
+        for what in about:
+            good[what][verdict.status > 0] += 1
+        if verdict.verdict != "VALID":
+            yield about, verdict
+    (valid, other), (implied, rest) = good["file"], good["text"]
+    told = f"{implied} sentences implied, {rest} not; {valid} certificates valid, {other} not"
+    yield {"file": path}, Verdict("COUNTED", told)
+
+
+def verdicts(
+    paths: Sequence[str], manifest: str | None, wanted: Expectation, limits: Limits, clock: Clock
+) -> Iterator[Found]:
+    """Yield each verdict after its subject, a ``file`` or the ``text`` of a sentence.
+
+    A path that ends with the usual name of a manifest is read as a manifest.
+    """
     for path in paths:
         about = {"file": path}
         if os.path.basename(path) == NAME:
-            yield from clock.limited(manifest_verdicts(path, wanted, limits), about)
+            yield from clock.limited(_counted(path, wanted, limits), about)
         else:
             check = partial(_check_file, path, wanted, limits)
             yield from clock.limited(((about, answer(each)) for each in [check]), about)
     if manifest is not None:
-        found = manifest_verdicts(manifest, wanted, limits)
-        yield from clock.limited(found, {"file": manifest})
-
-
-def system_digest(system: str | None, limits: Limits) -> str | None:
-    """The digest of the system in a file."""
-    if system is None:
-        return None
-    return digest(read_system_file(_read_file(system, limits), limits))
+        yield from clock.limited(_counted(manifest, wanted, limits), {"file": manifest})
 
 
 def count(text: str) -> int:
@@ -124,6 +150,16 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument(
         "--system", metavar="FILE", help="require certificates about the system in this file"
+    )
+    parser.add_argument(
+        "--controller",
+        metavar="FILE",
+        help="require certificates about a closed loop with the controller in this file",
+    )
+    parser.add_argument(
+        "--expect",
+        metavar="FILE",
+        help="require what this file holds: a statement, its SHA-256, or a claim as JSON",
     )
     parser.add_argument("--json", action="store_true", help="print one JSON document")
     for name in ("bytes", "digits", "depth"):
@@ -182,7 +218,7 @@ def _run(parser: argparse.ArgumentParser, arguments: Sequence[str] | None) -> in
     options = parser.parse_args(arguments)
     if not options.files and options.manifest is None:
         parser.error("expected a FILE or --manifest")
-    if [*options.files, options.system].count("-") > 1:
+    if [*options.files, options.system, options.controller, options.expect].count("-") > 1:
         parser.error("standard input can be read once: give - once")
     if not SUPPORTED and (options.timeout or options.max_memory):
         parser.error("this platform has no limits on time and memory")
@@ -194,13 +230,14 @@ def _run(parser: argparse.ArgumentParser, arguments: Sequence[str] | None) -> in
     found, clock = [], Clock(options.timeout)
     try:
         with memory(options.max_memory), clock.running():
-            asked = options.manifest, options.system, limits, clock
-            for about, verdict in verdicts(options.files, *asked):
+            about_files = options.system, options.controller, options.expect
+            wanted = asked(*about_files, limits, clock)
+            for about, verdict in verdicts(options.files, options.manifest, wanted, limits, clock):
                 found.append((about, verdict))
                 if not options.json:
                     _say(verdict.line().replace("(Limits.", "(--max-"))
     except Refused as error:
-        _complain(f"{ascii(options.system)[1:-1]}: {error.place}: {error.message}")
+        _complain(f"{error.place}: {error.message}")
         return Verdict(error.verdict).status
     if options.json:
         _say(json.dumps({"verdicts": [about | asdict(v) for about, v in found]}, indent=1))

@@ -10,8 +10,8 @@ from . import reading, region
 from .information_structure import SHARED, augmented_outputs, extended, neighbors_of
 from .reading import fields, require
 from .shared_dimensions import read_cut
+from .statement import FIXED
 from .system import System
-from .words import described
 
 
 def _says(share: str, holds: Callable[[Any], Any], claim: Any) -> bool:
@@ -34,7 +34,7 @@ SENTENCES = {
 """The sentences that repeat the claim: theorem, and the claim that each needs."""
 
 
-def check(claim: Any, witness: Any, system: System) -> str:
+def check(claim: Any, witness: Any, system: System) -> None:
     """Check that k dimensions of each agent suffice, and that for one subset k − 1 do not.
 
     Theorems ``shared_dimensions.common_dimension_outputs``,
@@ -46,7 +46,6 @@ def check(claim: Any, witness: Any, system: System) -> str:
     absence, cut = fields(witness, "witness", "absence", "cut")
     reading.string(share, "claim.share", *SHARED)
     feasible, N = reading.boolean(listed, "claim.feasible"), neighbors_of(system, "claim")
-    start = f"sharing {SHARED[share]} in {described(system)}, every agent the same dimension"
     k = 0
     if feasible:
         k = reading.integer(number, "claim.dimension")
@@ -64,5 +63,10 @@ def check(claim: Any, witness: Any, system: System) -> str:
         around = len({j for i in s for j in N[i]} - set(s))
         short = around * (k - 1) < lost if feasible else around == 0
         require(short, "cut", "witness.cut", f"{around} agents around the subset can do with less")
-    end = f"{k} suffices for an extended system with no fixed mode, and nothing below it does"
-    return f"{start}, {end}" if feasible else f"{start}, none suffices for no fixed mode"
+
+
+def statement(claim: Any, system: System) -> str:
+    """For which common dimensions no mode is fixed."""
+    when = f"exactly for k >= {claim['dimension']}" if claim["feasible"] else "for no k"
+    what = f"{SHARED[claim['share']]} of dimension k for each agent"
+    return f"the extended system without delays sharing {what} has no mode that is {FIXED} {when}"

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
 from . import covering, links, reading, region, subspaces
 from .budget import spend
-from .information_structure import arcs, augmented_outputs, extended
+from .information_structure import arcs, augmented_outputs, extended, shared
 from .reading import fields, items, require
+from .statement import edge_set
 from .system import System
-from .words import described
 
 
-def check(claim: Any, witness: Any, system: System) -> str:
+def check(claim: Any, witness: Any, system: System) -> None:
     """Check that the added links suffice, every cut, and the tree that excludes a lower cost.
 
     Theorem ``allocation.communication_cut``.
@@ -60,10 +59,17 @@ def check(claim: Any, witness: Any, system: System) -> str:
         region.require_absence(absence, final, bound)
     labels = [[system.names[j], system.names[i]] for j, i in ends]
     covering.Program(costs, found, "arc", labels, value).require_bound(tree, [1] * len(ends))
-    modes = "no mode" if limit is None else f"no mode beyond {limit}"
-    extent = "" if sizes is None else f" with dimensions {sizes}"
-    start = f"so that {modes} of {described(system)}, sharing {share}{extent}, is fixed,"
-    end = f"(candidates, with their costs: {json.dumps(listed)})"
-    if value is None:
-        return f"{start} no set of the candidate links suffices {end}"
-    return f"{start} adding {json.dumps(added)} suffices and nothing below cost {value} does {end}"
+
+
+def statement(claim: Any, system: System) -> str:
+    """Which links suffice, at which cost, and that nothing cheaper does."""
+    share, added = claim["share"], claim["added"]
+    given = share if share == "outputs" else shared(system, share, claim["dimensions"])
+    freedom = region.no_fixed_mode(claim["bound"], system)
+    goal = f"{given} with neighbors, without delay, leaves {freedom}"
+    graph = "the graph without edges" if system.neighbors is None else "its neighbor graph"
+    listed = f"the candidate links, with their costs, {edge_set(claim['candidates'])}"
+    if not claim["feasible"]:
+        return f"no set out of {listed}, added to {graph}, is such that sharing {goal}"
+    start = f"with the links {edge_set(added)}, of cost {claim['cost']}, added to {graph}"
+    return f"{start}, sharing {goal}, and so it does with no set of lower cost out of {listed}"

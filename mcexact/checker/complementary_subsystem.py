@@ -13,14 +13,14 @@ from . import evidence, reading
 from .arithmetic import Echelon, Matrix, diagonal, poly_divide, poly_product, stack
 from .controllability import require_reached
 from .reading import boolean, fields, integer, items, polynomial, require
+from .statement import PENCIL, channel_set, denied, polynomial_text
 from .system import System
-from .words import channel_set, described, polynomial_text
 
 CLAIM = ["subset", "normal_rank", "invariant_polynomials", "remnant", "transfer_zero", "complete"]
 WITNESS = ["modulus", "reachable", "X", "F", "A1", "S", "B1", "L", "G", "N"]
 
 
-def check(claim: Any, witness: Any, system: System) -> str:
+def check(claim: Any, witness: Any, system: System) -> None:
     """Check bases that bring the pencil to block triangular form, and read off its Smith form.
 
     Theorems ``complementary_subsystem.invariant_polynomials``,
@@ -63,10 +63,18 @@ def check(claim: Any, witness: Any, system: System) -> str:
     given = polynomial(rest, "claim.remnant"), boolean(zero, "claim"), boolean(verdict, "claim")
     implied = remnant, k == n, k > n and len(remnant) == 1
     require(given == implied, "claim", "claim", "does not follow from the invariant polynomials")
+
+
+def statement(claim: Any, system: System) -> str:
+    """The Smith form of the pencil, and what follows from it."""
+    found = ", ".join(map(polynomial_text, claim["invariant_polynomials"]))
     return (
-        f"the pencil [xI - A, B; C, 0] of {described(system)}, C of {channel_set(system, s)} and B "
-        f"of the others, has normal rank {k} and invariant polynomials "
-        f"{', '.join(map(polynomial_text, [[1], *f]))}: {'' if implied[2] else 'not '}complete"
+        f"the pencil {PENCIL}, C the outputs of the channels {channel_set(claim['subset'])} and B "
+        f"the inputs of the others, has normal rank {claim['normal_rank']}; its invariant "
+        f"polynomials of degree at least 1 are {found or 'none'}; the greatest common divisor of "
+        f"its minors of order {system.n}, the remnant polynomial, is "
+        f"{polynomial_text(claim['remnant'])}; C (xI - A)^-1 B is {denied(claim['transfer_zero'])}"
+        f"zero; the complementary subsystem is {denied(claim['complete'])}complete"
     )
 
 

@@ -8,12 +8,12 @@ from . import evidence, subspaces
 from .characteristic_polynomial import characteristic_polynomial_modulo
 from .neighbor_graph import components
 from .reading import boolean, fields, polynomial, require
+from .statement import FIXED, denied
 from .system import System
 from .transfer_graph import read_arcs, require_arcs
-from .words import channel_set, described, polynomial_text
 
 
-def check(claim: Any, witness: Any, system: System) -> str:
+def check(claim: Any, witness: Any, system: System) -> None:
     """Check gains and edges for yes; a fixed mode or a cut of the transfer graph for no.
 
     Theorems ``completeness.completeness_yes``, ``completeness.completeness_no_mode``,
@@ -21,8 +21,8 @@ def check(claim: Any, witness: Any, system: System) -> str:
     """
     (verdict,) = fields(claim, "claim", "complete")
     if boolean(verdict, "claim.complete"):
-        return f"{described(system)} is complete: {_freedom(witness, system)}"
-    if isinstance(witness, dict) and "zero" in witness:
+        _require_freedom(witness, system)
+    elif isinstance(witness, dict) and "zero" in witness:
         (zero,) = fields(witness, "witness", "zero")
         sources, X = subspaces.zero_transfer(zero, "witness.zero", system)
         rest = evidence.complement(system, sources)
@@ -32,16 +32,20 @@ def check(claim: Any, witness: Any, system: System) -> str:
         for i in rest:
             message = f"C X is not zero for channel number {i + 1}"
             require((system.C[i] @ X).is_zero(), "identity", "witness.zero", message)
-        reason = f"no transfer from the channels {channel_set(system, sources)} to any other"
-        return f"{described(system)} is not complete: {reason}"
-    coefficients, subspace = fields(witness, "witness", "polynomial", "subspace")
-    p = polynomial(coefficients, "witness.polynomial", 1)
-    subspaces.shrunk_subspace(subspace, "witness.subspace", system, p, 1)
-    return f"{described(system)} is not complete: the roots of {polynomial_text(p)} are fixed modes"
+    else:
+        coefficients, subspace = fields(witness, "witness", "polynomial", "subspace")
+        p = polynomial(coefficients, "witness.polynomial", 1)
+        subspaces.shrunk_subspace(subspace, "witness.subspace", system, p, 1)
 
 
-def _freedom(witness: Any, system: System) -> str:
-    """Check that gains move every mode, and edges that connect all channels; the answer in words.
+def statement(claim: Any, system: System) -> str:
+    """Whether the system is complete."""
+    means = f"its transfer graph is strongly connected and no mode is {FIXED}"
+    return f"it is {denied(claim['complete'])}complete, which means that {means}"
+
+
+def _require_freedom(witness: Any, system: System) -> None:
+    """Check that gains move every mode, and edges that connect all channels.
 
     Theorem ``transfer_graph.strongly_connected_arcs``.
     """
@@ -55,4 +59,3 @@ def _freedom(witness: Any, system: System) -> str:
     require_arcs(system, arcs, ell)
     connected = len(components(system.m, [(j, i) for j, i, _ in arcs])) <= 1
     require(connected, "arc", "witness.arcs", "these edges do not connect all channels")
-    return "its transfer graph is strongly connected and no mode is fixed"

@@ -8,11 +8,11 @@ from .arithmetic import Echelon, product
 from .characteristic_polynomial import characteristic_polynomial
 from .evidence import inputs, modulus, require_identity
 from .reading import boolean, fields, integer, matrix, names, polynomial, positions, require
+from .statement import channel_set, denied, polynomial_text
 from .system import System
-from .words import channel_set, described, polynomial_text
 
 
-def check(claim: Any, witness: Any, system: System) -> str:
+def check(claim: Any, witness: Any, system: System) -> None:
     """Check an annihilator W from above and a Krylov rank modulo ℓ from below.
 
     Theorem ``controllability.controllability_rule``.
@@ -38,11 +38,15 @@ def check(claim: Any, witness: Any, system: System) -> str:
     require(controllable == (d == n), "claim", "claim.controllable", f"{d} of {n} are controllable")
     same = characteristic_polynomial(Z) == chi
     require(same, "claim", "claim.uncontrollable_polynomial", "not det(xI - Z)")
-    answer = "controllable" if controllable else "not controllable"
+
+
+def statement(claim: Any, system: System) -> str:
+    """How much of the state the channels control."""
     return (
-        f"the channels {channel_set(system, T)} of {described(system)} control a subspace of "
-        f"dimension exactly {d}: {answer} through them together; "
-        f"uncontrollable polynomial {polynomial_text(chi)}"
+        f"the channels {channel_set(claim['channels'])} together control a subspace of dimension "
+        f"exactly {claim['dimension']}; it is {denied(claim['controllable'])}controllable through "
+        "them, with the uncontrollable polynomial "
+        f"{polynomial_text(claim['uncontrollable_polynomial'])}"
     )
 
 

@@ -9,11 +9,11 @@ from .arithmetic import Echelon
 from .controllability import krylov_ranks
 from .evidence import inputs, modulus
 from .reading import fields, integer, items, matrix, names, require
+from .statement import canonical_json, channel_set
 from .system import System
-from .words import channel_set, described
 
 
-def check(claim: Any, witness: Any, system: System) -> str:
+def check(claim: Any, witness: Any, system: System) -> None:
     """Check rows that annihilate the first k blocks, and the ranks modulo ℓ from below.
 
     Theorems ``controllability.indices_rule``, ``controllability.indices_stationary``,
@@ -47,9 +47,14 @@ def check(claim: Any, witness: Any, system: System) -> str:
     conjugate = [sum(step > i for step in steps) for i in range(max(steps, default=0))]
     kappa = [integer(part, "claim.indices") for part in items(parts, "claim.indices")]
     require(kappa == conjugate, "claim", "claim.indices", f"the ranks give {conjugate}")
-    answer = f"controllability index {index}" if index is not None else "not controllable, no index"
+
+
+def statement(claim: Any, system: System) -> str:
+    """The ranks, and the indices that follow from them."""
+    index = "none" if claim["index"] is None else claim["index"]
     return (
-        f"the ranks of [B ... A^(k-1)B] for the channels {channel_set(system, T)} of "
-        f"{described(system)} are {ranks[1:]} and grow no further: {answer}; "
-        f"controllability indices {kappa}"
+        "the ranks of [B, A B, ..., A^(k-1) B], B the inputs of the channels "
+        f"{channel_set(claim['channels'])}, for k = 1, 2, ... are {canonical_json(claim['ranks'])} "
+        f"and do not grow further; the controllability indices are "
+        f"{canonical_json(claim['indices'])} and the controllability index is {index}"
     )

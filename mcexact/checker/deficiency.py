@@ -7,11 +7,11 @@ from typing import Any
 from . import evidence, subspaces
 from .characteristic_polynomial import characteristic_polynomial_modulo
 from .reading import fields, integer, matrix, polynomial, require
+from .statement import PENCIL
 from .system import System
-from .words import channel_set, described, polynomial_text
 
 
-def check(claim: Any, witness: Any, system: System) -> str:
+def check(claim: Any, witness: Any, system: System) -> None:
     """Check a completed loop that moves every mode, and a shrunk subspace that loses as much.
 
     Theorems ``deficiency.deficiency_rule``, ``deficiency.deficiency_bound``.
@@ -28,18 +28,19 @@ def check(claim: Any, witness: Any, system: System) -> str:
     before = characteristic_polynomial_modulo(system.A.modulo(ell), ell)
     after = characteristic_polynomial_modulo(completed.modulo(ell), ell)
     evidence.require_coprime(before, after, ell, "det(xI - A) and det(xI - A_F - B0 C0)")
-    where = ""
     if rho:
         p = polynomial(coefficients, "witness.polynomial", 1)
-        T = subspaces.shrunk_subspace(subspace, "witness.subspace", system, p, rho)
-        s = channel_set(system, evidence.complement(system, T))
-        where = f", reached at the roots of {polynomial_text(p)} by the channels {s}"
+        subspaces.shrunk_subspace(subspace, "witness.subspace", system, p, rho)
     else:
         null = coefficients is None and subspace is None
         require(
             null, "claim", "witness", "expected no polynomial and no subspace, rank is not lost"
         )
+
+
+def statement(claim: Any, system: System) -> str:
+    """The largest loss of rank."""
     return (
-        f"the largest n - rank [xI - A, B; C, 0] of {described(system)} is {rho}, over all x and "
-        f"all sets of channels, C the outputs of the set and B the inputs of the others{where}"
+        f"the largest {system.n} - rank {PENCIL}, over all complex x and all sets of channels, C "
+        f"the outputs of the set and B the inputs of the others, is {claim['deficiency']}"
     )

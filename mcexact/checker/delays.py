@@ -7,8 +7,9 @@ from typing import Any
 
 from .arithmetic import Matrix, beside, stack
 from .budget import spend, table
-from .information_structure import SHARED, neighbors_of, read_dimensions, read_shares
+from .information_structure import neighbors_of, read_dimensions, read_shares, shared
 from .reading import fields, require
+from .statement import prefixed
 from .system import System
 
 
@@ -18,7 +19,7 @@ def lifted(system: System, step: dict[str, Any], place: str) -> System:
     Open: see ``proofs/OPEN.md``.
     """
     share, sizes = read_shares(system, step, place)
-    what = f"the lifted extended system of {system.words} sharing {SHARED[share]}"
+    what = f"the extended system with delays, lifted, sharing {shared(system, share, sizes)}"
     return _delayed(system, sizes, place, what, share == "outputs+states", hold=False)
 
 
@@ -29,7 +30,8 @@ def held(system: System, step: dict[str, Any], place: str) -> System:
     """
     (listed,) = fields(step, place, "dimensions")
     sizes = read_dimensions(system, listed, place)
-    what = f"the extended system of {system.words} sharing held sub-states"
+    given = shared(system, "states", sizes)
+    what = f"the extended system with delays, held, sharing {given}"
     return _delayed(system, sizes, place, what, with_outputs=False, hold=True)
 
 
@@ -64,5 +66,4 @@ def _delayed(
         late = sorted(waits, key=lambda wait: wait[1] > 0)  # signals without delay come first
         own = [y(*wait) for wait in late] if with_outputs else [y(j, 0)]
         C.append(stack([*own, *(x(*wait) for wait in waits)], total))
-    words = f"{what} with delays and dimensions {tuple(sizes)}"
-    return replace(system, A=stack(rows, total), B=B, C=C, words=words)
+    return replace(system, A=stack(rows, total), B=B, C=C, words=prefixed(what, system))

@@ -11,11 +11,12 @@ from .budget import spend
 from .closed_loop_spectrum import moduli, require_spectrum
 from .location import in_region
 from .reading import fields, polynomial, rational, require
+from .region import inside
+from .statement import polynomial_text
 from .system import System
-from .words import polynomial_text
 
 
-def check(claim: Any, witness: Any, system: System) -> str:
+def check(claim: Any, witness: Any, system: System) -> None:
     """Check that the errors evolve by themselves, and the polynomials of both diagonal blocks.
 
     Theorems ``distributed_observer.observer_rate``, ``distributed_observer.observer_radius``.
@@ -27,10 +28,19 @@ def check(claim: Any, witness: Any, system: System) -> str:
     ells = moduli(numbers, "witness.moduli")
     require_spectrum(M_F, p, "claim.feedback", ells)
     require_spectrum(M_E, q, "claim.error", ells)
-    words = "" if limit is None else _placed(rational(limit, "claim.bound"), system.time, [p, q])
+    if limit is not None:
+        _require_placed(rational(limit, "claim.bound"), system.time, [p, q])
+
+
+def statement(claim: Any, system: System) -> str:
+    """The separation of the errors, and both polynomials."""
+    feedback, error = (polynomial_text(claim[key]) for key in ("feedback", "error"))
+    limit = claim["bound"]
     return (
-        f"in {system.words} ({system.time} time) the estimation errors evolve by themselves with "
-        f"characteristic polynomial {polynomial_text(q)}, the rest with {polynomial_text(p)}{words}"
+        "in the coordinates (x, e_1, z_1, e_2, z_2, ...), e_i = x_i - x for the x_i that agent i "
+        "shares, the matrix of the loop is [M_F, *; 0, M_E], where M_F has the characteristic "
+        f"polynomial {feedback} and M_E has {error}"
+        + ("" if limit is None else f"; every root of both has {inside(limit, system)}")
     )
 
 
@@ -56,12 +66,9 @@ def separated(system: System) -> tuple[Matrix, Matrix]:
     return M.take(x, x), M.take(rest, rest)
 
 
-def _placed(bound: Fraction, time: str, polynomials: list[Polynomial]) -> str:
-    """Stop unless every root meets the rate or radius, and return it in words."""
+def _require_placed(bound: Fraction, time: str, polynomials: list[Polynomial]) -> None:
+    """Stop unless every root meets the rate or radius."""
     sensible = bound >= 0 if time == "continuous" else 0 < bound <= 1
     require(sensible, "bound", "claim.bound", "no rate or radius")
     inside = all(in_region(p, time, bound) for p in polynomials)
     require(inside, "bound", "claim.bound", "a root does not meet it")
-    return (
-        f"; every {'real part is below -' if time == 'continuous' else 'modulus is below '}{bound}"
-    )

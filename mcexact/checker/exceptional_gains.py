@@ -11,11 +11,11 @@ from .arithmetic import Matrix, Polynomial, exponent, poly_product, stripped
 from .budget import counted, spend
 from .characteristic_polynomial import characteristic_polynomial
 from .reading import fields, integer, items, matrix, require
+from .statement import canonical_json, polynomial_text, with_digest
 from .system import System
-from .words import described, polynomial_text
 
 
-def check(claim: Any, witness: Any, system: System) -> str:
+def check(claim: Any, witness: Any, system: System) -> None:
     """Check a row at every root of each factor, and two determinants without other common roots.
 
     Theorems ``exceptional_gains.exceptional_lost``, ``exceptional_gains.exceptional_kept``,
@@ -41,10 +41,18 @@ def check(claim: Any, witness: Any, system: System) -> str:
     # monic: a coefficient that only ℓ makes vanish could hide a common root
     first = [c / first[-1] for c in first]
     evidence.require_coprime(first, second, ell, "the rest of det(K R) and det(K R')")
-    real = sum(im == 0 for _, im, _ in found)
+
+
+def statement(claim: Any, system: System) -> str:
+    """For which g the blocks lose rank."""
+    n, k = system.n, claim["blocks"]
+    M = canonical_json(matrix(claim["M"], "claim.M", n, n))
+    discs = root_discs.disc_set(claim["roots"])
     return (
-        f"with A and B of {described(system)} and the M given, {blocks} blocks [B, (M + gA)B, ...] "
-        f"lose rank {n} at the roots g of {polynomial_text(whole)} alone, of which {real} are real"
+        f"the first {k} blocks of [B, (M + gA) B, (M + gA)^2 B, ...], B the inputs of all channels "
+        f"and M the matrix with {with_digest(M)}, have rank below {n} exactly where g is a root of "
+        f"{polynomial_text(claim['polynomial'])}; its roots are simple and lie one in each of the "
+        f"discs {discs}, real ones where the disc is centered on the real axis, and only there"
     )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 from typing import Any
 
@@ -9,6 +10,7 @@ from .arithmetic import Matrix, beside, stack
 from .evidence import closed_loop, outputs, read_gains
 from .information_structure import neighbors_of
 from .reading import fields, matrices
+from .statement import by_channel, canonical_json, prefixed, suffixed, with_digest
 from .system import System
 
 
@@ -19,7 +21,9 @@ def dual(system: System, step: dict[str, Any], place: str) -> System:
     """
     fields(step, place)
     B, C = [M.T for M in system.C], [M.T for M in system.B]
-    return System(system.time, system.names, system.A.T, B, C, words=f"the dual of {system.words}")
+    graph: dict[str, Any] = {"neighbors": None, "delays": {}, "blocks": ()}
+    words = prefixed("the dual", system)
+    return replace(system, A=system.A.T, B=B, C=C, **graph, words=words)
 
 
 def feedback(system: System, step: dict[str, Any], place: str) -> System:
@@ -28,8 +32,10 @@ def feedback(system: System, step: dict[str, Any], place: str) -> System:
     Open: see ``proofs/OPEN.md``.
     """
     (listed,) = fields(step, place, "gains")
-    A_F = closed_loop(system, read_gains(listed, place, system))
-    return replace(system, A=A_F, words=f"{system.words} under the decentralized gains given")
+    F = read_gains(listed, place, system)
+    given = with_digest(canonical_json(by_channel(system, F)))
+    words = suffixed(system, f"under the decentralized gains F with {given}")
+    return replace(system, A=closed_loop(system, F), words=words)
 
 
 def full_output(system: System, step: dict[str, Any], place: str) -> System:
@@ -41,7 +47,8 @@ def full_output(system: System, step: dict[str, Any], place: str) -> System:
     q = system.place_of(name, place)
     identity = Matrix.unit_rows(system.n, 0, system.n)
     C = [identity if i == q else C_i for i, C_i in enumerate(system.C)]
-    return replace(system, C=C, words=f"{system.words} with the state measured by channel {q + 1}")
+    words = f"with the whole state measured by channel {json.dumps(name)}"
+    return replace(system, C=C, words=suffixed(system, words))
 
 
 def integrators(system: System, step: dict[str, Any], place: str) -> System:
@@ -57,7 +64,8 @@ def integrators(system: System, step: dict[str, Any], place: str) -> System:
     A = stack([system.A @ x, change + w if system.time == "discrete" else change], N)
     B = [stack([B_i, Matrix.zeros(sum(q), B_i.ncols)], B_i.ncols) for B_i in system.B]
     C = [Matrix.unit_rows(N, n + sum(q[:i]), q_i) for i, q_i in enumerate(q)]
-    return replace(system, A=A, B=B, C=C, words=f"{system.words} with integrators of its outputs")
+    words = suffixed(system, "with integrators of its outputs")
+    return replace(system, A=A, B=B, C=C, words=words)
 
 
 def error(system: System, step: dict[str, Any], place: str) -> System:
@@ -76,5 +84,6 @@ def error(system: System, step: dict[str, Any], place: str) -> System:
     for i, N_i in enumerate(N):
         seen = [e[i] - e[j] for j in N_i if j != i]
         C.append(stack([system.C[i] @ e[i], *seen], n * system.m))
-    words = f"the open-loop error system of {system.words} under the state feedback given"
+    given = with_digest(canonical_json(by_channel(system, F)))
+    words = prefixed(f"the open-loop error system under the state feedback F with {given}", system)
     return replace(system, A=A, B=[e_i.T for e_i in e], C=C, words=words)

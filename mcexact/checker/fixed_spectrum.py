@@ -2,21 +2,28 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import Any
 
-from . import arithmetic, evidence, location, reading, root_discs, subspaces, words
+from . import arithmetic, evidence, location, reading, root_discs, subspaces
 from .characteristic_polynomial import characteristic_polynomial
 from .characteristic_polynomial import characteristic_polynomial_modulo as modulo
 from .reading import fields, require
+from .statement import FIXED, PENCIL, channel_set, denied, polynomial_text
 from .system import System
 
 CLAIM = ("polynomial", "factors", "stabilizable", "best_rate")
 WITNESS = ("gains", "modulus", "subspaces", "completion")
 COUNTS = ("multiplicity_in_A", "multiplicity_at_most", "rank")
 FACTOR = ("polynomial", "channels", "stable", "roots", *COUNTS)
+SLOWEST = {
+    "continuous": "minus the largest real part of a fixed mode",
+    "discrete": "the largest modulus of a fixed mode",
+}
+REGION = {"continuous": "Hurwitz", "discrete": "Schur"}
 
 
-def check(claim: Any, witness: Any, system: System) -> str:
+def check(claim: Any, witness: Any, system: System) -> None:
     """Check a shrunk subspace for every factor, and gains that move all other modes.
 
     Theorems ``fixed_spectrum.fixed_spectrum_rule``, ``fixed_spectrum.absence``,
@@ -45,23 +52,48 @@ def check(claim: Any, witness: Any, system: System) -> str:
         stable = location.in_stability_region(p, system.time)
         require(reading.boolean(flag, place) == stable, "claim", f"{place}.stable", "not implied")
         discs = root_discs.root_discs(roots, f"{place}.roots", p)
-        text = root_discs.factor_text(p, a, e, r, words.channel_set(system, s), stable, discs)
-        found.append((p, n - r, stable, discs, text))
+        found.append((p, n - r, stable, discs))
     psi = psi or modulo(system.A.modulo(ell), ell)
     evidence.require_coprime(psi, chi_F, ell, "det(xI - A) without factors and det(xI - A_F)")
-    stabilizable = all(stable for _, _, stable, _, _ in found)
+    stabilizable = all(stable for _, _, stable, _ in found)
     agrees = reading.polynomial(whole, "claim.polynomial") == product
     agrees = agrees and reading.boolean(verdict, "claim.stabilizable") == stabilizable
     require(agrees, "claim", "claim", "not the product of the factors, or not where they are")
     if not entries:
         require(rate is None and completion is None, "claim", "claim", "expected null for both")
-        return f"{words.described(system)} has no fixed modes; {words.STABILIZABLE[True]}"
-    _require_ranks(completion, [(p, loss) for p, loss, *_ in found], A_F, ell)
-    centers = [disc for *_, discs, _ in found for disc in discs]
-    interval = root_discs.rate_interval(rate, "claim.best_rate", centers, system.time)
-    end = f"{words.STABILIZABLE[stabilizable]}; {words.SLOWEST[system.time]} is {interval}"
-    spectrum = f"{words.described(system)} is that of {words.polynomial_text(product)}"
-    return f"the fixed spectrum of {spectrum}: {'; '.join([*(text for *_, text in found), end])}"
+    else:
+        _require_ranks(completion, [(p, loss) for p, loss, *_ in found], A_F, ell)
+        centers = [disc for *_, discs in found for disc in discs]
+        root_discs.require_rate(rate, "claim.best_rate", centers, system.time)
+
+
+def statement(claim: Any, system: System) -> str:
+    """All fixed modes, and whether they are stable."""
+    rate, whole = claim["best_rate"], polynomial_text(claim["polynomial"])
+    texts = sorted((len(f["polynomial"]), _factor_text(f, system)) for f in claim["factors"])
+    start = f"the modes that are {FIXED} are the roots of {whole}"
+    if whole == "1":
+        start = f"no mode is {FIXED}"
+    control = "linear time-invariant decentralized control"
+    end = f"it is {denied(claim['stabilizable'])}stabilizable by {control}"
+    if rate is not None:
+        low, high = (Fraction(rate[key]) for key in ("lower", "upper"))
+        end += f"; {SLOWEST[system.time]} is from {low} to {high}"
+    return "; ".join([start, *(text for _, text in texts), end])
+
+
+def _factor_text(factor: Any, system: System) -> str:
+    """The proved properties of one factor."""
+    p, region = polynomial_text(factor["polynomial"]), REGION[system.time]
+    return (
+        f"{p} is {denied(factor['stable'])}{region}, has the exponent "
+        f"{factor['multiplicity_in_A']} in det(xI - A) and at most "
+        f"{factor['multiplicity_at_most']} in the greatest common divisor of det(xI - A_F) over "
+        f"all constant gains F, and one root in each of the discs "
+        f"{root_discs.disc_set(factor['roots'])}, where the least rank of {PENCIL} over all sets "
+        "of channels, C the outputs of the set and B the inputs of the others, is "
+        f"{factor['rank']}, reached by {channel_set(factor['channels'])}"
+    )
 
 
 def _require_ranks(completion: Any, losses: list[Any], A_F: arithmetic.Matrix, ell: int) -> None:

@@ -9,6 +9,7 @@ from . import reading
 from .arithmetic import Matrix, diagonal, stack
 from .budget import spend
 from .evidence import outputs
+from .statement import by_channel, canonical_json, edge_set, prefixed, suffixed
 from .system import System
 
 SHARED = {"outputs+states": "outputs and sub-states", "states": "sub-states"}
@@ -17,7 +18,7 @@ SHARED = {"outputs+states": "outputs and sub-states", "states": "sub-states"}
 def neighbors_of(system: System, place: str) -> list[list[int]]:
     """The sets N_i; the system must have a neighbor graph."""
     found = system.neighbors is not None
-    reading.require(found, "subject", place, f"{system.words} has no neighbor graph")
+    reading.require(found, "subject", place, "the system has no neighbor graph")
     return system.neighbors or []
 
 
@@ -29,7 +30,8 @@ def augmented_outputs(system: System, step: dict[str, Any], place: str) -> Syste
     reading.fields(step, place)
     N = neighbors_of(system, place)
     C = [outputs(system, N_i) for N_i in N]
-    return replace(system, C=C, words=f"{system.words} with neighbors' outputs shared")
+    words = suffixed(system, "with the outputs of neighbors measured by each agent")
+    return replace(system, C=C, words=words)
 
 
 def arcs(system: System, step: dict[str, Any], place: str) -> System:
@@ -39,12 +41,14 @@ def arcs(system: System, step: dict[str, Any], place: str) -> System:
     """
     (listed,) = reading.fields(step, place, "added")
     spend(40 * sum(map(len, neighbors_of(system, place))) + 100 * system.m)
-    sets = [set(N_i) for N_i in neighbors_of(system, place)]
+    sets, added = [set(N_i) for N_i in neighbors_of(system, place)], []
     for arc in reading.items(listed, place):
         j, i = (system.place_of(end, place) for end in reading.items(arc, place, 2))
         reading.require(j not in sets[i], "subject", place, "the edge is there already")
         sets[i].add(j)
-    words = f"{system.words} with {len(listed)} edges added to its neighbor graph"
+        added.append((j, i))
+    named = edge_set((system.names[j], system.names[i]) for j, i in sorted(added))
+    words = suffixed(system, f"with the links {named} added to its neighbor graph")
     return replace(system, neighbors=[sorted(N_i) for N_i in sets], words=words)
 
 
@@ -57,6 +61,11 @@ def read_shares(system: System, step: dict[str, Any], place: str) -> tuple[str, 
 def read_dimensions(system: System, value: Any, place: str) -> list[int]:
     """The dimensions n_i, one for each agent."""
     return [reading.integer(size, place) for size in reading.items(value, place, system.m)]
+
+
+def shared(system: System, share: str, sizes: list[int]) -> str:
+    """What agents share, and in how many dimensions."""
+    return f"{SHARED[share]} of dimensions {canonical_json(by_channel(system, sizes))}"
 
 
 def extended(system: System, step: dict[str, Any], place: str) -> System:
@@ -72,6 +81,6 @@ def extended(system: System, step: dict[str, Any], place: str) -> System:
     heard = [stack([E[j] for j in N_i], total) for N_i in N]
     C = [diagonal(C_i, E_N) for C_i, E_N in zip(own, heard, strict=True)]
     A = diagonal(system.A, Matrix.zeros(total, total))
-    what = f"the extended system of {system.words} sharing {SHARED[share]}"
-    words = f"{what} with dimensions {tuple(sizes)}"
+    given = shared(system, share, sizes)
+    words = prefixed(f"the extended system without delays sharing {given}", system)
     return replace(system, A=A, B=B, C=C, words=words)

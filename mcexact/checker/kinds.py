@@ -11,13 +11,13 @@ from typing import Any
 
 from .arithmetic import NotAUnit
 from .budget import current, limited
-from .reading import Limits, Refused, fields, incomplete, malformed, parse, require, shown, string
+from .expectation import Expectation
+from .reading import Limits, Refused, fields, incomplete, malformed, parse, shown, string
+from .statement import described, digest_of
 from .subject import read_subject
 from .system import System, digest, read_plant
 
 FORMAT = "mcexact-certificate/1"
-
-Rule = Callable[[Any, Any, System], str]
 
 # fmt: off
 STEMS = (
@@ -28,7 +28,33 @@ STEMS = (
     "transfer_graph",
 )
 # fmt: on
-KINDS: dict[str, Rule] = {stem: import_module(f".{stem}", __package__).check for stem in STEMS}
+
+
+@dataclass(frozen=True)
+class Rule:
+    """What the file of a kind says of it.
+
+    Attributes
+    ----------
+    check : callable
+        Stop unless the witness proves the claim.
+    statement : callable
+        The claim in words, made from the claim and the subject alone.
+    sentences : dict
+        The sentences of manifests that repeat the claim.
+    """
+
+    check: Callable[[Any, Any, System], None]
+    statement: Callable[[Any, System], str]
+    sentences: dict[str, Any] = field(default_factory=dict)
+
+
+def _rule(stem: str) -> Rule:
+    module = import_module(f".{stem}", __package__)
+    return Rule(module.check, module.statement, getattr(module, "SENTENCES", {}))
+
+
+KINDS = {stem: _rule(stem) for stem in STEMS}
 """The rule of each kind, from the file of the same name."""
 
 
@@ -40,11 +66,16 @@ class Verdict:
     ----------
     verdict : str
         VALID (for a sentence IMPLIED), INVALID, MALFORMED, INCOMPLETE, or ERROR for a bug in this
-        checker.
-    theorem : str
-        The statement that was checked, in words; empty unless VALID or IMPLIED.
-    digest : str
+        checker; COUNTED for the numbers of these in a manifest.
+    statement : str
+        What was proved, in words, or counted; else empty.
+    statement_digest : str
+        The SHA-256 of the statement of a certificate.
+    system_digest : str
         The SHA-256 of the certificate's plant; empty if it could not be read.
+    controller_digest : str
+        The SHA-256 of the controller of the closed loop that the certificate is about; empty if it
+        is about none.
     code, place, message : str
         If it is not VALID, a word for the reason, the place in the document, and a sentence.
     spent : int
@@ -52,8 +83,10 @@ class Verdict:
     """
 
     verdict: str
-    theorem: str = ""
-    digest: str = ""
+    statement: str = ""
+    statement_digest: str = ""
+    system_digest: str = ""
+    controller_digest: str = ""
     code: str = ""
     place: str = ""
     message: str = ""
@@ -62,18 +95,28 @@ class Verdict:
     @property
     def status(self) -> int:
         """The exit status that belongs to this verdict."""
-        statuses = {"VALID": 0, "IMPLIED": 0, "INVALID": 1, "MALFORMED": 3, "INCOMPLETE": 5}
+        statuses = {
+            "VALID": 0,
+            "IMPLIED": 0,
+            "COUNTED": 0,
+            "INVALID": 1,
+            "MALFORMED": 3,
+            "INCOMPLETE": 5,
+        }
         return statuses.get(self.verdict, 70)
 
     def line(self) -> str:
         """The verdict as one line of text."""
         if not self.status:
-            return f"{self.verdict} {self.theorem} {self.digest}".rstrip()
+            told = (self.verdict, self.statement_digest, self.statement)
+            return " ".join(part for part in told if part)
         return f"{self.verdict} {self.code} {self.place}: {self.message}"
 
 
 def check_document(
-    data: bytes | Mapping[str, Any], system_digest: str | None = None, limits: Limits | None = None
+    data: bytes | Mapping[str, Any],
+    expected: Expectation | None = None,
+    limits: Limits | None = None,
 ) -> Verdict:
     """Check one certificate.
 
@@ -81,8 +124,8 @@ def check_document(
     ----------
     data : bytes or mapping
         The text of the file, or the document that it would parse to.
-    system_digest : str, optional
-        The digest of the system that the certificate must be about.
+    expected : Expectation, optional
+        What the certificate must be about, and what it must say.
     limits : Limits, optional
 
     Returns
@@ -90,18 +133,22 @@ def check_document(
     Verdict
         After anything unexpected, including an exception, the verdict is not VALID.
     """
-    known, allowed = "", limits or Limits()
+    wanted, known, controller, allowed = expected or Expectation(), "", "", limits or Limits()
 
     def check() -> Verdict:
-        nonlocal known
+        nonlocal known, controller
         document = parse(data, allowed) if isinstance(data, bytes) else data
-        kind, plant, steps, claim, witness = _parts(document)
-        system = read_plant(plant)
-        known = digest(system)
-        if system_digest is not None:
-            same = known == system_digest
-            require(same, "system", "system", f"about another system, of digest {known}")
-        return Verdict("VALID", KINDS[kind](claim, witness, read_subject(steps, system)))
+        kind, given, steps, claim, witness = _parts(document)
+        plant = read_plant(given)
+        known = digest(plant)
+        wanted.require_plant(known)
+        system = read_subject(steps, replace(plant, words=f"the plant {known}"))
+        controller = system.controller
+        wanted.require_controller(controller)
+        KINDS[kind].check(claim, witness, system)
+        statement = f"For {described(system)}: {KINDS[kind].statement(claim, system)}"
+        wanted.require_said(claim, statement)
+        return Verdict("VALID", statement, digest_of(statement))
 
     def check_within() -> Verdict:
         text = data if isinstance(data, bytes) else json.dumps(data, skipkeys=True, default=repr)
@@ -110,8 +157,13 @@ def check_document(
 
     budget = current(allowed.work)
     before = budget.spent
-    verdict = answer(check_within)
-    return replace(verdict, digest=known, spent=budget.spent - before)
+    verdict = replace(answer(check_within), spent=budget.spent - before)
+    return replace(verdict, system_digest=known, controller_digest=controller)
+
+
+def refusal(verdict: str, code: str, place: str, message: str) -> Verdict:
+    """A verdict that proves nothing, and why."""
+    return Verdict(verdict, code=code, place=place, message=message)
 
 
 def answer(check: Callable[[], Verdict]) -> Verdict:
@@ -123,15 +175,15 @@ def answer(check: Callable[[], Verdict]) -> Verdict:
         sys.set_int_max_str_digits(0)
         return check()
     except Refused as found:
-        return Verdict(found.verdict, "", "", found.code, found.place, found.message)
+        return refusal(found.verdict, found.code, found.place, found.message)
     except MemoryError:
-        return Verdict("INCOMPLETE", "", "", "memory", "checker", "more memory than there is")
+        return refusal("INCOMPLETE", "memory", "checker", "more memory than there is")
     except NotAUnit:
         message = "a number that has to be inverted is not a unit modulo l"
-        return Verdict("INVALID", "", "", "unit", "witness.modulus", message)
+        return refusal("INVALID", "unit", "witness.modulus", message)
     except Exception as error:
         message = f"{type(error).__name__}: {error}".splitlines()[0][:200]
-        return Verdict("ERROR", "", "", "internal", "checker", ascii(message))
+        return refusal("ERROR", "internal", "checker", ascii(message))
     finally:
         sys.set_int_max_str_digits(digits)
 

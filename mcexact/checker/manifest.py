@@ -12,7 +12,8 @@ from typing import Any
 
 from . import sentences_analysis, sentences_design, sentences_sharing
 from .budget import Budget, current, limited, spend
-from .kinds import KINDS, Verdict, answer, check_document
+from .expectation import Expectation, same
+from .kinds import KINDS, Verdict, answer, check_document, refusal
 from .reading import (
     Limits,
     Refused,
@@ -34,7 +35,7 @@ __all__ = ["NAME", "RULES", "manifest_verdicts", "verdicts_of"]
 TOPICS = (sentences_analysis, sentences_sharing, sentences_design)
 """The modules of the rules that do not belong to one kind."""
 for kind, rule in KINDS.items():
-    enter_own(kind, rule)
+    enter_own(kind, rule.sentences)
 FORMAT = "mcexact-manifest/1"
 NAME = "manifest.json"
 FILE = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_+-]{0,99}\.json")
@@ -45,7 +46,7 @@ INDEX = re.compile(r"0|[1-9][0-9]{0,9}")
 
 
 def manifest_verdicts(
-    path: str, system_digest: str | None = None, limits: Limits | None = None
+    path: str, expected: Expectation | None = None, limits: Limits | None = None
 ) -> Iterator[tuple[dict[str, str], Verdict]]:
     """Yield verdicts on the manifest if unreadable, on certificates if not VALID, and on sentences.
 
@@ -53,31 +54,41 @@ def manifest_verdicts(
     ----------
     path : str
         A manifest, or a folder that contains one under its usual name.
-    system_digest : str, optional
-        The digest of the plant of all certificates; by default that of the first certificate.
+    expected : Expectation, optional
+        The plant of all certificates, by default that of the first one, and the controller of all
+        closed loops, of which there must then be one.
     limits : Limits, optional
         For the manifest and for each certificate.
     """
+    for about, verdict in every_verdict(path, expected or Expectation(), limits or Limits()):
+        if verdict.verdict != "VALID":
+            yield about, verdict
+
+
+def every_verdict(
+    path: str, expected: Expectation, limits: Limits
+) -> Iterator[tuple[dict[str, str], Verdict]]:
+    """The same, with verdicts on all certificates."""
     path = os.path.join(path, NAME) if os.path.isdir(path) else path
 
     def read(name: str) -> bytes:
         place = os.path.join(os.path.dirname(path), name) if name else path
         require(not name or os.path.lexists(place), "missing", "file", "is not beside the manifest")
-        return _bytes(place, limits or Limits())
+        return _bytes(place, limits)
 
-    for about, verdict in verdicts_of(read, system_digest, limits or Limits()):
-        if verdict.verdict != "VALID":
-            yield about, verdict
+    return verdicts_of(read, expected, limits)
 
 
 def verdicts_of(
-    read: Callable[[str], bytes], system_digest: str | None, limits: Limits
+    read: Callable[[str], bytes], expected: Expectation, limits: Limits
 ) -> Iterator[tuple[dict[str, str], Verdict]]:
     """The verdicts on a manifest from anywhere: ``read`` takes the name of a file, or "" for it."""
     parts: list[Any] = []
     budget = current(limits.work)
 
     def start() -> Verdict:
+        one = not expected.statement and expected.claim is None
+        require(one, "expected", "file", "a manifest makes more than one statement")
         data = read("")
         with limited(budget, len(data)):
             parts.extend(_parts(parse(data, limits)))
@@ -88,9 +99,12 @@ def verdicts_of(
         yield {"file": NAME}, verdict
         return
     digests, sentences, base = parts
-    known = Evidence(read, base, limits, system_digest, budget)
+    known = Evidence(read, base, limits, expected, budget)
     for name in sorted(digests):
         yield {"file": name}, known.taken(name, digests[name])
+    if expected.controller and not any(each.system.controller for each in known.premises.values()):
+        message = "no certificate is about a closed loop with the controller"
+        yield {"file": NAME}, refusal("INVALID", "controller", "file", message)
     for k, sentence in enumerate(sentences):
         yield {"text": sentence["text"]}, known.judged(sentence, f"sentences[{k}]")
 
@@ -144,8 +158,8 @@ class Evidence:
     base : list
         The constructions that lead to the system that the sentences are about.
     limits : Limits
-    digest : str or None
-        The digest of the plant, by default that of the first VALID certificate.
+    expected : Expectation
+        The plant, by default that of the first VALID certificate, and the controller of all loops.
     budget : Budget
         The work that all of them may take together.
     verdicts, premises : dict
@@ -155,7 +169,7 @@ class Evidence:
     read: Callable[[str], bytes]
     base: list[Any]
     limits: Limits
-    digest: str | None
+    expected: Expectation
     budget: Budget = field(default_factory=lambda: current(None))
     verdicts: dict[str, Verdict] = field(default_factory=dict)
     premises: dict[str, Premise] = field(default_factory=dict)
@@ -169,22 +183,27 @@ class Evidence:
             right = large or hashlib.sha256(data).hexdigest() == wanted
             require(right, "digest", "file", "not the bytes that the manifest names")
             with limited(self.budget, len(data)):
-                document = parse(data, self.limits)
-                verdict = check_document(document, self.digest, self.limits)
+                document, any_loop = parse(data, self.limits), replace(self.expected, controller="")
+                verdict = check_document(document, any_loop, self.limits)
+                if verdict.controller_digest:
+                    self.expected.require_controller(verdict.controller_digest)
                 if verdict.verdict == "VALID":
-                    self.premises[name] = self._premise(name, document, verdict.theorem)
-                    self.digest = verdict.digest
+                    self.expected = replace(self.expected, system=verdict.system_digest)
+                    self.premises[name] = self._premise(name, document)
                 return verdict
 
         self.verdicts[name] = answer(check)
         return self.verdicts[name]
 
-    def _premise(self, name: str, document: Any, theorem: str) -> Premise:
+    def _premise(self, name: str, document: Any) -> Premise:
         """A certificate that was found VALID."""
-        plant, steps = read_plant(document["system"]), document["subject"]
+        words, steps = f"the plant {self.expected.system}", document["subject"]
+        plant = replace(read_plant(document["system"]), words=words)
         own = same(steps[: len(self.base)], self.base)
         path = tuple(step["construction"] for step in steps[len(self.base) :]) if own else None
-        return Premise(name, document, plant, read_subject(steps, plant), theorem, path)
+        system = read_subject(steps, plant)
+        sentence = KINDS[document["kind"]].statement(document["claim"], system)
+        return Premise(name, document, plant, system, f"For {system.words}: {sentence}", path)
 
     def judged(self, sentence: dict[str, Any], place: str) -> Verdict:
         """The verdict on one sentence."""
@@ -235,14 +254,3 @@ def pointed(document: Any, pointer: str, place: str) -> Any:
             good = False
     require(good, "pointer", place, f"{shown(pointer)} points to nothing")
     return node
-
-
-def same(a: Any, b: Any) -> bool:
-    """Whether two values are equal as JSON: true differs from 1, and keys have no order."""
-    if type(a) is not type(b):
-        return False
-    if isinstance(a, dict):
-        return a.keys() == b.keys() and all(same(a[key], b[key]) for key in a)
-    if isinstance(a, list):
-        return len(a) == len(b) and all(map(same, a, b))
-    return bool(a == b)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import json
+from dataclasses import replace
 from typing import Any
 
 from . import reading
 from .evidence import inputs, outputs
+from .statement import channel_set, suffixed
 from .system import System
 
 
@@ -24,13 +25,7 @@ def merged(system: System, step: dict[str, Any], place: str) -> System:
     known = ["+".join(system.names[i] for i in part) for part in parts]
     distinct = len(set(known)) == len(known)
     reading.require(distinct, "subject", place, "two channels would have the same name")
-    taken = [f"{_listed(system, part)} taken as one" for part in parts if len(part) > 1]
-    words = f"{system.words} with {' and '.join(taken) or 'each channel by itself'}"
+    sets = ", ".join(channel_set(system.names[i] for i in part) for part in parts)
+    words = suffixed(system, f"with its channels merged into {sets}")
     B, C = [inputs(system, part) for part in parts], [outputs(system, part) for part in parts]
-    return System(system.time, known, system.A, B, C, words=words)
-
-
-def _listed(system: System, part: list[int]) -> str:
-    """The members of a part, such as the channels "1", "2" and "3"."""
-    *first, last = (json.dumps(system.names[i]) for i in part)
-    return f"the channels {', '.join(first)} and {last}"
+    return replace(system, names=known, B=B, C=C, neighbors=None, delays={}, words=words)

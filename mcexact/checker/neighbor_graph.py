@@ -8,8 +8,8 @@ from typing import Any
 from .budget import spend
 from .information_structure import neighbors_of
 from .reading import boolean, fields, require
+from .statement import denied
 from .system import System
-from .words import described
 
 SENTENCES = {
     "neighbor-graph-connected": ("", lambda claim: claim["strongly_connected"]),
@@ -19,7 +19,7 @@ SENTENCES = {
 """The sentences that repeat the claim: theorem, and the claim that each needs."""
 
 
-def check(claim: Any, witness: Any, system: System) -> str:
+def check(claim: Any, witness: Any, system: System) -> None:
     """Recompute the answer from the sets of neighbors.
 
     Theorem ``strong_components.strongly_connected_rule``.
@@ -31,7 +31,11 @@ def check(claim: Any, witness: Any, system: System) -> str:
     answer = "strongly connected" if connected else "not strongly connected"
     same = boolean(verdict, "claim.strongly_connected") == connected
     require(same, "claim", "claim.strongly_connected", f"the graph is {answer}")
-    return f"the neighbor graph of {described(system)} is {answer}"
+
+
+def statement(claim: Any, system: System) -> str:
+    """Whether the neighbor graph is strongly connected."""
+    return f"its neighbor graph is {denied(claim['strongly_connected'])}strongly connected"
 
 
 def components(m: int, arcs: Iterable[tuple[int, int]]) -> list[list[int]]:

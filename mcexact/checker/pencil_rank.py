@@ -6,16 +6,17 @@ from fractions import Fraction
 from itertools import zip_longest
 from typing import Any
 
-from . import evidence, reading, subspaces, words
+from . import evidence, reading, subspaces
 from .arithmetic import Matrix, NotAUnit, Polynomial, beside, inverse, stack
 from .arithmetic import poly_divide as divide
 from .arithmetic import poly_modulo as modulo
 from .arithmetic import poly_product as times
 from .reading import fields, require
+from .statement import PENCIL, channel_set, polynomial_text
 from .system import System
 
 
-def check(claim: Any, witness: Any, system: System) -> str:
+def check(claim: Any, witness: Any, system: System) -> None:
     """Check a kernel from above, and elimination modulo (ℓ, p) from below.
 
     Theorems ``deficiency.pencil_rank_upper``, ``deficiency.pencil_rank_lower``.
@@ -42,9 +43,13 @@ def check(claim: Any, witness: Any, system: System) -> str:
     pencil = [[[e, int(i == j < n)] for j, e in zip(kept, row, strict=True)] for i, row in residues]
     independent = _are_independent(pencil, len(kept), modulo(p, ell), ell)
     require(independent, "rank", "witness", f"elimination modulo l and p does not reach {r}")
-    parts = f"C the outputs of the channels {words.channel_set(system, s)} and B the other inputs"
-    which = f"the pencil [xI - A, B; C, 0] of {words.described(system)}, {parts}"
-    return f"{which}, has rank exactly {r} at every root of {words.polynomial_text(p)}"
+
+
+def statement(claim: Any, system: System) -> str:
+    """The rank of the pencil at the roots."""
+    sets = f"C the outputs of the channels {channel_set(claim['subset'])} and B the inputs of the"
+    which = f"the pencil {PENCIL}, {sets} others, has rank exactly {claim['rank']}"
+    return f"{which} at every root of {polynomial_text(claim['polynomial'])}"
 
 
 def _are_independent(rows: list[list[Polynomial]], ncols: int, p: Polynomial, ell: int) -> bool:

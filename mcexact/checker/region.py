@@ -11,6 +11,7 @@ from .characteristic_polynomial import characteristic_polynomial, characteristic
 from .location import in_region
 from .neighbor_graph import components
 from .reading import boolean, fields, integer, items, polynomial, rational, require
+from .statement import FIXED
 from .system import System
 from .transfer_graph import read_arcs, require_arcs
 
@@ -57,6 +58,20 @@ def read_bound(value: Any, system: System) -> Fraction | None:
     fits = bound >= 0 if system.time == "continuous" else 0 < bound <= 1
     require(fits, "bound", "claim.bound", "expected a rate >= 0, or a radius in (0, 1]")
     return bound
+
+
+def inside(bound: Any, system: System) -> str:
+    """The region within a rate or a radius, in words."""
+    limit = Fraction(bound)
+    return f"modulus below {limit}" if system.time == "discrete" else f"real part below {-limit}"
+
+
+def no_fixed_mode(bound: Any, system: System) -> str:
+    """That no mode is fixed; with a rate or a radius, none that violates it."""
+    if bound is None:
+        return f"no mode that is {FIXED}"
+    where = inside(bound, system).replace("below", "at least")
+    return f"no mode of {where} that is {FIXED}"
 
 
 def require_outside(p: Polynomial, system: System, bound: Fraction | None, place: str) -> None:

@@ -9,7 +9,6 @@ from . import budget
 from .arithmetic import Polynomial
 from .budget import spend
 from .reading import decimal, fields, items, require
-from .words import polynomial_text
 
 Disc = tuple[Fraction, Fraction, Fraction]
 """Real part, imaginary part, radius."""
@@ -38,7 +37,7 @@ def root_discs(value: Any, place: str, p: Polynomial) -> list[Disc]:
     return discs
 
 
-def rate_interval(value: Any, place: str, discs: list[Disc], time: str) -> str:
+def require_rate(value: Any, place: str, discs: list[Disc], time: str) -> None:
     """Check an interval for minus the largest real part, or the largest modulus, of the roots.
 
     Theorems ``rate_interval.rate_interval_continuous``, ``rate_interval.rate_interval_discrete``.
@@ -51,7 +50,6 @@ def rate_interval(value: Any, place: str, discs: list[Disc], time: str) -> str:
         lower = any(low <= -r or (low + r) ** 2 <= re**2 + im**2 for re, im, r in discs)
         upper = all(high >= r and (high - r) ** 2 >= re**2 + im**2 for re, im, r in discs)
     require(lower and upper, "rate", place, "not wide enough for the root discs")
-    return f"between {value['lower']} and {value['upper']}"
 
 
 def _horner(p: Polynomial, re: Fraction, im: Fraction) -> tuple[Fraction, Fraction]:
@@ -65,16 +63,12 @@ def _horner(p: Polynomial, re: Fraction, im: Fraction) -> tuple[Fraction, Fracti
     return value[0] ** 2 + value[1] ** 2, slope[0] ** 2 + slope[1] ** 2
 
 
-def factor_text(
-    p: Polynomial, a: int, e: int, r: int, s: str, stable: bool, discs: list[Disc]
-) -> str:
-    """The proved properties of one factor of a fixed spectrum, in words."""
-    roots = []
-    for real, im, radius in discs:
+def disc_set(value: Any) -> str:
+    """Discs in the order of their centers, such as {0 - 1i +- 1/4, 0 + 1i +- 1/4}."""
+    texts = []
+    discs = (tuple(Fraction(disc[key]) for key in ("re", "im", "radius")) for disc in value)
+    spend(100 * len(value))
+    for re, im, radius in sorted(discs):
         imaginary = f" {'-' if im < 0 else '+'} {abs(im)}i" if im else ""
-        roots.append(f"{real}{imaginary} +- {radius}")
-    return (
-        f"{polynomial_text(p)} (exponent {a} in det(xI - A), at most {e} in the gcd of all "
-        f"det(xI - A_F); least pencil rank {r}, reached by the channels {s}; "
-        f"{'stable' if stable else 'not stable'}; roots {', '.join(roots)})"
-    )
+        texts.append(f"{re}{imaginary} +- {radius}")
+    return "{" + ", ".join(texts) + "}"

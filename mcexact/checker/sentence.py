@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from .budget import spend
 from .reading import require
 from .system import System
-from .words import channel_set, described
 
 Path = tuple[str, ...]
 """The names of the constructions that lead from the manifest's system to a subject."""
@@ -32,8 +30,8 @@ class Premise:
         The whole certificate, whose witness has been verified as well.
     plant, system : System
         The plant, and the subject that was built from it.
-    theorem : str
-        The statement that the checker verified.
+    statement : str
+        The statement that the checker verified, without the sizes of the system.
     path : tuple of str, or None
         The constructions of the subject; None if they do not begin at the manifest's system.
     pointers : tuple of str
@@ -44,7 +42,7 @@ class Premise:
     document: dict[str, Any]
     plant: System
     system: System
-    theorem: str
+    statement: str
     path: Path | None
     pointers: tuple[str, ...] = ()
 
@@ -63,8 +61,8 @@ class Premise:
 
     @property
     def about(self) -> str:
-        """The subject in words."""
-        return described(self.system)
+        """The subject in words, with which a sentence begins."""
+        return f"For {self.system.words}"
 
     def expect(self, holds: bool, message: str) -> None:
         """Stop unless the claims are as the sentence needs them."""
@@ -79,11 +77,6 @@ class Premise:
         inside = [each.removeprefix(place) for each in self.pointers if each.startswith(place)]
         numbers = {int(rest.split("/")[0]) for rest in inside}
         return [member for k, member in enumerate(members) if k in numbers or not numbers]
-
-    def set_of(self, channels: Sequence[str]) -> str:
-        """A set of channels by name."""
-        spend(len(channels) * (100 + self.system.m))
-        return channel_set(self.system, [self.system.names.index(name) for name in channels])
 
 
 @dataclass(frozen=True)
@@ -173,7 +166,7 @@ def restate(
     role: Role,
     holds: Callable[[Premise], Any],
     theorem: str = "",
-    words: Callable[[Premise], str] = lambda premise: premise.theorem,
+    words: Callable[[Premise], str] = lambda premise: premise.statement,
 ) -> None:
     """Enter a rule with one premise, which by default repeats the certificate's claim."""
 
@@ -184,11 +177,11 @@ def restate(
     rule(keys, role, theorem=theorem)(say)
 
 
-def enter_own(kind: str, check: Callable[..., str]) -> None:
+def enter_own(kind: str, sentences: dict[str, Any]) -> None:
     """Enter the ``SENTENCES`` of a kind's file, which repeat claims about the plant."""
 
     def claimed(holds: Callable[[Any], Any], premise: Premise) -> Any:
         return holds(premise.document["claim"])
 
-    for key, (theorem, holds) in check.__globals__.get("SENTENCES", {}).items():
+    for key, (theorem, holds) in sentences.items():
         restate(key, Role((kind,), PLANT), partial(claimed, holds), theorem)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from typing import Any
 
@@ -9,12 +10,12 @@ from .arithmetic import exponent
 from .location import in_stability_region
 from .reading import polynomial
 from .sentence import DUAL, PLANT, SYSTEM, Premise, Role, restate, rule
+from .statement import PENCIL, channel_set, described, edge_set, polynomial_text
 from .system import System
-from .words import channel, channel_set, described, polynomial_text
 
 WANG_DAVISON = "S. H. Wang and E. J. Davison 1973"
 FIXED_DYNAMIC = "evidence.shrunk_subspace_fixed_dynamic"
-PENCIL = "evidence.shrunk_subspace_pencil, joint_controllability.controllable_hautus"
+PENCIL_MODES = "evidence.shrunk_subspace_pencil, joint_controllability.controllable_hautus"
 SPLIT = "component_assignment.component_assignment"
 MOVED = "fixed_spectrum.multiplicity_at_most, spectrum_split.spectrum_split"
 HAUTUS = "joint_controllability.controllable_hautus"
@@ -59,14 +60,14 @@ def _given(known: list[Premise]) -> str:
     plant = meant(known)
     p, q = sum(M.ncols for M in plant.B), sum(M.nrows for M in plant.C)
     ports = f"{p} inputs and {q} outputs in all"
-    return f"given is {described(plant)}, channels {channel_set(plant, range(plant.m))}, {ports}"
+    return f"For {described(plant)}: {ports}"
 
 
 @rule("subsystem channel picture-graphs picture-graphs-outputs picture-dimensions certify-loop")
 @rule("design-measured table-links-limit least-outputs-states-limit least-states-limit")
 def _nothing(known: list[Premise]) -> str:
     """A title, a remark that something is not proved, or that it was not decided."""
-    return f"nothing is claimed of {described(meant(known))}"
+    return f"For {meant(known).words}: nothing is claimed"
 
 
 @rule("inactive-channels")
@@ -75,9 +76,9 @@ def _inactive(known: list[Premise]) -> str:
     seen = [premise for premise in known if premise.kind == "transfer_graph"]
     system = seen[0].system if seen else meant(known)
     ports = enumerate(zip(system.B, system.C, strict=True))
-    idle = [i for i, (B, C) in ports if B.is_zero() or C.is_zero()]
+    idle = [system.names[i] for i, (B, C) in ports if B.is_zero() or C.is_zero()]
     known[0].expect(bool(idle), "no channel is without inputs or outputs that act")
-    return f"B_i = 0 or C_i = 0 for the channels {channel_set(system, idle)} of {described(system)}"
+    return f"For {system.words}: B_i = 0 or C_i = 0 for the channels {channel_set(idle)}"
 
 
 @rule("picture-neighbor-graph picture-heard")
@@ -86,8 +87,8 @@ def _neighbors(known: list[Premise]) -> str:
     plant = meant(known)
     known[0].expect(plant.neighbors is not None, "the plant has no neighbor graph")
     arcs = [(j, i) for i, N_i in enumerate(plant.neighbors or []) for j in N_i if i != j]
-    told = ", ".join(f"{channel(plant, j)} -> {channel(plant, i)}" for j, i in arcs)
-    return f"the neighbor graph of {described(plant)}: {told or 'no edges'}"
+    told = edge_set((plant.names[j], plant.names[i]) for j, i in arcs)
+    return f"For {plant.words}: its neighbor graph has the edges {told}"
 
 
 # Fixed modes.
@@ -99,7 +100,7 @@ restate(
     FIXED,
     lambda c: not c["factors"],
     WANG_DAVISON,
-    lambda c: f"every decay rate is reached by linear time-invariant control: {c.theorem}",
+    lambda c: f"{c.statement}; every decay rate is reached by linear time-invariant control",
 )
 restate("stabilizable table-stabilizable", FIXED, lambda c: c["stabilizable"], WANG_DAVISON)
 NEVER = "not-stabilizable table-not-stabilizable"
@@ -121,11 +122,11 @@ def _blame(key: str, told: str, wanted: Callable[[int, int], bool]) -> None:
         for factor in chosen(found):
             s, modes = factor["channels"], polynomial_text(factor["polynomial"])
             rest = [name for name in found.system.names if name not in s]
-            sets = found.set_of(rest), found.set_of(s)
+            sets = channel_set(rest), channel_set(s)
             texts.append(f"the roots of {modes} are fixed, {told.format(*sets)}")
-        return f"in {found.about} {'; '.join(texts)}"
+        return f"{found.about}: {'; '.join(texts)}"
 
-    restate(key, FIXED, chosen, PENCIL, words)
+    restate(key, FIXED, chosen, PENCIL_MODES, words)
 
 
 _blame("fixed-mode", "not controlled by {} and not observed by {}", lambda size, m: 0 < size < m)
@@ -140,7 +141,7 @@ restate(
     COMPLETE,
     lambda c: c["complete"],
     "corollary_1.free_assignment",
-    lambda c: f"channel controllers in any one channel assign the whole spectrum: {c.theorem}",
+    lambda c: f"{c.statement}; channel controllers in any one channel assign the whole spectrum",
 )
 
 
@@ -149,16 +150,16 @@ def _free(spectrum: Premise, split: Premise) -> str:
     """Nothing is fixed, and there is one part at most."""
     spectrum.expect(not spectrum["factors"], "a mode is fixed")
     split.expect(sum(b["dimension"] > 0 for b in split["blocks"]) <= 1, "the spectrum splits")
-    return f"linear time-invariant channel controllers assign the whole spectrum of {split.about}"
+    return f"{split.about}: linear time-invariant channel controllers assign the whole spectrum"
 
 
 @rule("parts spectrum-parts", FIXED, BLOCKS, theorem=SPLIT)
 def _parts(spectrum: Premise, split: Premise) -> str:
     """Nothing is fixed, and strong components have parts of their own."""
     spectrum.expect(not spectrum["factors"], "a mode is fixed")
-    blocks = [(b["dimension"], split.set_of(b["channels"])) for b in split["blocks"]]
+    blocks = [(b["dimension"], channel_set(b["channels"])) for b in split["blocks"]]
     told = ", ".join(f"degree {size} by {names}" for size, names in blocks if size)
-    return f"the spectrum of {split.about} is assigned in parts: {told}"
+    return f"{split.about}: the spectrum is assigned in parts: {told}"
 
 
 def moved(spectrum: Premise, split: Premise) -> tuple[int, int]:
@@ -176,7 +177,7 @@ def moved(spectrum: Premise, split: Premise) -> tuple[int, int]:
 def moved_between(spectrum: Premise, split: Premise) -> str:
     """Bounds on how many eigenvalues gains move."""
     least, most = moved(spectrum, split)
-    return f"gains move from {least} to {most} of the {split.system.n} eigenvalues of {split.about}"
+    return f"{split.about}: gains move from {least} to {most} of the {split.system.n} eigenvalues"
 
 
 @rule("spectrum-moved", FIXED, BLOCKS, theorem=MOVED)
@@ -233,9 +234,9 @@ def _pencil(spectrum: Premise, ranks: list[Premise]) -> str:
         found.expect(found["subset"] == listed, "about another set of channels")
         left = exponent(polynomial(found["polynomial"], found.file, 1), left)[1]
     spectrum.expect(len(left) == 1, f"no rank is claimed at the roots of {polynomial_text(left)}")
-    least, s = min(found["rank"] for found in ranks), spectrum.set_of(listed)
-    which = f"[xI - A, B; C, 0] of {spectrum.about}, C of {s} and B of the others"
-    return f"the pencil {which}, has rank {least} or more at every mode of A"
+    least, s = min(found["rank"] for found in ranks), channel_set(listed)
+    which = f"the pencil {PENCIL}, C the outputs of the channels {s} and B the inputs of the others"
+    return f"{spectrum.about}: {which}, has rank {least} or more at every mode of A"
 
 
 def gains(key: str, wanted: str, alone: bool) -> None:
@@ -252,11 +253,16 @@ def gains(key: str, wanted: str, alone: bool) -> None:
     def cut(side: str) -> Any:
         return lambda c: not asked(c) and "zero" in c.witness and c.witness["side"] == side
 
+    def reason(found: Premise) -> str:
+        p, q, side = (found.witness.get(part) for part in ("polynomial", "channel", "side"))
+        why = f"the roots of {polynomial_text(p)} stay out of reach" if p else "it cannot spread"
+        return f"{found.statement}: not {side} through {json.dumps(q)}, for {why}"
+
     restate(f"{key}-gains", GAINS, asked)
-    restate(f"{key}-stuck", GAINS, stuck)
+    restate(f"{key}-stuck", GAINS, stuck, words=reason)
     for side in SIDES if wanted == "both" else (wanted,):
         no_cut = "single_channel_gains.single_channel_no_cut"
-        restate(f"{key}-unreached-{side}", GAINS, cut(side), theorem=no_cut)
+        restate(f"{key}-unreached-{side}", GAINS, cut(side), no_cut, reason)
 
 
 for each in (*SIDES, "both"):
@@ -266,7 +272,7 @@ gains("every-channel", "both", alone=False)
 
 # Set-points.
 
-HELD = "linear time-invariant centralized control holds all outputs of {} at any set-points"
+HELD = "linear time-invariant centralized control holds all outputs at any set-points"
 
 
 def unreached(c: Premise, o: Premise) -> list[str]:
@@ -281,7 +287,7 @@ def _setpoint(found: Premise, c: Premise, o: Premise, *_: Premise) -> str:
     """Integrators behind all outputs, and everything within reach."""
     found.expect(found["solvable"], "the rank of [A, B; C, 0] is not full")
     c.expect(controls(c) and controls(o), "not jointly controllable and observable")
-    return HELD.format(found.about)
+    return f"{found.about}: {HELD}"
 
 
 @rule("setpoint-stable-rest", SETPOINT, CONTROLLABLE, OBSERVABLE, FIXED, theorem=DAVISON)
@@ -289,7 +295,7 @@ def _setpoint_beside(found: Premise, c: Premise, o: Premise, _: Premise) -> str:
     """Integrators behind all outputs, and what is out of reach is stable."""
     found.expect(found["solvable"], "the rank of [A, B; C, 0] is not full")
     c.expect(not unreached(c, o), "what is out of reach is not stable")
-    return f"{HELD.format(found.about)}; every mode out of its reach is stable"
+    return f"{found.about}: {HELD}; every mode out of its reach is stable"
 
 
 @rule("setpoint-unstable-rest", SETPOINT, CONTROLLABLE, OBSERVABLE, FIXED, theorem=HAUTUS)
@@ -297,7 +303,7 @@ def _setpoint_lost(found: Premise, c: Premise, o: Premise, _: Premise) -> str:
     """No loop is stable: a mode out of reach is not."""
     c.expect(bool(unreached(c, o)), "what is out of reach is stable")
     lost = f"out of reach are roots of {' and of '.join(unreached(c, o))}"
-    return f"no linear time-invariant loop of {found.about} is stable: {lost}"
+    return f"{found.about}: no linear time-invariant loop is stable: {lost}"
 
 
 RANK_RULE = "setpoint.setpoint_rank"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
@@ -11,9 +12,9 @@ from .reading import Refused, polynomial
 from .sentence import Path, Premise, Role, restate, rule
 from .sentences_analysis import FIXED_DYNAMIC, controls
 from .sentences_sharing import demands
+from .statement import counted
 from .subject import read_subject
 from .system import System, read_matrix
-from .words import channel, counted, described
 
 MAPS = ("shared_update", "private_update", "input")
 UNCONTROLLABLE = "controllability.uncontrollable_modes"
@@ -58,10 +59,10 @@ def _sizes(known: list[Premise]) -> str:
     found, agents = controller(known)
     order = sum(agent["shared"] + agent["private"] for agent in agents)
     told = "; ".join(
-        f"{channel(found.plant, i)}: {agent['shared']} shared, {agent['private']} private"
-        for i, agent in enumerate(agents)
+        f"{json.dumps(agent['name'])}: {agent['shared']} shared, {agent['private']} private"
+        for agent in agents
     )
-    return f"the controller in {found.about} has {counted(order, 'state')} ({told})"
+    return f"{found.about}: the controller has {counted(order, 'state')} ({told})"
 
 
 @rule("design-observer-order")
@@ -69,7 +70,7 @@ def _observer_order(known: list[Premise]) -> str:
     """The order of the paper's observer for what the controller controls, n m + m − 1."""
     system = controlled(controller(known)[0])
     order = system.n * system.m + system.m - 1
-    return f"the paper's observer for {described(system)} has {counted(order, 'state')}"
+    return f"For {system.words}: the paper's observer has {counted(order, 'state')}"
 
 
 @rule("design-longest-number")
@@ -82,7 +83,8 @@ def _longest(known: list[Premise]) -> str:
         parts += [M for key in ("outputs", "shared") for M in (program.get(key) or {}).values()]
         numbers = [x for M in parts if M is not None for row in entries(M) for x in row]
         bits += [number.bit_length() for x in numbers for number in x.as_integer_ratio()]
-    return f"the longest numerator or denominator in {found.about} has {counted(max(bits), 'bit')}"
+    size = counted(max(bits), "bit")
+    return f"{found.about}: the longest numerator or denominator in the controller has {size}"
 
 
 def entries(value: Any) -> list[list[Fraction]]:
@@ -95,7 +97,7 @@ def entries(value: Any) -> list[list[Fraction]]:
 def _states(known: list[Premise]) -> str:
     """The number of states of the loop."""
     found, _ = controller(known)
-    return f"{found.about}: {counted(found.system.n, 'state')}"
+    return f"{found.about}: the loop has {counted(found.system.n, 'state')}"
 
 
 @rule("certify-decided certify-decided-blocks")
@@ -105,7 +107,7 @@ def _decided(known: list[Premise]) -> str:
     found.expect(found.kind == "stability", "expected a certificate of the kind stability")
     blocks = [str(block["size"]) for block in found.witness.get("blocks", [])]
     sizes = f", blocks of {', '.join(blocks)} states" if blocks else ""
-    return f"{found.theorem}, by the method {found.witness['method']}{sizes}"
+    return f"{found.statement}, by the method {found.witness['method']}{sizes}"
 
 
 # The loop.
@@ -123,7 +125,7 @@ def _is_stable(loop: Premise) -> bool:
 def decays(loop: Premise) -> str:
     """What is claimed of the loop, and that it is stable."""
     stable = "modulus below 1" if loop.system.time == "discrete" else "negative real part"
-    return f"{loop.theorem}; every eigenvalue has {stable}"
+    return f"{loop.statement}; every eigenvalue has {stable}"
 
 
 CERTIFIED = "design-observer design-observer-float design-network design-setpoint"
@@ -149,7 +151,7 @@ restate("certify-least", STABLE, lambda c: bounded(c, "discrete"))
 def _kept(_: Premise, spectrum: Premise) -> str:
     """The fixed modes, which every controller leaves where they are."""
     spectrum.expect(bool(spectrum["factors"]), "no mode is fixed")
-    return spectrum.theorem
+    return spectrum.statement
 
 
 @rule("design-steady-state", LOOP, theorem="B. A. Francis and W. M. Wonham 1976")
@@ -161,7 +163,7 @@ def _steady_state(loop: Premise) -> str:
     for i, agent in enumerate(agents):
         good = integrates(system, i, agent)
         loop.expect(good, f"agent number {i + 1} does not integrate its outputs less set-points")
-    return f"in {loop.about}, every output tends to the set-point of its agent, if that is constant"
+    return f"{loop.about}: every output tends to the set-point of its agent, if that is constant"
 
 
 def integrates(system: System, i: int, agent: Any) -> bool:
@@ -254,7 +256,7 @@ def no_equilibrium(found: Premise) -> str:
     """Some set-points have no equilibrium."""
     lost = conditions(found)
     found.expect(bool(lost), "no set-points are excluded")
-    return f"no equilibrium of {found.about} holds outputs r with {' or '.join(lost)}"
+    return f"{found.about}: no equilibrium holds outputs r with {' or '.join(lost)}"
 
 
 @rule("refused-no-equilibrium-zero", SETPOINT, theorem="setpoint.setpoint_unreachable")
@@ -270,4 +272,4 @@ def _mode_of_the_integrators(found: Premise) -> str:
     lost = not found["solvable"] and not conditions(found)
     found.expect(lost, "every row of the evidence is about the outputs, or there is none")
     place = int(found.system.time == "discrete")
-    return f"the mode {place} of {found.about} is not controlled by all channels together"
+    return f"{found.about}: the mode {place} is not controlled by all channels together"

@@ -6,7 +6,7 @@ from functools import partial
 
 from .sentence import HEARD, PLANT, Path, Premise, Role, restate, rule
 from .sentences_analysis import CONTROLLABLE, HAUTUS, OBSERVABLE, controls
-from .words import channel_set, counted, described, polynomial_text
+from .statement import channel_set, counted, polynomial_text
 
 OBSERVABLE_HAUTUS = "joint_controllability.observable_hautus"
 
@@ -32,7 +32,7 @@ def enough(bound: Premise, *hypotheses: Premise) -> str:
     o.expect(controls(o), "not jointly observable")
     what = "outputs and" if bound.path == HEARD[0] else "no outputs and"
     return (
-        f"no mode is fixed where every agent of {graph.about} shares {what} at least "
+        f"{graph.about}: no mode is fixed where every agent shares {what} at least "
         f"{counted(bound['deficiency'], 'sub-state')} with its neighbors, without delay"
     )
 
@@ -94,7 +94,8 @@ def _allocated(least: Premise, bound: Premise, *hypotheses: Premise) -> str:
     fits = bound.path == (HEARD if least["share"] == "outputs+states" else PLANT)[0]
     bound.expect(fits, "the bound is for the other way of sharing")
     least.expect(least["feasible"] and not least["free_assignability"], "more is asked for")
-    return f"{least.theorem}; {enough(bound, *hypotheses)}"
+    more = enough(bound, *hypotheses).removeprefix(f"{least.about}: ")
+    return f"{least.statement}; {more}"
 
 
 @rule("allocate-proof allocate-cost-proof", LEAST)
@@ -102,7 +103,7 @@ def _allocated(least: Premise, bound: Premise, *hypotheses: Premise) -> str:
 def _proved(least: Premise) -> str:
     """How long the proof is that nothing costs less."""
     cuts, nodes = (len(least.witness[key]) for key in ("cuts", "tree"))
-    return f"{least.theorem}, by {counted(cuts, 'cut')} and {counted(nodes, 'node')} of a tree"
+    return f"{least.statement}, by {counted(cuts, 'cut')} and {counted(nodes, 'node')} of a tree"
 
 
 def demands(least: Premise, agents: str, alone: bool = False) -> str:
@@ -119,11 +120,12 @@ def demands(least: Premise, agents: str, alone: bool = False) -> str:
         senders = sorted({j for i in s for j in N[i]} - set(s))
         if agents == (which if p else "cut off") and not (alone and senders):
             why = f"the roots of {polynomial_text(p)}" if p else "the others do not act on it"
-            told_of = f"{channel_set(system, s)} receives from {channel_set(system, senders)}"
+            others = channel_set(system.names[j] for j in senders)
+            told_of = f"{channel_set(cut['subset'])} receives from {others}"
             needed = counted(cut.get("deficiency", 1), "sub-state")
             told.append(f"{told_of}, which must share at least {needed}: {why}")
     least.expect(bool(told), "the evidence has no such cut")
-    return f"in {described(system)} {'; '.join(told)}"
+    return f"{least.about}: {'; '.join(told)}"
 
 
 rule("allocate-reason", LEAST)(partial(demands, agents="some"))

@@ -8,11 +8,11 @@ from typing import Any
 from .arithmetic import Echelon, Matrix, beside, stack
 from .evidence import inputs, modulus, outputs, require_identity
 from .reading import boolean, fields, integer, matrix, polynomial_matrix, positions, require
+from .statement import PENCIL, denied
 from .system import System
-from .words import described
 
 
-def check(claim: Any, witness: Any, system: System) -> str:
+def check(claim: Any, witness: Any, system: System) -> None:
     """Check bounds on the rank of [A B; C 0], and whether a rank defect is an invariant zero.
 
     Theorems ``setpoint.setpoint_rank``, ``setpoint.setpoint_unreachable``,
@@ -39,19 +39,16 @@ def check(claim: Any, witness: Any, system: System) -> str:
     require((W @ S).is_zero(), "identity", "witness.left", "W [A B; C 0] is not zero")
     solvable = boolean(verdict, "claim.solvable")
     require(solvable == (r == rows), "claim", "claim.solvable", f"the rank is {r} of {rows}")
-    shift = " - I" if place else ""
-    result = f"[A{shift}, B; C, 0] of {described(system)} has rank exactly {r} of {rows}: "
     if solvable:
         unused = zero is None and x0 is None and row is None
         require(unused, "claim", "claim.invariant_zero", "expected null where it is solvable")
-        return result + "integrators behind all outputs add no mode that the inputs do not control"
-    result += "no linear time-invariant set-point control of all outputs; "
+        return
     if boolean(zero, "claim.invariant_zero"):
         require(row is None, "claim", "witness.normal", "expected null for an invariant zero")
         point = Fraction(integer(x0, "witness.point"))
         full = _rank(fixed + moving.times(point), ell) == rows
         require(full, "rank", "witness.point", "the rank there is not full modulo l")
-        return result + f"{place} is an invariant zero"
+        return
     require(x0 is None, "claim", "witness.point", "expected null where there is no such point")
     layers = polynomial_matrix(row, "witness.normal", 1, rows, rows + 1)
     require(not all(w.is_zero() for w in layers), "zero", "witness.normal", "the row is zero")
@@ -59,7 +56,21 @@ def check(claim: Any, witness: Any, system: System) -> str:
     for w, before in zip([*layers, below[0]], below, strict=True):
         same = (w @ fixed + before @ moving).is_zero()
         require(same, "identity", "witness.normal", "the row does not annihilate the pencil")
-    return result + "the pencil has rank below that everywhere"
+
+
+def statement(claim: Any, system: System) -> str:
+    """Whether the rank is full, and else what follows from the defect."""
+    shift, place = (" - I", 1) if system.time == "discrete" else ("", 0)
+    which = f"[A{shift}, B; C, 0], B and C those of all channels, has rank exactly {claim['rank']}"
+    rows = f"{which}, which is {denied(claim['solvable'])}its number of rows"
+    if claim["solvable"]:
+        return f"{rows}, so that integrators of all outputs add no uncontrollable mode"
+    zero = f", so that {place} is an invariant zero" if claim["invariant_zero"] else ""
+    return (
+        f"{rows}, so that in no stable linear time-invariant loop every output tends to every "
+        f"constant set-point; the normal rank of {PENCIL} is "
+        f"{denied(claim['invariant_zero'])}its number of rows{zero}"
+    )
 
 
 def _rank(S: Matrix, ell: int) -> int:

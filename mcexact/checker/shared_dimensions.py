@@ -8,11 +8,11 @@ from typing import Any
 from . import covering, evidence, reading, region, subspaces
 from .information_structure import SHARED, augmented_outputs, extended, neighbors_of
 from .reading import fields, items, require
+from .statement import by_channel, canonical_json
 from .system import System
-from .words import described
 
 
-def check(claim: Any, witness: Any, system: System) -> str:
+def check(claim: Any, witness: Any, system: System) -> None:
     """Check that the dimensions suffice, every cut, and the tree that excludes a lower cost.
 
     Theorems ``allocation.branch_tree``, ``allocation.branch_tree_infeasible``.
@@ -41,13 +41,22 @@ def check(claim: Any, witness: Any, system: System) -> str:
         right = fits and value == total
         require(right, "claim", "claim.cost", "not the cost of dimensions below `upper`")
     covering.Program(costs, cuts, "agent", system.names, value).require_bound(tree, upper)
-    modes = "no fixed mode" if limit is None else f"no fixed mode beyond {limit}"
-    goal = f"{modes} and a strongly connected graph" if connected else modes
-    start = f"sharing {SHARED[share]} in {described(system)}, for an extended system with {goal}"
-    end = f"(upper bounds {most}, costs {prices})"
-    if value is None:
-        return f"{start}, no dimensions suffice {end}"
-    return f"{start}, dimensions {sizes} suffice and nothing of cost below {value} does {end}"
+
+
+def statement(claim: Any, system: System) -> str:
+    """Which dimensions suffice, at which cost, and that nothing cheaper does."""
+    upper, costs, sizes = (
+        canonical_json(value and by_channel(system, value))
+        for value in (claim["upper"], claim["costs"], claim["dimensions"])
+    )
+    goal = region.no_fixed_mode(claim["bound"], system)
+    if claim["free_assignability"]:
+        goal += " and a strongly connected transfer graph"
+    start = f"the extended system without delays sharing {SHARED[claim['share']]} has {goal} for"
+    end = f"dimensions with the upper bounds {upper} and the costs {costs} of one dimension each"
+    if not claim["feasible"]:
+        return f"{start} no {end}"
+    return f"{start} the dimensions {sizes} of cost {claim['cost']}, and for no cheaper {end}"
 
 
 def read_cut(

@@ -9,15 +9,16 @@ from . import evidence, reading, subspaces
 from .controllability import require_reached
 from .feedback import dual
 from .reading import boolean, fields, integer, items, matrix, require
+from .statement import canonical_json, channel_set
 from .system import System
-from .words import channel, channel_set, described, polynomial_text
 
 SIDES = ("controllable", "observable")
+PAIRS = dict(zip(SIDES, ("(A_F, B_q)", "(C_q, A_F)"), strict=True))
 CLAIM = ("channels", "property", "exists", "cyclic", "indices")
 WITNESS = ("gains", "modulus", "annihilators", "generator")
 
 
-def check(claim: Any, witness: Any, system: System) -> str:
+def check(claim: Any, witness: Any, system: System) -> None:
     """Check gains and their indices for yes; a mode or a cut out of reach of one channel for no.
 
     Theorem ``single_channel_gains.single_channel_yes``.
@@ -27,7 +28,7 @@ def check(claim: Any, witness: Any, system: System) -> str:
     sides = SIDES if wanted == "both" else (reading.string(wanted, "claim.property", *SIDES),)
     if not boolean(verdict, "claim.exists"):
         require(numbers is None and not cyclic, "claim", "claim", "without gains, no index")
-        return _lost(witness, system, Q, sides)
+        return _require_lost(witness, system, Q, sides)
     gains, modulus, rows, b = fields(witness, "witness", *WITNESS)
     A_F = evidence.closed_loop(system, evidence.read_gains(gains, "witness.gains", system))
     closed, k, n = replace(system, A=A_F), len(sides), system.n
@@ -47,9 +48,20 @@ def check(claim: Any, witness: Any, system: System) -> str:
                 gone = (w @ target.B[q]).is_zero()
                 require(gone, "identity", "witness.annihilators", f"index below {nu} is open")
                 w = w @ target.A
+
+
+def statement(claim: Any, system: System) -> str:
+    """What gains do for every channel named, or that none do."""
+    wanted, listed = claim["property"], claim["channels"]
+    sides = SIDES if wanted == "both" else (wanted,)
+    goal = f"{' and '.join(f'{PAIRS[side]} {side}' for side in sides)} for every q"
+    among = f"{goal} in {channel_set(listed)}"
+    if not claim["exists"]:
+        return f"no constant gains F, the same for all q, make {among}"
+    indices = canonical_json(dict(zip(listed, claim["indices"], strict=True)))
+    end = ", and A_F cyclic" if claim["cyclic"] else ""
     return (
-        f"decentralized gains make {described(system)} {' and '.join(sides)} through each of "
-        f"{channel_set(system, Q)}, indices {indices}{', and A_F cyclic' if cyclic else ''}"
+        f"some constant gains F, the same for all q, make {among}, with the indices {indices}{end}"
     )
 
 
@@ -57,8 +69,8 @@ def _seen(system: System, side: str) -> System:
     return system if side == "controllable" else dual(system, {}, "")
 
 
-def _lost(witness: Any, system: System, Q: list[int], sides: tuple[str, ...]) -> str:
-    """Check a mode or a cut out of reach of one channel; the answer in words.
+def _require_lost(witness: Any, system: System, Q: list[int], sides: tuple[str, ...]) -> None:
+    """Check a mode or a cut out of reach of one channel.
 
     Theorems ``single_channel_gains.single_channel_no_mode``,
     ``single_channel_gains.single_channel_no_cut``.
@@ -75,6 +87,4 @@ def _lost(witness: Any, system: System, Q: list[int], sides: tuple[str, ...]) ->
     else:
         p = reading.polynomial(parts[0], "witness.polynomial", 1)
         T = subspaces.shrunk_subspace(parts[1], "witness.subspace", target, p, 1)
-    why = "its signals do not spread" if cut else f"{polynomial_text(p)} stays out of reach"
     require(q in T and q in Q, "channel", "witness.channel", "not in the set T, or not asked about")
-    return f"no constant gains make {described(system)} {side} through {channel(system, q)}: {why}"

@@ -9,12 +9,12 @@ from .characteristic_polynomial import characteristic_polynomial
 from .location import in_region
 from .quadratic_forms import decreasing, require_dominant, transformed
 from .reading import boolean, fields, integer, items, matrix, require, string
-from .region import read_bound
+from .region import inside, read_bound
+from .statement import denied
 from .system import System
-from .words import described
 
 
-def check(claim: Any, witness: Any, system: System) -> str:
+def check(claim: Any, witness: Any, system: System) -> None:
     """Locate the roots of the characteristic polynomial, or check quadratic forms.
 
     Theorems ``instability.instability_continuous``, ``instability.instability_discrete``,
@@ -51,6 +51,10 @@ def check(claim: Any, witness: Any, system: System) -> str:
         v = matrix(direction, "witness.v", M.nrows, 1)
         falls = not v.is_zero() and (v.T @ (P @ v)).rows[0][0] <= 0
         require(falls, "direction", "witness.v", "expected v not 0 with v'Pv <= 0")
-    what = f"real part below {-bound}" if system.time == "continuous" else f"modulus below {bound}"
-    every = "every eigenvalue has" if stable else "not every eigenvalue has"
-    return f"{every} {what} in {described(system)}"
+
+
+def statement(claim: Any, system: System) -> str:
+    """Where all eigenvalues lie, or that they do not."""
+    limit = claim["bound"]
+    bound = int(system.time == "discrete") if limit is None else limit
+    return f"{denied(claim['stable'])}every eigenvalue of A has {inside(bound, system)}"

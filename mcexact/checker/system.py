@@ -27,8 +27,9 @@ class System:
     """x' = Ax + Σ B_i u_i, y_i = C_i x (or x(t+1) = …), with the neighbor graph.
 
     ``neighbors[i]`` is N_i in the order of the channels, with i in it; None means that there is no
-    graph; ``delays[i, j]`` is d_ij where it is not 0.  ``words`` describe the system;
-    ``blocks`` are the sizes of x, x_1, z_1, x_2, z_2, … in a closed loop.
+    graph; ``delays[i, j]`` is d_ij where it is not 0.  ``words`` name the system in
+    statements; in a closed loop ``blocks`` are the sizes of x, x_1, z_1, x_2, z_2, …, and
+    ``controller`` is the digest of the controller.
     """
 
     time: str
@@ -40,6 +41,7 @@ class System:
     delays: dict[tuple[int, int], int] = field(default_factory=dict)
     words: str = "the plant"
     blocks: tuple[int, ...] = ()
+    controller: str = ""
 
     @property
     def n(self) -> int:
@@ -190,15 +192,19 @@ def _with_graph(plant: System, heard: Any, waits: Any) -> System:
     return System(plant.time, plant.names, plant.A, plant.B, plant.C, sets, delays)
 
 
+def rows_of(M: Matrix) -> list[list[Any]]:
+    """The rows of a matrix as in JSON: integers, or "p/q" in lowest terms."""
+    spend(budget.fractions(M.nrows * M.ncols, M.limbs))
+    values = [[Fraction(entry, M.denominator) for entry in row] for row in M.rows]
+    return [[v.numerator if v.denominator == 1 else str(v) for v in row] for row in values]
+
+
 def canonical(system: System) -> dict[str, Any]:
     """The canonical object of this plant in a certificate."""
 
     def rows(M: Matrix) -> Any:
-        if not M.nrows and M.ncols:
-            return {"shape": [0, M.ncols], "entries": []}
-        spend(budget.fractions(M.nrows * M.ncols, M.limbs))
-        values = [[Fraction(entry, M.denominator) for entry in row] for row in M.rows]
-        return [[v.numerator if v.denominator == 1 else str(v) for v in row] for row in values]
+        alone = not M.nrows and M.ncols
+        return {"shape": [0, M.ncols], "entries": []} if alone else rows_of(M)
 
     known, channels = system.names, zip(system.names, system.B, system.C, strict=True)
     result: dict[str, Any] = {"time": system.time, "A": rows(system.A)}

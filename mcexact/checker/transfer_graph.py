@@ -9,12 +9,12 @@ from .budget import counted, spend
 from .evidence import modulus
 from .neighbor_graph import components
 from .reading import boolean, fields, integer, items, malformed, names, require
+from .statement import channel_set, denied, edge_set
 from .subspaces import zero_transfer
 from .system import System
-from .words import channel, channel_set, described
 
 
-def check(claim: Any, witness: Any, system: System) -> str:
+def check(claim: Any, witness: Any, system: System) -> None:
     """Check a power for each edge, a zero transfer for each other pair, and the components.
 
     Theorems ``transfer_graph.transfer_graph_rule``, ``transfer_graph.zero_transfer_no_arc``.
@@ -41,11 +41,15 @@ def check(claim: Any, witness: Any, system: System) -> str:
     require(claimed == found, "claim", "claim.components", "these are not the strong components")
     connected = boolean(verdict, "claim.strongly_connected")
     require(connected == (len(found) <= 1), "claim", "claim.strongly_connected", "does not follow")
-    shown = ", ".join(f"{channel(system, j)} -> {channel(system, i)}" for j, i in arcs)
+
+
+def statement(claim: Any, system: System) -> str:
+    """The edges, the strong components and whether there is one at most."""
     return (
-        f"the edges of the transfer graph of {described(system)} are exactly: {shown or 'none'}; "
-        f"strong components {' '.join(channel_set(system, part) for part in found)}; "
-        f"{'strongly connected' if connected else 'not strongly connected'}"
+        "its transfer graph, in which j -> i means that C_i (xI - A)^-1 B_j is not zero, has "
+        f"exactly the edges {edge_set(claim['arcs'])}, the strong components "
+        f"{', '.join(map(channel_set, claim['components'])) or 'none'}, and is "
+        f"{denied(claim['strongly_connected'])}strongly connected"
     )
 
 

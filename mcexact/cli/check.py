@@ -23,6 +23,16 @@ from mcexact.cli import options
     help="Require that each certificate is about the system in this file.",
 )
 @click.option(
+    "--controller",
+    metavar="FILE",
+    help="Require that each certificate is about a closed loop with the controller in this file.",
+)
+@click.option(
+    "--expect",
+    metavar="FILE",
+    help="Require what this file holds: a statement, its SHA-256, or a claim as a JSON object.",
+)
+@click.option(
     "--timeout",
     type=options.seconds,
     metavar="SECONDS",
@@ -53,6 +63,8 @@ def command(
     certificates: tuple[str, ...],
     manifest: str | None,
     system: str | None,
+    controller: str | None,
+    expect: str | None,
     timeout: float | None,
     max_memory: int | None,
     export: Path | None,
@@ -61,7 +73,7 @@ def command(
 ) -> int:
     """Verify each CERTIFICATE and print one line with the verdict and the verified statement.
 
-    VALID is followed by the statement that the certificate proves and the digest of the system.
+    VALID is followed by the statement that the certificate proves, behind its SHA-256.
     INVALID, MALFORMED and INCOMPLETE are followed by a code and a place. A sentence of a manifest
     is IMPLIED instead of VALID; the statement printed for it is made from the certificates, not
     from the text of the sentence.
@@ -73,7 +85,7 @@ def command(
     from dataclasses import asdict
 
     from mcexact.checker.allowance import SUPPORTED, Clock, memory
-    from mcexact.checker.command import PRECEDENCE, UNWRITTEN, verdicts
+    from mcexact.checker.command import PRECEDENCE, UNWRITTEN, asked, verdicts
     from mcexact.checker.kinds import Verdict
     from mcexact.checker.reading import Limits, Refused
     from mcexact.cli.output import deliver, json_text
@@ -86,7 +98,7 @@ def command(
         return 0
     if not certificates and manifest is None:
         raise click.UsageError("expected a CERTIFICATE or --manifest")
-    if [*certificates, system].count("-") > 1:
+    if [*certificates, system, controller, expect].count("-") > 1:
         raise click.UsageError("standard input can be read once: give - once")
     if not SUPPORTED and (timeout or max_memory):
         raise click.UsageError("this platform has no limits on time and memory")
@@ -94,14 +106,15 @@ def command(
     allowed = Limits(**options.given(limits))
     try:
         with memory(max_memory), clock.running():
-            for about, verdict in verdicts(certificates, manifest, system, allowed, clock):
+            wanted = asked(system, controller, expect, allowed, clock)
+            for about, verdict in verdicts(certificates, manifest, wanted, allowed, clock):
                 found.append((about, verdict))
                 if not as_json:
                     deliver(verdict.line().replace("(Limits.", "(--max-") + "\n")
         if as_json:
             deliver(json_text({"verdicts": [about | asdict(verdict) for about, verdict in found]}))
     except Refused as refused:
-        error = InputError(refused.message, where=f"{system}: {refused.place}")
+        error = InputError(refused.message, where=refused.place)
         error.exit_status = Verdict(refused.verdict).status
         raise error from None
     except NotWritten as error:

@@ -206,4 +206,4 @@ def _checked(name: str, text: str, expected: str) -> dict[str, Any]:
     document = json.loads(text)
     if not answered(name, document):
         raise InternalError(f"the certificate for {name} is about something else")
-    return {"claim": document["claim"], "theorem": verdict.theorem}
+    return {"claim": document["claim"], "statement": verdict.statement}

@@ -129,7 +129,7 @@ def test_every_kind_is_asked_about_a_plant_of_the_gallery() -> None:
 def test_kind_file_and_rule_have_the_same_name(kind: str) -> None:
     assert kind_named(kind).kind == kind
     assert kind_named(kind).__module__ == f"mcexact.answer.{kind}"
-    assert RULES[kind].__module__ == f"mcexact.checker.{kind}"
+    assert RULES[kind].check.__module__ == f"mcexact.checker.{kind}"
 
 
 def test_long_names_and_numbers_are_left_out_whole() -> None:

@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from mcexact.checker import Limits, Verdict
+from mcexact.checker import Expectation, Limits, Verdict
 from mcexact.checker.manifest import manifest_verdicts
 from mcexact.checker.sentence import RULES
 from tests.checker.handmade import (
@@ -110,10 +110,10 @@ def write(
 
 
 def said(
-    folder: Path, system_digest: str | None = None, limits: Limits | None = None
+    folder: Path, expected: Expectation | None = None, limits: Limits | None = None
 ) -> list[Verdict]:
     """The verdicts on a folder, of certificates that are not VALID first."""
-    return [verdict for _, verdict in manifest_verdicts(str(folder), system_digest, limits)]
+    return [verdict for _, verdict in manifest_verdicts(str(folder), expected, limits)]
 
 
 def one(folder: Path, what: Document, evidence: Mapping[str, Document] = EVIDENCE) -> Verdict:

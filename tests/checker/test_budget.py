@@ -5,11 +5,12 @@ from __future__ import annotations
 import hashlib
 import json
 import threading
+from dataclasses import replace
 from typing import Any
 
 import pytest
 
-from mcexact.checker import Limits, budget, check_document, kinds
+from mcexact.checker import Expectation, Limits, budget, check_document, kinds
 from mcexact.checker.arithmetic import Echelon, Matrix, poly_divide, poly_product, product, rank
 from mcexact.checker.budget import GRANTED, PER_BYTE, Budget, current, limited
 from mcexact.checker.characteristic_polynomial import characteristic_polynomial
@@ -123,7 +124,7 @@ def test_a_manifest_and_its_certificates_share_one_budget() -> None:
     folder[""] = data_of(manifest)
 
     def verdicts(limits: Limits) -> list[str]:
-        return [found.code for _, found in verdicts_of(folder.__getitem__, None, limits)]
+        return [found.code for _, found in verdicts_of(folder.__getitem__, Expectation(), limits)]
 
     alone = max(check_document(data).spent for name, data in folder.items() if name)
     assert "work" not in verdicts(Limits())
@@ -143,10 +144,11 @@ def test_a_system_file_is_read_within_a_budget() -> None:
 
 
 def test_memory_that_is_not_there_leaves_a_check_open(monkeypatch: pytest.MonkeyPatch) -> None:
-    def exhausted(*arguments: object) -> str:
+    def exhausted(*arguments: object) -> None:
         raise MemoryError
 
-    monkeypatch.setitem(kinds.KINDS, "fixed_spectrum", exhausted)
+    rule = replace(kinds.KINDS["fixed_spectrum"], check=exhausted)
+    monkeypatch.setitem(kinds.KINDS, "fixed_spectrum", rule)
     found = check_document(FIXED)
     assert (found.verdict, found.code) == ("INCOMPLETE", "memory")
 

@@ -76,7 +76,7 @@ test_a_change_of_one_place_is_rejected = rejects(REJECTED)
 
 
 def test_the_theorem_states_the_polynomial() -> None:
-    assert "x^2 + 6*x + 8" in checked(copy.deepcopy(LOOP)).theorem
+    assert "x^2 + 6*x + 8" in checked(copy.deepcopy(LOOP)).statement
 
 
 @pytest.mark.parametrize(

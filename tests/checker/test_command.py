@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
 import shutil
@@ -14,7 +15,7 @@ import pytest
 
 from mcexact import checker
 from mcexact.checker.system import digest, read_plant
-from tests.checker.handmade import FIXED, FREE, PAPER, changed
+from tests.checker.handmade import FIXED, FREE, PAPER, changed, checked
 from tests.checker.manifests import EVIDENCE, SENTENCES, write
 from tests.effort import PATIENCE
 
@@ -69,15 +70,9 @@ def run(
 @pytest.mark.parametrize("start", [("-m", "checker"), ("checker",), ("-O", "checker")])
 def test_the_folder_runs_by_itself(folder: Path, start: Sequence[str]) -> None:
     done = run(folder, "fixed.json", start=start)
+    statement = checked(FIXED).statement
     assert (done.returncode, done.stderr) == (0, "")
-    assert done.stdout == (
-        "VALID the fixed spectrum of the plant (continuous time, 3 states, 3 channels) is that of "
-        "x - 1: x - 1 (exponent 3 in det(xI - A), at most 1 in the gcd of all det(xI - A_F); least "
-        "pencil rank 2, reached by the channels {2, 3}; not stable; roots 1 +- 0); not "
-        "stabilizable by linear time-invariant decentralized control; minus the largest real part "
-        "of a fixed mode is between -1 and -1 "
-        f"{digest(read_plant(PAPER))}\n"
-    )
+    assert done.stdout == (f"VALID {hashlib.sha256(statement.encode()).hexdigest()} {statement}\n")
 
 
 @pytest.mark.parametrize("environment", ENVIRONMENTS, ids=str)
@@ -141,10 +136,12 @@ def test_json_says_the_same(folder: Path) -> None:
     assert done.returncode == 1
     first, second = json.loads(done.stdout)["verdicts"]
     assert (first["file"], first["verdict"]) == ("fixed.json", "VALID")
-    assert first["digest"] == digest(read_plant(PAPER))
-    assert first["theorem"].startswith("the fixed spectrum of the plant")
+    assert first["system_digest"] == digest(read_plant(PAPER))
+    assert first["statement"] == checked(FIXED).statement
+    digested = hashlib.sha256(first["statement"].encode()).hexdigest()
+    assert (first["statement_digest"], first["controller_digest"]) == (digested, "")
     assert (second["verdict"], second["code"]) == ("INVALID", "common_factor")
-    assert second["theorem"] == ""
+    assert second["statement"] == second["statement_digest"] == ""
 
 
 def test_a_manifest_is_checked_beside_files_or_alone(folder: Path) -> None:
@@ -152,13 +149,21 @@ def test_a_manifest_is_checked_beside_files_or_alone(folder: Path) -> None:
     write(folder / "evidence")
     done = run(folder, "--manifest", "evidence", "--system", "system.json")
     assert (done.returncode, done.stderr) == (0, "")
-    lines = done.stdout.splitlines()
+    *lines, counted = done.stdout.splitlines()
     assert len(lines) == len(SENTENCES)
+    assert counted == (
+        f"COUNTED {len(SENTENCES)} sentences implied, 0 not; "
+        f"{len(EVIDENCE)} certificates valid, 0 not"
+    )
     assert all(line.startswith("IMPLIED ") for line in lines)
     both = run(folder, "fixed.json", "--manifest", "evidence/manifest.json", "--json")
     found = json.loads(both.stdout)["verdicts"]
-    assert [row["verdict"] for row in found] == ["VALID"] + ["IMPLIED"] * len(SENTENCES)
-    assert [row["text"] for row in found[1:]] == [each["text"] for each in SENTENCES]
+    assert [row["verdict"] for row in found] == [
+        "VALID",
+        *["IMPLIED"] * len(SENTENCES),
+        "COUNTED",
+    ]
+    assert [row["text"] for row in found[1:-1]] == [each["text"] for each in SENTENCES]
     other = run(folder, "--manifest", "evidence", "--system", "other.json")
     assert other.returncode == 1
     assert run(folder, "--manifest", "nowhere").returncode == 3
@@ -177,7 +182,7 @@ def test_standard_input_is_a_file_as_well(folder: Path) -> None:
         timeout=PATIENCE,
     )
     assert done.returncode == 0
-    assert done.stdout.startswith(b"VALID the plant")
+    assert done.stdout.decode().endswith(f"{checked(FREE).statement}\n")
 
 
 def test_limits_can_be_adjusted(folder: Path) -> None:

@@ -6,7 +6,7 @@ import pytest
 
 from mcexact.checker.controllability import krylov_ranks, require_reached
 from mcexact.checker.reading import Refused
-from mcexact.checker.system import read_plant
+from mcexact.checker.system import digest, read_plant
 from tests.checker.handmade import (
     CONTROLLABLE,
     UNCONTROLLABLE,
@@ -159,10 +159,11 @@ def test_a_change_of_one_place_is_rejected(
 
 def test_the_words_say_which_system_and_which_channels() -> None:
     observability = changed(UNCONTROLLABLE, ("subject", [{"construction": "dual"}]))
-    assert checked(observability).theorem == (
-        "the channels {1} of the dual of the plant (continuous time, 2 states, 1 channel) control "
-        "a subspace of dimension exactly 1: not controllable through them together; "
-        "uncontrollable polynomial x - 2"
+    assert checked(observability).statement == (
+        f"For the dual of: the plant {digest(read_plant(UNCONTROLLABLE['system']))} (2 states, "
+        'channels {"1"}, continuous time): the channels {"1"} together control a subspace of '
+        "dimension exactly 1; it is not controllable through them, with the uncontrollable "
+        "polynomial x - 2"
     )
 
 

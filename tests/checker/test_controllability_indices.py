@@ -79,7 +79,8 @@ test_a_change_of_one_place_is_rejected = rejects(REJECTED)
 
 
 def test_the_words_name_the_index() -> None:
-    assert checked(TWO_INPUTS).theorem.endswith(
-        "are [2, 3] and grow no further: controllability index 2; controllability indices [2, 1]"
+    assert checked(TWO_INPUTS).statement.endswith(
+        "are [2,3] and do not grow further; the controllability indices are [2,1] and the "
+        "controllability index is 2"
     )
-    assert "not controllable, no index" in checked(NO_INDEX).theorem
+    assert checked(NO_INDEX).statement.endswith("the controllability index is none")

@@ -313,7 +313,7 @@ def test_a_forgery_is_rejected(reason: str, document: Document) -> None:
 def test_a_reducible_polynomial_may_be_one_factor() -> None:
     verdict = checked(REDUCIBLE)
     assert verdict.verdict == "VALID", verdict.line()
-    assert "is that of x^2 - x:" in verdict.theorem
+    assert "are the roots of x^2 - x;" in verdict.statement
 
 
 def test_the_claim_is_about_the_subject_not_the_plant() -> None:
@@ -328,7 +328,7 @@ def test_the_claim_is_about_the_subject_not_the_plant() -> None:
     )
     verdict = checked(fitting)
     assert verdict.verdict == "VALID", verdict.line()
-    assert "the plant with neighbors' outputs shared" in verdict.theorem
+    assert " with the outputs of neighbors measured by each agent (" in verdict.statement
     assert checked(changed(fitting, (f"{FACTOR}.channels", ["2", "3"]))).verdict == "INVALID"
     assert checked(shared).verdict == "MALFORMED"
 

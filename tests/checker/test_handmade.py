@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from mcexact.checker.kinds import KINDS
-from tests.checker.handmade import FIXED, FREE, GRAPH, OSCILLATION, VALID, Document, checked
+from mcexact.checker.system import digest, read_plant
+from tests.checker.handmade import FIXED, FREE, GRAPH, OSCILLATION, PAPER, VALID, Document, checked
 
 
 @pytest.mark.parametrize("document", VALID.values(), ids=list(VALID))
@@ -16,18 +17,26 @@ def test_every_handmade_certificate_is_valid(document: Document) -> None:
 
 
 def test_the_theorem_states_the_claim_in_words() -> None:
-    assert checked(FIXED).theorem == (
-        "the fixed spectrum of the plant (continuous time, 3 states, 3 channels) is that of x - 1: "
-        "x - 1 (exponent 3 in det(xI - A), at most 1 in the gcd of all det(xI - A_F); least pencil "
-        "rank 2, reached by the channels {2, 3}; not stable; roots 1 +- 0); not stabilizable by "
-        "linear time-invariant decentralized control; minus the largest real part of a fixed mode "
-        "is between -1 and -1"
+    assert checked(FIXED).statement == (
+        f"For the plant {digest(read_plant(PAPER))} "
+        '(3 states, channels {"1", "2", "3"}, continuous time): the modes that are fixed under '
+        "linear time-invariant decentralized control are the roots of x - 1; x - 1 is not Hurwitz, "
+        "has the exponent 3 in det(xI - A) and at most 1 in the greatest common divisor of "
+        "det(xI - A_F) over all constant gains F, and one root in each of the discs {1 +- 0}, "
+        "where the least rank of [xI - A, B; C, 0] over all sets of channels, C the outputs of the "
+        'set and B the inputs of the others, is 2, reached by {"2", "3"}; it is not stabilizable '
+        "by linear time-invariant decentralized control; minus the largest real part of a fixed "
+        "mode is from -1 to -1"
     )
-    assert "roots 0 - 1i +- 1/4, 0 + 1i +- 1/4" in checked(OSCILLATION).theorem
-    assert checked(FREE).theorem.endswith(
-        "has no fixed modes; stabilizable by linear time-invariant decentralized control"
+    assert "discs {0 - 1i +- 1/4, 0 + 1i +- 1/4}" in checked(OSCILLATION).statement
+    assert checked(FREE).statement.endswith(
+        "no mode is fixed under linear time-invariant decentralized control; it is stabilizable by "
+        "linear time-invariant decentralized control"
     )
-    assert "exactly: 1 -> 1, 1 -> 2, 2 -> 2; strong components {1} {2}" in checked(GRAPH).theorem
+    assert (
+        'exactly the edges {"1" -> "1", "1" -> "2", "2" -> "2"}, the strong components {"1"}, '
+        '{"2"}, and is not strongly connected'
+    ) in checked(GRAPH).statement
 
 
 def test_every_kind_of_the_spine_has_a_handmade_certificate() -> None:

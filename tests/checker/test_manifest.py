@@ -8,9 +8,10 @@ from typing import Any
 
 import pytest
 
-from mcexact.checker import Limits
+from mcexact.checker import Expectation, Limits
+from mcexact.checker.expectation import same
 from mcexact.checker.kinds import FORMAT
-from mcexact.checker.manifest import pointed, same
+from mcexact.checker.manifest import pointed
 from mcexact.checker.reading import Refused
 from mcexact.checker.system import digest, read_plant
 from tests import effort
@@ -32,7 +33,7 @@ from tests.checker.manifests import (
 )
 from tests.checker.mutations import places, replaced
 
-ABOUT = "the plant (continuous time, 3 states, 3 channels)"
+ABOUT = f"For the plant {digest(read_plant(PAPER))}"
 SHARED = "sub-state with its neighbors, without delay"
 ENOUGH = sentence("enough-states", "shared_dimension_bound_states", *BOUND)
 OUTPUTS = sentence("enough-outputs-states", "shared_dimension_bound_outputs_states", *BOUND)
@@ -46,17 +47,18 @@ def test_every_sentence_is_said_again_in_the_words_of_the_checker(tmp_path: Path
     assert [verdict.verdict for verdict in found] == ["IMPLIED"] * len(SENTENCES)
     lines = [verdict.line() for verdict in found]
     assert lines[0] == (
-        f"IMPLIED given is {ABOUT}, channels {{1, 2, 3}}, 3 inputs and 4 outputs in all"
+        f'IMPLIED {ABOUT} (3 states, channels {{"1", "2", "3"}}, continuous time): '
+        "3 inputs and 4 outputs in all"
     )
-    assert lines[1].startswith(f"IMPLIED the fixed spectrum of {ABOUT} is that of x - 1: ")
+    assert lines[1].startswith(f"IMPLIED {ABOUT}: the modes that are fixed under linear ")
     assert lines[1].endswith("[evidence.shrunk_subspace_fixed_dynamic] from fixed_spectrum.json")
     assert lines[2].startswith(
-        f"IMPLIED in {ABOUT} the roots of x - 1 are fixed, not controlled by {{1}} and not "
-        "observed by {2, 3} ["
+        f'IMPLIED {ABOUT}: the roots of x - 1 are fixed, not controlled by {{"1"}} and not '
+        'observed by {"2", "3"} ['
     )
     files = ", ".join(f"{name}.json" for name in ("shared_dimension_bound_states", *BOUND))
     assert lines[-1] == (
-        f"IMPLIED no mode is fixed where every agent of {ABOUT} shares no outputs and at least 1 "
+        f"IMPLIED {ABOUT}: no mode is fixed where every agent shares no outputs and at least 1 "
         f"{SHARED} [extended_bound.remark_2] from {files}"
     )
 
@@ -65,10 +67,15 @@ def test_the_manifest_or_its_folder_may_be_named(tmp_path: Path) -> None:
     assert said(write(tmp_path)) == said(tmp_path / "manifest.json")
 
 
+def about(plant: Document) -> Expectation:
+    """What asks for a plant."""
+    return Expectation(system=digest(read_plant(plant)))
+
+
 def test_the_plant_can_be_insisted_on(tmp_path: Path) -> None:
     write(tmp_path)
-    assert {v.verdict for v in said(tmp_path, digest(read_plant(PAPER)))} == {"IMPLIED"}
-    found = said(tmp_path, digest(read_plant(OTHER)))
+    assert {v.verdict for v in said(tmp_path, about(PAPER))} == {"IMPLIED"}
+    found = said(tmp_path, about(OTHER))
     assert {v.verdict for v in found} == {"INVALID"}
     assert [v.code for v in found].count("system") == len(EVIDENCE)
 
@@ -77,7 +84,7 @@ def test_the_agents_may_see_the_outputs_of_their_neighbors(tmp_path: Path) -> No
     heard = {"observable": changed(OBSERVABLE, ("subject", [HEARD, DUAL]))}
     found = one(tmp_path, sentence("observable", "observable", evidence=heard), heard)
     assert found.verdict == "IMPLIED"
-    assert "the plant with neighbors' outputs shared" in found.theorem
+    assert f"{ABOUT[4:]} with the outputs of neighbors measured" in found.statement
 
 
 def test_sentences_about_a_derived_system_are_about_no_other(tmp_path: Path) -> None:
@@ -139,7 +146,7 @@ def test_no_premise_can_be_of_another_plant(tmp_path: Path, what: Document, exch
     document = changed(EVIDENCE[exchanged], ("system", graph))
     evidence = EVIDENCE | {exchanged: FREE if exchanged == "fixed_spectrum" else document}
     write(tmp_path, evidence, manifest(evidence, [what]))
-    found = said(tmp_path, digest(read_plant(PAPER)))
+    found = said(tmp_path, about(PAPER))
     assert [(v.verdict, v.code) for v in found] == [("INVALID", "system"), ("INVALID", "premise")]
     assert any(v.status for v in said(tmp_path))
 
@@ -394,7 +401,7 @@ def other_values(value: Any) -> list[Any]:
 
 def test_whatever_is_changed_nothing_else_is_implied(tmp_path: Path) -> None:
     """A mutant may cost an answer; an answer that it gets is one that was true before."""
-    true = {verdict.theorem for verdict in said(write(tmp_path))}
+    true = {verdict.statement for verdict in said(write(tmp_path))}
     mutants = 0
     for path, value in places(WHOLE):
         if path[:1] == ("certificates",) or not path:
@@ -405,7 +412,7 @@ def test_whatever_is_changed_nothing_else_is_implied(tmp_path: Path) -> None:
             (tmp_path / "manifest.json").write_bytes(text_of(mutant))
             found = said(tmp_path)
             assert all(v.verdict != "ERROR" for v in found), (path, other)
-            assert {v.theorem for v in found if v.verdict == "IMPLIED"} <= true, (path, other)
+            assert {v.statement for v in found if v.verdict == "IMPLIED"} <= true, (path, other)
             bound = path[-1] not in {"text"} and mutant != WHOLE
             assert not bound or any(v.status for v in found), (path, other)
     assert mutants > 300

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from dataclasses import replace
 
 import pytest
 
@@ -206,13 +207,15 @@ def test_the_system_of_a_certificate_has_one_form(reason: str, edit: tuple[str, 
 def test_an_exception_inside_the_checker_is_never_valid(monkeypatch: pytest.MonkeyPatch) -> None:
     from mcexact.checker import kinds
 
-    def broken(*_: object) -> str:
+    def broken(*_: object) -> None:
         raise RecursionError("on purpose\nwith two lines")
 
-    monkeypatch.setitem(kinds.KINDS, "fixed_spectrum", broken)
-    verdict = checked(FREE)
-    assert (verdict.verdict, verdict.status) == ("ERROR", 70)
-    assert "\n" not in verdict.line()
+    for part in ("check", "statement"):
+        rule = replace(kinds.KINDS["fixed_spectrum"], **{part: broken})
+        monkeypatch.setitem(kinds.KINDS, "fixed_spectrum", rule)
+        verdict = checked(FREE)
+        assert (verdict.verdict, verdict.status, verdict.statement) == ("ERROR", 70, "")
+        assert "\n" not in verdict.line()
 
 
 @pytest.mark.parametrize("name", ["x\u202ey", "tab\t", "VALID\n", "\u200b", "\ud800", "\u2028"])
@@ -227,8 +230,8 @@ def test_names_with_characters_that_do_not_print_are_refused(name: str) -> None:
 def test_names_that_could_mislead_are_escaped_in_the_theorem() -> None:
     for name, shown in (
         ("a, b", '"a, b"'),
-        ("motor", "motor"),
-        ("\u00e9cluse", "\u00e9cluse"),
+        ("motor", '"motor"'),
+        ("\u00e9cluse", '"\\u00e9cluse"'),
     ):
         renamed = changed(
             FIXED,
@@ -256,5 +259,5 @@ def test_names_that_could_mislead_are_escaped_in_the_theorem() -> None:
             }
         )
         assert graph.verdict == "VALID", graph.line()
-        assert f"the channels {{{shown}}} of" in graph.theorem
+        assert f"the channels {{{shown}}} together" in graph.statement
         assert len(graph.line().splitlines()) == 1

@@ -11,7 +11,7 @@ import pytest
 
 from mcexact.checker.arithmetic import poly_product
 from mcexact.checker.reading import Refused
-from mcexact.checker.root_discs import Disc, rate_interval, root_discs
+from mcexact.checker.root_discs import Disc, require_rate, root_discs
 
 
 def disc(re: Any, im: Any, radius: Any) -> dict[str, Any]:
@@ -149,8 +149,8 @@ def test_an_interval_holds_what_the_discs_allow(
 ) -> None:
     interval = {"lower": lower, "upper": upper}
     if good:
-        rate_interval(interval, "rate", discs, time)
+        require_rate(interval, "rate", discs, time)
     else:
         with pytest.raises(Refused) as found:
-            rate_interval(interval, "rate", discs, time)
+            require_rate(interval, "rate", discs, time)
         assert found.value.verdict == "INVALID"

@@ -20,7 +20,7 @@ from mcexact.answer.account import Account
 from mcexact.answer.codec import document
 from mcexact.answer.listing import everything
 from mcexact.answer.template import Template
-from mcexact.checker import Verdict
+from mcexact.checker import Expectation, Verdict
 from mcexact.checker.manifest import RULES, Evidence
 from mcexact.checker.reading import Limits
 from mcexact.checker.sentence import Premise, Rule
@@ -76,7 +76,7 @@ def answers(system: MultiChannelSystem) -> dict[str, Document]:
 def known(folder: Path, evidence: dict[str, Document]) -> Evidence:
     """The certificates as the checker has them, all of them VALID."""
     write(folder, evidence)
-    found = Evidence(lambda name: (folder / name).read_bytes(), [], Limits(), None)
+    found = Evidence(lambda name: (folder / name).read_bytes(), [], Limits(), Expectation())
     for name, digest in manifest(evidence)["certificates"].items():
         assert found.taken(name, digest).verdict == "VALID", name
     return found
@@ -198,7 +198,7 @@ def test_what_is_said_of_derived_systems_is_implied(tmp_path: Path) -> None:
         account = analyze(system, information=information).account
         found = told(tmp_path / str(number), account, account.manifest())
         assert {verdict.verdict for verdict in found} == {"IMPLIED"}
-        assert all("the extended system of the plant" in verdict.theorem for verdict in found)
+        assert all("the extended system without" in verdict.statement for verdict in found)
         bare = {key: value for key, value in account.manifest().items() if key != "subject"}
         found = told(tmp_path / str(number), account, bare)
         assert {verdict.verdict for verdict in found} == {"IMPLIED", "INVALID"}
@@ -213,15 +213,15 @@ def test_no_sentence_is_implied_on_fewer_grounds_or_on_false_ones() -> None:
     """Without a premise it is not, or says the same without it; with another value it is not."""
     for account in accounts(0, 4):
         whole = plain(account.manifest())
-        found = Evidence(partial(text_in, account.certificates), [], Limits(), None)
+        found = Evidence(partial(text_in, account.certificates), [], Limits(), Expectation())
         for name, digest in whole["certificates"].items():
             assert found.taken(name, digest).verdict == "VALID"
         for what in whole["sentences"]:
-            words = found.judged(what, "").theorem.rpartition(" from ")[0]
+            words = found.judged(what, "").statement.rpartition(" from ")[0]
             for name in {name for name, *_ in what["because"]}:
                 rest = [entry for entry in what["because"] if entry[0] != name]
                 left = found.judged(what | {"because": rest}, "")
-                same = left.theorem.rpartition(" from ")[0] == words
+                same = left.statement.rpartition(" from ")[0] == words
                 assert left.verdict == "INVALID" or same or not RULES[what["rule"]].roles
             for k, (name, pointer, value) in enumerate(what["because"]):
                 false = [name, pointer, 7 if value != 7 else 8]

@@ -19,7 +19,7 @@ from mcexact.derived.integrators import setpoint_system
 from mcexact.exact.matrix import Matrix
 from mcexact.model.system import MultiChannelSystem
 from tests.checker import test_setpoint
-from tests.checker.handmade import INTEGRATOR, Document, certificate, changed, matrix
+from tests.checker.handmade import INTEGRATOR, Document, certificate, changed, checked, matrix
 from tests.checker.manifests import one, sentence
 from tests.checker.test_closed_loop_spectrum import LOOP
 from tests.checker.test_distributed_observer import ONE as OBSERVER
@@ -220,13 +220,14 @@ def test_every_rule_about_designs_and_refusals_is_in_both_tables() -> None:
 
 
 def test_what_is_said_of_a_controller_is_read_off_its_programs(tmp_path: Path) -> None:
-    sizes = "(continuous time, 2 states, 0 channels)"
-    name = f"the closed loop of the plant and the controller given {sizes}"
+    name = checked(LOOP).statement.partition(" (2 states")[0]
+    longest = "the longest numerator or denominator in the controller has 3 bits"
     for key, words in {
-        "design-order": f"the controller in {name} has 1 state (1: 1 shared, 0 private)",
-        "design-longest-number": f"the longest numerator or denominator in {name} has 3 bits",
-        "certify-states": f"{name}: 2 states",
-        "design-observer-order": "the paper's observer for the plant (continuous time, 1 state, "
-        "1 channel) has 1 state",
+        "design-order": 'the controller has 1 state ("1": 1 shared, 0 private)',
+        "design-longest-number": longest,
+        "certify-states": "the loop has 2 states",
     }.items():
-        assert judged(tmp_path, key, [LOOP]).theorem == f"{words} from premise_0.json"
+        assert judged(tmp_path, key, [LOOP]).statement == f"{name}: {words} from premise_0.json"
+    plant = "For " + name.rpartition(" of: ")[2]
+    said = judged(tmp_path, "design-observer-order", [LOOP]).statement
+    assert said == f"{plant}: the paper's observer has 1 state from premise_0.json"

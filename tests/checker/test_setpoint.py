@@ -116,5 +116,5 @@ test_a_change_of_one_place_is_rejected = rejects(REJECTED)
 
 
 def test_the_theorem_names_the_zero_only_where_it_is_one() -> None:
-    assert "invariant zero" in checked(VELOCITY).theorem
-    assert "invariant zero" not in checked(TWICE).theorem
+    assert "invariant zero" in checked(VELOCITY).statement
+    assert "invariant zero" not in checked(TWICE).statement

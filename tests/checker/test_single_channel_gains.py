@@ -169,9 +169,12 @@ def test_a_dead_channel_hinders_nobody_but_itself() -> None:
     assert checked(DEAD).code == "cut"
 
 
-def test_the_words_name_the_indices_and_the_obstruction() -> None:
+def test_the_words_name_the_indices() -> None:
     assert (
-        "through each of {1, 2}, indices [[2, 2], [2, 2]], and A_F cyclic" in checked(BOTH).theorem
+        'for every q in {"1", "2"}, with the indices {"1":[2,2],"2":[2,2]}, and A_F cyclic'
+        in checked(BOTH).statement
     )
-    assert checked(STUCK).theorem.endswith("controllable through 1: x - 2 stays out of reach")
-    assert "observable through 1: its signals do not spread" in checked(BLIND).theorem
+    assert checked(STUCK).statement.endswith(
+        'no constant gains F, the same for all q, make (A_F, B_q) controllable for every q in {"1"}'
+    )
+    assert " (C_q, A_F) observable for every q in {" in checked(BLIND).statement

@@ -180,7 +180,7 @@ def test_constructions_are_applied_in_order() -> None:
         document = system_file.canonical_document(derived)
         ours = read_subject(plain(derived.subject), read_plant(document))
         assert_same(ours, derived)
-        assert ours.words.startswith("the dual of ")
+        assert ours.words.startswith("the dual of: ")
 
 
 def test_the_digest_is_recomputed_independently() -> None:

@@ -68,8 +68,8 @@ def test_another_program_finds_the_same_loop_over_two_steps() -> None:
 def test_the_checkers_theorem_speaks_of_linear_time_invariant_control() -> None:
     verdict = check_document(encode(fixed_spectrum(PLANT)).encode())
     assert verdict.verdict == "VALID"
-    assert "is that of x - 11/10" in verdict.theorem
-    assert "not stabilizable by linear time-invariant decentralized control" in verdict.theorem
+    assert "are the roots of x - 11/10;" in verdict.statement
+    assert "not stabilizable by linear time-invariant decentralized control" in verdict.statement
 
 
 def test_the_refusal_of_a_design_speaks_of_linear_time_invariant_control() -> None:

@@ -66,7 +66,7 @@ def test_the_order_of_the_observer_is_that_for_the_system_in_the_loop(tmp_path: 
     told = [each for each in account.manifest()["sentences"] if "observer-order" in each["rule"]]
     assert [each["text"] for each in told] == ["states of the paper's observer: 14"]
     account.save(tmp_path)
-    said = [verdict.theorem for _, verdict in manifest_verdicts(str(tmp_path))]
+    said = [verdict.statement for _, verdict in manifest_verdicts(str(tmp_path))]
     assert [each for each in said if "has 14 states" in each and "paper's observer" in each]
 
 

@@ -102,7 +102,7 @@ def test_an_invariant_zero_at_0_is_refused_and_named() -> None:
     assert "0 is an invariant zero" in str(refusal.value)
     verdict = check_document(encode(refusal.value.certificate).encode())
     assert verdict.verdict == "VALID"
-    assert "no linear time-invariant set-point control of all outputs" in verdict.theorem
+    assert "no linear time-invariant set-point control of all outputs" in verdict.statement
 
 
 def test_dependent_outputs_are_refused_and_no_zero_is_named() -> None:

@@ -44,7 +44,7 @@ def test_the_lists_make_the_error_matrix_of_the_paper_cyclic() -> None:
     assert {control for control, _ in found.indices} == {3}
     verdict = check_document(encode(found.found).encode())
     assert verdict.verdict == "VALID"
-    assert "A_F cyclic" in verdict.theorem
+    assert "A_F cyclic" in verdict.statement
 
 
 def test_without_arcs_the_plant_itself_may_connect_the_agents() -> None:
@@ -54,7 +54,7 @@ def test_without_arcs_the_plant_itself_may_connect_the_agents() -> None:
     assert not refused.exists
     verdict = check_document(encode(refused.found).encode())
     assert verdict.verdict == "VALID"
-    assert verdict.theorem.startswith("no constant gains make")
+    assert verdict.statement.startswith("no constant gains make")
 
 
 def test_a_plant_that_is_not_jointly_observable_is_refused_with_a_mode() -> None:

@@ -89,7 +89,7 @@ def test_a_pair_that_is_not_controllable_is_refused_with_the_certificate() -> No
         exceptional_gains([[0, 1], [0, 0]], [[1, 0], [0, 1]], [[1], [0]])
     verdict = check_document(encode(caught.value.certificate).encode())
     assert verdict.verdict == "VALID"
-    assert "not controllable" in verdict.theorem
+    assert "not controllable" in verdict.statement
 
 
 def test_shapes_and_floats_are_refused() -> None:

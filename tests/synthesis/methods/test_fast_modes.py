@@ -53,7 +53,7 @@ def test_a_mode_that_is_too_slow_is_refused_with_its_certificate(time, ports):
     with pytest.raises(Impossible) as caught:
         design_observer(system, **BOUND[time])
     verdict = check_document(encode(caught.value.certificate).encode())
-    assert verdict.verdict == "VALID" and "not controllable" in verdict.theorem
+    assert verdict.verdict == "VALID" and "not controllable" in verdict.statement
 
 
 @pytest.mark.parametrize(

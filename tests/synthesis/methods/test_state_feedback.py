@@ -55,4 +55,4 @@ def test_an_uncontrollable_mode_is_named_and_certified():
     with pytest.raises(Impossible, match="moves the mode 2") as caught:
         state_feedback(system, Polynomial.of(2, 3, 1))
     verdict = check_document(encode(caught.value.certificate).encode())
-    assert verdict.verdict == "VALID" and "not controllable" in verdict.theorem
+    assert verdict.verdict == "VALID" and "not controllable" in verdict.statement

@@ -63,14 +63,14 @@ def test_drawn_plants_get_the_prescribed_polynomials(seed):
 def test_a_rate_is_certified():
     design = design_observer(three_channels(), rate="3/2")
     verdict = verdict_on(design.loop.proof)
-    assert verdict.verdict == "VALID" and "real part is below -3/2" in verdict.theorem
+    assert verdict.verdict == "VALID" and "real part is below -3/2" in verdict.statement
 
 
 def test_a_radius_is_certified_and_met_by_deadbeat():
     design = design_observer(three_channels("discrete"), radius="1/10")
     assert design.parts["error_polynomial"] == Polynomial.of(*[0] * 11, 1)
     verdict = verdict_on(design.loop.proof)
-    assert verdict.verdict == "VALID" and "modulus is below 1/10" in verdict.theorem
+    assert verdict.verdict == "VALID" and "modulus is below 1/10" in verdict.statement
 
 
 def test_gains_from_outside_are_used_as_they_are():
@@ -190,7 +190,7 @@ def test_an_unobservable_mode_refuses_with_its_certificate():
     with pytest.raises(Impossible, match="do not observe it") as caught:
         design_observer(plant, rate=1)
     verdict = verdict_on(caught.value.certificate)
-    assert verdict.verdict == "VALID" and "dual" in verdict.theorem
+    assert verdict.verdict == "VALID" and "dual" in verdict.statement
 
 
 def test_the_obstruction_is_that_of_the_error_system():

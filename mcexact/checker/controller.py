@@ -1,0 +1,71 @@
+"""Controllers in canonical form, from a certificate or a controller file, and their digest."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from .reading import Limits, fields, integer, items, malformed, parse, printable, shown, string
+from .statement import canonical_json, digest_of
+from .system import System, number, read_matrix
+
+MAPS = ("shared_update", "private_update", "input")
+USED = ("outputs", "shared", "private", "reference")
+FORMAT = "mcexact-controller/1"
+
+
+def read_controller(
+    value: Any, place: str, system: System | None = None, limits: Limits | None = None
+) -> dict[str, Any]:
+    """The canonical object of a controller, its matrices read.
+
+    What is absent or empty is left out, and so is a hold of no steps.  A matrix of zeros
+    stays: it says that the agent uses the signal.  Without a system the numbers of inputs and
+    outputs are not known; ``limits`` are those of a file.
+    """
+    time, listed = fields(value, place, "time", "agents")
+    keys = ("name", "shared", "private", *MAPS)
+    agents = [fields(agent, place, *keys, optional=("hold",)) for agent in items(listed, place)]
+    known = [printable(agent[0], place, 256) for agent in agents]
+    if "" in known or len(set(known)) < len(known):
+        malformed(place, "expected agents with names of their own")
+    ports = system if system and system.names == known else None
+    q = [C.nrows for C in ports.C] if ports else [None] * len(known)
+    p = [B.ncols for B in ports.B] if ports else [None] * len(known)
+    x, z = ([integer(agent[k], place) for agent in agents] for k in (1, 2))
+    programs: list[dict[str, Any]] = []
+    for i, (*_, shared_update, private_update, control, hold) in enumerate(agents):
+        steps = {name: integer(d, place) for name, _, d in _by_agent(hold, place, known)}
+        program: dict[str, Any] = {"hold": {name: d for name, d in steps.items() if d}}
+        given = (shared_update, x[i]), (private_update, z[i]), (control, p[i])
+        for label, (parts, nrows) in zip(MAPS, given, strict=True):
+            where = f"{place}.{label}"
+            *by_agent, private, reference = fields(parts, where, optional=USED)
+            found: dict[str, Any] = {}
+            for key, entries, widths in zip(USED, by_agent, (q, x), strict=False):
+                found[key] = {
+                    name: read_matrix(M, where, nrows, widths[j], limits)
+                    for name, j, M in _by_agent(entries, where, known)
+                }
+            for key, M, width in (("private", private, z[i]), ("reference", reference, q[i])):
+                found[key] = M if M is None else read_matrix(M, where, nrows, width, limits)
+            program[label] = {key: part for key, part in found.items() if part}
+        kept = {key: part for key, part in program.items() if part}
+        programs.append({"name": known[i], "shared": x[i], "private": z[i], **kept})
+    return {"time": string(time, place, "continuous", "discrete"), "agents": programs}
+
+
+def _by_agent(value: Any, place: str, known: list[str]) -> list[tuple[str, int, Any]]:
+    """The entries of an object keyed by agents, with the agents' positions."""
+    given = fields({} if value is None else value, place, optional=tuple(known))
+    return [(known[j], j, entry) for j, entry in enumerate(given) if entry is not None]
+
+
+def read_controller_file(data: bytes, limits: Limits) -> tuple[str, str]:
+    """The digest of the controller in a file, and that of its plant, empty if it names none."""
+    document = parse(data, limits, lambda text: number(text, f"number {text[:24]}", limits))
+    version, plant, *parts = fields(document, "controller", "format", "system", "time", "agents")
+    if version != FORMAT:
+        malformed("format", f"expected {FORMAT!r}, found {shown(version)}")
+    given = dict(zip(("time", "agents"), parts, strict=True))
+    controller = read_controller(given, "controller", limits=limits)
+    return digest_of(canonical_json(controller)), string(plant, "system")

@@ -1,0 +1,113 @@
+"""The words of statements: systems, sets, polynomials, and values as canonical JSON.
+
+``FORMAT.md`` specifies them.  A name always stands in quotes, so that none can imitate words.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Iterable
+from fractions import Fraction
+from typing import Any
+
+from . import budget
+from .arithmetic import Matrix, Polynomial
+from .budget import spend
+from .system import System, rows_of
+
+FIXED = "fixed under linear time-invariant decentralized control"
+PENCIL = "[xI - A, B; C, 0]"
+SHORT = 80
+"""The longest text of a matrix or a controller that is written out beside its digest."""
+
+
+def canonical_json(value: Any) -> str:
+    """A value as JSON: sorted keys, no blanks, ASCII; a matrix as its rows in lowest terms."""
+
+    def plain(part: Any) -> Any:
+        if isinstance(part, Matrix):
+            return rows_of(part)
+        return part.numerator if part.denominator == 1 else str(part)
+
+    text = json.dumps(value, sort_keys=True, separators=(",", ":"), default=plain)
+    spend(len(text))
+    return text
+
+
+def digest_of(text: str) -> str:
+    """The SHA-256 of an ASCII text, in lower-case hexadecimal."""
+    return hashlib.sha256(text.encode("ascii")).hexdigest()
+
+
+def with_digest(text: str) -> str:
+    """The digest of the JSON of matrices or of a controller, and this itself where it is short."""
+    return f"SHA-256 {digest_of(text)}" + (f" = {text}" if len(text) <= SHORT else "")
+
+
+def by_channel(system: System, values: Iterable[Any]) -> dict[str, Any]:
+    """One value for each channel, by the names of the channels."""
+    return dict(zip(system.names, values, strict=True))
+
+
+def quoted(name: str) -> str:
+    """A name, which can hold no more than its quotes."""
+    spend(100 + 6 * len(name))
+    return json.dumps(name)
+
+
+def channel_set(names: Iterable[str]) -> str:
+    """A set of channels by name, such as {"1", "3"}."""
+    return "{" + ", ".join(map(quoted, names)) + "}"
+
+
+def edge_set(edges: Iterable[Any]) -> str:
+    """A set of edges [from, to], perhaps with a cost, such as {"1" -> "2", "2" -> "1"}."""
+    ends = [(f"{quoted(j)} -> {quoted(i)}", cost) for j, i, *cost in edges]
+    return "{" + ", ".join(": ".join([edge, *map(str, cost)]) for edge, cost in ends) + "}"
+
+
+def polynomial_text(p: Polynomial) -> str:
+    """A polynomial, highest power first, such as x^2 - 3/2*x + 1."""
+    terms, p = [], [Fraction(c) for c in p]
+    spend(budget.fractions(len(p), budget.limbs_of(p)))
+    for k, c in reversed(list(enumerate(p))):
+        if c:
+            power = "" if k == 0 else "x" if k == 1 else f"x^{k}"
+            size = str(abs(c)) if abs(c) != 1 or not power else ""
+            terms += ["-" if c < 0 else "+", size + ("*" if size and power else "") + power]
+    sign = "-" if terms and terms[0] == "-" else ""
+    return sign + " ".join(terms[1:]) if terms else "0"
+
+
+def denied(holds: bool) -> str:
+    """The word that denies what follows where it does not hold."""
+    return "" if holds else "not "
+
+
+def counted(number: int, noun: str) -> str:
+    """A number of things, such as 1 state or 2 states."""
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+
+
+# Systems: the plant by its digest, and constructions before or behind what they are applied to.
+
+
+def prefixed(words: str, system: System) -> str:
+    """A system that a construction makes, named before the system that it is made from."""
+    return f"{words} of: {system.words}"
+
+
+def suffixed(system: System, words: str) -> str:
+    """A system that a construction makes, named behind the system that it is made from.
+
+    What begins with a construction stands in parentheses, so that the text parses in one way only.
+    """
+    alone = system.words.startswith(("the plant", "("))
+    return f"{system.words if alone else f'({system.words})'} {words}"
+
+
+def described(system: System) -> str:
+    """The system a claim is about: what it was made from, its states, its channels, its time."""
+    channels = f"channels {channel_set(system.names)}" if system.m else "no channels"
+    return f"{system.words} ({counted(system.n, 'state')}, {channels}, {system.time} time)"

@@ -1,0 +1,217 @@
+"""What is asked of a certificate is insisted on: the system, the controller, what it states."""
+
+from __future__ import annotations
+
+import copy
+import hashlib
+import json
+from typing import Any
+
+import pytest
+
+from mcexact.checker import Expectation, Limits, Verdict
+from mcexact.checker.controller import FORMAT
+from mcexact.checker.reading import Refused
+from mcexact.checker.system import digest, read_plant
+from tests.checker.handmade import FIXED, FREE, PAPER, Document, certificate, changed, checked
+from tests.checker.manifests import EVIDENCE, manifest, sentence, write
+from tests.checker.test_closed_loop_spectrum import CONTROLLER, HALF, LOOP, SCALAR
+
+ABOUT = digest(read_plant(SCALAR))
+FILE = {"format": FORMAT, "system": ABOUT, **CONTROLLER}
+ANOTHER = changed(LOOP, (HALF, [[-2]]), ("claim.polynomial", [3, 6, 1]))
+"""The same plant with another controller."""
+
+
+def text(value: Any) -> bytes:
+    return value.encode() if isinstance(value, str) else json.dumps(value).encode()
+
+
+def controlled(value: Any = FILE) -> Expectation:
+    """What a controller file asks for."""
+    return Expectation().controlled(text(value), Limits())
+
+
+def saying(value: Any) -> Expectation:
+    """What the file of a statement or of a claim asks for."""
+    return Expectation().saying(text(value), Limits())
+
+
+def answered(document: Document, expected: Expectation) -> Verdict:
+    return checked(document, expected=expected)
+
+
+def test_the_controller_can_be_insisted_on() -> None:
+    verdict = answered(LOOP, controlled())
+    assert verdict.verdict == "VALID"
+    assert verdict.controller_digest == controlled().controller
+    assert verdict.system_digest == ABOUT
+
+
+def test_another_controller_is_invalid_and_both_digests_are_named() -> None:
+    verdict = answered(ANOTHER, controlled())
+    assert (verdict.verdict, verdict.code, verdict.place) == ("INVALID", "controller", "subject")
+    other = checked(ANOTHER).controller_digest
+    assert other in verdict.message and controlled().controller in verdict.message
+    assert verdict.statement == verdict.statement_digest == ""
+
+
+@pytest.mark.parametrize("document", [FREE, certificate("closed_loop_spectrum", SCALAR, {}, {})])
+def test_a_certificate_without_a_closed_loop_is_invalid(document: Document) -> None:
+    verdict = answered(document, Expectation(controller=controlled().controller))
+    assert (verdict.verdict, verdict.message) == ("INVALID", "about no closed loop")
+
+
+def test_a_controller_for_another_plant_is_invalid() -> None:
+    verdict = answered(LOOP, controlled({**FILE, "system": digest(read_plant(PAPER))}))
+    assert (verdict.verdict, verdict.code, verdict.place) == ("INVALID", "controller", "system")
+    assert ABOUT in verdict.message
+    assert answered(LOOP, controlled({**FILE, "system": ""})).verdict == "VALID"
+
+
+def test_only_the_last_of_two_controllers_counts() -> None:
+    nobody = {"construction": "closed_loop", "controller": {"time": "continuous", "agents": []}}
+    twice = {**LOOP, "subject": [*LOOP["subject"], nobody]}
+    assert checked(twice).verdict == "VALID"
+    assert answered(twice, controlled()).message.startswith("about another controller")
+
+
+WRITTEN = [
+    ("decimals", ("agents.0.input.shared.1", [[-3.0]])),
+    ("fractions that are not in lowest terms", ("agents.0.input.shared.1", [["-6/2"]])),
+    ("sparse", ("agents.0.input.shared.1", {"shape": [1, 1], "entries": [[0, 0, -3]]})),
+    ("a hold of no steps", ("agents.0.hold", {"1": 0})),
+    ("nothing as an empty object", ("agents.0.private_update", {"shared": {}})),
+    ("another order of keys", ("agents.0", dict(reversed(CONTROLLER["agents"][0].items())))),
+]
+
+
+@pytest.mark.parametrize(("reason", "edit"), WRITTEN, ids=[row[0] for row in WRITTEN])
+def test_one_controller_may_be_written_in_many_ways(reason: str, edit: tuple[str, Any]) -> None:
+    assert answered(LOOP, controlled(changed(FILE, edit))).verdict == "VALID", reason
+
+
+OTHERS = [
+    ("another number", ("agents.0.input.shared.1", [["-3/2"]])),
+    ("another signal", ("agents.0.input", {"outputs": {"1": [[-3]]}})),
+    ("a matrix of zeros more", ("agents.0.private_update", {"shared": {"1": []}})),
+    ("a set-point", ("agents.0.input.reference", [[1]])),
+    ("a hold", ("agents.0.hold", {"1": 1})),
+    ("another time", ("time", "discrete")),
+    ("a private state", ("agents.0.private", 1)),
+]
+
+
+@pytest.mark.parametrize(("reason", "edit"), OTHERS, ids=[row[0] for row in OTHERS])
+def test_another_controller_has_another_digest(reason: str, edit: tuple[str, Any]) -> None:
+    document = changed(FILE, edit)
+    if reason == "a private state":
+        document = changed(document, ("agents.0.private_update", {"private": [[0]]}))
+    assert controlled(document).controller != controlled().controller
+
+
+MALFORMED: list[tuple[str, Any]] = [
+    ("no JSON", "controller"),
+    ("a system file", {"format": "mcexact-system/1", **SCALAR}),
+    ("another version", {**FILE, "format": "mcexact-controller/2"}),
+    ("a key more", {**FILE, "verified": True}),
+    ("no agents", {key: part for key, part in FILE.items() if key != "agents"}),
+    ("another agent", changed(FILE, ("agents.0.input.shared", {"2": [[1]]}))),
+    ("two agents of one name", {**FILE, "agents": CONTROLLER["agents"] * 2}),
+    ("no name", changed(FILE, ("agents.0.name", ""))),
+    ("a time of its own", {**FILE, "time": "late"}),
+    ("a matrix that does not fit", changed(FILE, ("agents.0.shared_update.shared.1", [[1, 2]]))),
+    ("a size below 0", changed(FILE, ("agents.0.shared", -1))),
+    ("a hold that is no number", changed(FILE, ("agents.0.hold", {"1": "1"}))),
+    ("null for what is absent", changed(FILE, ("agents.0.input.private", None))),
+    ("a digest that is no text", {**FILE, "system": 7}),
+]
+
+
+@pytest.mark.parametrize(("reason", "value"), MALFORMED, ids=[row[0] for row in MALFORMED])
+def test_a_controller_file_of_another_form_is_refused(reason: str, value: Any) -> None:
+    with pytest.raises(Refused) as refused:
+        controlled(value)
+    assert refused.value.verdict == "MALFORMED", reason
+
+
+def test_the_statement_the_digest_or_the_claim_can_be_insisted_on() -> None:
+    statement = checked(FIXED).statement
+    shuffled = dict(reversed(FIXED["claim"].items()))
+    for expected in (statement, f"{statement}\n", sha(statement), f"{sha(statement)}\n", shuffled):
+        assert answered(FIXED, saying(expected)).verdict == "VALID"
+        other = answered(FREE, saying(expected))
+        assert (other.verdict, other.code) == ("INVALID", "expected")
+        assert checked(FREE).statement in other.message
+        assert other.statement == ""
+
+
+def sha(statement: str) -> str:
+    return hashlib.sha256(statement.encode()).hexdigest()
+
+
+def test_a_claim_is_compared_exactly() -> None:
+    claim = FIXED["claim"]
+    for other in (
+        {**claim, "stabilizable": 0},
+        {**claim, "polynomial": [-1, True]},
+        {**claim, "best_rate": {"lower": "-1.0", "upper": "-1"}},
+        {key: part for key, part in claim.items() if key != "factors"},
+        {},
+    ):
+        assert answered(FIXED, saying(other)).code == "expected"
+
+
+def test_what_is_invalid_stays_so_whatever_is_expected() -> None:
+    false = changed(FREE, ("witness.gains.0.entries", [[0]]))
+    assert answered(false, saying(checked(FREE).statement)).code == "common_factor"
+    assert answered(false, saying(FREE["claim"])).code == "common_factor"
+
+
+@pytest.mark.parametrize(
+    "value",
+    ["", "VALID", "for the plant", "For a\nFor b", "For \u00e9", "0" * 63, "[1]", '{"a": 1'],
+)
+def test_what_is_no_statement_and_no_claim_is_refused(value: str) -> None:
+    with pytest.raises(Refused) as refused:
+        saying(value)
+    assert refused.value.verdict == "MALFORMED"
+
+
+# Manifests.
+
+
+def judged(tmp_path: Any, evidence: Any, sentences: list[Document], expected: Expectation) -> Any:
+    from mcexact.checker.manifest import manifest_verdicts
+
+    write(tmp_path, evidence, manifest(evidence, sentences))
+    return list(manifest_verdicts(str(tmp_path), expected))
+
+
+def test_every_loop_of_a_manifest_has_the_controller(tmp_path: Any) -> None:
+    claim = copy.deepcopy(LOOP)
+    evidence = {"loop": claim, "free": certificate_of_the_plant()}
+    said = [sentence("design-assigned", "loop", evidence=evidence)]
+    found = judged(tmp_path, evidence, said, controlled())
+    assert [verdict.verdict for _, verdict in found] == ["IMPLIED"]
+    evidence["loop"] = ANOTHER
+    said = [sentence("design-assigned", "loop", evidence=evidence)]
+    found = judged(tmp_path, evidence, said, controlled())
+    assert [verdict.verdict for _, verdict in found] == ["INVALID"] * 3
+
+
+def certificate_of_the_plant() -> Document:
+    """A certificate about the plant of the loop itself."""
+    return {**LOOP, "subject": [], "claim": {"polynomial": [-1, 1]}}
+
+
+def test_a_manifest_without_a_loop_is_about_no_controller(tmp_path: Any) -> None:
+    evidence = {"plant": certificate_of_the_plant()}
+    found = judged(tmp_path, evidence, [sentence("heading")], controlled())
+    assert [verdict.code for _, verdict in found] == ["controller", ""]
+
+
+def test_no_one_statement_can_be_expected_of_a_manifest(tmp_path: Any) -> None:
+    for expected in (saying(checked(FIXED).statement), saying(FIXED["claim"])):
+        ((_, verdict),) = judged(tmp_path, EVIDENCE, [sentence("heading")], expected)
+        assert (verdict.verdict, verdict.code) == ("INVALID", "expected")
