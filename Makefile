@@ -46,9 +46,11 @@ attack: $(STAMP)
 mutations: $(STAMP)
 	$(BIN)/python -m tests.checker.mutations 200
 
-# The package's reader of system files beside the checker's, on 100,000 drawn and damaged files: minutes.
+# The package's readers of system files and controller files beside the checker's, on 120,000 drawn
+# and damaged files: minutes.
 readers: $(STAMP)
 	$(BIN)/python -m tests.campaigns.grammar 100000
+	$(BIN)/python -m tests.campaigns.controller_grammar 20000
 
 # Every line and branch of the checker is run by the tests of its own folder: minutes.
 coverage: $(STAMP)

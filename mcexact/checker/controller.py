@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from .reading import Limits, fields, integer, items, malformed, parse, printable, shown, string
+from .arithmetic import Matrix
+from .reading import Limits, fields, integer, items, malformed, own_names, parse, shown, string
 from .statement import canonical_json, digest_of
 from .system import System, number, read_matrix
 
@@ -18,16 +19,21 @@ def read_controller(
 ) -> dict[str, Any]:
     """The canonical object of a controller, its matrices read.
 
-    What is absent or empty is left out, and so is a hold of no steps.  A matrix of zeros
-    stays: it says that the agent uses the signal.  Without a system the numbers of inputs and
-    outputs are not known; ``limits`` are those of a file.
+    What is absent or empty is left out, and so is a hold of no steps.  In a certificate a matrix
+    of zeros stays: it says that the agent uses the signal.  From a file it is left out, as the
+    makers of certificates do.  Without a system the numbers of inputs and outputs are not known;
+    ``limits`` are those of a file.
     """
+
+    def stays(M: Matrix) -> bool:
+        return limits is None or not M.is_zero()
+
     time, listed = fields(value, place, "time", "agents")
     keys = ("name", "shared", "private", *MAPS)
     agents = [fields(agent, place, *keys, optional=("hold",)) for agent in items(listed, place)]
-    known = [printable(agent[0], place, 256) for agent in agents]
-    if "" in known or len(set(known)) < len(known):
-        malformed(place, "expected agents with names of their own")
+    if not agents:
+        malformed(place, "expected at least one agent")
+    known = own_names([agent[0] for agent in agents], [place] * len(agents))
     ports = system if system and system.names == known else None
     q = [C.nrows for C in ports.C] if ports else [None] * len(known)
     p = [B.ncols for B in ports.B] if ports else [None] * len(known)
@@ -42,12 +48,14 @@ def read_controller(
             *by_agent, private, reference = fields(parts, where, optional=USED)
             found: dict[str, Any] = {}
             for key, entries, widths in zip(USED, by_agent, (q, x), strict=False):
-                found[key] = {
-                    name: read_matrix(M, where, nrows, widths[j], limits)
+                used = (
+                    (name, read_matrix(M, where, nrows, widths[j], limits))
                     for name, j, M in _by_agent(entries, where, known)
-                }
-            for key, M, width in (("private", private, z[i]), ("reference", reference, q[i])):
-                found[key] = M if M is None else read_matrix(M, where, nrows, width, limits)
+                )
+                found[key] = {name: M for name, M in used if stays(M)}
+            for key, entry, width in (("private", private, z[i]), ("reference", reference, q[i])):
+                M = None if entry is None else read_matrix(entry, where, nrows, width, limits)
+                found[key] = M if M is not None and stays(M) else None
             program[label] = {key: part for key, part in found.items() if part}
         kept = {key: part for key, part in program.items() if part}
         programs.append({"name": known[i], "shared": x[i], "private": z[i], **kept})

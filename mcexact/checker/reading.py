@@ -179,6 +179,18 @@ def printable(value: Any, place: str, longest: int, allowed: str = "") -> str:
     return str(value)
 
 
+def own_names(values: list[Any], places: list[str]) -> list[str]:
+    """Names of channels or agents: of 1 to 256 characters, no two equal in the normal form NFC."""
+    names, forms = [], {""}
+    for value, place in zip(values, places, strict=True):
+        names.append(printable(value, place, 256))
+        form = unicodedata.normalize("NFC", names[-1])
+        if form in forms:
+            malformed(place, f"expected a name of its own, found {shown(value)}")
+        forms.add(form)
+    return names
+
+
 def rational(value: Any, place: str) -> Fraction:
     """A rational: an integer, or "p/q" in lowest terms with q ≥ 2."""
     if type(value) is int:

@@ -6,7 +6,6 @@ import hashlib
 import json
 import math
 import re
-import unicodedata
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
@@ -14,7 +13,18 @@ from typing import Any
 from . import budget, reading
 from .arithmetic import Matrix
 from .budget import build, current, limited, spend
-from .reading import Limits, fields, incomplete, integer, items, malformed, printable, shown, string
+from .reading import (
+    Limits,
+    fields,
+    incomplete,
+    integer,
+    items,
+    malformed,
+    own_names,
+    printable,
+    shown,
+    string,
+)
 
 LARGEST = 2**22
 """The cells of the largest sparse matrix, a side of length 0 counted as 1."""
@@ -131,21 +141,16 @@ def read_system(value: Any, limits: Limits | None = None) -> System:
     A = read_matrix(A_rows, "A", None, None, limits)
     if A.nrows != A.ncols or not items(listed, "channels"):
         malformed("system", "expected a square A and at least one channel")
-    known: list[str] = []
-    forms: set[str] = set()
-    B, C = [], []
+    B, C, names = [], [], []
     spend(4 * len(listed) ** 2)  # names are compared, and delays looked up, for every pair
     for k, channel in enumerate(listed):
         where = f"channels[{k}]"
         B_rows, C_rows, name, D = fields(channel, where, "B", "C", optional=("name", "D"))
         B.append(read_matrix(B_rows, f"{where}.B", A.nrows, None, limits))
         C.append(read_matrix(C_rows, f"{where}.C", None, A.nrows, limits))
-        known.append(printable(str(k + 1) if name is None else name, f"{where}.name", 256))
-        form = unicodedata.normalize("NFC", known[k])
-        if not form or form in forms:
-            malformed(f"{where}.name", f"expected a name of its own, found {shown(name)}")
-        forms.add(form)
+        names.append(str(k + 1) if name is None else name)
         _require_no_feedthrough(D, f"{where}.D", limits)
+    known = own_names(names, [f"channels[{k}].name" for k in range(len(names))])
     plant = System(string(time, "time", "continuous", "discrete"), known, A, B, C)
     if limits is not None:
         _check_unused(plant, more[1:], limits)

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Mapping
 from typing import Any
 
 import pytest
 
-from mcexact.checker import reading
+from mcexact.checker import controller, reading
 from mcexact.checker import system as checker
 from mcexact.exact import rational
 from mcexact.model import matrix_json, system_file
+from tests.campaigns import controller_grammar
 from tests.campaigns.grammar import Tally, run
 from tests.campaigns.grammar_tokens import GOOD_NUMBERS, NAMES, NASTY, TEXTS
 
@@ -22,6 +24,26 @@ def test_both_readers_accept_the_same_files_with_the_same_digests() -> None:
     assert tally.accepted > 600, tally.summary()
     # Not all files that are accepted are undamaged.
     assert sum(tally.kinds.values()) - tally.kinds["nothing"] > 60
+
+
+def test_both_readers_accept_the_same_controller_files_and_mean_the_same_controllers() -> None:
+    tally = controller_grammar.run(1500)
+    assert tally.failures == []
+    assert tally.accepted > 300, tally.summary()
+
+
+def test_a_controller_file_with_zeros_is_the_one_that_certificates_hold() -> None:
+    """Else a certificate would be about another controller than the file that it was made from."""
+    agent = {"name": "1", "shared": 0, "private": 0, "shared_update": {}, "private_update": {}}
+    document = {"format": "mcexact-controller/1", "system": "", "time": "discrete"}
+    digests = {
+        controller.read_controller_file(
+            json.dumps({**document, "agents": [{**agent, "input": used}]}).encode(),
+            reading.Limits(),
+        )
+        for used in ({}, {"outputs": {"1": [[0, 0]]}}, {"outputs": {}, "reference": [[0]]})
+    }
+    assert len(digests) == 1
 
 
 def test_the_tokens_have_no_repetitions() -> None:
