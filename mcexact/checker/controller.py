@@ -31,7 +31,7 @@ def read_controller(
     time, listed = fields(value, place, "time", "agents")
     keys = ("name", "shared", "private", *MAPS)
     agents = [fields(agent, place, *keys, optional=("hold",)) for agent in items(listed, place)]
-    if not agents:
+    if limits is not None and not agents:
         malformed(place, "expected at least one agent")
     known = own_names([agent[0] for agent in agents], [place] * len(agents))
     ports = system if system and system.names == known else None

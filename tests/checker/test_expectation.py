@@ -82,6 +82,10 @@ WRITTEN = [
     ("sparse", ("agents.0.input.shared.1", {"shape": [1, 1], "entries": [[0, 0, -3]]})),
     ("a hold of no steps", ("agents.0.hold", {"1": 0})),
     ("nothing as an empty object", ("agents.0.private_update", {"shared": {}})),
+    (
+        "a matrix of zeros, which certificates leave out",
+        ("agents.0.private_update", {"shared": {"1": []}}),
+    ),
     ("another order of keys", ("agents.0", dict(reversed(CONTROLLER["agents"][0].items())))),
 ]
 
@@ -94,7 +98,6 @@ def test_one_controller_may_be_written_in_many_ways(reason: str, edit: tuple[str
 OTHERS = [
     ("another number", ("agents.0.input.shared.1", [["-3/2"]])),
     ("another signal", ("agents.0.input", {"outputs": {"1": [[-3]]}})),
-    ("a matrix of zeros more", ("agents.0.private_update", {"shared": {"1": []}})),
     ("a set-point", ("agents.0.input.reference", [[1]])),
     ("a hold", ("agents.0.hold", {"1": 1})),
     ("another time", ("time", "discrete")),
