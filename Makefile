@@ -5,7 +5,7 @@ BIN := .venv/bin
 STAMP := .venv/.installed
 GALLERY := mcexact/model/gallery
 
-.PHONY: coverage mutants records reproduce look ledger sentences demo test lint types tests matrix attack agreement mutations readers zipapp bench proofs checked-proofs weakened-proofs
+.PHONY: coverage mutants records reproduce look ledger sentences demo test lint types tests matrix attack agreement readers zipapp bench proofs checked-proofs weakened-proofs
 
 demo: $(STAMP)
 	$(BIN)/mcexact demo
@@ -41,10 +41,6 @@ agreement: $(STAMP)
 # alone: N=500000 takes minutes, N=5000000 an hour.
 attack: $(STAMP)
 	$(BIN)/python -m tests.attack $(or $(N),500000)
-
-# Every place of 200 certificates changed, one at a time, and judged by slow oracles: minutes.
-mutations: $(STAMP)
-	$(BIN)/python -m tests.checker.mutations 200
 
 # The package's readers of system files and controller files beside the checker's, on 120,000 drawn
 # and damaged files: minutes.

@@ -13,7 +13,10 @@ from typing import Any
 
 from mcexact.checker import Verdict, check_document
 
-from .oracle.judge import FALSE, UNDECIDED, judge
+from .meaning import meaning
+from .oracle.judge import TRUE, UNDECIDED, judge
+from .oracle.statement import statement
+from .oracle.words import sha256
 from .report import Report
 from .tries import SIZE, Batch, Try, drawn_batch, tries
 
@@ -43,11 +46,11 @@ def patience(seconds: float) -> Iterator[None]:
         signal.signal(signal.SIGVTALRM, before)
 
 
-def checked(made: Any, check: Check = check_document) -> Verdict | None:
+def checked(made: Any, check: Check = check_document, seconds: float = SECONDS) -> Verdict | None:
     """The checker's verdict, or None if it does not end."""
     data = made.encode("utf-8", "surrogatepass") if isinstance(made, str) else made
     try:
-        with patience(SECONDS):
+        with patience(seconds):
             return check(data)
     except Hung:
         return None
@@ -113,9 +116,25 @@ def _outcome(attempt: Try, verdict: Verdict | None, report: Report) -> tuple[str
         return "rejected", ""
     document = parsed(attempt.document)
     judgment, why = judged(document)
-    if judgment == FALSE:
-        return "false", why
+    if judgment == TRUE:
+        why = misstated(document, verdict, report)
+        return ("false" if why else "true"), why
     return judgment, why
+
+
+def misstated(document: Mapping[str, Any], verdict: Verdict, report: Report) -> str:
+    """What is wrong with the statement of an accepted certificate, if anything is."""
+    expected = statement(document)
+    if verdict.statement != expected:
+        return f"another statement is specified: {expected}"
+    if verdict.statement_digest != sha256(expected):
+        return "another digest of the statement is specified"
+    said = sha256(meaning(document))
+    if report.statements.setdefault(verdict.statement_digest, said) != said:
+        return "the same statement as that of a certificate that means something else"
+    if report.meanings.setdefault(said, verdict.statement_digest) != verdict.statement_digest:
+        return "another statement than that of a certificate that means the same"
+    return ""
 
 
 def _share(first: int, step: int, batches: int) -> Report:

@@ -21,7 +21,7 @@ import mcexact
 
 SOURCES = Path(mcexact.__file__).parent / "checker"
 PACKAGE = "weakened_checker"
-REFUSALS = ("malformed", "incomplete", "Refused", "NotAUnit")
+REFUSALS = ("malformed", "Refused", "NotAUnit")
 
 
 @dataclass(frozen=True)
@@ -32,6 +32,11 @@ class Site:
     function: str
     line: int
     text: str
+
+    @property
+    def key(self) -> str:
+        """What it is called wherever it stands in the file."""
+        return f"{self.file}: {self.function}: {self.text}"
 
 
 @dataclass
@@ -65,22 +70,29 @@ class _Gated(ast.NodeTransformer):
 
     def __init__(self, file: str) -> None:
         self.file, self.function = file, ""
+        self.named: set[str] = set()
 
     def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
-        """Remember in which function a condition is."""
-        before, self.function = self.function, node.name
+        """Remember in which function a condition is, and which names stand for conditions."""
+        before = self.function, self.named
+        self.function, self.named = node.name, _named_conditions(node)
         self.generic_visit(node)
-        self.function = before
+        self.function, self.named = before
+        return node
+
+    def visit_Assign(self, node: ast.Assign) -> ast.AST:
+        """``name = condition``, where ``require(name, …)`` follows."""
+        self.generic_visit(node)
+        target = node.targets[0]
+        if isinstance(target, ast.Name) and target.id in self.named:
+            node.value = self._gates(node.value)
         return node
 
     def visit_Call(self, node: ast.Call) -> ast.AST:
         """``require(condition, …)``."""
         self.generic_visit(node)
-        name = (
-            node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
-        )
-        if name == "require" and node.args:
-            node.args[0] = self._gate("passes", self._parts(node.args[0]), node.args[0])
+        if _is_require(node):
+            node.args[0] = self._gates(node.args[0])
         return node
 
     def visit_If(self, node: ast.If) -> ast.AST:
@@ -96,29 +108,43 @@ class _Gated(ast.NodeTransformer):
                 node.test = self._gate("refuses", node.test, node.test)
         return node
 
-    def _parts(self, node: ast.expr) -> ast.expr:
+    def _gates(self, node: ast.expr) -> ast.expr:
+        """One gate, or one for each part of several conditions."""
+        if isinstance(node, ast.Name) and node.id in self.named:
+            return node  # its parts are gates already
         if isinstance(node, ast.BoolOp) and isinstance(node.op, ast.And):
-            node.values = [self._gate("passes", value, value) for value in node.values]
-        return node
+            node.values = [self._gates(value) for value in node.values]
+            return node
+        return self._gate("passes", node, node)
 
     def _gate(self, method: str, node: ast.expr, shown: ast.expr) -> ast.expr:
-        GATES.sites.append(Site(self.file, self.function, node.lineno, _plain(shown)))
+        GATES.sites.append(Site(self.file, self.function, node.lineno, ast.unparse(shown)))
         call = ast.parse(f"GATES_.{method}({len(GATES.sites) - 1}, 0)", mode="eval").body
         assert isinstance(call, ast.Call)
         call.args[1] = node
         return ast.copy_location(call, node)
 
 
-def _plain(node: ast.expr) -> str:
-    """The text of a condition without the gates of its parts."""
+def _is_require(node: ast.AST) -> bool:
+    if not isinstance(node, ast.Call) or not node.args:
+        return False
+    name = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
+    return name == "require"
 
-    class Plain(ast.NodeTransformer):
-        def visit_Call(self, call: ast.Call) -> ast.AST:
-            self.generic_visit(call)
-            gated = getattr(getattr(call.func, "value", None), "id", "") == "GATES_"
-            return call.args[1] if gated else call
 
-    return ast.unparse(Plain().visit(ast.parse(ast.unparse(node), mode="eval")))
+def _named_conditions(node: ast.FunctionDef) -> set[str]:
+    """Names that a function assigns conditions to, and then requires."""
+    required = {
+        call.args[0].id
+        for call in ast.walk(node)
+        if _is_require(call) and isinstance(call, ast.Call) and isinstance(call.args[0], ast.Name)
+    }
+    assigned = {
+        statement.targets[0].id
+        for statement in ast.walk(node)
+        if isinstance(statement, ast.Assign) and isinstance(statement.targets[0], ast.Name)
+    }
+    return required & assigned
 
 
 class _Loader(importlib.machinery.SourceFileLoader):
@@ -152,7 +178,7 @@ class _Finder(importlib.abc.MetaPathFinder):
 
 
 def weakened_checker() -> ModuleType:
-    """The copy, imported once."""
+    """The copy's module of kinds, which imports every rule and every construction."""
     if PACKAGE not in sys.modules:
         sys.meta_path.insert(0, _Finder())
-    return importlib.import_module(PACKAGE)
+    return importlib.import_module(f"{PACKAGE}.kinds")

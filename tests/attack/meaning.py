@@ -14,14 +14,24 @@ from .oracle.constructions import subject_of
 from .oracle.controllers import read_agents
 from .oracle.systems import read_plant
 
+SETS = ("factors", "roots", "added")
+"""Lists whose order says nothing."""
+
 DECIMALS = ("re", "im", "radius", "lower", "upper")
 
 
 def meaning(document: Mapping[str, Any]) -> str:
     """One text for each meaning of a readable document."""
     steps = [_step(document, k) for k in range(len(document["subject"]))]
-    parts = (document["kind"], _plant(document["system"]), steps, _plain(document["claim"], ""))
-    return json.dumps(parts, sort_keys=True)
+    claim = dict(document["claim"])
+    if document["kind"] == "stability" and claim["bound"] is None:
+        claim["bound"] = int(document["system"]["time"] == "discrete")  # what null stands for
+    parts = (document["kind"], _plant(document["system"]), steps, _plain(claim, ""))
+    return _text(parts)
+
+
+def _text(value: Any) -> str:
+    return json.dumps(value, sort_keys=True)
 
 
 def _plant(value: Mapping[str, Any]) -> Any:
@@ -66,7 +76,8 @@ def _plain(value: Any, key: str) -> Any:
             return [[str(Fraction(v, d)) for v in row] for row in value["entries"]]
         return {k: _plain(v, k) for k, v in value.items()}
     if isinstance(value, list | tuple):
-        return [_plain(v, key) for v in value]
+        found = [_plain(v, key) for v in value]
+        return sorted(found, key=_text) if key in SETS else found
     if key in DECIMALS and isinstance(value, str):
         return str(Fraction(value))
     return value

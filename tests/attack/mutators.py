@@ -13,7 +13,7 @@ from .draws.plants import Document
 Path = tuple[str | int, ...]
 PARTS = ("system", "subject", "claim", "witness")
 LARGE_PRIMES = (2147483647, 1000000007, 2305843009213693951, 998244353, 4294967291, 1000003)
-SMALL_MODULI = (2, 3, 4, 5, 6, 7, 9, 11, 15, 35, 30, 77, 101, 1001)
+SMALL_MODULI = (2, 3, 4, 5, 6, 7, 9, 11, 15, 35, 30, 77, 101, 1001, 1, 0, -1, -7)
 TOKEN = re.compile(r'"(?:[^"\\]|\\.)*"|-?[0-9]+|[\[\]{},:]|true|false|null')
 ODD_TOKENS = (
     "0", "1", "-1", "2", '"1/2"', '"2/4"', '""', "null", "true", "false", "[]", "{}", "1.0", "1e1",

@@ -17,6 +17,7 @@ class Report:
     counts: Counter[tuple[str, str, str]] = field(default_factory=Counter)
     findings: list[dict[str, Any]] = field(default_factory=list)
     statements: dict[str, str] = field(default_factory=dict)
+    meanings: dict[str, str] = field(default_factory=dict)
     seconds: float = 0.0
 
     def count(self, rows: list[tuple[str, str]], outcome: str) -> None:
@@ -32,6 +33,9 @@ class Report:
         for digest, said in other.statements.items():
             if self.statements.setdefault(digest, said) != said:
                 self.findings.append({"what": "one statement for two meanings", "digest": digest})
+        for said, digest in other.meanings.items():
+            if self.meanings.setdefault(said, digest) != digest:
+                self.findings.append({"what": "two statements for one meaning", "digest": digest})
         self.seconds += other.seconds
 
     def total(self, outcome: str) -> int:

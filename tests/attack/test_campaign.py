@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -13,8 +14,10 @@ from tests.attack.campaign import run, run_batch
 from tests.attack.draws.subjects import CONSTRUCTIONS
 from tests.attack.oracle.constructions import CONSTRUCTIONS as KNOWN
 from tests.attack.oracle.judge import KINDS as JUDGED
+from tests.attack.oracle.judge import TRUE, judge
 from tests.attack.report import Report
 from tests.attack.tries import SIZE, drawn_batch, tries
+from tests.checker.handmade import VALID
 
 
 def test_nothing_false_is_accepted_and_nothing_true_is_refused() -> None:
@@ -57,3 +60,8 @@ def test_a_try_is_repeated_alone(number: int) -> None:
 def test_a_batch_is_the_same_every_time() -> None:
     first, second = (list(tries(11, drawn_batch(11))) for _ in range(2))
     assert first == second
+
+
+@pytest.mark.parametrize("document", VALID.values(), ids=list(VALID))
+def test_the_oracle_confirms_certificates_made_by_hand(document: dict[str, Any]) -> None:
+    assert judge(document) == (TRUE, "")

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
-from .draws.certificates import DECISIONS, certified, drawn_certificate
+from .draws.certificates import DECISIONS, certified, some_certificate
 from .draws.observers import drawn_observer
 from .draws.plants import Document
 from .draws.subjects import CONSTRUCTIONS
@@ -29,6 +29,7 @@ from .mutators import (
     splice,
 )
 from .oracle.judge import KINDS
+from .oracle.reading import Unspecified
 
 SIZE = 64
 """Tries of one batch."""
@@ -66,13 +67,13 @@ def drawn_batch(number: int) -> Batch:
     rng = random.Random(f"batch {number}")
     kind = ORDER[number % len(ORDER)]
     focus = FOCUS[number // len(ORDER) % len(FOCUS)]
-    original = _some_certificate(rng, kind, focus)
+    original = some_certificate(rng, kind, focus)
     batch = Batch(kind, focus, rng, original)
     for _ in range(3):
         sibling = _sibling(rng, original)
         if sibling is not None:
             batch.siblings.append(sibling)
-    batch.strangers.append(_some_certificate(rng, kind, rng.choice(FOCUS)))
+    batch.strangers.append(some_certificate(rng, kind, rng.choice(FOCUS)))
     other = rng.choice(list(DECISIONS))
     found = certified(rng, other, original["system"], original["subject"])
     if found is not None:
@@ -80,30 +81,48 @@ def drawn_batch(number: int) -> Batch:
     return batch
 
 
-def _some_certificate(rng: random.Random, kind: str, focus: str | None) -> Document:
-    """A true certificate, about the construction if that applies."""
-    for attempt in range(200):
-        found = drawn_certificate(rng, kind, focus if attempt < 30 else None)
-        if found is not None:
-            return copied(found)  # type: ignore[no-any-return]
-    raise ArithmeticError(f"no certificate of {kind} is found")
-
-
 def _sibling(rng: random.Random, original: Document) -> Document | None:
     """What is true of a plant or a subject that differs in one or two places."""
     near = copied(original)
-    for _ in range(rng.choice((1, 1, 2))):
-        part = "subject" if near["subject"] and rng.random() < 0.4 else "system"
-        change = change_number if rng.random() < 0.75 else change_node
-        change(rng, near, part)
+    if rng.random() < 0.4:
+        _tried(perturbed, rng, near["system"])
+    else:
+        _changed(rng, near)
     try:
         if near["kind"] == "distributed_observer":
             found = drawn_observer(rng, near["system"])
         else:
             found = certified(rng, near["kind"], near["system"], near["subject"])
-    except (KeyError, TypeError, AttributeError, IndexError, ArithmeticError, Exception):
+    except Exception:  # the package refuses or fails on what is no plant at all
         return None
     return None if found is None else copied(found)
+
+
+def _changed(rng: random.Random, near: Document) -> None:
+    """One or two places of the plant or the subject."""
+    for _ in range(rng.choice((1, 1, 2))):
+        part = "subject" if near["subject"] and rng.random() < 0.4 else "system"
+        change = change_number if rng.random() < 0.75 else change_node
+        change(rng, near, part)
+
+
+def perturbed(rng: random.Random, plant: Document) -> None:
+    """A matrix of a channel set to 0, another time, a link more or less."""
+    what = rng.randrange(5)
+    channel = rng.choice(plant["channels"])
+    if what == 0:
+        channel["B"] = [[0] * len(row) for row in channel["B"]]
+    elif what == 1:
+        channel["C"] = [[0] * len(row) for row in channel["C"]]
+    elif what == 2:
+        plant["time"] = "discrete" if plant["time"] == "continuous" else "continuous"
+    elif what == 3:
+        k = rng.randrange(len(plant["A"]))
+        plant["A"][k] = [0] * len(plant["A"])
+    else:
+        names = [c["name"] for c in plant["channels"]]
+        i, j = rng.sample(names, 2)
+        plant["neighbors"][i] = sorted(set(plant["neighbors"][i]) ^ {j}, key=names.index)
 
 
 def tries(number: int, batch: Batch) -> Iterator[Try]:
@@ -134,7 +153,15 @@ def _tried(edit: Any, *arguments: Any) -> Any:
     """An edit that may meet a document that other edits have broken."""
     try:
         return edit(*arguments)
-    except (KeyError, TypeError, IndexError, ValueError, AttributeError, ZeroDivisionError):
+    except (
+        KeyError,
+        TypeError,
+        IndexError,
+        ValueError,
+        AttributeError,
+        ArithmeticError,
+        Unspecified,
+    ):
         return None
 
 
@@ -183,7 +210,7 @@ def _names(batch: Batch) -> list[str]:
 def _renamed(batch: Batch) -> Made:
     """New names, or the old ones in another order, in all parts or in some."""
     names = _names(batch)
-    fresh = batch.rng.sample(["x", "y", "z", "ü", "1", "2", '"', "a+b"], len(names))
+    fresh = batch.rng.sample(["x", "y", "z", "ü", "1", "2", '"', "1+2"], len(names))
     new = batch.rng.choice((fresh, batch.rng.sample(names, len(names))))
     mapping = dict(zip(names, new, strict=True))
     if batch.rng.random() < 0.5:
@@ -200,10 +227,18 @@ def _permuted(batch: Batch) -> Made:
     return name, _tried(permuted, batch.rng, batch.original, parts)
 
 
+def _perturbed(batch: Batch) -> Made:
+    """Another plant, which the subject may not even apply to."""
+    document = copied(batch.original)
+    _tried(perturbed, batch.rng, document["system"])
+    return "another plant", document
+
+
 def _forged(batch: Batch) -> Made:
     """A claim drawn at random, with a witness that is made to fit."""
     base = batch.rng.choice([batch.original, batch.original, *batch.siblings])
-    return "forgery", _tried(forged, batch.rng, copied(base))
+    made = _tried(forged, batch.rng, copied(base))
+    return "forgery", base if made is None else made
 
 
 def _repaired(batch: Batch) -> Made:
@@ -231,6 +266,7 @@ MUTATORS = {
     "kept": (10, _kept),
     "renamed": (4, _renamed),
     "permuted": (4, _permuted),
+    "perturbed": (5, _perturbed),
     "forged": (17, _forged),
     "repaired": (10, _repaired),
 }

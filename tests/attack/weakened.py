@@ -9,7 +9,9 @@ from __future__ import annotations
 import json
 import multiprocessing
 from collections import Counter
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+from itertools import groupby
 from typing import Any
 
 from .campaign import checked, judged, parsed
@@ -64,7 +66,7 @@ def attempt(made: Try, holes: Holes, batch: Any) -> None:
     holes.refused[GATES.open] += 1
     if GATES.open in holes.found:
         return
-    again = checked(made.document, check)
+    again = checked(made.document, check, seconds=1.0)
     if again is None or again.verdict != "VALID":
         return
     holes.alone[GATES.open] += 1
@@ -99,18 +101,39 @@ def search(count: int, processes: int = 2) -> tuple[list[Site], Holes]:
     return GATES.sites, holes
 
 
-def table(sites: list[Site], holes: Holes) -> list[str]:
-    """The conditions of every file, and what found the hole."""
-    made = []
-    for k, site in sorted(enumerate(sites), key=lambda pair: (pair[1].file, pair[1].line, pair[0])):
-        counts = (
-            f"{holes.refused[k]:7} refused, {holes.alone[k]:6} by it alone, {holes.true[k]:6} true"
-        )
-        said = f"{holes.found[k][1]} (try {holes.found[k][0]})" if k in holes.found else "-"
-        made.append(
-            f"{site.file}:{site.line} {site.function}: {site.text[:90]} | {counts} | {said}"
-        )
+def table(sites: list[Site], holes: Holes, harmless: Mapping[str, str]) -> list[str]:
+    """The conditions of every file, what found the hole, and why one without hole is there."""
+    order = sorted(enumerate(sites), key=lambda pair: (pair[1].file, pair[1].line, pair[0]))
+    found = len(holes.found)
+    made = [
+        HEADER.format(tries=holes.tries, sites=len(sites), found=found, left=len(sites) - found)
+    ]
+    for file, group in groupby(order, key=lambda pair: pair[1].file):
+        rows = list(group)
+        made += ["", f"## `{file}`", "", "| in | condition | refused | hole |", "|---|---|---|---|"]
+        for k, site in rows:
+            text = site.text.replace("|", "\\|")
+            refused = holes.refused[k]
+            if k in holes.found:
+                number, mutator, why, _ = holes.found[k]
+                said = f"try {number:,}, {mutator}: {why}".replace("|", "\\|")
+            else:
+                reason = harmless.get(site.key, "not explained")
+                said = f"none ({holes.alone[k]} accepted and true): {reason}"
+            made.append(f"| `{site.function}` | `{text}` | {refused:,} | {said} |")
     return made
+
+
+HEADER = """# What the campaign finds when a condition of the checker is left out
+
+`python -m tests.attack N --weakened FILE` writes this table.  Of {tries:,} tries each one that a
+condition refuses is checked again without that condition; what is accepted then and is false is
+the hole that the condition closes.  There are {sites} conditions: every `require`, each part of one
+that joins several by `and`, and each `if` that does nothing but refuse a document.  A hole is found
+for {found}; for each of the other {left} the reason stands in its row.
+
+"Refused" counts the tries that the condition was the first to refuse.  The number of a try says how
+many it took, all kinds together; `python -m tests.attack --only K` makes that document again."""
 
 
 def documents(holes: Holes) -> list[str]:

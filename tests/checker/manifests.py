@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 import hashlib
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -120,3 +120,25 @@ def one(folder: Path, what: Document, evidence: Mapping[str, Document] = EVIDENC
     """The verdict on one sentence, all certificates being VALID."""
     (verdict,) = said(write(folder, evidence, manifest(evidence, [what])))
     return verdict
+
+
+def places(node: Any, path: tuple[str | int, ...] = ()) -> Iterator[tuple[Any, Any]]:
+    """Every node of a document with its path, the root first."""
+    yield path, node
+    children: Any = ()
+    if isinstance(node, dict):
+        children = node.items()
+    elif isinstance(node, list):
+        children = enumerate(node)
+    for key, child in children:
+        yield from places(child, (*path, key))
+
+
+def replaced(document: Document, path: tuple[str | int, ...], value: Any) -> Document:
+    """A copy in which one node is another one."""
+    result = copy.deepcopy(document)
+    node: Any = result
+    for key in path[:-1]:
+        node = node[key]
+    node[path[-1]] = value
+    return result

@@ -14,22 +14,20 @@ import pytest
 from mcexact.analysis.sharing.allocation import shared_dimension_bound
 from mcexact.analysis.sharing.common_dimension import common_dimension
 from mcexact.analysis.sharing.separation import absence
-from mcexact.answer.codec import document, encode, plain
+from mcexact.answer.codec import document, plain
 from mcexact.derived.extended import extended_system
 from mcexact.derived.modular_system import generator
 from mcexact.errors import UsageError
 from mcexact.model import gallery
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system_file import read_system
 from tests.campaigns.allocation import drawn, drawn_neighbors
 from tests.checker.handmade import Document, changed, checked
-from tests.checker.mutations import Registration
-from tests.checker.oracles.subjects import plant_of
 from tests.checker.tables import accepts, rejects
 from tests.oracle.allocation import Neighbors, demands
 from tests.oracle.draws import exact
 from tests.oracle.enumeration import PlainSystem
-from tests.oracle.enumeration import plain as plain_of
 
 SHARES = ("outputs+states", "states")
 
@@ -58,28 +56,6 @@ def starved(rng: random.Random) -> tuple[PlainSystem, list[list[int]]]:
     return PlainSystem(A, B, C), [sorted(N_i) for N_i in heard]
 
 
-def draw(seed: int) -> Document:
-    """What a drawn plant needs if all agents share the same."""
-    rng = random.Random(seed)
-    small = drawn(rng, 3, 3)
-    system = exact(small, rng.choice(["continuous", "discrete"]))
-    graph = NeighborGraph(system.names, drawn_neighbors(rng, small.m))
-    share: Any = rng.choice(SHARES)
-    made: Document = json.loads(encode(common_dimension(system, graph, share)))
-    return made
-
-
-def confirms(made: Document) -> bool:
-    """Whether all subsets together ask for the dimension claimed."""
-    claim, plant = made["claim"], plant_of(made)
-    graph = plant.neighbors or NeighborGraph.empty(plant.names)
-    heard = [list(graph.neighborhood(i)) for i in range(graph.m)]
-    least = enumerated(plain_of(plant), heard, claim["share"])
-    return bool(claim["dimension"] == least and claim["feasible"] == (least is not None))
-
-
-ORACLE = Registration(draw, confirms)
-
 PLANT = gallery.load("liu2020-3ch-no-communication")
 RING = NeighborGraph.ring(PLANT.names)
 UNITS = [[int(i == k) for k in range(4)] for i in range(4)]
@@ -99,7 +75,8 @@ def sharing(system: MultiChannelSystem, *arguments: Any) -> Document:
 
 def enough(made: Document, k: int) -> Document:
     """The evidence that k dimensions of each agent are enough."""
-    plant, share = plant_of(made), made["claim"]["share"]
+    plant = read_system(json.dumps({"format": "mcexact-system/1", **made["system"]}))
+    share = made["claim"]["share"]
     extended = extended_system(plant, [k] * plant.m, share)
     found: Document = plain(absence(extended, None, generator(extended, "common_dimension")))
     return found

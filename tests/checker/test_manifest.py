@@ -26,12 +26,13 @@ from tests.checker.manifests import (
     SENTENCES,
     manifest,
     one,
+    places,
+    replaced,
     said,
     sentence,
     text_of,
     write,
 )
-from tests.checker.mutations import places, replaced
 
 ABOUT = f"For the plant {digest(read_plant(PAPER))}"
 SHARED = "sub-state with its neighbors, without delay"

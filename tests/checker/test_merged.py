@@ -23,7 +23,6 @@ from tests.checker.handmade import (
     matrix,
     without,
 )
-from tests.checker.mutations import Tally, attack, registrations
 from tests.checker.tables import accepts, rejects
 
 
@@ -105,15 +104,6 @@ REJECTED = [
 
 test_a_true_claim_about_a_merged_plant_is_accepted = accepts(ACCEPTED)
 test_anything_else_is_rejected = rejects(REJECTED)
-
-
-@pytest.mark.parametrize("document", [FIRST_TWO, LAST_TWO, OUTER_TWO, APART])
-def test_no_mutant_is_accepted_for_nothing(document: Document) -> None:
-    registered, tally = registrations()[document["kind"]], Tally()
-    assert registered.confirms(document)
-    attack(document, registered, tally)
-    assert tally.failures == []
-    assert sum(tally.rejected.values()) > tally.mutants / 2
 
 
 def test_the_theorem_names_the_channels_that_are_taken_as_one() -> None:

@@ -12,7 +12,8 @@ from mcexact.crosschecks.table import crosscheck
 from mcexact.derived.dual import dual
 from mcexact.errors import UsageError
 from mcexact.model.system import MultiChannelSystem
-from tests.checker.oracles.spine import _roots
+from tests.attack.oracle.algebra import fraction_polynomial
+from tests.attack.oracle.roots import inside
 from tests.oracle.enumeration import (
     characteristic_polynomial,
     controllable_dimension,
@@ -49,9 +50,7 @@ def fixed_modes(system):
 
 def stability(system):
     factors = irreducible_factors(characteristic_polynomial(plain(system).A))
-    found = [root for p in factors for root in _roots(p)]
-    inside = (root.real if system.time == "continuous" else abs(root) - 1 for root in found)
-    return yes(max(inside) < -1e-20)
+    return yes(all(inside(fraction_polynomial(p), system.time, None) for p in factors))
 
 
 ORACLES = {

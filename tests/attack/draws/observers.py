@@ -26,12 +26,18 @@ def _drawn(rng: random.Random, nrows: int, ncols: int) -> fmpq_mat:
     return fmpq_mat(nrows, ncols, [int(v) for row in rows for v in row])
 
 
-def observer_program(rng: random.Random, system: System) -> Document:
+def observer_program(rng: random.Random, system: System, extra: int = 0) -> Document:
     """Programs x_i' = (A + Σ B_j F_j) x_i + K_i (C_i x_i − y_i) + Σ H_ij (x_i − x_j) + G_i z_i.
 
-    u_i = F_i x_i, and z_i is driven by C_i x_i − y_i and by itself.
+    u_i = F_i x_i, and z_i is driven by C_i x_i − y_i and by itself.  With ``extra`` every agent
+    shares more entries, which stay 0.
     """
     n = system.n
+
+    def padded(M: fmpq_mat, nrows: int, ncols: int) -> list[list[int | str]]:
+        rows = [row + [0] * (ncols - len(row)) for row in _rows(M)]
+        return rows + [[0] * ncols for _ in range(nrows - len(rows))]
+
     F = [_drawn(rng, B.ncols(), n) for B in system.B]
     loop = system.A
     for B, gain in zip(system.B, F, strict=True):
@@ -44,41 +50,43 @@ def observer_program(rng: random.Random, system: System) -> Document:
         for j in heard:
             H = _drawn(rng, n, n)
             own = own + H
-            others[system.names[j]] = _rows(-H)
+            others[system.names[j]] = padded(-H, n + extra, n + extra)
         L = _drawn(rng, k, system.C[i].nrows())
         agents.append(
             {
                 "name": name,
-                "shared": n,
+                "shared": n + extra,
                 "private": k,
                 "shared_update": {
-                    "outputs": {name: _rows(-K)},
-                    "shared": {name: _rows(own), **others},
-                    "private": _rows(_drawn(rng, n, k)),
+                    "outputs": {name: padded(-K, n + extra, K.ncols())},
+                    "shared": {name: padded(own, n + extra, n + extra), **others},
+                    "private": padded(_drawn(rng, n, k), n + extra, k),
                 },
                 "private_update": {
                     "outputs": {name: _rows(-L)},
-                    "shared": {name: _rows(L * system.C[i])},
+                    "shared": {name: padded(L * system.C[i], k, n + extra)},
                     "private": _rows(_drawn(rng, k, k)),
                 },
-                "input": {"shared": {name: _rows(F[i])}},
+                "input": {"shared": {name: padded(F[i], F[i].nrows(), n + extra)}},
             }
         )
     return {"time": system.time, "agents": agents}
 
 
-def drawn_observer(rng: random.Random, plant: Document | None = None) -> Document | None:
+def drawn_observer(
+    rng: random.Random, plant: Document | None = None, extra: int = 0
+) -> Document | None:
     """A true certificate; the claim comes from the matrices in the coordinates of the errors."""
     if plant is None:
         plant = drawn_plant(rng, graph=True, most=2)
         plant.pop("delays", None)
     system = subject_of({"system": plant, "subject": []})
-    steps = [{"construction": "closed_loop", "controller": observer_program(rng, system)}]
+    steps = [{"construction": "closed_loop", "controller": observer_program(rng, system, extra)}]
     loop = subject_of({"system": plant, "subject": steps})
     n, starts, position = system.n, [], system.n
     for agent in steps[0]["controller"]["agents"]:  # type: ignore[index]
         starts.append(position)
-        position += n + agent["private"]
+        position += agent["shared"] + agent["private"]
     rows = loop.A.tolist()
     # adding the columns of every x_i to those of x, and subtracting the rows of x from those of x_i
     for row in rows:

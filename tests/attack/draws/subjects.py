@@ -15,7 +15,7 @@ CONSTRUCTIONS = (
     "augmented_outputs", "dual", "feedback", "full_output", "arcs", "extended", "lifted", "held",
     "integrators", "error", "merged", "closed_loop",
 )  # fmt: skip
-NEEDS_GRAPH = ("augmented_outputs", "extended", "lifted", "held", "error")
+NEEDS_GRAPH = ("arcs", "augmented_outputs", "extended", "lifted", "held", "error")
 LARGEST = 12
 
 
@@ -44,11 +44,10 @@ def drawn_step(rng: random.Random, name: str, system: System) -> Document | None
             return None
         step["channel"] = rng.choice(system.names)
     elif name == "arcs":
-        heard = system.heard or [(i,) for i in range(m)]
-        free = [(j, i) for j in range(m) for i in range(m) if j not in heard[i]]
+        free = [(j, i) for j in range(m) for i in range(m) if j not in system.graph()[i]]
         if not free:
             return None
-        chosen = sorted(rng.sample(free, rng.randint(1, len(free))))
+        chosen = rng.sample(free, rng.randint(1, len(free)))
         step["added"] = [[system.names[j], system.names[i]] for j, i in chosen]
     elif name in ("extended", "lifted", "held"):
         if name != "held":
@@ -102,6 +101,8 @@ def _drawn_map(
                 part[system.names[j]] = _drawn_table(rng, nrows, width, values)
         if part:
             made[kind] = part
+    if system.C[i].nrows() and rng.random() < 0.1:
+        made["reference"] = _drawn_table(rng, nrows, system.C[i].nrows(), values)
     if private and rng.random() < 0.6:
         made["private"] = _drawn_table(rng, nrows, private, values)
     return made

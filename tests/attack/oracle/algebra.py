@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from fractions import Fraction
 from itertools import pairwise
 
 from flint import fmpq, fmpq_mat, fmpq_poly
@@ -70,6 +71,11 @@ def quotient_polynomial(A: fmpq_mat, K: fmpq_mat) -> fmpq_poly:
     return fmpq_mat(
         size, size, [moved[i][j] for i in range(rank, n) for j in range(rank, n)]
     ).charpoly()
+
+
+def fraction_polynomial(values: Iterable[Fraction]) -> fmpq_poly:
+    """The polynomial of these coefficients, constant term first."""
+    return fmpq_poly([fmpq(v.numerator, v.denominator) for v in values])
 
 
 def monic(p: fmpq_poly) -> fmpq_poly:

@@ -11,7 +11,7 @@ from flint import fmpq_mat
 from .algebra import below, beside, identity, selection, stacked
 from .controllers import closed_loop
 from .networks import held, lifted
-from .reading import demand, edges, integer, listed, matrix, place, positions, record
+from .reading import demand, integer, listed, matrix, place, positions, record
 from .systems import System, read_plant
 
 
@@ -69,9 +69,9 @@ def full_output(system: System, given: Mapping[str, Any]) -> System:
 
 def arcs(system: System, given: Mapping[str, Any]) -> System:
     """Every link [j, i] that is added makes j a member of N_i."""
-    added = edges(given["added"], system.names)
-    heard = [set(h) for h in system.heard or [(i,) for i in range(system.m)]]
-    for j, i in added:
+    heard = [set(h) for h in system.graph()]
+    for source, target in (listed(edge, 2) for edge in listed(given["added"])):
+        j, i = place(source, system.names), place(target, system.names)
         demand(j not in heard[i], "expected links that the graph lacks")
         heard[i].add(j)
     return replace(system, heard=tuple(tuple(sorted(h)) for h in heard))

@@ -46,7 +46,7 @@ def read_agents(system: System, value: Any) -> list[Agent]:
 def _read_map(
     system: System, agents: Sequence[Agent], i: int, value: Any, nrows: int
 ) -> dict[tuple[str, int], fmpq_mat]:
-    found = record(value, optional=("outputs", "shared", "private"))
+    found = record(value, optional=("outputs", "shared", "private", "reference"))
     heard = (system.heard or [(k,) for k in range(system.m)])[i]
     parts: dict[tuple[str, int], fmpq_mat] = {}
     for kind in ("outputs", "shared"):
@@ -56,6 +56,8 @@ def _read_map(
             parts[kind, j] = sparse(M, nrows, width)
     if found.get("private") is not None:
         parts["private", i] = sparse(found["private"], nrows, agents[i].private)
+    if found.get("reference") is not None:
+        parts["reference", i] = sparse(found["reference"], nrows, system.C[i].nrows())
     return parts
 
 
@@ -138,6 +140,8 @@ class Loop:
         """What a map of agent i gives, as rows over the whole state."""
         result = fmpq_mat(nrows, self.total)
         for (kind, j), M in self.agents[i].maps[label].items():
+            if kind == "reference":
+                continue  # a set-point is an input from outside, not a part of the loop
             steps = 0 if kind == "private" else self.age(kind, j, i)
             demand(steps == 0 or self.system.time == "discrete", "a delay in continuous time")
             result = result + M * self.signal((kind, j, steps))

@@ -46,9 +46,10 @@ def distributed_observer(claim: Any, document: Mapping[str, Any], system: System
     n, total = plant.n, system.n
     agents = read_agents(plant, steps[-1]["controller"])
     layout = Loop(plant, agents)
-    if any(agent.shared != n for agent in agents) or any(k for _, _, k in layout.size):
+    if any(agent.shared != n for agent in agents):
         return False
-    # messages under way that have no entries are also messages
+    if any(steps and size for (_, _, steps), size in layout.size.items()):
+        return False  # messages are under way
     T, back = identity(total), identity(total)
     for i in range(plant.m):
         for k in range(n):

@@ -5,11 +5,11 @@ from __future__ import annotations
 import random
 from typing import Any
 
-from .draws.plants import Document
-from .mutators import SMALL_MODULI, at, change_node, change_number, nodes, other_modulus, put
+from ..draws.plants import Document
+from ..mutators import SMALL_MODULI, at, change_node, change_number, nodes, other_modulus, put
 
 
-def forged(rng: random.Random, document: Document) -> Document:
+def altered(rng: random.Random, document: Document) -> Document:
     """A false or at least another claim, and a witness that may go with it."""
     for _ in range(rng.choice((1, 1, 2))):
         (change_number if rng.random() < 0.6 else change_node)(rng, document, "claim")

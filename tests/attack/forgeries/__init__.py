@@ -1,0 +1,48 @@
+"""Claims that are plausible and false, with all of a proof but one part of it.
+
+Each forger takes a true certificate and gives a document that is false, or at least is proved in no
+way: the one condition that stands against it is meant to be found by leaving it out.
+"""
+
+from __future__ import annotations
+
+import random
+
+from ..draws.plants import Document
+from . import loops, modes, sharing, structure, subjects
+from .anything import altered
+
+FORGERS = {
+    "assignability": structure.ASSIGNABILITY,
+    "closed_loop_spectrum": loops.SPECTRUM,
+    "common_dimension": sharing.COMMON,
+    "communication": sharing.LINKS,
+    "complementary_subsystem": structure.COMPLEMENTARY,
+    "completeness": modes.COMPLETENESS,
+    "controllability": structure.CONTROLLABILITY,
+    "controllability_indices": structure.INDICES,
+    "deficiency": modes.DEFICIENCY,
+    "distributed_observer": loops.OBSERVER,
+    "exceptional_gains": modes.EXCEPTIONAL,
+    "fixed_spectrum": modes.SPECTRUM,
+    "pencil_rank": modes.PENCIL,
+    "setpoint": structure.SETPOINT,
+    "shared_dimensions": sharing.DIMENSIONS,
+    "single_channel_gains": modes.SINGLE,
+    "stability": loops.STABILITY,
+    "transfer_graph": structure.GRAPH,
+}
+
+
+def forged(rng: random.Random, document: Document) -> Document:
+    """One forgery of the kind, or of any kind."""
+    own = FORGERS.get(document["kind"], ())
+    if own and rng.random() < 0.7:
+        made = rng.choice(own)(rng, document)
+        if made is not None:
+            return made
+    if document["subject"] and rng.random() < 0.3:
+        made = subjects.other_subject(rng, document)
+        if made is not None:
+            return made
+    return altered(rng, document)

@@ -1,0 +1,32 @@
+"""The same claim about another subject, made by other constructions or in another order."""
+
+from __future__ import annotations
+
+import random
+
+from ..draws.plants import Document
+from ..draws.subjects import CONSTRUCTIONS, drawn_step
+from ..oracle.constructions import subject_of
+from ..oracle.reading import Unspecified
+
+
+def other_subject(rng: random.Random, document: Document) -> Document | None:
+    """One change of the list of constructions."""
+    steps = document["subject"]
+    k = rng.randrange(len(steps) + 1)
+    what = rng.randrange(4)
+    if what == 0 and k < len(steps):
+        del steps[k]
+    elif what == 1 and len(steps) > 1:
+        rng.shuffle(steps)
+    else:
+        try:
+            system = subject_of(document, k)
+            name = steps[k]["construction"] if what == 2 and k < len(steps) else None
+            step = drawn_step(rng, name or rng.choice(CONSTRUCTIONS), system)
+        except (Unspecified, ValueError):
+            return None
+        if step is None:
+            return None
+        steps[k : k + bool(name)] = [step]
+    return document

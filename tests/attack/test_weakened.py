@@ -1,0 +1,32 @@
+"""The copy of the checker whose conditions can be left out."""
+
+from __future__ import annotations
+
+from mcexact.checker import check_document
+from tests.attack.campaign import checked
+from tests.attack.conditions import GATES, weakened_checker
+from tests.attack.harmless import HARMLESS
+from tests.attack.tries import drawn_batch, tries
+from tests.attack.weakened import search
+
+
+def test_the_copy_says_what_the_checker_says() -> None:
+    copy = weakened_checker().check_document
+    GATES.open = None
+    for number in range(4):
+        for made in tries(number, drawn_batch(number)):
+            found, expected = checked(made.document, copy), checked(made.document, check_document)
+            assert found is not None
+            assert expected is not None
+            assert found.line() == expected.line()
+
+
+def test_forgeries_pass_where_a_condition_is_left_out() -> None:
+    sites, holes = search(2000, processes=1)
+    assert len(sites) > 150
+    assert len(holes.found) > 15
+
+
+def test_what_is_explained_is_a_condition_of_the_checker() -> None:
+    weakened_checker()
+    assert HARMLESS.keys() <= {site.key for site in GATES.sites}
