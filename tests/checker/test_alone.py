@@ -272,13 +272,18 @@ def test_an_interruption_ends_with_130(hostile: Path, start: Sequence[str]) -> N
     fifo = hostile / "other"
     if not fifo.exists():
         os.mkfifo(fifo)
-    process = subprocess.Popen(
-        [sys.executable, *start, "valid.json", "other"],
-        cwd=hostile,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-    )
+    # In a background job the signal is ignored, and a process would inherit that.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        process = subprocess.Popen(
+            [sys.executable, *start, "valid.json", "other"],
+            cwd=hostile,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+    finally:
+        signal.signal(signal.SIGINT, before)
     assert process.stdout is not None
     assert process.stdout.readline().startswith("VALID ")
     while process.poll() is None:
