@@ -9,7 +9,7 @@ import pytest
 
 from mcexact.answer.account import Account
 from mcexact.answer.codec import encode
-from mcexact.checker import check_document
+from mcexact.checker import Expectation, check_document
 from mcexact.checker.manifest import manifest_verdicts
 from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.derived.extended import extended_system
@@ -45,7 +45,7 @@ def test_every_method_takes_a_plant_with_feedback(
     made = design(feedback(plant, [[[1]], [["1/2"]]]), rate=1, arithmetic=arithmetic, **options)
     for certificate in made.certificates.values():
         assert certificate.subject[0]["construction"] == "feedback"
-        verdict = check_document(encode(certificate).encode(), digest(plant))
+        verdict = check_document(encode(certificate).encode(), Expectation(system=digest(plant)))
         assert verdict.verdict == "VALID", verdict.line()
     require_implied(made.account, tmp_path)
 
@@ -92,5 +92,5 @@ def test_a_refusal_is_about_the_plant_too() -> None:
             design(feedback(plant, [[[0]], [[0]]]), rate=1)
         certificate = refusal.value.certificate
         assert certificate.subject[0]["construction"] == "feedback"
-        verdict = check_document(encode(certificate).encode(), digest(plant))
+        verdict = check_document(encode(certificate).encode(), Expectation(system=digest(plant)))
         assert verdict.verdict == "VALID", verdict.line()

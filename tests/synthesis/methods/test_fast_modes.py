@@ -5,7 +5,7 @@ from fractions import Fraction
 import pytest
 
 from mcexact.answer.codec import encode
-from mcexact.checker import check_document
+from mcexact.checker import Expectation, check_document
 from mcexact.errors import Impossible
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.location import StabilityRegion
@@ -68,7 +68,9 @@ def test_a_refusal_beside_an_unseen_mode_is_about_the_plant(B, C, kind):
     with pytest.raises(Impossible) as caught:
         design_observer(system, rate=1)
     assert caught.value.certificate.kind == kind
-    verdict = check_document(encode(caught.value.certificate).encode(), digest(system))
+    verdict = check_document(
+        encode(caught.value.certificate).encode(), Expectation(system=digest(system))
+    )
     assert verdict.verdict == "VALID", verdict.line()
 
 

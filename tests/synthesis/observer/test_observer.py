@@ -3,7 +3,7 @@
 import pytest
 
 from mcexact.answer.codec import encode
-from mcexact.checker import check_document
+from mcexact.checker import Expectation, check_document
 from mcexact.derived.feedback import feedback
 from mcexact.errors import Impossible, InputError, UsageError
 from mcexact.exact.linear_algebra import characteristic_polynomial
@@ -63,14 +63,14 @@ def test_drawn_plants_get_the_prescribed_polynomials(seed):
 def test_a_rate_is_certified():
     design = design_observer(three_channels(), rate="3/2")
     verdict = verdict_on(design.loop.proof)
-    assert verdict.verdict == "VALID" and "real part is below -3/2" in verdict.statement
+    assert verdict.verdict == "VALID" and "has real part below -3/2" in verdict.statement
 
 
 def test_a_radius_is_certified_and_met_by_deadbeat():
     design = design_observer(three_channels("discrete"), radius="1/10")
     assert design.parts["error_polynomial"] == Polynomial.of(*[0] * 11, 1)
     verdict = verdict_on(design.loop.proof)
-    assert verdict.verdict == "VALID" and "modulus is below 1/10" in verdict.statement
+    assert verdict.verdict == "VALID" and "has modulus below 1/10" in verdict.statement
 
 
 def test_gains_from_outside_are_used_as_they_are():
@@ -170,7 +170,7 @@ def test_a_derived_system_is_designed_for_like_a_plant(arithmetic):
     design = design_observer(loose, rate=1, arithmetic=arithmetic)
     certificate = design.loop.proof
     assert [each["construction"] for each in certificate.subject] == ["feedback", "closed_loop"]
-    verdict = check_document(encode(certificate).encode(), digest(plant))
+    verdict = check_document(encode(certificate).encode(), Expectation(system=digest(plant)))
     assert verdict.verdict == "VALID", verdict.line()
 
 
