@@ -5,14 +5,13 @@ from __future__ import annotations
 import builtins
 import resource
 import signal
-import sys
 from collections.abc import Iterator
 from typing import Any
 
 import pytest
 
-from mcexact.checker import Verdict, allowance
-from mcexact.checker.allowance import Clock, OutOfTime, memory, unsupported
+from mcexact.checker import Verdict
+from mcexact.checker.allowance import Clock, OutOfTime, memory
 
 ABOUT = {"file": "a.json"}
 
@@ -107,45 +106,34 @@ def test_a_limit_on_memory_is_above_what_is_occupied_and_taken_back() -> None:
     assert resource.getrlimit(resource.RLIMIT_AS) == before
 
 
-def test_more_memory_than_there_are_numbers_for_is_the_most(
-    monkeypatch: pytest.MonkeyPatch,
+def status(monkeypatch: pytest.MonkeyPatch, pages: Any) -> None:
+    """Let the system say how many pages the process occupies from a file."""
+    opened = builtins.open
+
+    def open_other(path: Any, *arguments: Any, **options: Any) -> Any:
+        return opened(pages if path == "/proc/self/statm" else path, *arguments, **options)
+
+    monkeypatch.setattr(builtins, "open", open_other)
+
+
+def test_memory_is_added_to_what_the_system_says_is_occupied(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Any
 ) -> None:
     calls: list[tuple[int, int]] = []
     monkeypatch.setattr(resource, "setrlimit", lambda which, limits: calls.append(limits))
-    monkeypatch.setattr(allowance, "_occupied", lambda: 5)
-    for hard, expected in ((resource.RLIM_INFINITY, 5 + 3 * 2**20), (2**20, 2**20)):
-        monkeypatch.setattr(resource, "getrlimit", lambda which, hard=hard: (7, hard))
-        with memory(3):
-            assert calls.pop() == (expected, hard)
-        assert calls.pop() == (7, hard)
-    monkeypatch.setattr(resource, "getrlimit", lambda which: (7, resource.RLIM_INFINITY))
-    with memory(10**30):
-        assert calls.pop() == (2**62, resource.RLIM_INFINITY)
-
-
-def test_what_is_occupied_is_what_the_system_says(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Any
-) -> None:
-    told, opened = tmp_path / "status", builtins.open
-
-    def open_other(path: Any, *arguments: Any, **options: Any) -> Any:
-        return opened(told if path == "/proc/self/status" else path, *arguments, **options)
-
-    monkeypatch.setattr(builtins, "open", open_other)
-    told.write_text("VmPeak:\t   99 kB\nVmSize:\t   17 kB\nVmLck:\t 5 kB\n")
-    assert allowance._occupied() == 17 * 1024
-    told.write_text("VmPeak:\t   99 kB\n")
-    assert allowance._occupied() == 0
-    told.unlink()
-    assert allowance._occupied() == 0
-
-
-def test_limits_that_the_platform_lacks_are_named(monkeypatch: pytest.MonkeyPatch) -> None:
-    assert unsupported(None, None) == unsupported(1.0, 1) == ""
-    with monkeypatch.context() as without:
-        without.delattr(signal, "setitimer")
-        assert "--timeout" in unsupported(1.0, None)
-        assert unsupported(None, 1) == ""
-    monkeypatch.setitem(sys.modules, "resource", None)
-    assert "--max-memory" in unsupported(None, 1)
-    assert unsupported(1.0, None) == ""
+    monkeypatch.setattr(resource, "getpagesize", lambda: 7)
+    status(monkeypatch, tmp_path / "statm")
+    (tmp_path / "statm").write_text("5 4 3 0 0 2 0\n")
+    for hard, mebibytes, most in (
+        (resource.RLIM_INFINITY, 3, 35 + 3 * 2**20),
+        (resource.RLIM_INFINITY, 10**30, 2**62),
+        (2**20, 3, 2**20),
+        (2**40, 3, 35 + 3 * 2**20),
+    ):
+        monkeypatch.setattr(resource, "getrlimit", lambda which, hard=hard: (9, hard))
+        with memory(mebibytes):
+            assert calls.pop() == (most, hard)
+        assert calls.pop() == (9, hard)
+    (tmp_path / "statm").unlink()
+    with memory(1):
+        assert calls.pop() == (2**20, 2**40)

@@ -6,14 +6,28 @@ import hashlib
 import json
 import threading
 from dataclasses import replace
+from fractions import Fraction
+from math import comb
 from typing import Any
 
 import pytest
 
 from mcexact.checker import Expectation, Limits, budget, check_document, kinds
-from mcexact.checker.arithmetic import Echelon, Matrix, poly_divide, poly_product, product, rank
+from mcexact.checker.arithmetic import (
+    Echelon,
+    Matrix,
+    poly_divide,
+    poly_modulo,
+    poly_product,
+    product,
+    rank,
+    stack,
+)
 from mcexact.checker.budget import GRANTED, PER_BYTE, Budget, current, limited
 from mcexact.checker.characteristic_polynomial import characteristic_polynomial
+from mcexact.checker.characteristic_polynomial import (
+    characteristic_polynomial_modulo as char_modulo,
+)
 from mcexact.checker.location import in_region, is_hurwitz, is_schur
 from mcexact.checker.manifest import verdicts_of
 from mcexact.checker.neighbor_graph import components
@@ -184,9 +198,9 @@ CHARGED = {
     "Routh's array": lambda: is_hurwitz(POLYNOMIAL),
     "a polynomial moved to the half-plane": lambda: is_schur(POLYNOMIAL),
     "components": lambda: components(3, []),
-    "a zero matrix": lambda: Matrix.zeros(10**9, 10**9),
-    "unit rows": lambda: Matrix.unit_rows(10**9, 0, 10**9),
-    "a transpose": lambda: Matrix([], 10**12).T,
+    "a zero matrix": lambda: Matrix.zeros(1000, 1000),
+    "unit rows": lambda: Matrix.unit_rows(1000, 0, 1000),
+    "a transpose": lambda: Matrix([], 10**5).T,
 }
 
 
@@ -194,6 +208,39 @@ CHARGED = {
 def test_a_step_is_charged_before_it_is_done(step: str) -> None:
     with limited(Budget(0, 0, grows=False)), pytest.raises(Refused, match="units of work"):
         CHARGED[step]()
+
+
+LONG = Matrix(
+    [[7**320 + pow(3 * i + 5, j + 2, 101) for j in range(12)] for i in range(12)], 12, 5**100
+)
+"""A matrix of 12 × 12 numbers of 30 limbs."""
+ELL = 10**270 + 7
+FACTORS = [Fraction(c, 3**50) for c in LONG.rows[0]]
+LEAST = {
+    "a product": (lambda: LONG @ LONG, 12**3 * 58),
+    "a sum": (lambda: LONG + LONG, 12**2 * 450),
+    "a multiple": (lambda: LONG.times(Fraction(3**50, 7)), 12**2 * 150),
+    "residues": (lambda: LONG.modulo(ELL), 12**2 * 300),
+    "matrices on each other": (lambda: stack([LONG, LONG], 12), 2 * 12**2 * 150),
+    "a rank": (lambda: rank(LONG), 12**2 * 600),
+    "a row of an echelon form": (lambda: Echelon(ELL).add(LONG.rows[0]), 12 * 400),
+    "a polynomial modulo a number": (lambda: poly_modulo(FACTORS, ELL), 12 * 2000),
+    "a characteristic polynomial": (lambda: characteristic_polynomial(LONG), 12**3 * 5000),
+    "one modulo a number": (lambda: char_modulo(LONG.rows, ELL), 12**3 * 110),
+    "Routh's array": (
+        lambda: is_hurwitz([Fraction(comb(60, k) * 3**k) for k in range(61)]),
+        60**2 * 360,
+    ),
+}
+
+
+@pytest.mark.parametrize("step", LEAST)
+def test_a_step_is_charged_for_its_size(step: str) -> None:
+    run, least = LEAST[step]
+    allowed = Budget(10**12, 0, grows=False)
+    with limited(allowed):
+        run()
+    assert allowed.spent >= least
 
 
 @pytest.mark.parametrize("change", [("claim.bound", "1/3"), ("subject", [])])

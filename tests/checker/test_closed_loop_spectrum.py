@@ -50,6 +50,8 @@ ACCEPTED = [
 ]
 
 REJECTED = [
+    ("a controller for the other time domain", LOOP, ("subject.0.controller.time", "discrete")),
+    ("a plant in the other time domain", LOOP, ("system.time", "discrete")),
     ("another polynomial", LOOP, ("claim.polynomial", [9, 6, 1])),
     ("equal modulo ℓ only", LOOP, ("claim.polynomial", [8 + 101 * 103, 6, 1])),
     ("too few moduli", LOOP, ("witness.moduli", [101])),

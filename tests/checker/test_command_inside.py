@@ -154,8 +154,10 @@ def test_help_is_no_wrong_usage(capsys: pytest.CaptureFixture[str]) -> None:
 def test_limits_that_the_platform_lacks_are_wrong_usage(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(command, "unsupported", lambda *limits: "no such limits here")
-    assert main(["valid.json"]) == 2
+    monkeypatch.setattr(command, "SUPPORTED", False)
+    assert main(["valid.json"]) == 0
+    assert main(["valid.json", "--timeout", "900"]) == 2
+    assert main(["valid.json", "--max-memory", "100000"]) == 2
 
 
 def test_every_limit_reaches_the_reader(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -50,6 +50,7 @@ ACCEPTED = [
 ]
 
 REJECTED = [
+    ("ranks that nobody reaches", INDICES, ("claim.channels", [])),
     ("a rank that is claimed once more", NO_INDEX, ("claim.ranks", [1, 1])),
     ("ranks that fall", INDICES, ("claim.ranks", [2, 1])),
     ("a plant whose ranks stop early modulo ℓ", THREE, ("witness.modulus", 5)),

@@ -9,7 +9,7 @@ from mcexact.answer.codec import document
 from mcexact.model import gallery
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from tests.checker.handmade import Document, changed, matrix
+from tests.checker.handmade import Document, changed, checked, matrix
 from tests.checker.tables import accepts, rejects
 
 PLANT = gallery.load("liu2020-3ch-no-communication")
@@ -126,3 +126,9 @@ REJECTED = [
 
 test_sound_evidence_is_accepted = accepts(ACCEPTED)
 test_a_change_of_one_place_is_rejected = rejects(REJECTED)
+
+
+def test_the_statement_says_whether_a_connected_graph_is_required() -> None:
+    for each, required in ((FREE, True), (BOTH, False), (STATES, False), (NOTHING, False)):
+        said = checked(each).statement
+        assert ("strongly connected transfer graph" in said) == required

@@ -1,0 +1,3 @@
+"""These files test the tests; Cosmic Ray, which some of them import, is only there for them."""
+
+collect_ignore_glob = ["*.py"]
