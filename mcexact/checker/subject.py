@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 from .budget import spend
@@ -33,4 +34,6 @@ def read_subject(value: Any, plant: System) -> System:
         spend(1000 + 200 * system.m + len(system.words))
         parameters = {key: part for key, part in step.items() if key != "construction"}
         system = CONSTRUCTIONS[name](system, parameters, place)
+        if name != closed_loop.__name__:  # what is made from a loop has not the parts of its state
+            system = replace(system, blocks=())
     return system

@@ -72,6 +72,16 @@ EXCHANGED = {"feedback": [4, 1], "error": [2, 1], "bound": None}
 OUTPUT = "subject.0.controller.agents.0.shared_update.outputs.1"
 
 REJECTED = [
+    (
+        "channels of the loop merged, though it has none",
+        ONE,
+        ("subject", [*ONE["subject"], {"construction": "merged", "parts": []}]),
+    ),
+    (
+        "gains for no channel of the loop",
+        ONE,
+        ("subject", [*ONE["subject"], {"construction": "feedback", "gains": []}]),
+    ),
     ("feedback and error exchanged", ONE, ("claim", EXCHANGED)),
     ("the wrong feedback polynomial", ONE, ("claim.feedback", [3, 1])),
     ("the wrong error polynomial", ONE, ("claim.error", [5, 1])),
