@@ -12,7 +12,7 @@ from typing import Any
 
 from . import budget, reading
 from .arithmetic import Matrix
-from .budget import build, counted, current, limited, spend
+from .budget import build, current, limited, spend
 from .reading import (
     Limits,
     fields,
@@ -143,7 +143,7 @@ def read_system(value: Any, limits: Limits | None = None) -> System:
         malformed("system", "expected a square A and at least one channel")
     B, C, names = [], [], []
     spend(4 * len(listed) ** 2)  # names are compared, and delays looked up, for every pair
-    for k, channel in enumerate(counted(listed)):
+    for k, channel in enumerate(listed):
         where = f"channels[{k}]"
         B_rows, C_rows, name, D = fields(channel, where, "B", "C", optional=("name", "D"))
         B.append(read_matrix(B_rows, f"{where}.B", A.nrows, None, limits))

@@ -66,8 +66,15 @@ def judged(document: Mapping[str, Any]) -> tuple[str, str]:
 
 
 def parsed(made: Any) -> Any:
-    """The document of a try that was accepted."""
-    return json.loads(made) if isinstance(made, str) else made
+    """The document of a try that was accepted; a key that is given twice makes it none."""
+    if not isinstance(made, str):
+        return made
+
+    def object_of(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+        found = dict(pairs)
+        return found if len(found) == len(pairs) else {"twice": True}
+
+    return json.loads(made, object_pairs_hook=object_of)
 
 
 def rows_of(attempt: Try, batch: Batch) -> list[tuple[str, str]]:

@@ -1,5 +1,73 @@
-"""Conditions without which nothing false is accepted, and why they are there."""
+"""Conditions without which nothing false is accepted, and why that is so."""
 
 from __future__ import annotations
 
-HARMLESS: dict[str, str] = {}
+SHAPE = "what follows fails as well: the rows or columns named have to form an identity matrix"
+UNREAD = "the field is read nowhere: it may hold nothing, so that a claim has one form of proof"
+RAISES = "without it the same document raises an error a few lines later, which is not VALID"
+USERS = "about files or wishes of a user, which no certificate reaches; tests/checker has its tests"
+CANONICAL = "the object `system` has to be equal to its canonical form as well"
+
+# The keys are conditions as they stand in the checker.
+# ruff: noqa: E501
+HARMLESS: dict[str, str] = {
+    "arithmetic.py: inverse: math.gcd(number, ell) != 1": RAISES,
+    "assignability.py: _require_minimal: len(columns) != d": SHAPE,
+    "closed_loop_spectrum.py: require_spectrum: len(p) == A.nrows + 1": (
+        "polynomials of different degrees differ modulo every modulus, being monic"
+    ),
+    "closed_loop_spectrum.py: require_spectrum: math.gcd(D, ell) == 1": (
+        "the matrix cannot be reduced modulo a number that divides a denominator"
+    ),
+    "common_dimension.py: check: (cut is not None) == needed": UNREAD,
+    "communication.py: check: (sizes is None) == (share == 'outputs')": (
+        "the statement cannot be made, and the document is refused for that"
+    ),
+    "complementary_subsystem.py: check: v <= n": "no matrix has a negative number of rows",
+    "complementary_subsystem.py: check: free >= 0": "no matrix has a negative number of columns",
+    "controllability.py: check: len(pivots) == n - d": SHAPE,
+    "covering.py: require_bound: bool(boxes)": RAISES,
+    "covering.py: require_bound: label not in self.labels": RAISES,
+    "covering.py: _cut: integer(number, place) >= len(self.cuts)": RAISES,
+    "deficiency.py: check: coefficients is None": UNREAD,
+    "deficiency.py: check: subspace is None": UNREAD,
+    "controller.py: read_controller: limits is not None and (not agents)": USERS,
+    "controller.py: read_controller_file: version != FORMAT": USERS,
+    "expectation.py: saying: not text.isascii() or not text.startswith('For ') or len(text.splitlines()) != 1": USERS,
+    "expectation.py: require_plant: self.system in ('', found)": USERS,
+    "expectation.py: require_plant: self.made_for in ('', found)": USERS,
+    "expectation.py: require_controller: bool(found)": USERS,
+    "expectation.py: require_controller: found == self.controller": USERS,
+    "expectation.py: require_said: self.statement in ('', digest_of(statement))": USERS,
+    "expectation.py: require_said: self.claim is None or same(claim, self.claim)": USERS,
+    "system.py: _check_unused: period is not None and (period <= 0 or plant.time != 'discrete')": USERS,
+    "system.py: _require_no_feedthrough: D is not None and (not read_matrix(D, place, None, None, limits).is_zero())": USERS,
+    "system.py: read_system_file: not isinstance(document, dict) or document.get('format') != 'mcexact-system/1'": USERS,
+    "fixed_spectrum.py: check: completion is None": UNREAD,
+    "kinds.py: _parts: not isinstance(document, Mapping)": RAISES,
+    "pencil_rank.py: check: len(pivots) == c - r": SHAPE,
+    "reading.py: parse: depth > limits.depth": "no kind reads anything that is nested so deep",
+    "reading.py: fields: not isinstance(value, Mapping)": RAISES,
+    "reading.py: fields: key in optional and value[key] is None": RAISES,
+    "reading.py: polynomial_matrix: not 1 <= len(items(layers, f'{place}.coefficients')) <= degree": (
+        "no layer is a matrix of zeros; a layer too many has no coefficient of p to go with it"
+    ),
+    "region.py: require_absence: times == integer(power, where, 1)": (
+        "the exponent is computed, and the claimed one only compared"
+    ),
+    "root_discs.py: root_discs: slope > 0": (
+        "a disc around a multiple root leaves fewer roots than there are other discs, which are "
+        "disjoint and hold one each"
+    ),
+    "setpoint.py: check: r <= rows": "no matrix has a negative number of rows",
+    "setpoint.py: check: len(pivots) == rows - r": SHAPE,
+    "setpoint.py: check: row is None": UNREAD,
+    "setpoint.py: check: x0 is None": UNREAD,
+    "single_channel_gains.py: check: cyclic or b is None": UNREAD,
+    "stability.py: check: block.stop <= M.nrows": RAISES,
+    "subject.py: read_subject: not isinstance(step, dict) or type(step.get('construction')) is not str": RAISES,
+    "system.py: _with_graph: len(set(found)) < len(found)": CANONICAL,
+    "transfer_graph.py: require_arcs: k < system.n": (
+        "a power beyond n shows an edge as well; the condition bounds the work"
+    ),
+}  # fmt: skip

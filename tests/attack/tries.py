@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import random
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -16,11 +17,13 @@ from .mutators import (
     EDITS,
     LARGE_PRIMES,
     PARTS,
+    at,
     change_node,
     change_number,
     change_token,
     copied,
     crossed,
+    nodes,
     other_gains,
     other_modulus,
     permuted,
@@ -207,10 +210,20 @@ def _names(batch: Batch) -> list[str]:
     return [channel["name"] for channel in batch.original["system"]["channels"]]
 
 
+def _key_twice(batch: Batch) -> Made:
+    """A key of an object given twice, with another value the first or the second time."""
+    document = copied(batch.original)
+    found = [(p, v) for p, v in nodes(document) if isinstance(p[-1], str)]
+    path, value = batch.rng.choice(found)
+    parent = at(document, path[:-1])
+    parent[f"{path[-1]}@@"] = batch.rng.choice((None, 0, [], value))
+    return "key twice", json.dumps(document).replace("@@", "")
+
+
 def _renamed(batch: Batch) -> Made:
     """New names, or the old ones in another order, in all parts or in some."""
     names = _names(batch)
-    fresh = batch.rng.sample(["x", "y", "z", "ü", "1", "2", '"', "1+2"], len(names))
+    fresh = batch.rng.sample(["x", "y", "z", "ü", "1", "2", '"', "1+2", "\n"], len(names))
     new = batch.rng.choice((fresh, batch.rng.sample(names, len(names))))
     mapping = dict(zip(names, new, strict=True))
     if batch.rng.random() < 0.5:
@@ -264,6 +277,7 @@ MUTATORS = {
     "crossed": (10, _crossed),
     "another kind": (1, _kind_swapped),
     "kept": (10, _kept),
+    "key twice": (1, _key_twice),
     "renamed": (4, _renamed),
     "permuted": (4, _permuted),
     "perturbed": (5, _perturbed),

@@ -9,7 +9,8 @@ from __future__ import annotations
 import random
 
 from ..draws.plants import Document
-from . import loops, modes, sharing, structure, subjects
+from ..mutators import SMALL_MODULI, other_modulus
+from . import gains, loops, modes, sharing, structure, subjects
 from .anything import altered
 
 FORGERS = {
@@ -23,12 +24,12 @@ FORGERS = {
     "controllability_indices": structure.INDICES,
     "deficiency": modes.DEFICIENCY,
     "distributed_observer": loops.OBSERVER,
-    "exceptional_gains": modes.EXCEPTIONAL,
+    "exceptional_gains": gains.EXCEPTIONAL,
     "fixed_spectrum": modes.SPECTRUM,
     "pencil_rank": modes.PENCIL,
     "setpoint": structure.SETPOINT,
     "shared_dimensions": sharing.DIMENSIONS,
-    "single_channel_gains": modes.SINGLE,
+    "single_channel_gains": gains.SINGLE,
     "stability": loops.STABILITY,
     "transfer_graph": structure.GRAPH,
 }
@@ -36,10 +37,16 @@ FORGERS = {
 
 def forged(rng: random.Random, document: Document) -> Document:
     """One forgery of the kind, or of any kind."""
+    if rng.random() < 0.1:
+        made = subjects.colliding_names(rng, document)
+        if made is not None:
+            return made
     own = FORGERS.get(document["kind"], ())
     if own and rng.random() < 0.7:
         made = rng.choice(own)(rng, document)
         if made is not None:
+            if rng.random() < 0.1:
+                other_modulus(rng, made, SMALL_MODULI)
             return made
     if document["subject"] and rng.random() < 0.3:
         made = subjects.other_subject(rng, document)

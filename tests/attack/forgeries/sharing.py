@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 import itertools
+import json
 import math
 import random
 from collections.abc import Callable, Sequence
 from fractions import Fraction
 
+import mcexact
+from mcexact.answer import codec
+from mcexact.model.system_file import read_system
+
 from ..draws.plants import Document, number
+from ..mutators import copied
 from ..oracle.constructions import arcs as with_arcs
 from ..oracle.constructions import augmented_outputs, extended, subject_of
 from ..oracle.reading import demand
@@ -223,6 +229,66 @@ def other_common_dimension(rng: random.Random, document: Document) -> Forged:
     return document
 
 
+def another_cut(rng: random.Random, document: Document) -> Forged:
+    """The cut of a common dimension taken for one about other agents."""
+    system, claim, witness = subject_of(document), document["claim"], document["witness"]
+    cut = witness["cut"]
+    if cut is None:
+        return None
+    cut["subset"] = [name for name in system.names if rng.random() < 0.5]
+    s = {system.names.index(name) for name in cut["subset"]}
+    around = {j for i in s for j in system.graph()[i]} - s
+    if not around:
+        claim |= {"feasible": False, "dimension": None}
+        witness["absence"] = None
+        return document
+    k = -(-cut["deficiency"] // len(around))
+    claim |= {"feasible": True, "dimension": k}
+    step = {"share": claim["share"], "dimensions": [k] * system.m}
+    witness["absence"] = absence(rng, extended(system, step))
+    return document
+
+
+def slack_cut(rng: random.Random, document: Document) -> Forged:
+    """Two integrators that agent 1 drives and agent 2 measures, and a weaker cut beside the cut.
+
+    A negative multiplier of a cut that is met with room to spare would prove any cost.
+    """
+    names = ["1", "2"]
+    ports = ([[1, 0], [0, 1]], {"shape": [0, 2], "entries": []}), ([[], []], [[1, 0], [0, 1]])
+    channels = [{"name": i, "B": B, "C": C} for i, (B, C) in zip(names, ports, strict=True)]
+    plant = {
+        "time": document["system"]["time"],
+        "A": [[0, 0], [0, 0]],
+        "channels": channels,
+        "neighbors": {"1": ["2"], "2": []},
+    }
+    text = json.dumps({"format": "mcexact-system/1", **plant})
+    found = mcexact.minimal_shared_dimensions(read_system(text), None, "states")
+    made: Document = copied(codec.document(found))
+    system, claim, witness = subject_of(made), made["claim"], made["witness"]
+    cuts = witness["cuts"]
+    if not cuts or max(cut["deficiency"] for cut in cuts) < 2:
+        return None
+    cuts += [{**cut, "deficiency": cut["deficiency"] - 1} for cut in copied(cuts)]
+    cuts[:] = [cut for cut in cuts if cut["deficiency"]]
+    sizes = [d + rng.choice((0, 1)) for d in claim["dimensions"]]
+    claim |= {"dimensions": sizes, "cost": sum(sizes)}
+    step = {"share": "states", "dimensions": sizes}
+    witness["absence"] = absence(rng, extended(system, step))
+    needed = []
+    for cut in cuts:
+        s = {names.index(name) for name in cut["subset"]}
+        around = {j for i in s for j in system.graph()[i]} - s
+        needed.append((around, cut["deficiency"]))
+    value = Fraction(sum(sizes))
+    tree = Tree(
+        [Fraction(1)] * 2, needed, value, lambda i, k: {"agent": names[i], "at_most": k}, True
+    )
+    witness["tree"] = tree.built([0, 0], _upper(claim, value))
+    return made
+
+
 def other_links(rng: random.Random, document: Document) -> Forged:
     """Links that are no candidates, or cost something else, or are more than needed."""
     system, claim = subject_of(document), document["claim"]
@@ -276,6 +342,7 @@ def other_bound(rng: random.Random, document: Document) -> Forged:
 
 DIMENSIONS = (
     other_dimensions, other_dimensions, other_dimensions, nothing_suffices, free_cost, other_bound,
+    slack_cut,
 )  # fmt: skip
-COMMON = (other_common_dimension,)
+COMMON = (other_common_dimension, another_cut)
 LINKS = (other_links, other_links, nothing_suffices, free_cost, other_bound)

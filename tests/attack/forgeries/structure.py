@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import json
 import random
 from typing import Any
 
 from flint import fmpq, fmpq_mat
+
+import mcexact
+from mcexact.answer import codec
+from mcexact.model.system_file import read_system
 
 from ..draws.plants import Document
 from ..mutators import copied
@@ -266,12 +271,14 @@ def improper_subset(rng: random.Random, document: Document) -> Forged:
         n = len(plant["A"])
         channel["B"] = [[] for _ in range(n)]
         channel["C"] = {"shape": [0, n], "entries": []} if n else []
-    from ..draws.certificates import certified
-
-    found = certified(rng, document["kind"], plant, [])
-    if found is None or set(found["claim"]["subset"]) & set(names) == set():
-        return None
-    return copied(found)  # type: ignore[no-any-return]
+    text = json.dumps({"format": "mcexact-system/1", **plant})
+    made = codec.document(mcexact.complementary_subsystem(read_system(text), inside))
+    plant["channels"] = [c for c in plant["channels"] if c["name"] not in names]
+    plant.pop("neighbors", None)
+    plant.pop("delays", None)
+    document |= copied({"claim": made["claim"], "witness": made["witness"]})
+    document["claim"]["subset"] = [name for name in inside if name not in names]
+    return document
 
 
 def other_rank(rng: random.Random, document: Document) -> Forged:
@@ -302,12 +309,15 @@ def other_zero(rng: random.Random, document: Document) -> Forged:
         claim["solvable"], claim["invariant_zero"] = True, None
         document["witness"] |= {"point": None, "normal": None}
         return document
-    _zero_or_not(rng, document, full)
+    _zero_or_not(rng, document, full, zero=False if claim["invariant_zero"] else None)
     return document
 
 
-def _zero_or_not(rng: random.Random, document: Document, full: int) -> None:
-    zero = rng.random() < 0.5
+def _zero_or_not(
+    rng: random.Random, document: Document, full: int, zero: bool | None = None
+) -> None:
+    if zero is None:
+        zero = rng.random() < 0.5
     document["claim"]["invariant_zero"] = zero
     row = {"denominator": 1, "coefficients": [[[rng.choice((0, 0, 1)) for _ in range(full)]]]}
     if rng.random() < 0.5:

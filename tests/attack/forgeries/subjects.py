@@ -6,8 +6,21 @@ import random
 
 from ..draws.plants import Document
 from ..draws.subjects import CONSTRUCTIONS, drawn_step
+from ..mutators import PARTS, renamed
 from ..oracle.constructions import subject_of
 from ..oracle.reading import Unspecified
+
+
+def colliding_names(rng: random.Random, document: Document) -> Document | None:
+    """Three channels "1+2", "1" and "2", of which the last two are taken as one."""
+    names = [channel["name"] for channel in document["system"]["channels"]]
+    for step in document["subject"]:
+        sizes = sorted(map(len, step.get("parts", ())))
+        if sizes == [1, 2]:
+            fresh = iter(("1", "2"))
+            mapping = {name: "1+2" if [name] in step["parts"] else next(fresh) for name in names}
+            return renamed(document, mapping, PARTS)
+    return None
 
 
 def other_subject(rng: random.Random, document: Document) -> Document | None:

@@ -38,7 +38,7 @@ def read_agents(system: System, value: Any) -> list[Agent]:
         sizes = (agent.shared, agent.private, system.B[i].ncols())
         for label, size in zip(MAPS, sizes, strict=True):
             agent.maps[label] = _read_map(system, agents, i, document[label], size)
-        for receiver, steps in _by_name(document.get("hold") or {}, system.names).items():
+        for receiver, steps in _by_name(document.get("hold", {}), system.names).items():
             agent.hold[receiver] = integer(steps, 0)
     return agents
 
@@ -50,13 +50,13 @@ def _read_map(
     heard = (system.heard or [(k,) for k in range(system.m)])[i]
     parts: dict[tuple[str, int], fmpq_mat] = {}
     for kind in ("outputs", "shared"):
-        for j, M in _by_name(found.get(kind) or {}, system.names).items():
+        for j, M in _by_name(found.get(kind, {}), system.names).items():
             demand(j in heard, "expected signals of neighbors")
             width = system.C[j].nrows() if kind == "outputs" else agents[j].shared
             parts[kind, j] = sparse(M, nrows, width)
-    if found.get("private") is not None:
+    if "private" in found:
         parts["private", i] = sparse(found["private"], nrows, agents[i].private)
-    if found.get("reference") is not None:
+    if "reference" in found:
         parts["reference", i] = sparse(found["reference"], nrows, system.C[i].nrows())
     return parts
 

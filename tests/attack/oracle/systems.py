@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import unicodedata
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -10,6 +11,9 @@ from flint import fmpq_mat
 
 from . import algebra
 from .reading import demand, integer, listed, place, record, table, text
+
+HIDDEN = ("Cc", "Cf", "Cs", "Zl", "Zp")
+"""The Unicode categories of characters that do not print."""
 
 
 @dataclass(frozen=True)
@@ -71,12 +75,22 @@ def read_plant(value: Any) -> System:
     demand(A.ncols() == n, "expected a square matrix")
     channels = [record(c, "name", "B", "C") for c in listed(found["channels"])]
     names = tuple(text(c["name"]) for c in channels)
-    demand(len(set(names)) == len(names), "expected different names")
+    _require_names(names)
     B = tuple(table(c["B"], n, None) for c in channels)
     C = tuple(table(c["C"], None, n) for c in channels)
     heard = _graph(found["neighbors"], names) if "neighbors" in found else None
     delays = _delays(found["delays"], names, heard) if "delays" in found else {}
     return System(found["time"], A, names, B, C, heard, delays)
+
+
+def _require_names(names: Sequence[str]) -> None:
+    """Names that print, of which no two look alike."""
+    demand(bool(names), "expected at least one channel")
+    for name in names:
+        printing = all(unicodedata.category(c) not in HIDDEN for c in name)
+        demand(1 <= len(name) <= 256 and printing, "expected a name that prints")
+    forms = {unicodedata.normalize("NFC", name) for name in names}
+    demand(len(forms) == len(names), "expected different names")
 
 
 def _graph(value: Any, names: Sequence[str]) -> tuple[tuple[int, ...], ...]:

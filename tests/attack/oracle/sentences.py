@@ -1,0 +1,289 @@
+"""The sentence of each kind, from the templates of ``FORMAT.md``."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from flint import fmpq
+
+from .reading import decimal, listed, matrix, polynomial, rational
+from .systems import System
+from .words import (
+    by_channel,
+    channels,
+    digested,
+    discs,
+    edges,
+    json_text,
+    number,
+    polynomial_text,
+)
+
+LTI = "under linear time-invariant decentralized control"
+PENCIL = "[xI - A, B; C, 0]"
+OF_THE_SET = "C the outputs of the set and B the inputs of the others"
+SHARING = {"outputs+states": "outputs and sub-states", "states": "sub-states"}
+
+
+def _bound(value: Any) -> fmpq | None:
+    return None if value is None else rational(value)
+
+
+def _region(value: Any, time: str, how: str = "below") -> str:
+    bound = _bound(value)
+    if time == "continuous":
+        return f"real part {how} {number(-bound if bound is not None else 0)}"
+    return f"modulus {how} {number(bound if bound is not None else 1)}"
+
+
+def _freedom(bound: Any, time: str) -> str:
+    where = "" if bound is None else f" of {_region(bound, time, 'at least')}"
+    return f"no mode{where} that is fixed {LTI}"
+
+
+def _not(value: bool) -> str:
+    return "" if value else "not "
+
+
+def _joined(parts: Sequence[str], by: str = ", ") -> str:
+    return by.join(parts) or "none"
+
+
+def _assignability(claim: Any, system: System) -> str:
+    blocks = [f"{b['dimension']} for {channels(b['channels'])}" for b in claim["blocks"]]
+    return (
+        "for all constant gains F, det(xI - A_F) = phi(x) times the product of chi_c(x) over the "
+        "strong components c of the transfer graph; phi is monic of degree "
+        f"{claim['fixed_degree']} and the same for all F; chi_c is monic, depends on the F_i with "
+        "i in c alone, and its degree is the McMillan degree of C_c (xI - A)^-1 B_c, "
+        f"{_joined(blocks)}"
+    )
+
+
+def _common(claim: Any, system: System) -> str:
+    start = (
+        f"the extended system without delays sharing {SHARING[claim['share']]} of dimension k for "
+        f"each agent has {_freedom(None, system.time)}"
+    )
+    return (
+        f"{start} exactly for k >= {claim['dimension']}"
+        if claim["feasible"]
+        else f"{start} for no k"
+    )
+
+
+def _communication(claim: Any, system: System) -> str:
+    share = claim["share"]
+    shared = "outputs"
+    if share != "outputs":
+        shared = f"{SHARING[share]} of dimensions {by_channel(system.names, claim['dimensions'])}"
+    graph = "its neighbor graph" if system.heard is not None else "the graph without edges"
+    candidates = edges([(j, i, rational(c)) for j, i, c in claim["candidates"]])
+    freedom = _freedom(claim["bound"], system.time)
+    end = f"sharing {shared} with neighbors, without delay, leaves {freedom}"
+    if claim["feasible"]:
+        return (
+            f"with the links {edges(claim['added'])}, of cost {number(rational(claim['cost']))}, "
+            f"added to {graph}, {end}, and so it does with no set of lower cost out of the "
+            f"candidate links, with their costs, {candidates}"
+        )
+    return (
+        f"no set out of the candidate links, with their costs, {candidates}, added to {graph}, is "
+        f"such that {end}"
+    )
+
+
+def _complementary(claim: Any, system: System) -> str:
+    f = [polynomial_text(p) for p in claim["invariant_polynomials"]]
+    return (
+        f"the pencil {PENCIL}, C the outputs of the channels {channels(claim['subset'])} and B the "
+        f"inputs of the others, has normal rank {claim['normal_rank']}; its invariant polynomials "
+        f"of degree at least 1 are {_joined(f)}; the greatest common divisor of its minors of "
+        f"order {system.n}, the remnant polynomial, is {polynomial_text(claim['remnant'])}; "
+        f"C (xI - A)^-1 B is {_not(claim['transfer_zero'])}zero; the complementary subsystem is "
+        f"{_not(claim['complete'])}complete"
+    )
+
+
+def _completeness(claim: Any, system: System) -> str:
+    return (
+        f"it is {_not(claim['complete'])}complete, which means that its transfer graph is strongly "
+        f"connected and no mode is fixed {LTI}"
+    )
+
+
+def _controllability(claim: Any, system: System) -> str:
+    return (
+        f"the channels {channels(claim['channels'])} together control a subspace of dimension "
+        f"exactly {claim['dimension']}; it is {_not(claim['controllable'])}controllable through "
+        "them, with the uncontrollable polynomial "
+        f"{polynomial_text(claim['uncontrollable_polynomial'])}"
+    )
+
+
+def _indices(claim: Any, system: System) -> str:
+    index = "none" if claim["index"] is None else claim["index"]
+    return (
+        f"the ranks of [B, A B, ..., A^(k-1) B], B the inputs of the channels "
+        f"{channels(claim['channels'])}, for k = 1, 2, ... are {json_text(claim['ranks'])} and do "
+        f"not grow further; the controllability indices are {json_text(claim['indices'])} and the "
+        f"controllability index is {index}"
+    )
+
+
+def _deficiency(claim: Any, system: System) -> str:
+    return (
+        f"the largest {system.n} - rank {PENCIL}, over all complex x and all sets of channels, "
+        f"{OF_THE_SET}, is {claim['deficiency']}"
+    )
+
+
+def _observer(claim: Any, system: System) -> str:
+    end = (
+        ""
+        if claim["bound"] is None
+        else f"; every root of both has {_region(claim['bound'], system.time)}"
+    )
+    return (
+        "in the coordinates (x, e_1, z_1, e_2, z_2, ...), e_i = x_i - x for the x_i that agent i "
+        "shares, the matrix of the loop is [M_F, *; 0, M_E], where M_F has the characteristic "
+        f"polynomial {polynomial_text(claim['feedback'])} and M_E has "
+        f"{polynomial_text(claim['error'])}{end}"
+    )
+
+
+def _exceptional(claim: Any, system: System) -> str:
+    M = matrix(claim["M"], system.n, system.n)
+    return (
+        f"the first {claim['blocks']} blocks of [B, (M + gA) B, (M + gA)^2 B, ...], B the inputs "
+        f"of all channels and M the matrix with {digested(M)}, have rank below {system.n} exactly "
+        f"where g is a root of {polynomial_text(claim['polynomial'])}; its roots are simple and "
+        f"lie one in each of the discs {discs(claim['roots'])}, real ones where the disc is "
+        "centered on the real axis, and only there"
+    )
+
+
+def _spectrum(claim: Any, system: System) -> str:
+    verdict = f"{_not(claim['stabilizable'])}stabilizable"
+    end = f"it is {verdict} by linear time-invariant decentralized control"
+    if polynomial(claim["polynomial"]) == 1:
+        return f"no mode is fixed {LTI}; {end}"
+    continuous = system.time == "continuous"
+    place = "Hurwitz" if continuous else "Schur"
+    slowest = "minus the largest real part" if continuous else "the largest modulus"
+    rows = []
+    for factor in claim["factors"]:
+        p = polynomial(factor["polynomial"])
+        text = (
+            f"{polynomial_text(p)} is {_not(factor['stable'])}{place}, has the exponent "
+            f"{factor['multiplicity_in_A']} in det(xI - A) and at most "
+            f"{factor['multiplicity_at_most']} in the greatest common divisor of det(xI - A_F) "
+            "over all constant gains F, and one root in each of the discs "
+            f"{discs(factor['roots'])}, "
+            f"where the least rank of {PENCIL} over all sets of channels, {OF_THE_SET}, is "
+            f"{factor['rank']}, reached by {channels(factor['channels'])}"
+        )
+        rows.append((p.degree(), text))
+    rate = claim["best_rate"]
+    lower, upper = (number(decimal(rate[key])) for key in ("lower", "upper"))
+    return (
+        f"the modes that are fixed {LTI} are the roots of {polynomial_text(claim['polynomial'])}; "
+        f"{'; '.join(text for _, text in sorted(rows))}; {end}; {slowest} of a fixed mode is from "
+        f"{lower} to {upper}"
+    )
+
+
+def _pencil_rank(claim: Any, system: System) -> str:
+    return (
+        f"the pencil {PENCIL}, C the outputs of the channels {channels(claim['subset'])} and B the "
+        f"inputs of the others, has rank exactly {claim['rank']} at every root of "
+        f"{polynomial_text(claim['polynomial'])}"
+    )
+
+
+def _setpoint(claim: Any, system: System) -> str:
+    shift, place = ("", 0) if system.time == "continuous" else (" - I", 1)
+    start = f"[A{shift}, B; C, 0], B and C those of all channels, has rank exactly {claim['rank']}"
+    if claim["solvable"]:
+        return (
+            f"{start}, which is its number of rows, so that integrators of all outputs add no "
+            "uncontrollable mode"
+        )
+    start += (
+        ", which is not its number of rows, so that in no stable linear time-invariant loop every "
+        f"output tends to every constant set-point; the normal rank of {PENCIL} is "
+    )
+    if claim["invariant_zero"]:
+        return f"{start}its number of rows, so that {place} is an invariant zero"
+    return f"{start}not its number of rows"
+
+
+def _dimensions(claim: Any, system: System) -> str:
+    goal = _freedom(claim["bound"], system.time)
+    if claim["free_assignability"]:
+        goal += " and a strongly connected transfer graph"
+    names = system.names
+    limits = (
+        f"dimensions with the upper bounds {by_channel(names, claim['upper'])} and the costs "
+        f"{by_channel(names, map(rational, claim['costs']))} of one dimension each"
+    )
+    start = f"the extended system without delays sharing {SHARING[claim['share']]} has {goal}"
+    if claim["feasible"]:
+        return (
+            f"{start} for the dimensions {by_channel(names, claim['dimensions'])} of cost "
+            f"{number(rational(claim['cost']))}, and for no cheaper {limits}"
+        )
+    return f"{start} for no {limits}"
+
+
+def _single(claim: Any, system: System) -> str:
+    sides = ["(A_F, B_q) controllable", "(C_q, A_F) observable"]
+    chosen = {"controllable": sides[:1], "observable": sides[1:], "both": sides}
+    goal = f"make {' and '.join(chosen[claim['property']])}"
+    goal = f"{goal} for every q in {channels(claim['channels'])}"
+    if not claim["exists"]:
+        return f"no constant gains F, the same for all q, {goal}"
+    indices = by_channel(claim["channels"], claim["indices"])
+    return (
+        f"some constant gains F, the same for all q, {goal}, with the indices {indices}"
+        f"{', and A_F cyclic' if claim['cyclic'] else ''}"
+    )
+
+
+def _transfer_graph(claim: Any, system: System) -> str:
+    parts = _joined([channels(c) for c in listed(claim["components"])])
+    return (
+        "its transfer graph, in which j -> i means that C_i (xI - A)^-1 B_j is not zero, has "
+        f"exactly the edges {edges(claim['arcs'])}, the strong components {parts}, and is "
+        f"{_not(claim['strongly_connected'])}strongly connected"
+    )
+
+
+SENTENCES = {
+    "assignability": _assignability,
+    "closed_loop_spectrum": lambda claim, system: (
+        f"the characteristic polynomial of A is {polynomial_text(claim['polynomial'])}"
+    ),
+    "common_dimension": _common,
+    "communication": _communication,
+    "complementary_subsystem": _complementary,
+    "completeness": _completeness,
+    "controllability": _controllability,
+    "controllability_indices": _indices,
+    "deficiency": _deficiency,
+    "distributed_observer": _observer,
+    "exceptional_gains": _exceptional,
+    "fixed_spectrum": _spectrum,
+    "neighbor_graph": lambda claim, system: (
+        f"its neighbor graph is {_not(claim['strongly_connected'])}strongly connected"
+    ),
+    "pencil_rank": _pencil_rank,
+    "setpoint": _setpoint,
+    "shared_dimensions": _dimensions,
+    "single_channel_gains": _single,
+    "stability": lambda claim, system: (
+        f"{_not(claim['stable'])}every eigenvalue of A has {_region(claim['bound'], system.time)}"
+    ),
+    "transfer_graph": _transfer_graph,
+}
