@@ -29,6 +29,17 @@ HARMLESS: dict[str, str] = {
     "covering.py: require_bound: bool(boxes)": RAISES,
     "covering.py: require_bound: label not in self.labels": RAISES,
     "covering.py: _cut: integer(number, place) >= len(self.cuts)": RAISES,
+    "common_dimension.py: check: absence is None": UNREAD,
+    "controllability_indices.py: check: ranks[-1] <= n": "no matrix has a negative number of rows",
+    "distributed_observer.py: separated: len(blocks) > 1": RAISES,
+    "evidence.py: modulus: ell >= 2": (
+        "modulo 1 every number is 0 and nothing is shown, modulo 0 there is an error, and a "
+        "negative number shows what its absolute value shows"
+    ),
+    "reading.py: positions: result != sorted(set(result)) or any((entry >= below for entry in result))": SHAPE,
+    "reading.py: names: type(entry) is not str or entry not in place_of": RAISES,
+    "region.py: claimed_cost: absence is None": UNREAD,
+    "system.py: number: not good or abs(int(exponent)) > (limits or Limits).exponent": CANONICAL,
     "deficiency.py: check: coefficients is None": UNREAD,
     "deficiency.py: check: subspace is None": UNREAD,
     "controller.py: read_controller: limits is not None and (not agents)": USERS,

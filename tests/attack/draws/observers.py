@@ -81,7 +81,39 @@ def drawn_observer(
         plant = drawn_plant(rng, graph=True, most=2)
         plant.pop("delays", None)
     system = subject_of({"system": plant, "subject": []})
-    steps = [{"construction": "closed_loop", "controller": observer_program(rng, system, extra)}]
+    return observer_certificate(plant, observer_program(rng, system, extra))
+
+
+def late_observer(rng: random.Random) -> Document:
+    """An observer whose agent 1 uses an output of agent 2, always 0, one step late."""
+    ports = [([[1]], [[1]]), ([[1]], [[0]])]
+    plant = {
+        "time": "discrete",
+        "A": [[rng.choice((0, 1))]],
+        "channels": [
+            {"name": name, "B": B, "C": C} for name, (B, C) in zip("12", ports, strict=True)
+        ],
+        "neighbors": {"1": ["2"], "2": []},
+        "delays": {"1": {"2": 1}},
+    }
+    system = subject_of({"system": {**plant, "delays": {}}, "subject": []})
+    program = observer_program(rng, system)
+    update = program["agents"][0]["shared_update"]
+    update["shared"].pop("2")
+    update["outputs"]["2"] = [[1]]
+    # without the neighbor's estimate, that of agent 1 is a copy of the plant and a correction
+    program["agents"][0]["shared_update"]["shared"]["1"] = program["agents"][1]["shared_update"][
+        "shared"
+    ]["2"]
+    for agent in program["agents"]:
+        agent["shared_update"]["outputs"].pop(agent["name"])
+    return observer_certificate(plant, program)
+
+
+def observer_certificate(plant: Document, controller: Document) -> Document:
+    """The certificate of a loop in the coordinates of the errors, whether or not they separate."""
+    system = subject_of({"system": plant, "subject": []})
+    steps = [{"construction": "closed_loop", "controller": controller}]
     loop = subject_of({"system": plant, "subject": steps})
     n, starts, position = system.n, [], system.n
     for agent in steps[0]["controller"]["agents"]:  # type: ignore[index]

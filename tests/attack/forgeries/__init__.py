@@ -41,6 +41,8 @@ def forged(rng: random.Random, document: Document) -> Document:
         made = subjects.colliding_names(rng, document)
         if made is not None:
             return made
+    if document["subject"] and rng.random() < 0.1:
+        return subjects.other_time(rng, document)
     own = FORGERS.get(document["kind"], ())
     if own and rng.random() < 0.7:
         made = rng.choice(own)(rng, document)

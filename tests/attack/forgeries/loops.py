@@ -9,7 +9,7 @@ from typing import Any
 
 from flint import fmpq, fmpq_mat
 
-from ..draws.observers import drawn_observer
+from ..draws.observers import drawn_observer, late_observer
 from ..draws.plants import Document, number
 from ..oracle.constructions import subject_of
 from .writing import PRIME, unit, written, zeros
@@ -187,6 +187,8 @@ def too_fast(rng: random.Random, document: Document) -> Forged:
 
 def larger_share(rng: random.Random, document: Document) -> Forged:
     """Agents that share more entries than the plant has states, or over links with delays."""
+    if rng.random() < 0.3:
+        return late_observer(rng)
     plant = document["system"]
     return drawn_observer(rng, plant, extra=rng.choice((0, 1)))
 

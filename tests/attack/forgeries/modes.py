@@ -247,7 +247,26 @@ def pencil_of_another_set(rng: random.Random, document: Document) -> Forged:
     return document
 
 
+def vanishing_kernel(rng: random.Random, document: Document) -> Forged:
+    """A root at which the kernel vanishes, being multiplied by 1 − x/a."""
+    claim, kernel = document["claim"], document["witness"]["kernel"]
+    a = rng.choice((-3, -2, -1, 1, 2, 3))
+    claim["polynomial"] = coefficients(polynomial(claim["polynomial"]) * (algebra.X - a))
+    layers = kernel["coefficients"]
+    zero = [[0] * len(row) for row in layers[0]]
+    kernel["denominator"] *= abs(a)
+    sign = 1 if a > 0 else -1
+    kernel["coefficients"] = [
+        [
+            [sign * (a * v - w) for v, w in zip(*rows, strict=True)]
+            for rows in zip(new, old, strict=True)
+        ]
+        for new, old in zip([*layers, zero], [zero, *layers], strict=True)
+    ]
+    return document
+
+
 COMPLETENESS = (no_subset_at_all, unconnected, unconnected, fixed_by_nothing)
 DEFICIENCY = (other_deficiency,)
 SPECTRUM = (factor_dropped, factor_twice, factor_added, factor_details, factor_details)
-PENCIL = (pencil_of_another_set,)
+PENCIL = (pencil_of_another_set, vanishing_kernel)

@@ -178,8 +178,9 @@ def nothing_suffices(rng: random.Random, document: Document) -> Forged:
     """Not feasible, by a tree without leaves, by one that proves nothing, or by false cuts."""
     system, claim, witness = subject_of(document), document["claim"], document["witness"]
     key = "dimensions" if document["kind"] == "shared_dimensions" else "added"
-    trees: list[list[Document]] = [[], [{"multipliers": []}], [{"violated": 0}]]
-    if key == "dimensions":
+    trees: list[list[Document]] = [[], [{"multipliers": []}]]
+    trees += [[{"violated": 0}]] * 2
+    if key == "dimensions" and rng.random() < 0.6:
         cuts = false_cuts(rng, document, system)
         names = system.names
         tree = Tree(

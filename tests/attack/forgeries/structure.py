@@ -159,6 +159,26 @@ def smaller_realization(rng: random.Random, document: Document) -> Forged:
     return document
 
 
+def outputs_alone(rng: random.Random, document: Document) -> Forged:
+    """A quotient by what the outputs do not show at once."""
+    system, claim = subject_of(document), document["claim"]
+    if not claim["blocks"]:
+        return None
+    k = rng.randrange(len(claim["blocks"]))
+    shown = document["witness"]["realizations"][k]
+    rows, width = shown["X"], len(shown["pivots"])
+    entries = [fmpq(v, rows["denominator"]) for row in rows["entries"] for v in row]
+    c = positions(claim["blocks"][k]["channels"], system.names)
+    reduced, d = (system.outputs(c) * fmpq_mat(system.n, width, entries)).rref()
+    lines = reduced.tolist()[:d]
+    W = fmpq_mat(d, width, [v for line in lines for v in line])
+    columns = [next(j for j in range(width) if line[j] != 0) for line in lines]
+    claim["fixed_degree"] += claim["blocks"][k]["dimension"] - d
+    claim["blocks"][k]["dimension"] = d
+    shown |= {"W": written(W), "columns": columns}
+    return document
+
+
 def larger_realization(rng: random.Random, document: Document) -> Forged:
     """The whole reachable space as a realization, minimal or not."""
     claim, witness = document["claim"], document["witness"]
@@ -362,6 +382,6 @@ def all_edges(rng: random.Random, document: Document) -> Forged:
 CONTROLLABILITY = (smaller_dimension, smaller_dimension, larger_dimension)
 INDICES = (ranks_cut_short, ranks_too_large)
 GRAPH = (missing_edge, extra_edge, all_edges)
-ASSIGNABILITY = (smaller_realization, smaller_realization, larger_realization, whole_space)
+ASSIGNABILITY = (smaller_realization, outputs_alone, larger_realization, whole_space)
 COMPLEMENTARY = (no_zeros, split_zeros, improper_subset)
 SETPOINT = (other_rank, other_zero, lower_rank_kept)

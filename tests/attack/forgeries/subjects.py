@@ -23,6 +23,16 @@ def colliding_names(rng: random.Random, document: Document) -> Document | None:
     return None
 
 
+def other_time(rng: random.Random, document: Document) -> Document:
+    """The plant and its controllers in the other time domain."""
+    time = {"continuous": "discrete", "discrete": "continuous"}[document["system"]["time"]]
+    document["system"]["time"] = time
+    for step in document["subject"]:
+        if "controller" in step:
+            step["controller"]["time"] = time
+    return document
+
+
 def other_subject(rng: random.Random, document: Document) -> Document | None:
     """One change of the list of constructions."""
     steps = document["subject"]
