@@ -16,12 +16,9 @@ if TYPE_CHECKING:
     from .reading import Limits
 
 __all__ = ["Expectation", "Limits", "Verdict", "check_document"]
-_FILES = {
-    "Expectation": "expectation",
-    "Limits": "reading",
-    "Verdict": "kinds",
-    "check_document": "kinds",
-}
+_STEMS = ("expectation", "reading", "kinds", "kinds")
+_FILES = dict(zip(__all__, _STEMS, strict=True))
+"""The file of each public name."""
 
 
 def __getattr__(name: str) -> object:

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from types import FrameType
 from typing import TypeVar
 
-from .kinds import Verdict
+from .kinds import Found, Verdict
 
 T = TypeVar("T")
 
@@ -16,8 +16,6 @@ SUPPORTED = hasattr(signal, "setitimer")
 """Whether the platform has alarms, and limits on memory."""
 AGAIN = 0.05
 """Seconds between two alarms: the first is lost if Python runs a callback that ignores errors."""
-
-Found = tuple[dict[str, str], Verdict]
 
 
 class OutOfTime(BaseException):

@@ -85,9 +85,9 @@ class Matrix:
         return Matrix(rows, self.ncols, d)
 
     def __sub__(self, other: Matrix) -> Matrix:
-        return self + other.times(Fraction(-1))
+        return self + other.times(-1)
 
-    def times(self, factor: Fraction) -> Matrix:
+    def times(self, factor: Fraction | int) -> Matrix:
         """The multiple by a rational factor."""
         a, b = self.limbs, budget.limbs_of([factor])
         build(self.nrows, self.ncols, a, b)
@@ -209,6 +209,15 @@ class Echelon:
         f = inverse(left[pivot], self.ell)
         self.rows.append((pivot, [f * entry % self.ell for entry in left]))
         return self.rows[-1][1]
+
+
+def rank_modulo(A: Matrix, ell: int) -> int:
+    """The rank modulo ℓ, at most that over Q.
+
+    Theorem ``arithmetic.rank_from_below``.
+    """
+    echelon = Echelon(ell)
+    return sum(echelon.add(row) is not None for row in A.modulo(ell))
 
 
 def poly_modulo(p: Polynomial, ell: int) -> Polynomial:

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 from . import evidence, subspaces, transfer_graph
 from .controllability import require_reached
-from .reading import fields, integer, items, malformed, matrix, names, positions, require
+from .reading import Json, fields, integer, items, malformed, matrix, names, positions, require
 from .statement import channel_set
 from .system import System
 
 
-def check(claim: Any, witness: Any, system: System) -> None:
+def check(claim: Json, witness: Json, system: System) -> None:
     """Check the components, and a minimal realization of the transfer within each.
 
     Theorems ``assignability.assignability_rule``, ``assignability.component_own_gains``,
@@ -23,25 +22,20 @@ def check(claim: Any, witness: Any, system: System) -> None:
     ell = evidence.modulus(number, "witness.modulus")
     known, proof = fields(graph, "witness.transfer_graph", "claim", "witness")
     transfer_graph.check(known, proof, system)
-    blocks = [
-        fields(block, "claim.blocks", "channels", "dimension")
-        for block in items(listed, "claim.blocks")
-    ]
-    components = [c for c, _ in blocks]
-    same = components == known["components"]
-    require(same, "component", "claim.blocks", "not the components of the transfer graph")
-    degrees = []
-    for (component, size), entry in zip(
-        blocks, items(shown, "witness.realizations", len(blocks)), strict=True
-    ):
-        c = names(component, "claim.blocks", system.names)
-        degrees.append(integer(size, "claim.blocks"))
+    place = "claim.blocks"
+    blocks = [fields(block, place, "channels", "dimension") for block in items(listed, place)]
+    same = [c for c, _ in blocks] == known["components"]
+    require(same, "component", place, "not the components of the transfer graph")
+    degrees, entries = [], items(shown, "witness.realizations", len(blocks))
+    for (component, size), entry in zip(blocks, entries, strict=True):
+        c = names(component, place, system.names)
+        degrees.append(integer(size, place))
         _require_minimal(system, c, degrees[-1], entry, ell)
     fixed = integer(left, "claim.fixed_degree")
     require(fixed == system.n - sum(degrees), "degree", "claim.fixed_degree", "does not follow")
 
 
-def statement(claim: Any, system: System) -> str:
+def statement(claim: Json, system: System) -> str:
     """How the characteristic polynomial of every loop splits."""
     blocks = ((block["channels"], block["dimension"]) for block in claim["blocks"])
     parts = ", ".join(f"{degree} for {channel_set(c)}" for c, degree in blocks)
@@ -54,7 +48,7 @@ def statement(claim: Any, system: System) -> str:
     )
 
 
-def _require_minimal(system: System, c: list[int], d: int, value: Any, ell: int) -> None:
+def _require_minimal(system: System, c: list[int], d: int, value: Json, ell: int) -> None:
     """Stop unless C_c (xI − A)⁻¹ B_c has a minimal realization of dimension d."""
     place = "witness.realizations"
     rows, pivots, reduced, chosen = fields(value, place, "X", "pivots", "W", "columns")

@@ -70,14 +70,16 @@ def _hessenberg_polynomial(H: Rows, below: list[int], ell: int) -> Polynomial:
     return [column[-1] for column in coefficients]
 
 
-def characteristic_polynomial(A: Matrix) -> Polynomial:
-    """The characteristic polynomial over Q.
+def characteristic_polynomial(A: Matrix, ell: int = 0) -> Polynomial:
+    """The characteristic polynomial over Q, or modulo ℓ if one is given.
 
     The coefficients of det(xI − N), N the integer numerators, are at most Π (1 + |row|) in absolute
     value (Hadamard, minor by minor), so they are read off modulo one larger power of an odd q.
 
     Theorem ``characteristic_polynomial.characteristic_polynomial_rule``.
     """
+    if ell:
+        return characteristic_polynomial_modulo(A.modulo(ell), ell)
     n, d, a = A.nrows, A.denominator, A.limbs
     spend(budget.products(4 * n * n, a, a) + budget.products(n, n * a, a))
     bound = math.prod(2 + math.isqrt(sum(entry * entry for entry in row)) for row in A.rows)

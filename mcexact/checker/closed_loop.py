@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from itertools import accumulate
-from typing import Any
 
 from .arithmetic import Matrix, stack
 from .budget import spend, table
 from .controller import MAPS, read_controller
-from .reading import fields, require
+from .reading import Json, fields, require
 from .statement import canonical_json, digest_of, prefixed, with_digest
 from .system import System
 
@@ -17,7 +16,7 @@ Signal = tuple[str, int, int]
 """(signal, j, age): signal is "X" for the plant's state, "x", "y" or "z" for x_j, y_j, z_j."""
 
 
-def closed_loop(system: System, step: dict[str, Any], place: str) -> System:
+def closed_loop(system: System, step: dict[str, Json], place: str) -> System:
     """State (x, x_1, z_1, x_2, …), then for each j the x_j(t−1), …, y_j(t−1), … that are in use.
 
     Open: see ``proofs/OPEN.md``.
@@ -58,7 +57,7 @@ def closed_loop(system: System, step: dict[str, Any], place: str) -> System:
 
 
 def _terms(
-    system: System, agents: list[Any], i: int, place: str
+    system: System, agents: list[Json], i: int, place: str
 ) -> list[list[tuple[Signal, Matrix]]]:
     """The signals that the three maps of agent i use, with their coefficients."""
     N_i, result = system.neighbors[i] if system.neighbors else [i], []

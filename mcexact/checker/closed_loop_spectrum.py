@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from . import budget
 from .arithmetic import Matrix, Polynomial, poly_modulo
-from .budget import counted, spend
-from .characteristic_polynomial import characteristic_polynomial_modulo
-from .reading import fields, integer, items, polynomial, require
+from .characteristic_polynomial import characteristic_polynomial
+from .reading import Json, fields, integer, items, polynomial, require
 from .statement import polynomial_text
 from .system import System
 
 
-def check(claim: Any, witness: Any, system: System) -> None:
+def check(claim: Json, witness: Json, system: System) -> None:
     """Compare with det(xI − A) modulo every ℓ; the moduli suffice to prove equality.
 
     Theorem ``closed_loop_spectrum.closed_loop_spectrum``.
@@ -25,18 +23,18 @@ def check(claim: Any, witness: Any, system: System) -> None:
     require_spectrum(system.A, p, "claim.polynomial", moduli(numbers, "witness.moduli"))
 
 
-def statement(claim: Any, system: System) -> str:
+def statement(claim: Json, system: System) -> str:
     """The characteristic polynomial."""
     return f"the characteristic polynomial of A is {polynomial_text(claim['polynomial'])}"
 
 
-def moduli(value: Any, place: str) -> list[int]:
+def moduli(value: Json, place: str) -> list[int]:
     """Read integers ≥ 2 that are pairwise coprime."""
     found, product = [], 1
     for k, entry in enumerate(items(value, place)):
         found.append(integer(entry, f"{place}[{k}]", 2))
         longest, more = budget.limbs([product]), budget.limbs(found[-1:])
-        spend(budget.reductions(longest, more) + budget.fractions(1, more))
+        budget.spend(budget.reductions(longest, more) + budget.fractions(1, more))
         coprime = math.gcd(product, found[-1]) == 1
         require(coprime, "modulus", f"{place}[{k}]", "not coprime to those before it")
         product *= found[-1]
@@ -53,19 +51,19 @@ def require_spectrum(A: Matrix, p: Polynomial, place: str, ells: list[int]) -> N
     """
     D = beta = 1
     n, a = A.nrows, A.limbs
-    spend(budget.fractions(n * (n + 1), a) + budget.products(4 * n, n * (a + 1), a + 1))
+    budget.spend(budget.fractions(n * (n + 1), a) + budget.products(4 * n, n * (a + 1), a + 1))
     for row in A.rows:
         common = math.gcd(A.denominator, *row)
         D *= A.denominator // common
         beta *= (A.denominator + sum(map(abs, row))) // common
     require(len(p) == A.nrows + 1, "degree", place, f"expected degree {A.nrows}")
     longest = budget.limbs([beta]) + budget.limbs_of(p)
-    spend(budget.fractions(3 * len(p), longest))
+    budget.spend(budget.fractions(3 * len(p), longest))
     small = all(D % c.denominator == 0 and abs(D * c) <= beta for c in p)
     require(small, "bound", place, "a coefficient that no matrix with these rows has")
     require(math.prod(ells) > 2 * beta, "moduli", "witness.moduli", "too few for these entries")
-    for ell in counted(ells):
-        spend(budget.fractions(1, longest))
+    for ell in budget.counted(ells):
+        budget.spend(budget.fractions(1, longest))
         require(math.gcd(D, ell) == 1, "modulus", "witness.moduli", "divides a denominator")
-        found = characteristic_polynomial_modulo(A.modulo(ell), ell)
+        found = characteristic_polynomial(A, ell)
         require(found == poly_modulo(p, ell), "spectrum", place, f"differs modulo {ell}")

@@ -13,9 +13,9 @@ from dataclasses import asdict
 from functools import partial
 from typing import IO
 
-from .allowance import SUPPORTED, Clock, Found, OutOfTime, memory
+from .allowance import SUPPORTED, Clock, OutOfTime, memory
 from .expectation import Expectation
-from .kinds import Verdict, answer, check_document
+from .kinds import Found, Verdict, answer, check_document
 from .manifest import NAME, every_verdict
 from .reading import Limits, Refused, read_bytes
 
@@ -36,31 +36,8 @@ def _read_file(path: str, limits: Limits) -> bytes:
         return read_bytes(sys.stdin.buffer, limits)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
-        raise Refused(
-            "MALFORMED", "unreadable", ascii(path)[1:-1], f"cannot be read: {reason}"
-        ) from error
-
-
-def asked(
-    system: str | None,
-    controller: str | None,
-    expect: str | None,
-    limits: Limits,
-    clock: Clock,
-) -> Expectation:
-    """What these files ask of every certificate.
-
-    Raises
-    ------
-    Refused
-        If one of them cannot be read, or not in time.
-    """
-    wanted, new = Expectation(), Expectation
-    files = (system, new.about), (controller, new.controlled), (expect, new.saying)
-    for path, read in files:
-        if path is not None:
-            wanted = _told(path, partial(read, wanted), limits, clock)
-    return wanted
+        place, message = ascii(path)[1:-1], f"cannot be read: {reason}"
+        raise Refused("MALFORMED", "unreadable", place, message) from error
 
 
 def _told(path: str, read: Callable[..., Expectation], limits: Limits, clock: Clock) -> Expectation:
@@ -95,12 +72,26 @@ def _counted(path: str, wanted: Expectation, limits: Limits) -> Iterator[Found]:
 
 
 def verdicts(
-    paths: Sequence[str], manifest: str | None, wanted: Expectation, limits: Limits, clock: Clock
+    paths: Sequence[str],
+    manifest: str | None,
+    asking: Sequence[str | None],
+    limits: Limits,
+    clock: Clock,
 ) -> Iterator[Found]:
     """Yield each verdict after its subject, a ``file`` or the ``text`` of a sentence.
 
-    A path that ends with the usual name of a manifest is read as a manifest.
+    A path that ends with the usual name of a manifest is read as a manifest.  Every certificate
+    is asked for what three files hold: a system, a controller, and a statement or claim.
+
+    Raises
+    ------
+    Refused
+        If one of the three cannot be read, or not in time.
     """
+    wanted, new = Expectation(), Expectation
+    for path, read in zip(asking, (new.about, new.controlled, new.saying), strict=True):
+        if path is not None:
+            wanted = _told(path, partial(read, wanted), limits, clock)
     for path in paths:
         about = {"file": path}
         if os.path.basename(path) == NAME:
@@ -110,6 +101,11 @@ def verdicts(
             yield from clock.limited(((about, answer(each)) for each in [check]), about)
     if manifest is not None:
         yield from clock.limited(_counted(manifest, wanted, limits), {"file": manifest})
+
+
+def status_of(found: Sequence[Found]) -> int:
+    """The exit status of a run with these verdicts."""
+    return next(status for status in PRECEDENCE if status in {0, *(v.status for _, v in found)})
 
 
 def count(text: str) -> int:
@@ -130,59 +126,34 @@ def seconds(text: str) -> float:
     return found
 
 
+EPILOG = (
+    "Exit status: the first that applies of 70 a bug in this checker, 3 MALFORMED, 1 INVALID, "
+    "5 INCOMPLETE, 0 all VALID or IMPLIED; 2 wrong usage, 74 the verdicts cannot be written, "
+    "130 interrupted."
+)
+OPTIONS: tuple[tuple[str, str, Callable[[str], object], str], ...] = (
+    ("manifest", "FILE", str, "verify the sentences of a manifest from its certificates"),
+    ("system", "FILE", str, "require certificates about the system in this file"),
+    ("controller", "FILE", str, "require certificates about a loop with this controller"),
+    ("expect", "FILE", str, "require a statement, its SHA-256, or a claim as JSON"),
+    ("max-bytes", "N", count, "the bytes of a file"),
+    ("max-digits", "N", count, "the digits in a row"),
+    ("max-depth", "N", count, "the nested levels"),
+    ("max-work", "N", count, "the units of work of a check; by default they grow with the bytes"),
+    ("timeout", "SECONDS", seconds, "the time of the run; what is not decided is INCOMPLETE"),
+    ("max-memory", "MIB", count, "the memory that may be added; what needs more is INCOMPLETE"),
+)
+"""Name, value, how it is read, and help; what begins with ``max-`` may stand in ``Limits``."""
+
+
 def _parser() -> argparse.ArgumentParser:
     """The options."""
-    parser = argparse.ArgumentParser(
-        prog="checker",
-        description=__doc__,
-        epilog="Exit status: the first that applies of 70 a bug in this checker, 3 MALFORMED, "
-        "1 INVALID, 5 INCOMPLETE, 0 all VALID or IMPLIED; 2 wrong usage, 74 the verdicts cannot be "
-        "written, 130 interrupted.",
-        allow_abbrev=False,
-    )
-    parser.add_argument(
-        "files", nargs="*", metavar="FILE", help="certificates; - is standard input"
-    )
-    parser.add_argument(
-        "--manifest",
-        metavar="FILE",
-        help="verify the sentences of a manifest from its certificates",
-    )
-    parser.add_argument(
-        "--system", metavar="FILE", help="require certificates about the system in this file"
-    )
-    parser.add_argument(
-        "--controller",
-        metavar="FILE",
-        help="require certificates about a closed loop with the controller in this file",
-    )
-    parser.add_argument(
-        "--expect",
-        metavar="FILE",
-        help="require what this file holds: a statement, its SHA-256, or a claim as JSON",
-    )
+    parser = argparse.ArgumentParser("checker", None, __doc__, EPILOG, allow_abbrev=False)
+    parser.add_argument("files", nargs="*", metavar="FILE", help="certificates; - is the input")
     parser.add_argument("--json", action="store_true", help="print one JSON document")
-    for name in ("bytes", "digits", "depth"):
-        default = getattr(Limits, name)
-        parser.add_argument(f"--max-{name}", type=count, default=default, metavar="N")
-    parser.add_argument(
-        "--max-work",
-        type=count,
-        metavar="N",
-        help="units of work that each check may take; by default they grow with the bytes read",
-    )
-    parser.add_argument(
-        "--timeout",
-        type=seconds,
-        metavar="SECONDS",
-        help="the time for the whole run; what is not decided by then is INCOMPLETE",
-    )
-    parser.add_argument(
-        "--max-memory",
-        type=count,
-        metavar="MIB",
-        help="the memory that may be added; what needs more is INCOMPLETE",
-    )
+    for name, value, read, told in OPTIONS:
+        default = getattr(Limits, name.removeprefix("max-"), None)
+        parser.add_argument(f"--{name}", metavar=value, type=read, default=default, help=told)
     return parser
 
 
@@ -218,7 +189,8 @@ def _run(parser: argparse.ArgumentParser, arguments: Sequence[str] | None) -> in
     options = parser.parse_args(arguments)
     if not options.files and options.manifest is None:
         parser.error("expected a FILE or --manifest")
-    if [*options.files, options.system, options.controller, options.expect].count("-") > 1:
+    asking = options.system, options.controller, options.expect
+    if [*options.files, *asking].count("-") > 1:
         parser.error("standard input can be read once: give - once")
     if not SUPPORTED and (options.timeout or options.max_memory):
         parser.error("this platform has no limits on time and memory")
@@ -230,9 +202,8 @@ def _run(parser: argparse.ArgumentParser, arguments: Sequence[str] | None) -> in
     found, clock = [], Clock(options.timeout)
     try:
         with memory(options.max_memory), clock.running():
-            about_files = options.system, options.controller, options.expect
-            wanted = asked(*about_files, limits, clock)
-            for about, verdict in verdicts(options.files, options.manifest, wanted, limits, clock):
+            files, manifest = options.files, options.manifest
+            for about, verdict in verdicts(files, manifest, asking, limits, clock):
                 found.append((about, verdict))
                 if not options.json:
                     _say(verdict.line().replace("(Limits.", "(--max-"))
@@ -241,7 +212,7 @@ def _run(parser: argparse.ArgumentParser, arguments: Sequence[str] | None) -> in
         return Verdict(error.verdict).status
     if options.json:
         _say(json.dumps({"verdicts": [about | asdict(v) for about, v in found]}, indent=1))
-    return next(status for status in PRECEDENCE if status in {0, *(v.status for _, v in found)})
+    return status_of(found)
 
 
 def _say(text: str) -> None:

@@ -4,27 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import Any
 
 from . import reading, region
 from .information_structure import SHARED, augmented_outputs, extended, neighbors_of
-from .reading import fields, require
+from .reading import Json, fields, require
 from .shared_dimensions import read_cut
 from .statement import FIXED
 from .system import System
 
 
-def _says(share: str, holds: Callable[[Any], Any], claim: Any) -> bool:
+def _says(share: str, holds: Callable[[Json], Json], claim: Json) -> bool:
     """Whether a claim is about a way of sharing, and its dimension has a property."""
     return bool(claim["share"] == share and holds(claim["dimension"]))
 
 
 SENTENCES = {
-    f"common-dimension-{key}{end}": (theorem, partial(_says, share, held))
-    for key, share, name in (
-        ("outputs-states", "outputs+states", "outputs"),
-        ("states", "states", "states"),
-    )
+    f"common-dimension-{share.replace('+', '-')}{end}": (theorem, partial(_says, share, held))
+    for share, name in (("outputs+states", "outputs"), ("states", "states"))
     for end, theorem, held in (
         ("", f"shared_dimensions.common_dimension_{name}", lambda k: k),
         ("-none", "", lambda k: k == 0),
@@ -34,7 +30,7 @@ SENTENCES = {
 """The sentences that repeat the claim: theorem, and the claim that each needs."""
 
 
-def check(claim: Any, witness: Any, system: System) -> None:
+def check(claim: Json, witness: Json, system: System) -> None:
     """Check that k dimensions of each agent suffice, and that for one subset k − 1 do not.
 
     Theorems ``shared_dimensions.common_dimension_outputs``,
@@ -65,7 +61,7 @@ def check(claim: Any, witness: Any, system: System) -> None:
         require(short, "cut", "witness.cut", f"{around} agents around the subset can do with less")
 
 
-def statement(claim: Any, system: System) -> str:
+def statement(claim: Json, system: System) -> str:
     """For which common dimensions no mode is fixed."""
     when = f"exactly for k >= {claim['dimension']}" if claim["feasible"] else "for no k"
     what = f"{SHARED[claim['share']]} of dimension k for each agent"

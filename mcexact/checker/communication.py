@@ -3,25 +3,23 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from fractions import Fraction
-from typing import Any
 
 from . import covering, links, reading, region, subspaces
 from .budget import spend
 from .information_structure import arcs, augmented_outputs, extended, shared
-from .reading import fields, items, require
+from .reading import Json, fields, items, require
 from .statement import edge_set
 from .system import System
 
+CLAIM = ("share", "dimensions", "bound", "candidates", "feasible", "added", "cost")
 
-def check(claim: Any, witness: Any, system: System) -> None:
+
+def check(claim: Json, witness: Json, system: System) -> None:
     """Check that the added links suffice, every cut, and the tree that excludes a lower cost.
 
     Theorem ``allocation.communication_cut``.
     """
-    share, sizes, limit, listed, _, added, _ = fields(
-        claim, "claim", "share", "dimensions", "bound", "candidates", "feasible", "added", "cost"
-    )
+    share, sizes, limit, listed, _, added, _ = fields(claim, "claim", *CLAIM)
     absence, cuts, tree = fields(witness, "witness", "absence", "cuts", "tree")
     reading.string(share, "claim.share", "outputs", "outputs+states", "states")
     if system.neighbors is None:
@@ -53,7 +51,7 @@ def check(claim: Any, witness: Any, system: System) -> None:
         chosen = [links.link(e, "claim.added", system) for e in items(added, "claim.added")]
         spend(4 * len(chosen) * len(candidates))
         right = chosen == sorted(set(chosen)) and set(chosen) <= set(ends)
-        total = sum((c for j, i, c in candidates if (j, i) in chosen), Fraction(0))
+        total = sum(c for j, i, c in candidates if (j, i) in chosen)
         require(right and value == total, "claim", "claim.cost", "not the cost of such candidates")
         final = with_links(arcs(system, {"added": added}, "claim.added"))
         region.require_absence(absence, final, bound)
@@ -61,7 +59,7 @@ def check(claim: Any, witness: Any, system: System) -> None:
     covering.Program(costs, found, "arc", labels, value).require_bound(tree, [1] * len(ends))
 
 
-def statement(claim: Any, system: System) -> str:
+def statement(claim: Json, system: System) -> str:
     """Which links suffice, at which cost, and that nothing cheaper does."""
     share, added = claim["share"], claim["added"]
     given = share if share == "outputs" else shared(system, share, claim["dimensions"])

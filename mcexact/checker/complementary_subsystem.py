@@ -7,12 +7,11 @@ from dataclasses import replace
 from fractions import Fraction
 from functools import reduce
 from itertools import pairwise
-from typing import Any
 
 from . import evidence, reading
-from .arithmetic import Echelon, Matrix, diagonal, poly_divide, poly_product, stack
+from .arithmetic import Matrix, diagonal, poly_divide, poly_product, rank_modulo, stack
 from .controllability import require_reached
-from .reading import boolean, fields, integer, items, polynomial, require
+from .reading import Json, boolean, fields, integer, items, polynomial, require
 from .statement import PENCIL, channel_set, denied, polynomial_text
 from .system import System
 
@@ -20,7 +19,7 @@ CLAIM = ["subset", "normal_rank", "invariant_polynomials", "remnant", "transfer_
 WITNESS = ["modulus", "reachable", "X", "F", "A1", "S", "B1", "L", "G", "N"]
 
 
-def check(claim: Any, witness: Any, system: System) -> None:
+def check(claim: Json, witness: Json, system: System) -> None:
     """Check bases that bring the pencil to block triangular form, and read off its Smith form.
 
     Theorems ``complementary_subsystem.invariant_polynomials``,
@@ -55,8 +54,7 @@ def check(claim: Any, witness: Any, system: System) -> None:
         require(good, "identity", "witness", f"expected {name}")
     ell = evidence.modulus(number, "witness.modulus")
     for M, least in ((X.T, v), (L, c), (S.T, free), (L @ B, k - n)):
-        echelon = Echelon(ell)
-        reached = sum(echelon.add(row) is not None for row in M.modulo(ell))
+        reached = rank_modulo(M, ell)
         require(reached == least, "rank", "witness", f"rank {reached} modulo l, not {least}")
     require_reached(replace(system, A=A1.take(cols=range(a)), B=[B1]), 0, ell, a)
     remnant = reduce(poly_product, f[: max(len(f) - (k - n), 0)], [Fraction(1)])
@@ -65,7 +63,7 @@ def check(claim: Any, witness: Any, system: System) -> None:
     require(given == implied, "claim", "claim", "does not follow from the invariant polynomials")
 
 
-def statement(claim: Any, system: System) -> str:
+def statement(claim: Json, system: System) -> str:
     """The Smith form of the pencil, and what follows from it."""
     found = ", ".join(map(polynomial_text, claim["invariant_polynomials"]))
     return (

@@ -2,24 +2,22 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from .arithmetic import Echelon, product
 from .characteristic_polynomial import characteristic_polynomial
 from .evidence import inputs, modulus, require_identity
-from .reading import boolean, fields, integer, matrix, names, polynomial, positions, require
+from .reading import Json, boolean, fields, integer, matrix, names, polynomial, positions, require
 from .statement import channel_set, denied, polynomial_text
 from .system import System
 
+CLAIM = ("channels", "dimension", "controllable", "uncontrollable_polynomial")
 
-def check(claim: Any, witness: Any, system: System) -> None:
+
+def check(claim: Json, witness: Json, system: System) -> None:
     """Check an annihilator W from above and a Krylov rank modulo ℓ from below.
 
     Theorem ``controllability.controllability_rule``.
     """
-    listed, size, verdict, factor = fields(
-        claim, "claim", "channels", "dimension", "controllable", "uncontrollable_polynomial"
-    )
+    listed, size, verdict, factor = fields(claim, "claim", *CLAIM)
     ell, rows, columns = fields(witness, "witness", "modulus", "annihilator", "pivots")
     T = names(listed, "claim.channels", system.names)
     d, n = integer(size, "claim.dimension"), system.n
@@ -40,7 +38,7 @@ def check(claim: Any, witness: Any, system: System) -> None:
     require(same, "claim", "claim.uncontrollable_polynomial", "not det(xI - Z)")
 
 
-def statement(claim: Any, system: System) -> str:
+def statement(claim: Json, system: System) -> str:
     """How much of the state the channels control."""
     return (
         f"the channels {channel_set(claim['channels'])} together control a subspace of dimension "

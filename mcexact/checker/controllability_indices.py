@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import Any
 
 from .arithmetic import Echelon
 from .controllability import krylov_ranks
 from .evidence import inputs, modulus
-from .reading import fields, integer, items, matrix, names, require
+from .reading import Json, fields, integer, items, matrix, names, require
 from .statement import canonical_json, channel_set
 from .system import System
 
 
-def check(claim: Any, witness: Any, system: System) -> None:
+def check(claim: Json, witness: Json, system: System) -> None:
     """Check rows that annihilate the first k blocks, and the ranks modulo ℓ from below.
 
     Theorems ``controllability.indices_rule``, ``controllability.indices_stationary``,
@@ -49,7 +48,7 @@ def check(claim: Any, witness: Any, system: System) -> None:
     require(kappa == conjugate, "claim", "claim.indices", f"the ranks give {conjugate}")
 
 
-def statement(claim: Any, system: System) -> str:
+def statement(claim: Json, system: System) -> str:
     """The ranks, and the indices that follow from them."""
     index = "none" if claim["index"] is None else claim["index"]
     return (

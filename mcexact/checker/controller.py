@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any
-
+from . import reading
 from .arithmetic import Matrix
-from .reading import Limits, fields, integer, items, malformed, own_names, parse, shown, string
+from .reading import Json, Limits, fields, integer, items, malformed, shown, string
 from .statement import canonical_json, digest_of
 from .system import System, number, read_matrix
 
@@ -15,8 +14,8 @@ FORMAT = "mcexact-controller/1"
 
 
 def read_controller(
-    value: Any, place: str, system: System | None = None, limits: Limits | None = None
-) -> dict[str, Any]:
+    value: Json, place: str, system: System | None = None, limits: Limits | None = None
+) -> dict[str, Json]:
     """The canonical object of a controller, its matrices read.
 
     What is absent or empty is left out, and so is a hold of no steps.  In a certificate a matrix
@@ -33,20 +32,20 @@ def read_controller(
     agents = [fields(agent, place, *keys, optional=("hold",)) for agent in items(listed, place)]
     if limits is not None and not agents:
         malformed(place, "expected at least one agent")
-    known = own_names([agent[0] for agent in agents], [place] * len(agents))
+    known = reading.own_names([agent[0] for agent in agents], [place] * len(agents))
     ports = system if system and system.names == known else None
     q = [C.nrows for C in ports.C] if ports else [None] * len(known)
     p = [B.ncols for B in ports.B] if ports else [None] * len(known)
     x, z = ([integer(agent[k], place) for agent in agents] for k in (1, 2))
-    programs: list[dict[str, Any]] = []
+    programs: list[dict[str, Json]] = []
     for i, (*_, shared_update, private_update, control, hold) in enumerate(agents):
         steps = {name: integer(d, place) for name, _, d in _by_agent(hold, place, known)}
-        program: dict[str, Any] = {"hold": {name: d for name, d in steps.items() if d}}
+        program: dict[str, Json] = {"hold": {name: d for name, d in steps.items() if d}}
         given = (shared_update, x[i]), (private_update, z[i]), (control, p[i])
         for label, (parts, nrows) in zip(MAPS, given, strict=True):
             where = f"{place}.{label}"
             *by_agent, private, reference = fields(parts, where, optional=USED)
-            found: dict[str, Any] = {}
+            found: dict[str, Json] = {}
             for key, entries, widths in zip(USED, by_agent, (q, x), strict=False):
                 used = (
                     (name, read_matrix(M, where, nrows, widths[j], limits))
@@ -62,7 +61,7 @@ def read_controller(
     return {"time": string(time, place, "continuous", "discrete"), "agents": programs}
 
 
-def _by_agent(value: Any, place: str, known: list[str]) -> list[tuple[str, int, Any]]:
+def _by_agent(value: Json, place: str, known: list[str]) -> list[tuple[str, int, Json]]:
     """The entries of an object keyed by agents, with the agents' positions."""
     given = fields({} if value is None else value, place, optional=tuple(known))
     return [(known[j], j, entry) for j, entry in enumerate(given) if entry is not None]
@@ -70,7 +69,7 @@ def _by_agent(value: Any, place: str, known: list[str]) -> list[tuple[str, int, 
 
 def read_controller_file(data: bytes, limits: Limits) -> tuple[str, str]:
     """The digest of the controller in a file, and that of its plant, empty if it names none."""
-    document = parse(data, limits, lambda text: number(text, f"number {text[:24]}", limits))
+    document = reading.parse(data, limits, lambda text: number(text, f"number {text[:24]}", limits))
     version, plant, *parts = fields(document, "controller", "format", "system", "time", "agents")
     if version != FORMAT:
         malformed("format", f"expected {FORMAT!r}, found {shown(version)}")

@@ -6,11 +6,9 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
 
 from . import budget
-from .budget import spend
-from .reading import fields, integer, items, malformed, rational, require
+from .reading import Json, fields, integer, items, malformed, rational, require
 
 
 @dataclass(frozen=True)
@@ -24,10 +22,10 @@ class Program:
     costs: Sequence[Fraction]
     cuts: Sequence[tuple[set[int], int]]
     key: str
-    labels: Sequence[Any]
+    labels: Sequence[Json]
     value: Fraction | None
 
-    def require_bound(self, nodes: Any, upper: Sequence[int | None]) -> None:
+    def require_bound(self, nodes: Json, upper: Sequence[int | None]) -> None:
         """Stop unless the tree proves that every point below ``upper`` costs at least ``value``.
 
         The nodes come in preorder: an inner node, then its tree below, then its tree above.
@@ -37,18 +35,18 @@ class Program:
         if self.value is not None:
             # a cheaper point has x_i ≤ value / c_i, all costs being positive
             implied = [math.floor(self.value / c) for c in self.costs]
-            spend(budget.fractions(len(self.costs), self._limbs()))
+            budget.spend(budget.fractions(len(self.costs), self._limbs()))
             upper = [b if u is None else min(u, b) for u, b in zip(upper, implied, strict=True)]
-        boxes: list[Any] = [([0] * len(self.costs), list(upper))]
+        boxes: list[Json] = [([0] * len(self.costs), list(upper))]
         for number, node in enumerate(items(nodes, "witness.tree")):
             place = f"witness.tree[{number}]"
-            spend(20 * len(self.costs) + 200)
+            budget.spend(20 * len(self.costs) + 200)
             require(bool(boxes), "tree", place, "more nodes than the tree has places")
             low, high = boxes.pop()
             if isinstance(node, dict) and "violated" in node:
                 (cut,) = fields(node, place, "violated")
                 support, demand = self._cut(cut, place)
-                spend(10 * len(support))
+                budget.spend(10 * len(support))
                 known = [high[i] for i in support if high[i] is not None]
                 enough = len(known) == len(support) and sum(known) < demand
                 require(enough, "leaf", place, "the upper bounds do not violate that cut")
@@ -67,12 +65,14 @@ class Program:
         """The limbs of the longest cost, or of the value."""
         return budget.limbs_of((*self.costs, self.value or 0))
 
-    def _cut(self, number: Any, place: str) -> tuple[set[int], int]:
+    def _cut(self, number: Json, place: str) -> tuple[set[int], int]:
         if integer(number, place) >= len(self.cuts):
             malformed(place, f"expected the number of a cut, below {len(self.cuts)}")
         return self.cuts[int(number)]
 
-    def _require_multipliers(self, node: Any, place: str, low: list[int], high: list[Any]) -> None:
+    def _require_multipliers(
+        self, node: Json, place: str, low: list[int], high: list[int | None]
+    ) -> None:
         (listed,) = fields(node, place, "multipliers")
         require(self.value is not None, "leaf", place, "expected a violated cut")
         reduced, bound, longest = list(self.costs), Fraction(0), self._limbs()
@@ -82,13 +82,13 @@ class Program:
             y = rational(weight, place)
             require(y >= 0, "leaf", place, "expected multipliers that are not negative")
             longest += budget.limbs_of((y, demand))
-            spend(budget.fractions(len(support) + 2, longest))
+            budget.spend(budget.fractions(len(support) + 2, longest))
             bound += y * demand
             for i in support:
                 reduced[i] -= y
         longest += len(reduced) * self._limbs() + budget.limbs(low)
         longest += budget.limbs(most for most in high if most is not None)
-        spend(budget.fractions(2 * len(reduced) + 2, longest))
+        budget.spend(budget.fractions(2 * len(reduced) + 2, longest))
         for r, least, most in zip(reduced, low, high, strict=True):
             bound += r * least if r >= 0 else r * (most or 0)
         grid = math.lcm(1, *(c.denominator for c in self.costs))

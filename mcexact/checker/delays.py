@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 from .arithmetic import Matrix, beside, stack
 from .budget import spend, table
 from .information_structure import neighbors_of, read_dimensions, read_shares, shared
-from .reading import fields, require
+from .reading import Json, fields, require
 from .statement import prefixed
 from .system import System
 
 
-def lifted(system: System, step: dict[str, Any], place: str) -> System:
+def lifted(system: System, step: dict[str, Json], place: str) -> System:
     """Paper, section V-A: x, then for each j the x_j(t), …, x_j(t−d_j), y_j(t−1), …, y_j(t−d_j).
 
     Open: see ``proofs/OPEN.md``.
@@ -23,7 +22,7 @@ def lifted(system: System, step: dict[str, Any], place: str) -> System:
     return _delayed(system, sizes, place, what, share == "outputs+states", hold=False)
 
 
-def held(system: System, step: dict[str, Any], place: str) -> System:
+def held(system: System, step: dict[str, Json], place: str) -> System:
     """Paper, section V-B: x, then for each j the x_j(t), …, x_j(t−d_j); all receive x_j(t−d_j).
 
     Open: see ``proofs/OPEN.md``.

@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import Any
 
 from . import budget
 from .arithmetic import Matrix, Polynomial
-from .budget import spend
 from .closed_loop_spectrum import moduli, require_spectrum
 from .location import in_region
-from .reading import fields, polynomial, rational, require
+from .reading import Json, fields, polynomial, rational, require
 from .region import inside
 from .statement import polynomial_text
 from .system import System
 
 
-def check(claim: Any, witness: Any, system: System) -> None:
+def check(claim: Json, witness: Json, system: System) -> None:
     """Check that the errors evolve by themselves, and the polynomials of both diagonal blocks.
 
     Theorems ``distributed_observer.observer_rate``, ``distributed_observer.observer_radius``.
@@ -32,7 +30,7 @@ def check(claim: Any, witness: Any, system: System) -> None:
         _require_placed(rational(limit, "claim.bound"), system.time, [p, q])
 
 
-def statement(claim: Any, system: System) -> str:
+def statement(claim: Json, system: System) -> str:
     """The separation of the errors, and both polynomials."""
     feedback, error = (polynomial_text(claim[key]) for key in ("feedback", "error"))
     limit = claim["bound"]
@@ -52,7 +50,7 @@ def separated(system: System) -> tuple[Matrix, Matrix]:
     blocks = list(system.blocks)
     good = len(blocks) > 1 and sum(blocks) == system.n and set(blocks[1::2]) == {blocks[0]}
     require(good, "subject", "subject", "not a loop in which every agent estimates the state")
-    spend(2 * budget.table(system.n, system.n, system.A.limbs) + len(blocks) ** 2)
+    budget.spend(2 * budget.table(system.n, system.n, system.A.limbs) + len(blocks) ** 2)
     n, rows = blocks[0], [list(row) for row in system.A.rows]
     starts = [sum(blocks[:k]) for k in range(1, len(blocks), 2)]
     for start in starts:

@@ -4,15 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from typing import Any
 
 from .arithmetic import Matrix, Polynomial, beside, coprime, poly_modulo, stack
-from .reading import (
-    integer,
-    matrices,
-    require,
-    shown,
-)
+from .reading import Json, integer, matrices, require, shown
 from .system import System
 
 
@@ -37,9 +31,8 @@ def require_identity(layers: Sequence[Matrix], pivots: list[int], place: str) ->
     The columns are then independent for every x.
     """
     parts = [layer.take(pivots) for layer in layers]
-    good = parts[0].equals(Matrix.unit_rows(len(pivots), 0, len(pivots))) and all(
-        M.is_zero() for M in parts[1:]
-    )
+    first = parts[0].equals(Matrix.unit_rows(len(pivots), 0, len(pivots)))
+    good = first and all(M.is_zero() for M in parts[1:])
     require(good, "pivots", place, "expected an identity matrix there")
 
 
@@ -49,13 +42,13 @@ def closed_loop(system: System, gains: Sequence[Matrix]) -> Matrix:
     return system.A + left @ outputs(system, range(system.m))
 
 
-def read_gains(value: Any, place: str, system: System) -> list[Matrix]:
+def read_gains(value: Json, place: str, system: System) -> list[Matrix]:
     """One F_i, p_i × q_i, for each channel."""
     shapes = [(B.ncols, C.nrows) for B, C in zip(system.B, system.C, strict=True)]
     return matrices(value, place, shapes)
 
 
-def modulus(value: Any, place: str) -> int:
+def modulus(value: Json, place: str) -> int:
     """A modulus ℓ ≥ 2; the code that uses it stops if it divides a denominator."""
     ell = integer(value, place, -math.inf)
     require(ell >= 2, "modulus", place, f"expected an integer from 2 on, found {shown(ell)}")

@@ -4,18 +4,16 @@ from __future__ import annotations
 
 from fractions import Fraction
 from functools import reduce
-from typing import Any
 
 from . import budget, evidence, reading, root_discs
 from .arithmetic import Matrix, Polynomial, exponent, poly_product, stripped
-from .budget import counted, spend
 from .characteristic_polynomial import characteristic_polynomial
-from .reading import fields, integer, items, matrix, require
+from .reading import Json, fields, integer, items, matrix, require
 from .statement import canonical_json, polynomial_text, with_digest
 from .system import System
 
 
-def check(claim: Any, witness: Any, system: System) -> None:
+def check(claim: Json, witness: Json, system: System) -> None:
     """Check a row at every root of each factor, and two determinants without other common roots.
 
     Theorems ``exceptional_gains.exceptional_lost``, ``exceptional_gains.exceptional_kept``,
@@ -43,7 +41,7 @@ def check(claim: Any, witness: Any, system: System) -> None:
     evidence.require_coprime(first, second, ell, "the rest of det(K R) and det(K R')")
 
 
-def statement(claim: Any, system: System) -> str:
+def statement(claim: Json, system: System) -> str:
     """For which g the blocks lose rank."""
     n, k = system.n, claim["blocks"]
     M = canonical_json(matrix(claim["M"], "claim.M", n, n))
@@ -56,14 +54,14 @@ def statement(claim: Any, system: System) -> str:
     )
 
 
-def _lost_at(value: Any, place: str, A: Matrix, M: Matrix, B: Matrix, blocks: int) -> Polynomial:
+def _lost_at(value: Json, place: str, A: Matrix, M: Matrix, B: Matrix, blocks: int) -> Polynomial:
     """A factor f; a row with an entry 1 annihilates all blocks modulo f."""
     p, row, pivot = fields(value, place, "polynomial", "row", "pivot")
     f = reading.polynomial(p, f"{place}.polynomial", 1)
     w = reading.polynomial_matrix(row, f"{place}.row", 1, A.nrows, len(f) - 1)
     pivots = reading.positions([pivot], f"{place}.pivot", A.nrows)
     evidence.require_identity([layer.T for layer in w], pivots, f"{place}.pivot")
-    for _ in counted(range(blocks)):
+    for _ in budget.counted(range(blocks)):
         gone = all((layer @ B).is_zero() for layer in w)
         require(gone, "identity", f"{place}.row", "it does not annihilate every block")
         moved = [Matrix.zeros(1, A.nrows), *(layer @ A for layer in w)]
@@ -78,14 +76,14 @@ def _determinant(A: Matrix, M: Matrix, B: Matrix, R: Matrix, blocks: int) -> Pol
     Theorem ``interpolation.determinant_by_values``.
     """
     result, basis = Polynomial(), [Fraction(1)]
-    for g in counted(range(A.nrows * (blocks - 1) + 1)):
+    for g in budget.counted(range(A.nrows * (blocks - 1) + 1)):
         total = Matrix.zeros(A.nrows, A.nrows)
         for k in reversed(range(0, R.nrows, B.ncols or 1)):
-            total = B @ R.take(range(k, k + B.ncols)) + (M + A.times(Fraction(g))) @ total
+            total = B @ R.take(range(k, k + B.ncols)) + (M + A.times(g)) @ total
         wanted = (-1) ** A.nrows * characteristic_polynomial(total)[0]
         longest = budget.limbs_of((wanted, *result, *basis))
         longest += g.bit_length() * len(basis) // budget.LIMB
-        spend(budget.fractions(8 * len(basis), longest))
+        budget.spend(budget.fractions(8 * len(basis), longest))
         now, room = (sum(c * g**k for k, c in enumerate(p)) for p in (result, basis))
         slope = (wanted - now) / room
         result = [a + slope * b for a, b in zip([*result, Fraction(0)], basis, strict=True)]

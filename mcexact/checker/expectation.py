@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, replace
-from typing import Any
 
 from .controller import read_controller_file
-from .reading import Limits, malformed, parse, require
+from .reading import Json, Limits, malformed, parse, require
 from .statement import digest_of
 from .system import digest, read_system_file
 
@@ -36,7 +35,7 @@ class Expectation:
     controller: str = ""
     made_for: str = ""
     statement: str = ""
-    claim: Any = None
+    claim: Json = None
 
     def about(self, data: bytes, limits: Limits) -> Expectation:
         """The same, about the plant in a system file."""
@@ -80,7 +79,7 @@ class Expectation:
             message = f"about another controller, of digest {found}, not {self.controller}"
             require(found == self.controller, "controller", "subject", message)
 
-    def require_said(self, claim: Any, statement: str) -> None:
+    def require_said(self, claim: Json, statement: str) -> None:
         """Stop unless the certificate makes the statement, or the claim."""
         right = self.statement in ("", digest_of(statement))
         require(right, "expected", "claim", f"it states something else: {statement}")
@@ -88,7 +87,7 @@ class Expectation:
         require(right, "expected", "claim", f"another claim, which states: {statement}")
 
 
-def same(a: Any, b: Any) -> bool:
+def same(a: Json, b: Json) -> bool:
     """Whether two values are equal as JSON: true differs from 1, and keys have no order."""
     if type(a) is not type(b):
         return False

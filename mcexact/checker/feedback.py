@@ -4,29 +4,27 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
-from typing import Any
 
 from .arithmetic import Matrix, beside, stack
 from .evidence import closed_loop, outputs, read_gains
 from .information_structure import neighbors_of
-from .reading import fields, matrices
+from .reading import Json, fields, matrices
 from .statement import by_channel, canonical_json, prefixed, suffixed, with_digest
 from .system import System
 
 
-def dual(system: System, step: dict[str, Any], place: str) -> System:
+def dual(system: System, step: dict[str, Json], place: str) -> System:
     """A', (C_i)', (B_i)'; no neighbor graph.
 
     Open: see ``proofs/OPEN.md``.
     """
     fields(step, place)
     B, C = [M.T for M in system.C], [M.T for M in system.B]
-    graph: dict[str, Any] = {"neighbors": None, "delays": {}, "blocks": ()}
-    words = prefixed("the dual", system)
-    return replace(system, A=system.A.T, B=B, C=C, **graph, words=words)
+    alone = replace(system, neighbors=None, delays={}, blocks=())
+    return replace(alone, A=system.A.T, B=B, C=C, words=prefixed("the dual", system))
 
 
-def feedback(system: System, step: dict[str, Any], place: str) -> System:
+def feedback(system: System, step: dict[str, Json], place: str) -> System:
     """A_F instead of A.
 
     Open: see ``proofs/OPEN.md``.
@@ -38,7 +36,7 @@ def feedback(system: System, step: dict[str, Any], place: str) -> System:
     return replace(system, A=closed_loop(system, F), words=words)
 
 
-def full_output(system: System, step: dict[str, Any], place: str) -> System:
+def full_output(system: System, step: dict[str, Json], place: str) -> System:
     """C_q becomes the identity.
 
     Open: see ``proofs/OPEN.md``.
@@ -51,7 +49,7 @@ def full_output(system: System, step: dict[str, Any], place: str) -> System:
     return replace(system, C=C, words=suffixed(system, words))
 
 
-def integrators(system: System, step: dict[str, Any], place: str) -> System:
+def integrators(system: System, step: dict[str, Json], place: str) -> System:
     """Paper, section III: w' = y or w(t+1) = w + y at the outputs, and agent i measures its w_i.
 
     Open: see ``proofs/OPEN.md``.
@@ -68,7 +66,7 @@ def integrators(system: System, step: dict[str, Any], place: str) -> System:
     return replace(system, A=A, B=B, C=C, words=words)
 
 
-def error(system: System, step: dict[str, Any], place: str) -> System:
+def error(system: System, step: dict[str, Json], place: str) -> System:
     """Paper, section II: the errors e_i of m estimates, I⊗(A + ΣB_jF_j) − Q with Q_ij = B_jF_j.
 
     Open: see ``proofs/OPEN.md``.

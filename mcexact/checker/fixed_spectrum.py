@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import Any
 
 from . import arithmetic, evidence, location, reading, root_discs, subspaces
+from .arithmetic import Matrix, Polynomial
 from .characteristic_polynomial import characteristic_polynomial
-from .characteristic_polynomial import characteristic_polynomial_modulo as modulo
-from .reading import fields, require
+from .reading import Json, fields, require
 from .statement import FIXED, PENCIL, channel_set, denied, polynomial_text
 from .system import System
 
@@ -20,10 +19,12 @@ SLOWEST = {
     "continuous": "minus the largest real part of a fixed mode",
     "discrete": "the largest modulus of a fixed mode",
 }
+Loss = tuple[Polynomial, int]
+"""A factor, and the rank that is lost at its roots."""
 REGION = {"continuous": "Hurwitz", "discrete": "Schur"}
 
 
-def check(claim: Any, witness: Any, system: System) -> None:
+def check(claim: Json, witness: Json, system: System) -> None:
     """Check a shrunk subspace for every factor, and gains that move all other modes.
 
     Theorems ``fixed_spectrum.fixed_spectrum_rule``, ``fixed_spectrum.absence``,
@@ -34,9 +35,9 @@ def check(claim: Any, witness: Any, system: System) -> None:
     ell, n = evidence.modulus(number, "witness.modulus"), system.n
     reading.items(spaces, "witness.subspaces", len(reading.items(entries, "claim.factors")))
     A_F = evidence.closed_loop(system, evidence.read_gains(gains, "witness.gains", system))
-    chi_F, product = modulo(A_F.modulo(ell), ell), [1]
+    chi_F, product = characteristic_polynomial(A_F, ell), [1]
     psi = characteristic_polynomial(system.A) if entries else []
-    found: list[Any] = []
+    found: list[tuple[Polynomial, int, bool, list[root_discs.Disc]]] = []
     for k, entry in enumerate(entries):
         place, space = f"claim.factors[{k}]", f"witness.subspaces[{k}]"
         listed, names, flag, roots, *counts = fields(entry, place, *FACTOR)
@@ -53,7 +54,7 @@ def check(claim: Any, witness: Any, system: System) -> None:
         require(reading.boolean(flag, place) == stable, "claim", f"{place}.stable", "not implied")
         discs = root_discs.root_discs(roots, f"{place}.roots", p)
         found.append((p, n - r, stable, discs))
-    psi = psi or modulo(system.A.modulo(ell), ell)
+    psi = psi or characteristic_polynomial(system.A, ell)
     evidence.require_coprime(psi, chi_F, ell, "det(xI - A) without factors and det(xI - A_F)")
     stabilizable = all(stable for _, _, stable, _ in found)
     agrees = reading.polynomial(whole, "claim.polynomial") == product
@@ -67,7 +68,7 @@ def check(claim: Any, witness: Any, system: System) -> None:
         root_discs.require_rate(rate, "claim.best_rate", centers, system.time)
 
 
-def statement(claim: Any, system: System) -> str:
+def statement(claim: Json, system: System) -> str:
     """All fixed modes, and whether they are stable."""
     rate, whole = claim["best_rate"], polynomial_text(claim["polynomial"])
     texts = sorted((len(f["polynomial"]), _factor_text(f, system)) for f in claim["factors"])
@@ -82,7 +83,7 @@ def statement(claim: Any, system: System) -> str:
     return "; ".join([start, *(text for _, text in texts), end])
 
 
-def _factor_text(factor: Any, system: System) -> str:
+def _factor_text(factor: Json, system: System) -> str:
     """The proved properties of one factor."""
     p, region = polynomial_text(factor["polynomial"]), REGION[system.time]
     return (
@@ -96,7 +97,7 @@ def _factor_text(factor: Any, system: System) -> str:
     )
 
 
-def _require_ranks(completion: Any, losses: list[Any], A_F: arithmetic.Matrix, ell: int) -> None:
+def _require_ranks(completion: Json, losses: list[Loss], A_F: Matrix, ell: int) -> None:
     """Stop unless A_F + B_0 C_0, with d columns and rows, has no root of a p that loses d.
 
     Theorems ``fixed_spectrum.completion``, ``fixed_spectrum.rank_exact``.
@@ -106,5 +107,6 @@ def _require_ranks(completion: Any, losses: list[Any], A_F: arithmetic.Matrix, e
     B0 = reading.matrix(left, "witness.completion.B0", A_F.nrows, rho)
     C0 = reading.matrix(right, "witness.completion.C0", rho, A_F.nrows)
     for p, d in losses:
-        chi = modulo((A_F + B0.take(cols=range(d)) @ C0.take(range(d))).modulo(ell), ell)
+        completed = A_F + B0.take(cols=range(d)) @ C0.take(range(d))
+        chi = characteristic_polynomial(completed, ell)
         evidence.require_coprime(p, chi, ell, "a factor, and det(xI - A_F - B0 C0),")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 from . import reading
 from .arithmetic import Matrix, diagonal, stack
@@ -22,7 +21,7 @@ def neighbors_of(system: System, place: str) -> list[list[int]]:
     return system.neighbors or []
 
 
-def augmented_outputs(system: System, step: dict[str, Any], place: str) -> System:
+def augmented_outputs(system: System, step: dict[str, reading.Json], place: str) -> System:
     """C_i becomes C_{N_i}.
 
     Open: see ``proofs/OPEN.md``.
@@ -34,7 +33,7 @@ def augmented_outputs(system: System, step: dict[str, Any], place: str) -> Syste
     return replace(system, C=C, words=words)
 
 
-def arcs(system: System, step: dict[str, Any], place: str) -> System:
+def arcs(system: System, step: dict[str, reading.Json], place: str) -> System:
     """j joins N_i for each added edge [j, i].
 
     Open: see ``proofs/OPEN.md``.
@@ -52,13 +51,13 @@ def arcs(system: System, step: dict[str, Any], place: str) -> System:
     return replace(system, neighbors=[sorted(N_i) for N_i in sets], words=words)
 
 
-def read_shares(system: System, step: dict[str, Any], place: str) -> tuple[str, list[int]]:
+def read_shares(system: System, step: dict[str, reading.Json], place: str) -> tuple[str, list[int]]:
     """Read which signals are shared, and the dimensions n_i of the sub-states."""
     share, listed = reading.fields(step, place, "share", "dimensions")
     return reading.string(share, place, *SHARED), read_dimensions(system, listed, place)
 
 
-def read_dimensions(system: System, value: Any, place: str) -> list[int]:
+def read_dimensions(system: System, value: reading.Json, place: str) -> list[int]:
     """The dimensions n_i, one for each agent."""
     return [reading.integer(size, place) for size in reading.items(value, place, system.m)]
 
@@ -68,7 +67,7 @@ def shared(system: System, share: str, sizes: list[int]) -> str:
     return f"{SHARED[share]} of dimensions {canonical_json(by_channel(system, sizes))}"
 
 
-def extended(system: System, step: dict[str, Any], place: str) -> System:
+def extended(system: System, step: dict[str, reading.Json], place: str) -> System:
     """Paper, section IV-C: state (x, x_1, …, x_m); x_i' or x_i(t+1) is an input of agent i.
 
     Open: see ``proofs/OPEN.md``.

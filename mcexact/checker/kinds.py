@@ -7,12 +7,11 @@ import sys
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from importlib import import_module
-from typing import Any
 
 from .arithmetic import NotAUnit
 from .budget import current, limited
 from .expectation import Expectation
-from .reading import Limits, Refused, fields, incomplete, malformed, parse, shown, string
+from .reading import Json, Limits, Refused, fields, incomplete, malformed, parse, shown, string
 from .statement import described, digest_of
 from .subject import read_subject
 from .system import System, digest, read_plant
@@ -44,9 +43,9 @@ class Rule:
         The sentences of manifests that repeat the claim.
     """
 
-    check: Callable[[Any, Any, System], None]
-    statement: Callable[[Any, System], str]
-    sentences: dict[str, Any] = field(default_factory=dict)
+    check: Callable[[Json, Json, System], None]
+    statement: Callable[[Json, System], str]
+    sentences: dict[str, Json] = field(default_factory=dict)
 
 
 def _rule(stem: str) -> Rule:
@@ -56,6 +55,7 @@ def _rule(stem: str) -> Rule:
 
 KINDS = {stem: _rule(stem) for stem in STEMS}
 """The rule of each kind, from the file of the same name."""
+STATUSES = {"VALID": 0, "IMPLIED": 0, "COUNTED": 0, "INVALID": 1, "MALFORMED": 3, "INCOMPLETE": 5}
 
 
 @dataclass(frozen=True)
@@ -95,15 +95,7 @@ class Verdict:
     @property
     def status(self) -> int:
         """The exit status that belongs to this verdict."""
-        statuses = {
-            "VALID": 0,
-            "IMPLIED": 0,
-            "COUNTED": 0,
-            "INVALID": 1,
-            "MALFORMED": 3,
-            "INCOMPLETE": 5,
-        }
-        return statuses.get(self.verdict, 70)
+        return STATUSES.get(self.verdict, 70)
 
     def line(self) -> str:
         """The verdict as one line of text."""
@@ -114,7 +106,7 @@ class Verdict:
 
 
 def check_document(
-    data: bytes | Mapping[str, Any],
+    data: bytes | Mapping[str, Json],
     expected: Expectation | None = None,
     limits: Limits | None = None,
 ) -> Verdict:
@@ -137,28 +129,29 @@ def check_document(
 
     def check() -> Verdict:
         nonlocal known, controller
-        document = parse(data, allowed) if isinstance(data, bytes) else data
-        kind, given, steps, claim, witness = _parts(document)
-        plant = read_plant(given)
-        known = digest(plant)
-        wanted.require_plant(known)
-        system = read_subject(steps, replace(plant, words=f"the plant {known}"))
-        controller = system.controller
-        wanted.require_controller(controller)
-        KINDS[kind].check(claim, witness, system)
-        statement = f"For {described(system)}: {KINDS[kind].statement(claim, system)}"
-        wanted.require_said(claim, statement)
-        return Verdict("VALID", statement, digest_of(statement))
-
-    def check_within() -> Verdict:
         text = data if isinstance(data, bytes) else json.dumps(data, skipkeys=True, default=repr)
         with limited(budget, len(text)):
-            return check()
+            document = parse(data, allowed) if isinstance(data, bytes) else data
+            kind, given, steps, claim, witness = _parts(document)
+            plant = read_plant(given)
+            known = digest(plant)
+            wanted.require_plant(known)
+            system = read_subject(steps, replace(plant, words=f"the plant {known}"))
+            controller = system.controller
+            wanted.require_controller(controller)
+            KINDS[kind].check(claim, witness, system)
+            statement = f"For {described(system)}: {KINDS[kind].statement(claim, system)}"
+            wanted.require_said(claim, statement)
+            return Verdict("VALID", statement, digest_of(statement))
 
     budget = current(allowed.work)
     before = budget.spent
-    verdict = replace(answer(check_within), spent=budget.spent - before)
+    verdict = replace(answer(check), spent=budget.spent - before)
     return replace(verdict, system_digest=known, controller_digest=controller)
+
+
+Found = tuple[dict[str, str], Verdict]
+"""A verdict behind what it is about: a ``file``, or the ``text`` of a sentence."""
 
 
 def refusal(verdict: str, code: str, place: str, message: str) -> Verdict:
@@ -188,7 +181,7 @@ def answer(check: Callable[[], Verdict]) -> Verdict:
         sys.set_int_max_str_digits(digits)
 
 
-def _parts(document: Any) -> list[Any]:
+def _parts(document: Json) -> list[Json]:
     """The five parts of a certificate of a known version and kind."""
     if not isinstance(document, Mapping):
         malformed("file", f"expected a certificate, found {shown(document)}")

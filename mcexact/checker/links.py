@@ -3,22 +3,21 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import Any
 
 from .arithmetic import Matrix, diagonal
 from .budget import spend
 from .information_structure import neighbors_of
-from .reading import items, malformed, names, rational, require
+from .reading import Json, items, malformed, names, rational, require
 from .system import System
 
 
-def link(value: Any, place: str, system: System) -> tuple[int, int]:
+def link(value: Json, place: str, system: System) -> tuple[int, int]:
     """A link [from, to], as positions of channels."""
     j, i = (names([end], place, system.names)[0] for end in items(value, place, 2))
     return j, i
 
 
-def candidates(value: Any, system: System) -> list[tuple[int, int, Fraction]]:
+def candidates(value: Json, system: System) -> list[tuple[int, int, Fraction]]:
     """The candidate links, which the graph lacks, with their costs."""
     place, N, found = "claim.candidates", neighbors_of(system, "claim"), []
     for *ends, price in (items(entry, place, 3) for entry in items(value, place)):
@@ -31,7 +30,7 @@ def candidates(value: Any, system: System) -> list[tuple[int, int, Fraction]]:
     return found
 
 
-def carried(system: System, share: str, sizes: Any, j: int) -> Matrix:
+def carried(system: System, share: str, sizes: Json, j: int) -> Matrix:
     """S_j: C_j, diag(C_j, E_j') or [0, E_j'], the rows that a link from j adds to the outputs.
 
     Theorem ``allocation.communication_cut``.

@@ -7,7 +7,6 @@ from fractions import Fraction
 
 from . import budget
 from .arithmetic import Polynomial
-from .budget import spend
 
 
 def in_stability_region(p: Polynomial, time: str) -> bool:
@@ -31,7 +30,7 @@ def in_region(p: Polynomial, time: str, bound: Fraction | None) -> bool:
         return len(p) == 1
     bits = max(bound.numerator, bound.denominator).bit_length() + 1
     longest = budget.limbs_of(p) + len(p) * bits // budget.LIMB
-    spend(budget.fractions(len(p) ** 2, longest))
+    budget.spend(budget.fractions(len(p) ** 2, longest))
     if time == "continuous":
         moved: Polynomial = []  # p(x − bound), by Horner's rule
         for c in reversed(p):
@@ -49,23 +48,23 @@ def is_hurwitz(p: Polynomial) -> bool:
     Theorems ``location.is_hurwitzP``, ``routh_integers.is_hurwitz_integers``.
     """
     d, a = len(p) - 1, 2 * budget.limbs_of(p)
-    spend(budget.fractions(3 * d + 1, a))
+    budget.spend(budget.fractions(3 * d + 1, a))
     # x/2^e in place of x shortens the numbers where the denominators are powers of 2
     powers = [(q & -q).bit_length() - 1 for q in (Fraction(c / p[-1]).denominator for c in p)]
     e = max((-(-power // (d - k)) for k, power in enumerate(powers[:d])), default=0)
     a += e * d // budget.LIMB
-    spend(budget.fractions(4 * d + 1, a) + budget.table(1, d + 1, a))
+    budget.spend(budget.fractions(4 * d + 1, a) + budget.table(1, d + 1, a))
     p = [c / p[-1] * 2 ** (e * (d - k)) for k, c in enumerate(p)]
-    spend(budget.products(d + 1, a * (d + 1), a))
+    budget.spend(budget.products(d + 1, a * (d + 1), a))
     scale = math.lcm(*(Fraction(c).denominator for c in p))
     a += budget.limbs([scale])
-    spend(budget.products(d + 1, a, a) + budget.table(d + 1, 1, a))
+    budget.spend(budget.products(d + 1, a, a) + budget.table(d + 1, 1, a))
     descending = [int(c * scale) for c in reversed(p)]
     upper, lower, divisors = descending[0::2], descending[1::2], (1, 1)
     while lower:
         if lower[0] <= 0:
             return False
-        spend(budget.reductions(2 * len(upper), budget.limbs([*upper, *lower])))
+        budget.spend(budget.reductions(2 * len(upper), budget.limbs([*upper, *lower])))
         rows = zip(upper[1:], [*lower[1:], 0], strict=False)
         pairs = [divmod(lower[0] * a - upper[0] * b, divisors[0]) for a, b in rows]
         if any(rest for _, rest in pairs):
@@ -83,7 +82,7 @@ def is_schur(p: Polynomial) -> bool:
     Theorems ``mobius.schur_mobius``, ``moved_roots.schur_by_moebiusP``.
     """
     longest = budget.limbs_of(p) + len(p) // budget.LIMB
-    spend(budget.fractions(2 * len(p) ** 2, longest))
+    budget.spend(budget.fractions(2 * len(p) ** 2, longest))
     moved: Polynomial = []  # Σ p_k (1 + s)^k (1 − s)^(d−k), by Horner's rule
     power: Polynomial = [Fraction(1)]  # (1 − s)^k
     for c in reversed(p):

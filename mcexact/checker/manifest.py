@@ -8,24 +8,12 @@ import re
 import stat
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
-from typing import Any
 
-from . import sentences_analysis, sentences_design, sentences_sharing
+from . import reading, sentences_analysis, sentences_design, sentences_sharing
 from .budget import Budget, current, limited, spend
 from .expectation import Expectation, same
-from .kinds import KINDS, Verdict, answer, check_document, refusal
-from .reading import (
-    Limits,
-    Refused,
-    fields,
-    items,
-    malformed,
-    parse,
-    read_bytes,
-    require,
-    shown,
-    string,
-)
+from .kinds import KINDS, Found, Verdict, answer, check_document, refusal
+from .reading import Json, Limits, Refused, fields, items, malformed, parse, require, shown, string
 from .sentence import RULES, Premise, enter_own
 from .subject import read_subject
 from .system import read_plant
@@ -43,11 +31,13 @@ FILE = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_+-]{0,99}\.json")
 DIGEST = re.compile(r"[0-9a-f]{64}")
 TOKEN = re.compile(r"(?:[^~]|~[01])*+")
 INDEX = re.compile(r"0|[1-9][0-9]{0,9}")
+Read = Callable[[str], bytes]
+"""What gives the bytes of a certificate by its name, and of the manifest by ""."""
 
 
 def manifest_verdicts(
     path: str, expected: Expectation | None = None, limits: Limits | None = None
-) -> Iterator[tuple[dict[str, str], Verdict]]:
+) -> Iterator[Found]:
     """Yield verdicts on the manifest if unreadable, on certificates if not VALID, and on sentences.
 
     Parameters
@@ -65,9 +55,7 @@ def manifest_verdicts(
             yield about, verdict
 
 
-def every_verdict(
-    path: str, expected: Expectation, limits: Limits
-) -> Iterator[tuple[dict[str, str], Verdict]]:
+def every_verdict(path: str, expected: Expectation, limits: Limits) -> Iterator[Found]:
     """The same, with verdicts on all certificates."""
     path = os.path.join(path, NAME) if os.path.isdir(path) else path
 
@@ -81,9 +69,9 @@ def every_verdict(
 
 def verdicts_of(
     read: Callable[[str], bytes], expected: Expectation, limits: Limits
-) -> Iterator[tuple[dict[str, str], Verdict]]:
+) -> Iterator[Found]:
     """The verdicts on a manifest from anywhere: ``read`` takes the name of a file, or "" for it."""
-    parts: list[Any] = []
+    parts: list[Json] = []
     budget = current(limits.work)
 
     def start() -> Verdict:
@@ -115,13 +103,13 @@ def _bytes(path: str, limits: Limits) -> bytes:
         regular = stat.S_ISREG(os.lstat(path).st_mode)
         require(regular, "file", "file", "not a regular file of this folder")
         with open(path, "rb") as stream:
-            return read_bytes(stream, limits)
+            return reading.read_bytes(stream, limits)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise Refused("MALFORMED", "unreadable", "file", f"cannot be read: {reason}") from error
 
 
-def _parts(document: Any) -> tuple[Any, ...]:
+def _parts(document: Json) -> tuple[Json, ...]:
     """Read the digests by name, the sentences, and the subject of a manifest."""
     version, listed, sentences, base = fields(
         document, "manifest", "format", "certificates", "sentences", optional=("subject",)
@@ -166,8 +154,8 @@ class Evidence:
         The verdicts on all certificates, and the premises made of VALID ones.
     """
 
-    read: Callable[[str], bytes]
-    base: list[Any]
+    read: Read
+    base: list[Json]
     limits: Limits
     expected: Expectation
     budget: Budget = field(default_factory=lambda: current(None))
@@ -195,7 +183,7 @@ class Evidence:
         self.verdicts[name] = answer(check)
         return self.verdicts[name]
 
-    def _premise(self, name: str, document: Any) -> Premise:
+    def _premise(self, name: str, document: Json) -> Premise:
         """A certificate that was found VALID."""
         words, steps = f"the plant {self.expected.system}", document["subject"]
         plant = replace(read_plant(document["system"]), words=words)
@@ -205,7 +193,7 @@ class Evidence:
         sentence = KINDS[document["kind"]].statement(document["claim"], system)
         return Premise(name, document, plant, system, f"For {system.words}: {sentence}", path)
 
-    def judged(self, sentence: dict[str, Any], place: str) -> Verdict:
+    def judged(self, sentence: dict[str, Json], place: str) -> Verdict:
         """The verdict on one sentence."""
         key, because = sentence["rule"], sentence["because"]
 
@@ -239,7 +227,7 @@ class Evidence:
         return replace(verdict, place=where)
 
 
-def pointed(document: Any, pointer: str, place: str) -> Any:
+def pointed(document: Json, pointer: str, place: str) -> Json:
     """The value to which a JSON pointer (RFC 6901) leads."""
     node, good = document, not pointer or pointer[0] == "/"
     for token in pointer.split("/")[1:]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 from . import reading
 from .evidence import inputs, outputs
@@ -11,7 +10,7 @@ from .statement import channel_set, suffixed
 from .system import System
 
 
-def merged(system: System, step: dict[str, Any], place: str) -> System:
+def merged(system: System, step: dict[str, reading.Json], place: str) -> System:
     """One channel for each part T of a partition of the channels, (B_T, C_T); no neighbor graph.
 
     Open: see ``proofs/OPEN.md``.

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
 
 from .budget import spend
 from .information_structure import neighbors_of
-from .reading import boolean, fields, require
+from .reading import Json, boolean, fields, require
 from .statement import denied
 from .system import System
 
@@ -19,7 +18,7 @@ SENTENCES = {
 """The sentences that repeat the claim: theorem, and the claim that each needs."""
 
 
-def check(claim: Any, witness: Any, system: System) -> None:
+def check(claim: Json, witness: Json, system: System) -> None:
     """Recompute the answer from the sets of neighbors.
 
     Theorem ``strong_components.strongly_connected_rule``.
@@ -33,7 +32,7 @@ def check(claim: Any, witness: Any, system: System) -> None:
     require(same, "claim", "claim.strongly_connected", f"the graph is {answer}")
 
 
-def statement(claim: Any, system: System) -> str:
+def statement(claim: Json, system: System) -> str:
     """Whether the neighbor graph is strongly connected."""
     return f"its neighbor graph is {denied(claim['strongly_connected'])}strongly connected"
 

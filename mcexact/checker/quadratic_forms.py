@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import Any
 
 from . import evidence
 from .arithmetic import Echelon, Matrix
 from .budget import products, spend
-from .reading import fields, matrix, require
+from .reading import Json, fields, matrix, require
 
 
-def transformed(value: Any, M: Matrix) -> Matrix:
+def transformed(value: Json, M: Matrix) -> Matrix:
     """Δ with M T = T Δ for a T that is nonsingular modulo ℓ.
 
     Theorem ``stability.stability_blocks``.
@@ -26,7 +25,7 @@ def transformed(value: Any, M: Matrix) -> Matrix:
     return Delta
 
 
-def decreasing(value: Any, place: str, D: Matrix, time: str, bound: Fraction) -> Matrix:
+def decreasing(value: Json, place: str, D: Matrix, time: str, bound: Fraction) -> Matrix:
     """P, symmetric, with −(DᵀP + PD + 2·bound·P), or bound²P − DᵀPD, positive definite by R2.
 
     Theorems ``stability.stability_continuous``, ``stability.stability_discrete``.
@@ -49,7 +48,6 @@ def require_dominant(S: Matrix, place: str) -> None:
     Theorem ``stability.dominant_congruence``.
     """
     spend(products(2 * S.nrows * (S.nrows + 4), S.limbs, 1))
-    fits = all(
-        2 * row[i] > row[i] + sum(map(abs, row)) - abs(row[i]) for i, row in enumerate(S.rows)
-    )
+    sizes = enumerate((row, sum(map(abs, row))) for row in S.rows)
+    fits = all(2 * row[i] > row[i] + size - abs(row[i]) for i, (row, size) in sizes)
     require(fits, "dominance", place, "not strictly diagonally dominant")

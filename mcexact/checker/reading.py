@@ -23,6 +23,8 @@ from .refused import Refused as Refused
 TOKEN = re.compile(r'"(?:[^"\\]++|\\.)*+"?|[\[{]|[\]}]', re.DOTALL)
 QUOTIENT = re.compile(r"-?(?:0|[1-9][0-9]*+)/[1-9][0-9]*+")
 DECIMAL = re.compile(r"-?(?:0|[1-9][0-9]*+)(?:\.[0-9]++)?")
+Json = Any
+"""A value of a document, of which nothing is known before a reader has taken it."""
 HIDDEN = ("Cc", "Cf", "Cs", "Zl", "Zp")
 """The Unicode categories of characters that do not print."""
 

@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import Any
 
 from . import evidence
 from .arithmetic import Polynomial, exponent
-from .characteristic_polynomial import characteristic_polynomial, characteristic_polynomial_modulo
+from .characteristic_polynomial import characteristic_polynomial
 from .location import in_region
-from .neighbor_graph import components
-from .reading import boolean, fields, integer, items, polynomial, rational, require
+from .reading import Json, boolean, fields, integer, items, polynomial, rational, require
 from .statement import FIXED
 from .system import System
-from .transfer_graph import read_arcs, require_arcs
+from .transfer_graph import require_connected
 
 
 def require_absence(
-    value: Any, system: System, bound: Fraction | None, *, connected: bool = False
+    value: Json, system: System, bound: Fraction | None, *, connected: bool = False
 ) -> None:
     """Stop unless every fixed mode lies in the region; and the graph is connected, if asked.
 
@@ -28,7 +26,7 @@ def require_absence(
     gains, number, listed, arcs = fields(value, place, "gains", "modulus", "allowed", "arcs")
     ell = evidence.modulus(number, f"{place}.modulus")
     A_F = evidence.closed_loop(system, evidence.read_gains(gains, f"{place}.gains", system))
-    after = characteristic_polynomial_modulo(A_F.modulo(ell), ell)
+    after = characteristic_polynomial(A_F, ell)
     allowed = items(listed, f"{place}.allowed")
     rest = characteristic_polynomial(system.A) if allowed else []
     for k, entry in enumerate(allowed):
@@ -39,18 +37,15 @@ def require_absence(
         require(inside, "region", where, "has a root outside the region")
         times, rest = exponent(p, rest)
         require(times == integer(power, where, 1), "exponent", where, f"divides {times} times")
-    before = rest or characteristic_polynomial_modulo(system.A.modulo(ell), ell)
+    before = rest or characteristic_polynomial(system.A, ell)
     what = "det(xI - A) without the allowed factors and det(xI - A_F)"
     evidence.require_coprime(before, after, ell, what)
     require((arcs is not None) == connected, "claim", f"{place}.arcs", "expected iff claimed")
     if arcs is not None:
-        found = read_arcs(arcs, f"{place}.arcs", system)
-        require_arcs(system, found, ell)
-        parts = components(system.m, [(j, i) for j, i, _ in found])
-        require(len(parts) <= 1, "arc", f"{place}.arcs", "these edges do not connect all channels")
+        require_connected(arcs, f"{place}.arcs", system, ell)
 
 
-def read_bound(value: Any, system: System) -> Fraction | None:
+def read_bound(value: Json, system: System) -> Fraction | None:
     """A rate ≥ 0 in continuous time, a radius in (0, 1] in discrete time, or null."""
     if value is None:
         return None
@@ -60,13 +55,13 @@ def read_bound(value: Any, system: System) -> Fraction | None:
     return bound
 
 
-def inside(bound: Any, system: System) -> str:
+def inside(bound: Json, system: System) -> str:
     """The region within a rate or a radius, in words."""
     limit = Fraction(bound)
     return f"modulus below {limit}" if system.time == "discrete" else f"real part below {-limit}"
 
 
-def no_fixed_mode(bound: Any, system: System) -> str:
+def no_fixed_mode(bound: Json, system: System) -> str:
     """That no mode is fixed; with a rate or a radius, none that violates it."""
     if bound is None:
         return f"no mode that is {FIXED}"
@@ -80,7 +75,7 @@ def require_outside(p: Polynomial, system: System, bound: Fraction | None, place
     require(not inside, "region", place, "every root lies inside the region")
 
 
-def claimed_cost(claim: dict[str, Any], answer: str, absence: Any) -> Fraction | None:
+def claimed_cost(claim: dict[str, Json], answer: str, absence: Json) -> Fraction | None:
     """The cost of the claimed answer; None if it claims that nothing suffices."""
     if boolean(claim["feasible"], "claim.feasible"):
         return rational(claim["cost"], "claim.cost")

@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import Any
 
 from . import budget
 from .arithmetic import Polynomial
-from .budget import spend
-from .reading import decimal, fields, items, require
+from .reading import Json, decimal, fields, items, require
 
 Disc = tuple[Fraction, Fraction, Fraction]
 """Real part, imaginary part, radius."""
 
 
-def root_discs(value: Any, place: str, p: Polynomial) -> list[Disc]:
+def root_discs(value: Json, place: str, p: Polynomial) -> list[Disc]:
     """Check discs with exactly one root of p each, all roots together.
 
     Theorem ``root_discs.root_discs``.
@@ -26,7 +24,7 @@ def root_discs(value: Any, place: str, p: Polynomial) -> list[Disc]:
         parts = fields(entry, where, "re", "im", "radius")
         re, im, radius = (decimal(part, where) for part in parts)
         longest = max(longest, budget.limbs_of((re, im, radius)))
-        spend(budget.fractions(8 * len(discs) + 8, 2 * longest))
+        budget.spend(budget.fractions(8 * len(discs) + 8, 2 * longest))
         value_at, slope = _horner(p, re, im)
         enough = value_at * (len(p) - 1) ** 2 <= radius**2 * slope
         require(slope > 0 and radius >= 0 and enough, "disc", where, "may hold no root")
@@ -37,7 +35,7 @@ def root_discs(value: Any, place: str, p: Polynomial) -> list[Disc]:
     return discs
 
 
-def require_rate(value: Any, place: str, discs: list[Disc], time: str) -> None:
+def require_rate(value: Json, place: str, discs: list[Disc], time: str) -> None:
     """Check an interval for minus the largest real part, or the largest modulus, of the roots.
 
     Theorems ``rate_interval.rate_interval_continuous``, ``rate_interval.rate_interval_discrete``.
@@ -55,7 +53,7 @@ def require_rate(value: Any, place: str, discs: list[Disc], time: str) -> None:
 def _horner(p: Polynomial, re: Fraction, im: Fraction) -> tuple[Fraction, Fraction]:
     """|p(c)|² and |p'(c)|² at c = re + i·im."""
     longest = budget.limbs_of(p) + len(p) * budget.limbs_of((re, im))
-    spend(budget.fractions(8 * len(p), longest))
+    budget.spend(budget.fractions(8 * len(p), longest))
     value, slope = (Fraction(0), Fraction(0)), (Fraction(0), Fraction(0))
     for c in reversed(p):
         slope = (slope[0] * re - slope[1] * im + value[0], slope[0] * im + slope[1] * re + value[1])
@@ -63,11 +61,11 @@ def _horner(p: Polynomial, re: Fraction, im: Fraction) -> tuple[Fraction, Fracti
     return value[0] ** 2 + value[1] ** 2, slope[0] ** 2 + slope[1] ** 2
 
 
-def disc_set(value: Any) -> str:
+def disc_set(value: Json) -> str:
     """Discs in the order of their centers, such as {0 - 1i +- 1/4, 0 + 1i +- 1/4}."""
     texts = []
     discs = (tuple(Fraction(disc[key]) for key in ("re", "im", "radius")) for disc in value)
-    spend(100 * len(value))
+    budget.spend(100 * len(value))
     for re, im, radius in sorted(discs):
         imaginary = f" {'-' if im < 0 else '+'} {abs(im)}i" if im else ""
         texts.append(f"{re}{imaginary} +- {radius}")

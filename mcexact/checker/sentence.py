@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import partial
 from typing import Any
 
 from .reading import require
@@ -149,6 +148,7 @@ RULES: dict[str, Rule] = {}
 """The rule of each sentence, by the key that the manifest names."""
 
 Say = Callable[..., str]
+Holds = Callable[[Premise], object]
 
 
 def rule(keys: str, *roles: Role, theorem: str = "") -> Callable[[Say], Say]:
@@ -161,13 +161,12 @@ def rule(keys: str, *roles: Role, theorem: str = "") -> Callable[[Say], Say]:
     return enter
 
 
-def restate(
-    keys: str,
-    role: Role,
-    holds: Callable[[Premise], Any],
-    theorem: str = "",
-    words: Callable[[Premise], str] = lambda premise: premise.statement,
-) -> None:
+def repeated(premise: Premise) -> str:
+    """The certificate's claim, as it was verified."""
+    return premise.statement
+
+
+def restate(keys: str, role: Role, holds: Holds, theorem: str = "", words: Say = repeated) -> None:
     """Enter a rule with one premise, which by default repeats the certificate's claim."""
 
     def say(premise: Premise) -> str:
@@ -177,11 +176,13 @@ def restate(
     rule(keys, role, theorem=theorem)(say)
 
 
+def either(yes: str, no: str, role: Role, holds: Holds) -> None:
+    """Enter a rule that repeats what holds, and one that repeats that it does not."""
+    restate(yes, role, holds)
+    restate(no, role, lambda premise: not holds(premise))
+
+
 def enter_own(kind: str, sentences: dict[str, Any]) -> None:
     """Enter the ``SENTENCES`` of a kind's file, which repeat claims about the plant."""
-
-    def claimed(holds: Callable[[Any], Any], premise: Premise) -> Any:
-        return holds(premise.document["claim"])
-
     for key, (theorem, holds) in sentences.items():
-        restate(key, Role((kind,), PLANT), partial(claimed, holds), theorem)
+        restate(key, Role((kind,), PLANT), holds, theorem)

@@ -9,7 +9,7 @@ from typing import Any
 from .arithmetic import exponent
 from .location import in_stability_region
 from .reading import polynomial
-from .sentence import DUAL, PLANT, SYSTEM, Premise, Role, restate, rule
+from .sentence import DUAL, PLANT, SYSTEM, Premise, Role, either, restate, rule
 from .statement import PENCIL, channel_set, described, edge_set, polynomial_text
 from .system import System
 
@@ -93,20 +93,25 @@ def _neighbors(known: list[Premise]) -> str:
 
 # Fixed modes.
 
-restate("nothing-fixed", FIXED, lambda c: not c["factors"], "fixed_spectrum.absence_all")
-restate("fixed-none latex-nothing-fixed", FIXED, lambda c: not c["factors"])
-restate(
-    "any-rate",
-    FIXED,
-    lambda c: not c["factors"],
-    WANG_DAVISON,
-    lambda c: f"{c.statement}; every decay rate is reached by linear time-invariant control",
-)
+
+def followed(words: str) -> Callable[[Premise], str]:
+    """The words for a claim, and for what follows from it."""
+    return lambda premise: f"{premise.statement}; {words}"
+
+
+def free(found: Premise) -> bool:
+    """Whether no mode is fixed."""
+    return not found["factors"]
+
+
+ANY_RATE = followed("every decay rate is reached by linear time-invariant control")
+restate("nothing-fixed", FIXED, free, "fixed_spectrum.absence_all")
+restate("any-rate", FIXED, free, WANG_DAVISON, ANY_RATE)
 restate("stabilizable table-stabilizable", FIXED, lambda c: c["stabilizable"], WANG_DAVISON)
 NEVER = "not-stabilizable table-not-stabilizable"
 restate(NEVER, FIXED, lambda c: not c["stabilizable"], FIXED_DYNAMIC)
-LISTED = "fixed-modes-row fixed-modes-note latex-fixed-mode picture-obstruction"
-restate(f"fixed slowest {LISTED}", FIXED, lambda c: c["factors"])
+LISTED = "fixed slowest fixed-modes-row fixed-modes-note latex-fixed-mode picture-obstruction"
+either("fixed-none latex-nothing-fixed", LISTED, FIXED, free)
 restate("fixed-modes", FIXED, lambda c: c["factors"], FIXED_DYNAMIC)
 
 
@@ -136,13 +141,9 @@ _blame("fixed-mode-unobserved", "not observed by all of {1}", lambda size, m: si
 
 # How the spectrum can be assigned.
 
-restate(
-    "free-through-any-channel",
-    COMPLETE,
-    lambda c: c["complete"],
-    "corollary_1.free_assignment",
-    lambda c: f"{c.statement}; channel controllers in any one channel assign the whole spectrum",
-)
+ANY_CHANNEL = followed("channel controllers in any one channel assign the whole spectrum")
+COROLLARY = "corollary_1.free_assignment"
+restate("free-through-any-channel", COMPLETE, lambda c: c["complete"], COROLLARY, ANY_CHANNEL)
 
 
 @rule("free spectrum-free", FIXED, BLOCKS, theorem=SPLIT)
@@ -190,29 +191,28 @@ def _moved_exactly(spectrum: Premise, split: Premise) -> str:
 
 # Structure, a set of channels, one channel.
 
-restate("controllable", CONTROLLABLE, controls)
-restate("uncontrollable", CONTROLLABLE, lambda c: not controls(c))
-restate("observable", OBSERVABLE, controls)
-restate("unobservable", OBSERVABLE, lambda c: not controls(c))
-GRAPH = Role(("transfer_graph",))
-restate("transfer-graph-connected", GRAPH, lambda c: c["strongly_connected"])
-restate("transfer-graph-parts", GRAPH, lambda c: not c["strongly_connected"])
+
+def alone(found: Premise) -> bool:
+    """Whether a certificate about a set of channels is about one."""
+    return len(found["channels"]) == 1
+
+
+either("controllable", "uncontrollable", CONTROLLABLE, controls)
+either("observable", "unobservable", OBSERVABLE, controls)
+GRAPH, CUT = Role(("transfer_graph",)), "transfer-graph-parts"
+either("transfer-graph-connected", CUT, GRAPH, lambda c: c["strongly_connected"])
 restate("picture-transfer-graph", GRAPH, lambda c: True)
 restate("complete", COMPLETE, lambda c: True)
 for side, path in (("controllability", SYSTEM), ("observability", DUAL)):
-    INDICES = Role(("controllability_indices",), path)
+    INDICES, ALONE = Role(("controllability_indices",), path), Role(("controllability",), path)
     restate(f"{side}-index", INDICES, lambda c: everywhere(c) and c["index"] is not None)
     restate(f"{side}-indices", INDICES, lambda c: everywhere(c) and c["index"] is None)
-    ALONE = Role(("controllability",), path)
-    restate(f"channel-{side}", ALONE, lambda c: len(c["channels"]) == 1 and c["controllable"])
-    restate(
-        f"channel-no-{side}", ALONE, lambda c: len(c["channels"]) == 1 and not c["controllable"]
-    )
+    restate(f"channel-{side}", ALONE, lambda c: alone(c) and c["controllable"])
+    restate(f"channel-no-{side}", ALONE, lambda c: alone(c) and not c["controllable"])
 
 restate("pencil-row", RANK, lambda c: True)
 restate("subsystem-normal-rank subsystem-remnant", SUBSYSTEM, lambda c: True)
-restate("subsystem-zeros", SUBSYSTEM, lambda c: c["invariant_polynomials"])
-restate("subsystem-no-zeros", SUBSYSTEM, lambda c: not c["invariant_polynomials"])
+either("subsystem-zeros", "subsystem-no-zeros", SUBSYSTEM, lambda c: c["invariant_polynomials"])
 
 
 def completeness(found: Premise) -> tuple[bool, bool]:
@@ -239,12 +239,12 @@ def _pencil(spectrum: Premise, ranks: list[Premise]) -> str:
     return f"{spectrum.about}: {which}, has rank {least} or more at every mode of A"
 
 
-def gains(key: str, wanted: str, alone: bool) -> None:
+def gains(key: str, wanted: str, about: Callable[[Premise], bool]) -> None:
     """Enter the rules about gains for one channel, or for every channel."""
 
     def asked(found: Premise) -> bool:
-        right = len(found["channels"]) == 1 if alone else everywhere(found)
-        found.expect(right and found["property"] == wanted, "another question was asked")
+        right = about(found) and found["property"] == wanted
+        found.expect(right, "another question was asked")
         return bool(found["exists"])
 
     def stuck(found: Premise) -> bool:
@@ -266,8 +266,8 @@ def gains(key: str, wanted: str, alone: bool) -> None:
 
 
 for each in (*SIDES, "both"):
-    gains(f"channel-{each}", each, alone=True)
-gains("every-channel", "both", alone=False)
+    gains(f"channel-{each}", each, alone)
+gains("every-channel", "both", everywhere)
 
 
 # Set-points.

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from fractions import Fraction
-from typing import Any
 
 from .location import in_stability_region
-from .reading import Refused, polynomial
-from .sentence import Path, Premise, Role, restate, rule
+from .reading import Json, Refused, polynomial
+from .sentence import Holds, Path, Premise, Role, either, restate, rule
 from .sentences_analysis import FIXED_DYNAMIC, controls
 from .sentences_sharing import demands
 from .statement import counted
@@ -38,11 +36,11 @@ SETPOINT = Role(("setpoint",), ((),))
 # What the controller of a loop is: it stands in the subject.
 
 
-def controller(known: list[Premise]) -> tuple[Premise, list[Any]]:
+def controller(known: list[Premise]) -> tuple[Premise, list[Json]]:
     """The programs of the agents, out of a certificate about their loop."""
     for premise in known:
         if premise.path and premise.path[-1] == "closed_loop":
-            agents: list[Any] = premise.document["subject"][-1]["controller"]["agents"]
+            agents: list[Json] = premise.document["subject"][-1]["controller"]["agents"]
             return premise, agents
     message = "expected a certificate about a closed loop"
     raise Refused("INVALID", "claim", known[0].file, message)
@@ -58,10 +56,8 @@ def _sizes(known: list[Premise]) -> str:
     """How many states each agent has, shared and of its own."""
     found, agents = controller(known)
     order = sum(agent["shared"] + agent["private"] for agent in agents)
-    told = "; ".join(
-        f"{json.dumps(agent['name'])}: {agent['shared']} shared, {agent['private']} private"
-        for agent in agents
-    )
+    sizes = ((json.dumps(agent["name"]), agent["shared"], agent["private"]) for agent in agents)
+    told = "; ".join(f"{name}: {x} shared, {z} private" for name, x, z in sizes)
     return f"{found.about}: the controller has {counted(order, 'state')} ({told})"
 
 
@@ -87,7 +83,7 @@ def _longest(known: list[Premise]) -> str:
     return f"{found.about}: the longest numerator or denominator in the controller has {size}"
 
 
-def entries(value: Any) -> list[list[Fraction]]:
+def entries(value: Json) -> list[list[Fraction]]:
     """The rows of a matrix of a controller."""
     M = read_matrix(value, "controller", None, None)
     return [[Fraction(entry, M.denominator) for entry in row] for row in M.rows]
@@ -134,8 +130,7 @@ BOUNDED = Role(("stability", "distributed_observer"), CLOSED)
 restate("design-region", BOUNDED, lambda c: _is_stable(c) and c["bound"] is not None)
 restate("design-feedback design-errors", OBSERVER, lambda c: True)
 restate("design-assigned", LOOP, lambda c: True)
-restate("certify-inside", STABLE, lambda c: c["stable"])
-restate("certify-outside refused-outside", STABLE, lambda c: not c["stable"])
+either("certify-inside", "certify-outside refused-outside", STABLE, lambda c: c["stable"])
 
 
 def bounded(loop: Premise, time: str) -> bool:
@@ -166,7 +161,7 @@ def _steady_state(loop: Premise) -> str:
     return f"{loop.about}: every output tends to the set-point of its agent, if that is constant"
 
 
-def integrates(system: System, i: int, agent: Any) -> bool:
+def integrates(system: System, i: int, agent: Json) -> bool:
     """Whether for every output y of agent i some z of it follows z' = y − r or z(t+1) = z + y − r.
 
     r is the set-point of y: where z is constant, y = r.
@@ -174,7 +169,7 @@ def integrates(system: System, i: int, agent: Any) -> bool:
     update, k, q = agent["private_update"], agent["private"], system.C[i].nrows
     outputs, shared = update.get("outputs") or {}, update.get("shared") or {}
 
-    def rows(value: Any, width: int) -> list[list[Fraction]]:
+    def rows(value: Json, width: int) -> list[list[Fraction]]:
         return [[Fraction(0)] * width for _ in range(k)] if value is None else entries(value)
 
     own = rows(outputs.get(system.names[i]), q)
@@ -203,15 +198,12 @@ lost("refused-not-controllable refused-not-controllable-in refused-uncontrollabl
 lost("refused-unobservable refused-not-observable", *behind(("dual",)))
 lost("refused-integrators-control", ("integrators",))
 lost("refused-integrators-observe", ("integrators", "dual"))
-restate(
-    "refused-errors-not-complete",
-    Role(("completeness",), behind(("error",))),
-    lambda c: not c["complete"],
-    "free_assignment.corfmat_morse_converse",
-)
+ERRORS, CONVERSE = behind(("error",)), "free_assignment.corfmat_morse_converse"
+INCOMPLETE = Role(("completeness",), ERRORS)
+restate("refused-errors-not-complete", INCOMPLETE, lambda c: not c["complete"], CONVERSE)
 
 
-def stuck(key: str, *paths: Path, holds: Callable[[Premise], Any] = lambda c: True) -> None:
+def stuck(key: str, *paths: Path, holds: Holds = lambda c: True) -> None:
     """Enter the rule about fixed modes."""
     role = Role(("fixed_spectrum",), paths)
     restate(key, role, lambda c: c["factors"] and holds(c), FIXED_DYNAMIC)
@@ -225,7 +217,7 @@ def _shares_all(spectrum: Premise) -> bool:
 
 stuck("refused-fixed", *behind(()))
 stuck("refused-fixed-shared", *behind(*NETWORKS))
-stuck("refused-errors-fixed", *behind(("error",)))
+stuck("refused-errors-fixed", *ERRORS)
 stuck("refused-integrators-fixed", ("integrators", "extended"), holds=_shares_all)
 
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from functools import partial
 
-from .sentence import HEARD, PLANT, Path, Premise, Role, restate, rule
-from .sentences_analysis import CONTROLLABLE, HAUTUS, OBSERVABLE, controls
+from .sentence import HEARD, PLANT, Path, Premise, Role, either, restate, rule
+from .sentences_analysis import CONTROLLABLE, HAUTUS, OBSERVABLE, controls, free
 from .statement import channel_set, counted, polynomial_text
 
 OBSERVABLE_HAUTUS = "joint_controllability.observable_hautus"
@@ -20,8 +20,7 @@ restate(VAIN.format("controll"), CONTROLLABLE, lambda c: not controls(c), HAUTUS
 restate(VAIN.format("observ"), OBSERVABLE, lambda c: not controls(c), OBSERVABLE_HAUTUS)
 for delayed in ("lifted", "held"):
     NETWORK = Role(("fixed_spectrum",), ((delayed,),))
-    restate(f"{delayed}-nothing-fixed", NETWORK, lambda c: not c["factors"])
-    restate(f"{delayed}-fixed", NETWORK, lambda c: c["factors"])
+    either(f"{delayed}-nothing-fixed", f"{delayed}-fixed", NETWORK, free)
 
 
 def enough(bound: Premise, *hypotheses: Premise) -> str:
@@ -62,24 +61,22 @@ def usual(least: Premise, share: str) -> bool:
     return asked and prices and all(most is None for most in least["upper"])
 
 
-def _enter_least(share: str, some: str, none: str, impossible: str) -> None:
+def _enter_least(share: str, key: str, some: str = "", none: str = "", never: str = "") -> None:
     """Enter the rules about the least dimensions for one way of sharing."""
-    restate(some, LEAST, lambda c: usual(c, share) and c["feasible"] and any(c["dimensions"]))
-    restate(none, LEAST, lambda c: usual(c, share) and c["feasible"] and not any(c["dimensions"]))
-    restate(impossible, LEAST, lambda c: usual(c, share) and not c["feasible"])
+
+    def feasible(found: Premise, positive: bool) -> bool:
+        return usual(found, share) and found["feasible"] and any(found["dimensions"]) == positive
+
+    restate(f"{key} {some}", LEAST, partial(feasible, positive=True))
+    restate(f"{key}-none {none}", LEAST, partial(feasible, positive=False))
+    restate(f"{key}-impossible {never}", LEAST, lambda c: usual(c, share) and not c["feasible"])
 
 
-_enter_least(
-    "outputs+states",
-    "sharing-removes least-outputs-states",
-    "outputs-remove least-outputs-states-none",
-    "no-sharing least-outputs-states-impossible",
-)
-_enter_least("states", "least-states", "least-states-none", "least-states-impossible")
-
-
-restate("allocate-least allocate-row allocate-total", LEAST, lambda c: c["feasible"])
-restate("allocate-impossible", LEAST, lambda c: not c["feasible"])
+BOTH = ("sharing-removes", "outputs-remove", "no-sharing")
+_enter_least("outputs+states", "least-outputs-states", *BOTH)
+_enter_least("states", "least-states")
+ALLOCATED = "allocate-least allocate-row allocate-total"
+either(ALLOCATED, "allocate-impossible", LEAST, lambda c: c["feasible"])
 
 
 @rule(

@@ -2,36 +2,32 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
-from typing import Any
-
-from .arithmetic import Echelon, Matrix, beside, stack
+from .arithmetic import Matrix, beside, rank_modulo, stack
 from .evidence import inputs, modulus, outputs, require_identity
-from .reading import boolean, fields, integer, matrix, polynomial_matrix, positions, require
+from .reading import Json, boolean, fields, integer, matrix, polynomial_matrix, positions, require
 from .statement import PENCIL, denied
 from .system import System
 
 
-def check(claim: Any, witness: Any, system: System) -> None:
+def check(claim: Json, witness: Json, system: System) -> None:
     """Check bounds on the rank of [A B; C 0], and whether a rank defect is an invariant zero.
 
     Theorems ``setpoint.setpoint_rank``, ``setpoint.setpoint_unreachable``,
     ``setpoint.setpoint_output_part``, ``setpoint.normal_rank_deficient``.
     """
     verdict, size, zero = fields(claim, "claim", "solvable", "rank", "invariant_zero")
-    number, left, columns, x0, row = fields(
-        witness, "witness", "modulus", "left", "pivots", "point", "normal"
-    )
+    keys = ("modulus", "left", "pivots", "point", "normal")
+    number, left, columns, x0, row = fields(witness, "witness", *keys)
     A, n = system.A, system.n
     B, C = inputs(system, range(system.m)), outputs(system, range(system.m))
     rows, width, place = n + C.nrows, n + B.ncols, int(system.time == "discrete")
     lower = beside([C, Matrix.zeros(C.nrows, B.ncols)], C.nrows)
     unit = beside([Matrix.unit_rows(n, 0, n), Matrix.zeros(n, B.ncols)], n)
-    fixed = stack([beside([A.times(Fraction(-1)), B], n), lower], width)
+    fixed = stack([beside([A.times(-1), B], n), lower], width)
     moving = stack([unit, Matrix.zeros(C.nrows, width)], width)
-    S = stack([beside([A - Matrix.unit_rows(n, 0, n).times(Fraction(place)), B], n), lower], width)
+    S = stack([beside([A - Matrix.unit_rows(n, 0, n).times(place), B], n), lower], width)
     r, ell = integer(size, "claim.rank"), modulus(number, "witness.modulus")
-    require(r <= rows and _rank(S, ell) >= r, "rank", "claim.rank", "not reached modulo l")
+    require(r <= rows and rank_modulo(S, ell) >= r, "rank", "claim.rank", "not reached modulo l")
     pivots = positions(columns, "witness.pivots", rows)
     require(len(pivots) == rows - r, "rank", "witness.pivots", f"expected {rows} - {r} of them")
     W = matrix(left, "witness.left", rows - r, rows)
@@ -45,8 +41,8 @@ def check(claim: Any, witness: Any, system: System) -> None:
         return
     if boolean(zero, "claim.invariant_zero"):
         require(row is None, "claim", "witness.normal", "expected null for an invariant zero")
-        point = Fraction(integer(x0, "witness.point"))
-        full = _rank(fixed + moving.times(point), ell) == rows
+        point = integer(x0, "witness.point")
+        full = rank_modulo(fixed + moving.times(point), ell) == rows
         require(full, "rank", "witness.point", "the rank there is not full modulo l")
         return
     require(x0 is None, "claim", "witness.point", "expected null where there is no such point")
@@ -58,7 +54,7 @@ def check(claim: Any, witness: Any, system: System) -> None:
         require(same, "identity", "witness.normal", "the row does not annihilate the pencil")
 
 
-def statement(claim: Any, system: System) -> str:
+def statement(claim: Json, system: System) -> str:
     """Whether the rank is full, and else what follows from the defect."""
     shift, place = (" - I", 1) if system.time == "discrete" else ("", 0)
     which = f"[A{shift}, B; C, 0], B and C those of all channels, has rank exactly {claim['rank']}"
@@ -71,9 +67,3 @@ def statement(claim: Any, system: System) -> str:
         f"constant set-point; the normal rank of {PENCIL} is "
         f"{denied(claim['invariant_zero'])}its number of rows{zero}"
     )
-
-
-def _rank(S: Matrix, ell: int) -> int:
-    """The rank modulo ℓ, at most that over Q."""
-    basis = Echelon(ell)
-    return sum(basis.add(row) is not None for row in S.modulo(ell))

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import Any
 
 from . import covering, evidence, reading, region, subspaces
 from .information_structure import SHARED, augmented_outputs, extended, neighbors_of
-from .reading import fields, items, require
+from .reading import Json, fields, items, require
 from .statement import by_channel, canonical_json
 from .system import System
 
 
-def check(claim: Any, witness: Any, system: System) -> None:
+def check(claim: Json, witness: Json, system: System) -> None:
     """Check that the dimensions suffice, every cut, and the tree that excludes a lower cost.
 
     Theorems ``allocation.branch_tree``, ``allocation.branch_tree_infeasible``.
@@ -43,7 +42,7 @@ def check(claim: Any, witness: Any, system: System) -> None:
     covering.Program(costs, cuts, "agent", system.names, value).require_bound(tree, upper)
 
 
-def statement(claim: Any, system: System) -> str:
+def statement(claim: Json, system: System) -> str:
     """Which dimensions suffice, at which cost, and that nothing cheaper does."""
     upper, costs, sizes = (
         canonical_json(value and by_channel(system, value))
@@ -60,7 +59,7 @@ def statement(claim: Any, system: System) -> str:
 
 
 def read_cut(
-    entry: Any, place: str, base: System, bound: Fraction | None, free: bool
+    entry: Json, place: str, base: System, bound: Fraction | None, free: bool
 ) -> tuple[list[int], int]:
     """A subset s, and how much its boundary N_s∖s has to share at least.
 

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 from . import evidence, reading, subspaces
 from .controllability import require_reached
 from .feedback import dual
-from .reading import boolean, fields, integer, items, matrix, require
+from .reading import Json, boolean, fields, integer, items, matrix, require
 from .statement import canonical_json, channel_set
 from .system import System
 
@@ -18,7 +17,7 @@ CLAIM = ("channels", "property", "exists", "cyclic", "indices")
 WITNESS = ("gains", "modulus", "annihilators", "generator")
 
 
-def check(claim: Any, witness: Any, system: System) -> None:
+def check(claim: Json, witness: Json, system: System) -> None:
     """Check gains and their indices for yes; a mode or a cut out of reach of one channel for no.
 
     Theorem ``single_channel_gains.single_channel_yes``.
@@ -50,7 +49,7 @@ def check(claim: Any, witness: Any, system: System) -> None:
                 w = w @ target.A
 
 
-def statement(claim: Any, system: System) -> str:
+def statement(claim: Json, system: System) -> str:
     """What gains do for every channel named, or that none do."""
     wanted, listed = claim["property"], claim["channels"]
     sides = SIDES if wanted == "both" else (wanted,)
@@ -69,7 +68,7 @@ def _seen(system: System, side: str) -> System:
     return system if side == "controllable" else dual(system, {}, "")
 
 
-def _require_lost(witness: Any, system: System, Q: list[int], sides: tuple[str, ...]) -> None:
+def _require_lost(witness: Json, system: System, Q: list[int], sides: tuple[str, ...]) -> None:
     """Check a mode or a cut out of reach of one channel.
 
     Theorems ``single_channel_gains.single_channel_no_mode``,

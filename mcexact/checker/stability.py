@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import Any
 
 from .characteristic_polynomial import characteristic_polynomial
 from .location import in_region
 from .quadratic_forms import decreasing, require_dominant, transformed
-from .reading import boolean, fields, integer, items, matrix, require, string
+from .reading import Json, boolean, fields, integer, items, matrix, require, string
 from .region import inside, read_bound
 from .statement import denied
 from .system import System
 
 
-def check(claim: Any, witness: Any, system: System) -> None:
+def check(claim: Json, witness: Json, system: System) -> None:
     """Locate the roots of the characteristic polynomial, or check quadratic forms.
 
     Theorems ``instability.instability_continuous``, ``instability.instability_discrete``,
@@ -53,7 +52,7 @@ def check(claim: Any, witness: Any, system: System) -> None:
         require(falls, "direction", "witness.v", "expected v not 0 with v'Pv <= 0")
 
 
-def statement(claim: Any, system: System) -> str:
+def statement(claim: Json, system: System) -> str:
     """Where all eigenvalues lie, or that they do not."""
     limit = claim["bound"]
     bound = int(system.time == "discrete") if limit is None else limit

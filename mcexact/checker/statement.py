@@ -13,7 +13,6 @@ from typing import Any
 
 from . import budget
 from .arithmetic import Matrix, Polynomial
-from .budget import spend
 from .system import System, rows_of
 
 FIXED = "fixed under linear time-invariant decentralized control"
@@ -31,7 +30,7 @@ def canonical_json(value: Any) -> str:
         return part.numerator if part.denominator == 1 else str(part)
 
     text = json.dumps(value, sort_keys=True, separators=(",", ":"), default=plain)
-    spend(len(text))
+    budget.spend(len(text))
     return text
 
 
@@ -52,7 +51,7 @@ def by_channel(system: System, values: Iterable[Any]) -> dict[str, Any]:
 
 def quoted(name: str) -> str:
     """A name, which can hold no more than its quotes."""
-    spend(100 + 6 * len(name))
+    budget.spend(100 + 6 * len(name))
     return json.dumps(name)
 
 
@@ -70,7 +69,7 @@ def edge_set(edges: Iterable[Any]) -> str:
 def polynomial_text(p: Polynomial) -> str:
     """A polynomial, highest power first, such as x^2 - 3/2*x + 1."""
     terms, p = [], [Fraction(c) for c in p]
-    spend(budget.fractions(len(p), budget.limbs_of(p)))
+    budget.spend(budget.fractions(len(p), budget.limbs_of(p)))
     for k, c in reversed(list(enumerate(p))):
         if c:
             power = "" if k == 0 else "x" if k == 1 else f"x^{k}"

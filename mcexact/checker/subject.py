@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 from .budget import spend
 from .closed_loop import closed_loop
@@ -11,14 +10,14 @@ from .delays import held, lifted
 from .feedback import dual, error, feedback, full_output, integrators
 from .information_structure import arcs, augmented_outputs, extended
 from .merged import merged
-from .reading import incomplete, items, malformed, shown
+from .reading import Json, incomplete, items, malformed, shown
 from .system import System
 
 LISTED = (arcs, augmented_outputs, closed_loop, dual, error, extended, feedback, full_output)
 CONSTRUCTIONS = {rule.__name__: rule for rule in (*LISTED, held, integrators, lifted, merged)}
 
 
-def read_subject(value: Any, plant: System) -> System:
+def read_subject(value: Json, plant: System) -> System:
     """Apply the constructions in order.
 
     Open: see ``proofs/OPEN.md``.

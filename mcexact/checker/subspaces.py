@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from .arithmetic import Matrix, Polynomial, rank
 from .evidence import complement, inputs, require_identity
-from .reading import fields, matrix, names, polynomial_matrix, positions, require
+from .reading import Json, fields, matrix, names, polynomial_matrix, positions, require
 from .system import System
 
 
@@ -25,7 +23,7 @@ def require_pencil_kernel(
 
 
 def shrunk_subspace(
-    value: Any, place: str, system: System, p: Polynomial, deficiency: int
+    value: Json, place: str, system: System, p: Polynomial, deficiency: int
 ) -> list[int]:
     """Check a shrunk subspace of at least this deficiency ≥ 1 for p, and return its T.
 
@@ -45,13 +43,12 @@ def shrunk_subspace(
         unseen = all((system.C[i] @ layer).is_zero() for layer in U)
         require(unseen, "identity", place, f"C_i U is not zero for channel number {i + 1}")
     lost = u - rank(B_T)
-    require(
-        lost >= deficiency >= 1, "rank", place, f"proves deficiency {lost}, not {deficiency} >= 1"
-    )
+    message = f"proves deficiency {lost}, not {deficiency} >= 1"
+    require(lost >= deficiency >= 1, "rank", place, message)
     return T
 
 
-def zero_transfer(value: Any, place: str, system: System) -> tuple[list[int], Matrix]:
+def zero_transfer(value: Json, place: str, system: System) -> tuple[list[int], Matrix]:
     """Check that im X is A-invariant and holds im B_j for the channels j, and return j's and X.
 
     Theorems ``transfer_graph.zero_transfer_no_arc``, ``transfer_graph.zero_transfer_cut``.

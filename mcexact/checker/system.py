@@ -8,23 +8,10 @@ import math
 import re
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Any
 
 from . import budget, reading
 from .arithmetic import Matrix
-from .budget import build, current, limited, spend
-from .reading import (
-    Limits,
-    fields,
-    incomplete,
-    integer,
-    items,
-    malformed,
-    own_names,
-    printable,
-    shown,
-    string,
-)
+from .reading import Json, Limits, fields, incomplete, integer, items, malformed, shown, string
 
 LARGEST = 2**22
 """The cells of the largest sparse matrix, a side of length 0 counted as 1."""
@@ -63,12 +50,12 @@ class System:
         """The number of channels."""
         return len(self.names)
 
-    def place_of(self, name: Any, place: str) -> int:
+    def place_of(self, name: Json, place: str) -> int:
         """The position of one named channel."""
         return reading.names([name], place, self.names)[0]
 
 
-def number(value: Any, place: str, limits: Limits | None = None) -> Fraction:
+def number(value: Json, place: str, limits: Limits | None = None) -> Fraction:
     """A number of a system file: an integer, a decimal as typed, or a string "p/q".
 
     ``limits`` are those of a file; a certificate's numbers were limited when it was parsed.
@@ -80,15 +67,11 @@ def number(value: Any, place: str, limits: Limits | None = None) -> Fraction:
         mantissa, exponent, *_ = [*re.split("[eE]", value), "0"] if good else ["", "0"]
         if not good or abs(int(exponent)) > (limits or Limits).exponent:
             malformed(place, f'expected an integer, a decimal or "p/q", found {shown(value)}')
-        if (
-            limits
-            and "/" not in mantissa
-            and len(mantissa.strip("-").replace(".", "")) > limits.digits
-        ):
-            incomplete(
-                "size", place, f"a number of more than {limits.digits} digits (Limits.digits)"
-            )
-        spend(300 + (len(value) + abs(int(exponent))) ** 2 // 500)
+        typed = 0 if "/" in mantissa else len(mantissa.strip("-").replace(".", ""))
+        if limits and typed > limits.digits:
+            message = f"a number of more than {limits.digits} digits (Limits.digits)"
+            incomplete("size", place, message)
+        budget.spend(300 + (len(value) + abs(int(exponent))) ** 2 // 500)
         result = Fraction(value)
     if limits and too_long(max(abs(result.numerator), result.denominator), limits.digits):
         incomplete("size", place, f"more than {limits.digits} digits written out (Limits.digits)")
@@ -101,7 +84,7 @@ def too_long(value: int, digits: int) -> bool:
 
 
 def read_matrix(
-    value: Any, place: str, nrows: int | None, ncols: int | None, limits: Limits | None = None
+    value: Json, place: str, nrows: int | None, ncols: int | None, limits: Limits | None = None
 ) -> Matrix:
     """A matrix of a system: a list of rows, or an object that lists its nonzero entries."""
     if isinstance(value, dict):
@@ -109,8 +92,8 @@ def read_matrix(
         r, c = (integer(size, f"{place}.shape") for size in items(shape, f"{place}.shape", 2))
         if max(r, 1) * max(c, 1) > LARGEST:
             incomplete("size", f"{place}.shape", f"{r} by {c} is too large")
-        spend(budget.table(r + 1, c))
-        rows: list[list[Any]] = [[Fraction(0)] * c for _ in range(r)]
+        budget.spend(budget.table(r + 1, c))
+        rows: list[list[Fraction]] = [[Fraction(0)] * c for _ in range(r)]
         seen = set()
         for i, j, entry in (items(triple, place, 3) for triple in items(entries, place)):
             if integer(i, place) >= r or integer(j, place) >= c or (i, j) in seen:
@@ -124,15 +107,15 @@ def read_matrix(
     if nrows not in (None, r) or ncols not in (None, c):
         malformed(place, f"expected another shape, found {r} by {c}")
     different = {entry.denominator for row in rows for entry in row}
-    spend(budget.fractions(len(different), sum(budget.limbs([d]) for d in different)))
+    budget.spend(budget.fractions(len(different), sum(budget.limbs([d]) for d in different)))
     d = math.lcm(*different)
     longest = (budget.limbs([entry.numerator for entry in row]) for row in rows)
     size = max(longest, default=1) + budget.limbs([d])
-    build(r, c, size, size)
+    budget.build(r, c, size, size)
     return Matrix([[e.numerator * (d // e.denominator) for e in row] for row in rows], c, d)
 
 
-def read_system(value: Any, limits: Limits | None = None) -> System:
+def read_system(value: Json, limits: Limits | None = None) -> System:
     """Read a system object by the grammar of system files; without limits, of a certificate."""
     extra = () if limits is None else ("format", "name", "source", "sample_time", "D")
     time, A_rows, listed, heard, waits, *more = fields(
@@ -142,7 +125,7 @@ def read_system(value: Any, limits: Limits | None = None) -> System:
     if A.nrows != A.ncols or not items(listed, "channels"):
         malformed("system", "expected a square A and at least one channel")
     B, C, names = [], [], []
-    spend(4 * len(listed) ** 2)  # names are compared, and delays looked up, for every pair
+    budget.spend(4 * len(listed) ** 2)  # names are compared, and delays looked up, for every pair
     for k, channel in enumerate(listed):
         where = f"channels[{k}]"
         B_rows, C_rows, name, D = fields(channel, where, "B", "C", optional=("name", "D"))
@@ -150,31 +133,31 @@ def read_system(value: Any, limits: Limits | None = None) -> System:
         C.append(read_matrix(C_rows, f"{where}.C", None, A.nrows, limits))
         names.append(str(k + 1) if name is None else name)
         _require_no_feedthrough(D, f"{where}.D", limits)
-    known = own_names(names, [f"channels[{k}].name" for k in range(len(names))])
+    known = reading.own_names(names, [f"channels[{k}].name" for k in range(len(names))])
     plant = System(string(time, "time", "continuous", "discrete"), known, A, B, C)
     if limits is not None:
         _check_unused(plant, more[1:], limits)
     return plant if heard is None and waits is None else _with_graph(plant, heard, waits)
 
 
-def _check_unused(plant: System, given: list[Any], limits: Limits) -> None:
+def _check_unused(plant: System, given: list[Json], limits: Limits) -> None:
     """Read the parts of a system file on which no claim depends: they are not in the digest."""
     name, source, sample_time, D = given
     for key, text in (("name", name), ("source", source)):
-        printable("" if text is None else text, key, 10_000, allowed="\n\t")
+        reading.printable("" if text is None else text, key, 10_000, allowed="\n\t")
     period = None if sample_time is None else number(sample_time, "sample_time", limits)
     if period is not None and (period <= 0 or plant.time != "discrete"):
         malformed("sample_time", "expected a number above 0, in discrete time only")
     _require_no_feedthrough(D, "D", limits)
 
 
-def _require_no_feedthrough(D: Any, place: str, limits: Limits | None) -> None:
+def _require_no_feedthrough(D: Json, place: str, limits: Limits | None) -> None:
     """Refuse a D that is not zero, of any shape."""
     if D is not None and not read_matrix(D, place, None, None, limits).is_zero():
         malformed(place, "expected no feedthrough: outputs are y_i = C_i x")
 
 
-def _with_graph(plant: System, heard: Any, waits: Any) -> System:
+def _with_graph(plant: System, heard: Json, waits: Json) -> System:
     known = tuple(plant.names)
     sets = []
     for i, row in enumerate(fields(heard, "neighbors", optional=known)):
@@ -197,22 +180,22 @@ def _with_graph(plant: System, heard: Any, waits: Any) -> System:
     return System(plant.time, plant.names, plant.A, plant.B, plant.C, sets, delays)
 
 
-def rows_of(M: Matrix) -> list[list[Any]]:
+def rows_of(M: Matrix) -> list[list[Json]]:
     """The rows of a matrix as in JSON: integers, or "p/q" in lowest terms."""
-    spend(budget.fractions(M.nrows * M.ncols, M.limbs))
+    budget.spend(budget.fractions(M.nrows * M.ncols, M.limbs))
     values = [[Fraction(entry, M.denominator) for entry in row] for row in M.rows]
     return [[v.numerator if v.denominator == 1 else str(v) for v in row] for row in values]
 
 
-def canonical(system: System) -> dict[str, Any]:
+def canonical(system: System) -> dict[str, Json]:
     """The canonical object of this plant in a certificate."""
 
-    def rows(M: Matrix) -> Any:
+    def rows(M: Matrix) -> Json:
         alone = not M.nrows and M.ncols
         return {"shape": [0, M.ncols], "entries": []} if alone else rows_of(M)
 
     known, channels = system.names, zip(system.names, system.B, system.C, strict=True)
-    result: dict[str, Any] = {"time": system.time, "A": rows(system.A)}
+    result: dict[str, Json] = {"time": system.time, "A": rows(system.A)}
     result["channels"] = [{"name": name, "B": rows(B), "C": rows(C)} for name, B, C in channels]
     if system.neighbors is not None:
         sets = enumerate(system.neighbors)
@@ -224,12 +207,12 @@ def canonical(system: System) -> dict[str, Any]:
 
 def digest(system: System) -> str:
     """The SHA-256 of the canonical object: sorted keys, no blanks, non-ASCII characters escaped."""
-    spend(8 * sum(map(len, system.names)))
+    budget.spend(8 * sum(map(len, system.names)))
     text = json.dumps(canonical(system), sort_keys=True, separators=(",", ":"))
     return hashlib.sha256(text.encode("ascii")).hexdigest()
 
 
-def read_plant(value: Any) -> System:
+def read_plant(value: Json) -> System:
     """The system object of a certificate, which must be canonical."""
     system = read_system(value)
     if canonical(system) != value:
@@ -239,7 +222,7 @@ def read_plant(value: Any) -> System:
 
 def read_system_file(data: bytes, limits: Limits) -> System:
     """The system of a system file, numbers as typed."""
-    with limited(current(limits.work), len(data)):
+    with budget.limited(budget.current(limits.work), len(data)):
         document = reading.parse(
             data, limits, lambda text: number(text, f"number {text[:24]}", limits)
         )

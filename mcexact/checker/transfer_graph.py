@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from .arithmetic import Rows, product
 from .budget import counted, spend
 from .evidence import modulus
 from .neighbor_graph import components
-from .reading import boolean, fields, integer, items, malformed, names, require
+from .reading import Json, boolean, fields, integer, items, malformed, names, require
 from .statement import channel_set, denied, edge_set
 from .subspaces import zero_transfer
 from .system import System
 
 
-def check(claim: Any, witness: Any, system: System) -> None:
+def check(claim: Json, witness: Json, system: System) -> None:
     """Check a power for each edge, a zero transfer for each other pair, and the components.
 
     Theorems ``transfer_graph.transfer_graph_rule``, ``transfer_graph.zero_transfer_no_arc``.
@@ -43,7 +41,7 @@ def check(claim: Any, witness: Any, system: System) -> None:
     require(connected == (len(found) <= 1), "claim", "claim.strongly_connected", "does not follow")
 
 
-def statement(claim: Any, system: System) -> str:
+def statement(claim: Json, system: System) -> str:
     """The edges, the strong components and whether there is one at most."""
     return (
         "its transfer graph, in which j -> i means that C_i (xI - A)^-1 B_j is not zero, has "
@@ -53,7 +51,7 @@ def statement(claim: Any, system: System) -> str:
     )
 
 
-def read_arcs(value: Any, where: str, system: System) -> list[tuple[int, int, int]]:
+def read_arcs(value: Json, where: str, system: System) -> list[tuple[int, int, int]]:
     """Read edges (j, i) with a power k each, sorted and none twice."""
     arcs = []
     for place, entry in ((f"{where}[{k}]", e) for k, e in enumerate(items(value, where))):
@@ -84,3 +82,14 @@ def require_arcs(system: System, triples: list[tuple[int, int, int]], ell: int) 
                 message = f"C A^{k} B is 0 modulo l from channel number {j + 1} to {i + 1}"
                 require(seen, "arc", "witness", message)
             power = product(A, power, width, ell)
+
+
+def require_connected(value: Json, place: str, system: System, ell: int) -> None:
+    """Stop unless these edges of the transfer graph make it strongly connected.
+
+    Theorem ``transfer_graph.strongly_connected_arcs``.
+    """
+    arcs = read_arcs(value, place, system)
+    require_arcs(system, arcs, ell)
+    connected = len(components(system.m, [(j, i) for j, i, _ in arcs])) <= 1
+    require(connected, "arc", place, "these edges do not connect all channels")

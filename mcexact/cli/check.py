@@ -85,7 +85,7 @@ def command(
     from dataclasses import asdict
 
     from mcexact.checker.allowance import SUPPORTED, Clock, memory
-    from mcexact.checker.command import PRECEDENCE, UNWRITTEN, asked, verdicts
+    from mcexact.checker.command import UNWRITTEN, status_of, verdicts
     from mcexact.checker.kinds import Verdict
     from mcexact.checker.reading import Limits, Refused
     from mcexact.cli.output import deliver, json_text
@@ -98,7 +98,8 @@ def command(
         return 0
     if not certificates and manifest is None:
         raise click.UsageError("expected a CERTIFICATE or --manifest")
-    if [*certificates, system, controller, expect].count("-") > 1:
+    asking = system, controller, expect
+    if [*certificates, *asking].count("-") > 1:
         raise click.UsageError("standard input can be read once: give - once")
     if not SUPPORTED and (timeout or max_memory):
         raise click.UsageError("this platform has no limits on time and memory")
@@ -106,8 +107,7 @@ def command(
     allowed = Limits(**options.given(limits))
     try:
         with memory(max_memory), clock.running():
-            wanted = asked(system, controller, expect, allowed, clock)
-            for about, verdict in verdicts(certificates, manifest, wanted, allowed, clock):
+            for about, verdict in verdicts(certificates, manifest, asking, allowed, clock):
                 found.append((about, verdict))
                 if not as_json:
                     deliver(verdict.line().replace("(Limits.", "(--max-") + "\n")
@@ -121,7 +121,7 @@ def command(
         if not error.reader_left:
             raise
         return UNWRITTEN
-    return next(status for status in PRECEDENCE if status in {0, *(v.status for _, v in found)})
+    return status_of(found)
 
 
 def _export(file: Path) -> None:
