@@ -5,7 +5,7 @@ BIN := .venv/bin
 STAMP := .venv/.installed
 GALLERY := mcexact/model/gallery
 
-.PHONY: coverage mutants records reproduce look ledger sentences demo test lint types tests matrix attack agreement readers zipapp bench proofs checked-proofs weakened-proofs
+.PHONY: coverage mutants records reproduce look ledger sentences demo test lint types tests matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs
 
 demo: $(STAMP)
 	$(BIN)/mcexact demo

@@ -1,8 +1,8 @@
 """A campaign of mutants and forgeries against the checker, judged by an oracle of its own.
 
-    python -m tests.attack 500000        # an hour on two processors
+    python -m tests.attack 500000        # some ten minutes on two idle processors
     python -m tests.attack --only 1234   # one try again, with its document
-
+    python -m tests.attack 100000 --weakened FILE   # without each condition of the checker in turn
 
 The oracle in ``oracle/`` is written from ``mcexact/answer/FORMAT.md`` alone, and decides whether
 claims are true; it imports neither the checker nor any other part of the package.

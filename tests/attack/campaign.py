@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import multiprocessing
 import signal
+import sys
 import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
@@ -92,8 +93,10 @@ def run_batch(number: int, report: Report, only: int | None = None) -> Try | Non
         outcome, why = _outcome(attempt, verdict, report)
         if outcome == "rejected" and isinstance(attempt.document, dict) and verdict is not None:
             batch.rejected = attempt.document, verdict.place
-        rows = rows_of(attempt, batch)
-        report.count([*rows, ("verdict", verdict.verdict if verdict else "none")], outcome)
+        found = verdict.verdict if verdict else "none"
+        if found == "INCOMPLETE" and verdict is not None:
+            found = f"INCOMPLETE {verdict.code}"
+        report.count([*rows_of(attempt, batch), ("verdict", found)], outcome)
         if outcome in ("false", "errors", "time-outs"):
             report.findings.append(_finding(attempt, outcome, why))
         if attempt.number == only:
@@ -166,6 +169,8 @@ def run(count: int, processes: int = 2) -> Report:
         jobs = [pool.apply_async(_share, (k, shares, batches)) for k in range(shares)]
         for job in jobs:
             report.add(job.get())
+            done, found = report.total("tries"), len(report.findings)
+            print(f"{done:,} tries, {found} findings", file=sys.stderr, flush=True)
     return report
 
 

@@ -17,7 +17,6 @@ from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import read_system
-from tests.attack.oracle.judge import ABOUT_THE_PLANT
 
 from .observers import drawn_observer
 from .plants import Document, drawn_plant
@@ -124,6 +123,7 @@ DECISIONS: Mapping[str, Callable[[random.Random, MultiChannelSystem], Found]] = 
     "stability": _stability,
     "transfer_graph": lambda rng, s: mcexact.transfer_graph(s),
 }
+ABOUT_THE_PLANT = ("common_dimension", "communication", "shared_dimensions")
 WITH_GRAPH = ("common_dimension", "neighbor_graph", "shared_dimensions")
 
 

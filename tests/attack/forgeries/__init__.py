@@ -50,7 +50,7 @@ def forged(rng: random.Random, document: Document) -> Document:
             if rng.random() < 0.1:
                 other_modulus(rng, made, SMALL_MODULI)
             return made
-    if document["subject"] and rng.random() < 0.3:
+    if rng.random() < (0.4 if document["subject"] else 0.2):
         made = subjects.other_subject(rng, document)
         if made is not None:
             return made
