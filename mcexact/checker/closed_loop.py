@@ -14,6 +14,8 @@ from .system import System
 STATES = (("x", "shared"), ("z", "private"))
 Signal = tuple[str, int, int]
 """(signal, j, age): signal is "X" for the plant's state, "x", "y" or "z" for x_j, y_j, z_j."""
+Terms = list[tuple[Signal, Matrix]]
+"""The signals that a map uses, with their coefficients."""
 
 
 def closed_loop(system: System, step: dict[str, Json], place: str) -> System:
@@ -56,9 +58,7 @@ def closed_loop(system: System, step: dict[str, Json], place: str) -> System:
     return System(system.time, [], A, [], [], words=words, blocks=blocks, controller=key)
 
 
-def _terms(
-    system: System, agents: list[Json], i: int, place: str
-) -> list[list[tuple[Signal, Matrix]]]:
+def _terms(system: System, agents: list[Json], i: int, place: str) -> list[Terms]:
     """The signals that the three maps of agent i use, with their coefficients."""
     N_i, result = system.neighbors[i] if system.neighbors else [i], []
     for label in MAPS:

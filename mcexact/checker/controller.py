@@ -6,7 +6,7 @@ from . import reading
 from .arithmetic import Matrix
 from .reading import Json, Limits, fields, integer, items, malformed, shown, string
 from .statement import canonical_json, digest_of
-from .system import System, number, read_matrix
+from .system import System, parse_file, read_matrix
 
 MAPS = ("shared_update", "private_update", "input")
 USED = ("outputs", "shared", "private", "reference")
@@ -69,7 +69,7 @@ def _by_agent(value: Json, place: str, known: list[str]) -> list[tuple[str, int,
 
 def read_controller_file(data: bytes, limits: Limits) -> tuple[str, str]:
     """The digest of the controller in a file, and that of its plant, empty if it names none."""
-    document = reading.parse(data, limits, lambda text: number(text, f"number {text[:24]}", limits))
+    document = parse_file(data, limits)
     version, plant, *parts = fields(document, "controller", "format", "system", "time", "agents")
     if version != FORMAT:
         malformed("format", f"expected {FORMAT!r}, found {shown(version)}")

@@ -10,6 +10,9 @@ from fractions import Fraction
 from . import budget
 from .reading import Json, fields, integer, items, malformed, rational, require
 
+Upper = Sequence[int | None]
+"""The most that each variable can be; None where there is no limit."""
+
 
 @dataclass(frozen=True)
 class Program:
@@ -25,7 +28,7 @@ class Program:
     labels: Sequence[Json]
     value: Fraction | None
 
-    def require_bound(self, nodes: Json, upper: Sequence[int | None]) -> None:
+    def require_bound(self, nodes: Json, upper: Upper) -> None:
         """Stop unless the tree proves that every point below ``upper`` costs at least ``value``.
 
         The nodes come in preorder: an inner node, then its tree below, then its tree above.
@@ -70,9 +73,7 @@ class Program:
             malformed(place, f"expected the number of a cut, below {len(self.cuts)}")
         return self.cuts[int(number)]
 
-    def _require_multipliers(
-        self, node: Json, place: str, low: list[int], high: list[int | None]
-    ) -> None:
+    def _require_multipliers(self, node: Json, place: str, low: list[int], high: Upper) -> None:
         (listed,) = fields(node, place, "multipliers")
         require(self.value is not None, "leaf", place, "expected a violated cut")
         reduced, bound, longest = list(self.costs), Fraction(0), self._limbs()

@@ -20,8 +20,8 @@ def dual(system: System, step: dict[str, Json], place: str) -> System:
     """
     fields(step, place)
     B, C = [M.T for M in system.C], [M.T for M in system.B]
-    alone = replace(system, neighbors=None, delays={}, blocks=())
-    return replace(alone, A=system.A.T, B=B, C=C, words=prefixed("the dual", system))
+    words = prefixed("the dual", system)
+    return replace(system, A=system.A.T, B=B, C=C, neighbors=None, delays={}, words=words)
 
 
 def feedback(system: System, step: dict[str, Json], place: str) -> System:

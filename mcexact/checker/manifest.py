@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 
 from . import reading, sentences_analysis, sentences_design, sentences_sharing
 from .budget import Budget, current, limited, spend
-from .expectation import Expectation, same
+from .expectation import DIGEST, Expectation, same
 from .kinds import KINDS, Found, Verdict, answer, check_document, refusal
 from .reading import Json, Limits, Refused, fields, items, malformed, parse, require, shown, string
 from .sentence import RULES, Premise, enter_own
@@ -28,7 +28,6 @@ FORMAT = "mcexact-manifest/1"
 NAME = "manifest.json"
 FILE = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_+-]{0,99}\.json")
 """The name of a certificate's file beside the manifest, which is not a path on any system."""
-DIGEST = re.compile(r"[0-9a-f]{64}")
 TOKEN = re.compile(r"(?:[^~]|~[01])*+")
 INDEX = re.compile(r"0|[1-9][0-9]{0,9}")
 Read = Callable[[str], bytes]
@@ -111,9 +110,8 @@ def _bytes(path: str, limits: Limits) -> bytes:
 
 def _parts(document: Json) -> tuple[Json, ...]:
     """Read the digests by name, the sentences, and the subject of a manifest."""
-    version, listed, sentences, base = fields(
-        document, "manifest", "format", "certificates", "sentences", optional=("subject",)
-    )
+    given, more = ("format", "certificates", "sentences"), ("subject",)
+    version, listed, sentences, base = fields(document, "manifest", *given, optional=more)
     if string(version, "format") != FORMAT:
         malformed("format", f"expected {FORMAT!r}, found {shown(version)}")
     if not isinstance(listed, dict) or not items(sentences, "sentences"):

@@ -13,10 +13,11 @@ from .statement import FIXED
 from .system import System
 from .transfer_graph import require_connected
 
+Bound = Fraction | None
+"""The rate or the radius that a claim is about, if any."""
 
-def require_absence(
-    value: Json, system: System, bound: Fraction | None, *, connected: bool = False
-) -> None:
+
+def require_absence(value: Json, system: System, bound: Bound, connected: bool = False) -> None:
     """Stop unless every fixed mode lies in the region; and the graph is connected, if asked.
 
     Theorems ``fixed_spectrum.absence``, ``fixed_spectrum.absence_all``,
@@ -45,7 +46,7 @@ def require_absence(
         require_connected(arcs, f"{place}.arcs", system, ell)
 
 
-def read_bound(value: Json, system: System) -> Fraction | None:
+def read_bound(value: Json, system: System) -> Bound:
     """A rate ≥ 0 in continuous time, a radius in (0, 1] in discrete time, or null."""
     if value is None:
         return None
@@ -69,7 +70,7 @@ def no_fixed_mode(bound: Json, system: System) -> str:
     return f"no mode of {where} that is {FIXED}"
 
 
-def require_outside(p: Polynomial, system: System, bound: Fraction | None, place: str) -> None:
+def require_outside(p: Polynomial, system: System, bound: Bound, place: str) -> None:
     """Stop if every root of p lies inside the region, where fixed modes are allowed."""
     inside = in_region(p, system.time, bound)
     require(not inside, "region", place, "every root lies inside the region")

@@ -5,16 +5,16 @@ from __future__ import annotations
 import json
 from fractions import Fraction
 
+from .controller import MAPS
 from .location import in_stability_region
 from .reading import Json, Refused, polynomial
 from .sentence import Holds, Path, Premise, Role, either, restate, rule
-from .sentences_analysis import FIXED_DYNAMIC, controls
+from .sentences_analysis import FIXED_DYNAMIC, SETPOINT, controls
 from .sentences_sharing import demands
 from .statement import counted
 from .subject import read_subject
 from .system import System, read_matrix
 
-MAPS = ("shared_update", "private_update", "input")
 UNCONTROLLABLE = "controllability.uncontrollable_modes"
 NO_FIXED = "extended_bound.extended_no_fixed, extended_bound.extended_states_no_fixed"
 
@@ -30,7 +30,6 @@ STABLE, OBSERVER = Role(("stability",), CLOSED), Role(("distributed_observer",),
 NETWORKS: tuple[Path, ...] = (("extended",), ("lifted",), ("held",))
 KEPT = Role(("fixed_spectrum",), behind((), *NETWORKS))
 DIMENSIONS = Role(("shared_dimensions",), behind(()))
-SETPOINT = Role(("setpoint",), ((),))
 
 
 # What the controller of a loop is: it stands in the subject.

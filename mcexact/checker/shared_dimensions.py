@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
-
 from . import covering, evidence, reading, region, subspaces
 from .information_structure import SHARED, augmented_outputs, extended, neighbors_of
 from .reading import Json, fields, items, require
@@ -36,7 +34,7 @@ def check(claim: Json, witness: Json, system: System) -> None:
         subject = extended(system, {"share": share, "dimensions": sizes}, "claim")
         region.require_absence(absence, subject, bound, connected=connected)
         fits = all(u is None or n_i <= u for n_i, u in zip(sizes, upper, strict=True))
-        total = sum((n_i * c for n_i, c in zip(sizes, costs, strict=True)), Fraction(0))
+        total = sum(n_i * c for n_i, c in zip(sizes, costs, strict=True))
         right = fits and value == total
         require(right, "claim", "claim.cost", "not the cost of dimensions below `upper`")
     covering.Program(costs, cuts, "agent", system.names, value).require_bound(tree, upper)
@@ -59,7 +57,7 @@ def statement(claim: Json, system: System) -> str:
 
 
 def read_cut(
-    entry: Json, place: str, base: System, bound: Fraction | None, free: bool
+    entry: Json, place: str, base: System, bound: region.Bound, free: bool
 ) -> tuple[list[int], int]:
     """A subset s, and how much its boundary N_s∖s has to share at least.
 

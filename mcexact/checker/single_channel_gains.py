@@ -59,9 +59,8 @@ def statement(claim: Json, system: System) -> str:
         return f"no constant gains F, the same for all q, make {among}"
     indices = canonical_json(dict(zip(listed, claim["indices"], strict=True)))
     end = ", and A_F cyclic" if claim["cyclic"] else ""
-    return (
-        f"some constant gains F, the same for all q, make {among}, with the indices {indices}{end}"
-    )
+    start = f"some constant gains F, the same for all q, make {among}"
+    return f"{start}, with the indices {indices}{end}"
 
 
 def _seen(system: System, side: str) -> System:

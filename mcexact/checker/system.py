@@ -118,9 +118,8 @@ def read_matrix(
 def read_system(value: Json, limits: Limits | None = None) -> System:
     """Read a system object by the grammar of system files; without limits, of a certificate."""
     extra = () if limits is None else ("format", "name", "source", "sample_time", "D")
-    time, A_rows, listed, heard, waits, *more = fields(
-        value, "system", "time", "A", "channels", optional=("neighbors", "delays", *extra)
-    )
+    keys, optional = ("time", "A", "channels"), ("neighbors", "delays", *extra)
+    time, A_rows, listed, heard, waits, *more = fields(value, "system", *keys, optional=optional)
     A = read_matrix(A_rows, "A", None, None, limits)
     if A.nrows != A.ncols or not items(listed, "channels"):
         malformed("system", "expected a square A and at least one channel")
@@ -172,9 +171,8 @@ def _with_graph(plant: System, heard: Json, waits: Json) -> System:
             if steps is None:
                 continue
             if (integer(steps, "delays") and i == j) or j not in sets[i]:
-                malformed(
-                    "delays", f"{shown(known[i])} does not receive messages of {shown(known[j])}"
-                )
+                message = f"{shown(known[i])} does not receive messages of {shown(known[j])}"
+                malformed("delays", message)
             if steps:
                 delays[i, j] = steps
     return System(plant.time, plant.names, plant.A, plant.B, plant.C, sets, delays)
@@ -220,12 +218,15 @@ def read_plant(value: Json) -> System:
     return system
 
 
+def parse_file(data: bytes, limits: Limits) -> Json:
+    """The document of a system file or a controller file, its numbers exactly as typed."""
+    return reading.parse(data, limits, lambda text: number(text, f"number {text[:24]}", limits))
+
+
 def read_system_file(data: bytes, limits: Limits) -> System:
     """The system of a system file, numbers as typed."""
     with budget.limited(budget.current(limits.work), len(data)):
-        document = reading.parse(
-            data, limits, lambda text: number(text, f"number {text[:24]}", limits)
-        )
+        document = parse_file(data, limits)
         if not isinstance(document, dict) or document.get("format") != "mcexact-system/1":
             malformed("format", 'expected a system file, "format": "mcexact-system/1"')
         return read_system(document, limits)
