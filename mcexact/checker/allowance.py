@@ -1,7 +1,5 @@
 """What a run may take: time, also while it waits for a file, and memory."""
 
-from __future__ import annotations
-
 import contextlib
 import signal
 from collections.abc import Callable, Iterator

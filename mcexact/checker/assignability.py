@@ -1,7 +1,5 @@
 """Kind ``assignability``: how a spectrum splits; ``proofs/assignability.md``."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from . import evidence, subspaces, transfer_graph

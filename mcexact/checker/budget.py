@@ -5,8 +5,6 @@ built.  A document of N bytes is granted ``GRANTED`` + ``PER_BYTE`` · N units u
 says otherwise; a check that would take more is INCOMPLETE.  Units say nothing of the claim.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager

@@ -1,7 +1,5 @@
 """Characteristic polynomials, modulo ℓ and over Q; ``proofs/arithmetic.md``."""
 
-from __future__ import annotations
-
 import math
 from fractions import Fraction
 from operator import mul

@@ -1,7 +1,5 @@
 """Construction ``closed_loop``: the plant and the programs of its agents, as one matrix."""
 
-from __future__ import annotations
-
 from itertools import accumulate
 
 from .arithmetic import Matrix, stack

@@ -1,7 +1,5 @@
 """Kind ``closed_loop_spectrum``: the whole spectrum; ``proofs/closed_loop_spectrum.md``."""
 
-from __future__ import annotations
-
 import math
 
 from . import budget

@@ -1,7 +1,5 @@
 """The command line, which prints one line for each file and ends with one exit status."""
 
-from __future__ import annotations
-
 import argparse
 import errno
 import io

@@ -1,7 +1,5 @@
 """Kind ``common_dimension``: the least common dimension; ``proofs/common_dimension.md``."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import partial
 

@@ -1,7 +1,5 @@
 """Kind ``communication``: the cheapest links to add; ``proofs/communication.md``."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from . import covering, links, reading, region, subspaces

@@ -1,7 +1,5 @@
 """Kind ``complementary_subsystem``: a Smith form; ``proofs/complementary_subsystem.md``."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from fractions import Fraction

@@ -1,7 +1,5 @@
 """Kind ``completeness``: connected and nothing fixed, or not; ``proofs/completeness.md``."""
 
-from __future__ import annotations
-
 from . import evidence, subspaces
 from .characteristic_polynomial import characteristic_polynomial
 from .reading import Json, boolean, fields, polynomial, require

@@ -1,7 +1,5 @@
 """Kind ``controllability``: the subspace that channels control; ``proofs/controllability.md``."""
 
-from __future__ import annotations
-
 from .arithmetic import Echelon, product
 from .characteristic_polynomial import characteristic_polynomial
 from .evidence import inputs, modulus, require_identity

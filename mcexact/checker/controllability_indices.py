@@ -1,7 +1,5 @@
 """Kind ``controllability_indices``; ``proofs/controllability_indices.md``."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 from .arithmetic import Echelon

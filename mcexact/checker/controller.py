@@ -1,7 +1,5 @@
 """Controllers in canonical form, from a certificate or a controller file, and their digest."""
 
-from __future__ import annotations
-
 from . import reading
 from .arithmetic import Matrix
 from .reading import Json, Limits, fields, integer, items, malformed, shown, string

@@ -1,7 +1,5 @@
 """Branch trees of covering programs; ``proofs/shared_dimensions.md``."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Kind ``deficiency``: the largest loss of rank over all subsets; ``proofs/deficiency.md``."""
 
-from __future__ import annotations
-
 from . import evidence, subspaces
 from .characteristic_polynomial import characteristic_polynomial
 from .reading import Json, fields, integer, matrix, polynomial, require

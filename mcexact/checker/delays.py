@@ -1,7 +1,5 @@
 """Constructions ``lifted`` and ``held``: extended systems with delays, in discrete time."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from .arithmetic import Matrix, beside, stack

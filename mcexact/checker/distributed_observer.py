@@ -1,15 +1,11 @@
 """Kind ``distributed_observer``: separation, both spectra; ``proofs/distributed_observer.md``."""
 
-from __future__ import annotations
-
-from fractions import Fraction
-
 from . import budget
-from .arithmetic import Matrix, Polynomial
+from .arithmetic import Matrix
 from .closed_loop_spectrum import moduli, require_spectrum
 from .location import in_region
-from .reading import Json, fields, polynomial, rational, require
-from .region import inside
+from .reading import Json, fields, polynomial, require
+from .region import inside, read_bound
 from .statement import polynomial_text
 from .system import System
 
@@ -26,8 +22,10 @@ def check(claim: Json, witness: Json, system: System) -> None:
     ells = moduli(numbers, "witness.moduli")
     require_spectrum(M_F, p, "claim.feedback", ells)
     require_spectrum(M_E, q, "claim.error", ells)
-    if limit is not None:
-        _require_placed(rational(limit, "claim.bound"), system.time, [p, q])
+    bound = read_bound(limit, system)
+    if bound is not None:
+        met = all(in_region(factor, system.time, bound) for factor in (p, q))
+        require(met, "bound", "claim.bound", "a root does not meet it")
 
 
 def statement(claim: Json, system: System) -> str:
@@ -62,11 +60,3 @@ def separated(system: System) -> tuple[Matrix, Matrix]:
     alone = M.take(rest, x).is_zero()
     require(alone, "separation", "subject", "the state of the plant drives the estimation errors")
     return M.take(x, x), M.take(rest, rest)
-
-
-def _require_placed(bound: Fraction, time: str, polynomials: list[Polynomial]) -> None:
-    """Stop unless every root meets the rate or radius."""
-    sensible = bound >= 0 if time == "continuous" else 0 < bound <= 1
-    require(sensible, "bound", "claim.bound", "no rate or radius")
-    inside = all(in_region(p, time, bound) for p in polynomials)
-    require(inside, "bound", "claim.bound", "a root does not meet it")

@@ -1,7 +1,5 @@
 """Rules for evidence of several kinds; ``proofs/evidence.md`` proves each of them."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Sequence
 

@@ -1,7 +1,5 @@
 """Kind ``exceptional_gains``: where [B, (M+gA)B, …] loses rank; ``proofs/exceptional_gains.md``."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from functools import reduce
 

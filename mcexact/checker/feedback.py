@@ -1,7 +1,5 @@
 """Constructions ``dual``, ``feedback``, ``full_output``, ``integrators`` and ``error``."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 

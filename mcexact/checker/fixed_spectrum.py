@@ -1,7 +1,5 @@
 """Kind ``fixed_spectrum``: all fixed modes, and where they lie; ``proofs/fixed_spectrum.md``."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 from . import arithmetic, evidence, location, reading, root_discs, subspaces

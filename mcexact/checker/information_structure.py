@@ -1,7 +1,5 @@
 """Constructions ``augmented_outputs``, ``arcs`` and ``extended``, which share information."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from . import reading

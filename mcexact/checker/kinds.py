@@ -1,7 +1,5 @@
 """The table of certificate kinds, and the one function that gives the verdict VALID."""
 
-from __future__ import annotations
-
 import json
 import sys
 from collections.abc import Callable, Mapping

@@ -1,7 +1,5 @@
 """Links that may be added, and the signals that they carry; ``proofs/communication.md``."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 from .arithmetic import Matrix, diagonal

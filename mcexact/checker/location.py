@@ -1,7 +1,5 @@
 """The location of the roots of a polynomial, by exact recursions on its coefficients."""
 
-from __future__ import annotations
-
 import math
 from fractions import Fraction
 

@@ -1,7 +1,5 @@
 """Manifests: sentences, and the certificates that imply them; ``FORMAT.md`` specifies them."""
 
-from __future__ import annotations
-
 import hashlib
 import os
 import re

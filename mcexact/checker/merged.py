@@ -1,7 +1,5 @@
 """Construction ``merged``: channels that are merged into one."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from . import reading

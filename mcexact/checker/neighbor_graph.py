@@ -1,7 +1,5 @@
 """Kind ``neighbor_graph``: whether it is strongly connected; ``proofs/neighbor_graph.md``."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 from .budget import spend

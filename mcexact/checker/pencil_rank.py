@@ -1,7 +1,5 @@
 """Kind ``pencil_rank``: the rank of P_s at the roots of a polynomial; ``proofs/pencil_rank.md``."""
 
-from __future__ import annotations
-
 from itertools import zip_longest
 
 from . import arithmetic, evidence, reading, subspaces

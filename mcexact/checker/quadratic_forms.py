@@ -1,7 +1,5 @@
 """Quadratic forms that decrease along trajectories of a loop; ``proofs/stability.md``."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 from . import evidence

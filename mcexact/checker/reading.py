@@ -4,8 +4,6 @@ Every reader takes a value and its place in the document, for the message.  A va
 form is MALFORMED; a rule says INVALID by :func:`require`.
 """
 
-from __future__ import annotations
-
 import json
 import math
 import re

@@ -1,7 +1,5 @@
 """Absence of fixed modes beyond a region; ``proofs/shared_dimensions.md``."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 from . import evidence

@@ -1,7 +1,5 @@
 """Discs that contain one root each, and the resulting rate; ``proofs/evidence.md``."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 from . import budget

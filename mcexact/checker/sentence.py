@@ -1,7 +1,5 @@
 """Rules for sentences: premises, the roles that premises play, and the table of rules."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any

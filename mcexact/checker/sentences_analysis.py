@@ -1,7 +1,5 @@
 """What the certificates of an analysis imply: modes, structure, one channel, set-points."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from typing import Any

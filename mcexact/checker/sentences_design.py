@@ -1,7 +1,5 @@
 """What the certificates of a design, of a verdict on a controller and of a refusal imply."""
 
-from __future__ import annotations
-
 import json
 from fractions import Fraction
 

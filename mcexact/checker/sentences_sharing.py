@@ -1,7 +1,5 @@
 """What the certificates about sharing imply: bounds, least dimensions, links, delays."""
 
-from __future__ import annotations
-
 from functools import partial
 
 from .sentence import HEARD, PLANT, Path, Premise, Role, either, restate, rule

@@ -1,7 +1,5 @@
 """Kind ``setpoint``: whether integrators can hold outputs at set-points; ``proofs/setpoint.md``."""
 
-from __future__ import annotations
-
 from .arithmetic import Matrix, beside, rank_modulo, stack
 from .evidence import inputs, modulus, outputs, require_identity
 from .reading import Json, boolean, fields, integer, matrix, polynomial_matrix, positions, require

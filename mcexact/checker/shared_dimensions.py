@@ -1,7 +1,5 @@
 """Kind ``shared_dimensions``: the least to share; ``proofs/shared_dimensions.md``."""
 
-from __future__ import annotations
-
 from . import covering, evidence, reading, region, subspaces
 from .information_structure import SHARED, augmented_outputs, extended, neighbors_of
 from .reading import Json, fields, items, require

@@ -1,7 +1,5 @@
 """Kind ``single_channel_gains``: gains, or an obstruction; ``proofs/single_channel_gains.md``."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from . import evidence, reading, subspaces

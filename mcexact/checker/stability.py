@@ -1,7 +1,5 @@
 """Kind ``stability``: whether every eigenvalue meets a rate or radius; ``proofs/stability.md``."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 from .characteristic_polynomial import characteristic_polynomial

@@ -3,8 +3,6 @@
 ``FORMAT.md`` specifies them.  A name always stands in quotes, so that none can imitate words.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 from collections.abc import Iterable

@@ -1,7 +1,5 @@
 """The system that a claim is about, built from the plant by the constructions of ``FORMAT.md``."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from .budget import spend

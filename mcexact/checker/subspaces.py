@@ -1,7 +1,5 @@
 """Shrunk subspaces and zero transfers; ``proofs/evidence.md``."""
 
-from __future__ import annotations
-
 from .arithmetic import Matrix, Polynomial, rank
 from .evidence import complement, inputs, require_identity
 from .reading import Json, fields, matrix, names, polynomial_matrix, positions, require

@@ -1,7 +1,5 @@
 """The plant, read from a certificate or from a system file, and its digest."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 import math

@@ -1,7 +1,5 @@
 """Kind ``transfer_graph``: which channels reach which; ``proofs/transfer_graph.md``."""
 
-from __future__ import annotations
-
 from .arithmetic import Rows, product
 from .budget import counted, spend
 from .evidence import modulus
