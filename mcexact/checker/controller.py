@@ -37,7 +37,7 @@ def read_controller(
     x, z = ([integer(agent[k], place) for agent in agents] for k in (1, 2))
     programs: list[dict[str, Json]] = []
     for i, (*_, shared_update, private_update, control, hold) in enumerate(agents):
-        steps = {name: integer(d, place) for name, _, d in _by_agent(hold, place, known)}
+        steps = {name: integer(d, place) for name, _, d in reading.by_name(hold, place, known)}
         program: dict[str, Json] = {"hold": {name: d for name, d in steps.items() if d}}
         given = (shared_update, x[i]), (private_update, z[i]), (control, p[i])
         for label, (parts, nrows) in zip(MAPS, given, strict=True):
@@ -47,7 +47,7 @@ def read_controller(
             for key, entries, widths in zip(USED, by_agent, (q, x), strict=False):
                 used = (
                     (name, read_matrix(M, where, nrows, widths[j], limits))
-                    for name, j, M in _by_agent(entries, where, known)
+                    for name, j, M in reading.by_name(entries, where, known)
                 )
                 found[key] = {name: M for name, M in used if stays(M)}
             for key, entry, width in (("private", private, z[i]), ("reference", reference, q[i])):
@@ -57,12 +57,6 @@ def read_controller(
         kept = {key: part for key, part in program.items() if part}
         programs.append({"name": known[i], "shared": x[i], "private": z[i], **kept})
     return {"time": string(time, place, "continuous", "discrete"), "agents": programs}
-
-
-def _by_agent(value: Json, place: str, known: list[str]) -> list[tuple[str, int, Json]]:
-    """The entries of an object keyed by agents, with the agents' positions."""
-    given = fields({} if value is None else value, place, optional=tuple(known))
-    return [(known[j], j, entry) for j, entry in enumerate(given) if entry is not None]
 
 
 def read_controller_file(data: bytes, limits: Limits) -> tuple[str, str]:

@@ -8,7 +8,7 @@ import json
 import math
 import re
 import unicodedata
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import IO, Any, NoReturn
@@ -57,7 +57,7 @@ def require(condition: bool, code: str, place: str, message: str) -> None:
         raise Refused("INVALID", code, place, message)
 
 
-def parse(data: bytes, limits: Limits, decimal_of: Callable[[str], Any] | None = None) -> Any:
+def parse(data: bytes, limits: Limits, decimal_of: Callable[[str], Json] | None = None) -> Json:
     """Parse JSON text: UTF-8, no key twice, no constants such as NaN, nothing beyond the limits.
 
     ``decimal_of`` reads a number with a point or an exponent; without it such a number is refused.
@@ -86,8 +86,8 @@ def parse(data: bytes, limits: Limits, decimal_of: Callable[[str], Any] | None =
     def refuse(number: str) -> NoReturn:
         malformed(f"number {number[:24]}", 'expected an integer or a string "p/q"')
 
-    def object_of(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-        result: dict[str, Any] = {}
+    def object_of(pairs: list[tuple[str, Json]]) -> dict[str, Json]:
+        result: dict[str, Json] = {}
         for key, value in pairs:
             if key in result:
                 malformed(f"key {shown(key)}", "given twice in one object")
@@ -114,7 +114,7 @@ def read_bytes(stream: IO[bytes], limits: Limits) -> bytes:
     return bytes(data)
 
 
-def shown(value: Any) -> str:
+def shown(value: Json) -> str:
     """A value of a document as a message shows it: ASCII, on one line, and short."""
     if isinstance(value, (Mapping, list, float)):
         return f"a value of type {type(value).__name__}"
@@ -123,7 +123,7 @@ def shown(value: Any) -> str:
     return json.dumps(value if type(value) is not str else value[:40], default=repr)
 
 
-def fields(value: Any, place: str, *names: str, optional: tuple[str, ...] = ()) -> list[Any]:
+def fields(value: Json, place: str, *names: str, optional: tuple[str, ...] = ()) -> list[Json]:
     """The values of an object that has exactly these keys; None for an optional one left out."""
     if not isinstance(value, Mapping):
         malformed(place, f"expected an object, found {shown(value)}")
@@ -140,7 +140,13 @@ def fields(value: Any, place: str, *names: str, optional: tuple[str, ...] = ()) 
     return [value.get(name) for name in names + optional]
 
 
-def items(value: Any, place: str, length: int | None = None) -> list[Any]:
+def by_name(value: Json, place: str, known: Sequence[str]) -> list[tuple[str, int, Json]]:
+    """The entries of an object, perhaps left out, by some of these names, with their positions."""
+    given = fields({} if value is None else value, place, optional=tuple(known))
+    return [(known[j], j, entry) for j, entry in enumerate(given) if entry is not None]
+
+
+def items(value: Json, place: str, length: int | None = None) -> list[Json]:
     """The members of a list, of a given length if one is prescribed."""
     if type(value) is not list:
         malformed(place, f"expected a list, found {shown(value)}")
@@ -149,21 +155,21 @@ def items(value: Any, place: str, length: int | None = None) -> list[Any]:
     return value
 
 
-def integer(value: Any, place: str, least: float = 0) -> int:
+def integer(value: Json, place: str, least: float = 0) -> int:
     """An integer, not below ``least``."""
     if type(value) is not int or value < least:
         malformed(place, f"expected an integer from {least} on, found {shown(value)}")
     return value
 
 
-def boolean(value: Any, place: str) -> bool:
+def boolean(value: Json, place: str) -> bool:
     """True or false."""
     if type(value) is not bool:
         malformed(place, f"expected true or false, found {shown(value)}")
     return value
 
 
-def string(value: Any, place: str, *choices: str) -> str:
+def string(value: Json, place: str, *choices: str) -> str:
     """A string, one of the choices if there are any."""
     if type(value) is not str or (choices and value not in choices):
         expected = " or ".join(map(shown, choices)) or "a string"
@@ -171,7 +177,7 @@ def string(value: Any, place: str, *choices: str) -> str:
     return value
 
 
-def printable(value: Any, place: str, longest: int, allowed: str = "") -> str:
+def printable(value: Json, place: str, longest: int, allowed: str = "") -> str:
     """A string of at most so many characters, all of which print or are allowed."""
     hidden = {c for c in string(value, place)[:longest] if unicodedata.category(c) in HIDDEN}
     if len(value) > longest or hidden - set(allowed):
@@ -179,7 +185,7 @@ def printable(value: Any, place: str, longest: int, allowed: str = "") -> str:
     return str(value)
 
 
-def own_names(values: list[Any], places: list[str]) -> list[str]:
+def own_names(values: list[Json], places: list[str]) -> list[str]:
     """Names of channels or agents: of 1 to 256 characters, no two equal in the normal form NFC."""
     names, forms = [], {""}
     for value, place in zip(values, places, strict=True):
@@ -191,7 +197,7 @@ def own_names(values: list[Any], places: list[str]) -> list[str]:
     return names
 
 
-def rational(value: Any, place: str) -> Fraction:
+def rational(value: Json, place: str) -> Fraction:
     """A rational: an integer, or "p/q" in lowest terms with q ≥ 2."""
     if type(value) is int:
         return Fraction(value)
@@ -202,14 +208,14 @@ def rational(value: Any, place: str) -> Fraction:
     malformed(place, f'expected an integer or "p/q" in lowest terms, found {shown(value)}')
 
 
-def decimal(value: Any, place: str) -> Fraction:
+def decimal(value: Json, place: str) -> Fraction:
     """A decimal: a string such as "-1.25", without exponent."""
     if type(value) is not str or not DECIMAL.fullmatch(value):
         malformed(place, f'expected a decimal such as "-1.25", found {shown(value)}')
     return Fraction(value)
 
 
-def polynomial(value: Any, place: str, least_degree: int = 0) -> Polynomial:
+def polynomial(value: Json, place: str, least_degree: int = 0) -> Polynomial:
     """A monic polynomial: its coefficients, constant term first, the last one 1."""
     spend(100 * len(items(value, place)))
     result = [rational(entry, f"{place}[{k}]") for k, entry in enumerate(items(value, place))]
@@ -218,7 +224,7 @@ def polynomial(value: Any, place: str, least_degree: int = 0) -> Polynomial:
     return result
 
 
-def _integer_rows(value: Any, place: str, nrows: int, ncols: int) -> list[list[int]]:
+def _integer_rows(value: Json, place: str, nrows: int, ncols: int) -> list[list[int]]:
     """Rows of integers, of the prescribed shape."""
     for i, row in enumerate(items(value, place, nrows)):
         if not all(type(entry) is int for entry in items(row, f"{place}[{i}]", ncols)):
@@ -226,20 +232,20 @@ def _integer_rows(value: Any, place: str, nrows: int, ncols: int) -> list[list[i
     return value  # type: ignore[no-any-return]
 
 
-def matrix(value: Any, place: str, nrows: int, ncols: int) -> Matrix:
+def matrix(value: Json, place: str, nrows: int, ncols: int) -> Matrix:
     """A matrix of the prescribed shape: integer entries over one denominator."""
     denominator, entries = fields(value, place, "denominator", "entries")
     rows = _integer_rows(entries, f"{place}.entries", nrows, ncols)
     return Matrix(rows, ncols, integer(denominator, f"{place}.denominator", 1))
 
 
-def matrices(value: Any, place: str, shapes: list[tuple[int, int]]) -> list[Matrix]:
+def matrices(value: Json, place: str, shapes: list[tuple[int, int]]) -> list[Matrix]:
     """A list of matrices of the prescribed shapes."""
     entries = enumerate(items(value, place, len(shapes)))
     return [matrix(entry, f"{place}[{i}]", *shapes[i]) for i, entry in entries]
 
 
-def polynomial_matrix(value: Any, place: str, nrows: int, ncols: int, degree: int) -> list[Matrix]:
+def polynomial_matrix(value: Json, place: str, nrows: int, ncols: int, degree: int) -> list[Matrix]:
     """The coefficient matrices of a polynomial matrix reduced modulo a p of this degree."""
     denominator, layers = fields(value, place, "denominator", "coefficients")
     d = integer(denominator, f"{place}.denominator", 1)
@@ -250,7 +256,7 @@ def polynomial_matrix(value: Any, place: str, nrows: int, ncols: int, degree: in
     return [Matrix(layer, ncols, d) for layer in rows] + padding
 
 
-def positions(value: Any, place: str, below: int) -> list[int]:
+def positions(value: Json, place: str, below: int) -> list[int]:
     """Strictly increasing positions from 0 to ``below`` − 1."""
     result = [integer(entry, place) for entry in items(value, place)]
     if result != sorted(set(result)) or any(entry >= below for entry in result):
@@ -258,7 +264,7 @@ def positions(value: Any, place: str, below: int) -> list[int]:
     return result
 
 
-def names(value: Any, place: str, known: list[str]) -> list[int]:
+def names(value: Json, place: str, known: list[str]) -> list[int]:
     """The positions of named channels, each known, in the order of the system, none twice."""
     spend(4 * (len(items(value, place)) + len(known)))
     place_of = {name: i for i, name in enumerate(known)}

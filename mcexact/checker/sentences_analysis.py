@@ -2,12 +2,11 @@
 
 import json
 from collections.abc import Callable
-from typing import Any
 
 from .arithmetic import exponent
 from .location import in_stability_region
-from .reading import polynomial
-from .sentence import DUAL, PLANT, SYSTEM, Premise, Role, either, restate, rule
+from .reading import Json, polynomial
+from .sentence import DUAL, PLANT, SYSTEM, Holds, Premise, Role, either, restate, rule
 from .statement import PENCIL, channel_set, described, edge_set, polynomial_text
 from .system import System
 
@@ -116,7 +115,7 @@ restate("fixed-modes", FIXED, lambda c: c["factors"], FIXED_DYNAMIC)
 def _blame(key: str, told: str, wanted: Callable[[int, int], bool]) -> None:
     """Enter the rule about the fixed modes whose sets have a wanted size, among m channels."""
 
-    def chosen(found: Premise) -> list[Any]:
+    def chosen(found: Premise) -> list[Json]:
         factors, m = found.cited("/claim/factors"), found.system.m
         return [factor for factor in factors if wanted(len(factor["channels"]), m)]
 
@@ -248,7 +247,7 @@ def gains(key: str, wanted: str, about: Callable[[Premise], bool]) -> None:
     def stuck(found: Premise) -> bool:
         return not asked(found) and "polynomial" in found.witness
 
-    def cut(side: str) -> Any:
+    def cut(side: str) -> Holds:
         return lambda c: not asked(c) and "zero" in c.witness and c.witness["side"] == side
 
     def reason(found: Premise) -> str:

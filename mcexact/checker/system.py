@@ -9,7 +9,7 @@ from fractions import Fraction
 
 from . import budget, reading
 from .arithmetic import Matrix
-from .reading import Json, Limits, fields, incomplete, integer, items, malformed, shown, string
+from .reading import Json, Limits, fields, integer, items, malformed, printable, shown, string
 
 LARGEST = 2**22
 """The cells of the largest sparse matrix, a side of length 0 counted as 1."""
@@ -68,11 +68,12 @@ def number(value: Json, place: str, limits: Limits | None = None) -> Fraction:
         typed = 0 if "/" in mantissa else len(mantissa.strip("-").replace(".", ""))
         if limits and typed > limits.digits:
             message = f"a number of more than {limits.digits} digits (Limits.digits)"
-            incomplete("size", place, message)
+            reading.incomplete("size", place, message)
         budget.spend(300 + (len(value) + abs(int(exponent))) ** 2 // 500)
         result = Fraction(value)
     if limits and too_long(max(abs(result.numerator), result.denominator), limits.digits):
-        incomplete("size", place, f"more than {limits.digits} digits written out (Limits.digits)")
+        message = f"more than {limits.digits} digits written out (Limits.digits)"
+        reading.incomplete("size", place, message)
     return result
 
 
@@ -89,7 +90,7 @@ def read_matrix(
         shape, entries = fields(value, place, "shape", "entries")
         r, c = (integer(size, f"{place}.shape") for size in items(shape, f"{place}.shape", 2))
         if max(r, 1) * max(c, 1) > LARGEST:
-            incomplete("size", f"{place}.shape", f"{r} by {c} is too large")
+            reading.incomplete("size", f"{place}.shape", f"{r} by {c} is too large")
         budget.spend(budget.table(r + 1, c))
         rows: list[list[Fraction]] = [[Fraction(0)] * c for _ in range(r)]
         seen = set()
@@ -141,7 +142,7 @@ def _check_unused(plant: System, given: list[Json], limits: Limits) -> None:
     """Read the parts of a system file on which no claim depends: they are not in the digest."""
     name, source, sample_time, D = given
     for key, text in (("name", name), ("source", source)):
-        reading.printable("" if text is None else text, key, 10_000, allowed="\n\t")
+        printable("" if text is None else text, key, 10_000, allowed="\n\t")
     period = None if sample_time is None else number(sample_time, "sample_time", limits)
     if period is not None and (period <= 0 or plant.time != "discrete"):
         malformed("sample_time", "expected a number above 0, in discrete time only")
@@ -165,9 +166,7 @@ def _with_graph(plant: System, heard: Json, waits: Json) -> System:
         sets.append(sorted({i, *found}))
     delays = {}
     for i, row in enumerate(fields({} if waits is None else waits, "delays", optional=known)):
-        for j, steps in enumerate(fields({} if row is None else row, "delays", optional=known)):
-            if steps is None:
-                continue
+        for _, j, steps in reading.by_name(row, "delays", known):
             if (integer(steps, "delays") and i == j) or j not in sets[i]:
                 message = f"{shown(known[i])} does not receive messages of {shown(known[j])}"
                 malformed("delays", message)
