@@ -161,14 +161,21 @@ def _parts(spectrum: Premise, split: Premise) -> str:
 
 
 def moved(spectrum: Premise, split: Premise) -> tuple[int, int]:
-    """Between which numbers of eigenvalues gains move.
+    """Between which numbers of eigenvalues gains move, by the degree of what divides every loop.
 
-    What belongs to no strong component stays, and so does every fixed mode, at most as often as in
-    the loop of the certificate.
+    That is a multiple of every factor and of what belongs to no strong component, and divides the
+    product of the p^a, as the rest of det(xI - A) is coprime to the loop of the certificate.  The
+    loop's exponent is of p as a whole, and limits that of a root only where p has a single one.
     """
-    sizes = [(len(f["polynomial"]) - 1, f["multiplicity_at_most"]) for f in spectrum["factors"]]
-    n, stays = spectrum.system.n, sum(size for size, _ in sizes)
-    return n - sum(size * most for size, most in sizes), n - max(stays, split["fixed_degree"])
+    sizes, stays = [], 0
+    for factor in spectrum["factors"]:
+        degree, times = len(factor["polynomial"]) - 1, factor["multiplicity_in_A"]
+        stays += degree
+        if degree == 1:
+            times = min(times, factor["multiplicity_at_most"])
+        sizes.append(degree * times)
+    n = spectrum.system.n
+    return n - sum(sizes), n - max(stays, split["fixed_degree"])
 
 
 @rule("spectrum-moved-between", FIXED, BLOCKS, theorem=MOVED)

@@ -139,6 +139,34 @@ REDUCIBLE = certificate(
         "completion": {"B0": matrix([1], [2]), "C0": matrix([1, 0])},
     },
 )
+# x(x − 1) again, with x² and one factor x − 1 in every loop, and x²(x − 1)² without feedback: the
+# exponent of x(x − 1) in the loop, 1, is that of x − 1 and not of x.
+UNEVEN = certificate(
+    "fixed_spectrum",
+    plant(
+        [[0, 1, 1, 0], [0, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]],
+        ([[0], [0], [0], [1]], [[0, 0, 0, 1]]),
+    ),
+    changed(
+        REDUCIBLE["claim"],
+        ("factors.0.multiplicity_in_A", 2),
+        ("factors.0.channels", ["1"]),
+        ("factors.0.rank", 3),
+    ),
+    {
+        "gains": [matrix([2])],
+        "modulus": 101,
+        "subspaces": [
+            {
+                "channels_T": [],
+                "U": layers([[1], [0], [0], [0]], [[0], [0], [1], [0]]),
+                "V": layers([]),
+                "pivots": [0],
+            }
+        ],
+        "completion": {"B0": matrix([0], [1], [1], [0]), "C0": matrix([1, 0, 1, 0])},
+    },
+)
 
 ACCEPTED = [
     ("the paper's mode, as it stands", FIXED),
@@ -151,6 +179,7 @@ ACCEPTED = [
     ("no states at all", NO_STATES),
     ("discrete time asks for moduli", DISCRETE),
     ("two factors, one of them stable", TWO_FACTORS),
+    ("two roots as one factor, of which one stays twice", UNEVEN),
     (
         "columns beyond those that are needed",
         changed(

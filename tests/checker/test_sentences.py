@@ -14,6 +14,8 @@ import pytest
 
 from mcexact.analysis.accounts import account_of_dimensions, account_of_links
 from mcexact.analysis.analyze import analyze
+from mcexact.analysis.fixed_modes.assignability import assignability
+from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.questions import asked_by
 from mcexact.analysis.sharing.allocation import minimal_shared_dimensions
 from mcexact.answer.account import Account
@@ -34,8 +36,9 @@ from mcexact.model.system import MultiChannelSystem
 from tests.answer.asking import asked as asking
 from tests.answer.test_sentences import drawn, question
 from tests.checker.handmade import Document, changed
-from tests.checker.manifests import manifest, said, write
+from tests.checker.manifests import manifest, one, said, sentence, write
 from tests.checker.test_complementary_subsystem import TWICE
+from tests.checker.test_fixed_spectrum import UNEVEN
 from tests.checker.test_sentences_design import OF_DESIGNS
 from tests.checker.test_single_channel_gains import BLIND, CUT
 
@@ -154,6 +157,36 @@ def test_each_rule_is_implied_by_some_certificates_and_not_by_all(tmp_path: Path
     }
     assert not {key for key in about if not implied[key]}
     assert {key for key in about if not denied[key]} == ALWAYS
+
+
+def test_an_exponent_of_a_product_does_not_limit_how_often_one_root_stays(tmp_path: Path) -> None:
+    """In every loop x(x − 1) divides once, and x twice: gains move 1 eigenvalue of 4."""
+    plant = MultiChannelSystem(
+        [[0, 1, 1, 0], [0, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]],
+        [[[0], [0], [0], [1]]],
+        [[[0, 0, 0, 1]]],
+    )
+    split, spectrum = document(assignability(plant)), document(fixed_spectrum(plant))
+    assert split["system"] == UNEVEN["system"]
+    for proof, words in ((UNEVEN, "from 0 to 1"), (spectrum, "from 1 to 1")):
+        evidence = {"fixed": proof, "split": split}
+        found = [
+            one(tmp_path, sentence(key, *evidence, evidence=evidence), evidence)
+            for key in ("spectrum-moved-between", "spectrum-moved")
+        ]
+        assert f": gains move {words} of the 4 eigenvalues [" in found[0].statement
+        assert (found[1].verdict == "IMPLIED") == (proof is spectrum), found[1].line()
+
+
+def test_a_text_counts_as_the_checker_does_where_a_factor_is_longer() -> None:
+    """x² + 1 stays once in drawn loops and is twice in χ_A: it is not proved irreducible."""
+    J = [[0, -1], [1, 0]]
+    twice = [[*row, 0, 0] for row in J] + [[0, 0, *row] for row in J]
+    plant = MultiChannelSystem(twice, [[[0], [0], [1], [0]]], [[[0, 0, 1, 0]]])
+    account = analyze(plant).account
+    assert "from 0 to 2 of 4 eigenvalues can be moved" in map(str, account.sentences.at("table"))
+    (factor,) = analyze(plant).fixed_spectrum.factors
+    assert (factor.multiplicity_in_A, factor.multiplicity_at_most) == (2, 1)
 
 
 # What the package says of systems.

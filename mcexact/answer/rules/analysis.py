@@ -226,17 +226,25 @@ def _spectrum_parts(fixed_spectrum: Claim, assignability: Claim) -> Said:
         yield say.SPECTRUM_FREE() if free else say.SPECTRUM_PARTS(blocks=blocks)
 
 
+def _most(factor: Claim) -> int:
+    """How often the roots of a factor may be fixed, as far as its exponents prove it."""
+    in_A: int = factor.multiplicity_in_A
+    return min(in_A, factor.multiplicity_at_most) if factor.polynomial.degree == 1 else in_A
+
+
 @rule("table", say.SPECTRUM_MOVED, say.SPECTRUM_MOVED_BETWEEN)
 def _spectrum_moved(fixed_spectrum: Claim, assignability: Claim, given: Given) -> Said:
     """Bounds on the number of eigenvalues, with multiplicity, that gains can move.
 
     n − deg φ, φ the greatest common divisor of all det(xI − A_F): a factor p of the fixed
-    polynomial is in φ at least once and at most as often as in the loop of the certificate, and
-    the eigenvalues that belong to no strong component of the transfer graph are roots of φ.
+    polynomial is in φ at least once and at most as often as in det(xI − A), and if it is x − λ at
+    most as often as in the loop of the certificate.  That loop says less of a longer p, which a
+    certificate does not prove irreducible.  The eigenvalues that belong to no strong component of
+    the transfer graph are roots of φ.
     """
     if empty(fixed_spectrum):
         return
-    stuck = sum(f.polynomial.degree * f.multiplicity_at_most for f in fixed_spectrum.factors)
+    stuck = sum(f.polynomial.degree * _most(f) for f in fixed_spectrum.factors)
     stays = max(fixed_spectrum.polynomial.degree, assignability.fixed_degree)
     told = say.SPECTRUM_MOVED if stuck == stays else say.SPECTRUM_MOVED_BETWEEN
     yield told(k=given.n - stuck, most=given.n - stays, n=given.n)
