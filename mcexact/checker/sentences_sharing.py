@@ -2,6 +2,8 @@
 
 from functools import partial
 
+from .information_structure import SHARED
+from .region import no_fixed_mode
 from .sentence import HEARD, PLANT, Path, Premise, Role, either, restate, rule
 from .sentences_analysis import CONTROLLABLE, HAUTUS, OBSERVABLE, controls, free
 from .statement import channel_set, counted, polynomial_text
@@ -109,16 +111,22 @@ def demands(least: Premise, agents: str, alone: bool = False) -> str:
     """
     system, told = least.system, []
     N = system.neighbors or [[i] for i in range(system.m)]
+    sharing = f"sharing {SHARED[least['share']]} without delay"
     for cut in least.cited("/witness/cuts"):
         s, p = [system.names.index(name) for name in cut["subset"]], cut.get("polynomial")
         which = "none" if not s else "all" if len(s) == system.m else "some"
         senders = sorted({j for i in s for j in N[i]} - set(s))
         if agents == (which if p else "cut off") and not (alone and senders):
-            why = f"the roots of {polynomial_text(p)}" if p else "the others do not act on it"
+            goal, why = "a strongly connected transfer graph", "the others do not act on it"
+            if p:
+                goal = no_fixed_mode(least["bound"], system)
+                why = f"the roots of {polynomial_text(p)}"
             others = channel_set(system.names[j] for j in senders)
-            told_of = f"{channel_set(cut['subset'])} receives from {others}"
             needed = counted(cut.get("deficiency", 1), "sub-state")
-            told.append(f"{told_of}, which must share at least {needed}: {why}")
+            told.append(
+                f"for {goal}, {sharing}, {channel_set(cut['subset'])} receives from {others}, "
+                f"which must share at least {needed} in all: {why}"
+            )
     least.expect(bool(told), "the evidence has no such cut")
     return f"{least.about}: {'; '.join(told)}"
 

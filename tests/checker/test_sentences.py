@@ -40,6 +40,7 @@ from tests.checker.manifests import manifest, one, said, sentence, write
 from tests.checker.test_complementary_subsystem import TWICE
 from tests.checker.test_fixed_spectrum import UNEVEN
 from tests.checker.test_sentences_design import OF_DESIGNS
+from tests.checker.test_shared_dimensions import FREE, STABLE
 from tests.checker.test_single_channel_gains import BLIND, CUT
 
 TEMPLATES = tuple(everything())
@@ -187,6 +188,32 @@ def test_a_text_counts_as_the_checker_does_where_a_factor_is_longer() -> None:
     assert "from 0 to 2 of 4 eigenvalues can be moved" in map(str, account.sentences.at("table"))
     (factor,) = analyze(plant).fixed_spectrum.factors
     assert (factor.multiplicity_in_A, factor.multiplicity_at_most) == (2, 1)
+
+
+MODE = "mode of real part at least -1 that is fixed under linear time-invariant decentralized"
+CUTS = [
+    (
+        "allocate-reason",
+        STABLE,
+        f'for no {MODE} control, sharing sub-states without delay, {{"2", "3"}} receives from '
+        '{"1"}, which must share at least 1 sub-state in all: the roots of x - 1',
+    ),
+    (
+        "allocate-reason-cut-off",
+        FREE,
+        "for a strongly connected transfer graph, sharing sub-states without delay, "
+        '{"2"} receives from {"1"}, which must share at least 1 sub-state in all: the others do '
+        "not act on it",
+    ),
+]
+
+
+@pytest.mark.parametrize(("key", "least", "words"), CUTS, ids=[key for key, *_ in CUTS])
+def test_a_cut_says_what_it_is_needed_for_and_what_is_shared(
+    tmp_path: Path, key: str, least: Document, words: str
+) -> None:
+    found = one(tmp_path, sentence(key, "least", evidence={"least": least}), {"least": least})
+    assert words in found.statement
 
 
 # What the package says of systems.
