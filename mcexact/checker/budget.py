@@ -30,7 +30,8 @@ class Budget:
 
     With ``grows``, reading a document adds what is granted for its bytes.
     ``loops`` holds four numbers for each loop under way: the units that were spent when it began
-    and when its turn began, the turns before this one, and all turns.
+    and when its turn began, the turns before this one, and all turns.  ``builds`` says that the
+    subject is being built, so that the rule still follows; ``largest`` is the largest step of that.
     """
 
     most: int
@@ -38,6 +39,8 @@ class Budget:
     grows: bool
     spent: int = 0
     loops: list[list[int]] = field(default_factory=list)
+    builds: bool = False
+    largest: int = 0
 
     def spend(self, units: int) -> None:
         """Count the units of a step that follows, or stop before it.
@@ -47,6 +50,8 @@ class Budget:
         Refused
             If they are more than are left.
         """
+        if self.builds:
+            self.largest = max(self.largest, units)
         if self.spent + units > self.most:
             named = f"allow {self._named(units)} (Limits.work)"
             message = f"takes more than {self.most} units of work: {named}"
@@ -59,7 +64,12 @@ class Budget:
         for start, turn, before, turns in reversed(self.loops):
             each = max(whole + reached - turn, (turn - start) // max(before, 1))
             whole, reached = each * (turns - before), turn
-        total = min(max(4 * (reached + whole), self.usual), MOST)
+        total = reached + whole
+        if self.builds:
+            # the largest square matrix so far, and its characteristic polynomial with short entries
+            n = math.isqrt(self.largest // 8) + 1
+            total += products(2 * n**3, n // 8 + 1, n // 8 + 1)
+        total = min(max(4 * total, self.usual), MOST)
         digit = int(10 ** max(len(str(total)) - 2, 0))
         return -(-total // digit) * digit
 

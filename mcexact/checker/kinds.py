@@ -134,7 +134,9 @@ def check_document(
             plant = read_plant(given)
             known = digest(plant)
             wanted.require_plant(known)
+            budget.builds = True
             system = read_subject(steps, replace(plant, words=f"the plant {known}"))
+            budget.builds = False
             controller = system.controller
             wanted.require_controller(controller)
             KINDS[kind].check(claim, witness, system)

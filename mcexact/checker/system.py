@@ -124,7 +124,7 @@ def read_system(value: Json, limits: Limits | None = None) -> System:
         malformed("system", "expected a square A and at least one channel")
     B, C, names = [], [], []
     budget.spend(4 * len(listed) ** 2)  # names are compared, and delays looked up, for every pair
-    for k, channel in enumerate(listed):
+    for k, channel in enumerate(budget.counted(listed)):
         where = f"channels[{k}]"
         B_rows, C_rows, name, D = fields(channel, where, "B", "C", optional=("name", "D"))
         B.append(read_matrix(B_rows, f"{where}.B", A.nrows, None, limits))

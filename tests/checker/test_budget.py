@@ -92,6 +92,31 @@ def test_the_work_that_is_named_decides_a_certificate_of_each_kind(kind: str) ->
         assert again.verdict == "VALID"
 
 
+@pytest.mark.parametrize(
+    ("domain", "subject"),
+    [
+        ("continuous", [heavy.step("extended", share="states", dimensions=[60])]),
+        ("continuous", [heavy.step("full_output", channel="1"), heavy.step("integrators")] * 6),
+        ("continuous", [heavy.controlled("continuous", private=60)]),
+        ("discrete", [heavy.step("lifted", share="outputs+states", dimensions=[50])]),
+    ],
+)
+def test_the_work_that_is_named_while_the_subject_is_built_decides_what_follows(
+    domain: str, subject: list[Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("mcexact.checker.budget.GRANTED", 0)
+    monkeypatch.setattr("mcexact.checker.budget.PER_BYTE", 0)
+    document = heavy.plant([[0]], heavy.port(1), time=domain, **heavy.heard(1))
+    to_build = check_document(data_of(heavy.connected(document, *subject)), limits=ENOUGH).spent
+    data = data_of(heavy.stable(document, *subject))
+    needed = check_document(data, limits=ENOUGH)
+    assert needed.code != "work"
+    for most in (to_build // 2, to_build - to_build // 10):
+        refused = check_document(data, limits=Limits(work=most))
+        assert (refused.verdict, refused.code) == ("INCOMPLETE", "work")
+        assert check_document(data, limits=Limits(work=named(refused.message))) == needed
+
+
 def test_no_more_work_is_named_than_any_machine_can_do() -> None:
     name = "an extension by more states than a number can count"
     assert named(check_document(heavy.text(name)).message) == budget.MOST
