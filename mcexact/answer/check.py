@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
@@ -31,12 +32,15 @@ def check(
     certificate : Answer or path
         An answer, or the file of its certificate.
     system : MultiChannelSystem, optional
-        The plant that the certificate must be about, or a system derived from it.
+        The plant that the certificate must be about; with a derived system, the certificate must be
+        about this system, or with a controller about its closed loop.
     controller : Controller or path, optional
-        The controller of the closed loop that the certificate must be about, or its file.
+        The controller of the closed loop that the certificate must be about, or its file.  Nothing
+        but the plant is in the loop, unless ``system`` or ``expect`` says so.
     expect : str or mapping, optional
-        The statement that the certificate must make, its SHA-256, or the claim as in the
-        certificate.
+        The statement that the certificate must make, its SHA-256, the line of its verdict, or a
+        claim ``{"kind": …, "claim": …}`` as in the certificate.  Such a claim is about ``system``,
+        or else about the plant itself; the key ``"subject"`` names other constructions.
 
     Returns
     -------
@@ -58,27 +62,27 @@ def check(
     >>> other = MultiChannelSystem([[2]], [[[1]]], [[[1]]])
     >>> check(fixed_spectrum(plant), other).verdict
     'INVALID'
-    >>> check(fixed_spectrum(plant), expect={"complete": True}).message[:13]
-    'another claim'
+    >>> check(fixed_spectrum(plant), expect={"kind": "completeness", "claim": {}}).message
+    'a claim of another kind, fixed_spectrum'
     >>> check({})
     Traceback (most recent call last):
         ...
     mcexact.errors.InputError: certificate: expected an answer, such as \
 fixed_spectrum(system), or the name of a certificate file, found dict
     """
+    from mcexact.model.canonical import plain
     from mcexact.model.system import MultiChannelSystem
     from mcexact.model.system_file import digest
 
     if system is not None:
         InputError.require(system, MultiChannelSystem, "system")
     wanted = Expectation() if system is None else Expectation(system=digest(system.plant))
+    if system is not None and system.subject:
+        wanted = replace(wanted, subject=json.loads(json.dumps(plain(system.subject))))
     if controller is not None:
         wanted = _asked("controller", wanted.controlled, _controller(controller))
-    if isinstance(expect, Mapping):
-        wanted = replace(wanted, claim=dict(expect))
-    elif expect is not None:
-        InputError.require(expect, str, "expect")
-        wanted = _asked("expect", wanted.saying, expect.encode())
+    if expect is not None:
+        wanted = _asked("expect", wanted.saying, _expected(expect))
     return check_document(_text(certificate), wanted)
 
 
@@ -88,6 +92,17 @@ def _asked(where: str, ask: Callable[[bytes, Limits], Expectation], data: bytes)
         return ask(data, _limits(len(data)))
     except Refused as refused:
         raise InputError(refused.message, where=f"{where}: {refused.place}") from None
+
+
+def _expected(expect: Any) -> bytes:
+    """The bytes of what a certificate is expected to say."""
+    if not isinstance(expect, Mapping):
+        InputError.require(expect, str, "expect")
+        return str(expect).encode(errors="surrogatepass")
+    try:
+        return json.dumps(dict(expect)).encode("ascii")
+    except (TypeError, ValueError, RecursionError) as error:
+        raise InputError(f"expected JSON: {error}", where="expect") from None
 
 
 def _controller(controller: Any) -> bytes:

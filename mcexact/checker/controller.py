@@ -16,19 +16,14 @@ def read_controller(
 ) -> dict[str, Json]:
     """The canonical object of a controller, its matrices read.
 
-    What is absent or empty is left out, and so is a hold of no steps.  In a certificate a matrix
-    of zeros stays: it says that the agent uses the signal.  From a file it is left out, as the
-    makers of certificates do.  Without a system the numbers of inputs and outputs are not known;
-    ``limits`` are those of a file.
+    What is absent or empty is left out, and so are matrices of zeros and a hold of no steps: who
+    does not act on a signal does not use it.  Without a system the numbers of inputs and outputs
+    are not known; ``limits`` are those of a file.
     """
-
-    def stays(M: Matrix) -> bool:
-        return limits is None or not M.is_zero()
-
     time, listed = fields(value, place, "time", "agents")
     keys = ("name", "shared", "private", *MAPS)
     agents = [fields(agent, place, *keys, optional=("hold",)) for agent in items(listed, place)]
-    if limits is not None and not agents:
+    if not agents:
         malformed(place, "expected at least one agent")
     known = reading.own_names([agent[0] for agent in agents], [place] * len(agents))
     ports = system if system and system.names == known else None
@@ -44,15 +39,20 @@ def read_controller(
             where = f"{place}.{label}"
             *by_agent, private, reference = fields(parts, where, optional=USED)
             found: dict[str, Json] = {}
+            read: list[Matrix] = []
             for key, entries, widths in zip(USED, by_agent, (q, x), strict=False):
-                used = (
+                used = [
                     (name, read_matrix(M, where, nrows, widths[j], limits))
                     for name, j, M in reading.by_name(entries, where, known)
-                )
-                found[key] = {name: M for name, M in used if stays(M)}
+                ]
+                read += [M for _, M in used]
+                found[key] = {name: M for name, M in used if not M.is_zero()}
             for key, entry, width in (("private", private, z[i]), ("reference", reference, q[i])):
-                M = None if entry is None else read_matrix(entry, where, nrows, width, limits)
-                found[key] = M if M is not None and stays(M) else None
+                if entry is not None:
+                    read.append(read_matrix(entry, where, nrows, width, limits))
+                    found[key] = None if read[-1].is_zero() else read[-1]
+            if len({M.nrows for M in read}) > 1:
+                malformed(where, "expected matrices of one number of rows")
             program[label] = {key: part for key, part in found.items() if part}
         kept = {key: part for key, part in program.items() if part}
         programs.append({"name": known[i], "shared": x[i], "private": z[i], **kept})

@@ -6,11 +6,15 @@ import re
 from dataclasses import dataclass, replace
 
 from .controller import read_controller_file
-from .reading import Json, Limits, malformed, parse, require
+from .reading import Json, Limits, fields, items, malformed, parse, require, shown, string
 from .statement import digest_of
 from .system import digest, read_system_file
 
 DIGEST = re.compile(r"[0-9a-f]{64}")
+LINE = re.compile(r"(?:VALID (?:'[^']*' )?([0-9a-f]{64}) )?(For .*)")
+"""A statement, alone or in the line of its verdict."""
+CLAIM = 'a claim as a JSON object {"kind": ..., "subject": [...], "claim": {...}}'
+LOOP = "closed_loop"
 
 
 @dataclass(frozen=True)
@@ -27,6 +31,12 @@ class Expectation:
         The digest of the plant that the file of the controller names; empty for any.
     statement : str
         The digest of the statement; empty for any.
+    kind : str
+        The kind of the claim; empty for any.
+    subject : list
+        The constructions of the subject; None for any, unless a controller is given without a
+        statement: then the plant itself is in the loop.  With a controller, its closed loop follows
+        on them where they do not end with one.
     claim : object
         The claim as in a certificate; None for any.
     """
@@ -35,6 +45,8 @@ class Expectation:
     controller: str = ""
     made_for: str = ""
     statement: str = ""
+    kind: str = ""
+    subject: Json = None
     claim: Json = None
 
     def about(self, data: bytes, limits: Limits) -> Expectation:
@@ -47,7 +59,7 @@ class Expectation:
         return replace(self, controller=controller, made_for=made_for)
 
     def saying(self, data: bytes, limits: Limits) -> Expectation:
-        """The same, with a statement, its digest, or a claim.
+        """The same, with a statement, its digest, the line of a verdict, or a claim.
 
         Raises
         ------
@@ -55,13 +67,27 @@ class Expectation:
             If the text is neither.
         """
         if data.lstrip()[:1] == b"{":
-            return replace(self, claim=parse(data, limits))
+            return self._claiming(parse(data, limits))
         text = data.decode("ascii", "replace").strip()
-        if DIGEST.fullmatch(text):
-            return replace(self, statement=text)
-        if not text.isascii() or not text.startswith("For ") or len(text.splitlines()) != 1:
-            malformed("file", "expected a statement, its SHA-256, or a claim as a JSON object")
-        return replace(self, statement=digest_of(text))
+        if DIGEST.fullmatch(text.lower()):
+            return replace(self, statement=text.lower())
+        line = LINE.fullmatch(text)
+        if not line or not text.isascii() or len(text.splitlines()) != 1:
+            malformed("file", f"expected a statement, its SHA-256, or {CLAIM}")
+        found = digest_of(line[2])
+        if line[1] not in (None, found):
+            malformed("file", f"the statement has not the digest before it, but {found}")
+        return replace(self, statement=found)
+
+    def _claiming(self, value: Json) -> Expectation:
+        """The same, with the claim of a kind about a subject, by default what is there already."""
+        if "claim" not in value:
+            malformed("file", f'expected {CLAIM}, found no "claim"')
+        kind, claim, steps = fields(value, "file", "kind", "claim", optional=("subject",))
+        subject = self.subject or [] if steps is None else items(steps, "subject")
+        if not isinstance(claim, dict):
+            malformed("claim", f"expected an object, found {shown(claim)}")
+        return replace(self, kind=string(kind, "kind"), subject=subject, claim=claim)
 
     def require_plant(self, found: str) -> None:
         """Stop unless the certificate is about the plant."""
@@ -72,19 +98,43 @@ class Expectation:
         message = f"about the system of digest {found}, the controller is for {self.made_for}"
         require(fits, "controller", "system", message)
 
-    def require_controller(self, found: str) -> None:
-        """Stop unless the certificate is about a closed loop with the controller."""
+    def require_subject(self, steps: Json, found: str) -> None:
+        """Stop unless the certificate has the subject, and the controller where one is given."""
+        expected = self.subject
         if self.controller:
             require(bool(found), "controller", "subject", "about no closed loop")
             message = f"about another controller, of digest {found}, not {self.controller}"
             require(found == self.controller, "controller", "subject", message)
+            if expected is None and not self.statement:
+                expected = []
+            if expected is not None and made_by(expected)[-1:] != [LOOP]:
+                expected = [*expected, *(step for step in steps[-1:] if made_by([step]) == [LOOP])]
+        if expected is not None:
+            told = ", ".join(made_by(steps)) or "none"
+            message = f"another subject than asked for; its constructions are: {told}"
+            require(same(steps, expected), "expected", "subject", message)
 
-    def require_said(self, claim: Json, statement: str) -> None:
-        """Stop unless the certificate makes the statement, or the claim."""
+    def require_said(self, kind: str, claim: Json, statement: str) -> None:
+        """Stop unless the certificate makes the statement, or the claim of its kind."""
+        message = f"a claim of another kind, {kind}"
+        require(self.kind in ("", kind), "expected", "kind", message)
         right = self.statement in ("", digest_of(statement))
         require(right, "expected", "claim", f"it states something else: {statement}")
         right = self.claim is None or same(claim, self.claim)
-        require(right, "expected", "claim", f"another claim, which states: {statement}")
+        message = f"another claim, which differs in {difference(claim, self.claim)}"
+        require(right, "expected", "claim", f"{message} and states: {statement}")
+
+
+def difference(claim: Json, asked: Json) -> str:
+    """The keys in which two claims differ, as a message shows them."""
+    asked = asked or {}
+    keys = {k for k in claim.keys() & asked.keys() if not same(claim[k], asked[k])}
+    return ", ".join(map(shown, sorted(keys | claim.keys() ^ asked.keys())))
+
+
+def made_by(steps: Json) -> list[Json]:
+    """The names of constructions."""
+    return [step.get("construction") if isinstance(step, dict) else None for step in steps]
 
 
 def same(a: Json, b: Json) -> bool:

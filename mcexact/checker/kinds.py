@@ -138,10 +138,10 @@ def check_document(
             system = read_subject(steps, replace(plant, words=f"the plant {known}"))
             budget.builds = False
             controller = system.controller
-            wanted.require_controller(controller)
+            wanted.require_subject(steps, controller)
             KINDS[kind].check(claim, witness, system)
             statement = f"For {described(system)}: {KINDS[kind].statement(claim, system)}"
-            wanted.require_said(claim, statement)
+            wanted.require_said(kind, claim, statement)
             return Verdict("VALID", statement, digest_of(statement))
 
     budget = current(allowed.work)

@@ -170,7 +170,8 @@ class Evidence:
                 document, any_loop = parse(data, self.limits), replace(self.expected, controller="")
                 verdict = check_document(document, any_loop, self.limits)
                 if verdict.controller_digest:
-                    self.expected.require_controller(verdict.controller_digest)
+                    steps = document["subject"]
+                    self.expected.require_subject(steps, verdict.controller_digest)
                 if verdict.verdict == "VALID":
                     self.expected = replace(self.expected, system=verdict.system_digest)
                     self.premises[name] = self._premise(name, document)

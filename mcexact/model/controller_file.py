@@ -113,12 +113,19 @@ def _read_map(
             for j, M in found.items()
         }
 
-    return LinearMap(
+    found = LinearMap(
         by_agent("outputs", None),
         by_agent("shared", widths[0]),
         matrix(value["private"], f"{where}.private", widths[1]) if "private" in value else None,
         matrix(value["reference"], f"{where}.reference") if "reference" in value else None,
     )
+    heights = sorted({M.nrows for M in found.matrices()})
+    if len(heights) > 1:
+        raise InputError(
+            f"expected matrices of one number of rows, found {heights[0]} and {heights[1]}",
+            where=where,
+        )
+    return found
 
 
 def _by_agent(value: Any, where: str, names: tuple[str, ...]) -> dict[int, Any]:

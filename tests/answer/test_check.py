@@ -7,6 +7,7 @@ import pytest
 
 from mcexact import (
     MultiChannelSystem,
+    certify_controller,
     check,
     design_decentralized,
     dual,
@@ -14,7 +15,9 @@ from mcexact import (
     save_controller,
 )
 from mcexact.answer import codec
+from mcexact.derived.feedback import feedback
 from mcexact.errors import InputError
+from mcexact.exact.matrix import Matrix
 
 PLANT = MultiChannelSystem([[1, 0], [0, 2]], [[[1], [0]]], [[[1, 1]]])
 
@@ -32,6 +35,21 @@ def test_a_certificate_about_a_derived_system_is_about_its_plant() -> None:
     certificate = fixed_spectrum(dual(PLANT))
     assert check(certificate, PLANT).verdict == "VALID"
     assert check(certificate, dual(PLANT)).verdict == "VALID"
+    for other in (fixed_spectrum(PLANT), fixed_spectrum(dual(dual(PLANT)))):
+        assert check(other, dual(PLANT)).place == "subject"
+
+
+def test_a_controller_and_a_derived_system_are_about_the_loop_of_both() -> None:
+    plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    changed = feedback(plant, [Matrix.from_integers([[-5]])])
+    controller = design_decentralized(changed, rate=1).controller
+    loop = certify_controller(changed, controller, rate=1)
+    claim = {"kind": "stability", "claim": codec.document(loop)["claim"]}
+    assert check(loop, changed, controller).verdict == "VALID"
+    assert check(loop, changed, controller, claim).verdict == "VALID"
+    for system in (plant, None, feedback(changed, [Matrix.from_integers([[1]])])):
+        found = check(loop, system, controller, claim)
+        assert (found.verdict, found.place) == ("INVALID", "subject")
 
 
 def test_what_is_no_certificate_is_not_valid(tmp_path: Path) -> None:
@@ -68,11 +86,12 @@ def test_the_controller_can_be_an_object_or_a_file(tmp_path: Path) -> None:
 
 def test_the_statement_or_the_claim_can_be_expected() -> None:
     certificate, claim = fixed_spectrum(PLANT), codec.document(fixed_spectrum(PLANT))["claim"]
-    found = check(certificate)
-    for expected in (found.statement, found.statement_digest, claim):
+    found, kind = check(certificate), "fixed_spectrum"
+    for expected in (found.statement, found.statement_digest, {"kind": kind, "claim": claim}):
         assert check(certificate, PLANT, expect=expected).verdict == "VALID"
     assert check(certificate, expect="0" * 64).code == "expected"
-    assert check(certificate, expect={**claim, "stabilizable": True}).code == "expected"
+    other = {"kind": kind, "claim": {**claim, "stabilizable": True}}
+    assert check(certificate, expect=other).code == "expected"
 
 
 def test_what_cannot_be_asked_is_refused(tmp_path: Path) -> None:
@@ -85,6 +104,15 @@ def test_what_cannot_be_asked_is_refused(tmp_path: Path) -> None:
         check(certificate, expect=[])  # type: ignore[arg-type]
     with pytest.raises(InputError, match="expect: file: expected a statement, its SHA-256, or"):
         check(certificate, expect="it is stable")
+    with pytest.raises(InputError, match="expect: file: expected a statement, its SHA-256, or"):
+        check(certificate, expect="For \ud800")
+    with pytest.raises(InputError, match=r'expect: file: .* found no "claim"'):
+        check(certificate, expect={"complete": True})
+    circular: dict[str, Any] = {"kind": "completeness"}
+    circular["claim"] = circular
+    for wrong in (circular, {"kind": "completeness", "claim": {"rate": PLANT}}):
+        with pytest.raises(InputError, match="expect: expected JSON: "):
+            check(certificate, expect=wrong)
     (tmp_path / "controller.json").write_text("{}", encoding="ascii")
     with pytest.raises(InputError, match=r"controller: controller: the key .* is missing"):
         check(certificate, controller=tmp_path / "controller.json")

@@ -37,6 +37,12 @@ def saying(value: Any) -> Expectation:
     return Expectation().saying(text(value), Limits())
 
 
+def claimed(document: Document, asked: Expectation | None = None, **more: Any) -> Expectation:
+    """What the claim of a certificate asks for, of its kind and about the plant or ``subject``."""
+    value = {"kind": document["kind"], "claim": document["claim"], **more}
+    return (asked or Expectation()).saying(text(value), Limits())
+
+
 def answered(document: Document, expected: Expectation) -> Verdict:
     return checked(document, expected=expected)
 
@@ -69,11 +75,61 @@ def test_a_controller_for_another_plant_is_invalid() -> None:
     assert answered(LOOP, controlled({**FILE, "system": ""})).verdict == "VALID"
 
 
-def test_only_the_last_of_two_controllers_counts() -> None:
-    nobody = {"construction": "closed_loop", "controller": {"time": "continuous", "agents": []}}
-    twice = {**LOOP, "subject": [*LOOP["subject"], nobody]}
-    assert checked(twice).verdict == "VALID"
-    assert answered(twice, controlled()).message.startswith("about another controller")
+def test_a_loop_has_no_channels_to_close_again() -> None:
+    nobody = {"construction": "closed_loop", "controller": {**CONTROLLER, "agents": []}}
+    for step, verdict in ((nobody, "MALFORMED"), (LOOP["subject"][0], "INVALID")):
+        assert checked({**LOOP, "subject": [*LOOP["subject"], step]}).verdict == verdict
+
+
+FEEDBACK = {"construction": "feedback", "gains": [{"denominator": 1, "entries": [[-5]]}]}
+CHANGED = {**LOOP, "subject": [FEEDBACK, *LOOP["subject"]], "claim": {"polynomial": [43, 11, 1]}}
+"""The same controller, and another gain that no file contains: [−4, −3; 5, −7]."""
+DUAL = {**LOOP, "subject": [*LOOP["subject"], {"construction": "dual"}]}
+
+
+@pytest.mark.parametrize("document", [CHANGED, DUAL])
+def test_a_controller_stands_for_its_loop_with_the_plant_and_nothing_else(
+    document: Document,
+) -> None:
+    assert checked(document).verdict == "VALID"
+    assert checked(document).controller_digest == controlled().controller
+    for expected in (controlled(), claimed(document, controlled())):
+        verdict = answered(document, expected)
+        assert (verdict.verdict, verdict.code, verdict.place) == ("INVALID", "expected", "subject")
+    steps = document["subject"]
+    assert ", ".join(step["construction"] for step in steps) in verdict.message
+    whole = claimed(document, controlled(), subject=steps)
+    assert answered(document, whole).verdict == "VALID"
+    said = controlled().saying(text(checked(document).statement), Limits())
+    assert answered(document, said).verdict == "VALID"
+
+
+def test_a_subject_and_a_controller_are_insisted_on_together() -> None:
+    assert answered(LOOP, claimed(LOOP, controlled())).verdict == "VALID"
+    before = claimed(CHANGED, controlled(), subject=[FEEDBACK])
+    assert answered(CHANGED, before).verdict == "VALID"
+    assert answered({**LOOP, "claim": CHANGED["claim"]}, before).place == "subject"
+    assert answered(ANOTHER, claimed(ANOTHER, controlled())).code == "controller"
+    twice = claimed(DUAL, controlled(), subject=DUAL["subject"])
+    assert answered(LOOP, twice).place == "subject"
+
+
+ZEROS = changed(
+    LOOP,
+    ("subject.0.controller.agents.0.private_update", {"shared": {"1": []}, "private": []}),
+    ("subject.0.controller.agents.0.input.outputs", {"1": [[0]]}),
+    ("subject.0.controller.agents.0.input.reference", {"shape": [1, 1], "entries": []}),
+)
+
+
+def test_zeros_of_a_controller_say_nothing() -> None:
+    assert answered(ZEROS, controlled()).line() == checked(LOOP).line()
+    assert "VALID" in checked(LOOP).line()
+    slow = changed(LOOP, ("system.time", "discrete"), ("subject.0.controller.time", "discrete"))
+    slow = changed(slow, ("subject.0.controller.agents.0.hold", {"1": 2}))
+    zero = ("subject.0.controller.agents.0.shared_update.shared.1", [[0]])
+    sent = changed(slow, zero, (HALF, [[0]]), ("claim.polynomial", [0, -1, 1]))
+    assert checked(sent).verdict == "VALID", "no message is under way"
 
 
 WRITTEN = [
@@ -128,6 +184,12 @@ MALFORMED: list[tuple[str, Any]] = [
     ("a hold that is no number", changed(FILE, ("agents.0.hold", {"1": "1"}))),
     ("null for what is absent", changed(FILE, ("agents.0.input.private", None))),
     ("a digest that is no text", {**FILE, "system": 7}),
+    ("no agent", {**FILE, "agents": []}),
+    (
+        "inputs of two sizes",
+        changed(FILE, ("agents.0.input.outputs", {"1": [[1, 2], [3, 4]]})),
+    ),
+    ("a set-point for another size", changed(FILE, ("agents.0.input.reference", [[1], [0]]))),
 ]
 
 
@@ -140,8 +202,14 @@ def test_a_controller_file_of_another_form_is_refused(reason: str, value: Any) -
 
 def test_the_statement_the_digest_or_the_claim_can_be_insisted_on() -> None:
     statement = checked(FIXED).statement
-    shuffled = dict(reversed(FIXED["claim"].items()))
-    for expected in (statement, f"{statement}\n", sha(statement), f"{sha(statement)}\n", shuffled):
+    shuffled = {"claim": dict(reversed(FIXED["claim"].items())), "kind": "fixed_spectrum"}
+    texts = statement, f"{statement}\n", sha(statement), f"{sha(statement)}\n"
+    pasted = (
+        sha(statement).upper(),
+        checked(FIXED).line(),
+        f"VALID 'a b.json' {texts[2]} {texts[0]}",
+    )
+    for expected in (*texts, *pasted, shuffled, {**shuffled, "subject": []}):
         assert answered(FIXED, saying(expected)).verdict == "VALID"
         other = answered(FREE, saying(expected))
         assert (other.verdict, other.code) == ("INVALID", "expected")
@@ -155,27 +223,54 @@ def sha(statement: str) -> str:
 
 def test_a_claim_is_compared_exactly() -> None:
     claim = FIXED["claim"]
-    for other in (
-        {**claim, "stabilizable": 0},
-        {**claim, "polynomial": [-1, True]},
-        {**claim, "best_rate": {"lower": "-1.0", "upper": "-1"}},
-        {key: part for key, part in claim.items() if key != "factors"},
-        {},
+    for key, other in (
+        ("stabilizable", {**claim, "stabilizable": 0}),
+        ("polynomial", {**claim, "polynomial": [-1, True]}),
+        ("best_rate", {**claim, "best_rate": {"lower": "-1.0", "upper": "-1"}}),
+        ("factors", {key: part for key, part in claim.items() if key != "factors"}),
+        ("more", {**claim, "more": None}),
+        ("best_rate", {}),
     ):
-        assert answered(FIXED, saying(other)).code == "expected"
+        verdict = answered(FIXED, saying({"kind": "fixed_spectrum", "claim": other}))
+        assert verdict.code == "expected"
+        assert f'"{key}"' in verdict.message.partition(" and states: ")[0]
+
+
+def test_a_claim_is_of_a_kind_and_about_a_subject() -> None:
+    for more in (
+        {"kind": "completeness"},
+        {"subject": [{"construction": "dual"}]},
+        {"subject": [7]},
+    ):
+        verdict = answered(FIXED, claimed(FIXED, **more))
+        assert (verdict.verdict, verdict.code) == ("INVALID", "expected")
+        assert verdict.place == next(iter(more))
+    dual = {**FREE, "subject": [{"construction": "dual"}]}
+    assert checked(dual).verdict == "VALID"
+    assert answered(dual, claimed(dual)).place == "subject"
+    assert answered(dual, claimed(dual, subject=dual["subject"])).verdict == "VALID"
 
 
 def test_what_is_invalid_stays_so_whatever_is_expected() -> None:
     false = changed(FREE, ("witness.gains.0.entries", [[0]]))
     assert answered(false, saying(checked(FREE).statement)).code == "common_factor"
-    assert answered(false, saying(FREE["claim"])).code == "common_factor"
+    assert answered(false, claimed(FREE)).code == "common_factor"
 
 
 @pytest.mark.parametrize(
     "value",
-    ["", "VALID", "for the plant", "For a\nFor b", "For \u00e9", "0" * 63, "[1]", '{"a": 1'],
+    [
+        *("", "VALID", "for the plant", "For a\nFor b", "For \u00e9", "0" * 63, "[1]", '{"a": 1'),
+        *(f"VALID {'0' * 64} For a", f"VALID {'0' * 64}", "VALID For a", f"INVALID {'0' * 64}"),
+        FIXED["claim"],
+        FIXED,
+        *({"claim": {}}, {"kind": 3, "claim": {}}, {"kind": "completeness", "claim": []}),
+        {"kind": "completeness", "claim": {}, "subject": {}},
+        {"kind": "completeness", "claim": {}, "subject": None},
+    ],
+    ids=str,
 )
-def test_what_is_no_statement_and_no_claim_is_refused(value: str) -> None:
+def test_what_is_no_statement_and_no_claim_is_refused(value: Any) -> None:
     with pytest.raises(Refused) as refused:
         saying(value)
     assert refused.value.verdict == "MALFORMED"
@@ -201,6 +296,10 @@ def test_every_loop_of_a_manifest_has_the_controller(tmp_path: Any) -> None:
     said = [sentence("design-assigned", "loop", evidence=evidence)]
     found = judged(tmp_path, evidence, said, controlled())
     assert [verdict.verdict for _, verdict in found] == ["INVALID"] * 3
+    evidence["loop"] = CHANGED
+    said = [sentence("heading", evidence=evidence)]
+    found = judged(tmp_path, evidence, said, controlled())
+    assert next(verdict.place for _, verdict in found) == "subject"
 
 
 def certificate_of_the_plant() -> Document:
@@ -215,6 +314,6 @@ def test_a_manifest_without_a_loop_is_about_no_controller(tmp_path: Any) -> None
 
 
 def test_no_one_statement_can_be_expected_of_a_manifest(tmp_path: Any) -> None:
-    for expected in (saying(checked(FIXED).statement), saying(FIXED["claim"])):
+    for expected in (saying(checked(FIXED).statement), claimed(FIXED)):
         ((_, verdict),) = judged(tmp_path, EVIDENCE, [sentence("heading")], expected)
         assert (verdict.verdict, verdict.code) == ("INVALID", "expected")

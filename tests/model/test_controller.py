@@ -271,6 +271,10 @@ def document(**changes):
         ({"input": {"outputs": [[1]]}}, r"input.outputs: expected an object keyed by agents"),
         ({"shared_update": {"private": [[1], [1]]}}, "private: expected 1 row, found 2"),
         ({"input": {"outputs": {"1": [["x"]]}}}, r"outputs\['1'\]\[0\]\[0\]: expected an integer"),
+        (
+            {"input": {"outputs": {"1": [[1], [2]]}, "shared": {"1": [[1]]}}},
+            r"agents\[0\].input: expected matrices of one number of rows, found 1 and 2",
+        ),
         ({"hold": {"1": -1}}, r"agents\[0\].hold\['1'\]: expected an integer >= 0"),
         ({"hold": {"7": 1}}, r"agents\[0\].hold: there is no agent '7'"),
     ],

@@ -27,6 +27,7 @@ class Agent:
 def read_agents(system: System, value: Any) -> list[Agent]:
     """The programs of a controller for a plant, all matrices with their shapes."""
     found = record(value, "time", "agents")
+    demand(bool(found["agents"]), "expected at least one agent")
     demand(found["time"] == system.time, "expected the time of the plant")
     documents = [
         record(a, "name", "shared", "private", *MAPS, optional=("hold",))
@@ -51,13 +52,15 @@ def _read_map(
     parts: dict[tuple[str, int], fmpq_mat] = {}
     for kind in ("outputs", "shared"):
         for j, M in _by_name(found.get(kind, {}), system.names).items():
-            demand(j in heard, "expected signals of neighbors")
             width = system.C[j].nrows() if kind == "outputs" else agents[j].shared
             parts[kind, j] = sparse(M, nrows, width)
     if "private" in found:
         parts["private", i] = sparse(found["private"], nrows, agents[i].private)
     if "reference" in found:
         parts["reference", i] = sparse(found["reference"], nrows, system.C[i].nrows())
+    # Who does not act on a signal does not use it.
+    parts = {signal: M for signal, M in parts.items() if any(M.entries())}
+    demand(all(j in heard for _, j in parts), "expected signals of neighbors")
     return parts
 
 
