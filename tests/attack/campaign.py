@@ -167,10 +167,14 @@ def run(count: int, processes: int = 2) -> Report:
     shares = min(batches, processes * 16)
     with multiprocessing.get_context("fork").Pool(processes) as pool:
         jobs = [pool.apply_async(_share, (k, shares, batches)) for k in range(shares)]
+        seen: list[Any] = []
         for job in jobs:
             report.add(job.get())
             done, found = report.total("tries"), len(report.findings)
             print(f"{done:,} tries, {found} findings", file=sys.stderr, flush=True)
+            for finding in report.findings[len(seen) :]:
+                print(f"  {finding['what']}: {finding.get('why')}", file=sys.stderr, flush=True)
+            seen = report.findings[:]
     return report
 
 

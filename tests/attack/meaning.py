@@ -76,7 +76,7 @@ def _plain(value: Any, key: str) -> Any:
             return [[str(Fraction(v, d)) for v in row] for row in value["entries"]]
         return {k: _plain(v, k) for k, v in value.items()}
     if isinstance(value, list | tuple):
-        found = [_plain(v, key) for v in value]
+        found = [_plain(v, "") for v in value]
         return sorted(found, key=_text) if key in SETS else found
     if key in DECIMALS and isinstance(value, str):
         return str(Fraction(value))

@@ -199,6 +199,16 @@ def nothing_suffices(rng: random.Random, document: Document) -> Forged:
     return document
 
 
+def unbounded_leaf(rng: random.Random, document: Document) -> Forged:
+    """Nothing suffices, because upper bounds that are none are too small for a cut."""
+    system, claim, witness = subject_of(document), document["claim"], document["witness"]
+    if not witness["cuts"]:
+        return None
+    claim |= {"feasible": False, "dimensions": None, "cost": None, "upper": [None] * system.m}
+    witness |= {"absence": None, "tree": [{"violated": 0}]}
+    return document
+
+
 def free_cost(rng: random.Random, document: Document) -> Forged:
     """Costs of which some are 0 or negative."""
     key = "costs" if document["kind"] == "shared_dimensions" else "candidates"
@@ -343,7 +353,7 @@ def other_bound(rng: random.Random, document: Document) -> Forged:
 
 DIMENSIONS = (
     other_dimensions, other_dimensions, other_dimensions, nothing_suffices, free_cost, other_bound,
-    slack_cut,
+    slack_cut, unbounded_leaf,
 )  # fmt: skip
 COMMON = (other_common_dimension, another_cut)
 LINKS = (other_links, other_links, nothing_suffices, free_cost, other_bound)

@@ -111,6 +111,17 @@ def missing_edge(rng: random.Random, document: Document) -> Forged:
     return document
 
 
+def unsorted_edges(rng: random.Random, document: Document) -> Forged:
+    """Two edges exchanged, with the powers that show them."""
+    arcs, powers = document["claim"]["arcs"], document["witness"]["powers"]
+    if len(arcs) < 2:
+        return None
+    i, j = rng.sample(range(len(arcs)), 2)
+    for entries in (arcs, powers):
+        entries[i], entries[j] = entries[j], entries[i]
+    return document
+
+
 def extra_edge(rng: random.Random, document: Document) -> Forged:
     """An edge that is not there."""
     system, claim, witness = subject_of(document), document["claim"], document["witness"]
@@ -381,7 +392,7 @@ def all_edges(rng: random.Random, document: Document) -> Forged:
 
 CONTROLLABILITY = (smaller_dimension, smaller_dimension, larger_dimension)
 INDICES = (ranks_cut_short, ranks_too_large)
-GRAPH = (missing_edge, extra_edge, all_edges)
+GRAPH = (missing_edge, extra_edge, all_edges, unsorted_edges)
 ASSIGNABILITY = (smaller_realization, outputs_alone, larger_realization, whole_space)
 COMPLEMENTARY = (no_zeros, split_zeros, improper_subset)
 SETPOINT = (other_rank, other_zero, lower_rank_kept)
