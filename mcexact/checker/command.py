@@ -9,10 +9,10 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict
 from functools import partial
-from typing import IO
+from typing import IO, NoReturn
 
 from .allowance import SUPPORTED, Clock, OutOfTime, memory
-from .expectation import Expectation
+from .expectation import CLAIM, Expectation
 from .kinds import Found, Verdict, answer, check_document
 from .manifest import NAME, every_verdict
 from .reading import Limits, Refused, read_bytes
@@ -21,6 +21,43 @@ PRECEDENCE = (70, 3, 1, 5, 0)
 """Of these statuses the first that any verdict has is that of the run."""
 UNWRITTEN = 74
 """The status if the verdicts cannot be written."""
+
+
+class NotAsked(Exception):
+    """What a file asks cannot be read; the verdict on this file says why."""
+
+    def __init__(self, path: str, verdict: Verdict) -> None:
+        place = f"{ascii(path)[1:-1]}: {verdict.place}"
+        super().__init__(as_options(f"{place}: {verdict.message}"))
+        self.found: Found = {"file": path}, verdict
+
+
+def as_options(text: str) -> str:
+    """A message that names the limits as options."""
+    return text.replace("(Limits.", "(--max-")
+
+
+def line_of(found: Found, paths: Sequence[str]) -> str:
+    """A verdict as one line, with the name of its file behind it if there are several."""
+    about, verdict = found
+    several = len(paths) > 1 and about.get("file") in paths
+    return as_options(verdict.line(ascii(about["file"]) if several else ""))
+
+
+def misuse(
+    paths: Sequence[str], manifest: str | None, asking: Sequence[str | None], bounded: bool
+) -> str:
+    """Why the arguments contradict each other, or nothing."""
+    if not paths and manifest is None:
+        return "expected a FILE or --manifest"
+    if [*paths, *asking].count("-") > 1:
+        return "standard input can be read once: give - once"
+    many = manifest is not None or NAME in map(os.path.basename, paths)
+    if many and asking[-1] is not None:
+        return "a manifest makes more than one statement: leave out --expect"
+    if bounded and not SUPPORTED:
+        return "this platform has no limits on time and memory"
+    return ""
 
 
 def _read_file(path: str, limits: Limits) -> bytes:
@@ -34,21 +71,24 @@ def _read_file(path: str, limits: Limits) -> bytes:
         return read_bytes(sys.stdin.buffer, limits)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
-        place, message = ascii(path)[1:-1], f"cannot be read: {reason}"
-        raise Refused("MALFORMED", "unreadable", place, message) from error
+        raise Refused("MALFORMED", "unreadable", "file", f"cannot be read: {reason}") from error
 
 
 def _told(path: str, read: Callable[..., Expectation], limits: Limits, clock: Clock) -> Expectation:
     """What one file asks."""
-    found: Refused | Verdict
+    told = []
+
+    def check() -> Verdict:
+        told.append(read(_read_file(path, limits), limits))
+        return Verdict("READ")
+
     try:
-        return clock.within(lambda: read(_read_file(path, limits), limits))
+        found = clock.within(lambda: answer(check))
     except OutOfTime:
         found = clock.verdict()
-    except Refused as error:
-        found = error
-    place = f"{ascii(path)[1:-1]}: {found.place}"
-    raise Refused(found.verdict, found.code, place, found.message)
+    if found.verdict != "READ":
+        raise NotAsked(path, found)
+    return told[0]
 
 
 def _check_file(path: str, wanted: Expectation, limits: Limits) -> Verdict:
@@ -83,7 +123,7 @@ def verdicts(
 
     Raises
     ------
-    Refused
+    NotAsked
         If one of the three cannot be read, or not in time.
     """
     wanted, new = Expectation(), Expectation
@@ -124,33 +164,66 @@ def seconds(text: str) -> float:
     return found
 
 
+ABOUT = (
+    "Verify certificates, and print one line for each: VALID, the SHA-256 of the statement that it "
+    "proves, and this statement; or INVALID, MALFORMED or INCOMPLETE, a code and a place. With "
+    "several files the line names its file. A file named manifest.json is read as a manifest."
+)
 EPILOG = (
     "Exit status: the first that applies of 70 a bug in this checker, 3 MALFORMED, 1 INVALID, "
     "5 INCOMPLETE, 0 all VALID or IMPLIED; 2 wrong usage, 74 the verdicts cannot be written, "
-    "130 interrupted."
+    "130 interrupted. Python itself ends with 1 if it cannot start: a status of 1 without a line "
+    "that says INVALID is no verdict."
 )
 OPTIONS: tuple[tuple[str, str, Callable[[str], object], str], ...] = (
-    ("manifest", "FILE", str, "verify the sentences of a manifest from its certificates"),
+    ("manifest", "FILE", str, "verify the sentences of this manifest from its certificates"),
     ("system", "FILE", str, "require certificates about the system in this file"),
-    ("controller", "FILE", str, "require certificates about a loop with this controller"),
-    ("expect", "FILE", str, "require a statement, its SHA-256, or a claim as JSON"),
-    ("max-bytes", "N", count, "the bytes of a file"),
-    ("max-digits", "N", count, "the digits in a row"),
-    ("max-depth", "N", count, "the nested levels"),
-    ("max-work", "N", count, "the units of work of a check; by default they grow with the bytes"),
+    (
+        "controller",
+        "FILE",
+        str,
+        "require certificates about the closed loop of the plant with the controller in this "
+        "file, and nothing else in the loop unless --expect says so",
+    ),
+    (
+        "expect",
+        "FILE",
+        str,
+        "require what this file holds: a statement, its SHA-256, the line of a verdict, or "
+        + CLAIM,
+    ),
+    ("max-bytes", "N", count, "most bytes of a file"),
+    ("max-digits", "N", count, "most digits in a row"),
+    ("max-depth", "N", count, "most nested levels"),
+    (
+        "max-work",
+        "N",
+        count,
+        "most units of work for a file, or for a manifest with its certificates together "
+        "(default: 40,000,000 and 4,000 for each byte)",
+    ),
     ("timeout", "SECONDS", seconds, "the time of the run; what is not decided is INCOMPLETE"),
     ("max-memory", "MIB", count, "the memory that may be added; what needs more is INCOMPLETE"),
 )
 """Name, value, how it is read, and help; what begins with ``max-`` may stand in ``Limits``."""
 
 
+class Parser(argparse.ArgumentParser):
+    """A parser whose complaints are ASCII that prints, whatever the arguments are."""
+
+    def error(self, message: str) -> NoReturn:
+        """End with wrong usage."""
+        super().error(ascii(message)[1:-1])
+
+
 def _parser() -> argparse.ArgumentParser:
     """The options."""
-    parser = argparse.ArgumentParser("checker", None, __doc__, EPILOG, allow_abbrev=False)
+    parser = Parser("checker", None, ABOUT, EPILOG, allow_abbrev=False)
     parser.add_argument("files", nargs="*", metavar="FILE", help="certificates; - is the input")
     parser.add_argument("--json", action="store_true", help="print one JSON document")
     for name, value, read, told in OPTIONS:
         default = getattr(Limits, name.removeprefix("max-"), None)
+        told += f" (default: {default:,})" if default else ""
         parser.add_argument(f"--{name}", metavar=value, type=read, default=default, help=told)
     return parser
 
@@ -185,13 +258,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _run(parser: argparse.ArgumentParser, arguments: Sequence[str] | None) -> int:
     """Check what the arguments name, print the verdicts, and return the exit status."""
     options = parser.parse_args(arguments)
-    if not options.files and options.manifest is None:
-        parser.error("expected a FILE or --manifest")
+    files, manifest = options.files, options.manifest
     asking = options.system, options.controller, options.expect
-    if [*options.files, *asking].count("-") > 1:
-        parser.error("standard input can be read once: give - once")
-    if not SUPPORTED and (options.timeout or options.max_memory):
-        parser.error("this platform has no limits on time and memory")
+    if wrong := misuse(files, manifest, asking, bool(options.timeout or options.max_memory)):
+        parser.error(wrong)
     limits = Limits(options.max_bytes, options.max_depth, options.max_digits, work=options.max_work)
     sys.set_int_max_str_digits(0)
     # A character that the terminal's encoding lacks must not raise an error.
@@ -200,14 +270,13 @@ def _run(parser: argparse.ArgumentParser, arguments: Sequence[str] | None) -> in
     found, clock = [], Clock(options.timeout)
     try:
         with memory(options.max_memory), clock.running():
-            files, manifest = options.files, options.manifest
-            for about, verdict in verdicts(files, manifest, asking, limits, clock):
-                found.append((about, verdict))
+            for each in verdicts(files, manifest, asking, limits, clock):
+                found.append(each)
                 if not options.json:
-                    _say(verdict.line().replace("(Limits.", "(--max-"))
-    except Refused as error:
-        _complain(f"{error.place}: {error.message}")
-        return Verdict(error.verdict).status
+                    _say(line_of(each, [*files, manifest] if manifest else files))
+    except NotAsked as error:
+        _complain(str(error))
+        found = [error.found]
     if options.json:
         _say(json.dumps({"verdicts": [about | asdict(v) for about, v in found]}, indent=1))
     return status_of(found)
@@ -222,6 +291,8 @@ def _say(text: str) -> None:
 
 def _complain(text: str) -> None:
     """Print a line on standard error, if that is possible."""
+    if sys.stderr is None:
+        return  # to print to None is to print to standard output
     try:
         print(f"checker: {text}", file=sys.stderr, flush=True)
     except OSError:

@@ -95,12 +95,12 @@ class Verdict:
         """The exit status that belongs to this verdict."""
         return STATUSES.get(self.verdict, 70)
 
-    def line(self) -> str:
-        """The verdict as one line of text."""
-        if not self.status:
-            told = (self.verdict, self.statement_digest, self.statement)
-            return " ".join(part for part in told if part)
-        return f"{self.verdict} {self.code} {self.place}: {self.message}"
+    def line(self, name: str = "") -> str:
+        """The verdict as one line of text, with the name of what it is about behind it."""
+        told = [self.verdict, name, self.statement_digest, self.statement]
+        if self.status:
+            told = [self.verdict, name, self.code, f"{self.place}: {self.message}"]
+        return " ".join(part for part in told if part)
 
 
 def check_document(

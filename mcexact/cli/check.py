@@ -25,12 +25,15 @@ from mcexact.cli import options
 @click.option(
     "--controller",
     metavar="FILE",
-    help="Require that each certificate is about a closed loop with the controller in this file.",
+    help="Require that each certificate is about the closed loop of the plant with the controller "
+    "in this file, and that nothing else is in the loop unless --expect says so.",
 )
 @click.option(
     "--expect",
     metavar="FILE",
-    help="Require what this file holds: a statement, its SHA-256, or a claim as a JSON object.",
+    help="Require what this file holds: a statement, its SHA-256, the line of a verdict, or a "
+    'claim as a JSON object {"kind": ..., "subject": [...], "claim": {...}}; '
+    "subject is [] if left out.",
 )
 @click.option(
     "--timeout",
@@ -56,7 +59,8 @@ from mcexact.cli import options
     "work",
     type=click.IntRange(min=1, max=10**30),
     metavar="N",
-    help="Units of work that the check of a file may take; by default they grow with its size.",
+    help="Units of work that the check of a file may take, or that of a manifest with its "
+    "certificates; by default 40,000,000 and 4,000 for each byte.",
 )
 @options.file_limits
 def command(
@@ -74,9 +78,10 @@ def command(
     """Verify each CERTIFICATE and print one line with the verdict and the verified statement.
 
     VALID is followed by the statement that the certificate proves, behind its SHA-256.
-    INVALID, MALFORMED and INCOMPLETE are followed by a code and a place. A sentence of a manifest
-    is IMPLIED instead of VALID; the statement printed for it is made from the certificates, not
-    from the text of the sentence.
+    INVALID, MALFORMED and INCOMPLETE are followed by a code and a place. With several files,
+    the name of the file stands behind the verdict. A sentence of a manifest is IMPLIED instead of
+    VALID; the statement printed for it is made from the certificates, not from the text of the
+    sentence.
 
     The status is the first that applies of 70, 3 (MALFORMED), 1 (INVALID), 5 (INCOMPLETE) and 0, or
     74 if the verdicts cannot be written. The file that --export writes prints the same verdicts:
@@ -84,10 +89,9 @@ def command(
     """
     from dataclasses import asdict
 
-    from mcexact.checker.allowance import SUPPORTED, Clock, memory
-    from mcexact.checker.command import UNWRITTEN, status_of, verdicts
-    from mcexact.checker.kinds import Verdict
-    from mcexact.checker.reading import Limits, Refused
+    from mcexact.checker.allowance import Clock, memory
+    from mcexact.checker.command import UNWRITTEN, NotAsked, line_of, misuse, status_of, verdicts
+    from mcexact.checker.reading import Limits
     from mcexact.cli.output import deliver, json_text
     from mcexact.errors import InputError, NotWritten
 
@@ -96,27 +100,27 @@ def command(
             raise click.UsageError("--export checks nothing: give it alone")
         _export(export)
         return 0
-    if not certificates and manifest is None:
-        raise click.UsageError("expected a CERTIFICATE or --manifest")
     asking = system, controller, expect
-    if [*certificates, *asking].count("-") > 1:
-        raise click.UsageError("standard input can be read once: give - once")
-    if not SUPPORTED and (timeout or max_memory):
-        raise click.UsageError("this platform has no limits on time and memory")
+    if wrong := misuse(certificates, manifest, asking, bool(timeout or max_memory)):
+        raise click.UsageError(wrong)
     found, clock = [], Clock(timeout)
     allowed = Limits(**options.given(limits))
+    paths = [*certificates, *([manifest] if manifest else [])]
     try:
-        with memory(max_memory), clock.running():
-            for about, verdict in verdicts(certificates, manifest, asking, allowed, clock):
-                found.append((about, verdict))
-                if not as_json:
-                    deliver(verdict.line().replace("(Limits.", "(--max-") + "\n")
+        try:
+            with memory(max_memory), clock.running():
+                for each in verdicts(certificates, manifest, asking, allowed, clock):
+                    found.append(each)
+                    if not as_json:
+                        deliver(line_of(each, paths) + "\n")
+        except NotAsked as refused:
+            if not as_json:
+                error = InputError(str(refused))
+                error.exit_status = status_of([refused.found])
+                raise error from None
+            found = [refused.found]
         if as_json:
             deliver(json_text({"verdicts": [about | asdict(verdict) for about, verdict in found]}))
-    except Refused as refused:
-        error = InputError(refused.message, where=refused.place)
-        error.exit_status = Verdict(refused.verdict).status
-        raise error from None
     except NotWritten as error:
         if not error.reader_left:
             raise

@@ -109,9 +109,39 @@ def test_the_exit_status_is_the_worst_of_all_files(
 def test_a_folder_or_a_missing_file_is_unreadable(folder: Path) -> None:
     done = run(folder, ".", "missing.json", "a\x01b")
     assert done.returncode == 3
-    assert [line.split()[:2] for line in done.stdout.splitlines()] == [
-        ["MALFORMED", "unreadable"]
-    ] * 3
+    assert [line.split()[:4] for line in done.stdout.splitlines()] == [
+        ["MALFORMED", name, "unreadable", "file:"]
+        for name in ("'.'", "'missing.json'", r"'a\x01b'")
+    ]
+
+
+def test_arguments_and_names_are_shown_without_characters_that_do_not_print(folder: Path) -> None:
+    for option in ("--\x1b[31mx", "--m\u00e4rk", "--max-bytes=\x07"):
+        done = run(folder, "valid.json", option)
+        assert done.returncode == 2
+        assert done.stderr.replace("\n", "").isprintable() and done.stderr.isascii()
+    name = "\x1b[31m\u00e4'.json"
+    (folder / name).write_text(json.dumps(FREE), encoding="ascii")
+    done = run(folder, "--", name, "valid.json", name)
+    (folder / name).unlink()
+    assert [line.split()[1] for line in done.stdout.splitlines()] == [
+        r'''"\x1b[31m\xe4'.json"''',
+        "'valid.json'",
+        r'''"\x1b[31m\xe4'.json"''',
+    ]
+    assert done.stdout.replace("\n", "").isprintable() and done.stdout.isascii()
+
+
+def test_a_closed_standard_error_leaves_standard_output_to_verdicts(folder: Path) -> None:
+    command = "exec 2>&-; " + '"$0" -S -E -m checker valid.json --system missing.json'
+    done = subprocess.run(
+        ["sh", "-c", command, sys.executable],
+        cwd=folder,
+        capture_output=True,
+        check=False,
+        timeout=PATIENCE,
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (3, b"", b"")
 
 
 def test_wrong_usage_ends_with_2(folder: Path) -> None:

@@ -88,7 +88,7 @@ def test_a_bug_comes_before_everything_else(
 
     monkeypatch.setattr(command, "check_document", check)
     assert main(["valid.json", "missing.json"]) == 70
-    assert capsys.readouterr().out.startswith("ERROR internal checker: ")
+    assert capsys.readouterr().out.startswith("ERROR 'valid.json' internal checker: ")
 
 
 def test_one_document_says_the_same(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -126,6 +126,56 @@ def test_a_system_can_be_insisted_on(
     assert bool(told.out) == (status != 3)
 
 
+def test_a_line_names_its_file_where_there_are_several(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    main(["fixed.json"])
+    alone = capsys.readouterr().out
+    assert main(["fixed.json", "invalid.json", "--manifest", "evidence"]) == 1
+    valid, invalid, *implied, counted = capsys.readouterr().out.splitlines()
+    assert valid.replace(" 'fixed.json' ", " ", 1) + "\n" == alone
+    assert invalid.startswith("INVALID 'invalid.json' common_factor ")
+    assert all(line.startswith("IMPLIED For ") for line in implied)
+    assert counted.startswith("COUNTED 'evidence' ")
+    (folder / "said.txt").write_text(valid + "\n", encoding="ascii")
+    assert main(["fixed.json", "--expect", "said.txt"]) == 0
+
+
+@pytest.mark.parametrize("option", ["--system", "--controller", "--expect"])
+def test_what_cannot_be_asked_is_told_once_and_in_one_document(
+    folder: Path, capsys: pytest.CaptureFixture[str], option: str
+) -> None:
+    (folder / "empty.json").write_text("{}", encoding="ascii")
+    for file, code, status in (("nope", "unreadable", 3), ("empty.json", "form", 3)):
+        assert main(["fixed.json", option, file]) == status
+        told = capsys.readouterr()
+        assert (told.out, told.err.count(file)) == ("", 1)
+        assert main(["fixed.json", option, file, "--json"]) == status
+        ((row),) = json.loads(capsys.readouterr().out)["verdicts"]
+        assert (row["file"], row["verdict"], row["code"]) == (file, "MALFORMED", code)
+    assert main(["fixed.json", option, "fixed.json", "--max-bytes", "100"]) == 5
+    assert "(--max-bytes)" in capsys.readouterr().err
+
+
+def test_memory_that_is_missing_for_what_is_asked_is_incomplete(
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(*arguments: Any) -> bytes:
+        raise MemoryError
+
+    monkeypatch.setattr(command, "read_bytes", full)
+    assert main(["fixed.json", "--system", "system.json"]) == 5
+    assert capsys.readouterr().err == "checker: system.json: checker: more memory than there is\n"
+
+
+def test_a_manifest_is_not_asked_for_one_statement(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for arguments in (["--manifest", "evidence"], ["fixed.json", "evidence/manifest.json"]):
+        assert main([*arguments, "--expect", "said.txt"]) == 2
+        assert "leave out --expect" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(
     "arguments",
     [
@@ -148,7 +198,14 @@ def test_wrong_usage_ends_with_2(
 
 def test_help_is_no_wrong_usage(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--help"]) == 0
-    assert "--manifest" in capsys.readouterr().out
+    told = " ".join(capsys.readouterr().out.split())
+    for option in (
+        "--manifest FILE verify",
+        "(default: 67,108,864)",
+        "(default: 4,300)",
+        "5 INCOMPLE",
+    ):
+        assert option in told
 
 
 def test_limits_that_the_platform_lacks_are_wrong_usage(
@@ -223,7 +280,7 @@ def test_verdicts_that_cannot_be_written_end_with_74(
 
 
 def test_complaints_that_cannot_be_written_change_no_status(
-    folder: Path, monkeypatch: pytest.MonkeyPatch
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for late in (False, True):
         stream = Stream(folder / "err", BrokenPipeError(), late)
@@ -235,6 +292,7 @@ def test_complaints_that_cannot_be_written_change_no_status(
             stream.close()
     monkeypatch.setattr(sys, "stderr", None)
     assert main(["valid.json", "--system", "missing.json"]) == 3
+    assert not capsys.readouterr().out, "what is printed to None goes to standard output"
 
 
 def test_a_stream_of_another_kind_is_written_to_as_it_is(

@@ -183,11 +183,23 @@ def test_check_ends_with_the_worst_status_in_its_order(call: Call, tmp_path: Pat
 
 def test_check_says_what_certificates_imply(call: Call, tmp_path: Path) -> None:
     status, out, _ = call("check", "--manifest", str(write(tmp_path)))
-    assert (status, {line.split()[0] for line in out.splitlines()}) == (0, {"IMPLIED"})
+    assert (status, {line.split()[0] for line in out.splitlines()}) == (0, {"IMPLIED", "COUNTED"})
     (tmp_path / "neighbor_graph.json").unlink()
     status, out, _ = call("check", "--manifest", str(tmp_path), "--json")
     assert (status, json.loads(out)["verdicts"][0]["file"]) == (1, "neighbor_graph.json")
     assert call("check")[0] == 2
+    assert call("check", "--manifest", str(tmp_path), "--expect", "said.txt")[0] == 2
+
+
+def test_check_refuses_what_cannot_be_asked(call: Call, tmp_path: Path) -> None:
+    call("analyze", TRIPLE, "--certificates", str(tmp_path))
+    asked = ("check", str(tmp_path / "fixed_spectrum.json"), "--controller", TRIPLE)
+    status, out, err = call(*asked)
+    assert (status, out, err.count(TRIPLE)) == (3, "", 1)
+    status, out, _ = call(*asked, "--json")
+    ((row),) = json.loads(out)["verdicts"]
+    assert (status, row["file"], row["verdict"]) == (3, TRIPLE, "MALFORMED")
+    assert call(*asked[:2], "--system", TRIPLE, "--max-bytes", "9")[0] == 5
 
 
 def test_sample_draws_the_same_system_from_the_same_seed(call: Call) -> None:
