@@ -100,10 +100,11 @@ def _counted(path: str, wanted: Expectation, limits: Limits) -> Iterator[Found]:
     """The verdicts on a manifest without those of VALID certificates, and then their numbers."""
     good = {"file": [0, 0], "text": [0, 0]}
     for about, verdict in every_verdict(path, wanted, limits):
+        own = about == {"file": NAME}
         for what in about:
-            good[what][verdict.status > 0] += 1
+            good[what][verdict.status > 0] += not own
         if verdict.verdict != "VALID":
-            yield about, verdict
+            yield {"file": path} if own else about, verdict
     (valid, other), (implied, rest) = good["file"], good["text"]
     told = f"{implied} sentences implied, {rest} not; {valid} certificates valid, {other} not"
     yield {"file": path}, Verdict("COUNTED", told)

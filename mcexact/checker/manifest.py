@@ -57,9 +57,11 @@ def every_verdict(path: str, expected: Expectation, limits: Limits) -> Iterator[
     path = os.path.join(path, NAME) if os.path.isdir(path) else path
 
     def read(name: str) -> bytes:
-        place = os.path.join(os.path.dirname(path), name) if name else path
-        require(not name or os.path.lexists(place), "missing", "file", "is not beside the manifest")
-        return _bytes(place, limits)
+        try:
+            return _bytes(os.path.join(os.path.dirname(path), name) if name else path, name, limits)
+        except (OSError, ValueError) as error:
+            reason = getattr(error, "strerror", None) or str(error)
+            raise Refused("MALFORMED", "unreadable", "file", f"cannot be read: {reason}") from error
 
     return verdicts_of(read, expected, limits)
 
@@ -87,6 +89,10 @@ def verdicts_of(
     known = Evidence(read, base, limits, expected, budget)
     for name in sorted(digests):
         yield {"file": name}, known.taken(name, digests[name])
+    verdict = known.based()
+    if verdict.verdict != "READ":
+        yield {"file": NAME}, verdict
+        return
     if expected.controller and not any(each.system.controller for each in known.premises.values()):
         message = "no certificate is about a closed loop with the controller"
         yield {"file": NAME}, refusal("INVALID", "controller", "file", message)
@@ -94,16 +100,19 @@ def verdicts_of(
         yield {"text": sentence["text"]}, known.judged(sentence, f"sentences[{k}]")
 
 
-def _bytes(path: str, limits: Limits) -> bytes:
-    """Read a regular file, at most one byte more than the limit, without following a link."""
-    try:
+def _bytes(path: str, name: str, limits: Limits) -> bytes:
+    """Read a regular file, at most one byte more than the limit.
+
+    A link to a manifest, which has no name here, is followed, and one to a certificate is not.
+    """
+    if name:
+        require(os.path.lexists(path), "missing", "file", "is not beside the manifest")
         regular = stat.S_ISREG(os.lstat(path).st_mode)
         require(regular, "file", "file", "not a regular file of this folder")
-        with open(path, "rb") as stream:
-            return reading.read_bytes(stream, limits)
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise Refused("MALFORMED", "unreadable", "file", f"cannot be read: {reason}") from error
+    elif not stat.S_ISREG(os.stat(path).st_mode):
+        malformed("file", "a manifest is a regular file")
+    with open(path, "rb") as stream:
+        return reading.read_bytes(stream, limits)
 
 
 def _parts(document: Json) -> tuple[Json, ...]:
@@ -166,19 +175,35 @@ class Evidence:
             large = len(data) > self.limits.bytes
             right = large or hashlib.sha256(data).hexdigest() == wanted
             require(right, "digest", "file", "not the bytes that the manifest names")
-            with limited(self.budget, len(data)):
-                document, any_loop = parse(data, self.limits), replace(self.expected, controller="")
-                verdict = check_document(document, any_loop, self.limits)
-                if verdict.controller_digest:
-                    steps = document["subject"]
-                    self.expected.require_subject(steps, verdict.controller_digest)
+            with limited(self.budget):
+                any_loop = replace(self.expected, controller="")
+                verdict = check_document(data, any_loop, self.limits)
                 if verdict.verdict == "VALID":
+                    document, controller = parse(data, self.limits), verdict.controller_digest
+                    if controller:
+                        self.expected.require_subject(document["subject"], controller)
                     self.expected = replace(self.expected, system=verdict.system_digest)
                     self.premises[name] = self._premise(name, document)
                 return verdict
 
-        self.verdicts[name] = answer(check)
+        found = answer(check)
+        place = f"{name} {found.place}" if found.status else ""
+        self.verdicts[name] = replace(found, place=place)
         return self.verdicts[name]
+
+    def based(self) -> Verdict:
+        """Make the system that the sentences are about, out of the plant of the certificates."""
+
+        def make() -> Verdict:
+            if self.premises:
+                plant = next(iter(self.premises.values())).plant
+                with limited(self.budget):
+                    meant = read_subject(self.base, plant)
+                known = self.premises.items()
+                self.premises = {name: replace(each, meant=meant) for name, each in known}
+            return Verdict("READ")
+
+        return answer(make)
 
     def _premise(self, name: str, document: Json) -> Premise:
         """A certificate that was found VALID."""
@@ -188,7 +213,8 @@ class Evidence:
         path = tuple(step["construction"] for step in steps[len(self.base) :]) if own else None
         system = read_subject(steps, plant)
         sentence = KINDS[document["kind"]].statement(document["claim"], system)
-        return Premise(name, document, plant, system, f"For {system.words}: {sentence}", path)
+        said = f"For {system.words}: {sentence}"
+        return Premise(name, document, plant, system, plant, said, path)
 
     def judged(self, sentence: dict[str, Json], place: str) -> Verdict:
         """The verdict on one sentence."""

@@ -25,8 +25,8 @@ class Premise:
     file : str
     document : dict
         The whole certificate, whose witness has been verified as well.
-    plant, system : System
-        The plant, and the subject that was built from it.
+    plant, system, meant : System
+        The plant, the subject that was built from it, and the system that the manifest is about.
     statement : str
         The statement that the checker verified, without the sizes of the system.
     path : tuple of str, or None
@@ -39,6 +39,7 @@ class Premise:
     document: dict[str, Any]
     plant: System
     system: System
+    meant: System
     statement: str
     path: Path | None
     pointers: tuple[str, ...] = ()

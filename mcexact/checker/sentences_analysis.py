@@ -8,7 +8,6 @@ from .location import in_stability_region
 from .reading import Json, polynomial
 from .sentence import DUAL, PLANT, SYSTEM, Holds, Premise, Role, either, restate, rule
 from .statement import PENCIL, channel_set, described, edge_set, polynomial_text
-from .system import System
 
 WANG_DAVISON = "S. H. Wang and E. J. Davison 1973"
 FIXED_DYNAMIC = "evidence.shrunk_subspace_fixed_dynamic"
@@ -45,16 +44,11 @@ def controls(found: Premise) -> bool:
 # What is given, and titles that claim nothing.
 
 
-def meant(known: list[Premise]) -> System:
-    """The system that the manifest is about; the plant, if no premise is about just that."""
-    return next((premise.system for premise in known if premise.path == ()), known[0].plant)
-
-
 @rule("heading page-heading information controllability-indices-left-out")
 @rule("observability-indices-left-out")
 def _given(known: list[Premise]) -> str:
     """The sizes of what the manifest is about, and the names of its channels."""
-    plant = meant(known)
+    plant = known[0].meant
     p, q = sum(M.ncols for M in plant.B), sum(M.nrows for M in plant.C)
     ports = f"{p} inputs and {q} outputs in all"
     return f"For {described(plant)}: {ports}"
@@ -64,14 +58,14 @@ def _given(known: list[Premise]) -> str:
 @rule("design-measured table-links-limit least-outputs-states-limit least-states-limit")
 def _nothing(known: list[Premise]) -> str:
     """A title, a remark that something is not proved, or that it was not decided."""
-    return f"For {meant(known).words}: nothing is claimed"
+    return f"For {known[0].meant.words}: nothing is claimed"
 
 
 @rule("inactive-channels")
 def _inactive(known: list[Premise]) -> str:
     """The channels that no edge of the transfer graph can touch."""
     seen = [premise for premise in known if premise.kind == "transfer_graph"]
-    system = seen[0].system if seen else meant(known)
+    system = seen[0].system if seen else known[0].meant
     ports = enumerate(zip(system.B, system.C, strict=True))
     idle = [system.names[i] for i, (B, C) in ports if B.is_zero() or C.is_zero()]
     known[0].expect(bool(idle), "no channel is without inputs or outputs that act")
@@ -81,7 +75,7 @@ def _inactive(known: list[Premise]) -> str:
 @rule("picture-neighbor-graph picture-heard")
 def _neighbors(known: list[Premise]) -> str:
     """Who receives messages from whom."""
-    plant = meant(known)
+    plant = known[0].meant
     known[0].expect(plant.neighbors is not None, "the plant has no neighbor graph")
     arcs = [(j, i) for i, N_i in enumerate(plant.neighbors or []) for j in N_i if i != j]
     told = edge_set((plant.names[j], plant.names[i]) for j, i in arcs)

@@ -196,7 +196,12 @@ def test_a_manifest_is_checked_beside_files_or_alone(folder: Path) -> None:
     assert [row["text"] for row in found[1:-1]] == [each["text"] for each in SENTENCES]
     other = run(folder, "--manifest", "evidence", "--system", "other.json")
     assert other.returncode == 1
-    assert run(folder, "--manifest", "nowhere").returncode == 3
+    absent = run(folder, "--manifest", "nowhere")
+    assert absent.returncode == 3
+    named = run(folder, "--manifest", "nowhere", "fixed.json").stdout.splitlines()[1]
+    assert named.startswith("MALFORMED 'nowhere' unreadable file: ")
+    nothing = "COUNTED 0 sentences implied, 0 not; 0 certificates valid, 0 not"
+    assert absent.stdout.splitlines()[1] == nothing  # a manifest is no certificate
     files = [f"evidence/{path.name}" for path in (folder / "evidence").iterdir()]
     words = [line.split()[0] for line in run(folder, *files).stdout.splitlines()]
     assert (words.count("VALID"), words.count("IMPLIED")) == (len(EVIDENCE), len(SENTENCES))

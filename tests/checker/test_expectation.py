@@ -299,7 +299,7 @@ def test_every_loop_of_a_manifest_has_the_controller(tmp_path: Any) -> None:
     evidence["loop"] = CHANGED
     said = [sentence("heading", evidence=evidence)]
     found = judged(tmp_path, evidence, said, controlled())
-    assert next(verdict.place for _, verdict in found) == "subject"
+    assert next(verdict.place for _, verdict in found) == "loop.json subject"
 
 
 def certificate_of_the_plant() -> Document:

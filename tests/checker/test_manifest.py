@@ -9,9 +9,10 @@ from typing import Any
 import pytest
 
 from mcexact.checker import Expectation, Limits
+from mcexact.checker.budget import GRANTED, PER_BYTE, Budget, limited
 from mcexact.checker.expectation import same
 from mcexact.checker.kinds import FORMAT
-from mcexact.checker.manifest import pointed
+from mcexact.checker.manifest import pointed, verdicts_of
 from mcexact.checker.reading import Refused
 from mcexact.checker.system import digest, read_plant
 from tests import effort
@@ -96,6 +97,43 @@ def test_sentences_about_a_derived_system_are_about_no_other(tmp_path: Path) -> 
     for subject, verdict in (([step], "IMPLIED"), ([], "INVALID"), ([other], "INVALID")):
         (found,) = said(write(tmp_path, derived, listed | {"subject": subject}))
         assert found.verdict == verdict, found.line()
+
+
+def test_what_is_given_is_said_of_the_system_of_the_manifest(tmp_path: Path) -> None:
+    """The dual has inputs for outputs, and no certificate need be about just that."""
+    evidence = {"observable": OBSERVABLE}
+    listed = manifest(evidence, [sentence("heading"), sentence("subsystem")])
+    plain, _ = said(write(tmp_path, evidence, listed))
+    assert plain.statement.endswith(": 3 inputs and 4 outputs in all")
+    found, title = said(write(tmp_path, evidence, listed | {"subject": [DUAL]}))
+    assert found.statement.startswith(f"For the dual of: {ABOUT[4:]} (3 states, ")
+    assert found.statement.endswith(": 4 inputs and 3 outputs in all")
+    assert title.statement == f"For the dual of: {ABOUT[4:]}: nothing is claimed"
+
+
+LINK = {"construction": "arcs", "added": [["1", "2"]]}
+SUBJECTS: list[tuple[str, Any, str]] = [
+    ("no list", {"construction": "dual"}, "MALFORMED"),
+    ("a name alone", ["dual"], "MALFORMED"),
+    ("a parameter that the construction has not", [DUAL | {"channel": "1"}], "MALFORMED"),
+    ("a channel that the plant has not", [LINK | {"added": [["1", "9"]]}], "MALFORMED"),
+    ("a construction that is not known", [{"construction": "nonsense"}], "INCOMPLETE"),
+    ("a link that there is already", [LINK, LINK], "INVALID"),
+    ("a dual, which has no neighbor graph, with links", [DUAL, LINK], "INVALID"),
+]
+
+
+@pytest.mark.parametrize(
+    ("subject", "verdict"), [row[1:] for row in SUBJECTS], ids=[row[0] for row in SUBJECTS]
+)
+def test_a_manifest_is_about_a_system_that_can_be_made(
+    tmp_path: Path, subject: Any, verdict: str
+) -> None:
+    evidence = {"controllable": CONTROLLABLE}
+    listed = manifest(evidence, [sentence("heading"), sentence("subsystem")])
+    (found,) = said(write(tmp_path, evidence, listed | {"subject": subject}))
+    assert found.verdict == verdict, found.line()
+    assert found.place.startswith("subject"), found.line()
 
 
 # Premises.
@@ -355,6 +393,24 @@ def test_no_link_is_followed(tmp_path: Path, inside: bool) -> None:
     assert {v.verdict for v in found[1:]} == {"IMPLIED", "INVALID"}
 
 
+@pytest.mark.skipif(not hasattr(os, "symlink"), reason="needs symbolic links")
+def test_a_link_to_the_manifest_is_followed(tmp_path: Path) -> None:
+    """The certificates are beside the link; who names it has chosen what it leads to."""
+    (write(tmp_path) / "manifest.json").rename(tmp_path / "elsewhere.txt")
+    (tmp_path / "manifest.json").symlink_to(tmp_path / "elsewhere.txt")
+    assert {v.verdict for v in said(tmp_path)} == {"IMPLIED"}
+    (tmp_path / "elsewhere.txt").unlink()
+    (found,) = said(tmp_path)
+    assert (found.verdict, found.code) == ("MALFORMED", "unreadable")
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs named pipes")
+def test_a_manifest_is_a_file(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "manifest.json")
+    (found,) = said(tmp_path)
+    assert (found.verdict, found.place) == ("MALFORMED", "file"), found.line()
+
+
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs named pipes")
 def test_what_is_no_file_is_not_waited_for(tmp_path: Path) -> None:
     write(tmp_path)
@@ -375,6 +431,23 @@ def test_what_is_missing_or_too_large_is_not_read(tmp_path: Path) -> None:
     long = WHOLE | {"sentences": [*SENTENCES, STABLE | {"text": "x" * 10**5}]}
     (found,) = said(write(tmp_path, listed=long), limits=Limits(bytes=10**5))
     assert (found.verdict, found.code) == ("INCOMPLETE", "size")
+
+
+def test_a_manifest_is_granted_work_for_its_bytes_once(tmp_path: Path) -> None:
+    texts = {"": (write(tmp_path) / "manifest.json").read_bytes()}
+    texts |= {f"{name}.json": text_of(document) for name, document in EVIDENCE.items()}
+    budget = Budget(GRANTED, GRANTED, grows=True)
+    with limited(budget):
+        assert all(not v.status for about, v in verdicts_of(texts.get, Expectation(), Limits()))
+    assert budget.most == GRANTED + PER_BYTE * sum(map(len, texts.values()))
+
+
+def test_a_verdict_on_a_certificate_names_its_file(tmp_path: Path) -> None:
+    write(tmp_path)
+    (tmp_path / "completeness.json").write_bytes(b"{}")
+    (tmp_path / "neighbor_graph.json").unlink()
+    found = [verdict for verdict in said(tmp_path) if verdict.code in {"digest", "missing"}]
+    assert [v.place for v in found] == ["completeness.json file", "neighbor_graph.json file"]
 
 
 def test_many_sentences_cost_no_more_than_their_length(tmp_path: Path) -> None:
