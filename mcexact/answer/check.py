@@ -89,7 +89,8 @@ fixed_spectrum(system), or the name of a certificate file, found dict
 def _asked(where: str, ask: Callable[[bytes, Limits], Expectation], data: bytes) -> Expectation:
     """What a text asks of the certificate."""
     try:
-        return ask(data, _limits(len(data)))
+        # What a file asks may come from anybody: its work is bounded as on the command line.
+        return ask(data, replace(_limits(len(data)), work=None))
     except Refused as refused:
         raise InputError(refused.message, where=f"{where}: {refused.place}") from None
 

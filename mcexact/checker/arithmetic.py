@@ -234,14 +234,30 @@ def stripped(p: Polynomial) -> Polynomial:
     return p
 
 
+def cleared(p: Polynomial) -> tuple[list[int], int]:
+    """The integers d·p_k, d the least common denominator of all p_k, and d."""
+    longest, different = budget.limbs_of(p), {c.denominator for c in p}
+    whole = sum(budget.limbs([q]) for q in different)
+    units = budget.fractions(len(different), longest) + budget.table(1, len(p), longest + whole)
+    spend(units + budget.reductions(2 * (len(p) + len(different)), whole, longest))
+    d = math.lcm(*different)
+    return [c.numerator * (d // c.denominator) for c in p], d
+
+
 def poly_product(a: Polynomial, b: Polynomial) -> Polynomial:
     """The product a·b."""
-    spend(_terms(len(a) * len(b), a, b, 1))
-    result: Polynomial = [0] * (len(a) + len(b) - 1)
-    for i, f in enumerate(a):
-        for k, g in enumerate(b):
+    modular = _modular(a, b)
+    (first, d), (second, e) = ((a, 1), (b, 1)) if modular else (cleared(a), cleared(b))
+    spend(_terms(len(a) * len(b), first, second, 1))
+    result = [0] * (len(a) + len(b) - 1)
+    for i, f in enumerate(first):
+        for k, g in enumerate(second):
             result[i + k] += f * g
-    return result
+    if modular:
+        return result
+    longest = budget.limbs(result)
+    spend(budget.fractions(len(result), longest + budget.limbs([d, e]) * 2))
+    return [Fraction(c, d * e) for c in result]
 
 
 def poly_divide(a: Polynomial, b: Polynomial, ell: int = 0) -> tuple[Polynomial, Polynomial]:
@@ -261,12 +277,18 @@ def poly_divide(a: Polynomial, b: Polynomial, ell: int = 0) -> tuple[Polynomial,
 
 def _terms(number: int, a: Polynomial, b: Polynomial, turns: int) -> int:
     """The units of so many products of coefficients, which grow in every turn."""
-    first, second = budget.limbs_of(a), budget.limbs_of(b)
     units = 100 + len(a) + len(b)
-    if all(type(c) is int for c in (*a, *b)):
-        longest = max(first, second)
+    if _modular(a, b):
+        longest = max(budget.limbs(a), budget.limbs(b))
         return units + budget.reductions(number, longest) + budget.inversions(1, longest)
+    # sums have the common denominator, which may be longer than each
+    first, second = (max(budget.limbs(c), budget.limbs([d])) for c, d in map(cleared, (a, b)))
     return units + budget.fractions(number, first + second * turns)
+
+
+def _modular(a: Polynomial, b: Polynomial) -> bool:
+    """Whether all coefficients are integers, as those modulo ℓ are."""
+    return all(type(c) is int for c in (*a, *b))
 
 
 def exponent(p: Polynomial, f: Polynomial, ell: int = 0) -> tuple[int, Polynomial]:

@@ -2,6 +2,7 @@
 
 from . import reading
 from .arithmetic import Matrix
+from .budget import current, limited
 from .reading import Json, Limits, fields, integer, items, malformed, shown, string
 from .statement import canonical_json, digest_of
 from .system import System, parse_file, read_matrix
@@ -61,10 +62,12 @@ def read_controller(
 
 def read_controller_file(data: bytes, limits: Limits) -> tuple[str, str]:
     """The digest of the controller in a file, and that of its plant, empty if it names none."""
-    document = parse_file(data, limits)
-    version, plant, *parts = fields(document, "controller", "format", "system", "time", "agents")
-    if version != FORMAT:
-        malformed("format", f"expected {FORMAT!r}, found {shown(version)}")
-    given = dict(zip(("time", "agents"), parts, strict=True))
-    controller = read_controller(given, "controller", limits=limits)
-    return digest_of(canonical_json(controller)), string(plant, "system")
+    with limited(current(limits.work), len(data)):
+        document = parse_file(data, limits)
+        keys = ("format", "system", "time", "agents")
+        version, plant, *parts = fields(document, "controller", *keys)
+        if version != FORMAT:
+            malformed("format", f"expected {FORMAT!r}, found {shown(version)}")
+        given = dict(zip(("time", "agents"), parts, strict=True))
+        controller = read_controller(given, "controller", limits=limits)
+        return digest_of(canonical_json(controller)), string(plant, "system")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, replace
 
+from .budget import current, limited
 from .controller import read_controller_file
 from .reading import Json, Limits, fields, items, malformed, parse, require, shown, string
 from .statement import digest_of
@@ -67,7 +68,8 @@ class Expectation:
             If the text is neither.
         """
         if data.lstrip()[:1] == b"{":
-            return self._claiming(parse(data, limits))
+            with limited(current(limits.work), len(data)):
+                return self._claiming(parse(data, limits))
         text = data.decode("ascii", "replace").strip()
         if DIGEST.fullmatch(text.lower()):
             return replace(self, statement=text.lower())

@@ -2,9 +2,11 @@
 
 import math
 from fractions import Fraction
+from itertools import accumulate
+from operator import mul
 
 from . import budget
-from .arithmetic import Polynomial
+from .arithmetic import Polynomial, cleared
 
 
 def in_stability_region(p: Polynomial, time: str) -> bool:
@@ -26,15 +28,20 @@ def in_region(p: Polynomial, time: str, bound: Fraction | None) -> bool:
     """
     if bound is None:
         return len(p) == 1
-    bits = max(bound.numerator, bound.denominator).bit_length() + 1
-    longest = budget.limbs_of(p) + len(p) * bits // budget.LIMB
-    budget.spend(budget.fractions(len(p) ** 2, longest))
-    if time == "continuous":
-        moved: Polynomial = []  # p(x − bound), by Horner's rule
-        for c in reversed(p):
-            moved = [a - bound * b for a, b in zip([c, *moved], [*moved, 0], strict=True)]
-        return is_hurwitz(moved)
-    return is_schur([c * bound**k for k, c in enumerate(p)])
+    (numbers, _), d, u, v = cleared(p), len(p) - 1, bound.numerator, bound.denominator
+    a, b = budget.limbs(numbers), budget.limbs([u, v])
+    units = budget.products(4 * d + 1, d * b, b) + budget.products(2 * d + 2, a + d * b, d * b + 1)
+    budget.spend(units + budget.table(3, d + 1, a + 2 * d * b))
+    above, below = (list(accumulate([factor] * d, mul, initial=1)) for factor in (u, v))
+    numbers = [c * power for c, power in zip(numbers, reversed(below), strict=True)]  # roots by v
+    if time != "continuous":
+        return is_schur([c * power for c, power in zip(numbers, above, strict=True)])
+    longest = a + d * (2 * b + 1)
+    budget.spend(budget.products((d + 1) ** 2, longest, b) + budget.table(2, d + 1, longest))
+    moved: list[int] = []  # with roots larger by u, by Horner's rule
+    for c in reversed(numbers):
+        moved = [e - u * f for e, f in zip([c, *moved], [*moved, 0], strict=True)]
+    return is_hurwitz(moved)
 
 
 def is_hurwitz(p: Polynomial) -> bool:
@@ -45,19 +52,16 @@ def is_hurwitz(p: Polynomial) -> bool:
 
     Theorems ``location.is_hurwitzP``, ``routh_integers.is_hurwitz_integers``.
     """
-    d, a = len(p) - 1, 2 * budget.limbs_of(p)
-    budget.spend(budget.fractions(3 * d + 1, a))
+    (numbers, _), d = cleared(p), len(p) - 1
     # x/2^e in place of x shortens the numbers where the denominators are powers of 2
-    powers = [(q & -q).bit_length() - 1 for q in (Fraction(c / p[-1]).denominator for c in p)]
-    e = max((-(-power // (d - k)) for k, power in enumerate(powers[:d])), default=0)
-    a += e * d // budget.LIMB
-    budget.spend(budget.fractions(4 * d + 1, a) + budget.table(1, d + 1, a))
-    p = [c / p[-1] * 2 ** (e * (d - k)) for k, c in enumerate(p)]
-    budget.spend(budget.products(d + 1, a * (d + 1), a))
-    scale = math.lcm(*(Fraction(c).denominator for c in p))
-    a += budget.limbs([scale])
-    budget.spend(budget.products(d + 1, a, a) + budget.table(d + 1, 1, a))
-    descending = [int(c * scale) for c in reversed(p)]
+    powers = [(c & -c).bit_length() for c in numbers]
+    lost = [max(powers[-1] - power, 0) if power else 0 for power in powers[:d]]
+    e = max((-(-power // (d - k)) for k, power in enumerate(lost)), default=0)
+    a = budget.limbs(numbers) + e * d // budget.LIMB + 1
+    budget.spend(budget.fractions(d + 1, a) + 3 * budget.table(1, d + 1, a))
+    numbers = [c << e * (d - k) for k, c in enumerate(numbers)]
+    common = math.gcd(*numbers) * (1 if numbers[-1] > 0 else -1)
+    descending = [c // common for c in reversed(numbers)]
     upper, lower, divisors = descending[0::2], descending[1::2], (1, 1)
     while lower:
         if lower[0] <= 0:
@@ -79,11 +83,13 @@ def is_schur(p: Polynomial) -> bool:
 
     Theorems ``mobius.schur_mobius``, ``moved_roots.schur_by_moebiusP``.
     """
-    longest = budget.limbs_of(p) + len(p) // budget.LIMB
-    budget.spend(budget.fractions(2 * len(p) ** 2, longest))
-    moved: Polynomial = []  # Σ p_k (1 + s)^k (1 − s)^(d−k), by Horner's rule
-    power: Polynomial = [Fraction(1)]  # (1 − s)^k
-    for c in reversed(p):
+    numbers, _ = cleared(p)
+    a, b = budget.limbs(numbers), len(p) // budget.LIMB + 1
+    units = budget.products(len(p) ** 2, a, b) + budget.products(2 * len(p) ** 2, a + 2 * b, 1)
+    budget.spend(units + budget.table(3, len(p), a + 2 * b))
+    moved: list[int] = []  # Σ p_k (1 + s)^k (1 − s)^(d−k), by Horner's rule
+    power = [1]  # (1 − s)^k
+    for c in reversed(numbers):
         grown = [a + b for a, b in zip([*moved, 0], [0, *moved], strict=True)]  # times 1 + s
         moved = [a + c * b for a, b in zip(grown, power, strict=True)]
         power = [a - b for a, b in zip([*power, 0], [0, *power], strict=True)]

@@ -3,7 +3,7 @@
 from fractions import Fraction
 
 from . import budget
-from .arithmetic import Polynomial
+from .arithmetic import Polynomial, cleared
 from .reading import Json, decimal, fields, items, require
 
 Disc = tuple[Fraction, Fraction, Fraction]
@@ -24,7 +24,9 @@ def root_discs(value: Json, place: str, p: Polynomial) -> list[Disc]:
         longest = max(longest, budget.limbs_of((re, im, radius)))
         budget.spend(budget.fractions(8 * len(discs) + 8, 2 * longest))
         value_at, slope = _horner(p, re, im)
-        enough = value_at * (len(p) - 1) ** 2 <= radius**2 * slope
+        budget.spend(budget.products(4, budget.limbs([value_at, slope]), 2 * longest + 1))
+        needed = value_at * ((len(p) - 1) * radius.denominator) ** 2
+        enough = needed <= radius.numerator**2 * slope
         require(slope > 0 and radius >= 0 and enough, "disc", where, "may hold no root")
         for a, b, r in discs:
             apart = (a - re) ** 2 + (b - im) ** 2 > (r + radius) ** 2
@@ -48,15 +50,18 @@ def require_rate(value: Json, place: str, discs: list[Disc], time: str) -> None:
     require(lower and upper, "rate", place, "not wide enough for the root discs")
 
 
-def _horner(p: Polynomial, re: Fraction, im: Fraction) -> tuple[Fraction, Fraction]:
-    """|p(c)|² and |p'(c)|² at c = re + i·im."""
-    longest = budget.limbs_of(p) + len(p) * budget.limbs_of((re, im))
-    budget.spend(budget.fractions(8 * len(p), longest))
-    value, slope = (Fraction(0), Fraction(0)), (Fraction(0), Fraction(0))
-    for c in reversed(p):
-        slope = (slope[0] * re - slope[1] * im + value[0], slope[0] * im + slope[1] * re + value[1])
-        value = (value[0] * re - value[1] * im + c, value[0] * im + value[1] * re)
-    return value[0] ** 2 + value[1] ** 2, slope[0] ** 2 + slope[1] ** 2
+def _horner(p: Polynomial, re: Fraction, im: Fraction) -> tuple[int, int]:
+    """|p(c)|² and |p'(c)|² at c = re + i·im, both multiplied by the same positive number."""
+    (numbers, _), ((x, y), w), d = cleared(p), cleared([re, im]), len(p) - 1
+    b = budget.limbs([x, y, w])
+    longest = budget.limbs(numbers) + (d + 1) * (b + 1)
+    budget.spend(budget.products(16 * len(p), longest, b) + budget.products(8, longest, longest))
+    value, slope, power = (0, 0), (0, 0), 1  # of the polynomial with roots larger by w, at x + iy
+    for c in reversed(numbers):
+        slope = (slope[0] * x - slope[1] * y + value[0], slope[0] * y + slope[1] * x + value[1])
+        value = (value[0] * x - value[1] * y + c * power, value[0] * y + value[1] * x)
+        power *= w
+    return value[0] ** 2 + value[1] ** 2, w**2 * (slope[0] ** 2 + slope[1] ** 2)
 
 
 def disc_set(value: Json) -> str:

@@ -108,6 +108,11 @@ def primes(number: int) -> list[int]:
     return [p for p in range(2, 10**4) if all(p % d for d in range(2, int(p**0.5) + 1))][:number]
 
 
+def strange(degree: int) -> list[Any]:
+    """A polynomial whose coefficients have denominators without common factors."""
+    return [*(f"1/{10**22 + 2 * k + 1}" for k in range(degree)), 1]
+
+
 def disc(k: int, digits: int) -> dict[str, str]:
     """A disc around k, with so many digits."""
     return {"re": f"{k}." + "1" * digits, "im": "0." + "3" * digits, "radius": "1"}
@@ -194,6 +199,8 @@ HEAVY: dict[str, dict[str, Any]] = {
     "a cut of degree 4000 in discrete time": cut([0] * 4000 + [1], "discrete"),
     "a coefficient that is tiny": cut(TINY),
     "a coefficient that is large": cut([NINES] + [0] * 500 + [1], "discrete"),
+    "a polynomial of 330 denominators": cut(strange(330)),
+    "a polynomial of 330 denominators in discrete time": cut(strange(330), "discrete"),
     "a tree of nodes with long numbers": tree(
         [{"agent": "1", "at_most": 10**1000 + k} for k in range(7)], 40, 1
     ),
@@ -230,6 +237,7 @@ EXPECTED = {
     "edges added, 25 times": ("VALID", ""),
     "a tree of nodes with long numbers": ("INVALID", "tree"),
     "a tree of many nodes": ("INVALID", "tree"),
+    "a polynomial of 330 denominators": ("MALFORMED", "form"),
     "100 discs of many digits": ("INVALID", "disc"),
     "10 discs of very many digits": ("INVALID", "disc"),
     "channels without anything": ("INVALID", "arc"),

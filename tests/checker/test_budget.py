@@ -8,10 +8,12 @@ import threading
 from dataclasses import replace
 from fractions import Fraction
 from math import comb
+from pathlib import Path
 from typing import Any
 
 import pytest
 
+from mcexact import MultiChannelSystem, check, fixed_spectrum
 from mcexact.checker import Expectation, Limits, budget, check_document, kinds
 from mcexact.checker.arithmetic import (
     Echelon,
@@ -28,11 +30,13 @@ from mcexact.checker.characteristic_polynomial import characteristic_polynomial
 from mcexact.checker.characteristic_polynomial import (
     characteristic_polynomial_modulo as char_modulo,
 )
+from mcexact.checker.controller import read_controller_file
 from mcexact.checker.location import in_region, is_hurwitz, is_schur
 from mcexact.checker.manifest import verdicts_of
 from mcexact.checker.neighbor_graph import components
 from mcexact.checker.reading import Refused
 from mcexact.checker.system import read_system_file
+from mcexact.errors import InputError
 from tests import effort
 from tests.checker import heavy
 from tests.checker.handmade import FIXED, VALID, changed
@@ -182,6 +186,30 @@ def test_a_system_file_is_read_within_a_budget() -> None:
         read_system_file(text, Limits(work=10**6))
 
 
+@pytest.mark.parametrize("zero", [{"shape": [2048, 2048], "entries": []}, [[0] * 2048]])
+def test_a_controller_file_is_read_within_a_budget(zero: Any, tmp_path: Path) -> None:
+    maps = {"shared_update": {}, "private_update": {"private": zero}, "input": {}}
+    agent = {"name": "1", "shared": 0, "private": 2048, **maps}
+    head = {"format": "mcexact-controller/1", "system": "", "time": "discrete"}
+    text = data_of({**head, "agents": [agent]})
+    if isinstance(zero, list):
+        with pytest.raises(Refused, match=r"Limits\.work"):
+            read_controller_file(text, Limits(work=40 * len(text)))
+        return
+    with pytest.raises(Refused, match=r"Limits\.work"):
+        read_controller_file(text, Limits())
+    (tmp_path / "controller.json").write_bytes(text)
+    plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    with pytest.raises(InputError, match="units of work"):
+        check(fixed_spectrum(plant), controller=tmp_path / "controller.json")
+
+
+def test_an_expected_claim_is_read_within_a_budget() -> None:
+    text = data_of({"kind": "", "claim": {"bound": "1" * 4000}})
+    with pytest.raises(Refused, match=r"Limits\.work"):
+        Expectation().saying(text, Limits(work=1000))
+
+
 def test_memory_that_is_not_there_leaves_a_check_open(monkeypatch: pytest.MonkeyPatch) -> None:
     def exhausted(*arguments: object) -> None:
         raise MemoryError
@@ -241,6 +269,8 @@ LONG = Matrix(
 """A matrix of 12 × 12 numbers of 30 limbs."""
 ELL = 10**270 + 7
 FACTORS = [Fraction(c, 3**50) for c in LONG.rows[0]]
+STRANGE = [*(Fraction(1, 10**22 + 2 * k + 1) for k in range(60)), Fraction(1)]
+"""A polynomial whose sums have a common denominator of 145 limbs."""
 LEAST = {
     "a product": (lambda: LONG @ LONG, 12**3 * 58),
     "a sum": (lambda: LONG + LONG, 12**2 * 450),
@@ -255,6 +285,16 @@ LEAST = {
     "Routh's array": (
         lambda: is_hurwitz([Fraction(comb(60, k) * 3**k) for k in range(61)]),
         60**2 * 360,
+    ),
+    "a polynomial moved to the disc": (lambda: is_schur(STRANGE), 60**2 * 40_000),
+    "a polynomial moved by a rate": (
+        lambda: in_region(STRANGE, "continuous", Fraction(1)),
+        60**2 * 100,
+    ),
+    "a product of strange denominators": (lambda: poly_product(STRANGE, STRANGE), 60**2 * 2000),
+    "a division of strange denominators": (
+        lambda: poly_divide(STRANGE, STRANGE[-20:]),
+        60 * 20 * 100_000,
     ),
 }
 

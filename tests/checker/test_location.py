@@ -104,6 +104,17 @@ def test_roots_on_the_axis_are_seen_behind_others() -> None:
             assert not is_hurwitz(poly_product(left, on_axis))
 
 
+@pytest.mark.parametrize("time", ["continuous", "discrete"])
+def test_roots_are_placed_with_integers_alone(time: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refused(*numbers: object) -> None:
+        raise AssertionError("a sum of fractions may have a much longer denominator than each")
+
+    strange = [*(Fraction(1, 10**22 + 2 * k + 1) for k in range(9)), Fraction(1)]
+    for name in ("add", "radd", "sub", "rsub", "mul", "rmul", "truediv", "rtruediv", "pow"):
+        monkeypatch.setattr(Fraction, f"__{name}__", refused)
+    assert in_region(strange, time, Fraction(1, 2)) is (time == "discrete")
+
+
 def test_a_division_with_a_remainder_is_an_error_and_no_verdict(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
