@@ -226,7 +226,7 @@ def test_standard_input_is_read_once(hostile: Path, start: Sequence[str]) -> Non
 def test_a_closed_standard_input_is_unreadable(hostile: Path, start: Sequence[str]) -> None:
     shell = f"{sys.executable} {' '.join(start)} - <&-; echo $?"
     done = subprocess.run(["sh", "-c", shell], cwd=hostile, capture_output=True, text=True)
-    assert done.stdout == "MALFORMED unreadable -: cannot be read: standard input is closed\n3\n"
+    assert done.stdout == "MALFORMED unreadable file: cannot be read: standard input is closed\n3\n"
 
 
 @POSIX
@@ -238,9 +238,11 @@ def test_a_fifo_that_nobody_writes_to_obeys_the_time_limit(
         os.mkfifo(fifo)
     done = run(hostile, *start, "valid.json", "fifo", "fixed.json", "--timeout", "2")
     lines = done.stdout.splitlines()
-    late = "INCOMPLETE time checker: not decided after 2 s (--timeout allows more)"
+    files = ("valid.json", "fifo", "fixed.json")
+    why = "time checker: not decided after 2 s (--timeout allows more)"
+    late = [f"INCOMPLETE '{name}' {why}" for name in files]
     # On a busy machine there may be no time for the first file, either.
-    assert lines[1:] == [late, late] and (lines[0] == late or lines[0].startswith("VALID"))
+    assert lines[1:] == late[1:] and (lines[0] == late[0] or lines[0].startswith("VALID"))
     assert (done.returncode, done.stderr) == (5, "")
     asked = run(hostile, *start, "valid.json", "--system", "fifo", "--timeout", "0.3")
     assert (asked.returncode, asked.stdout) == (5, "")
@@ -253,7 +255,7 @@ def test_memory_that_runs_out_is_incomplete(hostile: Path, start: Sequence[str])
     (hostile / "large.json").write_text(json.dumps(large))
     done = run(hostile, *start, "large.json", "valid.json", "--max-memory", "30")
     first, second = done.stdout.splitlines()
-    assert first.startswith("INCOMPLETE memory ") and second.startswith("VALID ")
+    assert first.startswith("INCOMPLETE 'large.json' memory ") and second.startswith("VALID ")
     assert (done.returncode, done.stderr) == (5, "")
 
 
@@ -298,7 +300,10 @@ def test_what_is_no_readable_file_is_named_in_one_line(hostile: Path, start: Seq
     done = run(hostile, *start, ".", "missing.json", "a\nb\x1b[31m")
     assert done.returncode == 3
     lines = done.stdout.splitlines()
-    assert [line.split()[:2] for line in lines] == [["MALFORMED", "unreadable"]] * 3
+    names = ("'.'", "'missing.json'", r"'a\nb\x1b[31m'")
+    assert [line.split()[:3] for line in lines] == [
+        ["MALFORMED", name, "unreadable"] for name in names
+    ]
     assert done.stdout.replace("\n", "").isprintable() and done.stdout.isascii()
     asked = run(hostile, *start, "valid.json", "--system", "a\nb\x1b[31m")
     assert (asked.returncode, len(asked.stderr.splitlines())) == (3, 1)
