@@ -127,10 +127,9 @@ def check_document(
 
     def check() -> Verdict:
         nonlocal known, controller
-        text = data if isinstance(data, bytes) else json.dumps(data, skipkeys=True, default=repr)
+        text = data if isinstance(data, bytes) else _text(data)
         with limited(budget, len(text)):
-            document = parse(data, allowed) if isinstance(data, bytes) else data
-            kind, given, steps, claim, witness = _parts(document)
+            kind, given, steps, claim, witness = _parts(parse(text, allowed))
             plant = read_plant(given)
             known = digest(plant)
             wanted.require_plant(known)
@@ -179,6 +178,14 @@ def answer(check: Callable[[], Verdict]) -> Verdict:
         return refusal("ERROR", "internal", "checker", ascii(message))
     finally:
         sys.set_int_max_str_digits(digits)
+
+
+def _text(document: Json) -> bytes:
+    """The text of a document in memory, which is then read as strictly as a file."""
+    try:
+        return json.dumps(dict(document)).encode("ascii")
+    except (TypeError, ValueError, RecursionError) as error:
+        malformed("file", f"expected a document of JSON: {ascii(str(error))[1:101]}")
 
 
 def _parts(document: Json) -> list[Json]:

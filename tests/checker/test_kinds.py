@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import json
 import sys
+from types import MappingProxyType
 from typing import Any
 
 import pytest
 
-from mcexact.checker import Verdict, check_document
+from mcexact.checker import Limits, Verdict, check_document
 from mcexact.checker.arithmetic import NotAUnit
 from mcexact.checker.kinds import KINDS, answer
 from mcexact.checker.reading import Refused
@@ -86,6 +87,40 @@ def test_the_interpreter_s_limit_on_digits_is_as_before() -> None:
 def test_a_document_is_checked_like_its_text() -> None:
     for document in (FIXED, FREE, changed(FREE, ("claim.stabilizable", False))):
         assert check_document(document) == check_document(json.dumps(document).encode())
+        assert check_document(MappingProxyType(document)) == check_document(document)
+
+
+def nested(levels: int) -> Any:
+    """Lists in lists."""
+    value: list[Any] = []
+    for _ in range(levels):
+        value = [value]
+    return value
+
+
+CIRCULAR: list[Any] = []
+CIRCULAR.append(CIRCULAR)
+
+
+@pytest.mark.parametrize(
+    ("value", "limits", "verdict"),
+    [
+        (CIRCULAR, Limits(), "MALFORMED"),
+        (nested(20), Limits(), "MALFORMED"),
+        (nested(10**5), Limits(), "MALFORMED"),
+        (object(), Limits(), "MALFORMED"),
+        (float("nan"), Limits(), "MALFORMED"),
+        (b"1", Limits(), "MALFORMED"),
+        pytest.param(10**4301, Limits(), "INCOMPLETE", id="digits"),
+        pytest.param(10**5000, Limits(digits=6000), "MALFORMED", id="more digits"),
+        (0, Limits(bytes=100), "INCOMPLETE"),
+    ],
+)
+def test_a_document_in_memory_has_the_limits_of_a_text(
+    value: Any, limits: Limits, verdict: str
+) -> None:
+    found = check_document({**FREE, "format": value}, limits=limits)
+    assert found.verdict == verdict, found.line()
 
 
 @pytest.mark.parametrize(

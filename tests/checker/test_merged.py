@@ -6,9 +6,10 @@ from typing import Any
 
 import pytest
 
+from mcexact.checker.arithmetic import Matrix
 from mcexact.checker.reading import Refused
 from mcexact.checker.subject import read_subject
-from mcexact.checker.system import read_plant
+from mcexact.checker.system import System, read_plant
 from tests.checker.handmade import (
     FIXED,
     FREE,
@@ -143,3 +144,9 @@ def test_only_partitions_in_order_are_taken(reason: str, parts: Any, verdict: st
     with pytest.raises(Refused) as found:
         read_subject([taken(*parts)], read_plant(PAPER))
     assert found.value.verdict == verdict
+
+
+def test_the_channels_of_a_loop_are_not_merged_since_it_has_none() -> None:
+    loop = System("continuous", [], Matrix([[-1]], 1), [], [])
+    with pytest.raises(Refused, match="and a part"):
+        read_subject([taken()], loop)

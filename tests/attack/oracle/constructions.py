@@ -159,7 +159,7 @@ def error(system: System, given: Mapping[str, Any]) -> System:
 def merged(system: System, given: Mapping[str, Any]) -> System:
     """The channels of each part taken as one."""
     parts = [positions(part, system.names) for part in listed(given["parts"])]
-    demand(all(parts), "expected parts that are not empty")
+    demand(bool(parts) and all(parts), "expected parts, none of them empty")
     demand(sorted(i for part in parts for i in part) == list(range(system.m)), "expected parts")
     demand(parts == sorted(parts), "expected parts by their first members")
     names = tuple("+".join(system.names[i] for i in part) for part in parts)
