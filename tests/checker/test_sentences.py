@@ -35,6 +35,7 @@ from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from tests.answer.asking import asked as asking
 from tests.answer.test_sentences import drawn, question
+from tests.attack.forgeries.joined import factors_joined
 from tests.checker.handmade import Document, changed
 from tests.checker.manifests import manifest, one, said, sentence, write
 from tests.checker.test_complementary_subsystem import TWICE
@@ -177,6 +178,42 @@ def test_an_exponent_of_a_product_does_not_limit_how_often_one_root_stays(tmp_pa
         ]
         assert f": gains move {words} of the 4 eigenvalues [" in found[0].statement
         assert (found[1].verdict == "IMPLIED") == (proof is spectrum), found[1].line()
+
+
+def chains(rng: random.Random) -> MultiChannelSystem:
+    """Chains of two states at 0 and at 1, of each of which gains move one state or none."""
+    n = 4
+    A, B, C = [[0] * n for _ in range(n)], [[0] for _ in range(n)], [0] * n
+    for k, root in ((0, 0), (2, 1)):
+        A[k][k], A[k][k + 1], A[k + 1][k + 1] = root, 1, root
+        B[k][0], C[k] = rng.randrange(2), 1
+    for _ in range(6):  # the same system in other coordinates
+        i, j = rng.sample(range(n), 2)
+        A[i] = [a + b for a, b in zip(A[i], A[j], strict=True)]
+        for row in A:
+            row[j] -= row[i]
+        B[i][0] += B[j][0]
+        C[j] -= C[i]
+    return MultiChannelSystem(A, [B], [[C]])
+
+
+def test_however_factors_are_joined_the_bounds_on_what_gains_move_hold(tmp_path: Path) -> None:
+    uneven = 0
+    for seed in range(60):
+        rng = random.Random(seed)
+        plant = chains(rng)
+        spectrum = document(fixed_spectrum(plant))
+        factors = spectrum["claim"]["factors"]
+        stays = [factor["multiplicity_at_most"] for factor in factors]
+        joined = factors_joined(rng, spectrum)
+        if joined is not None:
+            uneven += min(stays) < max(stays)
+            evidence = {"fixed": joined, "split": document(assignability(plant))}
+            what = sentence("spectrum-moved-between", *evidence, evidence=evidence)
+            words = one(tmp_path, what, evidence).statement.rpartition("gains move from ")[2]
+            least, most = (int(number) for number in words.partition(" of ")[0].split(" to "))
+            assert least <= plant.n - sum(stays) <= most
+    assert uneven > 5
 
 
 def test_a_text_counts_as_the_checker_does_where_a_factor_is_longer() -> None:

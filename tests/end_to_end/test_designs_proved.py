@@ -33,8 +33,11 @@ def assert_proved_about(plant: str, certificates: Path) -> None:
     assert files
     assert (checked.status, checked.stdout.count("VALID ")) == (0, len(files)), checked.stdout
     implied = run("check", "--manifest", str(certificates), "--system", plant)
-    lines = implied.stdout.splitlines()
+    *lines, counted = implied.stdout.splitlines()
     assert implied.status == 0 and all(line.startswith("IMPLIED ") for line in lines), lines
+    assert counted == (
+        f"COUNTED {len(lines)} sentences implied, 0 not; {len(files)} certificates valid, 0 not"
+    )
 
 
 @pytest.mark.parametrize("arithmetic", ["exact", "float"])

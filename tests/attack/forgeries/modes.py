@@ -11,6 +11,7 @@ from ..oracle import algebra
 from ..oracle.constructions import subject_of
 from ..oracle.modes import transfer_edges
 from ..oracle.reading import polynomial
+from .joined import factors_joined
 from .writing import PRIME, coefficients, drawn, drawn_gains, unit, zeros
 
 Forged = Document | None
@@ -268,5 +269,8 @@ def vanishing_kernel(rng: random.Random, document: Document) -> Forged:
 
 COMPLETENESS = (no_subset_at_all, unconnected, unconnected, fixed_by_nothing)
 DEFICIENCY = (other_deficiency,)
-SPECTRUM = (factor_dropped, factor_twice, factor_added, factor_details, factor_details)
+SPECTRUM = (
+    *(factor_dropped, factor_twice, factor_added, factor_details, factor_details),
+    factors_joined,
+)
 PENCIL = (pencil_of_another_set, vanishing_kernel)
