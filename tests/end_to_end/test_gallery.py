@@ -5,6 +5,7 @@ import re
 import shutil
 import sys
 from fractions import Fraction
+from operator import itemgetter
 from pathlib import Path
 from typing import Any
 
@@ -120,11 +121,13 @@ def checked_theorems(
 
 
 FACTOR = re.compile(
-    r"(?P<polynomial>[-+*/^x0-9 ]+) \(exponent (?P<in_A>\d+) in det\(xI - A\), "
-    r"at most (?P<at_most>\d+) in the gcd of all det\(xI - A_F\); "
-    r"least pencil rank (?P<rank>\d+), reached by the channels \{(?P<channels>[^}]*)\}; "
-    r"(?P<stable>stable|not stable); roots (?P<roots>[^)]*)\)"
+    r"(?P<polynomial>[-+*/^x0-9 ]+) is (?P<unstable>not )?(?:Hurwitz|Schur), has the exponent "
+    r"(?P<in_A>\d+) in det\(xI - A\) and at most (?P<at_most>\d+) in the greatest common divisor "
+    r"of det\(xI - A_F\) over all constant gains F, and one root in each of the discs "
+    r"\{(?P<roots>[^}]*)\}, where the least rank of \[xI - A, B; C, 0\] [^;]*, is (?P<rank>\d+), "
+    r"reached by \{(?P<channels>[^}]*)\}"
 )
+EDGE = re.compile(r'"([^"]*)" -> "([^"]*)"')
 
 
 def disc(text: str) -> tuple[Fraction, Fraction, Fraction]:
@@ -144,39 +147,44 @@ def theorems_state_the_answer(answer: dict[str, Any], theorems: dict[str, str]) 
             "multiplicity_in_A": int(found["in_A"]),
             "multiplicity_at_most": int(found["at_most"]),
             "rank": int(found["rank"]),
-            "channels": found["channels"].split(", ") if found["channels"] else [],
-            "stable": found["stable"] == "stable",
-            "roots": [disc(each) for each in found["roots"].split(", ")],
+            "channels": re.findall(r'"([^"]*)"', found["channels"]),
+            "stable": not found["unstable"],
+            "roots": sorted(disc(each) for each in found["roots"].split(", ")),
         }
         for found in FACTOR.finditer(theorem.partition(": ")[2])
     ]
-    assert read == [
+    known = [
         {
             **factor,
             "polynomial": coefficients(factor["polynomial"]),
-            "roots": [
+            "roots": sorted(
                 tuple(Fraction(root[part]) for part in ("re", "im", "radius"))
                 for root in factor["roots"]
-            ],
+            ),
         }
         for factor in spectrum["factors"]
     ]
-    assert ("has no fixed modes" in theorem) == spectrum["empty"]
-    assert (" not stabilizable" in theorem) == (not spectrum["stabilizable"])
+    by_polynomial = itemgetter("polynomial")
+    assert sorted(read, key=by_polynomial) == sorted(known, key=by_polynomial)
+    assert (": no mode is fixed under" in theorem) == spectrum["empty"]
+    assert ("it is not stabilizable" in theorem) == (not spectrum["stabilizable"])
     if spectrum["best_rate"] is not None:
         rate = spectrum["best_rate"]
-        assert f"between {rate['lower']} and {rate['upper']}" in theorem
+        assert f" is from {Fraction(rate['lower'])} to {Fraction(rate['upper'])}" in theorem
     for question in REACH:
         holds = answer[question]["controllable"]
-        assert (": not controllable" in theorems[question]) == (not holds)
-        assert ("of the dual of" in theorems[question]) == (question == "joint_observability")
+        assert ("it is not controllable" in theorems[question]) == (not holds)
+        assert ("For the dual of: " in theorems[question]) == (question == "joint_observability")
     graph = answer["transfer_graph"]
-    arcs = theorems["transfer_graph"].partition("exactly: ")[2].partition(";")[0]
-    stated = [arc.split(" -> ") for arc in arcs.split(", ")] if " -> " in arcs else []
-    assert stated == graph["arcs"]
+    arcs = theorems["transfer_graph"].partition("has exactly the edges ")[2].partition("}")[0]
+    assert [list(arc) for arc in EDGE.findall(arcs)] == graph["arcs"]
     for component in graph["components"]:
-        assert "{" + ", ".join(component) + "}" in theorems["transfer_graph"]
-    assert ("not strongly connected" in theorems["transfer_graph"]) != graph["strongly_connected"]
+        assert (
+            "{" + ", ".join(f'"{name}"' for name in component) + "}" in theorems["transfer_graph"]
+        )
+    assert ("is not strongly connected" in theorems["transfer_graph"]) != graph[
+        "strongly_connected"
+    ]
     assert (" is not complete" in theorems["completeness"]) != answer["completeness"]["complete"]
 
 
@@ -202,7 +210,7 @@ def test_every_answer_about_agents_with_neighbors_has_a_valid_certificate(
     for share, total in (("outputs_states", 1), ("states", 2)):
         assert sum(answer[f"minimal_shared_dimensions_{share}"]["dimensions"]) == total
     theorems = checked_theorems(answer, ring, copied_checker, folder)
-    about = "outputs shared" if information == "outputs" else "the plant ("
+    about = " with the outputs of neighbors measured" if information == "outputs" else "the plant "
     assert about in theorems["fixed_spectrum"]
     assert "strongly connected" in theorems["neighbor_graph"]
 
