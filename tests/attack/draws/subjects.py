@@ -110,6 +110,9 @@ def _drawn_map(
 
 def _drawn_table(rng: random.Random, nrows: int, ncols: int, values: Any) -> Any:
     rows = entries(rng, nrows, ncols, 0.7, values)
+    if rng.random() < 0.1:
+        spelled = {1: "1.0", -1: "-2/2", 2: "2e0", "1/2": "0.5"}
+        rows = [[spelled.get(v, v) for v in row] for row in rows]
     if rng.random() < 0.7:
         return rows
     cells = [[i, j, v] for i, row in enumerate(rows) for j, v in enumerate(row) if v != 0]

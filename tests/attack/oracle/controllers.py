@@ -8,7 +8,7 @@ from typing import Any
 
 from flint import fmpq, fmpq_mat
 
-from .reading import demand, integer, listed, rational, record, text
+from .reading import demand, integer, listed, record, text, typed
 from .systems import System
 
 MAPS = ("shared_update", "private_update", "input")
@@ -81,11 +81,11 @@ def sparse(value: Any, nrows: int, ncols: int) -> fmpq_mat:
             demand(0 <= integer(i) < nrows and 0 <= integer(j) < ncols, "expected a position")
             demand((i, j) not in seen, "expected every entry once")
             seen.add((i, j))
-            result[i, j] = rational(entry)
+            result[i, j] = typed(entry)
         return result
     for i, row in enumerate(listed(value, nrows)):
         for j, entry in enumerate(listed(row, ncols)):
-            result[i, j] = rational(entry)
+            result[i, j] = typed(entry)
     return result
 
 

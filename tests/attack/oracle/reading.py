@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping, Sequence
+from fractions import Fraction
 from typing import Any
 
 from flint import fmpq, fmpq_mat, fmpq_poly
 
 RATIONAL = re.compile(r"-?(0|[1-9][0-9]*)/[1-9][0-9]*", re.ASCII)
+TYPED = re.compile(r"-?[0-9]+/0*[1-9][0-9]*|-?[0-9]+(\.[0-9]+)?([eE][+-]?[0-9]+)?", re.ASCII)
 DECIMAL = re.compile(r"-?[0-9]+(\.[0-9]+)?", re.ASCII)
 
 
@@ -65,6 +67,15 @@ def rational(value: Any) -> fmpq:
         demand(q >= 2 and math.gcd(p, q) == 1, "expected lowest terms")
         return fmpq(p, q)
     return fmpq(integer(value))
+
+
+def typed(value: Any) -> fmpq:
+    """A number of a system or controller file: an integer, or a string as it may be typed."""
+    if not isinstance(value, str):
+        return fmpq(integer(value))
+    demand(TYPED.fullmatch(value) is not None, "expected a number")
+    found = Fraction(value)
+    return fmpq(found.numerator, found.denominator)
 
 
 def decimal(value: Any) -> fmpq:
