@@ -54,7 +54,7 @@ def test_without_arcs_the_plant_itself_may_connect_the_agents() -> None:
     assert not refused.exists
     verdict = check_document(encode(refused.found).encode())
     assert verdict.verdict == "VALID"
-    assert verdict.statement.startswith("no constant gains make")
+    assert ": no constant gains F, the same for all q, make " in verdict.statement
 
 
 def test_a_plant_that_is_not_jointly_observable_is_refused_with_a_mode() -> None:
