@@ -70,7 +70,8 @@ ATTACKS: list[tuple[str, bytes, str]] = [
     ("a delay in continuous time", loop("continuous", False, 1, 1, DECAY), "INVALID"),
     ("held in continuous time", loop("continuous", False, 0, 1, DECAY, hold={"1": 1}), "INVALID"),
     ("no delay in continuous time", loop("continuous", True, 0, 1, DECAY), "VALID"),
-    ("millions of empty messages", loop("discrete", False, 4 * 10**6, 0, {}), "INCOMPLETE"),
+    # empty messages are not kept, so that there are no registers to build
+    ("millions of empty messages", loop("discrete", False, 4 * 10**6, 0, {}), "VALID"),
     ("a delay beyond any memory", loop("discrete", False, 10**30, 1, {}), "INCOMPLETE"),
     ("outputs doubled forty times", connected(complete(2), *[OUTPUTS] * 40), "INCOMPLETE"),
     ("extensions by nothing, forty times", connected(complete(2), *[NOTHING] * 40), "INCOMPLETE"),
