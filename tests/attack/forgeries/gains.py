@@ -38,6 +38,19 @@ def no_gains(rng: random.Random, document: Document) -> Forged:
     return document
 
 
+def nothing_cut_off(rng: random.Random, document: Document) -> Forged:
+    """Gains exist, and are denied by a cut around one channel through which everything leaks."""
+    system, claim = subject_of(document), document["claim"]
+    if not claim["exists"] or system.m < 2 or not claim["channels"]:
+        return None
+    q, side = rng.choice(claim["channels"]), claim["property"]
+    side = rng.choice(("controllable", "observable")) if side == "both" else side
+    claim |= {"exists": False, "cyclic": False, "indices": None}
+    zero = cut_off(system.n, [q], whole=True)
+    document["witness"] = {"channel": q, "side": side, "zero": zero}
+    return document
+
+
 def asked_elsewhere(rng: random.Random, document: Document) -> Forged:
     """What is out of reach of one channel, said of others."""
     system, claim = subject_of(document), document["claim"]
@@ -164,5 +177,5 @@ def discs_elsewhere(rng: random.Random, document: Document) -> Forged:
     return document
 
 
-SINGLE = (no_gains, no_gains, asked_elsewhere, larger_index, not_cyclic, without_gains)
+SINGLE = (no_gains, nothing_cut_off, asked_elsewhere, larger_index, not_cyclic, without_gains)
 EXCEPTIONAL = (extra_root, root_left_out, hidden_root, more_blocks, discs_elsewhere)

@@ -11,6 +11,7 @@ from flint import fmpq, fmpq_mat
 
 from ..draws.observers import drawn_observer, late_observer
 from ..draws.plants import Document, number
+from ..oracle.algebra import identity
 from ..oracle.constructions import subject_of
 from .writing import PRIME, unit, written, zeros
 
@@ -122,14 +123,13 @@ def skew_form(rng: random.Random, document: Document) -> Forged:
     K = [[0] * n for _ in range(n)]
     for i in range(n):
         for j in range(i):
-            K[i][j] = rng.randint(-10, 10)
+            K[i][j] = rng.randint(1, 20)
             K[j][i] = -K[i][j]
-    skew = fmpq_mat(n, n, [K[i][j] - int(i == j) for i in range(n) for j in range(n)])
-    P = (
-        skew * M.inv()
-        if continuous
-        else fmpq_mat(n, n, [K[i][j] + int(i == j) for i in range(n) for j in range(n)])
-    )
+    P = identity(n) + fmpq_mat(n, n, [v for row in K for v in row])
+    if continuous:
+        # P M is −I and a skew part, which is lost in P M + M'P'
+        forms = [(sign * (P - identity(n)) - identity(n)) * M.inv() for sign in (1, -1)]
+        P = max(forms, key=lambda form: min(form[i, i] for i in range(n)))
     block = {"size": n, "P": written(P), "R": unit(n), "R2": unit(n)}
     document["witness"] = {"method": "lyapunov", "transformation": None, "blocks": [block]}
     return document

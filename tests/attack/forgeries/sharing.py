@@ -199,6 +199,17 @@ def nothing_suffices(rng: random.Random, document: Document) -> Forged:
     return document
 
 
+def beyond_bounds(rng: random.Random, document: Document) -> Forged:
+    """Dimensions above an upper bound, with everything else as it was."""
+    claim = document["claim"]
+    large = [i for i, d in enumerate(claim["dimensions"] or []) if d]
+    if not large:
+        return None
+    i = rng.choice(large)
+    claim["upper"][i] = claim["dimensions"][i] - 1
+    return document
+
+
 def unbounded_leaf(rng: random.Random, document: Document) -> Forged:
     """Nothing suffices, because upper bounds that are none are too small for a cut."""
     system, claim, witness = subject_of(document), document["claim"], document["witness"]
@@ -353,7 +364,7 @@ def other_bound(rng: random.Random, document: Document) -> Forged:
 
 DIMENSIONS = (
     other_dimensions, other_dimensions, other_dimensions, nothing_suffices, free_cost, other_bound,
-    slack_cut, unbounded_leaf,
+    slack_cut, unbounded_leaf, beyond_bounds,
 )  # fmt: skip
 COMMON = (other_common_dimension, another_cut)
 LINKS = (other_links, other_links, nothing_suffices, free_cost, other_bound)
