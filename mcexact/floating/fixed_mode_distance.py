@@ -87,6 +87,32 @@ def fixed_mode_distance(
     return _perturbation(A_, B_, C_, T, value, changed)
 
 
+def distance_at(
+    A: Array, B: Sequence[Array], C: Sequence[Array], value: complex
+) -> tuple[float, tuple[int, ...]]:
+    """Return an upper limit on the least change that gives the system a fixed mode at a number.
+
+    Returns
+    -------
+    distance : float
+        As in `FixedModeDistance`.
+    channels : tuple of int
+        T, as there.
+
+    Examples
+    --------
+    >>> B, C = [np.array([[1.0], [1e-3]])], [np.array([[1.0, 1.0]])]
+    >>> distance_at(np.diag([1.0, 2.0]), B, C, 2.0)[0] <= 1e-3
+    True
+    """
+    T, size = _best_channels(A, B, C, value)
+    transposed = ([C_i.T for C_i in C], [B_i.T for B_i in B])
+    s, dual = _best_channels(A.T, *transposed, value)
+    if dual < size:
+        return dual, tuple(i for i in range(len(B)) if i not in s)
+    return size, tuple(sorted(T))
+
+
 def _distinct(values: NDArray[np.complex128]) -> list[complex]:
     """Return one number of each conjugate pair."""
     return [complex(value) for value in values if value.imag >= 0]

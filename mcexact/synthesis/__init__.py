@@ -11,6 +11,7 @@ proves this.
 `methods`       how gains and single controllers are found
 `observer`      the distributed observer of Theorem 1
 `network`       decentralized control, and control of extended systems
+`optimum`       controllers of low order for the same systems, by local search
 `setpoint`      control to set-points, by the observer for the plant with integrators
 `certify`       the certification of a controller from anywhere
 ==============  ===========================================================================

@@ -160,7 +160,7 @@ def test_nothing_is_validated_by_a_statement_that_an_option_deletes() -> None:
 
 ROOMS = {
     "analysis": {"engine", "structure", "fixed_modes", "sharing", "stability"},
-    "synthesis": {"methods", "observer", "network"},
+    "synthesis": {"methods", "observer", "network", "optimum"},
 }
 """The rooms of a stage; what lies beside them puts their parts together."""
 FOR_ALL_ROOMS = {"analysis": set[str](), "synthesis": {"request", "gate", "design"}}

@@ -89,7 +89,7 @@ def network_proposals(network: DerivedNetwork, request: Request) -> Iterator[Pro
     prescribed = _prescribed(request.spectrum)
     request.tell("fixed modes")
     fixed = fixed_spectrum(network.system)
-    _require_fast(network, fixed, request.region)
+    require_fast(network, fixed, request.region)
     components, choices = _choices(network, request.agent)
     task = NetworkTask(network, components, choices, fixed, prescribed, request)
     request.tell("decentralized gains")
@@ -121,8 +121,21 @@ def _prescribed(spectrum: Any) -> Any:
     return spectrum
 
 
-def _require_fast(network: DerivedNetwork, fixed: FixedSpectrum, region: StabilityRegion) -> None:
-    """Raise an error for a network with a fixed mode that is too slow."""
+def require_fast(network: DerivedNetwork, fixed: FixedSpectrum, region: StabilityRegion) -> None:
+    """Raise an error for a network with a fixed mode that is too slow.
+
+    Parameters
+    ----------
+    network : DerivedNetwork
+    fixed : FixedSpectrum
+        Of the system of the network.
+    region : StabilityRegion
+
+    Raises
+    ------
+    Impossible
+        With the fixed spectrum as its certificate.
+    """
     if fixed.outside(region):
         told = say.FIXED if network.graph is None else say.FIXED_SHARED
         raise refusal("fixed", fixed, told=told, region=region)

@@ -1,0 +1,26 @@
+"""Controllers of low order by local search, in floating point; the gate certifies them.
+
+All controllers of a structure are the free entries of one gain matrix K, and the loop is
+M(K) = A + B K C.  A ladder of starts leads from static gains to the controller of the theorem.
+
+=============  =========================================================================
+`weights`      what the cost weighs
+`problem`      the structure as a matrix K with a mask
+`programs`     gain matrices as agent programs, balanced and rounded
+`spectrum`     one Schur form of a loop, and the Gramians of its shifts
+`cost`         the linear-quadratic cost with its gradient
+`sensitivity`  the response at the inputs of the plant, and the penalty on it
+`objective`    cost, barrier of the region, margin and size of the gains
+`descent`      the BFGS method, which accepts infinite values
+`effort`       the work of a search, counted
+`regulator`    optimal controllers of one channel
+`starts`       controllers that each agent designs for itself, and drawn ones
+`alone`        controllers of low order that each agent finds for its own part
+`polish`       from a start into the region and to a local optimum
+`ladder`       all starts in their order, and the best result
+`figures`      order, gains, margin, peak and cost of a loop; the central optimum
+`structures`   the networks that a search tries
+`proposals`    the result with as few digits as the gate certifies
+`diagnosis`    the sensible rate, and the modes that are nearly fixed
+=============  =========================================================================
+"""

@@ -1,0 +1,260 @@
+"""Figures of a loop that say whether a person would install its controller."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import expm
+
+from mcexact.derived.merged import merged
+from mcexact.exact.floats import matrix_to_float, to_float
+from mcexact.exact.location import StabilityRegion, is_discrete
+from mcexact.model.loop import ClosedLoop
+from mcexact.model.system import MultiChannelSystem, as_plant
+from mcexact.synthesis.network.networks import decentralized_network
+from mcexact.synthesis.optimum.cost import quadratic_costs
+from mcexact.synthesis.optimum.problem import FeedbackProblem, Sizes
+from mcexact.synthesis.optimum.programs import balanced
+from mcexact.synthesis.optimum.regulator import Model, gaussian_controller
+from mcexact.synthesis.optimum.sensitivity import Sensitivity, frequencies
+from mcexact.synthesis.optimum.spectrum import SchurForm
+from mcexact.synthesis.optimum.weights import Floats, Weights
+
+_FREQUENCIES = 200
+_STEPS = 400
+_BEYOND_SENSE = 1e30
+
+
+@dataclass(frozen=True)
+class Figures:
+    """Figures of a loop, computed in floating point and not proved.
+
+    Attributes
+    ----------
+    order : int
+        The dimension of all agents' states.
+    largest_gain : float
+        The largest absolute entry of the programs.
+    bound : float
+        The largest real part, or modulus, of an eigenvalue.
+    margin : float
+        1/max σ_max(T), T the complementary sensitivity at all inputs of the plant together; 0 if
+        the loop is not stable.  A relative error of every input below this keeps the loop stable.
+    peak : float
+        The largest ‖x(t)‖ from a unit state of the plant, the agents' states being 0.
+    cost : float
+        E[x'Qx + u'Ru], with tr(R K_y V K_y') also in continuous time.
+    """
+
+    order: int
+    largest_gain: float
+    bound: float
+    margin: float
+    peak: float
+    cost: float
+
+
+def figures_of(problem: FeedbackProblem, K: Floats, *, peak: bool = True) -> Figures:
+    """Compute the figures of a loop; without ``peak`` that one is not computed and is NaN."""
+    M = problem.A + problem.B @ K @ problem.C
+    seen = Sensitivity(problem, K)
+    form = SchurForm.of(M, discrete=problem.discrete)
+    bound, gain = np.inf if form is None else form.bound, float(np.max(np.abs(K), initial=0.0))
+    if form is None or not bound < (1.0 if problem.discrete else 0.0):
+        return Figures(problem.order, gain, bound, 0.0, np.inf, np.inf)
+    points = frequencies(
+        form.eigenvalues, discrete=problem.discrete, count=_FREQUENCIES, widen=10.0
+    )
+    [(cost, _)] = quadratic_costs(problem.bare, K, (1.0 if problem.discrete else 0.0,))
+    largest = seen.peak(points)
+    return Figures(
+        problem.order,
+        gain,
+        bound,
+        1 / largest if largest else np.inf,
+        peak_of_state(M, problem.n, form) if peak else np.nan,
+        cost,
+    )
+
+
+def peak_of_state(M: Floats, n: int, form: SchurForm) -> float:
+    """Compute max ‖E‖ over time, E the block of n plant states of exp(Mt) or M^t.
+
+    Notes
+    -----
+    In continuous time at times that grow geometrically, eight to an octave, from a fraction of the
+    fastest time constant to eight times the slowest; a lower estimate.
+    """
+    return max(1.0, max((_norm(E[:n, :n]) for E in _powers(M, form)), default=1.0))
+
+
+def step_peak(loop: ClosedLoop) -> float:
+    """Compute the largest output of a loop while one set-point steps from 0 to 1.
+
+    Parameters
+    ----------
+    loop : ClosedLoop
+        Stable, with integrators.
+
+    Examples
+    --------
+    >>> from mcexact.model.loop import closed_loop
+    >>> from mcexact.synthesis.setpoint import design_setpoint
+    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]], neighbors={"1": []})
+    >>> controller = design_setpoint(plant, rate=1).controller
+    >>> 1 <= step_peak(closed_loop(plant, controller)) < 10
+    True
+    """
+    M, R = matrix_to_float(loop.matrix), matrix_to_float(loop.reference)
+    C = matrix_to_float(loop.given.output_matrix())
+    form = SchurForm.of(M, discrete=is_discrete(loop.given.time))
+    if form is None:
+        return np.inf
+    at_rest = np.eye(len(M)) if form.discrete else np.zeros(M.shape)
+    moved = np.linalg.solve(at_rest - M, R)
+    reached = C @ moved[: loop.given.n]
+    peak = float(np.max(np.abs(reached), initial=0.0))
+    for E in _powers(M, form):
+        seen = reached - C @ (E @ moved)[: loop.given.n]
+        peak = max(peak, float(np.max(np.abs(seen), initial=0.0)))
+        if not peak < _BEYOND_SENSE:
+            return np.inf
+    return peak
+
+
+def _powers(M: Floats, form: SchurForm) -> Iterator[Floats]:
+    """Yield exp(Mt) or M^t at the times that `peak_of_state` tells; ends where numbers overflow."""
+    if form.discrete:
+        power = np.eye(len(M))
+        for _ in range(_STEPS):
+            power = M @ power
+            yield power
+        return
+    start = 0.05 / float(np.max(np.abs(form.eigenvalues), initial=1e-9))
+    step, end, elapsed = expm(M * start), 8 / max(-form.bound, 1e-300) / start, 1.0
+    while elapsed < end and np.all(np.abs(step) < _BEYOND_SENSE):
+        power = step
+        for _ in range(8):
+            yield power
+            power = power @ step
+        step, elapsed = step @ step, 2 * elapsed
+
+
+def _norm(M: Floats) -> float:
+    """The largest singular value; infinite where the numbers exceed any sense."""
+    sensible = bool(np.all(np.abs(M) < _BEYOND_SENSE))
+    return float(np.linalg.norm(M, 2)) if sensible else np.inf
+
+
+def shift_of(region: StabilityRegion, factor: float = 1.0) -> float:
+    """Return the shift of a region tightened by a factor: factor·R, or R^factor.
+
+    A radius of 1 becomes 0.98 where the factor exceeds 1.
+
+    Examples
+    --------
+    >>> shift_of(StabilityRegion("continuous", 2), 1.5), shift_of(StabilityRegion("discrete"), 1.02)
+    (3.0, 0.98)
+    """
+    edge = to_float(region.edge)
+    if not region.discrete:
+        return factor * edge
+    if edge == 1.0 and factor > 1:
+        return float(0.98 ** (50 * (factor - 1)))
+    return float(edge**factor)
+
+
+@dataclass(frozen=True, eq=False)
+class CentralOptimum:
+    """The optimal controller that all agents together would have.
+
+    Attributes
+    ----------
+    figures : Figures
+    sizes : Sizes
+        The standard deviations of the signals of the plant, and the pace of its loop.
+    """
+
+    figures: Figures
+    sizes: Sizes
+
+
+def central_optimum(
+    system: MultiChannelSystem, weights: Weights, region: StabilityRegion
+) -> CentralOptimum | None:
+    """Compute the optimal controller that all agents together would have.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    weights : Weights
+    region : StabilityRegion
+        The controller is the optimal one of the shifted plant, and its cost is that of the plant.
+
+    Returns
+    -------
+    CentralOptimum or None
+        None if the Riccati equations have no stabilizing solution in floating point.
+
+    Examples
+    --------
+    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    >>> region = StabilityRegion("continuous", 1)
+    >>> round(central_optimum(plant, Weights.unit(plant), region).figures.bound, 3)
+    -3.236
+    """
+    one = merged(as_plant(system), [list(system.names)])
+    problem = FeedbackProblem.of(decentralized_network(one), [one.n], weights)
+    n, [agent] = one.n, problem.agents
+    model = Model(
+        problem.A[:n, :n],
+        problem.B[:n, agent.inputs],
+        problem.C[agent.heard][:, :n],
+        weights.Q,
+        weights.R,
+        weights.W,
+        weights.V,
+        problem.discrete,
+    )
+    found = gaussian_controller(model, shift_of(region))
+    if found is None:
+        return None
+    A_k, B_k, C_k, D_k = found
+    K = balanced(problem, np.block([[D_k, C_k], [B_k, A_k]]))
+    figures = figures_of(problem, K)
+    return CentralOptimum(figures, _sizes(problem, K, region))
+
+
+def _sizes(problem: FeedbackProblem, K: Floats, region: StabilityRegion) -> Sizes:
+    """Compute the standard deviations of inputs and outputs; 1 where they are not to be had.
+
+    The pace is the ratio of the deviations of the inputs' derivatives, without noise, and of the
+    inputs.
+    """
+    p, q = problem.p, problem.mask.shape[1] - sum(problem.orders)
+    M = problem.A + problem.B @ K @ problem.C
+    form, noise = SchurForm.of(M, discrete=problem.discrete), problem.B @ K
+    pace, gramians = max(to_float(region.edge), 1e-6), None
+    if form is not None and form.bound < (1.0 if problem.discrete else 0.0):
+        W = problem.bare.W + noise @ problem.V @ noise.T
+        gramians = form.gramians(W, W, 1.0 if problem.discrete else 0.0)
+    if gramians is None:
+        return Sizes(np.ones(p), np.ones(q), 1.0 if problem.discrete else pace)
+    S = gramians[0]
+    seen, driven = problem.C[:q], (K @ problem.C)[:p]
+    inputs, faster = _deviations(driven, S), np.linalg.norm(_deviations(driven @ M, S))
+    if problem.discrete:
+        pace = 1.0
+    elif inputs.any():
+        pace = max(pace, float(faster / np.linalg.norm(inputs)))
+    return Sizes(inputs, _deviations(seen, S), pace)
+
+
+def _deviations(rows: Floats, S: Floats) -> Floats:
+    """The standard deviations of some signals, none of them negligible beside the others."""
+    found = np.sqrt(np.maximum(np.einsum("ij,jk,ik->i", rows, S, rows), 0.0))
+    largest = float(np.max(found, initial=0.0))
+    floored: Floats = np.maximum(found, 1e-6 * largest) if largest else np.ones(len(rows))
+    return floored

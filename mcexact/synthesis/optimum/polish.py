@@ -1,0 +1,243 @@
+"""From a gain matrix near a region to a local optimum of the objective inside it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.linalg import eig
+
+from mcexact.exact.floats import to_float
+from mcexact.exact.location import StabilityRegion
+from mcexact.floating.margins import spectral_bound
+from mcexact.synthesis.optimum.cost import INFINITE, Valued, quadratic_costs
+from mcexact.synthesis.optimum.descent import Function, minimize
+from mcexact.synthesis.optimum.effort import Effort
+from mcexact.synthesis.optimum.figures import shift_of
+from mcexact.synthesis.optimum.objective import Objective
+from mcexact.synthesis.optimum.problem import FeedbackProblem
+from mcexact.synthesis.optimum.sensitivity import (
+    GRID,
+    Complexes,
+    Sensitivity,
+    frequencies,
+)
+from mcexact.synthesis.optimum.weights import Floats
+
+SLACK = 1.02
+"""The region is tightened by this factor, so that rounding the controller does not leave it."""
+_RATCHETS, _STALLS = 40, 4
+_MARGIN_ROUNDS = 10
+_DRAFT, _POLISH = 60, 500
+_CHECKED = 200
+
+
+@dataclass(frozen=True)
+class Target:
+    """What a search aims at.
+
+    Attributes
+    ----------
+    region : StabilityRegion
+    largest_gain : float
+    margin : float
+        The margin that is enough; the search aims a tenth higher.
+    """
+
+    region: StabilityRegion
+    largest_gain: float = np.inf
+    margin: float = 0.3
+
+    def reached(self, bound: float, factor: float = 1.0) -> bool:
+        """Whether a largest real part or modulus lies in the region, tightened by a factor."""
+        shift = shift_of(self.region, factor)
+        return bound < shift if self.region.discrete else bound < -shift
+
+
+def bound_of(problem: FeedbackProblem, x: Floats) -> float:
+    """The largest real part or modulus of an eigenvalue of a loop; infinite if it overflows."""
+    M = problem.loop(x)
+    if not np.all(np.isfinite(M)):
+        return np.inf
+    return spectral_bound(M, problem.network.given.time)
+
+
+def spectral_descent(
+    problem: FeedbackProblem, x: Floats, target: Target, effort: Effort, *, steps: int = 150
+) -> Floats:
+    """Minimize the largest real part, or the largest modulus, until it lies well inside.
+
+    Notes
+    -----
+    The function is not smooth where eigenvalues meet; BFGS descends all the same (Lewis and Overton
+    2013).
+    """
+    size = 1e-6 / max(1.0, float(x @ x))
+
+    def value(x: Floats) -> Valued:
+        effort.take(len(problem.A), 2.0)
+        M = problem.loop(x)
+        if not np.all(np.isfinite(M)):
+            return INFINITE
+        values, left, right = _eigen(M)
+        k = int(np.argmax(np.abs(values) if problem.discrete else values.real))
+        w, v, mode = left[:, k].conj(), right[:, k], values[k]
+        paired = complex(w @ v)
+        paired = paired if abs(paired) > 1e-13 else 1e-13 + 0j
+        turn = mode.conj() / max(abs(mode), 1e-300) if problem.discrete else 1.0
+        G = np.real(turn * np.outer(w @ problem.B, problem.C @ v) / paired)
+        height = float(abs(mode) if problem.discrete else mode.real)
+        return height + size * float(x @ x), problem.gradient(G) + 2 * size * x
+
+    found, _ = minimize(
+        value,
+        x,
+        steps=steps,
+        tolerance=1e-4,
+        enough=lambda height: target.reached(height, _well_inside(target.region)),
+        stop=lambda: effort.over,
+    )
+    return found
+
+
+def _eigen(M: Floats) -> tuple[Complexes, Complexes, Complexes]:
+    """Eigenvalues, with left and right eigenvectors as columns."""
+    found = eig(M, left=True)
+    left, right = (np.asarray(each, dtype=np.complex128) for each in found[1:])
+    return np.asarray(found[0], dtype=np.complex128), left, right
+
+
+def _well_inside(region: StabilityRegion) -> float:
+    """A factor by which a region is tightened for a start."""
+    return 1.5 if region.discrete and to_float(region.edge) == 1.0 else 1.1
+
+
+def ratcheted(problem: FeedbackProblem, x: Floats, target: Target, effort: Effort) -> Floats | None:
+    """Move a loop into the region by minimizing the cost for a part of the rate, then for more.
+
+    Returns
+    -------
+    ndarray or None
+        None if the loop stopped to become faster.
+    """
+    goal = shift_of(target.region, SLACK)
+    bound, stalls = bound_of(problem, x), 0
+    for _ in range(_RATCHETS):
+        if target.reached(bound, SLACK):
+            return x
+        if effort.over or not np.isfinite(bound):
+            break
+        gap = abs(bound - goal) if problem.discrete else bound + goal
+        step = 0.15 * max(gap, 1e-6 * abs(goal))
+        shift = bound + step if problem.discrete else -bound - step
+
+        def shifted(x: Floats, shift: float = shift) -> Valued:
+            effort.take(len(problem.A), 2.0)
+            [(value, G)] = quadratic_costs(problem, problem.gain(x), (shift,))
+            return (value, problem.gradient(G)) if np.isfinite(value) else INFINITE
+
+        moved, _ = minimize(shifted, x, steps=25, stop=lambda: effort.over)
+        faster = bound_of(problem, moved)
+        stalls = stalls + 1 if bound - faster < 0.01 * gap else 0
+        if faster < bound:
+            x, bound = moved, faster
+        if stalls >= _STALLS or (faster >= bound and stalls):
+            break
+    return x if target.reached(bound) else None
+
+
+def drafted(
+    problem: FeedbackProblem, x: Floats, target: Target, effort: Effort
+) -> tuple[Floats, float]:
+    """Take a few steps towards the least objective, without regard to the margin.
+
+    Returns
+    -------
+    x : ndarray
+    value : float
+        The objective.
+    """
+    objective = _objective(problem, x, target)
+    return minimize(_counted(objective, effort), x, steps=_DRAFT, stop=lambda: effort.over)
+
+
+def _objective(problem: FeedbackProblem, x: Floats, target: Target) -> Objective:
+    """The objective whose barrier is the region with the slack, or as much as a start has of it."""
+    bound, edge = bound_of(problem, x), shift_of(target.region)
+    shift = shift_of(target.region, SLACK)
+    if not target.reached(bound, SLACK):
+        shift = (edge + (bound if problem.discrete else -bound)) / 2
+    return Objective(problem, shift, target.largest_gain)
+
+
+def polished(
+    problem: FeedbackProblem, x: Floats, target: Target, effort: Effort
+) -> Iterator[Floats]:
+    """Minimize the objective from a loop inside the region, round by round.
+
+    Parameters
+    ----------
+    problem : FeedbackProblem
+    x : ndarray
+        Free entries of K.
+    target : Target
+    effort : Effort
+
+    Yields
+    ------
+    ndarray
+        Free entries of K inside the region: first of least cost, without regard to the margin; then
+        with larger and larger margins, of larger and larger cost, until the margin is enough.
+
+    Notes
+    -----
+    A round penalizes the frequencies at which the loop is too sensitive.  The weight of the penalty
+    makes it as large as the cost at first, and grows fourfold from round to round.
+    """
+    objective, first = _objective(problem, x, target), effort.part(0.5)
+    counted = _counted(objective, first)
+    x, value = minimize(counted, x, steps=_POLISH, stop=lambda: first.over)
+    if not np.isfinite(value):
+        return
+    limit, unshifted, weight = 1 / (1.1 * target.margin), 1.0 if problem.discrete else 0.0, 0.0
+    for _ in range(_MARGIN_ROUNDS):
+        yield x
+        seen = Sensitivity(problem, problem.gain(x))
+        checked = frequencies(seen.eigenvalues, discrete=problem.discrete, count=_CHECKED)
+        effort.take(len(problem.A), 4.0)
+        if effort.over or seen.peak(checked) <= 1.02 * limit:
+            return
+        points = frequencies(seen.eigenvalues, discrete=problem.discrete, count=GRID)
+        if not weight:
+            [(cost, _)] = quadratic_costs(problem, problem.gain(x), (unshifted,))
+            weight = cost / max(seen.excess(points, limit)[0], 1.0)
+        penalized = replace(objective, weight=weight, limit=limit, points=points)
+        x, _ = minimize(_counted(penalized, effort), x, steps=80, stop=lambda: effort.over)
+        weight *= 4
+    yield x
+
+
+def _counted(objective: Objective, effort: Effort) -> Function:
+    """The objective, which counts its work."""
+
+    def value(x: Floats) -> Valued:
+        effort.take(len(objective.problem.A), 2.0 if objective.points is None else 5.0)
+        return objective(x)
+
+    return value
+
+
+def inside(problem: FeedbackProblem, x: Floats, target: Target, effort: Effort) -> Floats | None:
+    """Move a start into the region: by its spectrum, else by the cost; None if both fail."""
+    if target.reached(bound_of(problem, x), SLACK):
+        return x
+    found = spectral_descent(problem, x, target, effort.part(0.4))
+    if target.reached(bound_of(problem, found), SLACK):
+        return found
+    for start in (x, found):
+        moved = ratcheted(problem, start, target, effort.part(0.5))
+        if moved is not None:
+            return moved
+    again = spectral_descent(problem, found, target, effort)
+    return again if target.reached(bound_of(problem, again)) else None
