@@ -314,6 +314,7 @@ def test_the_folder_starts_by_itself(
     start = Path(checker.__file__).parent
     monkeypatch.setattr(sys, "argv", ["checker", "valid.json"])
     monkeypatch.setattr(sys, "path", ["", str(folder), *sys.path])
+    monkeypatch.delitem(sys.modules, "mcexact.checker.__main__", raising=False)
     before = dict(sys.modules)
     try:
         with pytest.raises(SystemExit) as end:
@@ -339,6 +340,7 @@ def test_an_interruption_before_the_checker_is_loaded_ends_with_130_too(
 
     monkeypatch.setattr(command, "main", interrupted)
     monkeypatch.setattr(sys, "path", list(sys.path))
+    monkeypatch.delitem(sys.modules, "mcexact.checker.__main__", raising=False)
     with pytest.raises(SystemExit) as end:
         runpy.run_module("mcexact.checker", run_name="__main__", alter_sys=False)
     assert end.value.code == 130
