@@ -2,38 +2,18 @@
 
 from __future__ import annotations
 
-import re
 from collections import Counter
 from pathlib import Path
 
-from tests.mutants import operators, session
+from tests.mutants import explained, operators, session
 
-EXPLAINED = Path("tests/checker/SURVIVORS.md")
-ENTRY = re.compile(r"^- `(?P<before>.+?)` → `(?P<after>.+?)`", re.MULTILINE)
 SCORE = 95
-
-
-def explained(text: str) -> set[tuple[str, str, str]]:
-    """The survivors that a file explains: the stem of the file, and the line before and after."""
-    found = set()
-    for part in re.split(r"^## ", text, flags=re.MULTILINE)[1:]:
-        stem = part.split("\n", 1)[0].strip().removesuffix(".py")
-        found |= {(stem, entry["before"], entry["after"]) for entry in ENTRY.finditer(part)}
-    return found
-
-
-def _is_known(stem: str, mutant: session.Mutant, known: set[tuple[str, str, str]]) -> bool:
-    """Whether a mutant is explained, by its lines or by a change that is explained everywhere."""
-    if (stem, mutant.before, mutant.after) in known:
-        return True
-    pairs = ((old, new) for place, old, new in known if place == "everywhere")
-    return any(mutant.before.replace(old, new, 1) == mutant.after for old, new in pairs)
 
 
 def write(folder: Path, checker: Path, stems: list[str]) -> int:
     """Print the table and write the survivors that are not explained; return the exit status."""
     operators.register()
-    known = explained(EXPLAINED.read_text(encoding="utf-8")) if EXPLAINED.exists() else set()
+    known = explained.read()
     total: Counter[str] = Counter()
     open_: list[str] = []
     print(f"{'file':28}{'mutants':>9}" + "".join(f"{word:>13}" for word in session.OUTCOMES))
@@ -49,7 +29,7 @@ def write(folder: Path, checker: Path, stems: list[str]) -> int:
         for mutant in session.mutants(checker / f"{stem}.py", database):
             count[mutant.outcome] += 1
             if mutant.outcome != "killed":
-                if _is_known(stem, mutant, known):
+                if known.holds(stem, mutant.before, mutant.after):
                     count["explained"] += 1
                 else:
                     open_.append(
