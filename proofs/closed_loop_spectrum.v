@@ -145,7 +145,7 @@ rewrite det_mulmx det_diag -mul_polyC; congr (_ * _).
 by rewrite /scale natr_prod rmorph_prod; apply: eq_bigr => i _; rewrite mxE.
 Qed.
 
-Lemma scaled_bound k : `|scaled_poly`_k| <= bound%:R.
+Theorem scaled_bound k : `|scaled_poly`_k| <= bound%:R.
 Proof.
 apply: (le_trans (coef_length _ _)); apply: (le_trans (length_det _)).
 rewrite /bound natr_prod; apply: ler_prod => i _; rewrite sumr_ge0 => [|j _]; last exact: length_ge0.
@@ -203,33 +203,47 @@ Definition row_gcd i := gcdn den (\big[gcdn/0%N]_j `|N i j|%N).
 Definition D := (\prod_i (den %/ row_gcd i))%N.
 Definition beta := (\prod_i ((den + \sum_j `|N i j|) %/ row_gcd i))%N.
 
-Theorem closed_loop_spectrum : (0 < den)%N ->
+(* The integers of the rows, divided by their greatest common divisors with den. *)
+Definition rows : 'M[int]_n := \matrix_(i, j) (N i j %/ row_gcd i)%Z.
+Definition row_den i := (den %/ row_gcd i)%N.
+
+Hypothesis den0 : (0 < den)%N.
+Fact row_gcd_gt0 i : (0 < row_gcd i)%N. Proof. by rewrite gcdn_gt0 den0. Qed.
+Fact row_denE i : (row_den i * row_gcd i)%N = den. Proof. by rewrite divnK// dvdn_gcdl. Qed.
+Fact row_gcd_dvd i j : (row_gcd i %| `|N i j|)%N.
+Proof. by apply: dvdn_trans (dvdn_gcdr _ _) _; rewrite (bigD1 j)//= dvdn_gcdl. Qed.
+Fact rowsE i j : rows i j * (row_gcd i)%:Z = N i j.
+Proof. by rewrite mxE divzK// dvdzE row_gcd_dvd. Qed.
+
+Fact betaE : beta = bound row_den rows.
+Proof.
+have absM i j : (`|rows i j| * row_gcd i = `|N i j|)%N by rewrite -(rowsE i j) abszM.
+apply: eq_bigr => i _; apply/eqP; rewrite -(eqn_pmul2r (row_gcd_gt0 i)) divnK; last first.
+  by rewrite dvdn_add ?dvdn_gcdl// big_seq dvdn_sum// => j _; apply: row_gcd_dvd.
+by rewrite mulnDl row_denE big_distrl /=; apply/eqP; congr (_ + _)%N; apply: eq_bigr => j _; rewrite absM.
+Qed.
+
+Fact rows_rat i j : (row_den i)%:R * A i j = (rows i j)%:~R.
+Proof.
+have nz (m : nat) : (0 < m)%N -> m%:R != 0 :> rat by rewrite pnatr_eq0 lt0n.
+rewrite mxE; apply: (mulIf (nz _ (row_gcd_gt0 i))); rewrite mulrAC -natrM row_denE mulrC divfK ?nz//.
+by rewrite -(rowsE i j) rmorphM /= -pmulrn.
+Qed.
+
+Theorem closed_loop_spectrum :
   (forall k, exists2 z : int, D%:R * p`_k = z%:~R & (`|z| <= beta)%N) ->
   pairwise_coprime ell -> (2 * beta < \prod_a ell a)%N -> (forall a, coprime (ell a) den) ->
   (forall a, char_poly (\matrix_(i, j) ((N i j)%:~R / den%:R : 'Z_(ell a))) = residues (ell a) p) ->
   char_poly A = p.
 Proof.
-move=> den0 whole cop enough unit_den agrees.
-have g0 i : (0 < row_gcd i)%N by rewrite gcdn_gt0 den0.
-have gden i : (row_gcd i %| den)%N by apply: dvdn_gcdl.
-have gN i j : (row_gcd i %| `|N i j|)%N.
-  by apply: dvdn_trans (dvdn_gcdr _ _) _; rewrite (bigD1 j)//= dvdn_gcdl.
-pose M := \matrix_(i, j) (N i j %/ row_gcd i)%Z : 'M[int]_n.
-have MN i j : M i j * (row_gcd i)%:Z = N i j by rewrite mxE divzK// dvdzE gN.
-have absM i j : (`|M i j| * row_gcd i = `|N i j|)%N by rewrite -(MN i j) abszM.
-have eD i : ((den %/ row_gcd i) * row_gcd i)%N = den by rewrite divnK.
-have eb : beta = bound (fun i => den %/ row_gcd i)%N M.
-  apply: eq_bigr => i _; apply/eqP; rewrite -(eqn_pmul2r (g0 i)) divnK; last first.
-    by rewrite dvdn_add// big_seq dvdn_sum.
-  by rewrite mulnDl eD big_distrl /=; apply/eqP; congr (_ + _)%N; apply: eq_bigr => j _; rewrite absM.
+move=> whole cop enough unit_den agrees.
 have nz (m : nat) : (0 < m)%N -> m%:R != 0 :> rat by rewrite pnatr_eq0 lt0n.
-apply: (@spectrum_by_residues n r ell A p (fun i => den %/ row_gcd i)%N M) => //; rewrite -?eb //.
-- by move=> i; rewrite divn_gt0// dvdn_leq.
-- move=> i j; rewrite mxE; apply: (mulIf (nz _ (g0 i))); rewrite mulrAC -natrM eD mulrC divfK ?nz//.
-  by rewrite -(MN i j) rmorphM /= -pmulrn.
+apply: (@spectrum_by_residues n r ell A p row_den rows) => //; rewrite -?betaE //.
+- by move=> i; rewrite divn_gt0 ?row_gcd_gt0// dvdn_leq ?dvdn_gcdl.
+- exact: rows_rat.
 - move=> a; apply: (big_rec (coprime (ell a))); first exact: coprimen1.
   move=> i x _ cx; rewrite coprimeMr cx andbT; apply: coprime_dvdr (unit_den a).
-  by apply/dvdnP; exists (row_gcd i); rewrite mulnC eD.
+  by apply/dvdnP; exists (row_gcd i); rewrite mulnC row_denE.
 move=> a; rewrite -agrees; congr char_poly; apply/matrixP=> i j; rewrite !mxE.
 have ud := unit_nat_modulus (unit_den a); apply: (mulIr ud); rewrite divrK//.
 by apply: residue_ratE => //; rewrite -pmulrn divfK ?nz.

@@ -1,29 +1,40 @@
-(* The characteristic polynomial of [3/2], read off modulo 11, and that of [1, 1; 1, 1], by columns;
+(* The characteristic polynomial of [3/2] from residues modulo 11, and that of [1, 1; 1, 1], by columns;
    elimination without fractions with the pivots 2 and 6. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From mcexact Require Import arithmetic hessenberg characteristic_polynomial elimination interpolation.
+From mcexact Require Import arithmetic hessenberg closed_loop_spectrum characteristic_polynomial elimination interpolation.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.Theory GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
 
-Definition l11 := @Modulus 11 isT.
+(* 2 det(xI - 3/2) = 2x - 3, modulo 11; then of 3/2 / 5 and of its transpose. *)
+Definition l11 (a : 'I_1) := @Modulus 11 isT.
 Definition N : 'M[int]_1 := 3%:R%:M.
-Definition h (i : 'I_1) : nat := 3.
-Definition c : {poly int} := 'X - 3%:R%:P.
-Lemma rows_N i : \sum_j N i j ^+ 2 <= (h i)%:R ^+ 2.
-Proof. by rewrite big_ord1 mxE !ord1. Qed.
-Lemma large_l11 : (2 * \prod_(i < 1) (1 + h i) < l11)%N. Proof. by rewrite big_ord1. Qed.
-Lemma least_c k : (2 * `|(c`_k)%R| <= l11)%N.
-Proof. by rewrite coefB coefX coefC; case: k => [|[|k]]. Qed.
-Lemma residues_c : map_poly intr c = char_poly (map_mx intr N) :> {poly 'Z_l11}.
+Definition c : {poly int} := 2%:R *: 'X - 3%:R%:P.
+Lemma eD : D 2 N = 2%N. Proof. by rewrite /D /row_gcd !big_ord1 mxE eqxx. Qed.
+Lemma ebeta : beta 2 N = 5%N. Proof. by rewrite /beta /row_gcd !big_ord1 mxE eqxx. Qed.
+Lemma pairwise_l11 : pairwise_coprime l11. Proof. by case=> [[|a]]// a1; rewrite big_ord1_cond. Qed.
+Lemma large_l11 : (2 * beta 2 N < \prod_a l11 a)%N. Proof. by rewrite ebeta big_ord1. Qed.
+Lemma least_c k : (2 * `|(c`_k)%R| <= \prod_a l11 a)%N.
+Proof. by rewrite big_ord1 coefB coefZ coefX coefC; case: k => [|[|k]]. Qed.
+Lemma residues_c (a : 'I_1) :
+  map_poly intr c = (D 2 N)%:R *: char_poly (\matrix_(i, j) ((N i j)%:~R / 2%:R) : 'M['Z_(l11 a)]_1).
 Proof.
-rewrite /char_poly det_mx11 !mxE eqxx rmorphB /= map_polyX map_polyC.
-by rewrite !mulr1n.
+rewrite eD /char_poly det_mx11 !mxE eqxx rmorphB /= map_polyC map_polyZ map_polyX !mulr1n scalerBr.
+congr (_ - _); rewrite -mul_polyC -polyCM; congr (_%:P).
+rewrite [RHS]mulrC divrK; last exact: (@unit_nat_modulus (l11 a)).
+by [].
 Qed.
-Definition inst_integers : char_poly N = c := characteristic_polynomial_integers rows_N large_l11 least_c residues_c.
-Lemma inst_rational :
-  char_poly (\matrix_(i, j) ((N i j)%:~R / 2%:R) : 'M[rat]_1) = \poly_(k < 2) ((c`_k)%:~R / 2%:R ^+ (1 - k)).
-Proof. exact: (characteristic_polynomial_rule rows_N large_l11 least_c _ residues_c). Qed.
+Definition inst_scaled_bound k := scaled_bound (row_den 2 N) (rows 2 N) k.
+Definition inst_residues := characteristic_polynomial_residues
+  (isT : 0 < 2)%N pairwise_l11 (fun=> isT) large_l11 least_c residues_c.
+Lemma inst_rational (A : 'M[rat]_1) : 5%:R *: A = (\matrix_(i, j) ((N i j)%:~R / 2%:R))^T ->
+  char_poly A = \poly_(k < 2) ((c`_k)%:~R / ((D 2 N)%:R * 5%:R ^+ (1 - k))).
+Proof.
+move=> e; have n5 : 5%:R != 0 :> rat by [].
+exact: (characteristic_polynomial_rule (isT : 0 < 2)%N pairwise_l11 (fun=> isT) large_l11 least_c residues_c n5 (or_intror e)).
+Qed.
+(* 2 modulo 5, and 1 modulo 3: 7. *)
+Definition inst_combined := @combined 5 3 2 1 2 isT erefl isT.
 
 Notation ones := (hessenberg (fun _ _ => 1) (fun=> 1) 2 : 'M[int]_2).
 Lemma inst_hessenberg_polynomial : char_poly ones = ('X - 1) ^+ 2 - 1.

@@ -42,8 +42,10 @@ class Budget:
     builds: bool = False
     largest: int = 0
 
-    def spend(self, units: int) -> None:
+    def spend(self, units: int, after: int = 0) -> None:
         """Count the units of a step that follows, or stop before it.
+
+        ``after`` are about the units of the steps after it, for the work that is named.
 
         Raises
         ------
@@ -53,7 +55,7 @@ class Budget:
         if self.builds:
             self.largest = max(self.largest, units)
         if self.spent + units > self.most:
-            named = f"allow {self._named(units)} (Limits.work)"
+            named = f"allow {self._named(units + after)} (Limits.work)"
             message = f"takes more than {self.most} units of work: {named}"
             raise Refused("INCOMPLETE", "work", "checker", message)
         self.spent += units
@@ -98,11 +100,11 @@ def current(work: int | None) -> Budget:
     return _current.get() or Budget(most, GRANTED, grows=work is None)
 
 
-def spend(units: int) -> None:
-    """Charge a step that follows to the current budget."""
+def spend(units: int, after: int = 0) -> None:
+    """Charge a step that follows to the current budget; perhaps tell what those after it take."""
     budget = _current.get()
     if budget is not None:
-        budget.spend(units)
+        budget.spend(units, after)
 
 
 def counted(items: Sequence[Item]) -> Iterator[Item]:

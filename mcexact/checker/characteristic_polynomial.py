@@ -1,12 +1,19 @@
 """Characteristic polynomials, modulo ℓ and over Q; ``proofs/arithmetic.md``."""
 
 import math
+from collections.abc import Iterator
+from contextlib import suppress
 from fractions import Fraction
-from operator import mul
+from operator import itemgetter, mul
 
 from . import budget
 from .arithmetic import Matrix, NotAUnit, Polynomial, Rows, inverse
 from .budget import spend
+
+FIRST = 2**150 - 3
+"""A prime, and the largest modulus of residues that are combined."""
+BITS, LIMBS = 149, 5
+"""Each of these moduli is above 2^BITS; with so many limbs, each bit of a residue costs least."""
 
 
 def characteristic_polynomial_modulo(A: Rows, ell: int) -> Polynomial:
@@ -71,24 +78,56 @@ def _hessenberg_polynomial(H: Rows, below: list[int], ell: int) -> Polynomial:
 def characteristic_polynomial(A: Matrix, ell: int = 0) -> Polynomial:
     """The characteristic polynomial over Q, or modulo ℓ if one is given.
 
-    The coefficients of det(xI − N), N the integer numerators, are at most Π (1 + |row|) in absolute
-    value (Hadamard, minor by minor), so they are read off modulo one larger power of an odd q.
+    For M = A, its transpose or its integer numerators, whichever has the least bound, the integers
+    D·det(xI − M) are combined from their residues, one modulus after the other.
 
-    Theorem ``characteristic_polynomial.characteristic_polynomial_rule``.
+    Theorems ``characteristic_polynomial.combined``,
+    ``characteristic_polynomial.characteristic_polynomial_rule``.
     """
     if ell:
         return characteristic_polynomial_modulo(A.modulo(ell), ell)
-    n, d, a = A.nrows, A.denominator, A.limbs
-    spend(budget.products(4 * n * n, a, a) + budget.products(n, n * a, a))
-    bound = math.prod(2 + math.isqrt(sum(entry * entry for entry in row)) for row in A.rows)
-    q = 2**61 - 1
-    while True:
-        ell = q ** (bound.bit_length() // 60 + 1)
-        try:
-            residues = characteristic_polynomial_modulo(A.rows, ell)
-            break
-        except NotAUnit:
-            q += 2
-    lifted = [c - ell if 2 * c > ell else c for c in residues]
-    spend(budget.fractions(n + 1, n * a + 1))
-    return [Fraction(c, d ** (n - k)) for k, c in enumerate(lifted)]
+    choices = ((*scaled_bound(M), M) for M in (A, A.T, Matrix(A.rows, A.ncols)))
+    beta, D, M = min(choices, key=itemgetter(0))
+    n, longest, product, found = A.nrows, budget.limbs([D]), 1, [0] * (A.nrows + 1)
+    moduli = _residues(M)
+    for _ in budget.counted(range(beta.bit_length() // BITS + 1)):
+        ell, residues = next(moduli)
+        a = budget.limbs([product]) + longest + LIMBS
+        spend(budget.products(3 * n + 3, a, LIMBS) + budget.reductions(n + 2, a, LIMBS))
+        f = inverse(product, ell)
+        pairs = zip(found, residues, strict=True)
+        found = [old + (D * c - old) * f % ell * product for old, c in pairs]
+        product *= ell
+    least = [c - product if 2 * c > product else c for c in found]
+    e = A.denominator // M.denominator
+    spend(budget.fractions(n + 1, budget.limbs([product]) + longest + n * budget.limbs([e])))
+    return [Fraction(c, D * e ** (n - k)) for k, c in enumerate(least)]
+
+
+def scaled_bound(A: Matrix) -> tuple[int, int]:
+    """β and D: the coefficients of D·det(xI − A) are integers of absolute value at most β.
+
+    D·det(xI − A) = det(diag(d)x − diag(d)A), d_i the denominator of row i and D = Π d_i, and
+    β = Π (d_i + Σ_j |d_i A_ij|).
+
+    Theorem ``closed_loop_spectrum.scaled_bound``.
+    """
+    D = beta = 1
+    n, a = A.nrows, A.limbs
+    spend(budget.fractions(n * (n + 1), a) + budget.products(4 * n, n * (a + 1), a + 1))
+    for row in A.rows:
+        common = math.gcd(A.denominator, *row)
+        D *= A.denominator // common
+        beta *= (A.denominator + sum(map(abs, row))) // common
+    return beta, D
+
+
+def _residues(M: Matrix) -> Iterator[tuple[int, Polynomial]]:
+    """Pairwise coprime ℓ with the characteristic polynomial modulo each, where pivots are units."""
+    tried = math.factorial(1000)  # small factors are those of most pivots
+    for ell in range(FIRST, 1, -2):
+        spend(budget.reductions(2, budget.limbs([tried]), LIMBS) + budget.fractions(1, LIMBS))
+        if math.gcd(ell, tried) == 1:
+            tried *= ell
+            with suppress(NotAUnit):
+                yield ell, characteristic_polynomial_modulo(M.modulo(ell), ell)

@@ -4,7 +4,7 @@ import math
 
 from . import budget
 from .arithmetic import Matrix, Polynomial, poly_modulo
-from .characteristic_polynomial import characteristic_polynomial
+from .characteristic_polynomial import characteristic_polynomial, scaled_bound
 from .reading import Json, fields, integer, items, polynomial, require
 from .statement import polynomial_text
 from .system import System
@@ -42,18 +42,9 @@ def moduli(value: Json, place: str) -> list[int]:
 def require_spectrum(A: Matrix, p: Polynomial, place: str, ells: list[int]) -> None:
     """Stop unless det(xI − A) = p, given that the moduli suffice.
 
-    D·det(xI − A) = det(diag(d)x − diag(d)A), d_i the denominator of row i and D = Π d_i, has
-    integer coefficients of absolute value at most β = Π (d_i + Σ_j |d_i A_ij|).
-
     Theorem ``closed_loop_spectrum.closed_loop_spectrum``.
     """
-    D = beta = 1
-    n, a = A.nrows, A.limbs
-    budget.spend(budget.fractions(n * (n + 1), a) + budget.products(4 * n, n * (a + 1), a + 1))
-    for row in A.rows:
-        common = math.gcd(A.denominator, *row)
-        D *= A.denominator // common
-        beta *= (A.denominator + sum(map(abs, row))) // common
+    beta, D = scaled_bound(A)
     require(len(p) == A.nrows + 1, "degree", place, f"expected degree {A.nrows}")
     longest = budget.limbs([beta]) + budget.limbs_of(p)
     budget.spend(budget.fractions(3 * len(p), longest))

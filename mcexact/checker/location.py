@@ -58,7 +58,7 @@ def is_hurwitz(p: Polynomial) -> bool:
     lost = [max(powers[-1] - power, 0) if power else 0 for power in powers[:d]]
     e = max((-(-power // (d - k)) for k, power in enumerate(lost)), default=0)
     a = budget.limbs(numbers) + e * d // budget.LIMB + 1
-    budget.spend(budget.fractions(d + 1, a) + 3 * budget.table(1, d + 1, a))
+    budget.spend(budget.fractions(d + 1, a) + 3 * budget.table(1, d + 1, a), _turns(d, 1, a))
     numbers = [c << e * (d - k) for k, c in enumerate(numbers)]
     common = math.gcd(*numbers) * (1 if numbers[-1] > 0 else -1)
     descending = [c // common for c in reversed(numbers)]
@@ -66,13 +66,22 @@ def is_hurwitz(p: Polynomial) -> bool:
     while lower:
         if lower[0] <= 0:
             return False
-        budget.spend(budget.reductions(2 * len(upper), budget.limbs([*upper, *lower])))
+        longest, turn = budget.limbs([*upper, *lower]), d + 2 - len(upper) - len(lower)
+        budget.spend(budget.reductions(2 * len(upper), longest), _turns(d, turn, longest))
         rows = zip(upper[1:], [*lower[1:], 0], strict=False)
         pairs = [divmod(lower[0] * a - upper[0] * b, divisors[0]) for a, b in rows]
         if any(rest for _, rest in pairs):
             raise ArithmeticError("a division in Routh's array is not exact")
         upper, lower, divisors = lower, [entry for entry, _ in pairs], (divisors[1], lower[0])
     return True
+
+
+def _turns(d: int, turn: int, a: int) -> int:
+    """About the units from this turn of Routh's array on, whose entries have a limbs.
+
+    Entries are minors, which grow by as much in every turn.
+    """
+    return (d + 1 - turn) * budget.reductions(d + 2 - turn, a * d // turn)
 
 
 def is_schur(p: Polynomial) -> bool:

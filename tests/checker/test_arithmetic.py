@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import itertools
+import math
 import random
 from fractions import Fraction
 
 import pytest
-from sympy import ZZ
+from sympy import QQ, ZZ, isprime
 from sympy.polys.matrices import DomainMatrix
 
+from mcexact.checker import characteristic_polynomial as characteristic
 from mcexact.checker.arithmetic import (
     Echelon,
     Matrix,
@@ -46,11 +49,74 @@ def test_characteristic_polynomials_over_q_are_sympys() -> None:
         assert characteristic_polynomial(A) == scaled
 
 
-def test_a_matrix_full_of_the_first_modulus_is_no_obstacle() -> None:
-    q = 2**61 - 1
+def test_a_matrix_full_of_the_first_moduli_is_no_obstacle() -> None:
+    q = characteristic.FIRST * (characteristic.FIRST - 2)
     A = Matrix([[0, 0, 1], [q, 0, 0], [q, q + 2, 1]], 3)
     expected = DomainMatrix(A.rows, (3, 3), ZZ).charpoly()[::-1]
     assert characteristic_polynomial(A) == [int(c) for c in expected]
+    A = Matrix([[1, 0, 0], [0, q, 0], [0, 0, q]], 3, q)
+    assert characteristic_polynomial(A) == poly_product([Fraction(-1, q), 1], [1, -2, 1])
+
+
+@pytest.mark.parametrize("bits", [148, 149, 150, 297, 298, 299, 300, 449])
+def test_coefficients_as_large_as_the_moduli_allow_are_read_off(bits: int) -> None:
+    for sign, less in itertools.product((1, -1), (1, 2, 3)):
+        number = sign * (2**bits - less)
+        assert characteristic_polynomial(Matrix([[number]], 1)) == [-number, 1]
+
+
+def moduli_of(A: Matrix, monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """The moduli that the characteristic polynomial over Q is combined from."""
+    found: list[int] = []
+
+    def recorded(rows: list[list[int]], ell: int) -> list[int]:
+        found.append(ell)
+        return characteristic_polynomial_modulo(rows, ell)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(characteristic, "characteristic_polynomial_modulo", recorded)
+        characteristic_polynomial(A)
+    return found
+
+
+def test_moduli_are_pairwise_coprime_of_5_limbs_and_as_many_as_needed(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    moduli = moduli_of(Matrix([[2**60000]], 1), monkeypatch)
+    assert len(moduli) == 60001 // 149 + 1
+    assert all(2**149 < ell < 2**150 for ell in moduli)
+    assert all(math.gcd(a, b) == 1 for a, b in itertools.combinations(moduli, 2))
+    assert all(math.gcd(ell, math.factorial(1000)) == 1 for ell in moduli)
+    assert moduli[:2] == [characteristic.FIRST, characteristic.FIRST - 2]
+    assert isprime(moduli[0])
+
+
+LONG = [3**400 + 2 * k for k in range(6)]
+"""Denominators of 635 bits."""
+
+
+@pytest.mark.parametrize(
+    ("A", "moduli"),
+    [
+        ([[Fraction(i + j, LONG[i]) for j in range(6)] for i in range(6)], 26),
+        ([[Fraction(i + j, LONG[j]) for j in range(6)] for i in range(6)], 26),
+        ([[Fraction(i * i + j, LONG[0]) for j in range(6)] for i in range(6)], 1),
+    ],
+    ids=["rows of one denominator", "columns of one denominator", "one denominator"],
+)
+def test_the_sharpest_bound_decides_how_many_moduli_there_are(
+    A: list[list[Fraction]], moduli: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    d = math.lcm(*(entry.denominator for row in A for entry in row))
+    given = Matrix([[int(d * entry) for entry in row] for row in A], 6, d)
+    assert len(moduli_of(given, monkeypatch)) == moduli
+    expected = DomainMatrix(
+        [[QQ(e.numerator, e.denominator) for e in row] for row in A], (6, 6), QQ
+    )
+    found = characteristic_polynomial(given)
+    assert found == [
+        Fraction(int(c.numerator), int(c.denominator)) for c in expected.charpoly()[::-1]
+    ]
 
 
 def test_characteristic_polynomials_modulo_l_are_reductions_or_nothing() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import threading
+from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 from math import comb
@@ -18,6 +19,8 @@ from mcexact.checker import Expectation, Limits, budget, check_document, kinds
 from mcexact.checker.arithmetic import (
     Echelon,
     Matrix,
+    Polynomial,
+    cleared,
     poly_divide,
     poly_modulo,
     poly_product,
@@ -51,6 +54,11 @@ def data_of(document: Any) -> bytes:
 def named(message: str) -> int:
     """The work that a message asks for."""
     return int(message.split("allow ")[1].split()[0])
+
+
+def half_plane(p: Polynomial) -> bool:
+    """Whether all roots are to the left of a rate."""
+    return in_region(p, "continuous", Fraction(1, 1000))
 
 
 # Documents that ask for much work.
@@ -119,6 +127,37 @@ def test_the_work_that_is_named_while_the_subject_is_built_decides_what_follows(
         refused = check_document(data, limits=Limits(work=most))
         assert (refused.verdict, refused.code) == ("INCOMPLETE", "work")
         assert check_document(data, limits=Limits(work=named(refused.message))) == needed
+
+
+ROUTH = {
+    "short at first": [Fraction(comb(60, k) * 3**k) for k in range(61)],
+    "long from the start": [Fraction(comb(12, k) * 7 ** (150 * (12 - k))) for k in range(13)],
+}
+"""(3x + 1)^60, (x + 7^150)^12."""
+
+
+@pytest.mark.parametrize(
+    ("place", "parts"),
+    [(is_hurwitz, (2, 3, 5, 10, 20, 50, 100)), (is_schur, (2, 3, 5)), (half_plane, (2, 3, 5))],
+)
+@pytest.mark.parametrize("name", ROUTH)
+def test_the_work_that_is_named_in_rouths_array_suffices(
+    place: Callable[[Polynomial], bool], parts: tuple[int, ...], name: str
+) -> None:
+    p = ROUTH[name] if place is not is_schur else ROUTH[name][::-1]
+    reading, ample = (Budget(10**12, 0, grows=False) for _ in range(2))
+    with limited(reading):
+        cleared(p)
+    with limited(ample):
+        found = place(p)
+    for part in parts:
+        most = max(ample.spent // part, reading.spent)
+        with limited(Budget(most, 0, grows=False)), pytest.raises(Refused) as refused:
+            place(p)
+        enough = named(refused.value.message)
+        assert enough < 200 * ample.spent
+        with limited(Budget(enough, 0, grows=False)):
+            assert place(p) == found
 
 
 def test_no_more_work_is_named_than_any_machine_can_do() -> None:
@@ -280,7 +319,7 @@ LEAST = {
     "a rank": (lambda: rank(LONG), 12**2 * 600),
     "a row of an echelon form": (lambda: Echelon(ELL).add(LONG.rows[0]), 12 * 400),
     "a polynomial modulo a number": (lambda: poly_modulo(FACTORS, ELL), 12 * 2000),
-    "a characteristic polynomial": (lambda: characteristic_polynomial(LONG), 12**3 * 5000),
+    "a characteristic polynomial": (lambda: characteristic_polynomial(LONG), 12**3 * 2500),
     "one modulo a number": (lambda: char_modulo(LONG.rows, ELL), 12**3 * 110),
     "Routh's array": (
         lambda: is_hurwitz([Fraction(comb(60, k) * 3**k) for k in range(61)]),
