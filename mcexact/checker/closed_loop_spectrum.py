@@ -52,7 +52,8 @@ def require_spectrum(A: Matrix, p: Polynomial, place: str, ells: list[int]) -> N
     require(small, "bound", place, "a coefficient that no matrix with these rows has")
     require(math.prod(ells) > 2 * beta, "moduli", "witness.moduli", "too few for these entries")
     for ell in budget.counted(ells):
-        budget.spend(budget.fractions(1, longest))
+        a = budget.limbs([ell])
+        budget.spend(budget.reductions(1, longest, a) + budget.fractions(1, a))
         require(math.gcd(D, ell) == 1, "modulus", "witness.moduli", "divides a denominator")
         found = characteristic_polynomial(A, ell)
         require(found == poly_modulo(p, ell), "spectrum", place, f"differs modulo {ell}")

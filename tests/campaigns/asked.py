@@ -21,6 +21,7 @@ from mcexact.answer.sentence import MANIFEST
 from mcexact.checker.command import main as check
 from mcexact.checker.kinds import KINDS
 from mcexact.cli import main
+from mcexact.errors import Impossible
 from mcexact.exact.matrix import Matrix
 from mcexact.model import gallery
 from mcexact.model.system import MultiChannelSystem
@@ -81,10 +82,11 @@ def write(name: str, folder: Path) -> None:
         run([*arguments, LIMIT, "--certificates", str(place / question)])
     ones = Matrix.from_integers([[1] * plant.n for _ in range(plant.n)])
     if plant.n <= 4:
-        found = exceptional_gains(ones, plant.A, plant.input_matrix())
-        save_certificate(found.controllability_set, place / OF_A_PAIR)
-        pair = {"format": "mcexact-system/1", **document(found.controllability_set)["system"]}
-        (place / "pair.system").write_text(json.dumps(pair), encoding="ascii")
+        with contextlib.suppress(Impossible):  # the pair is not controllable
+            found = exceptional_gains(ones, plant.A, plant.input_matrix())
+            save_certificate(found.controllability_set, place / OF_A_PAIR)
+            pair = {"format": "mcexact-system/1", **document(found.controllability_set)["system"]}
+            (place / "pair.system").write_text(json.dumps(pair), encoding="ascii")
 
 
 def insist(name: str, folder: Path, other: str, seen: Seen) -> None:

@@ -33,6 +33,7 @@ from mcexact.checker.characteristic_polynomial import characteristic_polynomial
 from mcexact.checker.characteristic_polynomial import (
     characteristic_polynomial_modulo as char_modulo,
 )
+from mcexact.checker.closed_loop_spectrum import require_spectrum
 from mcexact.checker.controller import read_controller_file
 from mcexact.checker.location import in_region, is_hurwitz, is_schur
 from mcexact.checker.manifest import verdicts_of
@@ -351,6 +352,18 @@ def test_a_step_is_charged_for_its_size(step: str) -> None:
 def test_reading_alone_is_charged_for(change: tuple[str, Any]) -> None:
     data = data_of(changed(FIXED, change))
     assert check_document(data, limits=Limits(work=40 * len(data) - 1)).code == "work"
+
+
+def test_short_moduli_are_charged_for_by_the_length_of_the_denominators() -> None:
+    d, spent = 3**20000, []
+    for times in (100, 200):
+        allowed = Budget(10**12, 0, grows=False)
+        with limited(allowed):
+            moduli = [5**5500] * 3 + [5**10] * times
+            require_spectrum(Matrix([[1]], 1, d), [Fraction(-1, d), Fraction(1)], "", moduli)
+        spent.append(allowed.spent)
+    # the matrix and the polynomial take 3/2 units for each limb, and the denominators 1/4
+    assert 160 * budget.limbs([d]) < spent[1] - spent[0] < 200 * budget.limbs([d])
 
 
 def test_long_numbers_are_charged_by_the_square_of_their_length() -> None:
