@@ -16,8 +16,7 @@ if TYPE_CHECKING:
     from .reading import Limits
 
 __all__ = ["Expectation", "Limits", "Verdict", "check_document"]
-_STEMS = ("expectation", "reading", "kinds", "kinds")
-_FILES = dict(zip(__all__, _STEMS, strict=True))
+_FILES = dict(zip(__all__, ("expectation", "reading", "kinds", "kinds"), strict=True))
 """The file of each public name."""
 
 

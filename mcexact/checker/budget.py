@@ -12,8 +12,6 @@ from contextvars import ContextVar
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
-from .refused import Refused
-
 GRANTED = 4 * 10**7
 PER_BYTE = 4000
 LIMB = 30
@@ -24,19 +22,27 @@ MOST = 10**30
 Item = TypeVar("Item")
 
 
+class Refused(Exception):
+    """The end of a check that is not VALID: a verdict, a code, a place and a message."""
+
+    def __init__(self, verdict: str, code: str, place: str, message: str) -> None:
+        super().__init__(verdict, code, place, message)
+        self.verdict, self.code, self.place, self.message = verdict, code, place, message
+
+
 @dataclass
 class Budget:
     """The units that a check may take, those that are granted by default, and those taken.
 
-    With ``grows``, reading a document adds what is granted for its bytes.
+    ``most`` is None where no more is granted than usual; reading a document adds to that what is
+    granted for its bytes.
     ``loops`` holds four numbers for each loop under way: the units that were spent when it began
     and when its turn began, the turns before this one, and all turns.  ``builds`` says that the
     subject is being built, so that the rule still follows; ``largest`` is the largest step of that.
     """
 
-    most: int
-    usual: int
-    grows: bool
+    most: int | None = None
+    usual: int = GRANTED
     spent: int = 0
     loops: list[list[int]] = field(default_factory=list)
     builds: bool = False
@@ -54,9 +60,10 @@ class Budget:
         """
         if self.builds:
             self.largest = max(self.largest, units)
-        if self.spent + units > self.most:
+        most = self.usual if self.most is None else self.most
+        if self.spent + units > most:
             named = f"allow {self._named(units + after)} (Limits.work)"
-            message = f"takes more than {self.most} units of work: {named}"
+            message = f"takes more than {most} units of work: {named}"
             raise Refused("INCOMPLETE", "work", "checker", message)
         self.spent += units
 
@@ -83,7 +90,6 @@ _current: ContextVar[Budget | None] = ContextVar("budget", default=None)
 def limited(budget: Budget, size: int = 0) -> Iterator[None]:
     """Charge what is done inside, perhaps after a document of so many bytes was read."""
     budget.usual += PER_BYTE * size
-    budget.most += PER_BYTE * size if budget.grows else 0
     token = _current.set(budget)
     try:
         yield
@@ -96,8 +102,7 @@ def current(work: int | None) -> Budget:
 
     None stands for what is granted, which grows with the bytes that are read.
     """
-    most = GRANTED if work is None else work
-    return _current.get() or Budget(most, GRANTED, grows=work is None)
+    return _current.get() or Budget(work)
 
 
 def spend(units: int, after: int = 0) -> None:

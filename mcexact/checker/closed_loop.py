@@ -51,9 +51,9 @@ def closed_loop(system: System, step: dict[str, Json], place: str) -> System:
         rows += [computed(i, 0, width["x"][i]), computed(i, 1, width["z"][i])]
     rows += [reads[what, j, age - 1] for what, j, age in order if age]
     A, blocks, text = stack(rows, total), tuple(widths[: 2 * m + 1]), canonical_json(controller)
-    words = prefixed(f"the closed loop with the controller with {with_digest(text)}", system)
-    key = digest_of(text)
-    return System(system.time, [], A, [], [], words=words, blocks=blocks, controller=key)
+    words = f"the closed loop with the controller with {with_digest(text)}"
+    alone = System(system.time, [], A, [], [], words=system.words)
+    return prefixed(words, alone, blocks=blocks, controller=digest_of(text))
 
 
 def _terms(system: System, agents: list[Json], i: int, place: str) -> list[Terms]:

@@ -6,6 +6,7 @@ import io
 import json
 import os
 import sys
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict
 from functools import partial
@@ -13,14 +14,18 @@ from typing import IO, NoReturn
 
 from .allowance import SUPPORTED, Clock, OutOfTime, memory
 from .expectation import CLAIM, Expectation
-from .kinds import Found, Verdict, answer, check_document
-from .manifest import NAME, every_verdict
-from .reading import Limits, Refused, read_bytes
+from .kinds import Found, Verdict, attempt, check_document
+from .manifest import NAME, manifest_verdicts
+from .reading import Limits, read_file
 
 PRECEDENCE = (70, 3, 1, 5, 0)
 """Of these statuses the first that any verdict has is that of the run."""
 UNWRITTEN = 74
 """The status if the verdicts cannot be written."""
+
+
+Asking = Sequence[str | None]
+"""The files that hold a system, a controller, and a statement or claim; None for any."""
 
 
 class NotAsked(Exception):
@@ -40,13 +45,11 @@ def as_options(text: str) -> str:
 def line_of(found: Found, paths: Sequence[str]) -> str:
     """A verdict as one line, with the name of its file behind it if there are several."""
     about, verdict = found
-    several = len(paths) > 1 and about.get("file") in paths
-    return as_options(verdict.line(ascii(about["file"]) if several else ""))
+    name = about.get("manifest") or about["file"]
+    return as_options(verdict.line(ascii(name) if len(paths) > 1 else ""))
 
 
-def misuse(
-    paths: Sequence[str], manifest: str | None, asking: Sequence[str | None], bounded: bool
-) -> str:
+def misuse(paths: Sequence[str], manifest: str | None, asking: Asking, bounded: bool) -> str:
     """Why the arguments contradict each other, or nothing."""
     if not paths and manifest is None:
         return "expected a FILE or --manifest"
@@ -60,64 +63,44 @@ def misuse(
     return ""
 
 
-def _read_file(path: str, limits: Limits) -> bytes:
-    """The bytes of a file, or of standard input for ``-``."""
-    try:
-        if path != "-":
-            with open(path, "rb") as stream:
-                return read_bytes(stream, limits)
-        if sys.stdin is None:
-            raise OSError(errno.EBADF, "standard input is closed")
-        return read_bytes(sys.stdin.buffer, limits)
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise Refused("MALFORMED", "unreadable", "file", f"cannot be read: {reason}") from error
-
-
 def _told(path: str, read: Callable[..., Expectation], limits: Limits, clock: Clock) -> Expectation:
     """What one file asks."""
-    told = []
-
-    def check() -> Verdict:
-        told.append(read(_read_file(path, limits), limits))
-        return Verdict("READ")
-
     try:
-        found = clock.within(lambda: answer(check))
+        found = clock.within(lambda: attempt(lambda: read(read_file(path, limits), limits)))
     except OutOfTime:
         found = clock.verdict()
-    if found.verdict != "READ":
+    if isinstance(found, Verdict):
         raise NotAsked(path, found)
-    return told[0]
+    return found
 
 
-def _check_file(path: str, wanted: Expectation, limits: Limits) -> Verdict:
+def _certificate(path: str, wanted: Expectation, limits: Limits) -> Iterator[Found]:
     """The verdict on the certificate in a file."""
-    return check_document(_read_file(path, limits), wanted, limits)
+    about = {"file": path}
+    yield about, attempt(lambda: check_document(read_file(path, limits), wanted, limits))
 
 
-def _counted(path: str, wanted: Expectation, limits: Limits) -> Iterator[Found]:
+def _manifest(path: str, wanted: Expectation, limits: Limits) -> Iterator[Found]:
     """The verdicts on a manifest without those of VALID certificates, and then their numbers."""
-    good = {"file": [0, 0], "text": [0, 0]}
-    for about, verdict in every_verdict(path, wanted, limits):
+    numbers = Counter[tuple[str, bool]]()
+    for about, verdict in manifest_verdicts(path, wanted, limits):
         own = about == {"file": NAME}
-        for what in about:
-            good[what][verdict.status > 0] += not own
+        if not own:
+            numbers.update((what, not verdict.status) for what in about)
         if verdict.verdict != "VALID":
-            yield {"file": path} if own else about, verdict
-    (valid, other), (implied, rest) = good["file"], good["text"]
+            yield {"file": path} if own else {**about, "manifest": path}, verdict
+    implied, rest = numbers["text", True], numbers["text", False]
+    valid, other = numbers["file", True], numbers["file", False]
     told = f"{implied} sentences implied, {rest} not; {valid} certificates valid, {other} not"
     yield {"file": path}, Verdict("COUNTED", told)
 
 
 def verdicts(
-    paths: Sequence[str],
-    manifest: str | None,
-    asking: Sequence[str | None],
-    limits: Limits,
-    clock: Clock,
+    paths: Sequence[str], manifest: str | None, asking: Asking, limits: Limits, clock: Clock
 ) -> Iterator[Found]:
     """Yield each verdict after its subject, a ``file`` or the ``text`` of a sentence.
+
+    What a manifest holds is followed by the path of the ``manifest``.
 
     A path that ends with the usual name of a manifest is read as a manifest.  Every certificate
     is asked for what three files hold: a system, a controller, and a statement or claim.
@@ -131,15 +114,11 @@ def verdicts(
     for path, read in zip(asking, (new.about, new.controlled, new.saying), strict=True):
         if path is not None:
             wanted = _told(path, partial(read, wanted), limits, clock)
-    for path in paths:
-        about = {"file": path}
-        if os.path.basename(path) == NAME:
-            yield from clock.limited(_counted(path, wanted, limits), about)
-        else:
-            check = partial(_check_file, path, wanted, limits)
-            yield from clock.limited(((about, answer(each)) for each in [check]), about)
-    if manifest is not None:
-        yield from clock.limited(_counted(manifest, wanted, limits), {"file": manifest})
+    listed = [(path, os.path.basename(path) == NAME) for path in paths]
+    listed += [] if manifest is None else [(manifest, True)]
+    for path, many in listed:
+        look = _manifest if many else _certificate
+        yield from clock.limited(look(path, wanted, limits), {"file": path})
 
 
 def status_of(found: Sequence[Found]) -> int:

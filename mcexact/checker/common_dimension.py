@@ -1,31 +1,11 @@
 """Kind ``common_dimension``: the least common dimension; ``proofs/common_dimension.md``."""
 
-from collections.abc import Callable
-from functools import partial
-
 from . import reading, region
 from .information_structure import SHARED, augmented_outputs, extended, neighbors_of
 from .reading import Json, fields, require
 from .shared_dimensions import read_cut
 from .statement import FIXED
 from .system import System
-
-
-def _says(share: str, holds: Callable[[Json], Json], claim: Json) -> bool:
-    """Whether a claim is about a way of sharing, and its dimension has a property."""
-    return bool(claim["share"] == share and holds(claim["dimension"]))
-
-
-SENTENCES = {
-    f"common-dimension-{share.replace('+', '-')}{end}": (theorem, partial(_says, share, held))
-    for share, name in (("outputs+states", "outputs"), ("states", "states"))
-    for end, theorem, held in (
-        ("", f"shared_dimensions.common_dimension_{name}", lambda k: k),
-        ("-none", "", lambda k: k == 0),
-        ("-impossible", f"shared_dimensions.no_common_dimension_{name}", lambda k: k is None),
-    )
-}
-"""The sentences that repeat the claim: theorem, and the claim that each needs."""
 
 
 def check(claim: Json, witness: Json, system: System) -> None:

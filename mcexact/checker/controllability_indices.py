@@ -2,7 +2,7 @@
 
 from itertools import pairwise
 
-from .arithmetic import Echelon
+from .arithmetic import rank_modulo
 from .controllability import krylov_ranks
 from .evidence import inputs, modulus
 from .reading import Json, fields, integer, items, matrix, names, require
@@ -24,8 +24,7 @@ def check(claim: Json, witness: Json, system: System) -> None:
     require(growing, "claim", "claim.ranks", f"expected strictly increasing ranks up to {n}")
     ell, nu = modulus(number, "witness.modulus"), len(ranks) - 1
     W = matrix(rows, "witness.annihilator", n - ranks[min(nu, 1)], n)
-    echelon = Echelon(ell)
-    independent = all(echelon.add(row) is not None for row in W.modulo(ell))
+    independent = rank_modulo(W, ell) == W.nrows
     require(independent, "rank", "witness.annihilator", "its rows are dependent modulo l")
     power = inputs(system, T)
     for k in range(1, nu + 2):

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 from .budget import current, limited
 from .controller import read_controller_file
 from .reading import Json, Limits, fields, items, malformed, parse, require, shown, string
-from .statement import digest_of
-from .system import digest, read_system_file
+from .statement import digest, digest_of
+from .system import read_system_file
 
 DIGEST = re.compile(r"[0-9a-f]{64}")
 LINE = re.compile(r"(?:VALID (?:'[^']*' )?([0-9a-f]{64}) )?(For .*)")
@@ -93,12 +93,10 @@ class Expectation:
 
     def require_plant(self, found: str) -> None:
         """Stop unless the certificate is about the plant."""
-        right = self.system in ("", found)
         message = f"about another system, of digest {found}, not {self.system}"
-        require(right, "system", "system", message)
-        fits = self.made_for in ("", found)
+        require(self.system in ("", found), "system", "system", message)
         message = f"about the system of digest {found}, the controller is for {self.made_for}"
-        require(fits, "controller", "system", message)
+        require(self.made_for in ("", found), "controller", "system", message)
 
     def require_subject(self, steps: Json, found: str) -> None:
         """Stop unless the certificate has the subject, and the controller where one is given."""
@@ -118,10 +116,10 @@ class Expectation:
 
     def require_said(self, kind: str, claim: Json, statement: str) -> None:
         """Stop unless the certificate makes the statement, or the claim of its kind."""
-        message = f"a claim of another kind, {kind}"
-        require(self.kind in ("", kind), "expected", "kind", message)
-        right = self.statement in ("", digest_of(statement))
-        require(right, "expected", "claim", f"it states something else: {statement}")
+        other = f"a claim of another kind, {kind}"
+        require(self.kind in ("", kind), "expected", "kind", other)
+        other = f"it states something else: {statement}"
+        require(self.statement in ("", digest_of(statement)), "expected", "claim", other)
         right = self.claim is None or same(claim, self.claim)
         message = f"another claim, which differs in {difference(claim, self.claim)}"
         require(right, "expected", "claim", f"{message} and states: {statement}")

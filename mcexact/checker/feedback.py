@@ -1,13 +1,12 @@
-"""Constructions ``dual``, ``feedback``, ``full_output``, ``integrators`` and ``error``."""
+"""Constructions ``dual``, ``feedback``, ``full_output``, ``merged``, ``integrators``, ``error``."""
 
 import json
-from dataclasses import replace
 
 from .arithmetic import Matrix, beside, stack
-from .evidence import closed_loop, outputs, read_gains
+from .evidence import closed_loop, inputs, outputs, read_gains
 from .information_structure import neighbors_of
-from .reading import Json, fields, matrices
-from .statement import by_channel, canonical_json, prefixed, suffixed, with_digest
+from .reading import Json, fields, items, malformed, matrices, names, require
+from .statement import by_channel, canonical_json, channel_set, prefixed, suffixed, with_digest
 from .system import System
 
 
@@ -18,8 +17,7 @@ def dual(system: System, step: dict[str, Json], place: str) -> System:
     """
     fields(step, place)
     B, C = [M.T for M in system.C], [M.T for M in system.B]
-    words = prefixed("the dual", system)
-    return replace(system, A=system.A.T, B=B, C=C, neighbors=None, delays={}, words=words)
+    return prefixed("the dual", system, A=system.A.T, B=B, C=C, neighbors=None, delays={})
 
 
 def feedback(system: System, step: dict[str, Json], place: str) -> System:
@@ -30,8 +28,8 @@ def feedback(system: System, step: dict[str, Json], place: str) -> System:
     (listed,) = fields(step, place, "gains")
     F = read_gains(listed, place, system)
     given = with_digest(canonical_json(by_channel(system, F)))
-    words = suffixed(system, f"under the decentralized gains F with {given}")
-    return replace(system, A=closed_loop(system, F), words=words)
+    words = f"under the decentralized gains F with {given}"
+    return suffixed(system, words, A=closed_loop(system, F))
 
 
 def full_output(system: System, step: dict[str, Json], place: str) -> System:
@@ -44,7 +42,28 @@ def full_output(system: System, step: dict[str, Json], place: str) -> System:
     identity = Matrix.unit_rows(system.n, 0, system.n)
     C = [identity if i == q else C_i for i, C_i in enumerate(system.C)]
     words = f"with the whole state measured by channel {json.dumps(name)}"
-    return replace(system, C=C, words=suffixed(system, words))
+    return suffixed(system, words, C=C)
+
+
+def merged(system: System, step: dict[str, Json], place: str) -> System:
+    """One channel for each part T of a partition of the channels, (B_T, C_T); no neighbor graph.
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    (listed,) = fields(step, place, "parts")
+    parts = [names(part, place, system.names) for part in items(listed, place)]
+    if not all(parts) or parts != sorted(parts):
+        malformed(place, "expected parts that are not empty, by their first members")
+    whole = sorted(i for part in parts for i in part) == list(range(system.m))
+    message = "expected every channel in exactly one part, and a part"
+    require(bool(parts) and whole, "subject", place, message)
+    known = ["+".join(system.names[i] for i in part) for part in parts]
+    distinct = len(set(known)) == len(known)
+    require(distinct, "subject", place, "two channels would have the same name")
+    sets = ", ".join(channel_set(system.names[i] for i in part) for part in parts)
+    words = f"with its channels merged into {sets}"
+    B, C = [inputs(system, part) for part in parts], [outputs(system, part) for part in parts]
+    return suffixed(system, words, names=known, B=B, C=C, neighbors=None, delays={})
 
 
 def integrators(system: System, step: dict[str, Json], place: str) -> System:
@@ -60,8 +79,7 @@ def integrators(system: System, step: dict[str, Json], place: str) -> System:
     A = stack([system.A @ x, change + w if system.time == "discrete" else change], N)
     B = [stack([B_i, Matrix.zeros(sum(q), B_i.ncols)], B_i.ncols) for B_i in system.B]
     C = [Matrix.unit_rows(N, n + sum(q[:i]), q_i) for i, q_i in enumerate(q)]
-    words = suffixed(system, "with integrators of its outputs")
-    return replace(system, A=A, B=B, C=C, words=words)
+    return suffixed(system, "with integrators of its outputs", A=A, B=B, C=C)
 
 
 def error(system: System, step: dict[str, Json], place: str) -> System:
@@ -81,5 +99,5 @@ def error(system: System, step: dict[str, Json], place: str) -> System:
         seen = [e[i] - e[j] for j in N_i if j != i]
         C.append(stack([system.C[i] @ e[i], *seen], n * system.m))
     given = with_digest(canonical_json(by_channel(system, F)))
-    words = prefixed(f"the open-loop error system under the state feedback F with {given}", system)
-    return replace(system, A=A, B=[e_i.T for e_i in e], C=C, words=words)
+    words = f"the open-loop error system under the state feedback F with {given}"
+    return prefixed(words, system, A=A, B=[e_i.T for e_i in e], C=C)

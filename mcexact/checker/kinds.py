@@ -5,16 +5,18 @@ import sys
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from importlib import import_module
+from typing import TypeVar
 
 from .arithmetic import NotAUnit
 from .budget import current, limited
 from .expectation import Expectation
 from .reading import Json, Limits, Refused, fields, incomplete, malformed, parse, shown, string
-from .statement import described, digest_of
+from .statement import described, digest, digest_of
 from .subject import read_subject
-from .system import System, digest, read_plant
+from .system import read_plant
 
 FORMAT = "mcexact-certificate/1"
+T = TypeVar("T")
 
 # fmt: off
 STEMS = (
@@ -27,32 +29,12 @@ STEMS = (
 # fmt: on
 
 
-@dataclass(frozen=True)
-class Rule:
-    """What the file of a kind says of it.
+KINDS = {stem: import_module(f".{stem}", __package__) for stem in STEMS}
+"""The file of each kind.
 
-    Attributes
-    ----------
-    check : callable
-        Stop unless the witness proves the claim.
-    statement : callable
-        The claim in words, made from the claim and the subject alone.
-    sentences : dict
-        The sentences of manifests that repeat the claim.
-    """
-
-    check: Callable[[Json, Json, System], None]
-    statement: Callable[[Json, System], str]
-    sentences: dict[str, Json] = field(default_factory=dict)
-
-
-def _rule(stem: str) -> Rule:
-    module = import_module(f".{stem}", __package__)
-    return Rule(module.check, module.statement, getattr(module, "SENTENCES", {}))
-
-
-KINDS = {stem: _rule(stem) for stem in STEMS}
-"""The rule of each kind, from the file of the same name."""
+Its ``check(claim, witness, system)`` stops unless the witness proves the claim, and its
+``statement(claim, system)`` says the claim in words, from the claim and the subject alone.
+"""
 STATUSES = {"VALID": 0, "IMPLIED": 0, "COUNTED": 0, "INVALID": 1, "MALFORMED": 3, "INCOMPLETE": 5}
 
 
@@ -94,6 +76,10 @@ class Verdict:
     def status(self) -> int:
         """The exit status that belongs to this verdict."""
         return STATUSES.get(self.verdict, 70)
+
+    def inside(self, where: str) -> "Verdict":
+        """The same, about a part of something, by its place there if it is not good."""
+        return replace(self, place=f"{where} {self.place}" if self.status else "")
 
     def line(self, name: str = "") -> str:
         """The verdict as one line of text, with the name of what it is about behind it."""
@@ -145,8 +131,8 @@ def check_document(
 
     budget = current(allowed.work)
     before = budget.spent
-    verdict = replace(answer(check), spent=budget.spent - before)
-    return replace(verdict, system_digest=known, controller_digest=controller)
+    verdict, spent = attempt(check), budget.spent - before
+    return replace(verdict, spent=spent, system_digest=known, controller_digest=controller)
 
 
 Found = tuple[dict[str, str], Verdict]
@@ -158,16 +144,16 @@ def refusal(verdict: str, code: str, place: str, message: str) -> Verdict:
     return Verdict(verdict, code=code, place=place, message=message)
 
 
-def answer(check: Callable[[], Verdict]) -> Verdict:
-    """Run a check, and turn an exception into a verdict."""
+def attempt(work: Callable[[], T]) -> T | Verdict:
+    """Do some work, and turn an exception into a verdict."""
     digits = sys.get_int_max_str_digits()
     try:
         # The reader limits the number of digits; the interpreter's own limit would stop some
         # messages.
         sys.set_int_max_str_digits(0)
-        return check()
+        return work()
     except Refused as found:
-        return refusal(found.verdict, found.code, found.place, found.message)
+        return refusal(*found.args)
     except MemoryError:
         return refusal("INCOMPLETE", "memory", "checker", "more memory than there is")
     except NotAUnit:

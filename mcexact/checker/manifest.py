@@ -3,16 +3,15 @@
 import hashlib
 import os
 import re
-import stat
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 
 from . import reading, sentences_analysis, sentences_design, sentences_sharing
 from .budget import Budget, current, limited, spend
 from .expectation import DIGEST, Expectation, same
-from .kinds import KINDS, Found, Verdict, answer, check_document, refusal
+from .kinds import KINDS, Found, Verdict, attempt, check_document, refusal
 from .reading import Json, Limits, Refused, fields, items, malformed, parse, require, shown, string
-from .sentence import RULES, Premise, enter_own
+from .sentence import RULES, Premise
 from .subject import read_subject
 from .system import read_plant
 
@@ -20,8 +19,6 @@ __all__ = ["NAME", "RULES", "manifest_verdicts", "verdicts_of"]
 
 TOPICS = (sentences_analysis, sentences_sharing, sentences_design)
 """The modules of the rules that do not belong to one kind."""
-for kind, rule in KINDS.items():
-    enter_own(kind, rule.sentences)
 FORMAT = "mcexact-manifest/1"
 NAME = "manifest.json"
 FILE = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_+-]{0,99}\.json")
@@ -32,66 +29,45 @@ Read = Callable[[str], bytes]
 """What gives the bytes of a certificate by its name, and of the manifest by ""."""
 
 
-def manifest_verdicts(
-    path: str, expected: Expectation | None = None, limits: Limits | None = None
-) -> Iterator[Found]:
-    """Yield verdicts on the manifest if unreadable, on certificates if not VALID, and on sentences.
+def manifest_verdicts(path: str, expected: Expectation, limits: Limits) -> Iterator[Found]:
+    """Yield verdicts on the manifest if unreadable, on certificates, and on sentences.
 
     Parameters
     ----------
     path : str
         A manifest, or a folder that contains one under its usual name.
-    expected : Expectation, optional
+    expected : Expectation
         The plant of all certificates, by default that of the first one, and the controller of all
         closed loops, of which there must then be one.
-    limits : Limits, optional
+    limits : Limits
         For the manifest and for each certificate.
     """
-    for about, verdict in every_verdict(path, expected or Expectation(), limits or Limits()):
-        if verdict.verdict != "VALID":
-            yield about, verdict
+    path = os.path.join(path, NAME) if os.path.isdir(path) else os.path.join(".", path)
+    return verdicts_of(lambda name: _bytes(path, name, limits), expected, limits)
 
 
-def every_verdict(path: str, expected: Expectation, limits: Limits) -> Iterator[Found]:
-    """The same, with verdicts on all certificates."""
-    path = os.path.join(path, NAME) if os.path.isdir(path) else path
-
-    def read(name: str) -> bytes:
-        try:
-            return _bytes(os.path.join(os.path.dirname(path), name) if name else path, name, limits)
-        except (OSError, ValueError) as error:
-            reason = getattr(error, "strerror", None) or str(error)
-            raise Refused("MALFORMED", "unreadable", "file", f"cannot be read: {reason}") from error
-
-    return verdicts_of(read, expected, limits)
-
-
-def verdicts_of(
-    read: Callable[[str], bytes], expected: Expectation, limits: Limits
-) -> Iterator[Found]:
+def verdicts_of(read: Read, expected: Expectation, limits: Limits) -> Iterator[Found]:
     """The verdicts on a manifest from anywhere: ``read`` takes the name of a file, or "" for it."""
-    parts: list[Json] = []
     budget = current(limits.work)
 
-    def start() -> Verdict:
+    def start() -> tuple[Json, ...]:
         one = not expected.statement and expected.claim is None
         require(one, "expected", "file", "a manifest makes more than one statement")
         data = read("")
         with limited(budget, len(data)):
-            parts.extend(_parts(parse(data, limits)))
-        return Verdict("READ")
+            return _parts(parse(data, limits))
 
-    verdict = answer(start)
-    if not parts:
-        yield {"file": NAME}, verdict
+    parts = attempt(start)
+    if isinstance(parts, Verdict):
+        yield {"file": NAME}, parts
         return
     digests, sentences, base = parts
     known = Evidence(read, base, limits, expected, budget)
     for name in sorted(digests):
         yield {"file": name}, known.taken(name, digests[name])
-    verdict = known.based()
-    if verdict.verdict != "READ":
-        yield {"file": NAME}, verdict
+    refused = attempt(known.make_subject)
+    if refused is not None:
+        yield {"file": NAME}, refused
         return
     if expected.controller and not any(each.system.controller for each in known.premises.values()):
         message = "no certificate is about a closed loop with the controller"
@@ -100,19 +76,19 @@ def verdicts_of(
         yield {"text": sentence["text"]}, known.judged(sentence, f"sentences[{k}]")
 
 
-def _bytes(path: str, name: str, limits: Limits) -> bytes:
-    """Read a regular file, at most one byte more than the limit.
+def _bytes(manifest: str, name: str, limits: Limits) -> bytes:
+    """Read a regular file beside a manifest, or without a name the manifest itself.
 
-    A link to a manifest, which has no name here, is followed, and one to a certificate is not.
+    A link to a manifest is followed, and one to a certificate is not.
     """
+    path = os.path.join(os.path.dirname(manifest), name) if name else manifest
     if name:
         require(os.path.lexists(path), "missing", "file", "is not beside the manifest")
-        regular = stat.S_ISREG(os.lstat(path).st_mode)
+        regular = os.path.isfile(path) and not os.path.islink(path)
         require(regular, "file", "file", "not a regular file of this folder")
-    elif not stat.S_ISREG(os.stat(path).st_mode):
+    elif os.path.exists(path) and not os.path.isfile(path):
         malformed("file", "a manifest is a regular file")
-    with open(path, "rb") as stream:
-        return reading.read_bytes(stream, limits)
+    return reading.read_file(path, limits)
 
 
 def _parts(document: Json) -> tuple[Json, ...]:
@@ -186,24 +162,17 @@ class Evidence:
                     self.premises[name] = self._premise(name, document)
                 return verdict
 
-        found = answer(check)
-        place = f"{name} {found.place}" if found.status else ""
-        self.verdicts[name] = replace(found, place=place)
+        self.verdicts[name] = attempt(check).inside(name)
         return self.verdicts[name]
 
-    def based(self) -> Verdict:
+    def make_subject(self) -> None:
         """Make the system that the sentences are about, out of the plant of the certificates."""
-
-        def make() -> Verdict:
-            if self.premises:
-                plant = next(iter(self.premises.values())).plant
-                with limited(self.budget):
-                    meant = read_subject(self.base, plant)
-                known = self.premises.items()
-                self.premises = {name: replace(each, meant=meant) for name, each in known}
-            return Verdict("READ")
-
-        return answer(make)
+        first = next(iter(self.premises.values()), None)
+        if first is not None:
+            with limited(self.budget):
+                meant = read_subject(self.base, first.plant)
+            known = self.premises.items()
+            self.premises = {name: replace(each, meant=meant) for name, each in known}
 
     def _premise(self, name: str, document: Json) -> Premise:
         """A certificate that was found VALID."""
@@ -245,9 +214,7 @@ class Evidence:
             return Verdict("IMPLIED", f"{words} from {', '.join(cited)}" if cited else words)
 
         with limited(self.budget):
-            verdict = answer(check)
-        where = f"{place} {shown(key)} {verdict.place}" if verdict.status else ""
-        return replace(verdict, place=where)
+            return attempt(check).inside(f"{place} {shown(key)}")
 
 
 def pointed(document: Json, pointer: str, place: str) -> Json:

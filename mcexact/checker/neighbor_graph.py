@@ -8,13 +8,6 @@ from .reading import Json, boolean, fields, require
 from .statement import denied
 from .system import System
 
-SENTENCES = {
-    "neighbor-graph-connected": ("", lambda claim: claim["strongly_connected"]),
-    "neighbor-graph-not-connected": ("", lambda claim: not claim["strongly_connected"]),
-    "enough-unknown": ("", lambda claim: not claim["strongly_connected"]),
-}
-"""The sentences that repeat the claim: theorem, and the claim that each needs."""
-
 
 def check(claim: Json, witness: Json, system: System) -> None:
     """Recompute the answer from the sets of neighbors.
@@ -25,9 +18,8 @@ def check(claim: Json, witness: Json, system: System) -> None:
     fields(witness, "witness")
     arcs = [(j, i) for i, N_i in enumerate(neighbors_of(system, "subject")) for j in N_i]
     connected = len(components(system.m, arcs)) <= 1
-    answer = "strongly connected" if connected else "not strongly connected"
-    same = boolean(verdict, "claim.strongly_connected") == connected
-    require(same, "claim", "claim.strongly_connected", f"the graph is {answer}")
+    place, answer = "claim.strongly_connected", f"{denied(connected)}strongly connected"
+    require(boolean(verdict, place) == connected, "claim", place, f"the graph is {answer}")
 
 
 def statement(claim: Json, system: System) -> str:

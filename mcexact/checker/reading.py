@@ -4,9 +4,11 @@ Every reader takes a value and its place in the document, for the message.  A va
 form is MALFORMED; a rule says INVALID by :func:`require`.
 """
 
+import errno
 import json
 import math
 import re
+import sys
 import unicodedata
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -14,8 +16,8 @@ from fractions import Fraction
 from typing import IO, Any, NoReturn
 
 from .arithmetic import Matrix, Polynomial
+from .budget import Refused as Refused
 from .budget import spend
-from .refused import Refused as Refused
 
 # A string is one match, also without its end; possessive quantifiers make the scans linear.
 TOKEN = re.compile(r'"(?:[^"\\]++|\\.)*+"?|[\[{]|[\]}]', re.DOTALL)
@@ -112,6 +114,20 @@ def read_bytes(stream: IO[bytes], limits: Limits) -> bytes:
             break
         data += part
     return bytes(data)
+
+
+def read_file(path: str, limits: Limits) -> bytes:
+    """The bytes of a file, or of standard input for ``-``."""
+    try:
+        if path != "-":
+            with open(path, "rb") as stream:
+                return read_bytes(stream, limits)
+        if sys.stdin is None:
+            raise OSError(errno.EBADF, "standard input is closed")
+        return read_bytes(sys.stdin.buffer, limits)
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise Refused("MALFORMED", "unreadable", "file", f"cannot be read: {reason}") from error
 
 
 def shown(value: Json) -> str:

@@ -179,9 +179,3 @@ def either(yes: str, no: str, role: Role, holds: Holds) -> None:
     """Enter a rule that repeats what holds, and one that repeats that it does not."""
     restate(yes, role, holds)
     restate(no, role, lambda premise: not holds(premise))
-
-
-def enter_own(kind: str, sentences: dict[str, Any]) -> None:
-    """Enter the ``SENTENCES`` of a kind's file, which repeat claims about the plant."""
-    for key, (theorem, holds) in sentences.items():
-        restate(key, Role((kind,), PLANT), holds, theorem)

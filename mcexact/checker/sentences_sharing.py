@@ -14,6 +14,8 @@ CONNECTED = Role(("neighbor_graph",), PLANT)
 LEAST = Role(("shared_dimensions",), PLANT)
 LINKS = Role(("communication",), PLANT)
 HYPOTHESES = (CONNECTED, CONTROLLABLE, OBSERVABLE)
+UNCONNECTED = "neighbor-graph-not-connected enough-unknown"
+either("neighbor-graph-connected", UNCONNECTED, CONNECTED, lambda c: c["strongly_connected"])
 
 VAIN = "sharing-in-vain-{}ability"
 restate(VAIN.format("controll"), CONTROLLABLE, lambda c: not controls(c), HAUTUS)
@@ -77,6 +79,25 @@ _enter_least("outputs+states", "least-outputs-states", *BOTH)
 _enter_least("states", "least-states")
 ALLOCATED = "allocate-least allocate-row allocate-total"
 either(ALLOCATED, "allocate-impossible", LEAST, lambda c: c["feasible"])
+
+
+def _enter_common(share: str, key: str, name: str) -> None:
+    """Enter the rules about the least common dimension for one way of sharing."""
+
+    def asked(found: Premise) -> bool:
+        found.expect(found["share"] == share, "about the other way of sharing")
+        return bool(found["feasible"])
+
+    key, common = f"common-dimension-{key}", Role(("common_dimension",), PLANT)
+    some, never = (f"shared_dimensions.{word}_{name}" for word in NAMES)
+    restate(key, common, lambda c: asked(c) and c["dimension"], some)
+    restate(f"{key}-none", common, lambda c: asked(c) and not c["dimension"])
+    restate(f"{key}-impossible", common, lambda c: not asked(c), never)
+
+
+NAMES = ("common_dimension", "no_common_dimension")
+_enter_common("outputs+states", "outputs-states", "outputs")
+_enter_common("states", "states", "states")
 
 
 @rule(

@@ -6,12 +6,13 @@
 import hashlib
 import json
 from collections.abc import Iterable
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
 from . import budget
 from .arithmetic import Matrix, Polynomial
-from .system import System, rows_of
+from .system import System, canonical, rows_of
 
 FIXED = "fixed under linear time-invariant decentralized control"
 PENCIL = "[xI - A, B; C, 0]"
@@ -35,6 +36,11 @@ def canonical_json(value: Any) -> str:
 def digest_of(text: str) -> str:
     """The SHA-256 of an ASCII text, in lower-case hexadecimal."""
     return hashlib.sha256(text.encode("ascii")).hexdigest()
+
+
+def digest(system: System) -> str:
+    """The SHA-256 of the canonical object of a plant."""
+    return digest_of(canonical_json(canonical(system)))
 
 
 def with_digest(text: str) -> str:
@@ -90,18 +96,19 @@ def counted(number: int, noun: str) -> str:
 # Systems: the plant by its digest, and constructions before or behind what they are applied to.
 
 
-def prefixed(words: str, system: System) -> str:
-    """A system that a construction makes, named before the system that it is made from."""
-    return f"{words} of: {system.words}"
+def prefixed(words: str, system: System, blocks: tuple[int, ...] = (), **parts: Any) -> System:
+    """The system with these parts that a construction makes, named before what it is made from."""
+    return replace(system, words=f"{words} of: {system.words}", blocks=blocks, **parts)
 
 
-def suffixed(system: System, words: str) -> str:
-    """A system that a construction makes, named behind the system that it is made from.
+def suffixed(system: System, words: str, **parts: Any) -> System:
+    """The same, named behind what it is made from.
 
     What begins with a construction stands in parentheses, so that the text parses in one way only.
     """
     alone = system.words.startswith(("the plant", "("))
-    return f"{system.words if alone else f'({system.words})'} {words}"
+    before = system.words if alone else f"({system.words})"
+    return replace(system, words=f"{before} {words}", blocks=(), **parts)
 
 
 def described(system: System) -> str:

@@ -1,13 +1,9 @@
 """The system that a claim is about, built from the plant by the constructions of ``FORMAT.md``."""
 
-from dataclasses import replace
-
 from .budget import spend
 from .closed_loop import closed_loop
-from .delays import held, lifted
-from .feedback import dual, error, feedback, full_output, integrators
-from .information_structure import arcs, augmented_outputs, extended
-from .merged import merged
+from .feedback import dual, error, feedback, full_output, integrators, merged
+from .information_structure import arcs, augmented_outputs, extended, held, lifted
 from .reading import Json, incomplete, items, malformed, shown
 from .system import System
 
@@ -31,6 +27,4 @@ def read_subject(value: Json, plant: System) -> System:
         spend(1000 + 200 * system.m + len(system.words))
         parameters = {key: part for key, part in step.items() if key != "construction"}
         system = CONSTRUCTIONS[name](system, parameters, place)
-        if name != closed_loop.__name__:  # what is made from a loop has not the parts of its state
-            system = replace(system, blocks=())
     return system

@@ -1,7 +1,5 @@
 """The plant, read from a certificate or from a system file, and its digest."""
 
-import hashlib
-import json
 import math
 import re
 from dataclasses import dataclass, field
@@ -198,13 +196,6 @@ def canonical(system: System) -> dict[str, Json]:
     for (i, j), steps in system.delays.items():
         result.setdefault("delays", {}).setdefault(known[i], {})[known[j]] = steps
     return result
-
-
-def digest(system: System) -> str:
-    """The SHA-256 of the canonical object: sorted keys, no blanks, non-ASCII characters escaped."""
-    budget.spend(8 * sum(map(len, system.names)))
-    text = json.dumps(canonical(system), sort_keys=True, separators=(",", ":"))
-    return hashlib.sha256(text.encode("ascii")).hexdigest()
 
 
 def read_plant(value: Json) -> System:

@@ -113,7 +113,8 @@ def said(
     folder: Path, expected: Expectation | None = None, limits: Limits | None = None
 ) -> list[Verdict]:
     """The verdicts on a folder, of certificates that are not VALID first."""
-    return [verdict for _, verdict in manifest_verdicts(str(folder), expected, limits)]
+    found = manifest_verdicts(str(folder), expected or Expectation(), limits or Limits())
+    return [verdict for _, verdict in found if verdict.verdict != "VALID"]
 
 
 def one(folder: Path, what: Document, evidence: Mapping[str, Document] = EVIDENCE) -> Verdict:

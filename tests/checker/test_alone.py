@@ -265,7 +265,7 @@ def test_a_rule_that_exhausts_the_memory_is_incomplete(monkeypatch: pytest.Monke
     def greedy() -> kinds.Verdict:
         raise MemoryError
 
-    verdict = kinds.answer(greedy)
+    verdict = kinds.attempt(greedy)
     assert (verdict.verdict, verdict.code, verdict.status) == ("INCOMPLETE", "memory", 5)
 
 

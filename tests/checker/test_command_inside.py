@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 
 from mcexact import checker
-from mcexact.checker import Verdict, allowance, command
+from mcexact.checker import Verdict, allowance, command, reading
 from mcexact.checker.command import main
 from tests.checker.handmade import FIXED, FREE, PAPER, changed
 from tests.checker.manifests import SENTENCES, write
@@ -135,7 +135,7 @@ def test_a_line_names_its_file_where_there_are_several(
     valid, invalid, *implied, counted = capsys.readouterr().out.splitlines()
     assert valid.replace(" 'fixed.json' ", " ", 1) + "\n" == alone
     assert invalid.startswith("INVALID 'invalid.json' common_factor ")
-    assert all(line.startswith("IMPLIED For ") for line in implied)
+    assert all(line.startswith("IMPLIED 'evidence' For ") for line in implied)
     assert counted.startswith("COUNTED 'evidence' ")
     (folder / "said.txt").write_text(valid + "\n", encoding="ascii")
     assert main(["fixed.json", "--expect", "said.txt"]) == 0
@@ -163,7 +163,7 @@ def test_memory_that_is_missing_for_what_is_asked_is_incomplete(
     def full(*arguments: Any) -> bytes:
         raise MemoryError
 
-    monkeypatch.setattr(command, "read_bytes", full)
+    monkeypatch.setattr(reading, "read_bytes", full)
     assert main(["fixed.json", "--system", "system.json"]) == 5
     assert capsys.readouterr().err == "checker: system.json: checker: more memory than there is\n"
 

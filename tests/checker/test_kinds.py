@@ -11,7 +11,7 @@ import pytest
 
 from mcexact.checker import Limits, Verdict, check_document
 from mcexact.checker.arithmetic import NotAUnit
-from mcexact.checker.kinds import KINDS, answer
+from mcexact.checker.kinds import KINDS, attempt
 from mcexact.checker.reading import Refused
 from tests.checker.handmade import FIXED, FREE, changed, checked, without
 
@@ -52,7 +52,7 @@ def test_an_exception_becomes_a_verdict(error: Exception, verdict: str, code: st
     def check() -> Verdict:
         raise error
 
-    found = answer(check)
+    found = attempt(check)
     assert (found.verdict, found.code) == (verdict, code)
     assert found.line().isascii() and len(found.line().splitlines()) == 1
     assert len(found.message) < 2000
@@ -63,7 +63,7 @@ def test_an_interruption_is_no_verdict() -> None:
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        answer(check)
+        attempt(check)
 
 
 def test_the_interpreter_s_limit_on_digits_is_as_before() -> None:
@@ -77,7 +77,7 @@ def test_the_interpreter_s_limit_on_digits_is_as_before() -> None:
     try:
         for digits in (0, 5000):
             sys.set_int_max_str_digits(digits)
-            answer(check)
+            attempt(check)
             assert sys.get_int_max_str_digits() == digits
     finally:
         sys.set_int_max_str_digits(before)

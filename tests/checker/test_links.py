@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from mcexact.checker.arithmetic import Matrix
-from mcexact.checker.links import candidates, carried, link
+from mcexact.checker.communication import candidates, carried, link
 from mcexact.checker.reading import Refused
 from mcexact.checker.system import System, read_plant
 from tests.checker.handmade import plant

@@ -14,7 +14,8 @@ from mcexact.checker.expectation import same
 from mcexact.checker.kinds import FORMAT
 from mcexact.checker.manifest import pointed, verdicts_of
 from mcexact.checker.reading import Refused
-from mcexact.checker.system import digest, read_plant
+from mcexact.checker.statement import digest
+from mcexact.checker.system import read_plant
 from tests import effort
 from tests.checker.handmade import FREE, PAPER, Document, changed, without
 from tests.checker.manifests import (
@@ -436,10 +437,10 @@ def test_what_is_missing_or_too_large_is_not_read(tmp_path: Path) -> None:
 def test_a_manifest_is_granted_work_for_its_bytes_once(tmp_path: Path) -> None:
     texts = {"": (write(tmp_path) / "manifest.json").read_bytes()}
     texts |= {f"{name}.json": text_of(document) for name, document in EVIDENCE.items()}
-    budget = Budget(GRANTED, GRANTED, grows=True)
+    budget = Budget()
     with limited(budget):
         assert all(not v.status for about, v in verdicts_of(texts.get, Expectation(), Limits()))
-    assert budget.most == GRANTED + PER_BYTE * sum(map(len, texts.values()))
+    assert budget.usual == GRANTED + PER_BYTE * sum(map(len, texts.values()))
 
 
 def test_a_verdict_on_a_certificate_names_its_file(tmp_path: Path) -> None:

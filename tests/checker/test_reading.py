@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import re
-from dataclasses import replace
 
 import pytest
 
@@ -211,8 +210,7 @@ def test_an_exception_inside_the_checker_is_never_valid(monkeypatch: pytest.Monk
         raise RecursionError("on purpose\nwith two lines")
 
     for part in ("check", "statement"):
-        rule = replace(kinds.KINDS["fixed_spectrum"], **{part: broken})
-        monkeypatch.setitem(kinds.KINDS, "fixed_spectrum", rule)
+        monkeypatch.setattr(kinds.KINDS["fixed_spectrum"], part, broken)
         verdict = checked(FREE)
         assert (verdict.verdict, verdict.status, verdict.statement) == ("ERROR", 70, "")
         assert "\n" not in verdict.line()

@@ -11,8 +11,9 @@ import pytest
 
 from mcexact.checker import arithmetic
 from mcexact.checker.reading import Refused
+from mcexact.checker.statement import digest
 from mcexact.checker.subject import CONSTRUCTIONS, read_subject
-from mcexact.checker.system import System, digest, read_plant
+from mcexact.checker.system import System, read_plant
 from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.derived.delayed import held_system, lifted_system
 from mcexact.derived.dual import dual

@@ -7,7 +7,8 @@ import json
 import pytest
 
 from mcexact.checker.reading import Limits, Refused
-from mcexact.checker.system import digest, read_plant, read_system_file
+from mcexact.checker.statement import digest
+from mcexact.checker.system import read_plant, read_system_file
 from mcexact.model import gallery, system_file
 from tests.checker.handmade import PAPER
 
