@@ -1,4 +1,10 @@
-"""The command line, which prints one line for each file and ends with one exit status."""
+"""Verify certificates, and print one line for each.
+
+The line is VALID, the SHA-256 of the statement that the certificate proves, and this statement; or
+INVALID, MALFORMED or INCOMPLETE, a code and a place.  With several files it names its file.  A file
+named manifest.json is read as a manifest.  With --controller there is nothing else in the loop
+unless --expect says so.  Work is limited by default to 40,000,000 units and 4,000 for each byte.
+"""
 
 import argparse
 import errno
@@ -8,6 +14,7 @@ import os
 import sys
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import asdict
 from functools import partial
 from typing import IO, NoReturn
@@ -135,53 +142,21 @@ def count(text: str) -> int:
 
 def seconds(text: str) -> float:
     """A number of seconds above 0."""
-    try:
-        found = float(text)
-    except ValueError:
-        found = 0.0
-    if not 0 < found < float("inf"):
-        raise argparse.ArgumentTypeError(f"expected a number of seconds above 0, found {text!a}")
-    return found
+    with suppress(ValueError):
+        if 0 < float(text) < float("inf"):
+            return float(text)
+    raise argparse.ArgumentTypeError(f"expected a number of seconds above 0, found {text!a}")
 
 
-ABOUT = (
-    "Verify certificates, and print one line for each: VALID, the SHA-256 of the statement that it "
-    "proves, and this statement; or INVALID, MALFORMED or INCOMPLETE, a code and a place. With "
-    "several files the line names its file. A file named manifest.json is read as a manifest."
-)
-EPILOG = (
-    "Exit status: the first that applies of 70 a bug in this checker, 3 MALFORMED, 1 INVALID, "
-    "5 INCOMPLETE, 0 all VALID or IMPLIED; 2 wrong usage, 74 the verdicts cannot be written, "
-    "130 interrupted. Python itself ends with 1 if it cannot start: a status of 1 without a line "
-    "that says INVALID is no verdict."
-)
 OPTIONS: tuple[tuple[str, str, Callable[[str], object], str], ...] = (
     ("manifest", "FILE", str, "verify the sentences of this manifest from its certificates"),
     ("system", "FILE", str, "require certificates about the system in this file"),
-    (
-        "controller",
-        "FILE",
-        str,
-        "require certificates about the closed loop of the plant with the controller in this "
-        "file, and nothing else in the loop unless --expect says so",
-    ),
-    (
-        "expect",
-        "FILE",
-        str,
-        "require what this file holds: a statement, its SHA-256, the line of a verdict, or "
-        + CLAIM,
-    ),
+    ("controller", "FILE", str, "require loops of the plant with the controller in this file"),
+    ("expect", "FILE", str, f"require a statement, its SHA-256, its line of a verdict, or {CLAIM}"),
     ("max-bytes", "N", count, "most bytes of a file"),
     ("max-digits", "N", count, "most digits in a row"),
     ("max-depth", "N", count, "most nested levels"),
-    (
-        "max-work",
-        "N",
-        count,
-        "most units of work for a file, or for a manifest with its certificates together "
-        "(default: 40,000,000 and 4,000 for each byte)",
-    ),
+    ("max-work", "N", count, "most units for a file, or for a manifest with its certificates"),
     ("timeout", "SECONDS", seconds, "the time of the run; what is not decided is INCOMPLETE"),
     ("max-memory", "MIB", count, "the memory that may be added; what needs more is INCOMPLETE"),
 )
@@ -197,8 +172,8 @@ class Parser(argparse.ArgumentParser):
 
 
 def _parser() -> argparse.ArgumentParser:
-    """The options."""
-    parser = Parser("checker", None, ABOUT, EPILOG, allow_abbrev=False)
+    """The options, and in the help what these docstrings say."""
+    parser = Parser("checker", None, __doc__, main.__doc__, allow_abbrev=False)
     parser.add_argument("files", nargs="*", metavar="FILE", help="certificates; - is the input")
     parser.add_argument("--json", action="store_true", help="print one JSON document")
     for name, value, read, told in OPTIONS:
@@ -209,10 +184,11 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Check files, print one line for each (or one JSON document), and return the exit status.
+    """Exit status: the first that applies of 70, 3, 1, 5, 0.
 
-    The status is the first that applies of 70, 3, 1, 5, 0; wrong usage ends with 2, an output that
-    cannot be written with 74, an interruption with 130.
+    70 is a bug in this checker, 3 MALFORMED, 1 INVALID, 5 INCOMPLETE, 0 all VALID or IMPLIED; 2 is
+    wrong usage, 74 the verdicts cannot be written, 130 interrupted.  Python itself ends with 1 if
+    it cannot start: a status of 1 without a line that says INVALID is no verdict.
     """
     try:
         try:
@@ -271,12 +247,9 @@ def _say(text: str) -> None:
 
 def _complain(text: str) -> None:
     """Print a line on standard error, if that is possible."""
-    if sys.stderr is None:
-        return  # to print to None is to print to standard output
-    try:
-        print(f"checker: {text}", file=sys.stderr, flush=True)
-    except OSError:
-        _drop(sys.stderr)
+    if sys.stderr is not None:  # to print to None is to print to standard output
+        with suppress(OSError):  # at the end it is tried again
+            print(f"checker: {text}", file=sys.stderr, flush=True)
 
 
 def _flush(stream: IO[str] | None) -> None:

@@ -27,14 +27,10 @@ def check(claim: Json, witness: Json, system: System) -> None:
     require((sizes is None) == (share == "outputs"), "claim", "claim.dimensions", "do not fit")
     bound, known = region.read_bound(limit, system), candidates(listed, system)
     costs, ends = [cost for *_, cost in known], [(j, i) for j, i, _ in known]
-    step = {"share": share, "dimensions": sizes}
-
-    def with_links(plant: System) -> System:
-        if sizes is None:
-            return augmented_outputs(plant, {}, "claim")
-        return extended(plant, step, "claim")
-
-    subject, found = with_links(system), []
+    make, step = extended, {"share": share, "dimensions": sizes}
+    if sizes is None:
+        make, step = augmented_outputs, {}
+    subject, found = make(system, step, "claim"), []
     for place, entry in ((f"witness.cuts[{k}]", e) for k, e in enumerate(items(cuts, "cuts"))):
         factor, subspace = fields(entry, place, "polynomial", "subspace")
         p = reading.polynomial(factor, f"{place}.polynomial", 1)
@@ -53,7 +49,7 @@ def check(claim: Json, witness: Json, system: System) -> None:
         right = chosen == sorted(set(chosen)) and set(chosen) <= set(ends)
         total = sum(c for j, i, c in known if (j, i) in chosen)
         require(right and value == total, "claim", "claim.cost", "not the cost of such candidates")
-        final = with_links(arcs(system, {"added": added}, "claim.added"))
+        final = make(arcs(system, {"added": added}, "claim.added"), step, "claim")
         region.require_absence(absence, final, bound)
     labels = [[system.names[j], system.names[i]] for j, i in ends]
     covering.Program(costs, found, "arc", labels, value).require_bound(tree, [1] * len(ends))

@@ -157,8 +157,7 @@ def attempt(work: Callable[[], T]) -> T | Verdict:
     except MemoryError:
         return refusal("INCOMPLETE", "memory", "checker", "more memory than there is")
     except NotAUnit:
-        message = "a number that has to be inverted is not a unit modulo l"
-        return refusal("INVALID", "unit", "witness.modulus", message)
+        return refusal("INVALID", "unit", "witness.modulus", "a number is not invertible modulo l")
     except Exception as error:
         message = f"{type(error).__name__}: {error}".splitlines()[0][:200]
         return refusal("ERROR", "internal", "checker", ascii(message))

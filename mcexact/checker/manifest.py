@@ -23,7 +23,7 @@ FORMAT = "mcexact-manifest/1"
 NAME = "manifest.json"
 FILE = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_+-]{0,99}\.json")
 """The name of a certificate's file beside the manifest, which is not a path on any system."""
-TOKEN = re.compile(r"(?:[^~]|~[01])*+")
+POINTER = re.compile(r"(?:/(?:[^/~]|~[01])*+)*+")
 INDEX = re.compile(r"0|[1-9][0-9]{0,9}")
 Read = Callable[[str], bytes]
 """What gives the bytes of a certificate by its name, and of the manifest by ""."""
@@ -70,8 +70,7 @@ def verdicts_of(read: Read, expected: Expectation, limits: Limits) -> Iterator[F
         yield {"file": NAME}, refused
         return
     if expected.controller and not any(each.system.controller for each in known.premises.values()):
-        message = "no certificate is about a closed loop with the controller"
-        yield {"file": NAME}, refusal("INVALID", "controller", "file", message)
+        yield {"file": NAME}, refusal("INVALID", "controller", "file", "about no closed loop")
     for k, sentence in enumerate(sentences):
         yield {"text": sentence["text"]}, known.judged(sentence, f"sentences[{k}]")
 
@@ -219,10 +218,8 @@ class Evidence:
 
 def pointed(document: Json, pointer: str, place: str) -> Json:
     """The value to which a JSON pointer (RFC 6901) leads."""
-    node, good = document, not pointer or pointer[0] == "/"
+    node, good = document, bool(POINTER.fullmatch(pointer))
     for token in pointer.split("/")[1:]:
-        if not TOKEN.fullmatch(token):
-            good = False
         key = token.replace("~1", "/").replace("~0", "~")
         if isinstance(node, list) and INDEX.fullmatch(key) and int(key) < len(node):
             node = node[int(key)]

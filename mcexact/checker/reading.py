@@ -81,8 +81,7 @@ def parse(data: bytes, limits: Limits, decimal_of: Callable[[str], Json] | None 
     for number in long_number.finditer(plain):
         digits = len(number[0])
         if digits > limits.digits:
-            message = f"a number of more than {limits.digits} digits (Limits.digits)"
-            incomplete("size", "file", message)
+            incomplete("size", "file", f"more than {limits.digits} digits in a row (Limits.digits)")
         spend(digits * digits // 500)  # Python converts them in quadratic time, and both ways
 
     def refuse(number: str) -> NoReturn:
@@ -108,10 +107,7 @@ def parse(data: bytes, limits: Limits, decimal_of: Callable[[str], Json] | None 
 def read_bytes(stream: IO[bytes], limits: Limits) -> bytes:
     """Read a stream in parts, until it ends or has one byte more than the limit."""
     data = bytearray()
-    while len(data) <= limits.bytes:
-        part = stream.read(min(2**20, limits.bytes + 1 - len(data)))
-        if not part:
-            break
+    while part := stream.read(min(2**20, limits.bytes + 1 - len(data))):
         data += part
     return bytes(data)
 
@@ -276,7 +272,7 @@ def positions(value: Json, place: str, below: int) -> list[int]:
     """Strictly increasing positions from 0 to ``below`` − 1."""
     result = [integer(entry, place) for entry in items(value, place)]
     if result != sorted(set(result)) or any(entry >= below for entry in result):
-        malformed(place, f"expected increasing positions below {below}")
+        malformed(place, f"expected increasing positions below {below}, none of them twice")
     return result
 
 
@@ -287,7 +283,4 @@ def names(value: Json, place: str, known: list[str]) -> list[int]:
     for entry in value:
         if type(entry) is not str or entry not in place_of:
             malformed(place, f"expected the name of a channel, found {shown(entry)}")
-    result = [place_of[entry] for entry in value]
-    if result != sorted(set(result)):
-        malformed(place, "expected channels in the order of the system, none of them twice")
-    return result
+    return positions([place_of[entry] for entry in value], place, len(known))

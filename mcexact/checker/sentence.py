@@ -66,15 +66,12 @@ class Premise:
         """Stop unless the claims are as the sentence needs them."""
         require(holds, "claim", self.file, message)
 
-    def cited(self, pointer: str) -> list[Any]:
+    def cited(self, part: str, key: str) -> list[Any]:
         """The members of a list to which the sentence points; all of them if it points to none."""
-        members: Any = self.document
-        for key in pointer.split("/")[1:]:
-            members = members[key]
-        place = f"{pointer}/"
-        inside = [each.removeprefix(place) for each in self.pointers if each.startswith(place)]
-        numbers = {int(rest.split("/")[0]) for rest in inside}
-        return [member for k, member in enumerate(members) if k in numbers or not numbers]
+        paths = [pointer.split("/")[1:] for pointer in self.pointers]
+        numbers = {int(path[2]) for path in paths if path[:2] == [part, key] and path[2:]}
+        members = enumerate(self.document[part][key])
+        return [member for k, member in members if k in numbers or not numbers]
 
 
 @dataclass(frozen=True)

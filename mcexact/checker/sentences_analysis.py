@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 from .arithmetic import exponent
 from .location import in_stability_region
-from .reading import Json, polynomial
+from .reading import polynomial
 from .sentence import DUAL, PLANT, SYSTEM, Holds, Premise, Role, either, restate, rule
 from .statement import PENCIL, channel_set, described, edge_set, polynomial_text
 
@@ -77,8 +77,8 @@ def _neighbors(known: list[Premise]) -> str:
     """Who receives messages from whom."""
     plant = known[0].meant
     known[0].expect(plant.neighbors is not None, "the plant has no neighbor graph")
-    arcs = [(j, i) for i, N_i in enumerate(plant.neighbors or []) for j in N_i if i != j]
-    told = edge_set((plant.names[j], plant.names[i]) for j, i in arcs)
+    sets, names = enumerate(plant.neighbors or []), plant.names
+    told = edge_set((names[j], names[i]) for i, N_i in sets for j in N_i if i != j)
     return f"For {plant.words}: its neighbor graph has the edges {told}"
 
 
@@ -109,20 +109,16 @@ restate("fixed-modes", FIXED, lambda c: c["factors"], FIXED_DYNAMIC)
 def _blame(key: str, told: str, wanted: Callable[[int, int], bool]) -> None:
     """Enter the rule about the fixed modes whose sets have a wanted size, among m channels."""
 
-    def chosen(found: Premise) -> list[Json]:
-        factors, m = found.cited("/claim/factors"), found.system.m
-        return [factor for factor in factors if wanted(len(factor["channels"]), m)]
-
-    def words(found: Premise) -> str:
-        texts = []
-        for factor in chosen(found):
+    @rule(key, FIXED, theorem=PENCIL_MODES)
+    def _say(found: Premise) -> str:
+        texts, names = [], found.system.names
+        for factor in found.cited("claim", "factors"):
             s, modes = factor["channels"], polynomial_text(factor["polynomial"])
-            rest = [name for name in found.system.names if name not in s]
-            sets = channel_set(rest), channel_set(s)
-            texts.append(f"the roots of {modes} are fixed, {told.format(*sets)}")
+            if wanted(len(s), len(names)):
+                sets = channel_set(name for name in names if name not in s), channel_set(s)
+                texts.append(f"the roots of {modes} are fixed, {told.format(*sets)}")
+        found.expect(bool(texts), "the claim is different")
         return f"{found.about}: {'; '.join(texts)}"
-
-    restate(key, FIXED, chosen, PENCIL_MODES, words)
 
 
 _blame("fixed-mode", "not controlled by {} and not observed by {}", lambda size, m: 0 < size < m)
@@ -161,15 +157,13 @@ def moved(spectrum: Premise, split: Premise) -> tuple[int, int]:
     product of the p^a, as the rest of det(xI - A) is coprime to the loop of the certificate.  The
     loop's exponent is of p as a whole, and limits that of a root only where p has a single one.
     """
-    sizes, stays = [], 0
+    sizes, n = [], spectrum.system.n
     for factor in spectrum["factors"]:
         degree, times = len(factor["polynomial"]) - 1, factor["multiplicity_in_A"]
-        stays += degree
         if degree == 1:
             times = min(times, factor["multiplicity_at_most"])
         sizes.append(degree * times)
-    n = spectrum.system.n
-    return n - sum(sizes), n - max(stays, split["fixed_degree"])
+    return n - sum(sizes), n - max(len(spectrum["polynomial"]) - 1, split["fixed_degree"])
 
 
 @rule("spectrum-moved-between", FIXED, BLOCKS, theorem=MOVED)
@@ -245,11 +239,8 @@ def gains(key: str, wanted: str, about: Callable[[Premise], bool]) -> None:
         found.expect(right, "another question was asked")
         return bool(found["exists"])
 
-    def stuck(found: Premise) -> bool:
-        return not asked(found) and "polynomial" in found.witness
-
-    def cut(side: str) -> Holds:
-        return lambda c: not asked(c) and "zero" in c.witness and c.witness["side"] == side
+    def lost(part: str, *sides: str) -> Holds:
+        return lambda c: not asked(c) and part in c.witness and c.witness["side"] in sides
 
     def reason(found: Premise) -> str:
         p, q, side = (found.witness.get(part) for part in ("polynomial", "channel", "side"))
@@ -257,10 +248,10 @@ def gains(key: str, wanted: str, about: Callable[[Premise], bool]) -> None:
         return f"{found.statement}: not {side} through {json.dumps(q)}, for {why}"
 
     restate(f"{key}-gains", GAINS, asked)
-    restate(f"{key}-stuck", GAINS, stuck, words=reason)
+    restate(f"{key}-stuck", GAINS, lost("polynomial", *SIDES), words=reason)
     for side in SIDES if wanted == "both" else (wanted,):
         no_cut = "single_channel_gains.single_channel_no_cut"
-        restate(f"{key}-unreached-{side}", GAINS, cut(side), no_cut, reason)
+        restate(f"{key}-unreached-{side}", GAINS, lost("zero", side), no_cut, reason)
 
 
 for each in (*SIDES, "both"):

@@ -5,7 +5,7 @@ from fractions import Fraction
 
 from .controller import MAPS
 from .location import in_stability_region
-from .reading import Json, Refused, polynomial
+from .reading import Json, polynomial
 from .sentence import Holds, Path, Premise, Role, either, restate, rule
 from .sentences_analysis import FIXED_DYNAMIC, SETPOINT, controls
 from .sentences_sharing import demands
@@ -35,12 +35,9 @@ DIMENSIONS = Role(("shared_dimensions",), behind(()))
 
 def controller(known: list[Premise]) -> tuple[Premise, list[Json]]:
     """The programs of the agents, out of a certificate about their loop."""
-    for premise in known:
-        if premise.path and premise.path[-1] == "closed_loop":
-            agents: list[Json] = premise.document["subject"][-1]["controller"]["agents"]
-            return premise, agents
-    message = "expected a certificate about a closed loop"
-    raise Refused("INVALID", "claim", known[0].file, message)
+    loops = [premise for premise in known if premise.path and premise.path[-1] == "closed_loop"]
+    known[0].expect(bool(loops), "expected a certificate about a closed loop")
+    return loops[0], loops[0].document["subject"][-1]["controller"]["agents"]
 
 
 def controlled(loop: Premise) -> System:
@@ -72,12 +69,18 @@ def _longest(known: list[Premise]) -> str:
     found, agents = controller(known)
     bits = [0]
     for program in (agent[label] for agent in agents for label in MAPS):
-        parts = [program.get("private"), program.get("reference")]
-        parts += [M for key in ("outputs", "shared") for M in (program.get(key) or {}).values()]
-        numbers = [x for M in parts if M is not None for row in entries(M) for x in row]
+        numbers = [x for rows in signals(program).values() for row in rows for x in row]
         bits += [number.bit_length() for x in numbers for number in x.as_integer_ratio()]
     size = counted(max(bits), "bit")
     return f"{found.about}: the longest numerator or denominator in the controller has {size}"
+
+
+def signals(program: Json) -> dict[tuple[str, str], list[list[Fraction]]]:
+    """The rows of each matrix of a program, by the signal that it multiplies."""
+    parts = {(key, ""): program[key] for key in ("private", "reference") if key in program}
+    for key in ("outputs", "shared"):
+        parts |= {(key, name): entries for name, entries in program.get(key, {}).items()}
+    return {signal: entries(value) for signal, value in parts.items()}
 
 
 def entries(value: Json) -> list[list[Fraction]]:
@@ -163,20 +166,14 @@ def integrates(system: System, i: int, agent: Json) -> bool:
 
     r is the set-point of y: where z is constant, y = r.
     """
-    update, k, q = agent["private_update"], agent["private"], system.C[i].nrows
-    outputs, shared = update.get("outputs") or {}, update.get("shared") or {}
-
-    def rows(value: Json, width: int) -> list[list[Fraction]]:
-        return [[Fraction(0)] * width for _ in range(k)] if value is None else entries(value)
-
-    own = rows(outputs.get(system.names[i]), q)
-    reference, stay = rows(update.get("reference"), q), rows(update.get("private"), k)
-    rest = [M for name, M in outputs.items() if name != system.names[i]] + [*shared.values()]
-    others = [entries(value) for value in rest]
+    update, k, q = signals(agent["private_update"]), agent["private"], system.C[i].nrows
+    own = update.pop(("outputs", system.names[i]), [[Fraction(0)] * q] * k)
+    reference = update.pop(("reference", ""), [[Fraction(0)] * q] * k)
+    stay = update.pop(("private", ""), [[Fraction(0)] * k] * k)
     found = set()
     for z in range(k):
         kept = [int(system.time == "discrete" and j == z) for j in range(k)]
-        alone = stay[z] == kept and not any(any(M[z]) for M in others)
+        alone = stay[z] == kept and not any(any(M[z]) for M in update.values())
         difference = own[z] == [-entry for entry in reference[z]]
         if alone and difference and sorted(own[z]) == [0] * (q - 1) + [1]:
             found.add(own[z].index(Fraction(1)))

@@ -17,9 +17,8 @@ HYPOTHESES = (CONNECTED, CONTROLLABLE, OBSERVABLE)
 UNCONNECTED = "neighbor-graph-not-connected enough-unknown"
 either("neighbor-graph-connected", UNCONNECTED, CONNECTED, lambda c: c["strongly_connected"])
 
-VAIN = "sharing-in-vain-{}ability"
-restate(VAIN.format("controll"), CONTROLLABLE, lambda c: not controls(c), HAUTUS)
-restate(VAIN.format("observ"), OBSERVABLE, lambda c: not controls(c), OBSERVABLE_HAUTUS)
+restate("sharing-in-vain-controllability", CONTROLLABLE, lambda c: not controls(c), HAUTUS)
+restate("sharing-in-vain-observability", OBSERVABLE, lambda c: not controls(c), OBSERVABLE_HAUTUS)
 for delayed in ("lifted", "held"):
     NETWORK = Role(("fixed_spectrum",), ((delayed,),))
     either(f"{delayed}-nothing-fixed", f"{delayed}-fixed", NETWORK, free)
@@ -31,11 +30,9 @@ def enough(bound: Premise, *hypotheses: Premise) -> str:
     graph.expect(graph["strongly_connected"], "the neighbor graph is not strongly connected")
     c.expect(controls(c), "not jointly controllable")
     o.expect(controls(o), "not jointly observable")
-    what = "outputs and" if bound.path == HEARD[0] else "no outputs and"
-    return (
-        f"{graph.about}: no mode is fixed where every agent shares {what} at least "
-        f"{counted(bound['deficiency'], 'sub-state')} with its neighbors, without delay"
-    )
+    what = "outputs" if bound.path == HEARD[0] else "no outputs"
+    shared = f"{what} and at least {counted(bound['deficiency'], 'sub-state')} with its neighbors"
+    return f"{graph.about}: no mode is fixed where every agent shares {shared}, without delay"
 
 
 def _enter_bound(key: str, paths: tuple[Path, ...], theorem: str, positive: bool) -> None:
@@ -89,24 +86,20 @@ def _enter_common(share: str, key: str, name: str) -> None:
         return bool(found["feasible"])
 
     key, common = f"common-dimension-{key}", Role(("common_dimension",), PLANT)
-    some, never = (f"shared_dimensions.{word}_{name}" for word in NAMES)
-    restate(key, common, lambda c: asked(c) and c["dimension"], some)
+    restate(key, common, lambda c: asked(c) and c["dimension"], f"shared_dimensions.{name}")
     restate(f"{key}-none", common, lambda c: asked(c) and not c["dimension"])
-    restate(f"{key}-impossible", common, lambda c: not asked(c), never)
+    restate(f"{key}-impossible", common, lambda c: not asked(c), f"shared_dimensions.no_{name}")
 
 
-NAMES = ("common_dimension", "no_common_dimension")
-_enter_common("outputs+states", "outputs-states", "outputs")
-_enter_common("states", "states", "states")
+_enter_common("outputs+states", "outputs-states", "common_dimension_outputs")
+_enter_common("states", "states", "common_dimension_states")
 
 
-@rule(
-    "allocate-row-bound allocate-total-bound",
-    LEAST,
-    Role(("deficiency",), HEARD + PLANT),
-    *HYPOTHESES,
-    theorem="extended_bound.theorem_2, extended_bound.remark_2",
-)
+BOUND = Role(("deficiency",), HEARD + PLANT)
+BOUNDS = "extended_bound.theorem_2, extended_bound.remark_2"
+
+
+@rule("allocate-row-bound allocate-total-bound", LEAST, BOUND, *HYPOTHESES, theorem=BOUNDS)
 def _allocated(least: Premise, bound: Premise, *hypotheses: Premise) -> str:
     """What is least, beside the bound for the same way of sharing."""
     fits = bound.path == (HEARD if least["share"] == "outputs+states" else PLANT)[0]
@@ -133,7 +126,7 @@ def demands(least: Premise, agents: str, alone: bool = False) -> str:
     system, told = least.system, []
     N = system.neighbors or [[i] for i in range(system.m)]
     sharing = f"sharing {SHARED[least['share']]} without delay"
-    for cut in least.cited("/witness/cuts"):
+    for cut in least.cited("witness", "cuts"):
         s, p = [system.names.index(name) for name in cut["subset"]], cut.get("polynomial")
         which = "none" if not s else "all" if len(s) == system.m else "some"
         senders = sorted({j for i in s for j in N[i]} - set(s))
@@ -143,11 +136,9 @@ def demands(least: Premise, agents: str, alone: bool = False) -> str:
                 goal = no_fixed_mode(least["bound"], system)
                 why = f"the roots of {polynomial_text(p)}"
             others = channel_set(system.names[j] for j in senders)
-            needed = counted(cut.get("deficiency", 1), "sub-state")
-            told.append(
-                f"for {goal}, {sharing}, {channel_set(cut['subset'])} receives from {others}, "
-                f"which must share at least {needed} in all: {why}"
-            )
+            lacks = f"{channel_set(cut['subset'])} receives from {others}"
+            needed = f"at least {counted(cut.get('deficiency', 1), 'sub-state')} in all"
+            told.append(f"for {goal}, {sharing}, {lacks}, which must share {needed}: {why}")
     least.expect(bool(told), "the evidence has no such cut")
     return f"{least.about}: {'; '.join(told)}"
 

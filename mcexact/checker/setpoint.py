@@ -1,6 +1,6 @@
 """Kind ``setpoint``: whether integrators can hold outputs at set-points; ``proofs/setpoint.md``."""
 
-from .arithmetic import Matrix, beside, rank_modulo, stack
+from .arithmetic import Matrix, beside, diagonal, rank_modulo, stack
 from .evidence import inputs, modulus, outputs, require_identity
 from .reading import Json, boolean, fields, integer, matrix, polynomial_matrix, positions, require
 from .statement import PENCIL, denied
@@ -20,9 +20,8 @@ def check(claim: Json, witness: Json, system: System) -> None:
     B, C = inputs(system, range(system.m)), outputs(system, range(system.m))
     rows, width, place = n + C.nrows, n + B.ncols, int(system.time == "discrete")
     lower = beside([C, Matrix.zeros(C.nrows, B.ncols)], C.nrows)
-    unit = beside([Matrix.unit_rows(n, 0, n), Matrix.zeros(n, B.ncols)], n)
     fixed = stack([beside([A.times(-1), B], n), lower], width)
-    moving = stack([unit, Matrix.zeros(C.nrows, width)], width)
+    moving = diagonal(Matrix.unit_rows(n, 0, n), Matrix.zeros(C.nrows, B.ncols))
     S = stack([beside([A - Matrix.unit_rows(n, 0, n).times(place), B], n), lower], width)
     r, ell = integer(size, "claim.rank"), modulus(number, "witness.modulus")
     require(r <= rows and rank_modulo(S, ell) >= r, "rank", "claim.rank", "not reached modulo l")
@@ -60,8 +59,6 @@ def statement(claim: Json, system: System) -> str:
     if claim["solvable"]:
         return f"{rows}, so that integrators of all outputs add no uncontrollable mode"
     zero = f", so that {place} is an invariant zero" if claim["invariant_zero"] else ""
-    return (
-        f"{rows}, so that in no stable linear time-invariant loop every output tends to every "
-        f"constant set-point; the normal rank of {PENCIL} is "
-        f"{denied(claim['invariant_zero'])}its number of rows{zero}"
-    )
+    goal = "every output tends to every constant set-point"
+    normal = f"the normal rank of {PENCIL} is {denied(claim['invariant_zero'])}its number of rows"
+    return f"{rows}, so that in no stable linear time-invariant loop {goal}; {normal}{zero}"

@@ -57,21 +57,18 @@ def number(value: Json, place: str, limits: Limits | None = None) -> Fraction:
     ``limits`` are those of a file; a certificate's numbers were limited when it was parsed.
     """
     if type(value) is int or isinstance(value, Fraction):
-        result = Fraction(value)
+        result, typed = Fraction(value), 0
     else:
         good = type(value) is str and NUMBER.fullmatch(value)
         mantissa, exponent, *_ = [*re.split("[eE]", value), "0"] if good else ["", "0"]
         if not good or abs(int(exponent)) > (limits or Limits).exponent:
             malformed(place, f'expected an integer, a decimal or "p/q", found {shown(value)}')
         typed = 0 if "/" in mantissa else len(mantissa.strip("-").replace(".", ""))
-        if limits and typed > limits.digits:
-            message = f"a number of more than {limits.digits} digits (Limits.digits)"
-            reading.incomplete("size", place, message)
         budget.spend(300 + (len(value) + abs(int(exponent))) ** 2 // 500)
         result = Fraction(value)
-    if limits and too_long(max(abs(result.numerator), result.denominator), limits.digits):
-        message = f"more than {limits.digits} digits written out (Limits.digits)"
-        reading.incomplete("size", place, message)
+    size = max(abs(result.numerator), result.denominator)
+    if limits and (typed > limits.digits or too_long(size, limits.digits)):
+        reading.incomplete("size", place, f"needs more than {limits.digits} digits (Limits.digits)")
     return result
 
 
@@ -166,8 +163,7 @@ def _with_graph(plant: System, heard: Json, waits: Json) -> System:
     for i, row in enumerate(fields({} if waits is None else waits, "delays", optional=known)):
         for _, j, steps in reading.by_name(row, "delays", known):
             if (integer(steps, "delays") and i == j) or j not in sets[i]:
-                message = f"{shown(known[i])} does not receive messages of {shown(known[j])}"
-                malformed("delays", message)
+                malformed("delays", f"{shown(known[i])} receives nothing from {shown(known[j])}")
             if steps:
                 delays[i, j] = steps
     return System(plant.time, plant.names, plant.A, plant.B, plant.C, sets, delays)

@@ -36,7 +36,6 @@ HARMLESS: dict[str, str] = {
         "modulo 1 every number is 0 and nothing is shown, modulo 0 there is an error, and a "
         "negative number shows what its absolute value shows"
     ),
-    "reading.py: positions: result != sorted(set(result)) or any((entry >= below for entry in result))": SHAPE,
     "reading.py: names: type(entry) is not str or entry not in place_of": RAISES,
     "region.py: claimed_cost: absence is None": UNREAD,
     "system.py: number: not good or abs(int(exponent)) > (limits or Limits).exponent": CANONICAL,
