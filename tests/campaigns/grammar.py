@@ -17,7 +17,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
-from mcexact.checker import reading
+from mcexact.checker import reading, statement
 from mcexact.checker import system as checker
 from mcexact.errors import InputError
 from mcexact.exact.rational import Limits
@@ -294,7 +294,7 @@ def compare(data: bytes, limits: Limits, tally: Tally, what: str) -> None:
     ours_digest = None if ours is None else system_file.digest(ours)
     with any_integer():
         checked, other = verdict_of(lambda: checker.read_system_file(data, theirs), reading.Refused)
-        its_digest = None if checked is None else checker.digest(checked)
+        its_digest = None if checked is None else statement.digest(checked)
     problem = "" if ours_digest == its_digest else f"{ours_digest} {reason} / {its_digest} {other}"
     problem = problem or in_a_certificate(data, limits, ours)
     if problem:
@@ -315,7 +315,7 @@ def in_a_certificate(data: bytes, limits: Limits, ours: Any) -> str:
     if ours is not None:
         with any_integer():
             form = json.loads(canonical(system_file.canonical_document(ours)))
-            found = checker.digest(checker.read_plant(form))
+            found = statement.digest(checker.read_plant(form))
         if found != system_file.digest(ours):
             return f"its canonical form has the digest {found}"
     if not isinstance(document, dict) or limits != Limits():
