@@ -5,7 +5,7 @@ BIN := .venv/bin
 STAMP := .venv/.installed
 GALLERY := mcexact/model/gallery
 
-.PHONY: coverage mutants records reproduce look ledger sentences demo test lint types tests matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs
+.PHONY: corpus coverage mutants records reproduce look ledger sentences demo test lint types tests matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs
 
 demo: $(STAMP)
 	$(BIN)/mcexact demo
@@ -58,6 +58,10 @@ coverage: $(STAMP)
 mutants: $(STAMP)
 	$(BIN)/python -m pip install --quiet --quiet --disable-pip-version-check --editable '.[mutants]'
 	HYPOTHESIS_PROFILE=ci $(BIN)/python -m tests.mutants $(FILES)
+
+# Certificates, and what each rule for sentences makes of them, as tests/checker compares: minutes.
+corpus: $(STAMP)
+	$(BIN)/python -m tests.checker.corpus_sentences
 
 # The checker alone as one file, which `python -I` runs: seconds.
 zipapp: $(STAMP)

@@ -21,6 +21,7 @@ from mcexact.model.system import MultiChannelSystem
 from tests.checker import test_setpoint
 from tests.checker.handmade import INTEGRATOR, Document, certificate, changed, checked, matrix
 from tests.checker.manifests import one, sentence
+from tests.checker.recorded import compare, keys
 from tests.checker.test_closed_loop_spectrum import LOOP
 from tests.checker.test_distributed_observer import ONE as OBSERVER
 from tests.checker.test_stability import BY_BLOCKS
@@ -231,3 +232,8 @@ def test_what_is_said_of_a_controller_is_read_off_its_programs(tmp_path: Path) -
     plant = "For " + name.rpartition(" of: ")[2]
     said = judged(tmp_path, "design-observer-order", [LOOP]).statement
     assert said == f"{plant}: the paper's observer has 1 state from premise_0.json"
+
+
+@pytest.mark.parametrize("key", keys("design"))
+def test_a_rule_answers_as_it_did(key: str) -> None:
+    compare(key)

@@ -1,0 +1,372 @@
+"""Certificates about small plants: every kind, with every outcome of its claim."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import random
+from collections.abc import Callable, Iterator
+from fractions import Fraction
+from typing import Any
+
+from mcexact.analysis.analyze import analyze
+from mcexact.analysis.fixed_modes.completeness import completeness
+from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
+from mcexact.analysis.fixed_modes.single_channel_gains import single_channel_gains
+from mcexact.analysis.questions import asked_by
+from mcexact.analysis.sharing.allocation import minimal_shared_dimensions
+from mcexact.analysis.sharing.common_dimension import common_dimension
+from mcexact.analysis.sharing.communication import minimal_communication
+from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
+from mcexact.answer.codec import document
+from mcexact.derived.error_system import error_system
+from mcexact.derived.extended import extended_system
+from mcexact.derived.integrators import setpoint_system
+from mcexact.errors import McexactError
+from mcexact.exact.location import StabilityRegion
+from mcexact.exact.matrix import Matrix
+from mcexact.model import gallery
+from mcexact.model.canonical import plain
+from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem
+from mcexact.synthesis.certify import account_of_verdict, certify_controller
+from mcexact.synthesis.network.decentralized import design_decentralized
+from mcexact.synthesis.network.extended import design_extended
+from mcexact.synthesis.observer.observer import design_observer
+from mcexact.synthesis.setpoint import design_setpoint
+from tests.answer.test_sentences import drawn
+from tests.attack.draws.certificates import certified
+from tests.attack.draws.observers import drawn_observer
+from tests.attack.draws.subjects import drawn_subject
+from tests.checker import (
+    test_complementary_subsystem,
+    test_sentences_design,
+    test_setpoint,
+    test_single_channel_gains,
+)
+from tests.checker.handmade import Document
+from tests.checker.test_fixed_spectrum import UNEVEN
+
+Found = Iterator[Document]
+
+
+def told(*decisions: Callable[[], Any]) -> Found:
+    """The certificates of decisions that apply."""
+    for decide in decisions:
+        with contextlib.suppress(McexactError, ValueError):
+            yield document(decide())
+
+
+def analyses(system: MultiChannelSystem, gains: bool = True) -> Found:
+    """Everything that can be asked of a plant, of each channel, and of several sets."""
+    asked = [name for name in asked_by("links", "every-channel") if gains or "gains" not in name]
+    if system.neighbors is not None:
+        asked += asked_by("minimal")
+        if system.time == "discrete":
+            asked += asked_by("delayed")
+    ways = ["own", "outputs"] if system.neighbors is not None else ["own"]
+    for information in ways:
+        sets = [[name] for name in system.names] + [list(system.names[1:]), []]
+        for k, subset in enumerate(sets if information == "own" else sets[:1]):
+            channel = subset[0] if len(subset) == 1 and gains else None
+            options: Any = {"information": information, "subset": subset, "channel": channel}
+            analysis = analyze(system, also=[] if k else asked, **options)
+            yield from map(document, analysis.decided().values())
+
+
+def allocations(system: MultiChannelSystem) -> Found:
+    """The least that agents have to share, at some prices and within some limits."""
+    region = StabilityRegion(system.time, Fraction(1, 2))
+    m, share = system.m, ("outputs+states", "states")
+    for way in share:
+        yield from told(
+            lambda way=way: common_dimension(system, None, way),
+            lambda way=way: minimal_shared_dimensions(system, None, way),
+            lambda way=way: minimal_shared_dimensions(system, None, way, free_assignability=True),
+            lambda way=way: minimal_shared_dimensions(system, None, way, region=region),
+        )
+    yield from told(
+        lambda: minimal_shared_dimensions(system, costs=[*range(1, m + 1)]),
+        lambda: minimal_shared_dimensions(system, costs=["1/2"] * m),
+        lambda: minimal_shared_dimensions(system, upper=[0] * m),
+        lambda: minimal_shared_dimensions(system, upper=[*[None] * (m - 1), 2]),
+    )
+
+
+def links(system: MultiChannelSystem) -> Found:
+    """The links to add, at some prices, for some ways of sharing, within some region."""
+    some = (system.names[0], system.names[-1])
+    yield from told(
+        lambda: minimal_communication(system),
+        lambda: minimal_communication(system, costs={some: 2}),
+        lambda: minimal_communication(system, costs={some: "1/2"}),
+        lambda: minimal_communication(system, forbidden=[some]),
+        lambda: minimal_communication(system, rate=1),
+        lambda: minimal_communication(system, radius="1/2"),
+        lambda: minimal_communication(system, dimensions=[1] * system.m, share="states"),
+        lambda: minimal_communication(system, dimensions=[0] * system.m, share="outputs+states"),
+    )
+
+
+def designs(system: MultiChannelSystem) -> Found:
+    """The certificates of exact designs, or of why there is none."""
+    wanted = {"rate": "1/10"} if system.time == "continuous" else {"radius": "9/10"}
+    for design in (design_observer, design_decentralized, design_extended, design_setpoint):
+        for options in (wanted, {}):
+            try:
+                made: Any = design(system, arithmetic="exact", **options)  # type: ignore[operator]
+            except McexactError as refusal:
+                proof = getattr(refusal, "certificate", None)
+                if proof is not None:
+                    yield document(proof)
+                continue
+            yield from map(json.loads, made.account.certificates.values())
+            for method in ("polynomial", "lyapunov"):
+                if method == "polynomial":
+                    verdict = certify_controller(system, made.controller, method=method, **options)
+                    account = account_of_verdict(verdict)
+                    yield from map(json.loads, account.certificates.values())
+
+
+def no_gains(system: MultiChannelSystem) -> list[Matrix]:
+    """For each agent the gain 0 of the whole state."""
+    return [Matrix.zeros(system.p(i), system.n) for i in range(system.m)]
+
+
+def refusals(system: MultiChannelSystem) -> Found:
+    """What stands in the way of a design: of the plant, with integrators, of the errors."""
+    tracked = setpoint_system(system)
+    yield from told(
+        lambda: joint_controllability(system),
+        lambda: joint_observability(system),
+        lambda: joint_controllability(tracked),
+        lambda: joint_observability(tracked),
+        lambda: fixed_spectrum(system),
+        lambda: fixed_spectrum(tracked),
+        lambda: completeness(error_system(system, no_gains(system))),
+        lambda: fixed_spectrum(error_system(system, no_gains(system))),
+        lambda: completeness(error_system(tracked, no_gains(tracked))),
+        lambda: fixed_spectrum(extended_system(system, [0] * system.m, "states")),
+        lambda: fixed_spectrum(extended_system(system, [1] * system.m, "outputs+states")),
+        lambda: fixed_spectrum(extended_system(tracked, [tracked.n] * system.m, "states")),
+        lambda: fixed_spectrum(
+            extended_system(tracked, [max(tracked.n - 1, 0)] * system.m, "states")
+        ),
+        lambda: minimal_shared_dimensions(tracked),
+    )
+
+
+def uneven() -> MultiChannelSystem:
+    """A factor of which one root stays more often than another."""
+    A = [[0, 1, 1, 0], [0, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
+    return MultiChannelSystem(A, [[[0], [0], [0], [1]]], [[[0, 0, 0, 1]]])
+
+
+def loops(system: MultiChannelSystem, seed: int) -> Found:
+    """Loops with drawn controllers, and what can be said of their eigenvalues."""
+    rng = random.Random(seed)
+    plant = plain(document(joint_controllability(system))["system"])
+    for _ in range(4):
+        steps = drawn_subject(rng, plant, "closed_loop", more=0.0)
+        if steps is not None:
+            for kind in ("stability", "closed_loop_spectrum", "stability"):
+                found = certified(rng, kind, plant, steps)
+                if found is not None and found["witness"].get("method") != "lyapunov":
+                    yield found
+    for want in ("controllable", "observable", "both"):
+        for channel in system.names:
+            yield from told(lambda w=want, c=channel: single_channel_gains(system, c, want=w))
+
+
+def everything(system: MultiChannelSystem, seed: int = 0) -> Found:
+    """All of that about one plant."""
+    yield from analyses(system)
+    if system.neighbors is not None:
+        yield from allocations(system)
+    yield from links(system)
+    yield from refusals(system)
+    yield from loops(system, seed)
+
+
+def alone(module: Any) -> Iterator[tuple[str, list[Document]]]:
+    """The accepted certificates of a table of tests, those about one plant together."""
+    plants: dict[str, list[Document]] = {}
+    for _, found in module.ACCEPTED:
+        plants.setdefault(json.dumps(found["system"], sort_keys=True), []).append(found)
+    for k, listed in enumerate(plants.values()):
+        yield f"{module.__name__.rpartition('.test_')[2]}_{k}", listed
+
+
+def crafted() -> dict[str, MultiChannelSystem]:
+    """Set-points beside a mode that is not controlled, or not observed, and stable or not."""
+    found = {}
+    for time, places in (("continuous", (1, -2, 3)), ("discrete", (2, "1/2", 3))):
+        for name, B, C, place in (
+            ("stable_uncontrolled", [[1], [0]], [[1, 1]], 1),
+            ("stable_unobserved", [[1], [1]], [[1, 0]], 1),
+            ("unstable_uncontrolled", [[1], [0]], [[1, 1]], 2),
+            ("unstable_unobserved", [[1], [1]], [[1, 0]], 2),
+        ):
+            A = [[places[0], 0], [0, places[place]]]
+            found[f"{name}_{time}"] = MultiChannelSystem(A, [B], [C], time=time)
+    first, second, nothing = [[1], [0]], [[0], [1]], [[0], [0]]
+    rows = [[[1, 0]], [[0, 1]], [[0, 0]]]
+    found["split"] = MultiChannelSystem([[1, 0], [0, 2]], [first, second], rows[:2])
+    found["idle"] = MultiChannelSystem(
+        [[0, 1], [1, 0]], [first, nothing, nothing], [rows[0], rows[2], rows[2]]
+    )
+    found["empty"] = MultiChannelSystem(
+        Matrix.zeros(0, 0), [Matrix.zeros(0, 1)], [Matrix.zeros(1, 0)]
+    )
+    found["apart"] = MultiChannelSystem(
+        [[1]], [[[1]], [[0]]], [[[1]], [[0]]], neighbors={"1": [], "2": []}
+    )
+    mutual = {"1": ["2"], "2": ["1"]}
+    for time in ("continuous", "discrete"):
+        B, C = [[[1], [1]], [[1], [0]]], [[[1, 1]], [[0, 1]]]
+        found[f"mutual_{time}"] = MultiChannelSystem(
+            [[1, 0], [0, 2]], B, C, neighbors=mutual, time=time
+        )
+    return found
+
+
+def tracking() -> Iterator[tuple[str, list[Document]]]:
+    """Stable loops in which agents integrate outputs less set-points, or nearly do."""
+    unit, half = [[1, 0], [0, 1]], [["1/2", 0], [0, "1/2"]]
+    minus, twice = [[-1, 0], [0, -1]], [[-2, 0], [0, -2]]
+    for time, A, kept in (("continuous", [[0, 0], [0, 0]], [0, 0]), ("discrete", unit, [1, 1])):
+        port = {"name": "1", "B": unit, "C": unit}
+        system = {"time": time, "A": A, "channels": [port]}
+        stay = [[kept[0], 0], [0, kept[1]]]
+        leaks = [[f"{10 * kept[0] - 1}/10", 0], [0, kept[1]]]
+        grows = [[kept[0], 0], ["1/10", kept[1]]]
+        minds = [[kept[0], "-1/10"], [0, kept[1]]]
+        maps = [(unit, minus, each) for each in (stay, leaks, grows, minds)]
+        maps += [(unit, each, stay) for each in (twice, half, [["-1/2", 0], [0, "-1/2"]], unit)]
+        for own in ([[1, 0], [-1, 1]], [[1, 1], [0, 1]], [["1/2", 0], [0, 1]], [[1, 0], [1, 0]]):
+            maps.append(
+                (
+                    own,
+                    [[f"-{v}" if str(v)[0] != "-" else str(v)[1:] for v in row] for row in own],
+                    stay,
+                )
+            )
+        agents = [
+            {"outputs": {"1": own}, "reference": reference, "private": rest}
+            for own, reference, rest in maps
+        ]
+        agents += [{**agents[0], "shared": {"1": [[v, 0], [0, 0]]}} for v in (0, "1/10")]
+        found = []
+        for update in agents:
+            back = {"outputs": {"1": twice}, "private": minus}
+            program = {"name": "1", "shared": 2 * ("shared" in update), "private": 2}
+            program |= {"shared_update": {}, "private_update": update, "input": back}
+            found += looped(system, [program])
+        yield f"tracking_{time}", found
+    ports = [
+        {
+            "name": str(i + 1),
+            "B": [[int(i == k)] for k in range(3)],
+            "C": [[int(i == k) for k in range(3)]],
+        }
+        for i in range(3)
+    ]
+    heard = {"1": [], "2": ["1", "3"], "3": []}
+    system = {"time": "continuous", "A": [[0] * 3] * 3, "channels": ports, "neighbors": heard}
+    found = []
+    for others in ({}, {"1": [[0]], "3": [[0]]}, {"1": [["1/9"]]}, {"3": [["1/9"]]}):
+        programs = []
+        for name in "123":
+            given = {name: [[1]], **(others if name == "2" else {})}
+            update = {"outputs": given, "reference": [[-1]]}
+            back = {"outputs": {name: [[-2]]}, "private": [[-1]]}
+            program = {"name": name, "shared": 0, "private": 1, "shared_update": {}}
+            programs.append(program | {"private_update": update, "input": back})
+        found += looped(system, programs)
+    yield "tracking_others", found
+
+
+def looped(system: Document, agents: list[Document]) -> Found:
+    """The spectrum and the stability of a loop."""
+    steps = [
+        {"construction": "closed_loop", "controller": {"time": system["time"], "agents": agents}}
+    ]
+    for kind in ("closed_loop_spectrum", "stability"):
+        found = certified(random.Random(2), kind, system, steps)
+        if found is not None:
+            yield found
+
+
+def based() -> Iterator[tuple[str, list[Document], list[Any]]]:
+    """Certificates for sentences about a system that is made from the plant."""
+    rng = random.Random(5)
+    ports = [[[1], [0]], [[1], [0]]], [[[1, 0]], [[1, 0]]]
+    unseen = MultiChannelSystem([[1, 0], [0, 2]], *ports, neighbors={"1": ["2"], "2": []})
+    for name, system in (("unseen", unseen), ("mutual", crafted()["mutual_discrete"])):
+        plant = plain(document(joint_controllability(system))["system"])
+        zero = {"denominator": 1, "entries": [[0]]}
+        wide = {"denominator": 1, "entries": [[0, 0]]}
+        base = [{"construction": "feedback", "gains": [zero] * system.m}]
+        ways: list[list[Any]] = [
+            [],
+            [{"construction": "dual"}],
+            [{"construction": "augmented_outputs"}],
+        ]
+        ways += [[*ways[2], *ways[1]], [{"construction": "error", "gains": [wide] * system.m}]]
+        more = {"construction": "extended", "share": "states"}
+        for sizes in ([1, 1], [4, 4], [5, 5], [5, 0]):
+            ways.append([{"construction": "integrators"}, {**more, "dimensions": sizes}])
+        ways += [[{"construction": "integrators"}], [{"construction": "integrators"}, *ways[1]]]
+        loop = drawn_subject(rng, plant, "closed_loop", more=0.0) or []
+        kinds = [
+            "controllability",
+            "fixed_spectrum",
+            "completeness",
+            "stability",
+            "closed_loop_spectrum",
+        ]
+        found = []
+        for steps in [*ways, loop]:
+            for kind in kinds:
+                for start in (base, []) if len(steps) == 1 else (base,):
+                    made = certified(rng, kind, plant, [*start, *steps])
+                    if made is not None:
+                        found.append(made)
+        yield f"based_{name}", found, base
+
+
+def pool() -> Iterator[tuple[str, list[Document]]]:
+    """Plants, each with certificates about it."""
+    design = test_sentences_design
+    for name, system in {"lost": design.LOST, "found": design.FOUND, "still": design.STILL}.items():
+        yield name, [*everything(system), *designs(system)]
+    for name, system in crafted().items():
+        more = allocations(system) if system.neighbors is not None else iter(())
+        none = told(lambda s=system: joint_controllability(s, []))
+        yield name, [*analyses(system), *refusals(system), *more, *none]
+    yield from tracking()
+    yield "uneven", [UNEVEN, *analyses(uneven())]
+    of_loops: dict[str, list[Document]] = {}
+    for _, listed in [*design.IMPLIED, *design.DENIED]:
+        for found in listed:
+            of_loops.setdefault(json.dumps(found["system"], sort_keys=True), []).append(found)
+    for k, listed in enumerate(of_loops.values()):
+        yield f"design_{k}", listed
+    for module in (test_complementary_subsystem, test_setpoint, test_single_channel_gains):
+        yield from alone(module)
+    for seed in range(6):
+        observer = drawn_observer(random.Random(seed))
+        if observer is not None:
+            yield f"observer_{seed}", [observer]
+    paper = gallery.load("liu2020-3ch-no-communication")
+    ring = paper.with_neighbors(NeighborGraph.ring(paper.names))
+    yield "paper", list(analyses(paper)) + list(loops(paper, 1)) + list(links(paper))
+    yield "ring", [*everything(ring), *designs(ring)]
+    yield "silent", list(everything(paper.with_neighbors(NeighborGraph.empty(paper.names))))
+    tanks = gallery.load("quadruple-tank-pminus")
+    yield "tanks", list(analyses(tanks))
+    for seed in range(19):
+        system = drawn(seed)
+        if system.n <= 4 and system.m <= 3:
+            more = designs(system) if system.neighbors is not None and system.n <= 3 else iter(())
+            yield f"drawn_{seed}", [*everything(system, seed), *more]
