@@ -161,6 +161,47 @@ def test_division_and_exponents() -> None:
     assert exponent(f, p) == (0, p)
     assert poly_divide(power, [Fraction(2)])[1] == []
     assert poly_divide([3, 2, 1], [2, 1], 5) == ([0, 1], [3])
+    assert poly_divide([1, 4, 3], [4, 3], 5) == ([0, 1], [1])
+    halves = [Fraction(1), Fraction(5, 2), Fraction(1)], [Fraction(1), Fraction(2)]
+    assert poly_divide(*halves) == ([Fraction(1), Fraction(1, 2)], [])
+    assert poly_product(halves[1], [Fraction(1), Fraction(1, 2)]) == halves[0]
+    assert poly_product([2, 1], [3, 1]) == [6, 5, 1]
+    assert poly_product([Fraction(1, 2)], [Fraction(1, 3), Fraction(1)]) == [
+        Fraction(1, 6),
+        Fraction(1, 2),
+    ]
+
+
+def test_residues_are_between_0_and_l() -> None:
+    quotient, rest = poly_divide([6, 6, 6, 6], [3, 5], 7)
+    assert all(0 <= entry < 7 for entry in (*quotient, *rest))
+    echelon = Echelon(7)
+    assert echelon.add([0, 3, 6]) == [0, 1, 2]
+    assert echelon.rows == [(1, [0, 1, 2])]
+    assert echelon.add([0, 5, 3]) is None
+    assert characteristic_polynomial_modulo([[5, 6, 4], [3, 2, 6], [1, 5, 6]], 7)[-1] == 1
+    for rows in itertools.product((0, 5), repeat=9):
+        A = [list(rows[k : k + 3]) for k in (0, 3, 6)]
+        assert all(0 <= c < 7 for c in characteristic_polynomial_modulo(A, 7))
+
+
+def test_matrices_that_do_not_fit_have_no_product() -> None:
+    A = Matrix([[1, 2, 3], [4, 5, 6]], 3)
+    for B, nrows in ((A, 2), (Matrix([[1]] * 4, 1), 4)):
+        with pytest.raises(ValueError, match=f"no product of 3 columns and {nrows} rows"):
+            A @ B
+    assert (A @ A.T).rows == [[14, 32], [32, 77]]
+
+
+def test_a_matrix_makes_others_of_any_shape() -> None:
+    A = Matrix([[1]], 1)
+    assert A.zeros(2, 3).rows == [[0, 0, 0], [0, 0, 0]]
+    assert A.unit_rows(3, 1, 2).rows == [[0, 1, 0], [0, 0, 1]]
+
+
+def test_a_column_of_zeros_does_not_end_an_elimination() -> None:
+    assert rank(Matrix([[0, 1, 1], [0, 0, 1]], 3)) == 2
+    assert rank(Matrix([[2, 4, 0], [1, 2, 5]], 3)) == 2
 
 
 def test_coprime_modulo_a_composite_number_needs_units() -> None:

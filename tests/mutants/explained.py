@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -21,7 +22,14 @@ class Explained:
         if (stem, before, after) in self.changes:
             return True
         pairs = ((old, new) for place, old, new in self.changes if place == "everywhere")
-        return any(before.replace(old, new, 1) == after for old, new in pairs)
+        return any(after in _replaced(before, old, new) for old, new in pairs)
+
+
+def _replaced(line: str, old: str, new: str) -> Iterator[str]:
+    """The line with one occurrence of a text replaced by another."""
+    parts = line.split(old)
+    for k in range(1, len(parts)):
+        yield old.join(parts[:k]) + new + old.join(parts[k:])
 
 
 def read() -> Explained:

@@ -41,10 +41,13 @@ CHARGED = {"spend", "build"}
 """The functions that are told how much work a step is."""
 
 ESTIMATES = {
-    "LIMB", "_limbs", "_terms", "build", "fractions", "inversions", "limbs", "limbs_of", "products",
-    "reductions", "table",
+    "LIMB", "_limbs", "_terms", "_turns", "build", "fractions", "inversions", "limbs", "limbs_of",
+    "products", "reductions", "table",
 }  # fmt: skip
 """The functions that say how much work a step is, or how long its numbers are."""
+
+COSTS = {"longest", "turn", "turns", "units"}
+"""The names that only such estimates have."""
 
 
 PAIRS = (
@@ -186,7 +189,13 @@ def outside(source: str) -> list[Span]:
         elif isinstance(node, ast.Expr | ast.Assign | ast.AugAssign):
             several = isinstance(node, ast.Assign) and isinstance(node.value, ast.Tuple)
             values = node.value.elts if several else [node]
-            parts = [part for part in values if any(map(_is_about_cost, ast.walk(part)))]
+            targets = [getattr(part, "id", "") for part in _targets(node)]
+            named = len(targets) == len(values)
+            parts = [
+                part
+                for k, part in enumerate(values)
+                if (named and targets[k] in COSTS) or any(map(_is_about_cost, ast.walk(part)))
+            ]
         elif isinstance(node, ast.Call):
             name = getattr(node.func, "id", getattr(node.func, "attr", ""))
             if name in MESSAGES:
@@ -196,6 +205,14 @@ def outside(source: str) -> list[Span]:
                 start, end = (part.lineno, part.col_offset), (part.end_lineno, part.end_col_offset)  # type: ignore[attr-defined]
                 spans.append((start, end))
     return spans
+
+
+def _targets(node: ast.AST) -> list[ast.expr]:
+    """What an assignment gives values to, part by part."""
+    if not isinstance(node, ast.Assign):
+        return []
+    first = node.targets[0]
+    return first.elts if isinstance(first, ast.Tuple) else [first]
 
 
 def without_order(source: str) -> list[Span]:
@@ -213,7 +230,7 @@ def without_order(source: str) -> list[Span]:
 def _is_about_cost(node: ast.AST) -> bool:
     """Whether a part of a statement says how much work a step is."""
     if isinstance(node, ast.Attribute):
-        return node.attr in ESTIMATES
+        return node.attr in CHARGED | ESTIMATES
     return isinstance(node, ast.Call) and getattr(node.func, "id", "") in CHARGED | ESTIMATES
 
 

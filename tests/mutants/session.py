@@ -6,6 +6,7 @@ import ast
 import hashlib
 import json
 import os
+import tempfile
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -42,14 +43,14 @@ class Selection:
         return sorted(own or (range(len(self.seconds)) if found else ()))
 
     def ordered(self, stem: str, tests: list[int], most: float) -> tuple[list[str], float]:
-        """Tests by what they promise: those of the same name first, short ones first.
+        """Tests by what they promise: those of the same name, those of documents, short ones.
 
         They end where they would take more than ``most`` seconds.
         """
 
-        def key(k: int) -> tuple[bool, float]:
+        def key(k: int) -> tuple[int, float]:
             name, seconds = self.seconds[k]
-            return f"test_{stem}.py" not in name, seconds
+            return stage(name, stem), seconds
 
         chosen, total = [], 0.0
         for k in sorted(tests, key=key):
@@ -58,6 +59,11 @@ class Selection:
                 chosen.append(name)
                 total += seconds
         return chosen, total
+
+
+def stage(test: str, stem: str) -> int:
+    """0 for a test of the same name as a file, 1 for documents that are kept, else 2."""
+    return 0 if f"test_{stem}.py" in test else 1 if "test_kept.py" in test else 2
 
 
 def headers(source: str) -> list[tuple[int, int]]:
@@ -132,6 +138,17 @@ def _needless(
     return None
 
 
+def every(path: Path) -> Iterator[str]:
+    """The text of a file with each change that is tried."""
+    with tempfile.TemporaryDirectory() as folder:
+        database = Path(folder, "every.sqlite")
+        plan(path, database)
+        source = path.read_text(encoding="utf-8")
+        with use_db(str(database), WorkDB.Mode.open) as found:
+            specs = [item.mutations[0] for item in found.pending_work_items]
+    yield from (mutated(spec, source) for spec in specs)
+
+
 def mutated(spec: MutationSpec, source: str) -> str:
     """The file with one change."""
     operator = get_operator(spec.operator_name)()
@@ -166,9 +183,10 @@ def work(
                 path.write_text(changed, encoding="utf-8")
                 # as if it were changed much later: no compiled file fits
                 os.utime(path, ns=(stamp, stamp + number * 10**10))
-                # the tests of the same name alone are collected in no time, and mostly enough
-                own = [name for name in tests if f"test_{stem}.py" in name]
-                for part in (own, tests[len(own) :]):
+                # few files of tests are collected in no time, and mostly enough
+                stages = [stage(name, stem) for name in tests]
+                for which in range(3):
+                    part = [name for name, k in zip(tests, stages, strict=True) if k == which]
                     if part and outcome == "survived":
                         outcome = warm.run(part, 10 + 5 * seconds)
             finally:

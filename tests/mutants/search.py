@@ -1,0 +1,216 @@
+"""Find documents that tell changes of the checker from the checker.
+
+    python -m tests.mutants.search [--batches N] [--files N] [--workers K] [STEM…]
+
+Draws certificates as the campaign does, and system files and controller files as the comparisons
+of the readers do, loads the checker with each change of its files in turn, and looks for the
+shortest document on which it answers otherwise.  What is found is added to
+``tests/checker/corpus/kept.jsonl`` unless a document that is there already tells them apart, so
+that the tests of the checker notice the change from then on.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib.abc
+import importlib.util
+import json
+import multiprocessing
+import os
+import random
+import signal
+import sys
+import time
+from collections import defaultdict
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from types import CodeType, ModuleType
+from typing import Any
+
+from tests.attack.campaign import checked
+from tests.attack.tries import drawn_batch, tries
+from tests.campaigns import controller_grammar, grammar
+from tests.checker.kept import KEPT, Case, answer, group
+from tests.mutants import explained, operators, session
+
+CHECKER = Path("mcexact/checker")
+LONGEST = 6000
+"""Bytes of a document that may be kept."""
+MOST = 1500
+"""Documents of one kind that are tried on a change of the file of this kind."""
+MIXED = 150
+"""Documents of every kind that are tried on a change of another file."""
+SECONDS = 5.0
+"""Of processor time for one document."""
+
+
+def certificates(batches: int) -> Iterator[Case]:
+    """Documents of the campaign."""
+    for number in range(batches):
+        batch = drawn_batch(number)
+        for attempt in tries(number, batch):
+            found = checked(attempt.document)
+            if found and found.status and isinstance(attempt.document, dict):
+                batch.rejected = attempt.document, found.place
+            yield {"read": "certificate", "document": attempt.document}
+
+
+def files(number: int) -> Iterator[Case]:
+    """Files of systems and of controllers, drawn and damaged."""
+    for k in range(number):
+        for name, module in (("system", grammar), ("controller", controller_grammar)):
+            rng = random.Random(f"{name} {k}")
+            data, _ = grammar.damaged_file(module.drawn_document(rng), rng)
+            limits = grammar.drawn_limits(rng)
+            given = {
+                key: getattr(limits, key)
+                for key in ("bytes", "depth", "digits", "exponent")
+                if getattr(limits, key) != getattr(grammar.Limits(), key)
+            }
+            yield {
+                "read": name,
+                "document": data.decode("utf-8", "surrogateescape"),
+                **({"limits": given} if given else {}),
+            }
+
+
+def pool(batches: int, number: int) -> dict[str, list[Case]]:
+    """Documents by what they are about, short ones first, each with the answer of the checker."""
+    found: dict[str, dict[str, Case]] = defaultdict(dict)
+    for case in (*certificates(batches), *files(number)):
+        line = json.dumps(case)
+        if len(line) <= LONGEST and line not in found[group(case)]:
+            said = answer(case)
+            if not said.startswith(("INCOMPLETE work", "ERROR")):
+                found[group(case)][line] = {**case, "answer": said}
+    return {name: [cases[k] for k in sorted(cases, key=len)] for name, cases in found.items()}
+
+
+def tried_on(stem: str, known: dict[str, list[Case]]) -> list[Case]:
+    """The documents for changes of one file: of its kind, or some of every kind."""
+    if stem in known:
+        return spread(known[stem], MOST)
+    mixed = [case for name in sorted(known) for case in spread(known[name], MIXED)]
+    if stem in ("reading", "system", "controller"):
+        mixed += [case for name in ("system", "controller") for case in spread(known[name], MOST)]
+    return sorted(mixed, key=lambda case: len(json.dumps(case)))
+
+
+def spread(cases: list[Case], most: int) -> list[Case]:
+    """At most so many, of every length; as many VALID ones as others if they are there."""
+    good = [case for case in cases if case["answer"].startswith("VALID")]
+    rest = [case for case in cases if not case["answer"].startswith("VALID")]
+    first = good[:: max(1, -(-len(good) * 2 // most))]
+    others = rest[:: max(1, -(-len(rest) // max(1, most - len(first))))]
+    return sorted([*first, *others], key=lambda case: len(json.dumps(case)))
+
+
+class Changed(importlib.abc.MetaPathFinder, importlib.abc.Loader):
+    """Loads one module of the checker from changed code."""
+
+    def __init__(self, name: str, code: CodeType) -> None:
+        self.name, self.code = name, code
+
+    def find_spec(self, name: str, path: Any, target: Any = None) -> Any:
+        return importlib.util.spec_from_loader(name, self) if name == self.name else None
+
+    def exec_module(self, module: ModuleType) -> None:
+        exec(self.code, module.__dict__)
+
+
+def telling(stem: str, code: CodeType, cases: Sequence[Case]) -> int:
+    """The first case that is answered otherwise with a change; −1 if none is, −2 if one hangs.
+
+    −3 says that the change cannot even be loaded.
+    """
+    reader, writer = os.pipe()
+    child = os.fork()
+    if not child:
+        os.close(reader)
+        signal.signal(signal.SIGVTALRM, signal.SIG_DFL)
+        os.write(writer, str(_first(stem, code, cases)).encode())
+        os._exit(0)
+    os.close(writer)
+    with os.fdopen(reader, "rb") as stream:
+        said = stream.read()
+    os.waitpid(child, 0)
+    return int(said or b"-2")
+
+
+def _first(stem: str, code: CodeType, cases: Sequence[Case]) -> int:
+    devnull = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(devnull, 1)
+    os.dup2(devnull, 2)
+    for name in [name for name in sys.modules if name.startswith("mcexact.checker")]:
+        del sys.modules[name]
+    sys.meta_path.insert(0, Changed(f"mcexact.checker.{stem}", code))
+    try:
+        signal.setitimer(signal.ITIMER_VIRTUAL, SECONDS)
+        importlib.import_module("mcexact.checker.kinds")
+    except BaseException:
+        return -3
+    for k, case in enumerate(cases):
+        signal.setitimer(signal.ITIMER_VIRTUAL, SECONDS)
+        try:
+            found = answer(case)
+        except BaseException:
+            found = "an exception"
+        if found != case["answer"]:
+            return k
+    return -1
+
+
+def search(stem: str, known: dict[str, list[Case]]) -> list[Case]:
+    """The documents that tell the changes of one file apart."""
+    begun = time.monotonic()
+    path = CHECKER / f"{stem}.py"
+    source, cases = path.read_text(encoding="utf-8"), tried_on(stem, known)
+    listed, kept = explained.read(), []
+    counts: dict[str, int] = defaultdict(int)
+    for changed in session.every(path):
+        number, before, after = session.differing(source, changed)
+        if listed.holds(stem, before, after):
+            continue
+        code = compile(changed, str(path), "exec", dont_inherit=True)
+        if kept and telling(stem, code, kept[::-1]) not in (-1, -2, -3):
+            counts["known"] += 1
+            continue
+        k = telling(stem, code, cases)
+        counts[{-1: "none", -2: "hangs", -3: "cannot be loaded"}.get(k, "new")] += 1
+        if k >= 0:
+            kept.append(cases[k])
+        elif k == -1:
+            print(f"{stem}:{number}\n    {before}\n    {after}", flush=True)
+    seconds = time.monotonic() - begun
+    print(f"{stem}: {dict(counts)}, {len(kept)} kept, {seconds:.0f} s", flush=True)
+    return kept
+
+
+def _share(job: tuple[str, dict[str, list[Case]]]) -> list[Case]:
+    operators.register()
+    return search(*job)
+
+
+def main() -> int:
+    """Search, and write what is kept."""
+    parser = argparse.ArgumentParser(prog="tests.mutants.search", description=__doc__)
+    parser.add_argument("stems", nargs="*", metavar="STEM")
+    parser.add_argument("--batches", type=int, default=1500)
+    parser.add_argument("--files", type=int, default=4000)
+    parser.add_argument("--workers", type=int, default=os.cpu_count() or 1)
+    options = parser.parse_args()
+    stems = options.stems or sorted(path.stem for path in CHECKER.glob("*.py"))
+    known = pool(options.batches, options.files)
+    print({name: len(cases) for name, cases in known.items()}, flush=True)
+    before = KEPT.read_text(encoding="utf-8").splitlines() if KEPT.exists() else []
+    jobs = [(stem, known) for stem in stems]
+    with multiprocessing.get_context("fork").Pool(options.workers) as workers:
+        for found in workers.imap_unordered(_share, jobs):
+            before += [json.dumps(case) for case in found]
+            text = "".join(f"{line}\n" for line in sorted(dict.fromkeys(before)))
+            KEPT.write_text(text, encoding="utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
