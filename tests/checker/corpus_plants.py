@@ -10,6 +10,7 @@ from fractions import Fraction
 from typing import Any
 
 from mcexact.analysis.analyze import analyze
+from mcexact.analysis.fixed_modes.assignability import assignability
 from mcexact.analysis.fixed_modes.completeness import completeness
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.fixed_modes.single_channel_gains import single_channel_gains
@@ -318,6 +319,7 @@ def based() -> Iterator[tuple[str, list[Document], list[Any]]]:
             ways.append([{"construction": "integrators"}, {**more, "dimensions": sizes}])
         ways += [[{"construction": "integrators"}], [{"construction": "integrators"}, *ways[1]]]
         loop = drawn_subject(rng, plant, "closed_loop", more=0.0) or []
+        ways += [[*ways[1], *loop], [*loop, *ways[1]]]
         kinds = [
             "controllability",
             "fixed_spectrum",
@@ -345,6 +347,8 @@ def pool() -> Iterator[tuple[str, list[Document]]]:
         none = told(lambda s=system: joint_controllability(s, []))
         yield name, [*analyses(system), *refusals(system), *more, *none]
     yield from tracking()
+    hidden = gallery.load("hidden-triple-mode")
+    yield "hidden", list(told(lambda: fixed_spectrum(hidden), lambda: assignability(hidden)))
     yield "uneven", [UNEVEN, *analyses(uneven())]
     of_loops: dict[str, list[Document]] = {}
     for _, listed in [*design.IMPLIED, *design.DENIED]:
@@ -365,7 +369,7 @@ def pool() -> Iterator[tuple[str, list[Document]]]:
     yield "silent", list(everything(paper.with_neighbors(NeighborGraph.empty(paper.names))))
     tanks = gallery.load("quadruple-tank-pminus")
     yield "tanks", list(analyses(tanks))
-    for seed in range(19):
+    for seed in range(14):
         system = drawn(seed)
         if system.n <= 4 and system.m <= 3:
             more = designs(system) if system.neighbors is not None and system.n <= 3 else iter(())

@@ -15,6 +15,7 @@ import json
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator
+from fractions import Fraction
 from typing import Any
 
 from mcexact.checker import check_document
@@ -81,7 +82,11 @@ def shape(value: Any) -> Any:
     if isinstance(value, bool | None) or value in WORDS:
         return value
     if isinstance(value, str | int):
-        return str(value) if value in (0, 1) else "number"
+        number = re.fullmatch(r"(-?[0-9]+)(?:/([0-9]+))?", str(value))
+        if number is None:
+            return "name"
+        exact = Fraction(int(number[1]), int(number[2] or 1))
+        return str(exact) if exact in (0, 1) else "small" if exact < 1 else "large"
     if isinstance(value, dict):
         return [[key, shape(value[key])] for key in sorted(value)]
     return [min(len(value), 2), *sorted({str(shape(each)) for each in value})]
@@ -95,6 +100,9 @@ def marks(made: World, found: Answers) -> Iterator[tuple[str, int, list[int]]]:
             shape({**each["claim"], "": [step["construction"] for step in each["subject"]]})
         )
         yield f"{each['kind']} {claim}", 1, [k]
+        if [step["construction"] for step in each["subject"]][-2:] == ["integrators", "extended"]:
+            sizes = each["subject"][-1]["dimensions"]
+            yield f"{each['kind']} {made.name} {sizes}", 1, [k]
         if each["kind"] in CORE and not each["subject"]:
             yield f"{each['kind']} {made.name}", 1, [k]
     for key, answered in found.items():
