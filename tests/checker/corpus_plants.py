@@ -228,6 +228,11 @@ def crafted() -> dict[str, MultiChannelSystem]:
         found[f"mutual_{time}"] = MultiChannelSystem(
             [[1, 0], [0, 2]], B, C, neighbors=mutual, time=time
         )
+    for name, B, C in (
+        ("unreached", [[[1], [0]]] * 2, [[[1, 1]]] * 2),
+        ("unseen", [[[1], [1]]] * 2, [[[1, 0]]] * 2),
+    ):
+        found[name] = MultiChannelSystem([[1, 0], [0, 2]], B, C, neighbors=mutual)
     return found
 
 

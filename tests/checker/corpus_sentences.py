@@ -139,7 +139,7 @@ def choose(plants: Iterable[tuple[str, list[Document], list[Any]]]) -> list[tupl
 
 def write(chosen: list[tuple[World, Answers]]) -> None:
     """Write the corpus."""
-    CORPUS.mkdir(exist_ok=True)
+    CORPUS.mkdir(parents=True, exist_ok=True)
     for path in CORPUS.glob("*.jsonl"):
         path.unlink()
     chosen = sorted(chosen, key=lambda pair: pair[0].name)

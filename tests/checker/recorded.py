@@ -1,6 +1,6 @@
 """The recorded table of sentences: certificates, and what each rule makes of them.
 
-``tests/checker/corpus`` holds for some small plants certificates, one in a line, and ``rules.txt``
+``corpus/sentences`` holds for some small plants certificates, one in a line, and ``rules.txt``
 what the checker answers where a sentence rests on some of them.  ``corpus_sentences`` writes both.
 """
 
@@ -24,7 +24,7 @@ from mcexact.checker.sentence import RULES, Premise
 from mcexact.checker.statement import digest, digest_of
 from mcexact.checker.system import read_plant
 
-CORPUS = Path(__file__).parent / "corpus"
+CORPUS = Path(__file__).parent / "corpus" / "sentences"
 TABLE = CORPUS / "rules.txt"
 FORMAT = "mcexact-certificate/1"
 MISSING = "INVALID premise because"
@@ -35,6 +35,8 @@ CASTS = 24
 LISTS = {"fixed_spectrum": ("claim", "factors"), "shared_dimensions": ("witness", "cuts")}
 """The list in certificates of a kind to whose members a sentence can point."""
 NUMBER = re.compile(r"(?:^|,)([0-9]+)")
+BESIDE = ("claim.polynomial.0", "claim.costs.0", "witness.tree.0")
+"""Members of other lists there."""
 Cast = str
 """Numbers of certificates with commas, each perhaps with pointers behind it."""
 
@@ -92,9 +94,7 @@ class World:
             if not pointers:
                 found.append([name, "/kind", document["kind"]])
             for pointer in pointers:
-                node: Any = document
-                for key in pointer.split("."):
-                    node = node[int(key) if isinstance(node, list) else key]
+                (node,) = self._at(int(number), pointer)
                 found.append([name, "/" + pointer.replace(".", "/"), node])
         return found
 
@@ -166,6 +166,16 @@ class World:
             yield ranks[1:]
             yield [*ranks, *(k for k in able if k not in ranks)][: len(ranks) + 1]
 
+    def _at(self, k: int, pointer: str) -> list[Any]:
+        """What is at a place of a certificate, if anything is."""
+        node: Any = self.document(k)
+        try:
+            for key in pointer.split("."):
+                node = node[int(key) if isinstance(node, list) else key]
+        except (IndexError, KeyError):
+            return []
+        return [node]
+
     def _pointers(self, roles: Sequence[Sequence[str]], kinds: list[str]) -> Iterator[Cast]:
         """Certificates of which single members of a list are meant."""
         for k, kind in enumerate(kinds):
@@ -174,6 +184,8 @@ class World:
                 members = self.document(k)[part][key]
                 for i in range(min(len(members), 4)):
                     yield f"{k}/{part}.{key}.{i}"
+                for other in BESIDE:
+                    yield from (f"{k}/{other}" for _ in self._at(k, other))
                 if len(members) > 1:
                     yield f"{k}/{part}.{key}.1.{next(iter(members[1]))}/{part}.{key}.0"
                     yield f"{k}/{part}.{key}"
