@@ -20,6 +20,8 @@ from cosmic_ray.work_item import MutationSpec, TestOutcome, WorkerOutcome, WorkI
 
 from tests.mutants import explained, operators, warm
 
+DOCUMENTS = ("tests/checker/test_kept.py", "tests/checker/test_recorded.py")
+"""The tests that look at many documents in little time."""
 OUTCOMES = ("killed", "survived", "timeout", "not covered", "abnormal")
 
 
@@ -36,24 +38,19 @@ class Selection:
         return Selection(**json.loads(path.read_text(encoding="utf-8")))
 
     def tests(self, stem: str, first: int, last: int) -> list[int]:
-        """The tests that run one of some lines; all, if the lines run when the file is loaded."""
+        """The tests that run one of some lines; after them all, if loading the file runs them."""
         known = self.lines.get(stem, {})
         found = {k for line in range(first, last + 1) for k in known.get(str(line), ())}
-        own = found - {-1}
-        return sorted(own or (range(len(self.seconds)) if found else ()))
+        own = sorted(found - {-1})
+        return own + sorted(set(range(len(self.seconds))) - found) if -1 in found else own
 
     def ordered(self, stem: str, tests: list[int], most: float) -> tuple[list[str], float]:
         """Tests by what they promise: those of the same name, those of documents, short ones.
 
         They end where they would take more than ``most`` seconds.
         """
-
-        def key(k: int) -> tuple[int, float]:
-            name, seconds = self.seconds[k]
-            return stage(name, stem), seconds
-
         chosen, total = [], 0.0
-        for k in sorted(tests, key=key):
+        for k in sorted(tests, key=lambda k: (stage(self.seconds[k][0], stem), self.seconds[k][1])):
             name, seconds = self.seconds[k]
             if total + seconds <= most or not chosen:
                 chosen.append(name)
@@ -63,7 +60,9 @@ class Selection:
 
 def stage(test: str, stem: str) -> int:
     """0 for a test of the same name as a file, 1 for documents that are kept, else 2."""
-    return 0 if f"test_{stem}.py" in test else 1 if "test_kept.py" in test else 2
+    if f"test_{stem}.py" in test:
+        return 0
+    return 1 if test.startswith(DOCUMENTS) else 2
 
 
 def headers(source: str) -> list[tuple[int, int]]:
