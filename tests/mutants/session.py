@@ -38,7 +38,7 @@ class Selection:
         return Selection(**json.loads(path.read_text(encoding="utf-8")))
 
     def tests(self, stem: str, first: int, last: int) -> list[int]:
-        """The tests that run one of some lines; after them all, if loading the file runs them."""
+        """The tests that run one of some lines; all tests, if loading the file runs them."""
         known = self.lines.get(stem, {})
         found = {k for line in range(first, last + 1) for k in known.get(str(line), ())}
         own = sorted(found - {-1})
@@ -128,7 +128,7 @@ def _needless(
         return "outside"
     code = mutated(spec, source)
     try:
-        ast.parse(code)
+        compile(code, "changed", "exec", dont_inherit=True)
     except SyntaxError:
         return "same or no program"
     if code in seen:
