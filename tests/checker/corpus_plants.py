@@ -150,6 +150,7 @@ def refusals(system: MultiChannelSystem) -> Found:
         lambda: fixed_spectrum(extended_system(system, [0] * system.m, "states")),
         lambda: fixed_spectrum(extended_system(system, [1] * system.m, "outputs+states")),
         lambda: fixed_spectrum(extended_system(tracked, [tracked.n] * system.m, "states")),
+        lambda: fixed_spectrum(extended_system(tracked, [tracked.n + 1] * system.m, "states")),
         lambda: fixed_spectrum(
             extended_system(tracked, [max(tracked.n - 1, 0)] * system.m, "states")
         ),
@@ -228,11 +229,20 @@ def crafted() -> dict[str, MultiChannelSystem]:
         found[f"mutual_{time}"] = MultiChannelSystem(
             [[1, 0], [0, 2]], B, C, neighbors=mutual, time=time
         )
+    return found
+
+
+def lacking() -> dict[str, list[Document]]:
+    """All hypotheses of Theorem 2 but one: a mode is not controlled, or not observed."""
+    found = {}
     for name, B, C in (
         ("unreached", [[[1], [0]]] * 2, [[[1, 1]]] * 2),
         ("unseen", [[[1], [1]]] * 2, [[[1, 0]]] * 2),
     ):
-        found[name] = MultiChannelSystem([[1, 0], [0, 2]], B, C, neighbors=mutual)
+        graph = {"1": ["2"], "2": ["1"]}
+        system = MultiChannelSystem([[1, 0], [0, 2]], B, C, neighbors=graph)
+        kinds = ("neighbor_graph", "controllability", "deficiency")
+        found[name] = [each for each in analyses(system) if each["kind"] in kinds]
     return found
 
 
@@ -351,9 +361,11 @@ def pool() -> Iterator[tuple[str, list[Document]]]:
         more = allocations(system) if system.neighbors is not None else iter(())
         none = told(lambda s=system: joint_controllability(s, []))
         yield name, [*analyses(system), *refusals(system), *more, *none]
+    for name, listed in lacking().items():
+        yield name, listed
     yield from tracking()
-    hidden = gallery.load("hidden-triple-mode")
-    yield "hidden", list(told(lambda: fixed_spectrum(hidden), lambda: assignability(hidden)))
+    within = gallery.load("movable-by-periodic-gains")
+    yield "within", list(told(lambda: fixed_spectrum(within), lambda: assignability(within)))
     yield "uneven", [UNEVEN, *analyses(uneven())]
     of_loops: dict[str, list[Document]] = {}
     for _, listed in [*design.IMPLIED, *design.DENIED]:
@@ -374,7 +386,7 @@ def pool() -> Iterator[tuple[str, list[Document]]]:
     yield "silent", list(everything(paper.with_neighbors(NeighborGraph.empty(paper.names))))
     tanks = gallery.load("quadruple-tank-pminus")
     yield "tanks", list(analyses(tanks))
-    for seed in range(14):
+    for seed in range(10):
         system = drawn(seed)
         if system.n <= 4 and system.m <= 3:
             more = designs(system) if system.neighbors is not None and system.n <= 3 else iter(())

@@ -13,7 +13,7 @@ from __future__ import annotations
 import itertools
 import json
 import re
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from typing import Any
@@ -27,6 +27,8 @@ from tests.checker.recorded import CORPUS, MISSING, NUMBER, REFUSED, TABLE, Worl
 LONGEST = 4000
 """The bytes of a certificate that is taken."""
 WORDS = ("outputs", "states", "outputs+states", "controllable", "observable", "both")
+MANY = 8
+"""How many texts of one rule are looked for, which differ in more than names and numbers."""
 WHOLE = ("design_", "tracking_")
 """How plants begin of which every certificate is kept."""
 CORE = ("fixed_spectrum", "assignability")
@@ -92,7 +94,9 @@ def shape(value: Any) -> Any:
     return [min(len(value), 2), *sorted({str(shape(each)) for each in value})]
 
 
-def marks(made: World, found: Answers) -> Iterator[tuple[str, int, list[int]]]:
+def marks(
+    made: World, found: Answers, texts: dict[str, set[str]]
+) -> Iterator[tuple[str, int, list[int]]]:
     """What a plant has to show: a mark, how often that is wanted, and certificates that show it."""
     time = made.system.get("time", "")
     for k, each in enumerate(made.certificates):
@@ -114,17 +118,20 @@ def marks(made: World, found: Answers) -> Iterator[tuple[str, int, list[int]]]:
                     yield f"{key} {told}", 2, numbers
                 else:
                     yield f"{key} implied {time}", 1, numbers
-                    yield f"{key} implied {words}", 1, numbers
+                    if len(texts[key]) < MANY:
+                        yield f"{key} implied {words}", 1, numbers
+                    texts[key].add(words)
 
 
 def choose(plants: Iterable[tuple[str, list[Document], list[Any]]]) -> list[tuple[World, Answers]]:
     """As few certificates as show everything that is to be seen."""
     counts: Counter[str] = Counter()
+    texts: dict[str, set[str]] = defaultdict(set)
     chosen = []
     for name, documents, base in plants:
         whole = world(name, documents, base)
         needed: set[int] = set()
-        for mark, wanted, numbers in marks(whole, answers(whole)):
+        for mark, wanted, numbers in marks(whole, answers(whole), texts):
             if counts[mark] < wanted:
                 counts[mark] += 1
                 needed.update(numbers)

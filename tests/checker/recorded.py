@@ -31,7 +31,7 @@ MISSING = "INVALID premise because"
 """The answer where premises do not fit the roles: the table leaves it out."""
 REFUSED = "!"
 """What stands before the position of the premise whose claim does not imply the sentence."""
-CASTS = 24
+CASTS = 10
 LISTS = {"fixed_spectrum": ("claim", "factors"), "shared_dimensions": ("witness", "cuts")}
 """The list in certificates of a kind to whose members a sentence can point."""
 NUMBER = re.compile(r"(?:^|,)([0-9]+)")
