@@ -12,26 +12,22 @@ that the tests of the checker notice the change from then on.
 from __future__ import annotations
 
 import argparse
-import importlib.abc
-import importlib.util
 import json
 import multiprocessing
 import os
 import random
-import signal
 import sys
 import time
 from collections import defaultdict
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from pathlib import Path
-from types import CodeType, ModuleType
-from typing import Any
 
 from tests.attack.campaign import checked
 from tests.attack.tries import drawn_batch, tries
 from tests.campaigns import controller_grammar, grammar
 from tests.checker.kept import KEPT, Case, answer, group
 from tests.mutants import explained, operators, session
+from tests.mutants.documents import HANGS, NONE, UNLOADABLE, telling
 
 CHECKER = Path("mcexact/checker")
 LONGEST = 6000
@@ -40,8 +36,6 @@ MOST = 1500
 """Documents of one kind that are tried on a change of the file of this kind."""
 MIXED = 150
 """Documents of every kind that are tried on a change of another file."""
-SECONDS = 5.0
-"""Of processor time for one document."""
 
 
 def certificates(batches: int) -> Iterator[Case]:
@@ -105,61 +99,6 @@ def spread(cases: list[Case], most: int) -> list[Case]:
     return sorted([*first, *others], key=lambda case: len(json.dumps(case)))
 
 
-class Changed(importlib.abc.MetaPathFinder, importlib.abc.Loader):
-    """Loads one module of the checker from changed code."""
-
-    def __init__(self, name: str, code: CodeType) -> None:
-        self.name, self.code = name, code
-
-    def find_spec(self, name: str, path: Any, target: Any = None) -> Any:
-        return importlib.util.spec_from_loader(name, self) if name == self.name else None
-
-    def exec_module(self, module: ModuleType) -> None:
-        exec(self.code, module.__dict__)
-
-
-def telling(stem: str, code: CodeType, cases: Sequence[Case]) -> int:
-    """The first case that is answered otherwise with a change; −1 if none is, −2 if one hangs.
-
-    −3 says that the change cannot even be loaded.
-    """
-    reader, writer = os.pipe()
-    child = os.fork()
-    if not child:
-        os.close(reader)
-        signal.signal(signal.SIGVTALRM, signal.SIG_DFL)
-        os.write(writer, str(_first(stem, code, cases)).encode())
-        os._exit(0)
-    os.close(writer)
-    with os.fdopen(reader, "rb") as stream:
-        said = stream.read()
-    os.waitpid(child, 0)
-    return int(said or b"-2")
-
-
-def _first(stem: str, code: CodeType, cases: Sequence[Case]) -> int:
-    devnull = os.open(os.devnull, os.O_WRONLY)
-    os.dup2(devnull, 1)
-    os.dup2(devnull, 2)
-    for name in [name for name in sys.modules if name.startswith("mcexact.checker")]:
-        del sys.modules[name]
-    sys.meta_path.insert(0, Changed(f"mcexact.checker.{stem}", code))
-    try:
-        signal.setitimer(signal.ITIMER_VIRTUAL, SECONDS)
-        importlib.import_module("mcexact.checker.kinds")
-    except BaseException:
-        return -3
-    for k, case in enumerate(cases):
-        signal.setitimer(signal.ITIMER_VIRTUAL, SECONDS)
-        try:
-            found = answer(case)
-        except BaseException:
-            found = "an exception"
-        if found != case["answer"]:
-            return k
-    return -1
-
-
 def search(stem: str, known: dict[str, list[Case]]) -> list[Case]:
     """The documents that tell the changes of one file apart."""
     begun = time.monotonic()
@@ -172,14 +111,14 @@ def search(stem: str, known: dict[str, list[Case]]) -> list[Case]:
         if listed.holds(stem, before, after):
             continue
         code = compile(changed, str(path), "exec", dont_inherit=True)
-        if kept and telling(stem, code, kept[::-1]) not in (-1, -2, -3):
+        if kept and telling(stem, code, kept[::-1]) >= 0:
             counts["known"] += 1
             continue
         k = telling(stem, code, cases)
-        counts[{-1: "none", -2: "hangs", -3: "cannot be loaded"}.get(k, "new")] += 1
+        counts[{NONE: "none", HANGS: "hangs", UNLOADABLE: "cannot be loaded"}.get(k, "new")] += 1
         if k >= 0:
             kept.append(cases[k])
-        elif k == -1:
+        elif k == NONE:
             print(f"{stem}:{number}\n    {before}\n    {after}", flush=True)
     seconds = time.monotonic() - begun
     print(f"{stem}: {dict(counts)}, {len(kept)} kept, {seconds:.0f} s", flush=True)
