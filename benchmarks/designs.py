@@ -18,20 +18,14 @@ from pathlib import Path
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
-from mcexact import load_system
-from mcexact.derived.integrators import setpoint_system
+from mcexact import design_decentralized, design_extended, design_setpoint, load_system
 from mcexact.errors import Impossible, LimitReached
 from mcexact.exact.location import is_discrete
-from mcexact.model.system import MultiChannelSystem, as_plant
-from mcexact.synthesis.gate import Proposal, certify
-from mcexact.synthesis.network.extended import sharing_network
-from mcexact.synthesis.network.networks import decentralized_network
+from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.optimum.diagnosis import diagnosed
 from mcexact.synthesis.optimum.figures import step_peak
-from mcexact.synthesis.optimum.proposals import Optimum, optimized_design, optimum
-from mcexact.synthesis.optimum.structures import Family
+from mcexact.synthesis.optimum.proposals import Optimum
 from mcexact.synthesis.request import Request
-from mcexact.synthesis.setpoint import with_integrators
 
 
 @dataclass(frozen=True)
@@ -78,20 +72,15 @@ def request_of(system: MultiChannelSystem, asked: Asked) -> Request:
 
 def designed(system: MultiChannelSystem, asked: Asked) -> str:
     """Design, certify, and say the figures."""
-    request = request_of(system, asked)
+    bound = {request_of(system, asked).region.word: asked.bound}
     if asked.structure == "setpoint":
-        integrated = as_plant(setpoint_system(system))
-        found = optimum(Family(decentralized_network(integrated)), request)
-        controller = with_integrators(system, found.controller)
-        loop = certify(system, Proposal(controller), request.region)
-        return f"{figures(found, controller.order)}, step peak {step_peak(loop.closed):.3g}"
-    if asked.structure == "extended":
-        network, _ = sharing_network(system, system.neighbors, request)
-        family = Family(network, "outputs+states")
-        design = optimized_design("extended", family, request)
-    else:
-        family = Family(decentralized_network(system))
-        design = optimized_design("decentralized", family, request)
+        design = design_setpoint(system, **bound)
+        told = figures(design.parts["designed"]["optimum"], design.order)
+        return f"{told}, step peak {step_peak(design.loop.closed):.3g}"
+    function = design_extended if asked.structure == "extended" else design_decentralized
+    design = function(system, **bound)
+    if "optimum" not in design.parts:
+        return f"the controller of the theorem, of order {design.order}"
     return figures(design.parts["optimum"], design.order)
 
 

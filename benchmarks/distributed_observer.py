@@ -24,7 +24,7 @@ from mcexact.exact.floats import matrix_to_float
 from mcexact.exact.size import largest_entry
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.observer.observer import design_observer
+from mcexact.synthesis.distributed_observer import design_observer
 
 
 def drawn(n: int, m: int, seed: int = 5) -> MultiChannelSystem:

@@ -21,15 +21,12 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 import numpy as np
 from scipy.linalg import expm
 
+from mcexact import design_decentralized, design_extended
 from mcexact.errors import Impossible, LimitReached
 from mcexact.exact.location import is_discrete
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.network.extended import sharing_network
-from mcexact.synthesis.network.networks import decentralized_network
-from mcexact.synthesis.optimum.proposals import Optimum, optimized_design
-from mcexact.synthesis.optimum.structures import Family
-from mcexact.synthesis.request import Request
+from mcexact.synthesis.optimum.proposals import Optimum
 
 SIZES = (10, 40, 120)
 
@@ -191,20 +188,16 @@ def plant(kind: Kind, n: int, time: str) -> MultiChannelSystem:
 
 def answered(kind: Kind, system: MultiChannelSystem) -> str:
     """What the request is answered with."""
+    bound = {"rate": f"{kind.rate}"}
     if is_discrete(system.time):
-        bound = f"{np.exp(-kind.rate * kind.step):.4f}"
-        request = Request.of(system, radius=bound, arithmetic="float")
-    else:
-        request = Request.of(system, rate=f"{kind.rate}", arithmetic="float")
+        bound = {"radius": f"{np.exp(-kind.rate * kind.step):.4f}"}
+    function = design_extended if kind.structure == "extended" else design_decentralized
     try:
-        if kind.structure == "extended":
-            network, _ = sharing_network(system, system.neighbors, request)
-            made = optimized_design("extended", Family(network, "outputs+states"), request)
-        else:
-            family = Family(decentralized_network(system))
-            made = optimized_design("decentralized", family, request)
+        made = function(system, arithmetic="float", **bound)
     except (Impossible, LimitReached) as refused:
         return str(refused)
+    if "optimum" not in made.parts:
+        return f"the controller of the theorem, of order {made.order}"
     found: Optimum = made.parts["optimum"]
     seen, central = found.figures, found.central
     return (

@@ -79,6 +79,7 @@ from .errors import LimitReached as LimitReached
 from .errors import McexactError as McexactError
 from .errors import NotWritten as NotWritten
 from .errors import OtherFormat as OtherFormat
+from .errors import OutOfReach as OutOfReach
 from .errors import UsageError as UsageError
 from .exact.location import StabilityRegion as StabilityRegion
 from .exact.matrix import Matrix as Matrix
@@ -100,12 +101,15 @@ from .simulation.trajectory import Trajectory as Trajectory
 from .simulation.trajectory import simulate as simulate
 from .sweeps.records import Record as Record
 from .sweeps.run import sweep as sweep
+from .synthesis.assessment import Assessment as Assessment
+from .synthesis.assessment import assess as assess
 from .synthesis.certify import certify_controller as certify_controller
+from .synthesis.decentralized import design_decentralized as design_decentralized
 from .synthesis.design import Design as Design
+from .synthesis.distributed_observer import design_observer as design_observer
+from .synthesis.extended import design_extended as design_extended
 from .synthesis.gate import CertifiedLoop as CertifiedLoop
-from .synthesis.network.decentralized import design_decentralized as design_decentralized
-from .synthesis.network.extended import design_extended as design_extended
-from .synthesis.observer.observer import design_observer as design_observer
+from .synthesis.optimum.aims import Aims as Aims
 from .synthesis.setpoint import design_setpoint as design_setpoint
 
 __version__: str

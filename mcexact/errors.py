@@ -143,6 +143,10 @@ class LimitReached(McexactError):
         self.lower, self.upper = lower, upper
 
 
+class OutOfReach(LimitReached):
+    """Even the optimal controller of all agents together is one that nobody would install."""
+
+
 class NotWritten(McexactError):
     """Standard output cannot be written: the disk is full, or it is closed.
 

@@ -218,7 +218,11 @@ FORMS: dict[str, Write] = {
         lifted="distributed controller with shared states, sent with delays",
         held="distributed controller with shared states, held for the delays",
     ),
-    "method": choice(observer="by an observer", extended="through shared states"),
+    "method": choice(
+        decentralized="without communication",
+        observer="by an observer",
+        extended="through shared states",
+    ),
     "decided": choice(
         polynomial="by the characteristic polynomial",
         lyapunov="by Lyapunov matrices",

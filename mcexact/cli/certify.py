@@ -6,11 +6,17 @@ from typing import Any
 
 import click
 
-from mcexact.cli import options
+from mcexact.cli import aiming, options
+from mcexact.cli.commands import GroupedCommand
+from mcexact.cli.designing import page
 from mcexact.cli.failures import DEFINITE_NO
 
 
-@click.command(name="certify", short_help="Decide whether a controller stabilizes, with proof.")
+@click.command(
+    name="certify",
+    cls=GroupedCommand,
+    short_help="Decide whether a controller stabilizes, with proof.",
+)
 @click.argument("file")
 @click.argument("controller")
 @options.rate
@@ -23,6 +29,8 @@ from mcexact.cli.failures import DEFINITE_NO
     type=click.Choice(["polynomial", "lyapunov"]),
     help="Decide by the characteristic polynomial or by Lyapunov matrices; by default by size.",
 )
+@aiming.weights
+@page
 @options.answering
 def command(file: str, controller: str, **given: Any) -> int:
     """Decide whether CONTROLLER stabilizes the system in FILE, or makes it fast enough.
@@ -30,54 +38,85 @@ def command(file: str, controller: str, **given: Any) -> int:
     The controller is linear and time-invariant, as in every controller file. The decision is exact,
     also for a controller designed in floating point. If the answer is no, the exit status is 1, and
     --certificates writes a proof of that as well. A warning is given if the controller was designed
-    for another plant.
+    for another plant. The first line says whether to install the controller.
     """
-    from mcexact.cli.files import place_of, require_writable
-    from mcexact.cli.running import Run, show_tables
+    from mcexact.cli.files import place_of, require_other, require_writable
+    from mcexact.cli.output import emit, emit_tables
+    from mcexact.cli.rechecking import Rechecked
+    from mcexact.cli.running import Run
+    from mcexact.model.atomic import write_text
 
-    run = Run(given)
-    require_writable(None, run.certificates)
+    run, weights, html = Run(given), given.pop("weights"), given.pop("html")
+    require_other(html, file, controller, weights)
+    require_writable(html, run.certificates)
     about = place_of(controller)
-    programs = run.read(file), run.read(controller)
-    answer = run.result(_certified, *programs, run.limits, given, doing=f"certifying {about}")
+    programs = run.read(file), run.read(controller), None if weights is None else run.read(weights)
+    answer = run.result(
+        _certified, *programs, run.limits, given, html is not None, doing=f"certifying {about}"
+    )
     for warning in answer["json"]["warnings"]:
         click.echo(f"mcexact: warning: {warning}", err=True)
+
+    def show() -> bool:
+        emit("\n".join(answer["said"]) + "\n\n")
+        emit_tables(answer["tables"])
+        return True
+
+    def write(checked: Rechecked) -> None:
+        if html is not None:
+            write_text(html, answer["page"].rendered(answer["certificates"], checked.verdicts))
+
     about = f"the verdict on {about}"
-    run.conclude(answer, show_tables(answer), about=about).require_complete()
+    run.conclude(answer, show, about=about, write=write).require_complete()
     return 0 if answer["json"]["certified"] else DEFINITE_NO
 
 
 def _certified(
     plant: tuple[str, bytes],
     program: tuple[str, bytes],
+    weights: tuple[str, bytes] | None,
     limits: dict[str, int],
     wanted: dict[str, Any],
+    with_page: bool,
 ) -> dict[str, Any]:
     """Decide and format the answer, in the child process."""
+    from mcexact.cli.assessing import assessed
     from mcexact.cli.files import system_in
     from mcexact.cli.running import told
     from mcexact.errors import InputError
     from mcexact.exact.rational import Limits
     from mcexact.model.controller_file import read_controller
-    from mcexact.report.account import tables
+    from mcexact.model.loop import closed_loop
+    from mcexact.report.account import NOT_CERTIFIED, tables
+    from mcexact.report.text import Table
+    from mcexact.synthesis.assessment import BASIS, assessed_loop
     from mcexact.synthesis.certify import account_of_verdict, certify_controller
 
     system = system_in(*plant, limits)
     with InputError.inside(program[0]):
         controller = read_controller(program[1], Limits(**limits))
         found = certify_controller(system, controller, **wanted)
+    loop, weighed = closed_loop(system, controller), aiming.read_weights(weights, limits)
+    with InputError.inside(plant[0] if weights is None else weights[0]):
+        assessment = assessed_loop(loop, found.region, certified=found.stable, weights=weighed)
     account = account_of_verdict(found, largest=wanted["largest"])
+    figures = Table(BASIS, (), tuple(assessment.rows()), NOT_CERTIFIED)
+    shown = (*tables(account.sentences), figures)
     bound = None if found.bound is None else str(found.bound)
-    return told(account) | {
-        "json": account.as_json(
-            certified=found.stable,
-            region=str(found.region),
-            bound=bound,
-            method=found.method,
-            states=found.about.n,
-            blocks=list(found.blocks),
-            largest=bound if wanted["largest"] else None,
-            warnings=list(controller.warnings_for(system)),
-        ),
-        "tables": tables(account.sentences),
-    }
+    return (
+        told(account)
+        | assessed(account, assessment, loop, shown, with_page)
+        | {
+            "json": account.as_json(
+                certified=found.stable,
+                region=str(found.region),
+                bound=bound,
+                method=found.method,
+                states=found.about.n,
+                blocks=list(found.blocks),
+                largest=bound if wanted["largest"] else None,
+                warnings=list(controller.warnings_for(system)),
+                assessment=assessment.view(),
+            ),
+        }
+    )

@@ -28,6 +28,41 @@ class NoCommand(click.UsageError):
     """A group was called without a command; the message is its help."""
 
 
+LAST = "Limits and help"
+GROUPS = {
+    "Asked of the loop": (
+        "rate", "radius", "spectrum", "largest", "method", "dimensions", "share", "network",
+        "free_assignability", "order", "agent", "arithmetic",
+    ),
+    "Weights and limits of the search": (
+        "weights", "margin", "largest_gain", "largest_order", "most_digits", "effort", "seeds",
+    ),
+    "Output": ("output", "html", "certificates", "as_json"),
+    LAST: ("timeout", "max_memory", "help_all"),
+    "Reading": ("bytes", "depth", "digits", "exponent"),
+}  # fmt: skip
+"""The headings under which `GroupedCommand` lists options, with their parameters; others are under
+`LAST`."""
+
+
+class GroupedCommand(click.Command):
+    """A command whose help lists its options under the headings of `GROUPS`."""
+
+    def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write the options, heading by heading."""
+        options = [each for each in self.get_params(ctx) if isinstance(each, click.Option)]
+        known = {name: heading for heading, names in GROUPS.items() for name in names}
+        sections: dict[str, list[tuple[str, str]]] = {heading: [] for heading in GROUPS}
+        for option in options:
+            record = option.get_help_record(ctx)
+            if record is not None:
+                sections[known.get(str(option.name), LAST)].append(record)
+        for heading, records in sections.items():
+            if records:
+                with formatter.section(heading):
+                    formatter.write_dl(records)
+
+
 class Commands(click.Group):
     """A group whose commands are modules of this package, each imported when it is named.
 

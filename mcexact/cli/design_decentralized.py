@@ -7,9 +7,14 @@ from typing import Any
 import click
 
 from mcexact.cli import designing
+from mcexact.cli.commands import GroupedCommand
 
 
-@click.command(name="decentralized", short_help="Design a controller without communication.")
+@click.command(
+    cls=GroupedCommand,
+    name="decentralized",
+    short_help="Design a controller without communication.",
+)
 @click.argument("file")
 @designing.design_options(
     'JSON {"closed_loop": P}, P a list of coefficients or of roots and pairs, or a mapping from '
@@ -18,8 +23,10 @@ from mcexact.cli import designing
 def command(file: str, **given: Any) -> None:
     """Design a decentralized controller for the system in FILE (- for standard input).
 
-    Agent i computes u_i from y_i alone. No such linear time-invariant controller moves the fixed
-    modes, which remain if they are fast enough; if one is too slow, the status is 1 and a
-    certificate proves that no such controller exists.
+    Agent i computes u_i from y_i alone. Without --rate or --radius, half the sensible rate is
+    taken. The first line of the answer says whether to install the controller. No linear
+    time-invariant controller of this form moves the fixed modes, which remain if they are fast
+    enough; if one is too slow, the status is 1 and a certificate proves that no such controller
+    exists.
     """
     designing.answer("decentralized", file, given, {})

@@ -7,9 +7,14 @@ from typing import Any
 import click
 
 from mcexact.cli import designing, options
+from mcexact.cli.commands import GroupedCommand
 
 
-@click.command(name="extended", short_help="Design a controller with shared sub-states.")
+@click.command(
+    name="extended",
+    cls=GroupedCommand,
+    short_help="Design a controller with shared sub-states.",
+)
 @click.argument("file")
 @designing.design_options(
     'JSON {"closed_loop": P}, P a list of coefficients or of roots and pairs, without constraint.'

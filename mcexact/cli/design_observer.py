@@ -7,13 +7,19 @@ from typing import Any
 import click
 
 from mcexact.cli import designing
+from mcexact.cli.commands import GroupedCommand
 
 
-@click.command(name="observer", short_help="Design a distributed observer-based controller.")
+@click.command(
+    cls=GroupedCommand,
+    name="observer",
+    short_help="Design a distributed observer-based controller.",
+)
 @click.argument("file")
 @designing.design_options(
     'JSON {"feedback": P, "error": P}, P a list of coefficients or of roots and pairs.',
     agent_help="The agent with the channel controller; by default the first.",
+    searches=False,
 )
 @click.option(
     "--order",

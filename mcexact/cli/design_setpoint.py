@@ -7,9 +7,14 @@ from typing import Any
 import click
 
 from mcexact.cli import designing
+from mcexact.cli.commands import GroupedCommand
 
 
-@click.command(name="setpoint", short_help="Design a controller that holds outputs at set-points.")
+@click.command(
+    cls=GroupedCommand,
+    name="setpoint",
+    short_help="Design a controller that holds outputs at set-points.",
+)
 @click.argument("file")
 @designing.design_options(
     'JSON for the plant with its integrators: {"feedback": P, "error": P}, or {"closed_loop": P} '
@@ -18,11 +23,10 @@ from mcexact.cli import designing
 @click.option(
     "--method",
     type=click.Choice(["observer", "extended"]),
-    default="observer",
-    show_default=True,
-    help="Use a distributed observer, or shared sub-states of least dimension.",
+    help="Use a distributed observer, or shared sub-states; by default a controller of low order "
+    "without communication if one exists, else with shared sub-states.",
 )
-def command(file: str, method: str, **given: Any) -> None:
+def command(file: str, method: str | None, **given: Any) -> None:
     """Design a distributed controller that holds every output of FILE at its agent's set-point.
 
     FILE needs a neighbor graph. `mcexact simulate --reference` runs the controller with given

@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 
 import click
 
-from mcexact.cli import options
+from mcexact.cli import aiming, options
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -15,18 +15,31 @@ HOW = ("rate", "radius", "arithmetic")
 """The options that are arguments of the functions of `mcexact.synthesis` with the same names."""
 
 
+page = click.option(
+    "--html",
+    type=options.FOLDER,
+    metavar="FILE",
+    help="Write a report as an HTML page, with figures of the loop and all certificates.",
+)
+
+
 def design_options(
     spectrum_help: str,
-    agent_help: str = "The agent with the channel controller; by default that of least order.",
+    agent_help: str = "The agent with the channel controller of the theorem, which is then "
+    "constructed without a search.",
+    *,
+    searches: bool = True,
 ) -> Callable[[F], F]:
-    """Add the options of every design command."""
+    """Add the options of every design command, and those of a search if there is one."""
     given = (
         options.rate,
         options.radius,
         click.option("--spectrum", metavar="FILE", help=spectrum_help),
         options.arithmetic,
         click.option("--agent", metavar="NAME", help=agent_help),
+        aiming.aims if searches else aiming.weights,
         options.controller_output,
+        page,
         options.answering,
     )
 
@@ -58,27 +71,38 @@ def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any
     from mcexact.errors import Impossible
     from mcexact.model.atomic import write_text
 
-    run, spectrum = Run(given), given["spectrum"]
-    require_other(given["output"], file, spectrum)
-    require_writable(given["output"], run.certificates)
-    prescribed = None if spectrum is None else run.read(spectrum)
+    run, spectrum, weights = Run(given), given["spectrum"], given["weights"]
+    output, html = given["output"], given["html"]
+    require_other(output, file, spectrum, weights)
+    require_other(html, file, spectrum, weights, None if output is None else str(output))
+    require_writable(output, run.certificates)
+    require_writable(html, run.certificates)
+    extra = tuple(None if each is None else run.read(each) for each in (spectrum, weights))
     keywords = {**wanted, "agent": given["agent"], **{key: given[key] for key in HOW}}
+    aimed = {key: given[key] for key in aiming.AIMS if key in given}
     plant = run.read(file)
     done = run.result(
-        _designed, name, plant, prescribed, run.limits, keywords, doing=f"designing for {plant[0]}"
+        _designed,
+        *(name, plant, extra, run.limits, keywords, aimed, html is not None),
+        doing=f"designing for {plant[0]}",
+        telling=True,
     )
-    output, possible = given["output"], "impossible" not in done
+    possible = "impossible" not in done
 
     def show() -> bool:
         if possible and output is None:
+            click.echo("\n".join(f"mcexact: {line}" for line in done["said"]), err=True)
             emit(done["controller"])
         elif possible:
+            emit("\n".join(done["said"]) + "\n\n")
             emit_tables(done["tables"])
         return possible and output is not None
 
-    def write(_: Rechecked) -> None:
+    def write(checked: Rechecked) -> None:
         if possible and output is not None:
             write_text(output, done["controller"])
+        if possible and html is not None:
+            write_text(html, done["page"].rendered(done["certificates"], checked.verdicts))
 
     checked = run.conclude(done, show, about=f"the design for {plant[0]}", write=write)
     if not possible and checked.missing is not None and not run.as_json:
@@ -91,15 +115,19 @@ def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any
 def _designed(
     name: str,
     plant: tuple[str, bytes],
-    prescribed: tuple[str, bytes] | None,
+    extra: tuple[tuple[str, bytes] | None, ...],
     limits: dict[str, int],
     wanted: dict[str, Any],
+    aimed: dict[str, Any],
+    with_page: bool,
+    tell: Callable[[str], None],
 ) -> dict[str, Any]:
     """Design and format the result, in the child process."""
     import mcexact
     from mcexact.answer.account import Account
     from mcexact.answer.sentence import Given, Sentences
     from mcexact.answer.template import Sentence
+    from mcexact.cli.assessing import assessed
     from mcexact.cli.files import system_in
     from mcexact.cli.running import told
     from mcexact.errors import Impossible, InputError
@@ -107,17 +135,31 @@ def _designed(
     from mcexact.model.controller_file import controller_text
     from mcexact.model.json_text import parse
     from mcexact.report.account import measured, tables
+    from mcexact.synthesis.assessment import assess
     from mcexact.synthesis.methods.spectrum import require_numbers
+    from mcexact.synthesis.optimum.aims import Aims
+    from mcexact.synthesis.request import Warned
 
-    spectrum = None
+    def progress(step: str) -> None:
+        if isinstance(step, Warned):
+            tell(step)
+
+    (prescribed, weights), spectrum = extra, None
     system = system_in(*plant, limits)
+    weighed = aiming.read_weights(weights, limits)
+    aims = aiming.aims_of(aimed, weighed) if aimed else Aims(weights=weighed)
+    if aimed:
+        wanted["aims"] = aims
     try:
         if prescribed is not None:
             spectrum = parse(prescribed[1], Limits(**limits))
             require_numbers(spectrum)
-        found = getattr(mcexact, f"design_{name}")(system, spectrum=spectrum, **wanted)
+        found = getattr(mcexact, f"design_{name}")(
+            system, spectrum=spectrum, progress=progress, **wanted
+        )
     except InputError as error:
-        raise error.within(prescribed[0] if prescribed is not None else plant[0]) from None
+        place = next((each[0] for each in extra if each is not None), plant[0])
+        raise error.within(place) from None
     except Impossible as refused:
         reason, proof = refused.message, refused.certificate
         said = Sentences([reason] if isinstance(reason, Sentence) else [])
@@ -126,10 +168,17 @@ def _designed(
             "impossible": str(refused),
             "json": account.as_json(design=name, possible=False, reason=reason),
         }
-    account = found.account
-    figures = measured(found.measures(), account.sentences, found.region.discrete)
-    return told(account) | {
-        "controller": controller_text(found.controller),
-        "json": account.as_json(**found.view()),
-        "tables": (*tables(account.sentences), figures),
-    }
+    account, assessment = found.account, assess(found, aims)
+    figures = measured(
+        found.measures(), assessment.rows(), account.sentences, found.region.discrete
+    )
+    return (
+        told(account)
+        | assessed(
+            account, assessment, found.loop.closed, (*tables(account.sentences), figures), with_page
+        )
+        | {
+            "controller": controller_text(found.controller),
+            "json": account.as_json(**found.view(), assessment=assessment.view()),
+        }
+    )

@@ -62,9 +62,9 @@ arithmetic = click.option(
     type=click.Choice(["exact", "float"]),
     default="exact",
     show_default=True,
-    help="`exact` assigns the whole spectrum, for small systems; its gains can be very large. "
-    "`float` meets a rate or radius. The proof is exact in both cases; float gains differ "
-    "slightly between processors.",
+    help="The arithmetic of the controllers of theorems: `exact` assigns the whole spectrum, for "
+    "small systems; its gains can be very large. `float` meets a rate or radius. The proof is "
+    "exact in both cases; searched gains, and those of `float`, depend on the processor.",
 )
 
 controller_output = click.option(
@@ -90,8 +90,16 @@ def file_limits(function: F) -> F:
     """Add the options that change the limits on input files.
 
     The command receives them as the keywords ``bytes``, ``depth``, ``digits`` and ``exponent``; see
-    `given`.
+    `given`.  Only ``--help-all`` shows them.
     """
+    function = click.option(
+        "--help-all",
+        is_flag=True,
+        is_eager=True,
+        expose_value=False,
+        callback=_show_all,
+        help="Show this message with the limits on input files.",
+    )(function)
     for name, what in (
         ("exponent", "exponent of a decimal"),
         ("digits", "number of digits"),
@@ -103,9 +111,21 @@ def file_limits(function: F) -> F:
             name,
             type=click.IntRange(min=1, max=10**15),
             metavar="N",
+            hidden=True,
             help=f"Largest {what} that is read.",
         )(function)
     return function
+
+
+def _show_all(context: click.Context, _: click.Parameter, asked: bool) -> None:
+    """Show the help of a command with its hidden options, and end."""
+    if not asked or context.resilient_parsing:
+        return
+    for parameter in context.command.params:
+        if isinstance(parameter, click.Option):
+            parameter.hidden = False
+    click.echo(context.get_help())
+    context.exit()
 
 
 def given(limits: Mapping[str, int | None]) -> dict[str, int]:

@@ -49,12 +49,19 @@ class Run:
 
         return place_of(file), read(file, self.limits, self.deadline)
 
-    def result(self, work: Callable[..., Any], *arguments: Any, doing: str) -> Any:
+    def result(
+        self, work: Callable[..., Any], *arguments: Any, doing: str, telling: bool = False
+    ) -> Any:
         """Call a function in a child process, within the limits."""
         from mcexact.cli.supervision import supervised
 
         return supervised(
-            work, *arguments, doing=doing, timeout=self.deadline, max_memory=self.max_memory
+            work,
+            *arguments,
+            doing=doing,
+            timeout=self.deadline,
+            max_memory=self.max_memory,
+            telling=telling,
         )
 
     def conclude(

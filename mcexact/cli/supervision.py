@@ -25,6 +25,14 @@ from mcexact.errors import InternalError, McexactError
 from mcexact.sweeps.workers import end_with_parent
 
 T = TypeVar("T")
+Tell = Callable[[str], None]
+
+
+class _Note(str):
+    """A line that the child wants to be shown at once."""
+
+    __slots__ = ()
+
 
 _LIBRARIES = ("flint", "numpy", "scipy.linalg")
 _SHOW_AFTER = 1.0  # seconds
@@ -38,6 +46,7 @@ def supervised(
     max_memory: int | None = None,
     libraries: Sequence[str] = _LIBRARIES,
     quiet: bool = False,
+    telling: bool = False,
 ) -> T:
     """Call a function in a child process and return what it returns.
 
@@ -57,6 +66,9 @@ def supervised(
         Compiled libraries to load before memory is limited.
     quiet : bool
         Whether to show no progress.
+    telling : bool
+        Whether the function takes a keyword ``tell``, a function that shows a line on standard
+        error at once.
 
     Returns
     -------
@@ -76,7 +88,7 @@ def supervised(
     receiver, sender = context.Pipe(duplex=False)
     deadline = timeout if isinstance(timeout, Deadline) else Deadline(timeout)
     limits = (max_memory, tuple(libraries))
-    child = context.Process(target=_child, args=(sender, limits, work, arguments))
+    child = context.Process(target=_child, args=(sender, limits, work, arguments, telling))
     for stream in (sys.stdout, sys.stderr):
         if stream is not None:
             stream.flush()
@@ -107,12 +119,16 @@ def _await(receiver: Connection, doing: str, deadline: Deadline, quiet: bool) ->
     """Wait for the child's result, and show progress if that takes long."""
     start = time.monotonic()
     with _terminable(), _progress(doing) as show:
-        while not receiver.poll(0.1 if (left := deadline.left()) is None else min(0.1, left)):
-            if not quiet:
-                show(time.monotonic() - start)
-            if deadline.left() == 0:
-                raise deadline.missed(doing)
-        return pickle.loads(receiver.recv_bytes())
+        while True:
+            while not receiver.poll(0.1 if (left := deadline.left()) is None else min(0.1, left)):
+                if not quiet:
+                    show(time.monotonic() - start)
+                if deadline.left() == 0:
+                    raise deadline.missed(doing)
+            outcome = pickle.loads(receiver.recv_bytes())
+            if not isinstance(outcome, _Note):
+                return outcome
+            print(f"mcexact: {outcome}", file=sys.stderr, flush=True)
 
 
 def _child(
@@ -120,6 +136,7 @@ def _child(
     limits: tuple[int | None, tuple[str, ...]],
     work: Callable[..., Any],
     arguments: Any,
+    telling: bool,
 ) -> None:
     """Do the work and send its result, or the error that ended it."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
@@ -135,7 +152,10 @@ def _child(
     try:
         if max_memory is not None:
             limit = MemoryLimit(max_memory, libraries)
-        message = pickle.dumps((work(*arguments),))
+        told: dict[str, Tell] = {}
+        if telling:
+            told["tell"] = lambda line: sender.send_bytes(pickle.dumps(_Note(line)))
+        message = pickle.dumps((work(*arguments, **told),))
     except Exception as error:
         if limit is not None:
             limit.lift()

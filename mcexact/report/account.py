@@ -18,6 +18,7 @@ _COLUMNS = {
 _COLUMNS_OF_ROWS = {"allocate-row": ("agent", "least"), "allocate-link": ("from", "to", "cost")}
 _BOUNDS = {"outputs+states": "Theorem 2's bound", "states": "Remark 2's bound"}
 _MORE = "Further fixed modes are listed below."
+NOT_CERTIFIED = "computed, not certified: only the lines above are certified"
 _SHOWN = "the first {}; the JSON document and the HTML page list all. "
 
 
@@ -94,19 +95,33 @@ def _table(
     return Table(title, tuple(columns), tuple(rows), note)
 
 
-def measured(figures: Mapping[str, float | None], said: Sentences, discrete: bool) -> Table:
-    """Return the robustness measures of a loop; a dash if numbers exceed floats."""
+def measured(
+    figures: Mapping[str, float | None],
+    assessed: Sequence[tuple[str, str]],
+    said: Sentences,
+    discrete: bool,
+) -> Table:
+    """Return the figures of a loop that are not proved; a dash if numbers exceed floats.
+
+    Parameters
+    ----------
+    figures : mapping
+        The robustness measures of the loop.
+    assessed : sequence of pairs
+        Labels and texts of further figures, which come first.
+    said : Sentences
+    discrete : bool
+    """
     what = "radius" if discrete else "abscissa"
     labels = {
-        "largest_gain": "largest gain",
-        "spectral": f"spectral {what}",
         "numerical": f"numerical {what}",
         "distance_to_instability": "distance to instability, at most",
     }
     rows = [
-        (labels[name], "–" if value is None else f"{value:.6g}") for name, value in figures.items()
+        (label, "–" if (value := figures.get(name)) is None else f"{value:.6g}")
+        for name, label in labels.items()
     ]
-    return Table("".join(said.at("measured.title")), (), tuple(rows))
+    return Table("".join(said.at("measured.title")), (), (*assessed, *rows), NOT_CERTIFIED)
 
 
 def latex(account: Account) -> str:

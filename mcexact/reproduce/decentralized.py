@@ -28,7 +28,8 @@ from mcexact.reproduce.material import (
     three_channels,
 )
 from mcexact.reproduce.notebook import Notebook, Procedure
-from mcexact.synthesis.network.decentralized import design_decentralized
+from mcexact.synthesis.decentralized import design_decentralized
+from mcexact.synthesis.optimum.aims import THEOREM
 
 
 def definition(note: Notebook) -> None:
@@ -124,7 +125,7 @@ def free_assignment(note: Notebook) -> None:
         if not completeness(plant).complete:
             continue
         note.on(name)
-        order = design_decentralized(plant, rate=1).order
+        order = design_decentralized(plant, rate=1, aims=THEOREM).order
         wanted = [-3 - k for k in range(plant.n + order)]
         design = design_decentralized(plant, spectrum=wanted)
         note.check(
@@ -144,7 +145,7 @@ def partition(note: Notebook) -> None:
     found = transfer_graph(plant)
     note.check("there are two strong components", len(found.components) == 2)
     note.check("nothing is fixed", fixed_spectrum(plant).empty)
-    design = design_decentralized(plant, rate=2)
+    design = design_decentralized(plant, rate=2, aims=THEOREM)
     note.check("one set for each component", len(design.parts["blocks"]) == 2)
     sizes = [each.polynomial.degree - each.order for each in design.parts["blocks"]]
     note.check("of the dimensions of the components, 2 and 1", sorted(sizes) == [1, 2])
@@ -161,7 +162,7 @@ def wang_davison(note: Notebook) -> None:
         note.certify(found)
         fast = 1000
         try:
-            design = design_decentralized(plant, rate=fast)
+            design = design_decentralized(plant, rate=fast, aims=THEOREM)
         except Impossible as refused:
             note.check("refused because something is fixed", not found.empty)
             note.certify(refused.certificate)

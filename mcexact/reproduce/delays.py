@@ -22,7 +22,8 @@ from mcexact.reproduce.figures import delays_picture
 from mcexact.reproduce.material import Numbers, drawn_plants, graph_of, plants, three_channels
 from mcexact.reproduce.notebook import Notebook, Procedure
 from mcexact.simulation.trajectory import simulate
-from mcexact.synthesis.network.extended import design_extended
+from mcexact.synthesis.extended import design_extended
+from mcexact.synthesis.optimum.aims import THEOREM
 
 X = Polynomial.x()
 late = partial(plants, time="discrete", longest_delay=2)
@@ -144,7 +145,7 @@ def corollary_2(note: Notebook) -> None:
     for delay in (0, 1, 2):
         plant = three_channels("discrete", delay)
         note.on(f"the example of section IV-B, discrete time, delay {delay} on every link")
-        design = design_extended(plant, radius="1/2")
+        design = design_extended(plant, radius="1/2", aims=THEOREM)
         note.check("radius 1/2 is certified", "stability" in design.certificates)
         note.certify(*design.certificates.values())
         run = simulate(plant, design.controller, horizon=12 + 4 * delay)
@@ -205,7 +206,7 @@ def free_assignment(note: Notebook) -> None:
     note.on("the example of section IV-B, discrete time, delay 1 on every link")
     sizes = (1, 1, 1)
     note.certify(completeness(held_system(plant, sizes)))
-    least = design_extended(plant, network="held", dimensions=sizes, radius="1/2")
+    least = design_extended(plant, network="held", dimensions=sizes, radius="1/2", aims=THEOREM)
     degree = least.loop.matrix.nrows
     wanted = [Fraction(k % 3, 4) for k in range(degree)]
     design = design_extended(plant, network="held", dimensions=sizes, spectrum=wanted)

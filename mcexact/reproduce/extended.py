@@ -36,7 +36,8 @@ from mcexact.reproduce.material import (
     three_channels,
 )
 from mcexact.reproduce.notebook import Notebook, Procedure
-from mcexact.synthesis.network.extended import design_extended
+from mcexact.synthesis.extended import design_extended
+from mcexact.synthesis.optimum.aims import THEOREM
 
 SHARING: tuple[Share, ...] = ("outputs+states", "states")
 
@@ -303,7 +304,7 @@ def through_any_channel(note: Notebook) -> None:
 def total_dimension(note: Notebook) -> None:
     """The total dimension is k_q + Σ n_i, beside nm + m − 1 of the observer."""
     for plant in note.each(plants(1, states=2, channels=2)):
-        found = design_extended(plant, rate=1)
+        found = design_extended(plant, rate=1, aims=THEOREM)
         orders = sum(each.order for each in found.parts["blocks"])
         sizes = found.parts["dimensions"]
         note.check("the order is k_q + Σ n_i", found.order == orders + sum(sizes.values()))

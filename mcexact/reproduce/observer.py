@@ -32,8 +32,8 @@ from mcexact.reproduce.material import (
 from mcexact.reproduce.notebook import Notebook, Procedure
 from mcexact.simulation.trajectory import simulate
 from mcexact.synthesis.design import Design
+from mcexact.synthesis.distributed_observer import design_observer
 from mcexact.synthesis.methods import default_polynomial, state_feedback
-from mcexact.synthesis.observer.observer import design_observer
 
 
 def zeros(plant: MultiChannelSystem) -> list[Matrix]:

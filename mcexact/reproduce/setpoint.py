@@ -23,6 +23,7 @@ from mcexact.reproduce.material import Instance, Numbers, drawn_plants, plants
 from mcexact.reproduce.notebook import Notebook, Procedure
 from mcexact.simulation.trajectory import simulate
 from mcexact.synthesis.methods import default_polynomial, state_feedback
+from mcexact.synthesis.optimum.aims import THEOREM
 from mcexact.synthesis.setpoint import SetpointMethod, design_setpoint
 
 METHODS: tuple[SetpointMethod, ...] = ("observer", "extended")
@@ -142,11 +143,11 @@ def distributed_setpoints(note: Notebook) -> None:
     """Both methods lead every output to the set-point of its agent; run on the network."""
     plant = note.at(_two_channels())
     for method in METHODS:
-        design = design_setpoint(plant, rate=1, method=method)
+        design = design_setpoint(plant, rate=1, method=method, aims=THEOREM)
         note.check(f"a stable loop by the method {method}", "stability" in design.certificates)
         note.certify(*design.certificates.values())
     wanted = [Fraction(1), Fraction(-2)]
-    design = design_setpoint(plant, rate=1)
+    design = design_setpoint(plant, rate=1, aims=THEOREM)
     run = simulate(plant, design.controller, horizon=16, reference=[[r] for r in wanted])
     outputs = (
         matrix_to_float(plant.output_matrix()) @ np.array([shot.plant for shot in run.snapshots]).T

@@ -50,9 +50,12 @@ class Design:
           (F_i), ``observer_gains`` ([K_i, H_ij …]), ``estimated`` (L: the agents estimate L x);
           exact also ``feedback_polynomial`` and ``error_polynomial``, in floating point ``G``,
           ``L`` and ``attempts``;
-        - decentralized and extended: ``network`` (its kind), ``dimensions``, ``blocks``,
-          ``kept`` (the modes that stay, all fixed), ``gains`` (F̄_i), ``observer_order``
-          (nm + m − 1); extended also ``allocation``.
+        - decentralized and extended: ``network`` (its kind), ``dimensions``, ``kept`` (the modes
+          that stay, all fixed), ``observer_order`` (nm + m − 1); extended also ``allocation``.
+          A controller that was searched has ``optimum`` and ``diagnosis``, the controller of the
+          theorem ``blocks`` and ``gains`` (F̄_i).
+    notes : tuple of str
+        What was chosen for the user, such as the rate.
     """
 
     method: Method
@@ -61,6 +64,7 @@ class Design:
     region: StabilityRegion
     certificates: Mapping[str, Answer]
     parts: Mapping[str, Any] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
 
     @property
     def controller(self) -> Controller:
@@ -137,7 +141,9 @@ def designed(
         system, proposals, request.region, graph, stable=stable, tell=request.tell
     )
     certificates = {proof.kind: proof for proof in loop.proofs}
-    return Design(method, request.arithmetic, loop, request.region, certificates, made.parts)
+    return Design(
+        method, request.arithmetic, loop, request.region, certificates, made.parts, request.notes
+    )
 
 
 def _plain(value: Any) -> Any:

@@ -14,6 +14,12 @@ Arithmetic = Literal["exact", "float"]
 Progress = Callable[[str], None]
 
 
+class Warned(str):
+    """The description of a step that a user ought to read before the design ends."""
+
+    __slots__ = ()
+
+
 @dataclass(frozen=True)
 class Request:
     """The arguments that all methods of design share.
@@ -30,6 +36,8 @@ class Request:
     arithmetic : {"exact", "float"}
     tell : callable
         A function that is called with a short description of each step.
+    notes : tuple of str
+        What was chosen for the user.
     """
 
     region: StabilityRegion
@@ -37,6 +45,7 @@ class Request:
     spectrum: Any
     arithmetic: Arithmetic
     tell: Progress
+    notes: tuple[str, ...] = ()
 
     @classmethod
     def of(

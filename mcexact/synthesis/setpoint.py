@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import replace
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any, Literal
 
@@ -13,7 +13,14 @@ from mcexact.answer.rules.refusals import refusal
 from mcexact.answer.setpoint import SetpointSolvability
 from mcexact.answer.wording import refusals as say
 from mcexact.derived.integrators import setpoint_system
-from mcexact.errors import Impossible, InputError, InternalError, UsageError
+from mcexact.errors import (
+    Impossible,
+    InputError,
+    InternalError,
+    LimitReached,
+    OutOfReach,
+    UsageError,
+)
 from mcexact.exact.blocks import block, hstack, vstack
 from mcexact.exact.location import StabilityRegion, steady_point
 from mcexact.exact.matrix import Matrix
@@ -22,11 +29,17 @@ from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, as_plant, with_graph
 from mcexact.model.system_file import digest
-from mcexact.synthesis.design import Design, designed
+from mcexact.synthesis.asking import request_for
+from mcexact.synthesis.design import Design, Method, designed
 from mcexact.synthesis.gate import Proposal
-from mcexact.synthesis.network.extended import Dimensions, sharing_network
 from mcexact.synthesis.network.network_design import network_proposals
+from mcexact.synthesis.network.networks import DerivedNetwork, decentralized_network
+from mcexact.synthesis.network.sharing import Dimensions, sharing_network
 from mcexact.synthesis.observer.observer import observer_proposals
+from mcexact.synthesis.optimum.aims import Aims
+from mcexact.synthesis.optimum.proposals import searched_proposals
+from mcexact.synthesis.optimum.structures import Family
+from mcexact.synthesis.optimum.weights import Weights
 from mcexact.synthesis.request import Arithmetic, Progress, Request
 
 SetpointMethod = Literal["observer", "extended"]
@@ -40,9 +53,10 @@ def design_setpoint(
     spectrum: Any = None,
     rate: Any = None,
     radius: Any = None,
-    method: SetpointMethod = "observer",
+    method: SetpointMethod | None = None,
     dimensions: Dimensions = "minimal",
     arithmetic: Arithmetic = "exact",
+    aims: Aims | None = None,
     progress: Progress | None = None,
 ) -> Design:
     """Design a distributed controller that holds every output at its agent's set-point.
@@ -54,20 +68,27 @@ def design_setpoint(
     graph : NeighborGraph, optional
         Overrides ``system.neighbors``.
     agent : str, optional
-        The agent with the channel controller.
+        The agent with the channel controller of a theorem, which is then constructed without a
+        search.
     spectrum : optional
-        For the plant with its integrators, of n + Σ q_i states: as in `design_observer`, or as in
-        `design_extended`.
+        For the plant with its integrators, of n + Σ q_i states: as in `design_observer`, or with
+        the key ``"closed_loop"`` as in `design_extended`.
     rate, radius : rational, optional
-        A rate or radius to be certified, instead of a spectrum or in addition to it.  In exact
-        arithmetic and continuous time, the eigenvalues are then placed beyond three times the rate,
-        if no fixed mode prevents this.
-    method : {"observer", "extended"}
-        A distributed observer of the plant with all integrators, or shared sub-states of least
-        dimension; agents send no outputs with either method.
+        A rate or radius to be certified, instead of a spectrum or in addition to it.  Without a
+        spectrum, the default is half the sensible rate.  For a controller of a theorem, in exact
+        arithmetic and continuous time, the eigenvalues are placed beyond three times the rate, if
+        no fixed mode prevents this.
+    method : {"observer", "extended"}, optional
+        A distributed observer of the plant with all integrators; or a controller of low order with
+        shared sub-states, by a search as in `design_extended`.  By default such a controller, in
+        which agents send nothing if no fixed mode makes this necessary, or an observer if none is
+        found.  Agents send no outputs.
     dimensions : {"minimal", "bound"} or sequence of m int
-        Dimensions for the method "extended".
+        Dimensions of shared sub-states.
     arithmetic : {"exact", "float"}
+        The arithmetic of controllers of a theorem.  Floating point takes no spectrum.
+    aims : Aims, optional
+        What the search aims at.  The weights are those of the plant.
     progress : callable, optional
 
     Returns
@@ -83,6 +104,8 @@ def design_setpoint(
         If no equilibrium holds some set-points (the certificate gives the combination), if a mode
         is not controllable or not observable, or if no linear time-invariant controller of this
         method exists.
+    LimitReached
+        As for `design_decentralized`.
 
     Notes
     -----
@@ -96,7 +119,7 @@ def design_setpoint(
     >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]], neighbors={"1": []})
     >>> design = design_setpoint(plant, rate=1)
     >>> sorted(design.certificates), design.controller.agents[0].private
-    (['closed_loop_spectrum', 'setpoint', 'stability'], 1)
+    (['setpoint', 'stability'], 2)
     >>> wash = MultiChannelSystem([[0, 1], [-2, -3]], [[[0], [1]]], [[[0, 1]]],
     ...                           neighbors={"1": []})
     >>> design_setpoint(wash, rate=1)
@@ -106,34 +129,101 @@ def design_setpoint(
 invariant zero of the plant
     """
     system, graph = with_graph(system, graph)
-    if method not in ("observer", "extended"):
+    if method not in (None, "observer", "extended"):
         raise UsageError(f'expected "observer" or "extended", found {method!r}', where="method")
-    request = Request.of(system, agent, spectrum, rate, radius, arithmetic, progress)
     solvability = _required(system)
     integrated = setpoint_system(system)
+    given = system, agent, spectrum, rate, radius, arithmetic, progress
+    request = request_for(*given, aims=aims, controlled=as_plant(integrated))
     _require_reachable(integrated, request.region)
-
-    def proposed(to: MultiChannelSystem, asked: Request) -> Iterator[Proposal]:
-        if method == "observer":
-            return observer_proposals(to, graph, asked)
-        kind: Literal["held", "extended"] = "held" if graph.delays else "extended"
-        network, _ = sharing_network(
-            to, graph, asked, dimensions=dimensions, share="states", network=kind
-        )
-        return network_proposals(network, asked)
-
-    minimal = method == "extended" and dimensions == "minimal" and not graph.delays
-    proposals = _proposals(proposed, integrated, request, minimal=minimal)
-    moved = (_for_the_plant(system, each) for each in proposals)
-    made = designed(method, request, system, graph, moved, stable=True)
+    task = _Task(system, integrated, graph, request, method, dimensions, aims or Aims())
+    moved = (_for_the_plant(system, each) for each in task.proposals())
+    made = designed("observer", request, system, graph, moved, stable=True)
     gain = made.loop.closed.steady_gain
     if gain is None or gain != Matrix.identity(gain.nrows):
         raise InternalError("a stable loop with integrators does not attain its set-points")
+    methods: dict[str | None, Method] = {None: "observer", "decentralized": "decentralized"}
     return replace(
         made,
+        method=methods.get(made.parts.get("network"), "extended"),
         certificates={**made.certificates, "setpoint": solvability},
         parts={"solvability": solvability, "designed": made.parts},
     )
+
+
+@dataclass(frozen=True)
+class _Task:
+    """A set-point design, with the plant with its integrators."""
+
+    system: MultiChannelSystem
+    integrated: MultiChannelSystem
+    graph: NeighborGraph
+    request: Request
+    method: SetpointMethod | None
+    dimensions: Dimensions
+    aims: Aims
+
+    @property
+    def searches(self) -> bool:
+        """Whether controllers of low order are searched before those of a theorem."""
+        asked = self.request
+        free = asked.spectrum is None and asked.agent is None and self.aims.effort != 0
+        return free and self.method != "observer"
+
+    def proposals(self) -> Iterator[Proposal]:
+        """Yield the proposals for the plant with its integrators."""
+        limit: LimitReached | None = None
+        if self.searches:
+            try:
+                yield from self._searched()
+                return
+            except Impossible:
+                # The decision is repeated below, for a certificate about the plant itself.
+                pass
+            except OutOfReach:
+                raise
+            except LimitReached as reached:
+                limit = reached
+        try:
+            yield from self._of_theorems()
+        except LimitReached:
+            if limit is None:
+                raise
+            raise limit from None
+
+    def _network(self, to: MultiChannelSystem, asked: Request) -> DerivedNetwork:
+        """The network over which agents share sub-states."""
+        kind: Literal["held", "extended"] = "held" if self.graph.delays else "extended"
+        network, _ = sharing_network(
+            to, self.graph, asked, dimensions=self.dimensions, share="states", network=kind
+        )
+        return network
+
+    def _searched(self) -> Iterator[Proposal]:
+        """Search without communication if that suffices, else with shared sub-states."""
+        plant, asked = as_plant(self.integrated), self.request
+        weights = Weights.of(self.system, self.aims.weights)
+        weights = weights.with_integrators(plant.n - self.system.n)
+        network = self._network(plant, asked)
+        family = Family(network, "states")
+        if self.method is None and not any(network.dimensions):
+            family = Family(decentralized_network(plant))
+        yield from searched_proposals(family, asked, self.aims, weights)
+
+    def _of_theorems(self) -> Iterator[Proposal]:
+        """Propose the observer, or the controller of the extended system."""
+        spectrum = self.request.spectrum
+        closed = isinstance(spectrum, Mapping) and "closed_loop" in spectrum
+        closed = closed or bool(self.graph.delays)
+        extended = self.method == "extended" or (self.method is None and closed)
+
+        def proposed(to: MultiChannelSystem, asked: Request) -> Iterator[Proposal]:
+            if not extended:
+                return observer_proposals(to, self.graph, asked)
+            return network_proposals(self._network(to, asked), asked)
+
+        minimal = extended and self.dimensions == "minimal" and not self.graph.delays
+        yield from _proposals(proposed, self.integrated, self.request, minimal=minimal)
 
 
 def _required(system: MultiChannelSystem) -> SetpointSolvability:

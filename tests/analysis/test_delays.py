@@ -17,7 +17,7 @@ from tests.campaigns.networks import (
     held_verdict,
     lifted_verdict,
 )
-from tests.synthesis.network.test_extended import late
+from tests.synthesis.test_extended import late
 
 
 def test_the_papers_example_with_delay_3_on_every_link() -> None:

@@ -6,6 +6,7 @@ from typing import Any
 import pytest
 
 from mcexact import (
+    Aims,
     MultiChannelSystem,
     certify_controller,
     check,
@@ -75,7 +76,7 @@ def test_what_is_no_system_is_refused() -> None:
 
 def test_the_controller_can_be_an_object_or_a_file(tmp_path: Path) -> None:
     plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
-    design, other = (design_decentralized(plant, rate=rate) for rate in (1, 3))
+    design, other = (design_decentralized(plant, rate=rate, aims=Aims(effort=0)) for rate in (1, 3))
     save_controller(design.controller, tmp_path / "controller.json")
     for controller in (design.controller, tmp_path / "controller.json"):
         for certificate in map(design.certificates.get, ("stability", "closed_loop_spectrum")):

@@ -23,9 +23,9 @@ from mcexact.model.system import MultiChannelSystem
 from mcexact.report.account import tables
 from mcexact.report.text import plain
 from mcexact.synthesis.certify import account_of_verdict, certify_controller
-from mcexact.synthesis.network.decentralized import design_decentralized
-from mcexact.synthesis.network.extended import design_extended
-from mcexact.synthesis.observer.observer import design_observer
+from mcexact.synthesis.decentralized import design_decentralized
+from mcexact.synthesis.distributed_observer import design_observer
+from mcexact.synthesis.extended import design_extended
 from mcexact.synthesis.setpoint import design_setpoint
 from tests.answer.reading import texts_of_plain
 from tests.answer.test_sentences import drawn, known_texts, require_certified, require_known

@@ -30,7 +30,7 @@ from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.simulation.trajectory import simulate
 from mcexact.synthesis.design import Arithmetic
-from mcexact.synthesis.network.extended import design_extended
+from mcexact.synthesis.extended import design_extended
 from mcexact.synthesis.setpoint import SetpointMethod, design_setpoint
 from tests.campaigns.networks import connectivity, extended_verdict, held_verdict, lifted_verdict
 

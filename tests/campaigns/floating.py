@@ -37,7 +37,7 @@ from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.certify import certify_controller
 from mcexact.synthesis.design import Design
-from mcexact.synthesis.observer.observer import design_observer
+from mcexact.synthesis.distributed_observer import design_observer
 
 CHECKER = Path(mcexact.checker.__file__).parent
 RATE, RADIUS = Fraction(1), Fraction(4, 5)

@@ -30,7 +30,7 @@ from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import canonical_document
 from mcexact.simulation.trajectory import InitialState, simulate
 from mcexact.synthesis.design import Design
-from mcexact.synthesis.observer.observer import design_observer
+from mcexact.synthesis.distributed_observer import design_observer
 from tests.oracle.controller_loop import applied, loop_rows
 
 TOO_LARGE_FOR_DOUBLES = 10**5

@@ -37,7 +37,7 @@ def shared_loop(folder: Path) -> dict[str, Any]:
     plant, controller, made = folder / "plant.json", folder / "controller.json", folder / "made"
     plant.write_text(json.dumps(document), encoding="utf-8")
     for argv in (
-        ("design", "extended", plant, "--rate", "1", "-o", controller),
+        ("design", "extended", plant, "--rate", "1", "--effort", "0", "-o", controller),
         ("certify", plant, controller, "--certificates", made),
         ("allocate", plant, "--certificates", made),
     ):

@@ -10,7 +10,7 @@ from mcexact.model.controller_file import load_controller
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import save_system
 from tests.end_to_end.command_line import run
-from tests.synthesis.network.test_extended import late
+from tests.synthesis.test_extended import late
 from tests.synthesis.three_channels import three_channels
 
 
@@ -54,17 +54,18 @@ def test_both_orders_are_in_the_output(folder, tmp_path):
 
 
 @pytest.mark.parametrize("network", ["lifted", "held"])
-@pytest.mark.parametrize("arithmetic", ["exact", "float"])
-def test_delayed_networks_run_from_their_files(folder, tmp_path, network, arithmetic):
+@pytest.mark.parametrize("effort", ["0", "5"])
+def test_delayed_networks_run_from_their_files(folder, tmp_path, network, effort):
     plant, controller = str(folder / "late.json"), tmp_path / "controller.json"
     proofs = tmp_path / "proofs"
     designed(
         folder,
         *("extended", plant, "--radius", "1/2", "--network", network),
-        *("--arithmetic", arithmetic, "-o", str(controller), "--certificates", str(proofs)),
+        *("--effort", effort, "-o", str(controller), "--certificates", str(proofs)),
     )
     files = sorted(map(str, proofs.iterdir()))
-    assert len(files) == (6 if network == "held" else 5)
+    # The controller of the theorem has a spectrum, and gains for a single channel.
+    assert len(files) == (4 if effort == "5" else 6 if network == "held" else 5)
     checked = run("check", *files, "--system", plant)
     assert checked.status == 0, checked.stdout
     held = any(agent.hold for agent in load_controller(controller).agents)
@@ -104,7 +105,7 @@ def test_set_points_are_reached(folder, tmp_path):
     proofs, run_file = tmp_path / "proofs", tmp_path / "run.csv"
     designed(
         folder,
-        *("setpoint", plant, "--radius", "1/2", "-o", str(controller)),
+        *("setpoint", plant, "--radius", "1/2", "--method", "observer", "-o", str(controller)),
         *("--certificates", str(proofs)),
     )
     assert run("check", *map(str, proofs.iterdir()), "--system", plant).status == 0
@@ -133,7 +134,7 @@ def test_analyze_says_what_is_fixed_with_delays_and_what_can_be_held(folder, tmp
         (("extended", "--dimensions", "1,x,0", "--rate", "1"), "integers >= 0 such as 0,0,1"),
         (("extended", "--dimensions", "1,0", "--rate", "1"), "expected 3 dimensions"),
         (("extended", "--network", "held", "--rate", "1"), "discrete time"),
-        (("decentralized",), "give a rate or a spectrum"),
+        (("decentralized", "--margin", "2"), "margin: expected a number above 0 and below 1"),
         (("decentralized", "--radius", "1/2"), "radius is for discrete time"),
         (("decentralized", "--rate", "1", "--agent", "9"), "9"),
     ],

@@ -16,7 +16,7 @@ from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model import gallery
-from mcexact.synthesis.network.decentralized import design_decentralized
+from mcexact.synthesis.decentralized import design_decentralized
 from tests.end_to_end.command_line import run
 
 NAME = "movable-by-periodic-gains"

@@ -21,8 +21,9 @@ from mcexact.model.local_controllers import local_controllers
 from mcexact.model.system import MultiChannelSystem
 from mcexact.report.account import measured, tables
 from mcexact.report.text import plain
+from mcexact.synthesis.assessment import assess
 from mcexact.synthesis.certify import account_of_verdict, certify_controller
-from mcexact.synthesis.observer.observer import design_observer
+from mcexact.synthesis.distributed_observer import design_observer
 from tests.report.strict_html import Page, external_addresses
 from tests.synthesis.three_channels import three_channels
 
@@ -31,9 +32,10 @@ def test_what_is_proved_stands_apart_from_what_is_measured():
     design = design_observer(three_channels(), rate=1, arithmetic="float")
     said = design.account.sentences
     [proved] = tables(said)
-    figures = measured(design.measures(), said, discrete=False)
+    figures = measured(design.measures(), assess(design).rows(), said, discrete=False)
     assert "certified" in proved.title and "not proved" in figures.title
-    assert "spectral abscissa" in dict(figures.rows)
+    assert "computed, not certified" in figures.note
+    assert {"margin at the plant's inputs", "numerical abscissa"} <= dict(figures.rows).keys()
     assert ("every eigenvalue of the loop", "Re λ < -1") in proved.rows
 
 

@@ -11,7 +11,7 @@ from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.simulation.precision import double_precision_warning
 from mcexact.simulation.trajectory import simulate
-from mcexact.synthesis.observer.observer import design_observer
+from mcexact.synthesis.distributed_observer import design_observer
 from tests.campaigns.observer import compare_double, compare_multiprecision, one_design
 from tests.synthesis.three_channels import three_channels
 

@@ -12,8 +12,8 @@ from mcexact.model.local_controllers import local_controllers
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis import certify as certifying
 from mcexact.synthesis.certify import certify_controller
+from mcexact.synthesis.distributed_observer import design_observer
 from mcexact.synthesis.gate import Proposal, certify
-from mcexact.synthesis.observer.observer import design_observer
 from tests.synthesis.three_channels import three_channels
 
 PLANT = MultiChannelSystem([[1]], [[[1]]], [[[1]]])

@@ -19,9 +19,10 @@ from mcexact.model.local_controllers import local_controllers
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import digest
 from mcexact.synthesis.certify import account_of_verdict, certify_controller
-from mcexact.synthesis.network.decentralized import design_decentralized
-from mcexact.synthesis.network.extended import design_extended
-from mcexact.synthesis.observer.observer import design_observer
+from mcexact.synthesis.decentralized import design_decentralized
+from mcexact.synthesis.distributed_observer import design_observer
+from mcexact.synthesis.extended import design_extended
+from mcexact.synthesis.optimum.aims import THEOREM
 from mcexact.synthesis.setpoint import design_setpoint
 from tests.synthesis.test_setpoint import two_tanks
 from tests.synthesis.three_channels import three_channels
@@ -81,8 +82,8 @@ def require_implied(account: Account, folder: Path) -> None:
 
 def test_decentralized_control_of_the_extended_system_is_distributed_control_of_the_plant() -> None:
     plant = three_channels()
-    shared = design_extended(plant, rate=1, dimensions=[0, 0, 1])
-    alone = design_decentralized(extended_system(plant, [0, 0, 1]), rate=1)
+    shared = design_extended(plant, rate=1, dimensions=[0, 0, 1], aims=THEOREM)
+    alone = design_decentralized(extended_system(plant, [0, 0, 1]), rate=1, aims=THEOREM)
     assert alone.order + 1 == shared.order
     assert alone.loop.polynomial == shared.loop.polynomial
 

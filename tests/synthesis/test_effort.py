@@ -10,9 +10,10 @@ import pytest
 
 from mcexact.model import loop
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.network.decentralized import design_decentralized
-from mcexact.synthesis.network.extended import design_extended
-from mcexact.synthesis.observer.observer import design_observer
+from mcexact.synthesis.decentralized import design_decentralized
+from mcexact.synthesis.distributed_observer import design_observer
+from mcexact.synthesis.extended import design_extended
+from mcexact.synthesis.optimum.aims import THEOREM
 from mcexact.synthesis.setpoint import design_setpoint
 
 
@@ -30,19 +31,19 @@ def chain_of_three() -> MultiChannelSystem:
 @pytest.mark.parametrize(
     ("design", "options", "decisions"),
     [
-        (design_setpoint, {"arithmetic": "float"}, 1),
-        (design_setpoint, {"arithmetic": "float", "method": "extended"}, 1),
-        (design_setpoint, {"method": "extended"}, 1),
+        (design_setpoint, {"arithmetic": "float", "method": "observer"}, 1),
+        (design_setpoint, {"arithmetic": "float", "method": "extended", "aims": THEOREM}, 1),
+        (design_setpoint, {"method": "extended", "aims": THEOREM}, 1),
         (design_observer, {"arithmetic": "float"}, 1),
         # The spectra of feedback and errors are promised: nothing more is decided.
         (design_observer, {}, 0),
-        (design_extended, {"arithmetic": "float"}, 1),
-        (design_extended, {}, 1),
-        (design_decentralized, {}, 1),
+        (design_extended, {"arithmetic": "float", "aims": THEOREM}, 1),
+        (design_extended, {"aims": THEOREM}, 1),
+        (design_decentralized, {"aims": THEOREM}, 1),
     ],
 )
 def test_a_proposal_is_assembled_once_and_decided_once(
-    design: Any, options: dict[str, str], decisions: int
+    design: Any, options: dict[str, Any], decisions: int
 ) -> None:
     told: list[str] = []
     profile = cProfile.Profile()

@@ -14,9 +14,9 @@ from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.controller import LinearMap
+from mcexact.synthesis.distributed_observer import design_observer
 from mcexact.synthesis.gate import CertifiedLoop, Proposal, certify, first_certified
 from mcexact.synthesis.observer.coordinates import observer_coordinates
-from mcexact.synthesis.observer.observer import design_observer
 from tests.synthesis.three_channels import three_channels
 
 ANY = StabilityRegion("continuous")

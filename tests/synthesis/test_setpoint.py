@@ -159,8 +159,6 @@ def test_bad_calls_say_so() -> None:
         design_setpoint(plant, rate=1, method="sea")  # type: ignore[arg-type]
     with pytest.raises(UsageError, match="spectrum"):
         design_setpoint(plant, spectrum={}, arithmetic="float")
-    with pytest.raises(UsageError, match="rate or a spectrum"):
-        design_setpoint(plant)
 
 
 def test_integrators_of_another_agent_are_not_at_hand() -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -179,17 +179,18 @@ def _proposal(task: NetworkTask, candidate: NetworkCandidate) -> Proposal:
     return Proposal(controller, (whole,), parts=parts)
 
 
-def network_design(method: Method, network: DerivedNetwork, request: Request) -> Design:
-    """Certify the proposal for a network, and add certificates about the network.
+def network_design(
+    method: Method, network: DerivedNetwork, request: Request, proposals: Iterable[Proposal]
+) -> Design:
+    """Certify a proposal for a network, and add certificates about the network.
 
-    These are about the fixed modes and, if no mode is kept and there is one strong component, about
-    the gains F̄_i with which the agent with the channel controller controls and observes the
-    network.
+    These are about the fixed modes and, for a controller of the theorem, if no mode is kept and
+    there is one strong component, about the gains F̄_i with which the agent with the channel
+    controller controls and observes the network.
     """
-    proposals = network_proposals(network, request)
     made = designed(method, request, network.given, network.graph, proposals)
     certificates = {**made.certificates, "fixed_spectrum": made.parts["fixed_spectrum"]}
-    blocks, gains = made.parts["blocks"], made.parts["gains"]
+    blocks, gains = made.parts.get("blocks", ()), made.parts.get("gains", ())
     if len(blocks) == 1 and made.parts["kept"].degree < 1:
         reach = single_channel_gains(
             network.system, blocks[0].agent, cyclic=True, draw=lambda *_: gains

@@ -1,4 +1,4 @@
-"""`design_observer` designs the distributed observer of Theorem 1 as m certified agent programs."""
+"""Proposals of the distributed observer of Theorem 1, exactly or in floating point."""
 
 from __future__ import annotations
 
@@ -13,9 +13,8 @@ from mcexact.errors import Impossible, InputError, LimitReached, UsageError
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.system import MultiChannelSystem, with_graph
+from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import digest
-from mcexact.synthesis.design import Design, designed
 from mcexact.synthesis.gate import Proposal
 from mcexact.synthesis.methods import (
     StateFeedback,
@@ -28,94 +27,7 @@ from mcexact.synthesis.methods import (
 from mcexact.synthesis.observer.coordinates import observer_coordinates
 from mcexact.synthesis.observer.programs import observer_programs
 from mcexact.synthesis.observer.search import ObserverTask, best_channel_controller
-from mcexact.synthesis.request import Arithmetic, Progress, Request
-
-
-def design_observer(
-    system: MultiChannelSystem,
-    graph: NeighborGraph | None = None,
-    agent: str | None = None,
-    *,
-    spectrum: Mapping[str, Any] | None = None,
-    rate: Any = None,
-    radius: Any = None,
-    gains: Sequence[Any] | None = None,
-    order: Literal["least"] | None = None,
-    arithmetic: Arithmetic = "exact",
-    progress: Progress | None = None,
-) -> Design:
-    """Design a distributed observer-based controller, with a proof of its closed-loop spectrum.
-
-    Parameters
-    ----------
-    system : MultiChannelSystem
-        A jointly controllable and observable plant or derived system, with n states and m channels.
-    graph : NeighborGraph, optional
-        A graph without delays; overrides ``system.neighbors``.
-    agent : str, optional
-        The agent that carries the channel controller; the first by default.
-    spectrum : mapping, optional
-        ``{"feedback": P, "error": P}``: n numbers for A + Σ B_i F_i and mn + m − 1 for the error
-        system, see `spectrum_polynomial`.
-    rate, radius : rational, optional
-        A rate or radius to be certified, instead of a spectrum or in addition to it: every
-        eigenvalue has real part below −rate (continuous time), or modulus below radius (discrete
-        time).
-    gains : sequence of m matrices, optional
-        Given F_i (p_i×n); then ``spectrum`` has no ``"feedback"``.  With F_i = 0 this is the
-        open-loop observer of section II-B, whose agents estimate the state and do not act.
-    order : {"least"}, optional
-        Use a channel controller of order one less than the smaller of the two indices, instead of m
-        − 1.  In floating point, use an observer of reduced order instead of nm, if it can be
-        certified.
-    arithmetic : {"exact", "float"}
-        "exact" assigns the whole spectrum, for small systems.  "float" designs for a rate or a
-        radius, with a proof that is exact as well (`float_proposals`).
-    progress : callable, optional
-        Is told, in a few words, what is being done.
-
-    Returns
-    -------
-    Design
-        See its ``parts``; agent i shares its estimate x_i of the state.
-
-    Raises
-    ------
-    Impossible
-        If all channels together do not control or do not observe a mode, or the error system for
-        these F_i has a fixed mode or a cut; the certificate proves this.
-    InputError
-        If a spectrum has the wrong length; the message states the right one.
-    UsageError
-        If no spectrum, rate or radius is given, if they contradict each other, or if the graph has
-        delays.
-
-    Notes
-    -----
-    Exact; paper, section II and Theorem 1.  F_i by state feedback; small K_i, H_ij with which
-    channel q controls the error system with index m and observes it, and its matrix is cyclic; then
-    the Brasch–Pearson controller.  Of several draws the one with the shortest numbers is kept.  The
-    certificate (`proofs/distributed_observer.md`) contains the controller and proves the separation
-    and both polynomials.  A strongly connected graph is sufficient, but not necessary, since the
-    question is decided for the error system itself.
-
-    Examples
-    --------
-    >>> plant = MultiChannelSystem([[1]], [[[1]], [[0]]], [[[0]], [[1]]],
-    ...                            neighbors={"1": ["2"], "2": ["1"]})
-    >>> design = design_observer(plant, spectrum={"feedback": [-1], "error": [-1, -2, -3]})
-    >>> str(design.parts["error_polynomial"])
-    'x^3 + 6*x^2 + 11*x + 6'
-    >>> design_observer(plant, {"1": [], "2": []}, rate=1)
-    Traceback (most recent call last):
-        ...
-    mcexact.errors.Impossible: the error system for these F_i is not complete: no constant K_i, \
-H_ij let one agent control and observe all estimation errors
-    """
-    system, graph = with_graph(system, graph)
-    request = Request.of(system, agent, spectrum, rate, radius, arithmetic, progress)
-    proposals = observer_proposals(system, graph, request, gains=gains, order=order)
-    return designed("observer", request, system, graph, proposals)
+from mcexact.synthesis.request import Request
 
 
 def observer_proposals(
@@ -134,8 +46,10 @@ def observer_proposals(
     graph : NeighborGraph
         Without delays.
     request : Request
-    gains, order
-        As in `design_observer`.
+    gains : sequence of m matrices, optional
+        Given F_i (p_i×n).
+    order : {"least"}, optional
+        See `design_observer`.
 
     Raises
     ------

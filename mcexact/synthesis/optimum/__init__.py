@@ -4,6 +4,7 @@ All controllers of a structure are the free entries of one gain matrix K, and th
 M(K) = A + B K C.  A ladder of starts leads from static gains to the controller of the theorem.
 
 =============  =========================================================================
+`aims`         what a search aims at
 `weights`      what the cost weighs
 `problem`      the structure as a matrix K with a mask
 `programs`     gain matrices as agent programs, balanced and rounded
@@ -13,12 +14,15 @@ M(K) = A + B K C.  A ladder of starts leads from static gains to the controller 
 `objective`    cost, barrier of the region, margin and size of the gains
 `descent`      the BFGS method, which accepts infinite values
 `effort`       the work of a search, counted
+`kernel`       one thread, and no warnings about numbers that are dropped
 `regulator`    optimal controllers of one channel
 `starts`       controllers that each agent designs for itself, and drawn ones
 `alone`        controllers of low order that each agent finds for its own part
 `polish`       from a start into the region and to a local optimum
 `ladder`       all starts in their order, and the best result
 `figures`      order, gains, margin, peak and cost of a loop; the central optimum
+`loop_figures` the same of the controller of any loop, and how far it can be rounded
+`curves`       how robust a loop is over the frequency, and how it decays
 `structures`   the networks that a search tries
 `proposals`    the result with as few digits as the gate certifies
 `diagnosis`    the sensible rate, and the modes that are nearly fixed

@@ -12,10 +12,13 @@ from mcexact.exact.location import StabilityRegion
 from mcexact.floating.fixed_mode_distance import distance_at
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.optimum.figures import CentralOptimum, central_optimum
+from mcexact.synthesis.optimum.kernel import quiet_floats
 from mcexact.synthesis.optimum.weights import Weights
 
 TIMES_THE_COST, MARGIN = 10.0, 0.3
+TIMES_OUT_OF_REACH, OUT_OF_REACH_MARGIN = 1000.0, 0.05
 _STEPS, _STEPS_IF_LARGE, _LARGE = 14, 4, 100
+_FASTER = (2.0, 4.0, 8.0)
 _WIDTH, _FACTOR, _FASTEST = 1.02, 4.0, 64.0
 
 
@@ -48,7 +51,7 @@ class Diagnosis:
         Of the optimal controller of all agents together, for the region and without one.
     sensible : StabilityRegion or None
         The fastest region found in which this controller has at most ten times the cost that it has
-        without one, and a margin of 0.3; None if there is none.  The search does not go beyond 64
+        without one, and a margin of 0.3; None if none was found.  The search does not go beyond 64
         times the given rate, nor for plants of more than 100 states beyond this rate.
     modes : tuple of SlowMode
         Those outside the region, the nearest to being fixed first.
@@ -65,15 +68,52 @@ class Diagnosis:
         """Whether the region is one in which the central optimum is affordable."""
         return _affordable(self.central, self.unhurried)
 
+    @property
+    def is_out_of_reach(self) -> bool:
+        """Whether another rate is sensible, and for this one the central optimum is of no use.
+
+        Its margin is below 0.05; or it is below 0.3, and the cost is 1000 times the least.
+        """
+        if self.sensible is None or self.unhurried is None or self.is_sensible:
+            return False
+        if self.central is None:
+            return True
+        figures, least = self.central.figures, self.unhurried.figures.cost
+        dear = not figures.cost <= TIMES_OUT_OF_REACH * least
+        return figures.margin < (MARGIN if dear else OUT_OF_REACH_MARGIN)
+
+    @property
+    def sensible_bound(self) -> str:
+        """The sensible rate or radius to three digits, or that there is none."""
+        if self.sensible is None:
+            return "none"
+        edge = to_float(self.sensible.edge)
+        return f"{edge:.4g}" if self.sensible.discrete else f"{edge:.3g}"
+
     def __str__(self) -> str:
-        word = self.region.word
-        found = "none" if self.sensible is None else f"{to_float(self.sensible.edge):.3g}"
-        told = [f"sensible {word} {found}"]
+        told = [f"sensible {self.region.word} {self.sensible_bound}"]
         for each in self.modes[:1]:
             told.insert(
                 0, f"mode {_shown(each.mode)}: a relative change of {each.change:.0e} fixes it"
             )
         return "; ".join(told)
+
+    def view(self) -> dict[str, object]:
+        """Return the diagnosis as plain data."""
+        nearest = self.modes[0] if self.modes else None
+        return {
+            f"sensible_{self.region.word}": None
+            if self.sensible is None
+            else to_float(self.sensible.edge),
+            "within": self.is_sensible,
+            "nearest_to_fixed": None
+            if nearest is None
+            else {
+                "mode": {"re": nearest.mode.real, "im": nearest.mode.imag},
+                "relative_change": nearest.change,
+                "channels": list(nearest.channels),
+            },
+        }
 
 
 def _shown(mode: complex) -> str:
@@ -117,10 +157,61 @@ def diagnosed(
     (False, (-2+0j))
     """
     weights = weights or Weights.unit(system)
-    central = central_optimum(system, weights, region)
-    unhurried = central_optimum(system, weights, StabilityRegion(system.time))
-    sensible = _sensible(system, weights, region, central, unhurried)
-    return Diagnosis(region, central, unhurried, sensible, slow_modes(controlled or system, region))
+    with quiet_floats():
+        central = central_optimum(system, weights, region)
+        unhurried = central_optimum(system, weights, StabilityRegion(system.time))
+        sensible = _sensible(system, weights, region, central, unhurried)
+        modes = slow_modes(controlled or system, region)
+    return Diagnosis(region, central, unhurried, sensible, modes)
+
+
+def chosen_region(
+    system: MultiChannelSystem, weights: Weights | None = None
+) -> tuple[StabilityRegion, str] | None:
+    """Choose a region: of half the sensible rate, or of the root of the sensible radius.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    weights : Weights, optional
+
+    Returns
+    -------
+    (StabilityRegion, str) or None
+        The bound has two digits, in discrete time three.  The text says how it was chosen: where
+        half the sensible rate is not sensible it is the sensible one, and where none is, half the
+        rate of the optimal controller of all agents together.  None without such a controller in
+        floating point.
+
+    Examples
+    --------
+    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    >>> region, told = chosen_region(plant)
+    >>> print(region, told, sep=", ")
+    Re λ < -21/5, half the sensible rate
+    """
+    weights, stable = weights or Weights.unit(system), StabilityRegion(system.time)
+    part = "the root of" if stable.discrete else "half"
+    with quiet_floats():
+        unhurried = central_optimum(system, weights, stable)
+        if unhurried is None:
+            return None
+        bound = unhurried.figures.bound
+        first = -float(np.log(max(bound, 1e-3))) if stable.discrete else -bound
+        if not 0 < first < np.inf:
+            return None
+        region = _of_pace(system.time, first)
+        central = central_optimum(system, weights, region)
+        sensible = _sensible(system, weights, region, central, unhurried)
+        pace, told = _pace(sensible or region) / 2, f"{part} the sensible {stable.word}"
+        if sensible is None:
+            told = f"{part} that of the optimal controller of all agents together"
+        else:
+            slower = central_optimum(system, weights, _of_pace(system.time, pace))
+            if not _affordable(slower, unhurried):
+                pace, told = 2 * pace, f"the sensible {stable.word}"
+    shown = f"{np.exp(-pace):.3g}" if stable.discrete else f"{pace:.1e}"
+    return StabilityRegion(system.time, Fraction(shown)), told
 
 
 def slow_modes(system: MultiChannelSystem, region: StabilityRegion) -> tuple[SlowMode, ...]:
@@ -148,7 +239,7 @@ def _sensible(
     unhurried: CentralOptimum | None,
 ) -> StabilityRegion | None:
     """Search, from a region, for the fastest one that is affordable, by factors and bisection."""
-    if not _affordable(unhurried, unhurried):
+    if unhurried is None:
         return None
     steps = _STEPS if system.n <= _LARGE else _STEPS_IF_LARGE
     if system.n > _LARGE and _affordable(central, unhurried):
@@ -168,6 +259,12 @@ def _sensible(
         else:
             pace = _FACTOR * holds if holds else fails / _FACTOR
         found = central_optimum(system, weights, _of_pace(system.time, pace))
+    if not holds and system.n <= _LARGE:
+        # Without a rate the optimum can be fragile where that of a moderate rate is not.
+        for factor in _FASTER:
+            faster = _of_pace(system.time, factor * _pace(region))
+            if _affordable(central_optimum(system, weights, faster), unhurried):
+                return faster
     return _of_pace(system.time, holds) if holds else None
 
 
@@ -181,6 +278,8 @@ def _pace(region: StabilityRegion) -> float:
 def _of_pace(time: str, pace: float) -> StabilityRegion:
     """The region of a rate, or of the radius exp(−pace), to three digits."""
     bound = float(np.exp(-pace)) if StabilityRegion(time).discrete else pace
+    # Beyond four digits a radius is 1.
+    bound = min(bound, 0.9999) if StabilityRegion(time).discrete else bound
     return StabilityRegion.of(
         time, bound=Fraction(f"{bound:.2e}" if bound < 0.9 else f"{bound:.4g}")
     )

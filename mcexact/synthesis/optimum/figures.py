@@ -18,7 +18,7 @@ from mcexact.synthesis.optimum.cost import quadratic_costs
 from mcexact.synthesis.optimum.problem import FeedbackProblem, Sizes
 from mcexact.synthesis.optimum.programs import balanced
 from mcexact.synthesis.optimum.regulator import Model, gaussian_controller
-from mcexact.synthesis.optimum.sensitivity import Sensitivity, frequencies
+from mcexact.synthesis.optimum.sensitivity import Sensitivity, frequencies, norm
 from mcexact.synthesis.optimum.spectrum import SchurForm
 from mcexact.synthesis.optimum.weights import Floats, Weights
 
@@ -87,7 +87,7 @@ def peak_of_state(M: Floats, n: int, form: SchurForm) -> float:
     In continuous time at times that grow geometrically, eight to an octave, from a fraction of the
     fastest time constant to eight times the slowest; a lower estimate.
     """
-    return max(1.0, max((_norm(E[:n, :n]) for E in _powers(M, form)), default=1.0))
+    return max(1.0, max((norm(E[:n, :n]) for E in _powers(M, form)), default=1.0))
 
 
 def step_peak(loop: ClosedLoop) -> float:
@@ -140,12 +140,6 @@ def _powers(M: Floats, form: SchurForm) -> Iterator[Floats]:
             yield power
             power = power @ step
         step, elapsed = step @ step, 2 * elapsed
-
-
-def _norm(M: Floats) -> float:
-    """The largest singular value; infinite where the numbers exceed any sense."""
-    sensible = bool(np.all(np.abs(M) < _BEYOND_SENSE))
-    return float(np.linalg.norm(M, 2)) if sensible else np.inf
 
 
 def shift_of(region: StabilityRegion, factor: float = 1.0) -> float:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from mcexact.synthesis.optimum.aims import SEEDS
 from mcexact.synthesis.optimum.alone import found_alone
 from mcexact.synthesis.optimum.cost import quadratic_costs
 from mcexact.synthesis.optimum.effort import Effort
@@ -26,7 +27,7 @@ from mcexact.synthesis.optimum.weights import Floats, Weights
 from mcexact.synthesis.request import Progress
 
 _SHIFTS = (1.0, 1.3, 1.7, 2.5, 4.0)
-_SEEDS, _KEPT = 4, 2
+_KEPT, _LARGEST_ORDER = 2, 3
 _PRICE_OF_ORDER = 1.02
 _MOST_ENTRIES = 1500
 _BETTER, _GOOD = 0.97, 2.0
@@ -51,8 +52,11 @@ class Ladder:
     effort : Effort
     sizes : Sizes or None
         Of the signals of the plant.
-    largest_order : int
-        Of the state of each agent, for drawn starts.
+    seeds : int
+        The number of drawn starts of each order.
+    most_order : int or None
+        The largest number of states of each agent; None without a limit, where starts are drawn
+        for orders up to 3.
     tell : callable
     """
 
@@ -63,8 +67,19 @@ class Ladder:
     enough: float
     effort: Effort
     sizes: Sizes | None = None
-    largest_order: int = 3
+    seeds: int = SEEDS
+    most_order: int | None = None
     tell: Progress = field(default=lambda _: None)
+
+    @property
+    def orders(self) -> range:
+        """The orders for which starts are drawn."""
+        return range(1, (_LARGEST_ORDER if self.most_order is None else self.most_order) + 1)
+
+    def allows(self, problem: FeedbackProblem) -> bool:
+        """Whether no agent has more states than it may have."""
+        sizes = zip(problem.orders, problem.network.dimensions, strict=True)
+        return self.most_order is None or all(z + x <= self.most_order for z, x in sizes)
 
     def fine(self, found: Figures) -> bool:
         """Whether a controller is good enough to end the search."""
@@ -118,7 +133,7 @@ def climbed(ladder: Ladder) -> list[Candidate]:
     later: list[tuple[float, Start]] = []
     for step in _steps(ladder, found, later):
         drafts, dear = list[tuple[float, Start]](), False
-        for start in step:
+        for start in filter(lambda each: ladder.allows(each.problem), step):
             if ladder.effort.over:
                 break
             ladder.tell(start.step)
@@ -206,7 +221,7 @@ def _steps(
     parts = [localities(static, ladder.weights, driven=each) for each in (False, True)]
     yield [Start(_STATIC, static, _best_static(ladder, static, parts))]
     observers = _local_observers(ladder, static, parts)
-    for order in range(1, ladder.largest_order + 1):
+    for order in ladder.orders:
         problem = FeedbackProblem.of(*ladder.structure(order), ladder.weights, ladder.sizes)
         yield [each for each in observers if each.problem.order <= problem.order]
         observers = [each for each in observers if each.problem.order > problem.order]
@@ -214,7 +229,7 @@ def _steps(
             break
         before = best_price(ladder, found)
         yield _alone(ladder, static, parts[1], order)
-        yield _drawn(problem, order, [*found, *(draft for _, draft in later)])
+        yield _drawn(ladder, problem, order, [*found, *(draft for _, draft in later)])
         if _BETTER * before < best_price(ladder, found) < _GOOD * ladder.enough:
             return
     yield observers
@@ -226,12 +241,12 @@ def _steps(
 
 
 def _drawn(
-    problem: FeedbackProblem, order: int, known: Sequence[Candidate | Start]
+    ladder: Ladder, problem: FeedbackProblem, order: int, known: Sequence[Candidate | Start]
 ) -> Iterator[Start]:
     """Yield drawn starts of one order, with and without the static gains that were found."""
     static = next((each for each in known if each.step == _STATIC), None)
     given = None if static is None else (static.problem, static.K)
-    for seed in range(_SEEDS):
+    for seed in range(ladder.seeds):
         K = drawn_dynamics(problem, seed, None if seed % 2 else given)
         yield Start(f"order {order} per agent, seed {seed}", problem, K)
 

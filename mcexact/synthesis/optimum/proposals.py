@@ -2,28 +2,29 @@
 
 from __future__ import annotations
 
-import warnings
-from dataclasses import dataclass, replace
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
-from threadpoolctl import threadpool_limits
 
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
-from mcexact.errors import Impossible, LimitReached, UsageError
+from mcexact.errors import Impossible, LimitReached, OutOfReach, UsageError
 from mcexact.model.controller import Controller
-from mcexact.synthesis.design import Design, Method, designed
 from mcexact.synthesis.gate import Proposal, certify
-from mcexact.synthesis.network.network_design import require_fast
-from mcexact.synthesis.optimum.diagnosis import diagnosed
-from mcexact.synthesis.optimum.effort import Effort
-from mcexact.synthesis.optimum.figures import Figures, central_optimum, figures_of
+from mcexact.synthesis.network.network_design import network_proposals, require_fast
+from mcexact.synthesis.optimum.aims import Aims
+from mcexact.synthesis.optimum.diagnosis import Diagnosis, diagnosed
+from mcexact.synthesis.optimum.effort import PER_SECOND, Effort
+from mcexact.synthesis.optimum.figures import Figures, figures_of
+from mcexact.synthesis.optimum.kernel import quiet_floats
 from mcexact.synthesis.optimum.ladder import Candidate, Ladder, best_of, climbed
 from mcexact.synthesis.optimum.polish import Target, bound_of
 from mcexact.synthesis.optimum.problem import FeedbackProblem
 from mcexact.synthesis.optimum.programs import controller_of, rounded
 from mcexact.synthesis.optimum.structures import Family
 from mcexact.synthesis.optimum.weights import Floats, Weights
-from mcexact.synthesis.request import Request
+from mcexact.synthesis.request import Request, Warned
 
 MOST_DIGITS = 12
 _LEAST_STORED = 3
@@ -72,20 +73,33 @@ class Optimum:
         return controller_of(self.problem, self.K)
 
 
-def target_of(request: Request, central: Figures | None, margin: float = 0.3) -> Target:
+def target_of(request: Request, central: Figures | None, aims: Aims) -> Target:
     """Return the target of a request: gains up to ten times those of the central optimum."""
     largest = _LARGEST_UNKNOWN
-    if central is not None and np.isfinite(central.cost):
+    if aims.largest_gain is not None:
+        largest = aims.largest_gain
+    elif central is not None and np.isfinite(central.cost):
         largest = _GAINS * max(central.largest_gain, _LEAST_GAIN)
-    return Target(request.region, largest, margin)
+    return Target(request.region, largest, aims.margin)
+
+
+def _effort(given: float | None, states: int, central: Figures | None, target: Target) -> Effort:
+    """The effort that is given in seconds; by default it grows with the cube of the states."""
+    if given is not None:
+        return Effort(given * PER_SECOND)
+    units = _EFFORT * (1 + (states / _EFFORT_GROWS) ** 3)
+    # What is fragile even in one hand does not become robust by a longer search.
+    fragile = central is None or central.margin < target.margin
+    return Effort(units * (_FRAGILE if fragile else 1.0))
 
 
 def optimum(
     family: Family,
     request: Request,
+    aims: Aims | None = None,
     *,
     weights: Weights | None = None,
-    effort: float | None = None,
+    diagnosis: Diagnosis | None = None,
 ) -> Optimum:
     """Search the ladder for a controller, and round it to few digits.
 
@@ -94,10 +108,11 @@ def optimum(
     family : Family
     request : Request
         With a bound.
+    aims : Aims, optional
     weights : Weights, optional
-        By default `Weights.unit`.
-    effort : float, optional
-        See `Effort`; by default it grows with the cube of the number of states.
+        Those of the aims, which are read if this is left out.
+    diagnosis : Diagnosis, optional
+        Of the plant, for the region and the weights.
 
     Raises
     ------
@@ -119,38 +134,37 @@ def optimum(
     >>> found.step, found.figures.order, found.figures.bound < -1
     ('static gains', 0, True)
     """
-    given = family.network.given
-    weights = weights or Weights.unit(given)
-    request.tell("the central optimum")
-    central = central_optimum(given, weights, request.region)
+    given, aims = family.network.given, aims or Aims()
+    weights = weights or Weights.of(given, aims.weights)
+    known = diagnosis or diagnosed(given, request.region, weights, family.network.system)
+    central = known.central
     figures = None if central is None else central.figures
-    target = target_of(request, figures)
-    if effort is None:
-        effort = _EFFORT * (1 + (given.n / _EFFORT_GROWS) ** 3)
-        # What is fragile even in one hand does not become robust by a longer search.
-        effort *= 1.0 if figures is not None and figures.margin >= target.margin else _FRAGILE
+    target = target_of(request, figures, aims)
     ladder = Ladder(
         family.of_order,
         lambda: family.theorem(request),
         weights,
         target,
         np.inf if figures is None else _ENOUGH * figures.cost,
-        Effort(effort),
+        _effort(aims.effort, given.n, figures, target),
         None if central is None else central.sizes,
+        seeds=aims.seeds,
+        most_order=aims.largest_order,
         tell=request.tell,
     )
-    with threadpool_limits(1, "blas"), np.errstate(all="ignore"), warnings.catch_warnings():
-        # For matrices of this size threads cost more than they bring.  What overflows or is nearly
-        # singular belongs to controllers that are dropped.
-        warnings.simplefilter("ignore")
+    with quiet_floats():
         found = climbed(ladder)
     if not found:
-        told = diagnosed(given, request.region, weights, family.network.system)
-        raise LimitReached(f"no controller was found for {request.region}: {told}")
-    return with_few_digits(best_of(ladder, found), target, figures)
+        raise LimitReached(f"no controller was found for {request.region}: {known}")
+    try:
+        return with_few_digits(best_of(ladder, found), target, figures, aims.digits)
+    except LimitReached as limit:
+        raise LimitReached(f"{limit}: {known}") from None
 
 
-def with_few_digits(found: Candidate, target: Target, central: Figures | None) -> Optimum:
+def with_few_digits(
+    found: Candidate, target: Target, central: Figures | None, most: int | None = None
+) -> Optimum:
     """Round a controller to the least number of digits that the gate certifies, and one more.
 
     Parameters
@@ -159,6 +173,8 @@ def with_few_digits(found: Candidate, target: Target, central: Figures | None) -
     target : Target
     central : Figures or None
         Of the central optimum.
+    most : int, optional
+        The largest number of digits.
 
     Raises
     ------
@@ -167,17 +183,21 @@ def with_few_digits(found: Candidate, target: Target, central: Figures | None) -
 
     Notes
     -----
-    At least three digits are kept, unless these are not certified and fewer are.
+    At least three digits are kept, unless these are too many or are not certified and fewer are.
     """
     problem, K, least = found.problem, found.K, None
-    for digits in range(1, MOST_DIGITS + 1):
+    for digits in range(1, min(MOST_DIGITS, most or MOST_DIGITS) + 1):
         if _certified(problem, rounded(K, digits), target):
             least = digits
             break
-    if least is None and not _certified(problem, K, target):
-        raise LimitReached(f"no controller that was found could be certified for {target.region}")
+    if least is None and (most is not None or not _certified(problem, K, target)):
+        digits_told = "" if most is None else f" with {most} digits"
+        raise LimitReached(
+            f"no controller that was found could be certified{digits_told} for {target.region}"
+        )
     if least is not None:
-        stored = rounded(K, max(least + 1, _LEAST_STORED))
+        kept = max(least + 1, _LEAST_STORED)
+        stored = rounded(K, kept if most is None else min(kept, most))
         holds = target.reached(bound_of(problem, problem.entries(stored)))
         K = stored if holds else rounded(K, least)
     return Optimum(found.step, problem, K, least, figures_of(problem, K), central)
@@ -199,46 +219,87 @@ def _certified(problem: FeedbackProblem, K: Floats, target: Target) -> bool:
 def proposal_of(found: Optimum) -> Proposal:
     """Return the proposal of a search, with its parts."""
     network = found.problem.network
+    given = network.given
     parts = {
         "network": network.kind,
-        "dimensions": dict(zip(network.given.names, network.dimensions, strict=True)),
+        "dimensions": dict(zip(given.names, network.dimensions, strict=True)),
+        "observer_order": given.n * given.m + given.m - 1,
         "optimum": found,
     }
     return Proposal(found.controller, parts=parts)
 
 
-def optimized_design(
-    method: Method,
-    family: Family,
-    request: Request,
-    *,
-    weights: Weights | None = None,
-    effort: float | None = None,
-) -> Design:
-    """Design a controller of a family by the ladder, and certify it.
+def searched_proposals(
+    family: Family, request: Request, aims: Aims | None = None, weights: Weights | None = None
+) -> Iterator[Proposal]:
+    """Propose the controller of a search, or that of the theorem where the search finds none.
 
     Parameters
     ----------
-    method : {"decentralized", "extended"}
-    family, request, weights, effort
-        As in `optimum`.
+    family : Family
+    request : Request
+        With a prescribed spectrum, or an agent for the channel controller, there is no search.
+    aims : Aims, optional
+        Without effort there is no search.
+    weights : Weights, optional
+        Those of the aims, which are read if this is left out.
 
-    Returns
-    -------
-    Design
-        Its parts are ``network``, ``dimensions``, and the `Optimum` as ``optimum``.
+    Yields
+    ------
+    Proposal
+        One.  After a search its parts include the `Optimum` as ``optimum`` and the `Diagnosis` as
+        ``diagnosis``; else they are those of `network_proposals`.
 
     Raises
     ------
     Impossible
         If a fixed mode is not fast enough, which is decided before any search.
+    OutOfReach
+        If even the optimal controller of all agents together is one that nobody would install, and
+        the aims name no effort.
     LimitReached
-        If no controller was found, or none that is certified.
+        If no controller was found.  Both tell the diagnosis.
+
+    Notes
+    -----
+    What is hard for all agents together is told as soon as it is known, by a step `Warned`.
     """
-    network = family.network
+    network, aims = family.network, aims or Aims()
+    if request.spectrum is not None or request.agent is not None or aims.effort == 0:
+        yield from network_proposals(network, request)
+        return
     request.tell("fixed modes")
     fixed = fixed_spectrum(network.system)
     require_fast(network, fixed, request.region)
-    found = optimum(family, request, weights=weights, effort=effort)
-    made = designed(method, request, network.given, network.graph, [proposal_of(found)])
-    return replace(made, certificates={**made.certificates, "fixed_spectrum": fixed})
+    request.tell("diagnosis")
+    weights = weights or Weights.of(network.given, aims.weights)
+    known = diagnosed(network.given, request.region, weights, network.system)
+    if known.is_out_of_reach and aims.effort is None:
+        raise OutOfReach(
+            f"{request.region} is out of reach, even for all agents together: {known}; ask for "
+            "less, or give an effort for which to search all the same"
+        )
+    if not known.is_sensible:
+        request.tell(Warned(f"{request.region} is hard for all agents together: {known}"))
+    more: dict[str, Any] = {"fixed_spectrum": fixed, "diagnosis": known}
+    try:
+        found = optimum(family, request, aims, weights=weights, diagnosis=known)
+    except LimitReached as limit:
+        if aims.largest_order is not None or aims.digits is not None:
+            raise
+        yield _of_the_theorem(family, request, limit, known)
+        return
+    made = proposal_of(found)
+    yield Proposal(made.controller, parts={**made.parts, "kept": fixed.polynomial, **more})
+
+
+def _of_the_theorem(
+    family: Family, request: Request, limit: LimitReached, known: Diagnosis
+) -> Proposal:
+    """Return the controller of the theorem; the limit of the search if there is none either."""
+    request.tell("the controller of the theorem")
+    try:
+        made = next(network_proposals(family.network, request))
+    except LimitReached:
+        raise limit from None
+    return Proposal(made.controller, made.polynomials, parts={**made.parts, "diagnosis": known})

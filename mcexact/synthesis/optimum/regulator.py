@@ -83,14 +83,20 @@ def regulator(model: Model, shift: float) -> Floats | None:
     if X is None:
         return None
     if not model.discrete:
-        return -_solved(model.R, model.B.T @ X)
-    B = model.B / shift
-    return -_solved(model.R + B.T @ X @ B, B.T @ X @ (model.A / shift))
+        solved = _solved(model.R, model.B.T @ X)
+    else:
+        B = model.B / shift
+        solved = _solved(model.R + B.T @ X @ B, B.T @ X @ (model.A / shift))
+    return None if solved is None else -solved
 
 
-def _solved(M: Floats, right: Floats) -> Floats:
-    found: Floats = np.asarray(np.linalg.solve(M, right), dtype=np.float64)
-    return found
+def _solved(M: Floats, right: Floats) -> Floats | None:
+    """Solve a linear system; None if that is impossible in floating point."""
+    try:
+        found = np.asarray(np.linalg.solve(M, right), dtype=np.float64)
+    except np.linalg.LinAlgError:
+        return None
+    return found if np.all(np.isfinite(found)) else None
 
 
 def _estimator(model: Model, shift: float) -> Floats | None:
@@ -104,7 +110,8 @@ def _estimator(model: Model, shift: float) -> Floats | None:
     Y, C = riccati(Model(dual.A, dual.B * shift, *_rest(dual)), shift), model.C
     if Y is None:
         return None
-    return _solved(model.V + C @ Y @ C.T, C @ Y).T
+    solved = _solved(model.V + C @ Y @ C.T, C @ Y)
+    return None if solved is None else solved.T
 
 
 def _rest(model: Model) -> tuple[Floats, Floats, Floats, Floats, Floats, bool]:

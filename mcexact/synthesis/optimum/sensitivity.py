@@ -14,6 +14,7 @@ from mcexact.synthesis.optimum.weights import Floats
 Complexes = npt.NDArray[np.complex128]
 
 GRID = 80
+_BEYOND_SENSE = 1e30
 
 
 def frequencies(
@@ -53,7 +54,66 @@ def frequencies(
     return 1j * points
 
 
-class Sensitivity:
+def norm(M: Floats | Complexes) -> float:
+    """The largest singular value; infinite where numbers exceed any sense.
+
+    Examples
+    --------
+    >>> round(norm(np.diag([2.0, -3.0])), 9), norm(np.array([[np.nan]]))
+    (3.0, inf)
+    """
+    sensible = bool(np.all(np.abs(M) < _BEYOND_SENSE))
+    return float(np.linalg.norm(M, 2)) if sensible and M.size else 0.0 if sensible else np.inf
+
+
+class Response:
+    """T(z) = U (zI − M)⁻¹ B, on the boundary of stability.
+
+    Parameters
+    ----------
+    M : ndarray, N × N
+    entering, leaving : ndarray, N × p and p' × N
+        B and U.
+    discrete : bool
+
+    Notes
+    -----
+    With a complex Schur form of M each frequency costs O(N²).
+    """
+
+    def __init__(self, M: Floats, entering: Floats, leaving: Floats, *, discrete: bool) -> None:
+        form = SchurForm.of(M, discrete=discrete)
+        self.eigenvalues: Complexes = np.zeros(0, dtype=np.complex128)
+        self.valid = form is not None
+        if form is None:
+            return
+        self.eigenvalues = form.eigenvalues
+        upper, unitary = rsf2csf(form.T, form.Z) if len(M) else (M, M)
+        self._T = np.asarray(upper, dtype=np.complex128)
+        self._Z = np.asarray(unitary, dtype=np.complex128)
+        self._entering = self._Z.conj().T @ entering
+        self._leaving = leaving @ self._Z
+
+    def _resolvent(self, z: complex, right: Complexes, trans: int = 0) -> Complexes:
+        """Solve (zI − T) X = right, or its transpose."""
+        solved, _ = lapack.ztrtrs(z * np.eye(len(self._T)) - self._T, right, trans=trans)
+        found: Complexes = solved
+        return found
+
+    def sizes(self, points: Complexes) -> Floats:
+        """Return the largest singular value of T at each of some points."""
+        if not self._leaving.size or not self._entering.size:
+            return np.zeros(len(points))
+        return np.array(
+            [norm(self._leaving @ self._resolvent(z, self._entering)) for z in points], dtype=float
+        )
+
+    def peak(self, points: Complexes) -> float:
+        """Return the largest singular value of T at some points."""
+        return float(np.max(self.sizes(points), initial=0.0))
+
+
+class Sensitivity(Response):
     """T(z) = U (zI − M)⁻¹ B_u, with u = U x̄ the inputs of the plant and B_u where these enter.
 
     Parameters
@@ -63,40 +123,14 @@ class Sensitivity:
 
     Notes
     -----
-    The loop is opened at all inputs of the plant at once.  With a complex Schur form of M each
-    frequency costs O(N²).
+    The loop is opened at all inputs of the plant at once.
     """
 
     def __init__(self, problem: FeedbackProblem, K: Floats) -> None:
         self._problem, self._K = problem, K
         M = problem.A + problem.B @ K @ problem.C
-        form = SchurForm.of(M, discrete=problem.discrete)
-        self.eigenvalues: Complexes = np.zeros(0, dtype=np.complex128)
-        self.valid = form is not None
-        if form is None:
-            return
-        self.eigenvalues = form.eigenvalues
-        upper, unitary = rsf2csf(form.T, form.Z) if len(M) else (M, M)
-        self._T = np.asarray(upper, dtype=np.complex128)
-        self._Z = np.asarray(unitary, dtype=np.complex128)
-        self._entering = self._Z.conj().T @ problem.B[:, : problem.p]
-        self._leaving = (K @ problem.C)[: problem.p] @ self._Z
-
-    def _resolvent(self, z: complex, right: Complexes, trans: int = 0) -> Complexes:
-        """Solve (zI − T) X = right, or its transpose."""
-        solved, _ = lapack.ztrtrs(z * np.eye(len(self._T)) - self._T, right, trans=trans)
-        found: Complexes = solved
-        return found
-
-    def peak(self, points: Complexes) -> float:
-        """Return the largest singular value of T at some points."""
-        largest = 0.0
-        if not self._leaving.size:
-            return largest
-        for z in points:
-            T = self._leaving @ self._resolvent(z, self._entering)
-            largest = max(largest, float(np.linalg.norm(T, 2)))
-        return largest
+        entering, leaving = problem.B[:, : problem.p], (K @ problem.C)[: problem.p]
+        super().__init__(M, entering, leaving, discrete=problem.discrete)
 
     def excess(self, points: Complexes, limit: float) -> Valued:
         """Compute Σ max(0, σ_max(T(z))/limit − 1)² over some points, and its gradient in K.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from mcexact.derived.extended import Share
 from mcexact.errors import Impossible, LimitReached
@@ -42,7 +42,8 @@ class Family:
     def theorem(self, request: Request) -> NetworkController | None:
         """Return the controller of the theorem, in floating point; None if there is none."""
         try:
-            proposal = next(network_proposals(self.network, request), None)
+            inexact = replace(request, arithmetic="float")
+            proposal = next(network_proposals(self.network, inexact), None)
         except (Impossible, LimitReached):
             return None
         return None if proposal is None else (self.network, proposal.controller)

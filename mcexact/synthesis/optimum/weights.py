@@ -2,16 +2,24 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from scipy.linalg import block_diag
 
+from mcexact.errors import InputError
+from mcexact.exact.floats import matrix_from_float, matrix_to_float
+from mcexact.exact.matrix import Matrix
 from mcexact.model.system import MultiChannelSystem
 
 Floats = npt.NDArray[np.float64]
 
 _NOISE = 1e-2
+_ROUNDING = 1e-12
+NAMES = ("Q", "R", "W", "V")
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,3 +54,82 @@ class Weights:
         p = sum(system.p(i) for i in range(system.m))
         q = sum(system.q(i) for i in range(system.m))
         return cls(np.eye(system.n), np.eye(p), np.eye(system.n), _NOISE * np.eye(q))
+
+    @classmethod
+    def of(cls, system: MultiChannelSystem, given: Mapping[str, Any] | None = None) -> Weights:
+        """Return the weights that are given, and those of `unit` for the others.
+
+        Parameters
+        ----------
+        system : MultiChannelSystem
+        given : mapping of {"Q", "R", "W", "V"} to matrix, optional
+            Symmetric matrices of numbers, as arrays or as lists of rows.  Q and W are positive
+            semidefinite, R and V are positive definite.
+
+        Raises
+        ------
+        InputError
+            If a name is unknown, or a matrix has another size or is not as described.
+
+        Examples
+        --------
+        >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+        >>> Weights.of(plant, {"R": [["1/4"]]}).R.tolist()
+        [[0.25]]
+        >>> Weights.of(plant, {"R": [[0]]})
+        Traceback (most recent call last):
+            ...
+        mcexact.errors.InputError: weights.R: expected a positive definite matrix
+        """
+        found = cls.unit(system)
+        for name, entries in (given or {}).items():
+            where = f"weights.{name}"
+            if name not in NAMES:
+                raise InputError(f"expected one of {', '.join(NAMES)}, found {name!r}", where=where)
+            size = len(getattr(found, name))
+            found = replace(found, **{name: _checked(entries, size, where, definite=name in "RV")})
+        return found
+
+    def with_integrators(self, count: int) -> Weights:
+        """Return the weights of the plant with integrators of its outputs, which are weighed by 1.
+
+        Integrators have noise of covariance 1, and what agents then measure has that of V.
+        """
+        one = np.eye(count)
+        return replace(self, Q=block_diag(self.Q, one), W=block_diag(self.W, one))
+
+
+def _checked(entries: Any, size: int, where: str, *, definite: bool) -> Floats:
+    """Convert a symmetric matrix of a size, and check that it is (semi)definite."""
+    if isinstance(entries, Matrix):
+        M = entries
+    elif isinstance(entries, np.ndarray):
+        M = matrix_from_float(entries, "dyadic", where=where)
+    else:
+        M = _read(entries, where)
+    if M.shape != (size, size):
+        raise InputError(
+            f"expected a {size} × {size} matrix, found {M.nrows} × {M.ncols}", where=where
+        )
+    if M != M.T:
+        raise InputError("expected a symmetric matrix", where=where)
+    found = matrix_to_float(M)
+    if not np.all(np.isfinite(found)):
+        raise InputError("expected numbers in the range of double precision", where=where)
+    least, largest = np.linalg.eigvalsh(found)[[0, -1]] if size else (1.0, 1.0)
+    if definite and not least > _ROUNDING * largest:
+        raise InputError("expected a positive definite matrix", where=where)
+    if not least >= -_ROUNDING * abs(largest):
+        raise InputError("expected a positive semidefinite matrix", where=where)
+    return found
+
+
+def _read(entries: Any, where: str) -> Matrix:
+    """Read rows of numbers, which may be floats or exact."""
+    if not isinstance(entries, list | tuple) or not all(
+        isinstance(row, list | tuple) for row in entries
+    ):
+        raise InputError("expected a list of rows of numbers", where=where)
+    if any(isinstance(entry, float) for row in entries for entry in row):
+        return matrix_from_float(entries, "decimal", where=where)
+    return Matrix.from_rows(entries, where=where)

@@ -12,8 +12,8 @@ from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import digest
+from mcexact.synthesis.distributed_observer import design_observer
 from mcexact.synthesis.methods.fast_modes import feedback_for_region, observable_part
-from mcexact.synthesis.observer.observer import design_observer
 
 FAST = {"continuous": -5, "discrete": Fraction(1, 10)}
 BOUND = {"continuous": {"rate": 2}, "discrete": {"radius": Fraction(1, 2)}}

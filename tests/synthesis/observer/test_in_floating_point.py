@@ -12,7 +12,7 @@ from mcexact.exact.location import StabilityRegion
 from mcexact.model.loop import closed_loop
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis import gate
-from mcexact.synthesis.observer.observer import design_observer
+from mcexact.synthesis.distributed_observer import design_observer
 from tests.campaigns.floating import drawn_designs
 from tests.synthesis.three_channels import three_channels
 
@@ -117,9 +117,7 @@ def test_an_agent_that_sees_every_error_needs_no_channel_controller():
     assert_meets(design, plant, 1)
 
 
-def test_a_bound_is_needed_and_the_arithmetic_has_two_names():
-    with pytest.raises(UsageError, match="says how fast the loop has to be"):
-        design_observer(three_channels(), arithmetic="float")
+def test_the_arithmetic_has_two_names_and_every_agent_has_a_gain():
     with pytest.raises(UsageError, match='expected "exact" or "float"'):
         design_observer(three_channels(), rate=1, arithmetic="decimal")
     with pytest.raises(InputError, match="expected 3 gains"):

@@ -14,8 +14,8 @@ from mcexact.model.controller_file import controller_text, read_controller
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import digest
+from mcexact.synthesis.distributed_observer import design_observer
 from mcexact.synthesis.methods.spectrum import spectrum_polynomial
-from mcexact.synthesis.observer.observer import design_observer
 from tests.campaigns.observer import one_design
 from tests.synthesis.three_channels import three_channels
 
@@ -140,7 +140,6 @@ def test_a_wrong_length_is_an_error_that_states_the_right_one():
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({}, "give a rate or a spectrum"),
         ({"radius": 1}, "a radius is for discrete time"),
         ({"rate": 1, "agent": "4"}, "no channel"),
         ({"rate": 1, "order": "most"}, 'expected order "least"'),

@@ -10,15 +10,17 @@ from mcexact.checker import check_document
 from mcexact.errors import Impossible, LimitReached
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.network.extended import sharing_network
+from mcexact.synthesis.network.network_design import network_design
 from mcexact.synthesis.network.networks import decentralized_network
+from mcexact.synthesis.network.sharing import sharing_network
+from mcexact.synthesis.optimum.aims import Aims
 from mcexact.synthesis.optimum.alone import found_alone
 from mcexact.synthesis.optimum.effort import Effort
 from mcexact.synthesis.optimum.figures import figures_of
 from mcexact.synthesis.optimum.ladder import Candidate
 from mcexact.synthesis.optimum.polish import SLACK, Target, bound_of, inside, polished
 from mcexact.synthesis.optimum.problem import FeedbackProblem
-from mcexact.synthesis.optimum.proposals import optimized_design, optimum, with_few_digits
+from mcexact.synthesis.optimum.proposals import optimum, searched_proposals, with_few_digits
 from mcexact.synthesis.optimum.regulator import regulator
 from mcexact.synthesis.optimum.starts import (
     local_regulators,
@@ -36,13 +38,17 @@ def request(plant: MultiChannelSystem, bound: str, told=None) -> Request:
     return Request.of(plant, arithmetic="float", progress=told, **{name: bound})
 
 
+def searched(method, family: Family, asked: Request):
+    return network_design(method, family.network, asked, searched_proposals(family, asked))
+
+
 def design(plant: MultiChannelSystem, bound: str, share: str | None = None, kind=None):
     asked = request(plant, bound)
     if share is None:
         family = Family(decentralized_network(plant))
-        return optimized_design("decentralized", family, asked)
+        return searched("decentralized", family, asked)
     network, _ = sharing_network(plant, None, asked, share=share, network=kind)
-    return optimized_design("extended", Family(network, share), asked)
+    return searched("extended", Family(network, share), asked)
 
 
 @pytest.mark.parametrize(
@@ -83,7 +89,7 @@ def test_a_fixed_mode_refuses_before_any_search():
     told: list[str] = []
     asked = request(apart, "1", told.append)
     with pytest.raises(Impossible) as refused:
-        optimized_design("decentralized", Family(decentralized_network(apart)), asked)
+        searched("decentralized", Family(decentralized_network(apart)), asked)
     assert refused.value.certificate.kind == "fixed_spectrum"
     assert told == ["fixed modes"]
 
@@ -93,14 +99,14 @@ def test_a_limit_comes_with_the_diagnosis():
     family = Family(decentralized_network(plant))
     # Nothing is found without any effort.
     with pytest.raises(LimitReached, match=r"no controller was found for Re λ < -1/2: mode .* "):
-        optimum(family, request(plant, "1/2"), effort=0.0)
+        optimum(family, request(plant, "1/2"), Aims(effort=0.0))
 
 
 def test_static_gains_come_first_and_the_theorem_last():
     # A double integrator of which the position alone is measured needs a state.
     plant = MultiChannelSystem([[0, 1], [0, 0]], [[[0], [1]]], [[[1, 0]]])
     told: list[str] = []
-    made = optimized_design(
+    made = searched(
         "decentralized", Family(decentralized_network(plant)), request(plant, "1/2", told.append)
     )
     assert made.order == 1

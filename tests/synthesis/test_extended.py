@@ -22,7 +22,8 @@ from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.simulation.trajectory import simulate
 from mcexact.synthesis.design import Design
-from mcexact.synthesis.network.extended import design_extended
+from mcexact.synthesis.extended import design_extended
+from mcexact.synthesis.optimum.aims import THEOREM
 from tests.synthesis.three_channels import three_channels
 
 
@@ -132,7 +133,7 @@ def test_what_is_held_is_not_measured_outputs() -> None:
 
 
 def test_the_lifted_system_keeps_zero_alone() -> None:
-    design = design_extended(late(), radius="1/2")
+    design = design_extended(late(), radius="1/2", aims=THEOREM)
     assert dimensions_of(design) == (0, 0, 1) and design.parts["fixed_spectrum"].about.n == 19
     assert design.parts["fixed_spectrum"].polynomial == Polynomial.x()
     assert not any(design.parts["kept"].coefficients[:-1])
@@ -172,7 +173,7 @@ def test_without_holding_the_loop_has_another_spectrum_and_a_proven_verdict() ->
 
 def test_the_controller_file_holds_times_and_no_lifted_matrix() -> None:
     plant = late()
-    design = design_extended(plant, network="held", radius="1/2")
+    design = design_extended(plant, network="held", radius="1/2", aims=THEOREM)
     text = controller_text(design.controller)
     assert read_controller(text.encode()).document() == design.controller.document()
     for i, agent in enumerate(design.controller.agents):
@@ -221,7 +222,7 @@ def test_drawn_networks_come_to_rest_with_late_messages(seed: int, network: str)
     choices = SeededChoices(f"rest {seed}")
     system = jointly_controllable_system(choices, 3, 3, time="discrete").system
     graph = drawn_graph(choices, system.names, strongly_connected=True, longest_delay=3)
-    design = design_extended(system, graph, network=network, radius=1)  # type: ignore[arg-type]
+    design = design_extended(system, graph, network=network, radius=1, aims=THEOREM)  # type: ignore[arg-type]
     require_valid(design)
     run = simulate(system, design.controller, graph, horizon=2 * design.loop.closed.dimension)
     assert not any(run.snapshots[-1].flat())

@@ -15,8 +15,9 @@ from mcexact.exact.polynomial import Polynomial
 from mcexact.model import gallery
 from mcexact.model.loop import closed_loop
 from mcexact.model.system import MultiChannelSystem
+from mcexact.synthesis.decentralized import design_decentralized
 from mcexact.synthesis.design import Design
-from mcexact.synthesis.network.decentralized import design_decentralized
+from mcexact.synthesis.optimum.aims import THEOREM
 from tests.synthesis.three_channels import three_channels
 
 
@@ -59,7 +60,7 @@ def test_a_prescribed_spectrum_is_met_exactly() -> None:
 
 def test_one_channel_is_output_feedback() -> None:
     plant = MultiChannelSystem([[0, 1], [0, 0]], [[[0], [1]]], [[[1, 0]]], time="discrete")
-    design = design_decentralized(plant, radius="1/2")
+    design = design_decentralized(plant, radius="1/2", aims=THEOREM)
     assert (design.order, design.parts["observer_order"]) == (1, 2)
 
 

@@ -5,10 +5,14 @@ from __future__ import annotations
 from typing import Any
 
 from mcexact.model.system import MultiChannelSystem
+from mcexact.synthesis.asking import request_for
 from mcexact.synthesis.design import Design
 from mcexact.synthesis.network.network_design import network_design
 from mcexact.synthesis.network.networks import decentralized_network
-from mcexact.synthesis.request import Arithmetic, Progress, Request
+from mcexact.synthesis.optimum.aims import Aims
+from mcexact.synthesis.optimum.proposals import searched_proposals
+from mcexact.synthesis.optimum.structures import Family
+from mcexact.synthesis.request import Arithmetic, Progress
 
 
 def design_decentralized(
@@ -19,6 +23,7 @@ def design_decentralized(
     rate: Any = None,
     radius: Any = None,
     arithmetic: Arithmetic = "exact",
+    aims: Aims | None = None,
     progress: Progress | None = None,
 ) -> Design:
     """Design a linear time-invariant controller without communication: u_i depends on y_i alone.
@@ -28,14 +33,17 @@ def design_decentralized(
     system : MultiChannelSystem
         A plant or a derived system, whose neighbor graph is not used.
     agent : str, optional
-        The agent with a channel controller; by default those that need the least order.
+        The agent with the channel controller of the theorem, which is then constructed without a
+        search.
     spectrum : polynomial, list of roots, or mapping ``{"closed_loop": …}``, optional
-        See `network_proposals`.
+        A spectrum to be placed exactly by the controller of the theorem; see `network_proposals`.
     rate, radius : rational, optional
         Every eigenvalue gets real part below −rate (continuous time) or modulus below radius
-        (discrete time).
+        (discrete time).  Without a spectrum, the default is half the sensible rate.
     arithmetic : {"exact", "float"}
-        Floating point needs a rate or a radius instead of a spectrum.
+        The arithmetic of the theorem's controller.  Floating point takes no spectrum.
+    aims : Aims, optional
+        What the search aims at.
     progress : callable, optional
 
     Returns
@@ -48,6 +56,17 @@ def design_decentralized(
     Impossible
         If a fixed mode is not fast enough; the certificate is that of the fixed spectrum.
         Controllers that vary with time are not excluded.
+    LimitReached
+        If no controller was found, or already the rate is out of reach for all agents together
+        (`OutOfReach`); the message names the mode that is nearest to being fixed, and the sensible
+        rate.
+
+    Notes
+    -----
+    For a rate or a radius, static gains and then controllers of low order are searched by local
+    descent, in floating point, and rounded to few digits (`searched_proposals`).  The controller of
+    the theorem, whose dynamics are all in one agent of a strong component and which often is
+    fragile, is the last resort.  `assess` tells what a controller is good for.
 
     Examples
     --------
@@ -55,6 +74,8 @@ def design_decentralized(
     >>> design = design_decentralized(system, spectrum=[-1, -2, -3])
     >>> design.order, str(design.parts["kept"])
     (1, '1')
+    >>> design_decentralized(system, rate="1/2").parts["optimum"].digits
+    1
     >>> apart = MultiChannelSystem([[1]], [[[1]], [[0]]], [[[0]], [[1]]])
     >>> design_decentralized(apart, rate=1)
     Traceback (most recent call last):
@@ -62,5 +83,7 @@ def design_decentralized(
     mcexact.errors.Impossible: no linear time-invariant decentralized control moves the mode 1, \
 fixed by s = {1}, and it is not fast enough
     """
-    request = Request.of(system, agent, spectrum, rate, radius, arithmetic, progress)
-    return network_design("decentralized", decentralized_network(system), request)
+    request = request_for(system, agent, spectrum, rate, radius, arithmetic, progress, aims=aims)
+    network = decentralized_network(system)
+    proposals = searched_proposals(Family(network), request, aims)
+    return network_design("decentralized", network, request, proposals)

@@ -1,0 +1,30 @@
+"""What the commands that assess a controller show besides certified sentences."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from mcexact.answer.account import Account
+    from mcexact.model.loop import ClosedLoop
+    from mcexact.report.text import Table
+    from mcexact.synthesis.assessment import Assessment
+
+
+def assessed(
+    account: Account,
+    found: Assessment,
+    loop: ClosedLoop,
+    tables: tuple[Table, ...],
+    with_page: bool,
+) -> dict[str, Any]:
+    """Return the lines before the tables, the first of which is the verdict, and the page."""
+    said = [found.verdict, *(f"warning: {each}" for each in found.warnings[1:])]
+    said += [f"note: {each}" for each in found.notes]
+    page = None
+    if with_page:
+        from mcexact.report.loop_page import loop_page
+        from mcexact.synthesis.optimum.curves import curves_of
+
+        page = loop_page(account, found.install, said, tables, curves_of(loop))
+    return {"said": said, "tables": tables, "page": page}

@@ -1,0 +1,321 @@
+"""Whether a person would install a controller: figures of its loop, and what to beware of."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Literal
+
+import numpy as np
+
+from mcexact.derived.integrators import setpoint_system
+from mcexact.errors import InputError
+from mcexact.exact.floats import finite
+from mcexact.exact.location import StabilityRegion
+from mcexact.model.controller import Controller
+from mcexact.model.loop import ClosedLoop
+from mcexact.model.system import MultiChannelSystem, as_plant
+from mcexact.synthesis.design import Design
+from mcexact.synthesis.optimum.aims import MARGIN, Aims
+from mcexact.synthesis.optimum.diagnosis import Diagnosis, diagnosed
+from mcexact.synthesis.optimum.figures import Figures, step_peak
+from mcexact.synthesis.optimum.kernel import quiet_floats
+from mcexact.synthesis.optimum.loop_figures import (
+    MOST_DIGITS,
+    digits_that_suffice,
+    figures_of_loop,
+    integrators_of,
+)
+from mcexact.synthesis.optimum.weights import Weights
+
+Install = Literal["yes", "with care", "no"]
+
+BASIS = "computed in floating point, not certified"
+_NO_MARGIN, _PEAK, _TIMES_THE_PEAK, _TIMES_THE_COST = 0.05, 100.0, 5.0, 10.0
+_DIGITS, _TIMES_THE_GAIN = 4, 10.0
+
+
+@dataclass(frozen=True)
+class Link:
+    """A link that a controller uses, with how many numbers it carries at each step.
+
+    Attributes
+    ----------
+    sender, receiver : str
+    numbers : int
+    """
+
+    sender: str
+    receiver: str
+    numbers: int
+
+
+@dataclass(frozen=True, eq=False)
+class Assessment:
+    """Figures of a closed loop, computed in floating point and not certified.
+
+    Attributes
+    ----------
+    orders : mapping of str to int
+        The number of states of each agent.
+    region : StabilityRegion
+    certified : bool
+        Whether it is certified that every eigenvalue lies in the region.
+    figures : Figures
+        Of the loop.
+    diagnosis : Diagnosis
+        Of the plant, for the region; with integrators if the controller has them.
+    digits : int or None
+        See `digits_that_suffice`.
+    links : tuple of Link
+    step_peak : float or None
+        The largest output while one set-point steps from 0 to 1; None without integrators.
+    notes : tuple of str
+        What was chosen for the user, and what is to be known of the method.
+    """
+
+    orders: Mapping[str, int]
+    region: StabilityRegion
+    certified: bool
+    figures: Figures
+    diagnosis: Diagnosis
+    digits: int | None
+    links: tuple[Link, ...]
+    step_peak: float | None = None
+    notes: tuple[str, ...] = ()
+
+    def __repr__(self) -> str:
+        return f"Assessment({self.verdict})"
+
+    @property
+    def central(self) -> Figures | None:
+        """The figures of the optimal controller of all agents together, for the same region."""
+        found = self.diagnosis.central
+        return None if found is None else found.figures
+
+    @property
+    def relative_cost(self) -> float:
+        """The cost divided by that of this controller; NaN if it is not known."""
+        return np.nan if self.central is None else self.figures.cost / self.central.cost
+
+    @cached_property
+    def warnings(self) -> tuple[str, ...]:
+        """What to beware of, the most important first."""
+        return (*self._dangers(), *self._cares())
+
+    @property
+    def install(self) -> Install:
+        """Whether to install the controller."""
+        if any(True for _ in self._dangers()):
+            return "no"
+        return "with care" if any(True for _ in self._cares()) else "yes"
+
+    @property
+    def verdict(self) -> str:
+        """One line that says whether to install the controller, and why."""
+        told = {"yes": "Worth installing", "with care": "Install with care", "no": "Do not install"}
+        reasons = self.warnings or (self._strengths(),)
+        return f"{told[self.install]}: {reasons[0]}"
+
+    def _strengths(self) -> str:
+        digits = "1 digit suffices" if self.digits == 1 else f"{self.digits} digits suffice"
+        return (
+            f"margin {_shown(self.figures.margin)}, cost {_shown(self.relative_cost)} times that "
+            f"of one controller for all agents, {digits}"
+        )
+
+    def _dangers(self) -> list[str]:
+        seen = self.figures
+        if not self.certified:
+            return [f"the loop does not satisfy {self.region}"]
+        if not seen.margin > 0:
+            return ["in double precision the computed loop is not even stable"]
+        if seen.margin < _NO_MARGIN:
+            return [
+                f"the margin at the plant's inputs is {_shown(seen.margin)}: an error of this part "
+                "of the inputs may destabilize the loop"
+            ]
+        return []
+
+    def _cares(self) -> list[str]:
+        seen, central, told = self.figures, self.central, list[str]()
+        if _NO_MARGIN <= seen.margin < MARGIN:
+            told.append(f"fragile, the margin at the plant's inputs is {_shown(seen.margin)}")
+        if self.digits is None:
+            told.append(f"rounded to {MOST_DIGITS} digits, the programs lose {self.region}")
+        elif self.digits > _DIGITS:
+            told.append(f"the programs need {self.digits} digits to keep {self.region}")
+        if seen.peak > _PEAK or (central and seen.peak > _TIMES_THE_PEAK * central.peak):
+            beside = f", {_shown(central.peak)} with one controller for all" if central else ""
+            told.append(f"the state can reach {_shown(seen.peak)} from a start of size 1{beside}")
+        if self.relative_cost > _TIMES_THE_COST:
+            told.append(f"its cost is {_shown(self.relative_cost)} times the one for all agents")
+        if central and seen.largest_gain > _TIMES_THE_GAIN * max(central.largest_gain, 1.0):
+            told.append(
+                f"the largest gain is {_shown(seen.largest_gain)}, "
+                f"{_shown(central.largest_gain)} with one controller for all agents"
+            )
+        if self.region.bound is not None and not self.diagnosis.is_sensible:
+            told.append(f"{self.region} is beyond what is sensible: {self.diagnosis}")
+        return told
+
+    def rows(self) -> list[tuple[str, str]]:
+        """Return the figures as labels and texts."""
+        seen, central, word = self.figures, self.central, self.region.word
+
+        def compared(name: str) -> str:
+            told = _shown(getattr(seen, name))
+            if central is None:
+                return told
+            return f"{told} (one controller for all agents: {_shown(getattr(central, name))})"
+
+        per_agent = ", ".join(f"{name}: {order}" for name, order in self.orders.items())
+        sent = sum(link.numbers for link in self.links)
+        most = max((link.numbers for link in self.links), default=0)
+        network = f"{sent} over {len(self.links)} links, at most {most} on one" if sent else "none"
+        rows = [
+            ("states of each agent", per_agent),
+            ("largest gain", compared("largest_gain")),
+            ("slowest eigenvalue", f"{self.region.measure} = {_shown(seen.bound)}"),
+            ("margin at the plant's inputs", compared("margin")),
+            ("peak of the state", compared("peak")),
+            ("linear-quadratic cost", compared("cost")),
+            ("cost relative to that controller", _shown(self.relative_cost)),
+            ("digits that suffice", f"more than {MOST_DIGITS}" if self.digits is None
+             else str(self.digits)),
+            ("numbers sent at each step", network),
+            (f"sensible {word}", self.diagnosis.sensible_bound),
+        ]  # fmt: skip
+        if self.step_peak is not None:
+            rows.insert(5, ("peak of an output after a unit step", _shown(self.step_peak)))
+        return rows
+
+    def view(self) -> dict[str, Any]:
+        """Return the assessment as plain data."""
+        return {
+            "basis": BASIS,
+            "install": self.install,
+            "verdict": self.verdict,
+            "warnings": list(self.warnings),
+            "notes": list(self.notes),
+            "states_of_each_agent": dict(self.orders),
+            **_numbers(self.figures),
+            "relative_cost": finite(self.relative_cost),
+            "step_peak": None if self.step_peak is None else finite(self.step_peak),
+            "digits_that_suffice": self.digits,
+            "links": [vars(link) for link in self.links],
+            "one_controller_for_all_agents": None
+            if self.central is None
+            else _numbers(self.central),
+            **self.diagnosis.view(),
+        }
+
+
+def _numbers(figures: Figures) -> dict[str, float | None]:
+    return {name: finite(float(value)) for name, value in vars(figures).items()}
+
+
+def _shown(value: float) -> str:
+    """Three digits, without an exponent where that is short."""
+    return f"{value:.3g}" if not 1000 <= abs(value) < 1e6 else f"{value:.0f}"
+
+
+def assess(design: Design, aims: Aims | None = None) -> Assessment:
+    """Compute the figures that say whether to install the controller of a design.
+
+    Parameters
+    ----------
+    design : Design
+    aims : Aims, optional
+        Those of the design, for its weights.
+
+    Returns
+    -------
+    Assessment
+
+    Notes
+    -----
+    In floating point: only what the certificates of the design say is proved.
+
+    Examples
+    --------
+    >>> from mcexact.model import gallery
+    >>> from mcexact.synthesis.decentralized import design_decentralized
+    >>> plant = MultiChannelSystem([[0, 1], [0, 0]], [[[0], [1]]], [[[1, 0]]])
+    >>> assess(design_decentralized(plant, rate="1/2")).install
+    'yes'
+    >>> from mcexact.synthesis.optimum.aims import THEOREM
+    >>> rooms = gallery.load("farina-three-rooms")
+    >>> assess(design_decentralized(rooms, rate=1, aims=THEOREM)).install
+    'no'
+    """
+    InputError.require(design, Design, "design")
+    parts = design.parts.get("designed", design.parts)
+    notes = list(design.notes)
+    if "blocks" in parts and "diagnosis" in parts:
+        notes.append(
+            "no search found a controller: this is the one of the theorem, whose dynamics are all "
+            "in one agent of each strong component"
+        )
+    return assessed_loop(
+        design.loop.closed,
+        design.region,
+        certified=True,
+        weights=(aims or Aims()).weights,
+        notes=tuple(notes),
+        diagnosis=parts.get("diagnosis"),
+    )
+
+
+def assessed_loop(
+    loop: ClosedLoop,
+    region: StabilityRegion,
+    *,
+    certified: bool,
+    weights: Mapping[str, Any] | None = None,
+    notes: tuple[str, ...] = (),
+    diagnosis: Diagnosis | None = None,
+) -> Assessment:
+    """Compute the figures of a closed loop.
+
+    Parameters
+    ----------
+    loop : ClosedLoop
+    region : StabilityRegion
+    certified : bool
+        Whether it is certified that every eigenvalue lies in the region.
+    weights : mapping, optional
+        See `Weights.of`.
+    notes : tuple of str
+    diagnosis : Diagnosis, optional
+        That of the plant, with integrators if the controller has them, for the same region.
+    """
+    given, places = loop.given, integrators_of(loop)
+    about = as_plant(setpoint_system(given)) if places else as_plant(given)
+    weighed = Weights.of(given, weights).with_integrators(len(places))
+    known = diagnosis or diagnosed(about, region, weighed)
+    with quiet_floats():
+        return Assessment(
+            {agent.name: agent.shared + agent.private for agent in loop.controller.agents},
+            region,
+            certified,
+            figures_of_loop(loop, weighed, places),
+            known,
+            digits_that_suffice(loop, region) if certified else None,
+            _links(loop.controller, given),
+            step_peak(loop) if places and certified else None,
+            notes,
+        )
+
+
+def _links(controller: Controller, system: MultiChannelSystem) -> tuple[Link, ...]:
+    """The links that a controller uses."""
+    found = []
+    for j, i in controller.edges():
+        maps = [each.without_zeros() for each in controller.agents[i].maps()]
+        outputs = any(j in each.outputs for each in maps) * system.q(j)
+        shared = any(j in each.shared for each in maps) * controller.agents[j].shared
+        if outputs + shared:
+            found.append(Link(system.names[j], system.names[i], outputs + shared))
+    return tuple(found)

@@ -1,0 +1,83 @@
+"""What a search for a controller aims at, besides the rate or the radius."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import isfinite
+from typing import Any
+
+from mcexact.errors import UsageError
+
+MARGIN = 0.3
+SEEDS = 4
+
+
+@dataclass(frozen=True)
+class Aims:
+    """What a search for a controller aims at; nothing of this is certified.
+
+    Parameters
+    ----------
+    weights : mapping of {"Q", "R", "W", "V"} to matrix, optional
+        See `Weights.of`; by default Q = R = W = I and V = I/100.
+    margin : float
+        The margin at the inputs of the plant, which the search raises to this if it can.
+    largest_gain : float, optional
+        The largest entry that is not penalized; by default ten times that of the optimal controller
+        of all agents together.
+    largest_order : int, optional
+        The largest number of states of each agent.
+    digits : int, optional
+        The largest number of significant decimal digits of an entry.
+    effort : float, optional
+        About how many seconds a processor of 2024 may search.  Work is counted, not timed, so that
+        the result does not depend on the machine's load.  With 0 there is no search, but the
+        controller of the theorem at once.
+    seeds : int
+        The number of drawn starts of each order.
+
+    Raises
+    ------
+    UsageError
+        If a number is out of range.
+
+    Examples
+    --------
+    >>> Aims(margin=0.4, digits=3).largest_order
+    >>> Aims(margin=2)
+    Traceback (most recent call last):
+        ...
+    mcexact.errors.UsageError: margin: expected a number above 0 and below 1, found 2
+    """
+
+    weights: Mapping[str, Any] | None = None
+    margin: float = MARGIN
+    largest_gain: float | None = None
+    largest_order: int | None = None
+    digits: int | None = None
+    effort: float | None = None
+    seeds: int = SEEDS
+
+    def __post_init__(self) -> None:
+        _require(0 < self.margin < 1, "margin", "a number above 0 and below 1", self.margin)
+        if self.largest_gain is not None:
+            good = 0 < self.largest_gain and isfinite(self.largest_gain)
+            _require(good, "largest_gain", "a number above 0", self.largest_gain)
+        for name, least in (("largest_order", 0), ("digits", 1), ("seeds", 1)):
+            number = getattr(self, name)
+            if number is not None:
+                good = type(number) is int and number >= least
+                _require(good, name, f"an integer of at least {least}", number)
+        if self.effort is not None:
+            good = 0 <= self.effort and isfinite(self.effort)
+            _require(good, "effort", "a number of seconds", self.effort)
+
+
+def _require(good: bool, name: str, expected: str, found: object) -> None:
+    if not good:
+        raise UsageError(f"expected {expected}, found {found}", where=name)
+
+
+THEOREM = Aims(effort=0)
+"""No search: the controller of the theorem."""

@@ -1,0 +1,121 @@
+"""What the design commands and `certify` show besides what is certified."""
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system_file import save_system
+from tests.end_to_end.command_line import run
+from tests.report.strict_html import Page, external_addresses
+
+
+@pytest.fixture(scope="module")
+def plant(tmp_path_factory: pytest.TempPathFactory) -> str:
+    """A double integrator, of which the position is measured."""
+    path = tmp_path_factory.mktemp("designs") / "plant.json"
+    save_system(MultiChannelSystem([[0, 1], [0, 0]], [[[0], [1]]], [[[1, 0]]]), path)
+    return str(path)
+
+
+def test_a_file_is_enough_and_the_first_line_says_whether_to_install(
+    plant: str, tmp_path: Path
+) -> None:
+    controller, page = tmp_path / "controller.json", tmp_path / "page.html"
+    done = run("design", "decentralized", plant, "-o", str(controller), "--html", str(page))
+    assert done.status == 0, done.stderr
+    first, second, *_ = done.stdout.splitlines()
+    assert first.startswith("Worth installing: margin ")
+    assert re.fullmatch(r"note: no rate was given: .* is half the sensible rate", second)
+    assert "computed, not certified" in done.stdout
+    assert "numbers sent at each step" in done.stdout and "sensible rate" in done.stdout
+    shown = page.read_text(encoding="utf-8")
+    Page(shown)
+    assert not external_addresses(shown)
+    assert first in shown and "Robustness and decay" in shown
+    told = run("certify", plant, str(controller), "--rate", "1/100")
+    assert told.status == 0
+    assert told.stdout.splitlines()[0].startswith("Worth installing: margin ")
+    fast = run("certify", plant, str(controller), "--rate", "1000")
+    assert fast.status == 1
+    assert fast.stdout.splitlines()[0] == ("Do not install: the loop does not satisfy Re λ < -1000")
+
+
+def test_without_an_output_the_verdict_is_on_standard_error(plant: str) -> None:
+    done = run("design", "decentralized", plant, "--rate", "1/2")
+    assert json.loads(done.stdout)["format"].startswith("mcexact-controller/")
+    assert done.messages[0].startswith("mcexact: Worth installing: ")
+
+
+def test_json_has_the_figures_apart_from_what_is_certified(plant: str, tmp_path: Path) -> None:
+    weights = tmp_path / "weights.json"
+    weights.write_text('{"R": [["1/100"]]}', encoding="utf-8")
+    options = ("--rate", "1/2", "--weights", str(weights), "--digits", "2", "--max-order", "1")
+    done = run("design", "decentralized", plant, *options, "--json")
+    told = json.loads(done.stdout)
+    figures = told["assessment"]
+    assert figures["basis"] == "computed in floating point, not certified"
+    assert figures["install"] == "yes" and figures["margin"] >= 0.3
+    assert figures["states_of_each_agent"] == {"1": 1} and figures["digits_that_suffice"] <= 2
+    assert figures["verdict"] not in [each["text"] for each in told["sentences"]]
+    assert told["stability"]["stable"] is True
+
+
+def test_the_theorem_is_asked_for_by_no_effort(plant: str) -> None:
+    done = run("design", "decentralized", plant, "--rate", "20", "--effort", "0", "--json")
+    told = json.loads(done.stdout)
+    assert told["blocks"] and told["assessment"]["install"] == "with care"
+    assert "the largest gain" in told["assessment"]["verdict"]
+
+
+def test_what_is_out_of_reach_ends_with_the_diagnosis(tmp_path: Path) -> None:
+    path = tmp_path / "plant.json"
+    save_system(MultiChannelSystem([[1, 0], [0, -1]], [[[1], ["1e-7"]]], [[[1, 1]]]), path)
+    done = run("design", "decentralized", str(path), "--rate", "2")
+    assert done.status == 4
+    [line] = done.messages
+    assert "out of reach" in line and "mode -1: a relative change of" in line
+    assert "sensible rate" in line
+
+
+def test_what_is_hard_is_said_before_the_search_ends(tmp_path: Path) -> None:
+    path = tmp_path / "plant.json"
+    save_system(MultiChannelSystem([[1, 0], [0, -1]], [[[1], ["1e-7"]]], [[[1, 1]]]), path)
+    asked = ("design", "decentralized", str(path), "--rate", "2", "--effort", "1", "--json")
+    done = run(*asked)
+    assert done.status in (0, 4)
+    assert "is hard for all agents together" in done.messages[0]
+
+
+@pytest.mark.parametrize(
+    ("content", "status", "message"),
+    [
+        ("[1]", 3, "expected an object"),
+        ('{"Z": [[1]]}', 3, "weights.Z: expected one of Q, R, W, V"),
+        ('{"Q": [[1]]}', 3, "weights.Q: expected a 2 × 2 matrix, found 1 × 1"),
+    ],
+)
+def test_bad_weights_are_named(
+    plant: str, tmp_path: Path, content: str, status: int, message: str
+) -> None:
+    weights = tmp_path / "weights.json"
+    weights.write_text(content, encoding="utf-8")
+    done = run("design", "decentralized", plant, "--rate", "1", "--weights", str(weights))
+    assert done.status == status
+    assert message in done.stderr and "weights.json" in done.stderr
+
+
+def test_help_is_in_groups_and_hides_the_limits_on_files() -> None:
+    short, whole = (run("design", "extended", option).stdout for option in ("--help", "--help-all"))
+    headings = [line for line in whole.splitlines() if re.fullmatch(r"[A-Z][\w ]+:", line)]
+    assert headings == [
+        "Asked of the loop:",
+        "Weights and limits of the search:",
+        "Output:",
+        "Limits and help:",
+        "Reading:",
+    ]
+    assert "Reading:" not in short and "--max-depth" not in short
+    assert "--max-depth" in whole and "--max-order" in short

@@ -1,0 +1,222 @@
+"""Whether to install a controller: figures of any loop, and what to beware of."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mcexact.errors import InputError
+from mcexact.exact.location import StabilityRegion
+from mcexact.model.local_controllers import local_controllers
+from mcexact.model.loop import ClosedLoop, closed_loop
+from mcexact.model.system import MultiChannelSystem
+from mcexact.synthesis.assessment import Assessment, assess, assessed_loop
+from mcexact.synthesis.decentralized import design_decentralized
+from mcexact.synthesis.extended import design_extended
+from mcexact.synthesis.optimum.aims import THEOREM, Aims
+from mcexact.synthesis.optimum.curves import curves_of
+from mcexact.synthesis.optimum.diagnosis import diagnosed
+from mcexact.synthesis.optimum.figures import Figures
+from mcexact.synthesis.optimum.loop_figures import (
+    digits_that_suffice,
+    figures_of_loop,
+    integrators_of,
+    rounded_controller,
+)
+from mcexact.synthesis.optimum.weights import Weights
+from mcexact.synthesis.setpoint import design_setpoint
+from tests.synthesis.optimum.plants import coupled, delayed
+from tests.synthesis.test_setpoint import two_tanks
+
+ONE = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+
+
+def loop_of(gain: str) -> ClosedLoop:
+    return closed_loop(ONE, local_controllers(ONE, [[[gain]]]))
+
+
+@pytest.mark.parametrize(
+    ("design", "time", "options"),
+    [
+        (design_decentralized, "continuous", {"rate": "1/2"}),
+        (design_decentralized, "discrete", {"radius": "1/2"}),
+        (design_extended, "discrete", {"radius": "0.6", "share": "states"}),
+    ],
+)
+def test_the_figures_of_a_loop_are_those_of_the_search(design, time, options) -> None:
+    made = design(coupled(time), aims=Aims(effort=2), **options)
+    searched = made.parts["optimum"].figures
+    found = figures_of_loop(made.loop.closed, Weights.unit(made.loop.closed.given))
+    for name in ("order", "largest_gain", "bound", "peak", "cost"):
+        assert getattr(found, name) == pytest.approx(getattr(searched, name), rel=1e-6), name
+    # The margin is that of a grid, which is not the same one.
+    assert found.margin == pytest.approx(searched.margin, rel=0.05)
+
+
+def test_the_cost_over_delays_is_that_of_a_simulation() -> None:
+    plant = delayed()
+    made = design_extended(plant, radius="0.8", network="lifted", aims=Aims(effort=2))
+    loop = made.loop.closed
+    found = figures_of_loop(loop, Weights.unit(plant))
+    # E[x'Qx + u'Ru] as a sum over the responses to noise, one noise at a time, message by message.
+    n, total = plant.n, 0.0
+    for k in range(n + sum(plant.q(i) for i in range(plant.m))):
+        total += _power_of(loop, k)
+    assert found.cost == pytest.approx(total, rel=1e-6)
+
+
+def _power_of(loop: ClosedLoop, k: int) -> float:
+    """Σ_t x'x + u'u after an impulse of noise k at time 0, by the programs of the agents."""
+    from mcexact.exact.floats import matrix_to_float
+
+    plant, agents = loop.given, loop.controller.agents
+    A = matrix_to_float(plant.A)
+    B = [matrix_to_float(plant.B(i)) for i in range(plant.m)]
+    C = [matrix_to_float(plant.C(i)) for i in range(plant.m)]
+    starts = np.cumsum([0, *(plant.q(i) for i in range(plant.m))])
+    x, outputs, shared = np.zeros(plant.n), [], []
+    if k < plant.n:
+        x[k] = 1.0
+    states = [(np.zeros(a.shared), np.zeros(a.private)) for a in agents]
+    total = 0.0
+    for t in range(400):
+        y = [c @ x for c in C]
+        if t == 0 and k >= plant.n:
+            noise = np.zeros(int(starts[-1]))
+            noise[k - plant.n] = 0.1
+            y = [y[i] + noise[starts[i] : starts[i + 1]] for i in range(plant.m)]
+        outputs.append(y)
+        shared.append([s for s, _ in states])
+
+        def value(each, i, size, t=t, states=states):
+            found = np.zeros(size)
+            for j, M in each.outputs.items():
+                age = loop.waits(j, i)[1]
+                found += matrix_to_float(M) @ outputs[t - age][j] if age <= t else 0.0
+            for j, M in each.shared.items():
+                age = loop.waits(j, i)[0]
+                found += matrix_to_float(M) @ shared[t - age][j] if age <= t else 0.0
+            if each.private is not None:
+                found += matrix_to_float(each.private) @ states[i][1]
+            return found
+
+        u = [value(a.input, i, plant.p(i)) for i, a in enumerate(agents)]
+        total += float(x @ x) + sum(float(v @ v) for v in u)
+        states = [
+            (value(a.shared_update, i, a.shared), value(a.private_update, i, a.private))
+            for i, a in enumerate(agents)
+        ]
+        x = A @ x + sum((b @ v for b, v in zip(B, u, strict=True)), np.zeros(plant.n))
+    return total
+
+
+@pytest.mark.parametrize(
+    ("gain", "rate", "digits"), [("-3", "1", 1), ("-1.26", "1/4", 2), ("-10/3", "2.333", 5)]
+)
+def test_the_digits_that_suffice_keep_the_region_and_one_less_does_not(gain, rate, digits) -> None:
+    region = StabilityRegion.of("continuous", rate=rate)
+    loop = loop_of(gain)
+    assert digits_that_suffice(loop, region) == digits
+    made = closed_loop(ONE, rounded_controller(loop.controller, digits))
+    assert made.matrix[0, 0] < region.limit
+
+
+def test_a_loop_that_no_rounding_keeps_has_no_digits() -> None:
+    region = StabilityRegion.of("continuous", rate="1/3")
+    loop = closed_loop(ONE, local_controllers(ONE, [[["-4/3"]]]))
+    assert digits_that_suffice(loop, region) is None
+
+
+def test_integrators_are_recognized_and_assessed_with_the_plant() -> None:
+    made = design_setpoint(two_tanks(), rate="1/2", aims=Aims(effort=2))
+    loop = made.loop.closed
+    places = integrators_of(loop)
+    assert len(places) == 2 and min(places) >= 2
+    found = assess(made)
+    assert found.step_peak is not None and 1 <= found.step_peak < 5
+    assert found.figures.cost == pytest.approx(
+        made.parts["designed"]["optimum"].figures.cost, rel=1e-6
+    )
+    assert integrators_of(loop_of("-3")) == ()
+
+
+def assessed(gain: str = "-3", **figures: float) -> Assessment:
+    """An assessment, some of whose figures are others."""
+    region = StabilityRegion.of("continuous", rate="1/2")
+    found = assessed_loop(loop_of(gain), region, certified=True)
+    return replace(found, figures=replace(found.figures, **figures))
+
+
+def test_a_good_controller_is_worth_installing() -> None:
+    found = assessed()
+    assert (found.install, found.warnings) == ("yes", ())
+    assert found.verdict.startswith("Worth installing: margin 0.667")
+
+
+@pytest.mark.parametrize(
+    ("figures", "install", "said"),
+    [
+        ({"margin": 0.04}, "no", "the margin at the plant's inputs is 0.04"),
+        ({"margin": 0.29}, "with care", "fragile"),
+        ({"peak": 101.0}, "with care", "the state can reach 101"),
+        ({"cost": 1e6}, "with care", "times the one for all agents"),
+        ({"largest_gain": 1e4}, "with care", "the largest gain is 10000"),
+        ({"margin": 0.0}, "no", "not even stable"),
+    ],
+)
+def test_what_is_dangerous_is_said_first(figures, install, said) -> None:
+    found = assessed(**figures)
+    assert found.install == install
+    assert said in found.verdict and said in found.warnings[0]
+    told = {"no": "Do not install: ", "with care": "Install with care: "}
+    assert found.verdict.startswith(told[install])
+
+
+def test_digits_and_rates_are_warned_of() -> None:
+    assert any("5 digits" in each for each in replace(assessed(), digits=5).warnings)
+    assert any("lose" in each for each in replace(assessed(), digits=None).warnings)
+    hurried = diagnosed(ONE, StabilityRegion.of("continuous", rate=10**6))
+    assert any("sensible" in each for each in replace(assessed(), diagnosis=hurried).warnings)
+
+
+def test_an_unstable_loop_is_not_to_be_installed() -> None:
+    region = StabilityRegion("continuous")
+    found = assessed_loop(loop_of("1"), region, certified=False)
+    assert found.install == "no" and "does not satisfy" in found.verdict
+    assert found.view()["margin"] == 0 and found.view()["cost"] is None
+    json.dumps(found.view(), allow_nan=False)
+    assert curves_of(loop_of("1")) is None
+
+
+def test_the_controller_of_the_theorem_comes_with_its_figures() -> None:
+    plant = MultiChannelSystem([[0, 1], [0, 0]], [[[0], [1]]], [[[1, 0]]])
+    found = assess(design_decentralized(plant, rate=20, aims=THEOREM))
+    assert found.install != "yes"
+    assert found.figures.largest_gain > 1000
+
+
+def test_links_carry_what_their_receiver_uses() -> None:
+    made = design_extended(coupled(), rate="1/2", dimensions=[1, 0, 1], aims=Aims(effort=2))
+    found = assess(made)
+    used = {(link.sender, link.receiver) for link in found.links}
+    names = made.controller.agents
+    assert used == {(names[j].name, names[i].name) for j, i in made.controller.edges()}
+    assert all(link.numbers >= 1 for link in found.links)
+
+
+def test_the_weights_are_those_that_were_asked_for() -> None:
+    region = StabilityRegion.of("continuous", rate="1/2")
+    cheap = assessed_loop(loop_of("-3"), region, certified=True, weights={"R": [["1/100"]]})
+    plain = assessed_loop(loop_of("-3"), region, certified=True)
+    assert cheap.figures.cost < plain.figures.cost
+    with pytest.raises(InputError, match=r"weights\.R: expected a 1 × 1 matrix, found 2 × 2"):
+        assessed_loop(loop_of("-3"), region, certified=True, weights={"R": [[1, 0], [0, 1]]})
+
+
+def test_only_designs_are_assessed() -> None:
+    with pytest.raises(InputError, match="design: expected a Design"):
+        assess(3)  # type: ignore[arg-type]
+    assert isinstance(assessed().figures, Figures)

@@ -1,0 +1,159 @@
+"""What is asked of a search: rates that are chosen, rates out of reach, and the limits of gains."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mcexact.errors import InputError, LimitReached, OutOfReach, UsageError
+from mcexact.exact.location import StabilityRegion
+from mcexact.model.system import MultiChannelSystem
+from mcexact.synthesis.asking import request_for
+from mcexact.synthesis.decentralized import design_decentralized
+from mcexact.synthesis.extended import design_extended
+from mcexact.synthesis.optimum.aims import THEOREM, Aims
+from mcexact.synthesis.optimum.diagnosis import diagnosed
+from mcexact.synthesis.optimum.weights import Weights
+from mcexact.synthesis.request import Warned
+from mcexact.synthesis.setpoint import design_setpoint
+from tests.synthesis.optimum.plants import coupled
+from tests.synthesis.test_setpoint import two_tanks
+
+POSITION = MultiChannelSystem([[0, 1], [0, 0]], [[[0], [1]]], [[[1, 0]]])
+NEARLY_FIXED = MultiChannelSystem([[1, 0], [0, -1]], [[[1], ["1e-7"]]], [[[1, 1]]])
+"""A stable mode that the input hardly moves."""
+
+
+@pytest.mark.parametrize("time", ["continuous", "discrete"])
+def test_without_a_rate_half_the_sensible_one_is_taken_and_said(time) -> None:
+    plant = coupled(time)
+    request = request_for(plant)
+    [note] = request.notes
+    known = diagnosed(plant, request.region)
+    assert known.is_sensible and known.sensible is not None
+    assert f"{request.region.edge} is" in note and "sensible" in note
+    pace = np.log if time == "discrete" else float
+    ratio = float(pace(float(known.sensible.edge)) / pace(float(request.region.edge)))
+    assert ratio == pytest.approx(2, rel=0.15)
+    design = design_decentralized(plant, aims=Aims(effort=2))
+    assert design.notes == request.notes and design.region == request.region
+
+
+def test_a_spectrum_is_placed_exactly_without_a_search() -> None:
+    design = design_decentralized(POSITION, spectrum=[-1, -2, -3], aims=Aims(margin=0.5))
+    assert "optimum" not in design.parts and design.loop.polynomial is not None
+    assert not design.notes
+
+
+def test_a_rate_in_exact_arithmetic_takes_the_search_too() -> None:
+    design = design_decentralized(POSITION, rate="1/2")
+    assert design.parts["optimum"].digits <= 4
+    assert design.controller.bit_length() <= 47
+
+
+def test_a_named_agent_gets_the_controller_of_the_theorem() -> None:
+    [block] = design_decentralized(POSITION, agent="1", rate="1/2").parts["blocks"]
+    assert block.agent == "1"
+
+
+def test_what_is_out_of_reach_for_all_agents_together_is_said_before_any_search() -> None:
+    told: list[str] = []
+    with pytest.raises(OutOfReach, match=r"mode -1: a relative change of .* fixes it; sensible"):
+        design_decentralized(NEARLY_FIXED, rate=2, progress=told.append)
+    assert told == ["fixed modes", "diagnosis"]
+    # With an effort it is searched all the same, and warned of.
+    design_decentralized(NEARLY_FIXED, rate=2, aims=Aims(effort=1), progress=told.append)
+    assert [type(each) for each in told if "hard" in each] == [Warned]
+
+
+def test_out_of_reach_is_not_said_of_plants_that_are_fragile_at_every_rate() -> None:
+    # Hardly observable: every controller is fragile, and a slower one as well.
+    plant = MultiChannelSystem([[2, 1], [0, 1]], [[[1], [0]], [[0], [1]]], [[[1, 1]], [[1, 2]]])
+    known = diagnosed(plant, StabilityRegion.of("continuous", rate="1/10"))
+    assert not known.is_out_of_reach
+
+
+def test_a_search_that_finds_nothing_ends_with_the_controller_of_the_theorem() -> None:
+    effort = Aims(effort=1e-6)
+    design = design_decentralized(coupled(), rate="1/2", arithmetic="float", aims=effort)
+    assert "blocks" in design.parts and "diagnosis" in design.parts
+    shared = design_extended(coupled(), rate="1/2", aims=effort)
+    assert "blocks" in shared.parts
+    with pytest.raises(LimitReached, match="sensible rate"):
+        design_decentralized(coupled(), rate="1/2", aims=Aims(effort=1e-6, digits=3))
+
+
+@pytest.mark.parametrize("digits", [1, 2])
+def test_no_gain_has_more_digits_than_asked_for(digits) -> None:
+    design = design_decentralized(coupled(), rate="1/2", aims=Aims(effort=2, digits=digits))
+    for M in design.controller.matrices():
+        for x in (abs(x) for row in M.rows() for x in row if x):
+            assert float(f"{float(x):.{digits - 1}e}") == float(x)
+
+
+def test_no_agent_has_more_states_than_asked_for() -> None:
+    design = design_decentralized(coupled(), rate="1/2", aims=Aims(effort=2, largest_order=0))
+    assert design.order == 0
+    with pytest.raises(LimitReached):  # only the position is measured
+        design_decentralized(POSITION, rate="1/2", aims=Aims(effort=2, largest_order=0))
+
+
+def test_smaller_gains_are_found_where_they_are_asked_for() -> None:
+    free, low = (
+        design_decentralized(coupled(), rate="1/2", aims=Aims(effort=2, largest_gain=largest))
+        for largest in (None, 1.0)
+    )
+    assert low.controller.largest_entry() < free.controller.largest_entry()
+    assert low.controller.largest_entry() < 1.5
+
+
+def test_expensive_inputs_are_used_less() -> None:
+    dear, cheap = (
+        design_decentralized(coupled(), rate="1/10", aims=Aims({"R": r}, effort=2))
+        for r in (100 * np.eye(3), np.eye(3) / 100)
+    )
+    assert dear.controller.largest_entry() < cheap.controller.largest_entry()
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"margin": 0}, "margin: expected a number above 0"),
+        ({"digits": 0}, "digits: expected an integer of at least 1"),
+        ({"largest_order": -1}, "largest_order: expected an integer of at least 0"),
+        ({"largest_gain": 0}, "largest_gain: expected a number above 0"),
+        ({"effort": -1}, "effort: expected a number of seconds"),
+        ({"seeds": 0}, "seeds: expected an integer"),
+    ],
+)
+def test_aims_out_of_range_are_refused(given, message) -> None:
+    with pytest.raises(UsageError, match=message):
+        Aims(**given)
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"S": [[1]]}, "weights.S: expected one of Q, R, W, V"),
+        ({"Q": [[1, 0]]}, r"weights.Q: expected a 2 × 2 matrix"),
+        ({"Q": [[1, 2], [0, 1]]}, "weights.Q: expected a symmetric matrix"),
+        ({"W": [[1, 0], [0, -1]]}, "weights.W: expected a positive semidefinite"),
+        ({"V": [[0]]}, "weights.V: expected a positive definite"),
+        ({"R": "1"}, "weights.R: expected a list of rows"),
+    ],
+)
+def test_weights_that_are_none_are_refused(given, message) -> None:
+    with pytest.raises(InputError, match=message):
+        Weights.of(POSITION, given)
+
+
+def test_weights_may_be_exact_floats_or_arrays() -> None:
+    for V in ([["1/4"]], [[0.25]], np.array([[0.25]])):
+        assert Weights.of(POSITION, {"V": V}).V.tolist() == [[0.25]]
+
+
+def test_set_points_are_held_without_messages_where_that_suffices() -> None:
+    design = design_setpoint(two_tanks(), rate="1/2", aims=Aims(effort=2))
+    assert design.method == "decentralized" and not design.controller.edges()
+    observer = design_setpoint(two_tanks(), rate="1/2", aims=THEOREM)
+    assert observer.method == "observer" and observer.order > design.order
