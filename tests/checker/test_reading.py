@@ -259,3 +259,31 @@ def test_names_that_could_mislead_are_escaped_in_the_theorem() -> None:
         assert graph.verdict == "VALID", graph.line()
         assert f"the channels {{{shown}}} together" in graph.statement
         assert len(graph.line().splitlines()) == 1
+
+
+def test_positions_are_below_the_length() -> None:
+    assert reading.positions([0, 2], "p", 3) == [0, 2]
+    for wrong in ([3], [4], [0, 7], [1, 0], [1, 1], [-1]):
+        with pytest.raises(reading.Refused):
+            reading.positions(wrong, "p", 3)
+
+
+def test_names_have_at_most_256_characters() -> None:
+    assert reading.own_names(["x" * 256], ["name"]) == ["x" * 256]
+    with pytest.raises(reading.Refused):
+        reading.own_names(["x" * 257], ["name"])
+
+
+def test_documents_have_at_most_16_levels() -> None:
+    levels = Limits().depth
+    assert levels == 16
+    assert reading.parse(b"[" * 16 + b"]" * 16, Limits()) is not None
+    with pytest.raises(reading.Refused):
+        reading.parse(b"[" * 17 + b"]" * 17, Limits())
+
+
+def test_a_string_that_is_missing_is_asked_for() -> None:
+    with pytest.raises(reading.Refused, match="expected a string, found 3"):
+        reading.string(3, "p")
+    with pytest.raises(reading.Refused, match='expected "a" or "b", found "c"'):
+        reading.string("c", "p", "a", "b")
