@@ -3,15 +3,23 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from fractions import Fraction
 from typing import Any
 
-from mcexact.errors import UsageError
+from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
+from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.exact.location import StabilityRegion
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.optimum.aims import Aims
 from mcexact.synthesis.optimum.diagnosis import chosen_region
 from mcexact.synthesis.optimum.weights import Weights
 from mcexact.synthesis.request import Arithmetic, Progress, Request
+
+_NO_OPTIMUM = "a small one, since all agents together have no optimal controller"
+_SMALL = (
+    (StabilityRegion("continuous", Fraction(1, 1000)), _NO_OPTIMUM),
+    (StabilityRegion("discrete", Fraction(999, 1000)), _NO_OPTIMUM.replace("small", "large")),
+)
 
 
 def request_for(
@@ -25,6 +33,7 @@ def request_for(
     *,
     aims: Aims | None = None,
     controlled: MultiChannelSystem | None = None,
+    avoids_fixed_modes: bool = False,
 ) -> Request:
     """Check the arguments of a ``design_…`` function, and choose a rate if none is given.
 
@@ -35,11 +44,13 @@ def request_for(
     aims : Aims, optional
     controlled : MultiChannelSystem, optional
         The system whose sensible rate counts, if it is not the given one.
+    avoids_fixed_modes : bool
+        Whether a chosen rate is slow enough for the stable fixed modes of the system.
 
     Raises
     ------
     UsageError
-        As in `Request.of`; or if no rate is given, and none can be chosen.
+        As in `Request.of`.
 
     Examples
     --------
@@ -48,11 +59,8 @@ def request_for(
     ()
     >>> print(*request_for(plant).notes)
     no rate was given: 21/5 is half the sensible rate
-    >>> request_for(MultiChannelSystem([[1]], [[[0]]], [[[1]]]))
-    Traceback (most recent call last):
-        ...
-    mcexact.errors.UsageError: give a rate or a spectrum: no optimal controller of all agents \
-together was found, from which to choose a rate
+    >>> print(*request_for(MultiChannelSystem([[1]], [[[0]]], [[[1]]])).notes)
+    no rate was given: 1/1000 is a small one, since all agents together have no optimal controller
     """
     if spectrum is not None or rate is not None or radius is not None:
         return Request.of(system, agent, spectrum, rate, radius, arithmetic, progress)
@@ -60,14 +68,23 @@ together was found, from which to choose a rate
     about = controlled or system
     weights = Weights.of(system, (aims or Aims()).weights)
     found = chosen_region(about, weights.with_integrators(about.n - system.n))
-    if found is None:
-        word = StabilityRegion(system.time).word
-        raise UsageError(
-            f"give a {word} or a spectrum: no optimal controller of all agents together was found, "
-            f"from which to choose a {word}"
-        )
-    region, told = found
+    region, told = found or _SMALL[StabilityRegion(system.time).discrete]
+    if controlled is None and avoids_fixed_modes:
+        region, told = _beyond(fixed_spectrum(system), region, told)
     note = f"no {region.word} was given: {region.edge} is {told}"
     given: dict[str, Any] = {region.word: region.edge}
     made = Request.of(system, agent, arithmetic=arithmetic, progress=progress, **given)
     return replace(made, notes=(note,))
+
+
+def _beyond(
+    fixed: FixedSpectrum, region: StabilityRegion, told: str
+) -> tuple[StabilityRegion, str]:
+    """Halve a rate (or the distance of a radius to 1) until the stable fixed modes are faster."""
+    if not fixed.stabilizable:
+        return region, told
+    while fixed.outside(region):
+        edge = (region.edge + 1) / 2 if region.discrete else region.edge / 2
+        region = StabilityRegion(region.time, edge)
+        told = "slow enough for the fixed modes"
+    return region, told

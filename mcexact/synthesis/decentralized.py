@@ -83,7 +83,8 @@ def design_decentralized(
     mcexact.errors.Impossible: no linear time-invariant decentralized control moves the mode 1, \
 fixed by s = {1}, and it is not fast enough
     """
-    request = request_for(system, agent, spectrum, rate, radius, arithmetic, progress, aims=aims)
+    given = system, agent, spectrum, rate, radius, arithmetic, progress
+    request = request_for(*given, aims=aims, avoids_fixed_modes=True)
     network = decentralized_network(system)
     proposals = searched_proposals(Family(network), request, aims)
     return network_design("decentralized", network, request, proposals)

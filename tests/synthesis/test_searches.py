@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mcexact.errors import InputError, LimitReached, OutOfReach, UsageError
+from mcexact.errors import Impossible, InputError, LimitReached, OutOfReach, UsageError
 from mcexact.exact.location import StabilityRegion
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.asking import request_for
@@ -37,6 +37,23 @@ def test_without_a_rate_half_the_sensible_one_is_taken_and_said(time) -> None:
     assert ratio == pytest.approx(2, rel=0.15)
     design = design_decentralized(plant, aims=Aims(effort=2))
     assert design.notes == request.notes and design.region == request.region
+
+
+@pytest.mark.parametrize(("time", "mode"), [("continuous", "-1/50"), ("discrete", "0.99")])
+def test_a_chosen_rate_is_slow_enough_for_stable_fixed_modes(time, mode) -> None:
+    # One agent moves the slow mode and the other one sees it.
+    plant = MultiChannelSystem(
+        [[2, 0], [0, mode]], [[[1], [1]], [[0], [0]]], [[[1, 0]], [[0, 1]]], time=time
+    )
+    design = design_decentralized(plant, aims=Aims(effort=2))
+    assert "slow enough for the fixed modes" in design.notes[0]
+    assert not design.certificates["fixed_spectrum"].outside(design.region)
+
+
+def test_without_a_rate_what_is_impossible_is_refused_with_a_proof() -> None:
+    with pytest.raises(Impossible) as refused:
+        design_decentralized(MultiChannelSystem([[1]], [[[0]]], [[[1]]]))
+    assert refused.value.certificate.kind == "fixed_spectrum"
 
 
 def test_a_spectrum_is_placed_exactly_without_a_search() -> None:
