@@ -53,6 +53,42 @@ SQUARE = certificate(
 )
 """A chain of three: the determinant is g³ up to its sign."""
 
+BOTH_SIGNS = certificate(
+    "exceptional_gains",
+    plant([[1, 0, 1], [0, 0, 0], [0, 0, 0]], ([[0], [0], [1]], [[0, 0, 0]])),
+    {
+        "M": matrix([0, -1, 0], [0, 0, 1], [0, 0, 0]),
+        "blocks": 3,
+        "polynomial": [-1, 0, 1],
+        "roots": [{"re": "-1", "im": "0", "radius": "0"}, {"re": "1", "im": "0", "radius": "0"}],
+    },
+    {
+        "modulus": 7,
+        "factors": [
+            {
+                "polynomial": [-1, 0, 1],
+                "row": layers([[1, 0, 0]], [[0, -1, 0]]),
+                "pivot": 0,
+            }
+        ],
+        "compressions": [matrix([1, 0, 0], [0, 1, 0], [0, 0, 1])] * 2,
+    },
+)
+"""The blocks are e3, e2 + g e1 and (g²−1) e1."""
+
+THREE, ZERO = [[1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 0, 0]] * 3
+FIRST, SECOND, THIRD = (
+    matrix(*(row for k in range(3) for row in (THREE if k == block else ZERO)))
+    for block in range(3)
+)
+SHIFTED = certificate(
+    "exceptional_gains",
+    plant(THREE, (THREE, [[0, 0, 0]])),
+    {"M": matrix(*THREE), "blocks": 3, "polynomial": [1], "roots": []},
+    {"modulus": 7, "factors": [], "compressions": [THIRD, FIRST]},
+)
+"""The blocks are I, (g+1) I and (g+1)² I: the first determinant is (g+1)⁶, the second 1."""
+
 LONGER = [[1, 0, 0], [0, 1, 0], [0, 0, 1], [0, 0, 0]]
 
 ACCEPTED = [
@@ -60,6 +96,8 @@ ACCEPTED = [
     ("blocks that never lose rank", NEVER),
     ("a root that is infinite modulo ℓ", changed(HIDDEN, ("witness.modulus", 11))),
     ("a triple root", SQUARE),
+    ("two roots of one factor", BOTH_SIGNS),
+    ("blocks of full rank, one of which never loses it", SHIFTED),
     ("another row", changed(SQUARE, ("witness.factors.0.row", layers([[1, 5, 0]])))),
     ("another compression", changed(ROOT, ("witness.compressions.0", matrix([1, 1], [0, 3])))),
     (
@@ -123,6 +161,26 @@ REJECTED = [
         "a disc beside the real axis that meets it",
         ROOT,
         (("claim.roots.0", {"re": "-2", "im": "0.1", "radius": "0.5"}),),
+    ),
+    (
+        "a disc beneath the real axis that meets it",
+        ROOT,
+        (("claim.roots.0", {"re": "-2", "im": "-0.1", "radius": "0.5"}),),
+    ),
+    (
+        "a disc beside the real axis that touches it",
+        ROOT,
+        (("claim.roots.0", {"re": "-2", "im": "0.5", "radius": "0.5"}),),
+    ),
+    (
+        "a row of which one layer annihilates",
+        BOTH_SIGNS,
+        (("witness.factors.0.row", layers([[1, 0, 0]], [[0, -1, 1]])),),
+    ),
+    (
+        "(g+1)⁶ and (g+1)³, which only a seventh value tells from coprime ones",
+        SHIFTED,
+        (("witness.compressions.1", SECOND),),
     ),
     ("no disc", ROOT, (("claim.roots", []),)),
     ("no blocks", NEVER, (("claim.blocks", 0),)),

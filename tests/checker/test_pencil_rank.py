@@ -39,6 +39,13 @@ TWO_ROOTS = certificate(
     {"subset": ["1"], "polynomial": [0, -1, 1], "rank": 2},
     {"modulus": 101, "kernel": layers([[], []]), "pivots": []},
 )
+# The same at 1 and 2, where p and every entry have a constant term that is a unit.
+NOT_ZERO = certificate(
+    "pencil_rank",
+    plant([[1, 0], [0, 2]], ([[0], [0]], [[0, 0]])),
+    {"subset": ["1"], "polynomial": [2, -3, 1], "rank": 2},
+    {"modulus": 101, "kernel": layers([[], []]), "pivots": []},
+)
 # At 0 the first column of xI − A is (2, 1): modulo 6 only its second entry has an inverse.
 UNITS = certificate(
     "pencil_rank",
@@ -93,6 +100,12 @@ REJECTED = [
     ),
     ("a drop at one root of two", TWO_ROOTS, ("claim.rank", 1)),
     ("full rank where it drops at both roots", TWO_ROOTS, ("claim.rank", 2)),
+    ("full rank where it drops at both roots, none of them 0", NOT_ZERO, ("claim.rank", 2)),
+    (
+        "a kernel of which the outputs see one layer",
+        changed(OSCILLATOR_RANK, ("claim.rank", 1), ("witness.pivots", [0])),
+        ("witness.kernel", layers([[1], [0]], [[0], [1]])),
+    ),
 ]
 
 

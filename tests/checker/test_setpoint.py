@@ -47,6 +47,14 @@ DIFFERENCE = certificate(
         normal=layers([[0, 1, 0, 0]], [[0, 0, 0, -1]]),
     ),
 )
+ROW, ZERO = DIFFERENCE["witness"]["normal"]["coefficients"], [[0, 0, 0, 0]]
+# From u to y = x2 + x3 stands s (s + 1) / s^3: besides 0, the zero -1.
+TWO_ZEROS = certificate(
+    "setpoint",
+    plant([[0, 1, 0], [0, 0, 1], [0, 0, 0]], ([[0], [0], [1]], [[0, 1, 1]])),
+    claim(False, 3, True),
+    witness(matrix([-1, -1, 0, 1]), [3], point=1),
+)
 INTEGRATOR_IN_DISCRETE_TIME = certificate(
     "setpoint", plant([[1]], ([[1]], [[1]]), time="discrete"), claim(True, 2), witness(NONE, [])
 )
@@ -60,6 +68,10 @@ NOTHING = certificate(
 ACCEPTED = [
     ("a position can be held", POSITION),
     ("a velocity has an invariant zero at 0", VELOCITY),
+    ("a place on the other side of 0 than the second zero", TWO_ZEROS),
+    ("a row times x^3, of the highest degree", changed(
+        DIFFERENCE, ("witness.normal.coefficients", [ZERO, ZERO, ZERO, *ROW])
+    )),
     ("another place of full rank", changed(VELOCITY, ("witness.point", 1))),
     ("the same output twice is no invariant zero", TWICE),
     ("a polynomial row that annihilates", DIFFERENCE),
@@ -104,6 +116,9 @@ REJECTED = [
     ("no row", TWICE, ("witness.normal", None)),
     ("a term of higher degree left over", DIFFERENCE, (
         "witness.normal", layers([[0, 1, 0, 0]], [[0, 0, 0, -1]], [[0, 0, 1, 0]])
+    )),
+    ("a row of too high a degree", DIFFERENCE, (
+        "witness.normal.coefficients", [ZERO, ZERO, ZERO, ZERO, *ROW]
     )),
     ("modulus 1", POSITION, ("witness.modulus", 1)),
     ("the other time domain", VELOCITY, ("system.time", "discrete")),

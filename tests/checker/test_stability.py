@@ -80,6 +80,7 @@ ACCEPTED = [
     ("a radius", IN_DISCRETE_TIME),
     ("a radius by the polynomial", changed(IN_DISCRETE_TIME, ("witness", POLYNOMIAL))),
     ("one unstable eigenvalue", UNSTABLE),
+    ("a direction in which the form is zero", changed(UNSTABLE, ("witness.v", matrix([1], [1])))),
     ("the same by the polynomial", changed(UNSTABLE, ("witness", POLYNOMIAL))),
     ("eigenvalues exactly on the boundary", ROTATION),
     ("a rate met with equality is not met", changed(
