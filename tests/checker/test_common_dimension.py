@@ -23,7 +23,7 @@ from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import read_system
 from tests.campaigns.allocation import drawn, drawn_neighbors
-from tests.checker.handmade import Document, changed, checked
+from tests.checker.handmade import CHAIN, GRAPH, Document, certificate, changed, checked
 from tests.checker.tables import accepts, rejects
 from tests.oracle.allocation import Neighbors, demands
 from tests.oracle.draws import exact
@@ -225,3 +225,14 @@ def test_what_makes_no_sense_is_refused() -> None:
 def test_the_bytes_stay(made: Document, digest: str) -> None:
     text = json.dumps(made, sort_keys=True, separators=(",", ":"))
     assert hashlib.sha256(text.encode("ascii")).hexdigest()[:16] == digest
+
+
+def test_channels_that_nothing_reaches_are_no_reason_for_a_fixed_mode() -> None:
+    zero = GRAPH["witness"]["zeros"][0]
+    nothing = certificate(
+        "common_dimension",
+        {**CHAIN, "neighbors": {"1": [], "2": []}},
+        {"share": "outputs+states", "feasible": False, "dimension": None},
+        {"absence": None, "cut": {"subset": ["1"], "zero": zero}},
+    )
+    assert checked(nothing).verdict == "MALFORMED"

@@ -6,7 +6,8 @@ from mcexact.analysis.sharing.communication import minimal_communication
 from mcexact.answer.codec import document
 from mcexact.model import gallery
 from mcexact.model.neighbor_graph import NeighborGraph
-from tests.checker.handmade import changed
+from mcexact.model.system import MultiChannelSystem
+from tests.checker.handmade import certificate, changed, checked, layers, plant
 from tests.checker.tables import accepts, rejects
 
 PLANT = gallery.load("liu2020-3ch-no-communication")
@@ -27,7 +28,46 @@ DECAYS = changed(
 )
 """The fixed mode of the paper's example, moved to −2."""
 
+OSCILLATES = certificate(
+    "communication",
+    plant([[0, 1], [-1, 0]], ([[0], [0]], [[1, 0]]), ([[1], [0]], [[0, 0]])),
+    BLOCKED["claim"],
+    {
+        "absence": None,
+        "cuts": [
+            {
+                "polynomial": [1, 0, 1],
+                "subspace": {
+                    "channels_T": ["1"],
+                    "U": layers([[1], [0]], [[0], [1]]),
+                    "V": layers([[0]]),
+                    "pivots": [0],
+                },
+            }
+        ],
+        "tree": [{"violated": 0}],
+    },
+)
+"""Channel 1 measures an oscillator, channel 2 drives it: C_1 U = 1 + 0 x for U = (1, x)'."""
+
+BOTH = document(
+    minimal_communication(
+        MultiChannelSystem(
+            [[1, 0], [0, 2]],
+            [[[0], [0]], [[1], [0]], [[0], [1]]],
+            [[[1, 0], [0, 1]], [[0, 0]], [[0, 0]]],
+        )
+    )
+)
+"""Channel 1 measures two modes, and channels 2 and 3 drive one of them each: two links."""
+
+TREE = [{"multipliers": [[2, 2], [3, 1]]}]
+"""2 + 1 from cuts of one link each, less 1 for the first link, which is taken once at most."""
+
 ACCEPTED = [
+    ("two links for two modes", BOTH),
+    ("a link is taken once at most", changed(BOTH, ("witness.tree", TREE))),
+    ("an oscillation that nobody both measures and drives", OSCILLATES),
     ("no candidate for a mode that decays", DECAYS),
     ("nor where it may decay less", changed(DECAYS, ("claim.bound", 2))),
     ("outputs alone", OUTPUTS),
@@ -38,6 +78,18 @@ ACCEPTED = [
 ]
 
 REJECTED = [
+    ("a link that sends only one part of an oscillation", OSCILLATES, (
+        "claim.candidates", [["1", "2", 1]],
+    )),
+    ("the first of two links twice", BOTH, (
+        "claim.added", [["1", "2"], ["1", "2"], ["1", "3"]],
+    ), "INVALID"),
+    ("links out of order", BOTH, ("claim.added", [["1", "3"], ["1", "2"]]), "INVALID"),
+    ("a candidate twice", BOTH, (
+        "claim.candidates", [["1", "2", 1], ["1", "3", 1], ["2", "1", 1], ["2", "1", 1],
+                             ["2", "3", 1], ["3", "1", 1], ["3", "2", 1]],
+    ), "MALFORMED"),
+    ("one link of two", BOTH, (("claim.added", [["1", "2"]]), ("claim.cost", 1))),
     ("a mode that may stay where it is", DECAYS, ("claim.bound", 1)),
     ("sub-states of no dimensions", OUTPUTS, ("claim.share", "outputs+states")),
     ("an unknown way of sharing", EXTENDED, ("claim.share", "wishes")),
@@ -64,7 +116,7 @@ REJECTED = [
     ("a candidate forgotten", BLOCKED, ("claim.candidates", [["1", "2", 1]])),
     ("modulus 0", OUTPUTS, ("witness.absence.modulus", 0)),
     ("another plant", OUTPUTS, ("system.A.2.1", 0)),
-]
+]  # fmt: skip
 
 
 test_sound_evidence_is_accepted = accepts(ACCEPTED)
@@ -74,3 +126,8 @@ test_a_change_of_one_place_is_rejected = rejects(REJECTED)
 def test_a_plant_without_a_graph_gets_a_certificate_about_itself() -> None:
     assert "neighbors" not in WITHOUT_GRAPH["system"]
     assert WITHOUT_GRAPH["claim"] == OUTPUTS["claim"]
+
+
+def test_a_polynomial_without_roots_is_refused_where_it_stands() -> None:
+    verdict = checked(changed(EXTENDED, ("witness.cuts.0.polynomial", [1])))
+    assert (verdict.verdict, verdict.place) == ("MALFORMED", "witness.cuts[0].polynomial")

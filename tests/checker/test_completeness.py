@@ -81,3 +81,9 @@ def test_uncontrollable_modes_count_although_no_subsystem_sees_them() -> None:
     )
     assert checked(denied).code == "common_factor"
     assert checked(changed(denied, ("system", INTEGRATOR))).verdict == "MALFORMED"
+
+
+def test_the_message_names_the_channel_by_its_number_from_1() -> None:
+    assert checked(CUT).verdict == "VALID"
+    verdict = checked(changed(CUT, ("system.channels.0.C", [[0, 1]])))
+    assert (verdict.code, verdict.message) == ("identity", "C X is not zero for channel number 1")

@@ -168,6 +168,13 @@ UNEVEN = certificate(
     },
 )
 
+TEN = changed(
+    FIXED,
+    ("witness.modulus", 10),
+    ("witness.completion", {"B0": matrix([1], [1], [1]), "C0": matrix([0, -1, 3])}),
+)
+"""With -B_0 for B_0 a pivot would be even, although the determinant only changes its sign."""
+
 ACCEPTED = [
     ("the paper's mode, as it stands", FIXED),
     ("other gains are another valid proof", changed(FIXED, ("witness.gains.1", matrix([3])))),
@@ -176,6 +183,7 @@ ACCEPTED = [
     ("an interval may be wider", changed(FIXED, ("claim.best_rate.lower", "-1.5"))),
     ("a disc may be wider, and the rate with it", OSCILLATION),
     ("a modulus may be small where nothing is fixed", changed(FREE, ("witness.modulus", 2))),
+    ("a completion whose pivots are units modulo 10", TEN),
     ("no states at all", NO_STATES),
     ("discrete time asks for moduli", DISCRETE),
     ("two factors, one of them stable", TWO_FACTORS),
@@ -366,3 +374,8 @@ def test_a_mode_is_counted_in_one_factor() -> None:
     factors, spaces = FIXED["claim"]["factors"] * 2, FIXED["witness"]["subspaces"] * 2
     verdict = checked(changed(FIXED, ("claim.factors", factors), ("witness.subspaces", spaces)))
     assert (verdict.verdict, verdict.code) == ("INVALID", "common_factor"), verdict.line()
+
+
+def test_a_factor_without_roots_is_refused_where_it_stands() -> None:
+    verdict = checked(changed(FIXED, (f"{FACTOR}.polynomial", [1])))
+    assert (verdict.verdict, verdict.place) == ("MALFORMED", "claim.factors[0].polynomial")

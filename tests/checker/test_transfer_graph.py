@@ -6,7 +6,7 @@ import pytest
 
 from mcexact.checker.reading import Refused
 from mcexact.checker.system import read_plant
-from mcexact.checker.transfer_graph import read_arcs
+from mcexact.checker.transfer_graph import read_arcs, require_arcs, require_connected
 from tests.checker.handmade import GRAPH, certificate, changed, checked, matrix, plant
 from tests.checker.tables import accepts
 
@@ -102,3 +102,41 @@ test_sound_evidence_is_accepted = accepts(ACCEPTED)
 def test_a_change_is_rejected(edits: tuple[object, ...]) -> None:
     verdict = checked(changed(GRAPH, *edits[1:]))  # type: ignore[arg-type]
     assert verdict.verdict in ("INVALID", "MALFORMED"), verdict.line()
+
+
+def test_a_transfer_that_vanishes_is_named_by_the_numbers_of_its_channels() -> None:
+    system = read_plant(GRAPH["system"])
+    require_arcs(system, [(0, 1, 1), (1, 1, 0)], 7)
+    for ends, text in (((0, 1), "1 to 2"), ((1, 0), "2 to 1")):
+        with pytest.raises(Refused) as found:
+            require_arcs(system, [(*ends, 0)], 7)
+        assert found.value.message == f"C A^0 B is 0 modulo l from channel number {text}"
+
+
+RING = read_plant(
+    plant(
+        [[0, 0, 1], [1, 0, 0], [0, 1, 0]],
+        *[([[int(i == k)] for i in range(3)], [[int(i == k) for i in range(3)]]) for k in range(3)],
+    )
+)
+"""Channel 1 drives the state of channel 2, this one that of channel 3, and this one the first."""
+
+
+@pytest.mark.parametrize(
+    ("arcs", "good"),
+    [
+        ([["1", "2", 1], ["2", "3", 1], ["3", "1", 1]], True),
+        ([["1", "2", 1], ["1", "3", 2], ["2", "1", 2], ["3", "1", 1]], True),
+        ([["1", "2", 1], ["2", "1", 2]], False),
+        ([["1", "2", 1], ["2", "3", 1]], False),
+        ([["1", "2", 1], ["2", "3", 1], ["3", "1", 0]], False),
+        ([], False),
+    ],
+)
+def test_edges_connect_all_channels_or_prove_nothing(arcs: list[list[object]], good: bool) -> None:
+    if good:
+        require_connected(arcs, "arcs", RING, 7)
+    else:
+        with pytest.raises(Refused) as found:
+            require_connected(arcs, "arcs", RING, 7)
+        assert (found.value.verdict, found.value.code) == ("INVALID", "arc")
