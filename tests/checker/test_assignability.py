@@ -158,6 +158,12 @@ REJECTED = [
     ),
     ("W that does not follow A", SPLIT, (("witness.realizations.0.W", matrix([1, 1])),)),
     ("W without an identity", SPLIT, (("witness.realizations.0.W", matrix([2, 0])),)),
+    (
+        "more columns than W has rows",
+        SPLIT,
+        (("witness.realizations.0.columns", [0, 1]),),
+        "MALFORMED",
+    ),
     ("as many columns as W has rows", SPLIT, (("witness.realizations.0.columns", []),)),
     ("modulus 1", SPLIT, (("witness.modulus", 1),)),
     ("a realization missing", SPLIT, (("witness.realizations", []),)),

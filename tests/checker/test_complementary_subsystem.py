@@ -119,6 +119,56 @@ APART = changed(
 )
 """Apart at 2 and at 3: one invariant polynomial, no remnant polynomial, and complete."""
 
+LONE = ([[1], [0], [0], [0]], [[1, 0, 0, 0]])
+THREE_APART = certificate(
+    "complementary_subsystem",
+    plant([[1, 0, 0, 0], [0, 2, 0, 0], [0, 0, 3, 0], [0, 0, 0, 4]], LONE, LONE),
+    {**CLAIM, "normal_rank": 5, "invariant_polynomials": [[-24, 26, -9, 1]]},
+    {
+        **TWICE["witness"],
+        "X": matrix([0, 0, 0], [1, 2, 4], [1, 3, 9], [1, 4, 16]),
+        "F": matrix([0, 0, 0]),
+        "L": matrix([1, 0, 0, 0]),
+    },
+)
+"""Apart at 2, 3 and 4: the columns of X are v, A v and A² v."""
+
+NOBODY = ([[0], [0]], [[0, 0]])
+UNSEEN = certificate(
+    "complementary_subsystem",
+    plant([[0, 1], [1, 0]], NOBODY, NOBODY),
+    {
+        **CLAIM,
+        "invariant_polynomials": [[-1, 0, 1]],
+        "remnant": [-1, 0, 1],
+        "transfer_zero": True,
+        "complete": False,
+    },
+    {
+        "modulus": 7,
+        "reachable": 0,
+        "X": matrix([1, 0], [0, 1]),
+        "F": matrix([0, 0]),
+        "A1": matrix(),
+        "S": matrix([1]),
+        "B1": matrix(),
+        "L": matrix(),
+        "G": matrix(),
+        "N": matrix(),
+    },
+)
+"""Nothing enters and nothing is seen: x² − 1 is an invariant polynomial."""
+A_CYCLE = (
+    ("claim.invariant_polynomials", []),
+    ("claim.remnant", [1]),
+    ("witness.X", matrix([], [])),
+    ("witness.F", matrix([])),
+    ("witness.L", matrix([1, 0], [0, 1])),
+    ("witness.G", matrix([0], [0])),
+    ("witness.N", matrix([0, 1], [1, 0])),
+)
+"""L = N L A with N = A: all would be seen, if N were strictly lower triangular."""
+
 OF_NONE = certificate(
     "complementary_subsystem",
     INTEGRATOR,
@@ -163,6 +213,8 @@ ACCEPTED = [
     ("a row of L that needs N", DELAY),
     ("two zeros at one place", TWICE),
     ("two zeros at two places", APART),
+    ("three zeros at three places", THREE_APART),
+    ("channels that neither move nor see", UNSEEN),
     ("another modulus", changed(TWICE, ("witness.modulus", 9))),
     ("another basis", changed(TWICE, ("witness.X", matrix([0, 0], [1, 1], [0, 1])))),
     (
@@ -224,6 +276,8 @@ REJECTED = [
     ("L of zeros", FREE, (("witness.L", matrix([0])), ("witness.G", matrix([0])))),
     ("N = I proves anything", NOTHING, (("witness.N", matrix([1])),)),
     ("L = N L with N = I", FREE, (("witness.G", matrix([0])), ("witness.N", matrix([1])))),
+    ("N turns in a cycle", UNSEEN, A_CYCLE, "INVALID"),
+    ("an invariant polynomial that is constant", FREE, (("claim.invariant_polynomials", [[1]]),)),
     ("N not strictly lower triangular", DELAY, (("witness.N", matrix([0, 1], [1, 0])),)),
     ("L seen through an input", DELAY, (("system.channels.1.B", [[0], [1]]),)),
     ("an S of zeros", NOTHING, (("witness.S", matrix([0])), ("witness.B1", matrix([0])))),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tests.checker.handmade import LOSS, NO_LOSS, changed, matrix
+from tests.checker.handmade import LOSS, NO_LOSS, changed, checked, matrix
 from tests.checker.tables import accepts, rejects
 
 SHARED = changed(
@@ -43,3 +43,8 @@ REJECTED = [
 
 test_sound_evidence_is_accepted = accepts(ACCEPTED)
 test_a_change_of_one_place_is_rejected = rejects(REJECTED)
+
+
+def test_a_mode_is_a_root_of_a_polynomial_that_is_not_constant() -> None:
+    verdict = checked(changed(LOSS, ("witness.polynomial", [1])))
+    assert (verdict.verdict, verdict.place) == ("MALFORMED", "witness.polynomial")

@@ -116,3 +116,10 @@ def test_a_loop_with_messages_under_way_is_refused() -> None:
     )
     verdict = checked(late)
     assert (verdict.verdict, verdict.place) == ("INVALID", "subject"), verdict.line()
+
+
+def test_a_plant_without_states_is_no_loop() -> None:
+    claim = {"feedback": [1], "error": [1], "bound": None}
+    nothing = certificate("distributed_observer", plant([], ([], [])), claim, {"moduli": [101]})
+    verdict = checked(nothing)
+    assert (verdict.verdict, verdict.code) == ("INVALID", "subject"), verdict.line()

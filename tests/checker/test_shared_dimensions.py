@@ -4,12 +4,17 @@ from __future__ import annotations
 
 from typing import Any
 
+import pytest
+
 from mcexact.analysis.sharing.allocation import minimal_shared_dimensions
 from mcexact.answer.codec import document
+from mcexact.checker.reading import Refused
+from mcexact.checker.shared_dimensions import read_cut
+from mcexact.checker.system import read_plant
 from mcexact.model import gallery
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from tests.checker.handmade import Document, changed, checked, matrix
+from tests.checker.handmade import Document, changed, checked, matrix, plant
 from tests.checker.tables import accepts, rejects
 
 PLANT = gallery.load("liu2020-3ch-no-communication")
@@ -132,3 +137,24 @@ def test_the_statement_says_whether_a_connected_graph_is_required() -> None:
     for each, required in ((FREE, True), (BOTH, False), (STATES, False), (NOTHING, False)):
         said = checked(each).statement
         assert ("strongly connected transfer graph" in said) == required
+
+
+def test_a_mode_is_a_root_of_a_polynomial_that_is_not_constant() -> None:
+    verdict = checked(changed(STATES, ("witness.cuts.0.polynomial", [1])))
+    assert (verdict.verdict, verdict.place) == ("MALFORMED", "witness.cuts[0]")
+
+
+@pytest.mark.parametrize("C", [[[1, 0]], [[0, 0]], [[0, 1]]])
+def test_a_cut_of_connectivity_is_crossed_by_nothing_that_any_agent_sees(C: list[Any]) -> None:
+    """Channel 3 moves the second state, which channels 1 and 2 must not see."""
+    outside = ([[1], [0]], [[1, 0]])
+    for ports in ((outside, ([[0], [0]], C)), (([[0], [0]], C), outside)):
+        base = read_plant(plant([[1, 0], [0, 2]], *ports, ([[0], [1]], [[0, 1]])))
+        zero = {"from": ["3"], "X": matrix([0], [1]), "pivots": [1]}
+        entry = {"subset": ["1", "2"], "zero": zero}
+        if C[0][1]:
+            with pytest.raises(Refused) as refused:
+                read_cut(entry, "cut", base, None, free=True)
+            assert (refused.value.verdict, refused.value.code) == ("INVALID", "identity")
+        else:
+            assert read_cut(entry, "cut", base, None, free=True) == ([0, 1], 1)

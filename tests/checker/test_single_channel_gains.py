@@ -178,3 +178,8 @@ def test_the_words_name_the_indices() -> None:
         'no constant gains F, the same for all q, make (A_F, B_q) controllable for every q in {"1"}'
     )
     assert " (C_q, A_F) observable for every q in {" in checked(BLIND).statement
+
+
+def test_a_mode_is_a_root_of_a_polynomial_that_is_not_constant() -> None:
+    verdict = checked(changed(STUCK, ("witness.polynomial", [1])))
+    assert (verdict.verdict, verdict.place) == ("MALFORMED", "witness.polynomial")
