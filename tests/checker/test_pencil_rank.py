@@ -60,8 +60,16 @@ SEEN = certificate(
     {"subset": ["2"], "polynomial": [-1, 1], "rank": 1},
     {"modulus": 101, "kernel": layers([[1], [0]]), "pivots": [0]},
 )
+# [x 0 0; 0 0 0; 0 0 0] with two inputs and two outputs: nothing stands in the lower right corner.
+CORNER = certificate(
+    "pencil_rank",
+    plant([[0]], ([[]], [[0], [0]]), ([[0, 0]], [[0]])),
+    {"subset": ["1"], "polynomial": [-1, 1], "rank": 1},
+    {"modulus": 101, "kernel": layers([[0, 0], [1, 0], [0, 1]]), "pivots": [1, 2]},
+)
 
 ACCEPTED = [
+    ("two inputs and two outputs that do nothing", CORNER),
     ("a kernel that the other channel sees", SEEN),
     ("a number without inverse above one with", UNITS),
     ("the paper's pencil drops at 1", RANK),
@@ -75,6 +83,11 @@ ACCEPTED = [
 
 REJECTED = [
     ("a kernel that the outputs see, and that claims a lower rank", SEEN, ("claim.subset", ["1"])),
+    (
+        "x in the lower right corner",
+        changed(CORNER, ("claim.rank", 2), ("witness.pivots", [1])),
+        ("witness.kernel", layers([[0], [1], [0]])),
+    ),
     ("a pivot too few", RANK, ("witness.pivots", [0, 2])),
     ("a pivot too many", RANK, ("witness.pivots", [0, 1, 2, 3])),
     ("a column without a number that has an inverse", UNITS, ("system.A", [[-2, -1], [0, -1]])),
