@@ -47,6 +47,7 @@ def test_every_product_of_known_roots_is_placed() -> None:
         ([1, 1, 1, 1], False, False),
         ([Fraction(1, 4), 0, 0, 0, 1], False, True),
         ([24, 50, 35, 10, 1], True, False),
+        ([1, 2, 1, 1], True, False),
     ],
 )
 def test_boundary_cases(p: list[Fraction], hurwitz: bool, schur: bool) -> None:
