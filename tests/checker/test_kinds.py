@@ -11,6 +11,8 @@ import pytest
 
 from mcexact.checker import Limits, Verdict, check_document
 from mcexact.checker.arithmetic import NotAUnit
+from mcexact.checker.budget import Budget, limited
+from mcexact.checker.expectation import Expectation
 from mcexact.checker.kinds import KINDS, attempt
 from mcexact.checker.reading import Refused
 from tests.checker.handmade import FIXED, FREE, changed, checked, without
@@ -18,6 +20,7 @@ from tests.checker.handmade import FIXED, FREE, changed, checked, without
 STATUSES = [
     ("VALID", 0),
     ("IMPLIED", 0),
+    ("COUNTED", 0),
     ("INVALID", 1),
     ("MALFORMED", 3),
     ("INCOMPLETE", 5),
@@ -35,6 +38,26 @@ def test_every_verdict_has_a_status_and_only_good_ones_have_none(verdict: str, s
 def test_a_refusal_is_told_with_its_reason() -> None:
     told = Verdict("INVALID", code="rank", place="claim.rank", message="it is 2").line()
     assert told == "INVALID rank claim.rank: it is 2"
+
+
+def test_a_verdict_on_a_part_names_the_part_only_where_something_is_wrong() -> None:
+    wrong = Verdict("INVALID", code="rank", place="claim.rank", message="it is 2")
+    assert wrong.inside("a.json").place == "a.json claim.rank"
+    assert Verdict("VALID", place="claim").inside("a.json").place == ""
+
+
+def test_verdicts_are_equal_whatever_work_they_took() -> None:
+    assert Verdict("VALID").spent == 0
+    assert Verdict("VALID", "so", spent=1) == Verdict("VALID", "so", spent=2)
+    assert Verdict("VALID", "so") != Verdict("VALID", "otherwise")
+
+
+def test_the_work_of_a_document_does_not_count_what_was_done_before() -> None:
+    budget = Budget()
+    alone = checked(FREE).spent
+    with limited(budget):
+        assert [checked(FREE).spent for _ in range(3)] == [alone] * 3
+    assert alone > 0 and budget.spent == 3 * alone
 
 
 @pytest.mark.parametrize(
@@ -158,3 +181,19 @@ def test_a_document_has_six_parts_of_one_version(document: Any, verdict: str, co
 def test_no_other_kind_s_evidence_is_read(kind: str) -> None:
     if kind != FREE["kind"]:
         assert checked(changed(FREE, ("kind", kind))).verdict == "MALFORMED"
+
+
+@pytest.mark.parametrize(
+    ("expected", "code"),
+    [
+        (Expectation(), ""),
+        (Expectation(kind="fixed_spectrum"), ""),
+        (Expectation(system="0" * 64), "system"),
+        (Expectation(controller="0" * 64), "controller"),
+        (Expectation(statement="0" * 64), "expected"),
+        (Expectation(kind="setpoint"), "expected"),
+    ],
+)
+def test_what_is_expected_of_a_certificate_is_insisted_on(expected: Expectation, code: str) -> None:
+    found = checked(FREE, expected=expected)
+    assert (found.verdict, found.code) == ("INVALID" if code else "VALID", code), found.line()

@@ -6,9 +6,10 @@ import json
 
 import pytest
 
+from mcexact.checker import system
 from mcexact.checker.reading import Limits, Refused
 from mcexact.checker.statement import digest
-from mcexact.checker.system import read_plant, read_system_file
+from mcexact.checker.system import read_matrix, read_plant, read_system_file, too_long
 from mcexact.model import gallery, system_file
 from tests.checker.handmade import PAPER
 
@@ -23,8 +24,8 @@ def digest_of(text: str) -> str:
 
 def test_the_gallery_has_the_digests_that_the_finder_gives() -> None:
     for name in gallery.names():
-        system = gallery.load(name)
-        assert digest_of(system_file.system_text(system)) == system_file.digest(system)
+        plant = gallery.load(name)
+        assert digest_of(system_file.system_text(plant)) == system_file.digest(plant)
 
 
 @pytest.mark.parametrize(
@@ -91,10 +92,12 @@ def test_what_no_claim_depends_on_is_not_in_the_digest() -> None:
         ("feedthrough of the whole system", {"D": [[0, "1/2"]]}),
         ("feedthrough that is no matrix", {"D": 0}),
         ("a sample time in continuous time", {"sample_time": 1}),
+        ("a sample time below 0", {"time": "discrete", "sample_time": -1}),
         ("a sample time of 0", {"time": "discrete", "sample_time": 0}),
         ("a name that is a number", {"name": 1.5}),
         ("a source with characters that do not print", {"source": "a\u202eb"}),
         ("a source that is null", {"source": None}),
+        ("a neighbor twice", {"neighbors": {"1": ["2", "2"]}}),
         ("neighbors that are null", {"neighbors": None}),
         *(
             (f"neighbors of an agent that are {row!r}", {"neighbors": {"1": row}})
@@ -114,6 +117,9 @@ def test_what_no_claim_depends_on_is_not_in_the_digest() -> None:
         ("a huge shape", {"A": {"shape": [10**6, 10**6], "entries": []}}),
         ("an entry twice", {"A": {"shape": [3, 3], "entries": [[0, 0, 1], [0, 0, 1]]}}),
         ("an entry outside", {"A": {"shape": [3, 3], "entries": [[3, 0, 1]]}}),
+        ("an entry far below", {"A": {"shape": [3, 3], "entries": [[4, 0, 1]]}}),
+        ("an entry at the right", {"A": {"shape": [3, 3], "entries": [[0, 3, 1]]}}),
+        ("an entry far at the right", {"A": {"shape": [3, 3], "entries": [[0, 4, 1]]}}),
         ("an entry from the end", {"A": {"shape": [3, 3], "entries": [[-1, 0, 1]]}}),
         ("no channels", {"channels": []}),
     ],
@@ -121,3 +127,78 @@ def test_what_no_claim_depends_on_is_not_in_the_digest() -> None:
 def test_a_wrong_system_file_is_refused(reason: str, edit: dict[str, object]) -> None:
     with pytest.raises(Refused):
         digest_of(json.dumps({**BASE, **edit}))
+
+
+@pytest.mark.parametrize(
+    ("value", "digits", "expected"),
+    [
+        (0, 0, False),
+        (1, 0, True),
+        (0, 1, False),
+        (9, 1, False),
+        (10, 1, True),
+        (10**20 - 1, 20, False),
+        (10**20, 20, True),
+        (10**21, 20, True),
+    ],
+)
+def test_a_number_has_as_many_digits_as_it_is_written_with(
+    value: int, digits: int, expected: bool
+) -> None:
+    assert too_long(value, digits) == expected
+
+
+@pytest.mark.parametrize("digits", range(4))
+@pytest.mark.parametrize("number", [0, 7, "7/8", "0.7", 12, "12/5", "-123"])
+def test_a_number_needs_the_digits_of_its_longer_part(number: object, digits: int) -> None:
+    needed = {0: 1, 7: 1, "7/8": 1, "0.7": 2, 12: 2, "12/5": 2, "-123": 3}[number]  # type: ignore[index]
+    limits = Limits(digits=digits)
+    if digits >= needed:
+        assert system.number(number, "A", limits) is not None
+    else:
+        with pytest.raises(Refused) as found:
+            system.number(number, "A", limits)
+        assert (found.value.verdict, found.value.code) == ("INCOMPLETE", "size")
+
+
+@pytest.mark.parametrize(
+    ("nrows", "ncols", "good"),
+    [
+        (0, 0, True),
+        (3, 4, True),
+        (4, 3, True),
+        (4, 4, False),
+        *((size, other, size == 12) for size in (12, 13) for other in (0, 1)),
+        *((other, size, size == 12) for size in (12, 13) for other in (0, 1)),
+    ],
+)
+def test_a_sparse_matrix_has_so_many_cells_at_most(
+    nrows: int, ncols: int, good: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert system.LARGEST == 4_194_304
+    monkeypatch.setattr(system, "LARGEST", 12)
+    sparse = {"shape": [nrows, ncols], "entries": []}
+    if good:
+        assert read_matrix(sparse, "A", None, None).nrows == nrows
+    else:
+        with pytest.raises(Refused) as found:
+            read_matrix(sparse, "A", None, None)
+        assert (found.value.verdict, found.value.code) == ("INCOMPLETE", "size")
+
+
+@pytest.mark.parametrize(
+    "A", [[["2/2", 0, 0], [0, 1, 0], [0, 1, 1]], {"shape": [3, 3], "entries": []}]
+)
+def test_the_plant_of_a_certificate_has_one_form(A: object) -> None:
+    assert digest(read_plant(PAPER)) == digest_of(json.dumps(BASE))
+    assert digest_of(json.dumps({**BASE, "A": A}))
+    with pytest.raises(Refused) as found:
+        read_plant({**PAPER, "A": A})
+    assert (found.value.verdict, found.value.place) == ("MALFORMED", "system")
+
+
+@pytest.mark.parametrize("key", ["name", "source"])
+def test_a_text_about_a_system_has_at_most_10000_characters(key: str) -> None:
+    assert digest_of(json.dumps({**BASE, key: "x" * 10_000})) == digest_of(json.dumps(BASE))
+    with pytest.raises(Refused):
+        digest_of(json.dumps({**BASE, key: "x" * 10_001}))
