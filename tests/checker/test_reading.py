@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import io
 import json
 import re
+import sys
+from pathlib import Path
 
 import pytest
 
@@ -287,3 +290,35 @@ def test_a_string_that_is_missing_is_asked_for() -> None:
         reading.string(3, "p")
     with pytest.raises(reading.Refused, match='expected "a" or "b", found "c"'):
         reading.string("c", "p", "a", "b")
+
+
+def test_a_document_has_at_most_64_mebibytes() -> None:
+    assert Limits().bytes == 67_108_864
+    assert reading.parse(b"[1]", Limits(bytes=3)) == [1]
+    with pytest.raises(reading.Refused) as found:
+        reading.parse(b"[1]", Limits(bytes=2))
+    assert (found.value.verdict, found.value.code) == ("INCOMPLETE", "size")
+
+
+def test_a_file_is_read_or_refused(tmp_path: Path) -> None:
+    path = tmp_path / "a.json"
+    path.write_bytes(b"[]")
+    assert reading.read_file(str(path), Limits()) == b"[]"
+    for wrong in (str(tmp_path), str(tmp_path / "b.json"), "a\0b"):
+        with pytest.raises(reading.Refused) as found:
+            reading.read_file(wrong, Limits())
+        assert found.value.args[:3] == ("MALFORMED", "unreadable", "file")
+
+
+def test_standard_input_is_read_or_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(b"[]")))
+    assert reading.read_file("-", Limits()) == b"[]"
+    monkeypatch.setattr(sys, "stdin", None)
+    with pytest.raises(reading.Refused, match="standard input is closed"):
+        reading.read_file("-", Limits())
+
+
+def test_the_place_of_a_wrong_number_is_its_first_24_characters() -> None:
+    with pytest.raises(reading.Refused) as found:
+        reading.parse(b"[1.23456789012345678901234567890]", Limits())
+    assert found.value.place == "number 1.2345678901234567890123"
