@@ -346,6 +346,30 @@ def test_an_interruption_before_the_checker_is_loaded_ends_with_130_too(
     assert end.value.code == 130
 
 
+def test_every_place_of_the_standard_library_stays_on_the_path(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    start = importlib.import_module("mcexact.checker.__main__")
+    major, minor = sys.version_info[:2]
+    named = f"python{major}.{minor}"
+    monkeypatch.setattr(os, "__file__", os.path.join("lib", named, "os.py"))
+    monkeypatch.setattr(sys, "base_prefix", "base")
+    monkeypatch.setattr(sys, "base_exec_prefix", "built")
+    monkeypatch.setattr(sys, "platlibdir", "lib64")
+    library = [
+        os.path.join("lib", f"python{major}{minor}.zip"),
+        os.path.join("lib", named),
+        os.path.join("base", "DLLs"),
+        os.path.join("built", "DLLs"),
+        os.path.join("base", "lib64", named, "lib-dynload"),
+        os.path.join("built", "lib64", named, "lib-dynload"),
+    ]
+    others = ["lib", "base", "built", os.path.join("lib", "python.zip")]
+    monkeypatch.setattr(sys, "path", [*library, *others])
+    start.clear_path()
+    assert sys.path == library
+
+
 def test_only_the_standard_library_stays_on_the_path(monkeypatch: pytest.MonkeyPatch) -> None:
     start = importlib.import_module("mcexact.checker.__main__")
     home = os.path.dirname(os.__file__)

@@ -11,6 +11,7 @@ import pytest
 
 from mcexact.checker import Expectation, Limits, Verdict
 from mcexact.checker.controller import FORMAT
+from mcexact.checker.expectation import difference
 from mcexact.checker.reading import Refused
 from mcexact.checker.statement import digest
 from mcexact.checker.system import read_plant
@@ -55,12 +56,28 @@ def test_the_controller_can_be_insisted_on() -> None:
     assert verdict.system_digest == ABOUT
 
 
+def test_another_plant_is_invalid_and_both_digests_are_named() -> None:
+    file = text({"format": "mcexact-system/1", **PAPER})
+    verdict = answered(LOOP, Expectation().about(file, Limits()))
+    assert (verdict.verdict, verdict.code, verdict.place) == ("INVALID", "system", "system")
+    assert ABOUT in verdict.message and digest(read_plant(PAPER)) in verdict.message
+
+
 def test_another_controller_is_invalid_and_both_digests_are_named() -> None:
     verdict = answered(ANOTHER, controlled())
     assert (verdict.verdict, verdict.code, verdict.place) == ("INVALID", "controller", "subject")
     other = checked(ANOTHER).controller_digest
     assert other in verdict.message and controlled().controller in verdict.message
     assert verdict.statement == verdict.statement_digest == ""
+
+
+def test_neither_of_two_controllers_passes_for_the_other() -> None:
+    """Whichever of the digests comes first in the alphabet."""
+    other = changed(FILE, ("agents.0.input.shared.1", [[-2]]))
+    assert answered(ANOTHER, controlled(other)).verdict == "VALID"
+    for document, file in ((LOOP, other), (ANOTHER, FILE)):
+        verdict = answered(document, controlled(file))
+        assert (verdict.verdict, verdict.code) == ("INVALID", "controller")
 
 
 @pytest.mark.parametrize("document", [FREE, certificate("closed_loop_spectrum", SCALAR, {}, {})])
@@ -111,6 +128,9 @@ def test_a_subject_and_a_controller_are_insisted_on_together() -> None:
     assert answered(CHANGED, before).verdict == "VALID"
     assert answered({**LOOP, "claim": CHANGED["claim"]}, before).place == "subject"
     assert answered(ANOTHER, claimed(ANOTHER, controlled())).code == "controller"
+    for document in (LOOP, CHANGED):
+        whole = claimed(document, controlled(), subject=document["subject"])
+        assert answered(document, whole).verdict == "VALID"
     twice = claimed(DUAL, controlled(), subject=DUAL["subject"])
     assert answered(LOOP, twice).place == "subject"
 
@@ -237,6 +257,12 @@ def test_a_claim_is_compared_exactly() -> None:
         assert f'"{key}"' in verdict.message.partition(" and states: ")[0]
 
 
+def test_the_keys_in_which_claims_differ_are_named() -> None:
+    one, other = {"same": 1, "value": 1, "left": 1}, {"same": 1, "value": True, "added": 1}
+    assert difference(one, other) == difference(other, one) == '"added", "left", "value"'
+    assert difference(one, one) == ""
+
+
 def test_a_claim_is_of_a_kind_and_about_a_subject() -> None:
     for more in (
         {"kind": "completeness"},
@@ -262,6 +288,7 @@ def test_what_is_invalid_stays_so_whatever_is_expected() -> None:
     "value",
     [
         *("", "VALID", "for the plant", "For a\nFor b", "For \u00e9", "0" * 63, "[1]", '{"a": 1'),
+        "For a\rFor b",
         *(f"VALID {'0' * 64} For a", f"VALID {'0' * 64}", "VALID For a", f"INVALID {'0' * 64}"),
         FIXED["claim"],
         FIXED,
