@@ -60,6 +60,7 @@ PROVED: list[tuple[str, Program, Any, Any]] = [
         [multipliers(*QUARTERS)],
         [None] * 3,
     ),
+    ("more than is claimed", program([1], [({0}, 2)], 1), [multipliers((0, "1"))], [None]),
     ("a price left over", program([1], ONE, 1), [multipliers((0, "1/2"))], [None]),
     ("a price overdrawn", program([1], ONE, 1), [multipliers((0, "3"))], [1]),
     ("overdrawn where nothing is allowed", program([1], ONE, 3), [multipliers((0, "3"))], [0]),
