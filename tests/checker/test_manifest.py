@@ -11,13 +11,13 @@ import pytest
 from mcexact.checker import Expectation, Limits
 from mcexact.checker.budget import GRANTED, PER_BYTE, Budget, limited
 from mcexact.checker.expectation import same
-from mcexact.checker.kinds import FORMAT
+from mcexact.checker.kinds import FORMAT, KINDS
 from mcexact.checker.manifest import pointed, verdicts_of
 from mcexact.checker.reading import Refused
 from mcexact.checker.statement import digest
 from mcexact.checker.system import read_plant
 from tests import effort
-from tests.checker.handmade import FREE, PAPER, Document, changed, without
+from tests.checker.handmade import FREE, PAPER, Document, changed, checked, without
 from tests.checker.manifests import (
     BOUND,
     CONTROLLABLE,
@@ -35,12 +35,15 @@ from tests.checker.manifests import (
     text_of,
     write,
 )
+from tests.checker.test_closed_loop_spectrum import HALF, LOOP, OPEN
+from tests.checker.test_fixed_spectrum import TWO_FACTORS
 
 ABOUT = f"For the plant {digest(read_plant(PAPER))}"
 SHARED = "sub-state with its neighbors, without delay"
 ENOUGH = sentence("enough-states", "shared_dimension_bound_states", *BOUND)
 OUTPUTS = sentence("enough-outputs-states", "shared_dimension_bound_outputs_states", *BOUND)
 STABLE = sentence("not-stabilizable", "fixed_spectrum")
+RING = "neighbor_graph.json"
 OTHER = changed(PAPER, ("A", [[-1, 0, 0], [0, -1, 0], [0, 1, -1]]))
 """Another plant with the same names."""
 
@@ -245,6 +248,7 @@ def test_what_the_claims_deny_is_not_implied(tmp_path: Path, rule: str) -> None:
 BECAUSE: list[tuple[str, Any, str, str]] = [
     ("nowhere", ["/claim/nothing", True], "INVALID", "pointer"),
     ("behind the end", ["/claim/factors/1/rank", 2], "INVALID", "pointer"),
+    ("far behind the end", ["/claim/factors/2/rank", 2], "INVALID", "pointer"),
     ("minus", ["/claim/factors/-", 2], "INVALID", "pointer"),
     ("a leading zero", ["/claim/factors/00/rank", 2], "INVALID", "pointer"),
     ("without a slash", ["claim/stabilizable", False], "INVALID", "pointer"),
@@ -306,6 +310,78 @@ def test_a_sentence_rests_on_what_could_not_be_checked_as_little_as_on_what_is_w
     what = sentence("nothing-fixed", "fixed_spectrum", evidence=evidence)
     found = said(write(tmp_path, evidence, manifest(evidence, [what])))
     assert [v.verdict for v in found] == ["INCOMPLETE", "INCOMPLETE"]
+
+
+def test_a_sentence_does_not_rest_on_what_a_bug_leaves_open(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delattr(KINDS["fixed_spectrum"], "check")
+    listed = manifest(sentences=[STABLE])
+    found = said(write(tmp_path, listed=listed))
+    assert [v.verdict for v in found] == ["ERROR", "INVALID"]
+    assert found[1].code == "premise" and found[1].place.endswith("fixed_spectrum.json")
+
+
+def test_a_sentence_is_about_the_entries_that_it_points_to(tmp_path: Path) -> None:
+    evidence = {"fixed_spectrum": TWO_FACTORS}
+    for k, own, other in ((0, "x - 1", "x + 2"), (1, "x + 2", "x - 1")):
+        because = [["fixed_spectrum.json", f"/claim/factors/{k}/channels", []]]
+        what = sentence("fixed-mode-uncontrolled") | {"because": because}
+        found = one(tmp_path, what, evidence)
+        assert found.verdict == "IMPLIED", found.line()
+        assert own in found.statement and other not in found.statement
+
+
+@pytest.mark.parametrize(("first", "second"), [("a.json", "b.json"), ("b.json", "a.json")])
+def test_entries_of_another_certificate_are_not_meant(
+    tmp_path: Path, first: str, second: str
+) -> None:
+    evidence = {"a": TWO_FACTORS, "b": TWO_FACTORS}
+    because = [[first, "/claim/factors/0/channels", []], [second, "/claim/factors/1/channels", []]]
+    found = one(tmp_path, sentence("fixed-mode-uncontrolled") | {"because": because}, evidence)
+    assert found.verdict == "IMPLIED", found.line()
+    assert "x - 1" in found.statement and "x + 2" not in found.statement
+
+
+@pytest.mark.parametrize("expected", [Expectation(statement="0" * 64), Expectation(claim={})])
+def test_one_statement_cannot_be_expected_of_a_manifest(
+    tmp_path: Path, expected: Expectation
+) -> None:
+    (found,) = said(write(tmp_path), expected)
+    assert (found.verdict, found.code, found.place) == ("INVALID", "expected", "file")
+
+
+def test_all_loops_have_the_controller_that_is_expected(tmp_path: Path) -> None:
+    another = changed(LOOP, (HALF, [[-2]]), ("claim.polynomial", [3, 6, 1]))
+    evidence = {"another": another, "loop": LOOP, "open": OPEN}
+    listed = manifest(evidence, [sentence("heading")])
+    digest_of_loop = checked(LOOP).controller_digest
+    found = said(write(tmp_path, evidence, listed), Expectation(controller=digest_of_loop))
+    assert [(v.verdict, v.code) for v in found] == [("INVALID", "controller"), ("IMPLIED", "")]
+    assert found[0].place == "another.json subject"
+    assert [v.verdict for v in said(tmp_path)] == ["IMPLIED"]
+
+
+@pytest.mark.parametrize("wrong", ["0" * 64, "f" * 64])
+def test_another_digest_is_refused_whether_it_is_smaller_or_larger(
+    tmp_path: Path, wrong: str
+) -> None:
+    found = said(write(tmp_path, listed=changed(WHOLE, ("certificates", FILES | {RING: wrong}))))
+    assert (found[0].verdict, found[0].code, found[0].place) == (
+        "INVALID",
+        "digest",
+        f"{RING} file",
+    )
+
+
+def test_the_digest_of_a_file_as_long_as_the_limit_is_compared(tmp_path: Path) -> None:
+    write(tmp_path, listed=changed(WHOLE, ("certificates", FILES | {RING: SHA})))
+    path = tmp_path / RING
+    path.write_bytes(path.read_bytes().ljust(20_000))
+    found = said(tmp_path, limits=Limits(bytes=20_000))[0]
+    assert (found.verdict, found.code, found.place) == ("INVALID", "digest", f"{RING} file")
+    found = said(tmp_path, limits=Limits(bytes=19_999))[0]
+    assert (found.verdict, found.code, found.place) == ("INCOMPLETE", "size", f"{RING} file")
 
 
 def test_without_a_certificate_nothing_is_known_of_the_plant(tmp_path: Path) -> None:
