@@ -304,6 +304,17 @@ def test_a_stream_of_another_kind_is_written_to_as_it_is(
     assert stream.getvalue().startswith("VALID ")
 
 
+def test_standard_error_that_fails_at_the_end_leads_nowhere(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The interpreter flushes it once more, which must not change the exit status."""
+    stream = Stream(folder / "err", OSError(), late=True)
+    monkeypatch.setattr(sys, "stderr", stream)
+    assert main(["valid.json"]) == 0
+    assert os.path.samestat(os.fstat(stream.fileno()), os.stat(os.devnull))
+    stream.late = False
+
+
 @pytest.mark.parametrize("as_module", [True, False])
 def test_the_folder_starts_by_itself(
     folder: Path,

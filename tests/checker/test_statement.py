@@ -15,7 +15,7 @@ import pytest
 from mcexact.checker import check_document
 from mcexact.checker.kinds import KINDS
 from mcexact.checker.reading import Refused
-from mcexact.checker.statement import described
+from mcexact.checker.statement import canonical_json, described, polynomial_text
 from mcexact.checker.subject import CONSTRUCTIONS, read_subject
 from mcexact.checker.system import System, read_plant
 from mcexact.model.canonical import plain
@@ -407,3 +407,26 @@ def test_the_statement_is_made_without_the_witness() -> None:
     mode, cut = VALID["incomplete by a fixed mode"], VALID["a cut"]
     assert checked(mode).statement.rpartition(": ")[2] == checked(cut).statement.rpartition(": ")[2]
     assert PAPER is not TWO
+
+
+@pytest.mark.parametrize(
+    ("coefficients", "words"),
+    [
+        ([], "0"),
+        ([0], "0"),
+        ([1], "1"),
+        ([-1], "-1"),
+        ([-2, 1], "x - 2"),
+        ([2, -1], "-x + 2"),
+        ([1, 0, -1], "-x^2 + 1"),
+        ([1, Fraction(-3, 2), 1], "x^2 - 3/2*x + 1"),
+        ([0, 0, 0, -2], "-2*x^3"),
+    ],
+)
+def test_a_polynomial_begins_with_the_highest_power(coefficients: list[Any], words: str) -> None:
+    assert polynomial_text(coefficients) == words
+
+
+def test_a_rational_is_an_integer_or_a_fraction_in_lowest_terms() -> None:
+    values = [Fraction(6, 2), Fraction(0), Fraction(-6, 4), Fraction(7, 3)]
+    assert canonical_json(values) == '[3,0,"-3/2","7/3"]'
