@@ -313,6 +313,7 @@ def test_standard_error_that_fails_at_the_end_leads_nowhere(
     assert main(["valid.json"]) == 0
     assert os.path.samestat(os.fstat(stream.fileno()), os.stat(os.devnull))
     stream.late = False
+    stream.close()
 
 
 @pytest.mark.parametrize("as_module", [True, False])
