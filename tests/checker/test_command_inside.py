@@ -18,7 +18,7 @@ from mcexact import checker
 from mcexact.checker import Verdict, allowance, command, reading
 from mcexact.checker.command import main
 from tests.checker.handmade import FIXED, FREE, PAPER, changed
-from tests.checker.manifests import SENTENCES, write
+from tests.checker.manifests import EVIDENCE, SENTENCES, write
 
 
 class Stream(io.TextIOWrapper):
@@ -136,7 +136,8 @@ def test_a_line_names_its_file_where_there_are_several(
     assert valid.replace(" 'fixed.json' ", " ", 1) + "\n" == alone
     assert invalid.startswith("INVALID 'invalid.json' common_factor ")
     assert all(line.startswith("IMPLIED 'evidence' For ") for line in implied)
-    assert counted.startswith("COUNTED 'evidence' ")
+    told = f"{len(SENTENCES)} sentences implied, 0 not; {len(EVIDENCE)} certificates valid, 0 not"
+    assert counted == f"COUNTED 'evidence' {told}"
     (folder / "said.txt").write_text(valid + "\n", encoding="ascii")
     assert main(["fixed.json", "--expect", "said.txt"]) == 0
 
