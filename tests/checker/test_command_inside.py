@@ -305,6 +305,15 @@ def test_a_stream_of_another_kind_is_written_to_as_it_is(
     assert stream.getvalue().startswith("VALID ")
 
 
+def test_a_character_that_the_encoding_lacks_is_written_in_another_way(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with io.TextIOWrapper((folder / "out").open("wb"), encoding="ascii") as stream:
+        monkeypatch.setattr(sys, "stdout", stream)
+        assert main(["valid.json"]) == 0
+        assert stream.errors == "backslashreplace"
+
+
 def test_standard_error_that_fails_at_the_end_leads_nowhere(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
