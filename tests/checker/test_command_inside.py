@@ -272,6 +272,7 @@ def test_verdicts_that_cannot_be_written_end_with_74(
         with monkeypatch.context() as changes:
             changes.setattr(sys, "stdout", stream)
             assert main(["valid.json"]) == 74
+        assert os.path.samestat(os.fstat(stream.fileno()), os.stat(os.devnull))
         stream.late, stream.error = True, OSError()
         assert bool(capsys.readouterr().err) == told
         with pytest.raises(OSError):
