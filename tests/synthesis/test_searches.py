@@ -174,3 +174,12 @@ def test_set_points_are_held_without_messages_where_that_suffices() -> None:
     assert design.method == "decentralized" and not design.controller.edges()
     observer = design_setpoint(two_tanks(), rate="1/2", aims=THEOREM)
     assert observer.method == "observer" and observer.order > design.order
+
+
+@pytest.mark.parametrize("time", ["continuous", "discrete"])
+def test_stability_alone_has_the_sensible_rate_of_a_rate(time: str) -> None:
+    plant = MultiChannelSystem([[0, 1], ["1/2", 0]], [[[0], [1]]], [[[1, 0]]], time=time)
+    stable = diagnosed(plant, StabilityRegion(time))
+    asked = diagnosed(plant, stable.sensible or StabilityRegion(time))
+    assert stable.sensible is not None and stable.sensible.edge != stable.region.edge
+    assert asked.is_sensible

@@ -155,12 +155,19 @@ def diagnosed(
     >>> found = diagnosed(plant, StabilityRegion("continuous", 3))
     >>> found.is_sensible, found.modes[0].mode
     (False, (-2+0j))
+    >>> diagnosed(plant, StabilityRegion("continuous")).sensible.edge > 1
+    True
     """
     weights = weights or Weights.unit(system)
     with quiet_floats():
         central = central_optimum(system, weights, region)
         unhurried = central_optimum(system, weights, StabilityRegion(system.time))
-        sensible = _sensible(system, weights, region, central, unhurried)
+        start, found = region, central
+        if region.edge == StabilityRegion(system.time).edge and unhurried:
+            # The sensible rate is searched around a rate, of which stability alone gives none.
+            start = _own_region(system.time, unhurried) or region
+            found = central_optimum(system, weights, start)
+        sensible = _sensible(system, weights, start, found, unhurried)
         modes = slow_modes(controlled or system, region)
     return Diagnosis(region, central, unhurried, sensible, modes)
 
@@ -196,11 +203,9 @@ def chosen_region(
         unhurried = central_optimum(system, weights, stable)
         if unhurried is None:
             return None
-        bound = unhurried.figures.bound
-        first = -float(np.log(max(bound, 1e-3))) if stable.discrete else -bound
-        if not 0 < first < np.inf:
+        region = _own_region(system.time, unhurried)
+        if region is None:
             return None
-        region = _of_pace(system.time, first)
         central = central_optimum(system, weights, region)
         sensible = _sensible(system, weights, region, central, unhurried)
         pace, told = _pace(sensible or region) / 2, f"{part} the sensible {stable.word}"
@@ -266,6 +271,13 @@ def _sensible(
             if _affordable(central_optimum(system, weights, faster), unhurried):
                 return faster
     return _of_pace(system.time, holds) if holds else None
+
+
+def _own_region(time: str, unhurried: CentralOptimum) -> StabilityRegion | None:
+    """The region of the slowest eigenvalue of the optimal controller for which no rate is asked."""
+    bound = unhurried.figures.bound
+    pace = -float(np.log(max(bound, 1e-3))) if StabilityRegion(time).discrete else -bound
+    return _of_pace(time, pace) if 0 < pace < np.inf else None
 
 
 def _pace(region: StabilityRegion) -> float:
