@@ -27,7 +27,7 @@ from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import product
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.system import MultiChannelSystem, as_plant, with_graph
+from mcexact.model.system import MultiChannelSystem, as_plant, with_links
 from mcexact.model.system_file import digest
 from mcexact.synthesis.asking import request_for
 from mcexact.synthesis.design import Design, Method, designed
@@ -66,7 +66,7 @@ def design_setpoint(
     system : MultiChannelSystem
         A plant or a derived system.
     graph : NeighborGraph, optional
-        Overrides ``system.neighbors``.
+        Overrides ``system.neighbors``.  Without either, agents receive nothing from each other.
     agent : str, optional
         The agent with the channel controller of a theorem, which is then constructed without a
         search.
@@ -128,7 +128,7 @@ def design_setpoint(
     mcexact.errors.Impossible: no equilibrium holds set-points r with (1) r ≠ 0: 0 is an \
 invariant zero of the plant
     """
-    system, graph = with_graph(system, graph)
+    system, graph = with_links(system, graph)
     if method not in (None, "observer", "extended"):
         raise UsageError(f'expected "observer" or "extended", found {method!r}', where="method")
     solvability = _required(system)
@@ -138,7 +138,7 @@ invariant zero of the plant
     _require_reachable(integrated, request.region)
     task = _Task(system, integrated, graph, request, method, dimensions, aims or Aims())
     moved = (_for_the_plant(system, each) for each in task.proposals())
-    made = designed("observer", request, system, graph, moved, stable=True)
+    made = designed("observer", request, system, system.neighbors, moved, stable=True)
     gain = made.loop.closed.steady_gain
     if gain is None or gain != Matrix.identity(gain.nrows):
         raise InternalError("a stable loop with integrators does not attain its set-points")
@@ -214,7 +214,7 @@ class _Task:
         """Propose the observer, or the controller of the extended system."""
         spectrum = self.request.spectrum
         closed = isinstance(spectrum, Mapping) and "closed_loop" in spectrum
-        closed = closed or bool(self.graph.delays)
+        closed = closed or bool(self.graph.delays) or not self.graph.edges()
         extended = self.method == "extended" or (self.method is None and closed)
 
         def proposed(to: MultiChannelSystem, asked: Request) -> Iterator[Proposal]:

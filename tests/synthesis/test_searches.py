@@ -183,3 +183,10 @@ def test_stability_alone_has_the_sensible_rate_of_a_rate(time: str) -> None:
     asked = diagnosed(plant, stable.sensible or StabilityRegion(time))
     assert stable.sensible is not None and stable.sensible.edge != stable.region.edge
     assert asked.is_sensible
+
+
+def test_set_points_are_held_without_a_graph_as_with_an_empty_one() -> None:
+    tanks = two_tanks().with_neighbors(None)
+    design = design_setpoint(tanks, rate="1/100")
+    assert design.method == "decentralized" and not design.controller.edges()
+    assert design.loop.closed.given.neighbors is None
