@@ -42,6 +42,10 @@ agreement: $(STAMP)
 attack: $(STAMP)
 	$(BIN)/python -m tests.attack $(or $(N),500000)
 
+# The campaign without each condition of the checker in turn; writes which holes were found: minutes.
+weakened-checker: $(STAMP)
+	$(BIN)/python -m tests.attack $(or $(N),200000) --weakened tests/attack/WEAKENED.md
+
 # The package's readers of system files and controller files beside the checker's, on 120,000 drawn
 # and damaged files: minutes.
 readers: $(STAMP)
