@@ -1,32 +1,40 @@
 """How good are the controllers of the ladder on eight families of plants, of growing size?
 
-Run as ``python -m benchmarks.families [FAMILY …] [SIZE …]``; by default all families, with about
-10, 40 and 120 states, in continuous time and sampled.  Prints a line for each plant: the order, the
-largest gain (and that of the central optimum), the margin, the cost relative to the central optimum
-of the same rate, the peak, the digits that suffice and the seconds of the processor; or what the
-request was answered with.  A sampled plant is the rounded one: its matrices are those of a
-zero-order hold, to six decimals.
+Run as ``python -m benchmarks.families ROWS [FAMILY …] [SIZE …]``; by default all families, with
+about 10, 40 and 120 states, in continuous time and sampled, which makes 48 rows.  ROWS is a file:
+rows that it holds are printed and not measured again.  A sampled plant is the rounded one: its
+matrices are those of a zero-order hold, to six decimals.
+
+A line holds what was asked; the order, the largest gain (and that of the optimal controller of all
+agents together for the same rate), the margin (and its), the cost relative to its cost, the peak
+(and its), the digits that suffice, the step of the search and the seconds of the processor, or what
+the request was answered with; then for each method of `by_hand` the order, the largest gain, the
+margin, the relative cost and the slowest eigenvalue.
 """
 
 from __future__ import annotations
 
 import os
 import sys
-import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import numpy as np
 from scipy.linalg import expm
 
+from benchmarks.by_hand import made_by_hand, told_by_hand
+from benchmarks.kept_rows import Row, kept, measured
 from mcexact import design_decentralized, design_extended
 from mcexact.errors import Impossible, LimitReached
 from mcexact.exact.location import is_discrete
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.optimum.proposals import Optimum
+from mcexact.synthesis.design import Design
+from mcexact.synthesis.optimum.figures import Figures
 
 SIZES = (10, 40, 120)
 
@@ -186,41 +194,87 @@ def plant(kind: Kind, n: int, time: str) -> MultiChannelSystem:
     return found.with_neighbors(NeighborGraph.from_names(names, heard))
 
 
-def answered(kind: Kind, system: MultiChannelSystem) -> str:
-    """What the request is answered with."""
-    bound = {"rate": f"{kind.rate}"}
-    if is_discrete(system.time):
-        bound = {"radius": f"{np.exp(-kind.rate * kind.step):.4f}"}
-    function = design_extended if kind.structure == "extended" else design_decentralized
-    try:
-        made = function(system, arithmetic="float", **bound)
-    except (Impossible, LimitReached) as refused:
-        return str(refused)
-    if "optimum" not in made.parts:
-        return f"the controller of the theorem, of order {made.order}"
-    found: Optimum = made.parts["optimum"]
-    seen, central = found.figures, found.central
+def asked_of(kind: Kind, time: str) -> dict[str, str]:
+    """The rate, or the radius of the same rate."""
+    if is_discrete(time):
+        return {"radius": f"{np.exp(-kind.rate * kind.step):.4f}"}
+    return {"rate": f"{kind.rate}"}
+
+
+def figures_row(made: Design) -> Row:
+    """The figures of a design as a row, with those of the optimum of all agents together."""
+    parts = made.parts.get("designed", made.parts)
+    found = parts.get("optimum")
+    if found is None:
+        return {"answer": "theorem", "order": made.order}
+    central: Figures | None = found.central
+    return {
+        "answer": "designed",
+        "order": made.order,
+        "gain": found.figures.largest_gain,
+        "margin": found.figures.margin,
+        "cost": found.relative_cost,
+        "peak": found.figures.peak,
+        "digits": found.digits,
+        "step": found.step,
+        "central": None
+        if central is None
+        else {
+            "gain": central.largest_gain,
+            "margin": central.margin,
+            "peak": central.peak,
+            "cost": central.cost,
+        },
+    }
+
+
+def told(row: Row) -> str:
+    """The figures of a row in one line."""
+    if row["answer"] != "designed":
+        return str(row.get("told") or f"the controller of the theorem, of order {row['order']}")
+    central = row["central"] or {"gain": 0.0, "margin": 0.0, "peak": 0.0}
     return (
-        f"{made.order} / {seen.largest_gain:.3g} ({central.largest_gain if central else 0:.3g}) / "
-        f"{seen.margin:.2f} / {found.relative_cost:.2f}, peak {seen.peak:.3g} "
-        f"({central.peak if central else 0:.3g}), digits {found.digits}, {found.step}"
+        f"{row['order']} / {row['gain']:.3g} ({central['gain']:.3g}) / "
+        f"{row['margin']:.2f} ({central['margin']:.2f}) / {row['cost']:.2f}, "
+        f"peak {row['peak']:.3g} ({central['peak']:.3g}), digits {row['digits']}, {row['step']}"
     )
+
+
+def answered(kind: Kind, system: MultiChannelSystem) -> Row:
+    """What the request is answered with, and what is made by hand."""
+    bound = asked_of(kind, system.time)
+    function: Any = design_extended if kind.structure == "extended" else design_decentralized
+    try:
+        found = figures_row(function(system, arithmetic="float", **bound))
+    except (Impossible, LimitReached) as refused:
+        found = {"answer": type(refused).__name__, "told": str(refused)}
+    cost = (found.get("central") or {}).get("cost")
+    return {**bound, **found, "by hand": made_by_hand(system, cost)}
 
 
 def main(arguments: list[str]) -> int:
     """Design for all plants, or for some."""
-    sizes = [int(each) for each in arguments if each.isdigit()] or SIZES
-    names = [each for each in arguments if each in FAMILIES] or list(FAMILIES)
+    if not arguments or arguments[0] in FAMILIES or arguments[0].isdigit():
+        print(__doc__, file=sys.stderr)
+        return 2
+    path, wanted = Path(arguments[0]), arguments[1:]
+    sizes = [int(each) for each in wanted if each.isdigit()] or SIZES
+    names = [each for each in wanted if each in FAMILIES] or list(FAMILIES)
+    known = kept(path)
     for n in sizes:
         for name in names:
             for domain in ("continuous", "discrete"):
-                system = plant(FAMILIES[name], n, domain)
-                began = time.process_time()
-                told = answered(FAMILIES[name], system)
-                spent = time.process_time() - began
+                kind = FAMILIES[name]
+                row = measured(
+                    path,
+                    f"{name} {n} {domain}",
+                    lambda kind=kind, n=n, domain=domain: answered(kind, plant(kind, n, domain)),
+                    known,
+                )
+                asked = row.get("rate") or row.get("radius")
+                hand = told_by_hand(row["by hand"])
                 print(
-                    f"{name} n={system.n} m={system.m} {domain} | {told} | {spent:.1f} s",
-                    flush=True,
+                    f"{row['name']}, {asked} | {told(row)}, {row['seconds']} s | {hand}", flush=True
                 )
     return 0
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
+from scipy.linalg import eig
 
 from mcexact.exact.floats import matrix_to_float, to_float
 from mcexact.exact.location import StabilityRegion
@@ -13,11 +14,13 @@ from mcexact.floating.fixed_mode_distance import distance_at
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.optimum.figures import CentralOptimum, central_optimum
 from mcexact.synthesis.optimum.kernel import quiet_floats
+from mcexact.synthesis.optimum.sensitivity import norm
 from mcexact.synthesis.optimum.weights import Weights
 
 TIMES_THE_COST, MARGIN = 10.0, 0.3
 TIMES_OUT_OF_REACH, OUT_OF_REACH_MARGIN = 1000.0, 0.05
 _STEPS, _STEPS_IF_LARGE, _LARGE = 14, 4, 100
+_FEWEST_MODES, _WORK = 3, 20_000_000
 _FASTER = (2.0, 4.0, 8.0)
 _WIDTH, _FACTOR, _FASTEST = 1.02, 4.0, 64.0
 
@@ -54,7 +57,8 @@ class Diagnosis:
         without one, and a margin of 0.3; None if none was found.  The search does not go beyond 64
         times the given rate, nor for plants of more than 100 states beyond this rate.
     modes : tuple of SlowMode
-        Those outside the region, the nearest to being fixed first.
+        Those outside the region, or some of them if there are many: the nearest to being fixed
+        first.
     """
 
     region: StabilityRegion
@@ -220,17 +224,30 @@ def chosen_region(
 
 
 def slow_modes(system: MultiChannelSystem, region: StabilityRegion) -> tuple[SlowMode, ...]:
-    """Return the computed modes outside a region, the nearest to being fixed first."""
+    """Return the computed modes outside a region, the nearest to being fixed first.
+
+    Notes
+    -----
+    The distance is searched for the modes that agents control or observe least, in terms of their
+    eigenvectors: for all of a small plant, and for a few of a large one.
+    """
     A = matrix_to_float(system.A)
     B = [matrix_to_float(system.B(i)) for i in range(system.m)]
     C = [matrix_to_float(system.C(i)) for i in range(system.m)]
-    values, limit = np.linalg.eigvals(A).astype(np.complex128), to_float(region.limit)
-    size = float(np.linalg.norm(A, 2)) or 1.0
-    found = []
-    for value in map(complex, values):
-        height = abs(value) if region.discrete else value.real
-        if value.imag < 0 or height < limit:
+    solved = eig(A, left=True)
+    values, left, right = (np.asarray(each, dtype=np.complex128) for each in solved)
+    limit, size = to_float(region.limit), float(np.linalg.norm(A, 2)) or 1.0
+    slow = []
+    for k, value in enumerate(map(complex, values)):
+        if value.imag < 0 or (abs(value) if region.discrete else value.real) < limit:
             continue
+        moved = [norm(left[:, k].conj() @ each) for each in B]
+        seen = [norm(each @ right[:, k]) for each in C]
+        slow.append((max(map(min, moved, seen), default=0.0), value))
+    slow.sort(key=lambda each: (each[0], each[1].real, each[1].imag))
+    count = max(_FEWEST_MODES, _WORK // max(system.n**3 * system.m, 1))
+    found = []
+    for _, value in slow[:count]:
         change, channels = distance_at(A, B, C, value)
         found.append(SlowMode(value, change / size, system.named(channels)))
     return tuple(sorted(found, key=lambda each: each.change))

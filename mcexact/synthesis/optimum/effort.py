@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 _OVERHEAD = 40
 """The number of states at which the arithmetic of one cost takes as long as what surrounds it."""
-PER_SECOND = 1000
+PER_SECOND = 3000
 """About as many units as a processor of 2024 does in a second."""
 
 

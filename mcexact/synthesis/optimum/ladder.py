@@ -10,6 +10,7 @@ import numpy as np
 from mcexact.synthesis.optimum.aims import SEEDS
 from mcexact.synthesis.optimum.alone import found_alone
 from mcexact.synthesis.optimum.cost import quadratic_costs
+from mcexact.synthesis.optimum.cuts import cut_gains, cut_observers, held_states, whole_model
 from mcexact.synthesis.optimum.effort import Effort
 from mcexact.synthesis.optimum.figures import Figures, figures_of, shift_of
 from mcexact.synthesis.optimum.polish import SLACK, Target, bound_of, drafted, inside, polished
@@ -26,12 +27,16 @@ from mcexact.synthesis.optimum.starts import (
 from mcexact.synthesis.optimum.weights import Floats, Weights
 from mcexact.synthesis.request import Progress
 
+Rank = tuple[bool, float]
+
 _SHIFTS = (1.0, 1.3, 1.7, 2.5, 4.0)
+_REACHES = ((1.0, 1.0), (10.0, 1.0), (100.0, 1.0), (10.0, 100.0))
 _KEPT, _LARGEST_ORDER = 2, 3
 _PRICE_OF_ORDER = 1.02
 _MOST_ENTRIES = 1500
 _BETTER, _GOOD = 0.97, 2.0
-_DEAR = 0.05
+_DEAR, _HOPELESS = 0.05, 1000.0
+_SMALL, _FRAGILE = 20, 1.25
 _STATIC = "static gains"
 
 
@@ -42,7 +47,7 @@ class Ladder:
     Attributes
     ----------
     structure : callable
-        The structure in which every agent has a state of some order.
+        The structure in which every agent has a state of some order, one for all or for each.
     theorem : callable
         The controller of the theorem, with its network; None if there is none.
     weights : Weights
@@ -60,7 +65,7 @@ class Ladder:
     tell : callable
     """
 
-    structure: Callable[[int], Structure]
+    structure: Callable[[int | Sequence[int]], Structure]
     theorem: Callable[[], NetworkController | None]
     weights: Weights
     target: Target
@@ -127,7 +132,7 @@ def climbed(ladder: Ladder) -> list[Candidate]:
     -----
     In floating point; nothing is proved.  All starts of a step are followed for a while, and the
     best two of them to the end.  Where drafts are dear there is only one, and if its cost is far
-    too high it waits until all steps were tried.
+    too high it waits until all steps were tried; a hopeless one waits in any case.
     """
     found: list[Candidate] = []
     later: list[tuple[float, Start]] = []
@@ -148,7 +153,7 @@ def climbed(ladder: Ladder) -> list[Candidate]:
                     break
         drafts.sort(key=lambda each: each[0])
         for value, draft in drafts[:_KEPT]:
-            if dear and value > _GOOD * ladder.enough:
+            if value > (_GOOD if dear else _HOPELESS) * ladder.enough:
                 later.append((value, draft))
             elif _finish(ladder, draft, found):
                 return found
@@ -191,7 +196,8 @@ def best_of(ladder: Ladder, found: list[Candidate]) -> Candidate:
 def _price(ladder: Ladder, candidate: Candidate) -> float:
     """The cost; small margins, large gains and high orders make it higher."""
     figures, target = candidate.figures, ladder.target
-    lacking = max(target.margin / max(figures.margin, 1e-9), 1.0)
+    lacking = _FRAGILE * target.margin / max(figures.margin, 1e-9)
+    lacking = 1.0 if figures.margin >= target.margin else lacking
     large = max(figures.largest_gain / target.largest_gain, 1.0)
     return figures.cost * lacking * large * _PRICE_OF_ORDER**figures.order
 
@@ -220,7 +226,7 @@ def _steps(
     static = FeedbackProblem.of(*ladder.structure(0), ladder.weights, ladder.sizes)
     parts = [localities(static, ladder.weights, driven=each) for each in (False, True)]
     yield [Start(_STATIC, static, _best_static(ladder, static, parts))]
-    observers = _local_observers(ladder, static, parts)
+    observers = [*_cut(ladder, static, parts[1]), *_local_observers(ladder, static, parts)]
     for order in ladder.orders:
         problem = FeedbackProblem.of(*ladder.structure(order), ladder.weights, ladder.sizes)
         yield [each for each in observers if each.problem.order <= problem.order]
@@ -233,7 +239,8 @@ def _steps(
         if _BETTER * before < best_price(ladder, found) < _GOOD * ladder.enough:
             return
     yield observers
-    proposed = ladder.theorem()
+    # It takes long to construct, and is hardly ever a better start than what was found.
+    proposed = None if found and static.n > _SMALL else ladder.theorem()
     if proposed is not None:
         problem, K = problem_of(*proposed, ladder.weights, ladder.sizes)
         if problem.size <= _MOST_ENTRIES:
@@ -270,12 +277,11 @@ def _alone(
 
 def _best_static(ladder: Ladder, problem: FeedbackProblem, parts: list[list[Locality]]) -> Floats:
     """The best of the local regulators of several rates, and of no feedback at all."""
-    unshifted = 1.0 if problem.discrete else 0.0
-    starts = [
-        local_regulators(problem, each, shift_of(ladder.target.region, factor))
-        for each in parts
-        for factor in _SHIFTS
-    ]
+    shifts = [shift_of(ladder.target.region, factor) for factor in _SHIFTS]
+    starts = [local_regulators(problem, each, shift) for each in parts for shift in shifts]
+    model = whole_model(problem, ladder.weights)
+    cut = (cut_gains(problem, model, shift) for shift in shifts)
+    starts += [each for each in cut if each is not None]
     if sum(problem.network.dimensions) + sum(problem.orders):
         dynamics = drawn_dynamics(problem, 0)
         starts = [each + dynamics for each in starts]
@@ -283,15 +289,41 @@ def _best_static(ladder: Ladder, problem: FeedbackProblem, parts: list[list[Loca
     else:
         starts.append(np.zeros(problem.mask.shape))
 
-    def rank(K: Floats) -> tuple[bool, float]:
-        ladder.effort.take(len(problem.A), 2.0)
-        bound = bound_of(problem, problem.entries(K))
-        if not ladder.target.reached(bound, SLACK):
-            return True, bound
-        [(cost, _)] = quadratic_costs(problem, K, (unshifted,))
-        return False, cost
+    return min(starts, key=lambda K: _rank(ladder, problem, K))
 
-    return min(starts, key=rank)
+
+def _rank(ladder: Ladder, problem: FeedbackProblem, K: Floats) -> Rank:
+    """Whether a start is outside the region; its cost, or else its largest real part or modulus."""
+    ladder.effort.take(len(problem.A), 2.0)
+    bound = bound_of(problem, problem.entries(K))
+    if not ladder.target.reached(bound, SLACK):
+        return True, bound
+    [(cost, _)] = quadratic_costs(problem, K, (1.0 if problem.discrete else 0.0,))
+    return False, cost
+
+
+def _cut(ladder: Ladder, static: FeedbackProblem, parts: Sequence[Locality]) -> list[Start]:
+    """Optimal controllers of all agents together, cut to what each agent knows: the best of some.
+
+    The noisier outputs are taken to be, and the dearer inputs, the shorter is the reach of gains.
+    """
+    held = held_states(parts)
+    problem = FeedbackProblem.of(
+        *ladder.structure([len(each) for each in held]), ladder.weights, ladder.sizes
+    )
+    if problem.size > _MOST_ENTRIES or problem.order > max(2 * problem.n, 8):
+        return []
+    model, ranked = whole_model(static, ladder.weights), list[tuple[Rank, Floats]]()
+    for noise, price in _REACHES:
+        weighed = replace(model, V=noise * model.V, R=price * model.R)
+        for factor in _SHIFTS:
+            K = cut_observers(problem, held, weighed, shift_of(ladder.target.region, factor))
+            if K is not None:
+                ranked.append((_rank(ladder, problem, K), K))
+    if not ranked:
+        return []
+    K = min(ranked, key=lambda each: each[0])[1]
+    return [Start("cut from the controller for all agents", problem, balanced(problem, K))]
 
 
 def _local_observers(

@@ -27,7 +27,7 @@ from mcexact.synthesis.optimum.weights import Floats
 
 SLACK = 1.02
 """The region is tightened by this factor, so that rounding the controller does not leave it."""
-_RATCHETS, _STALLS = 40, 4
+_RATCHETS, _STALLS, _SHARE = 40, 4, 0.15
 _MARGIN_ROUNDS = 10
 _DRAFT, _POLISH = 60, 500
 _CHECKED = 200
@@ -122,14 +122,14 @@ def ratcheted(problem: FeedbackProblem, x: Floats, target: Target, effort: Effor
         None if the loop stopped to become faster.
     """
     goal = shift_of(target.region, SLACK)
-    bound, stalls = bound_of(problem, x), 0
+    bound, stalls, share = bound_of(problem, x), 0, _SHARE
     for _ in range(_RATCHETS):
         if target.reached(bound, SLACK):
             return x
         if effort.over or not np.isfinite(bound):
             break
         gap = abs(bound - goal) if problem.discrete else bound + goal
-        step = 0.15 * max(gap, 1e-6 * abs(goal))
+        step = share * max(gap, 1e-6 * abs(goal))
         shift = bound + step if problem.discrete else -bound - step
 
         def shifted(x: Floats, shift: float = shift) -> Valued:
@@ -139,10 +139,12 @@ def ratcheted(problem: FeedbackProblem, x: Floats, target: Target, effort: Effor
 
         moved, _ = minimize(shifted, x, steps=25, stop=lambda: effort.over)
         faster = bound_of(problem, moved)
-        stalls = stalls + 1 if bound - faster < 0.01 * gap else 0
+        slow = bound - faster < 0.01 * gap
+        # Nearer to the edge the cost counts little but how fast the loop is.
+        stalls, share = (stalls + 1, 0.3 * share) if slow else (0, _SHARE)
         if faster < bound:
             x, bound = moved, faster
-        if stalls >= _STALLS or (faster >= bound and stalls):
+        if stalls >= _STALLS:
             break
     return x if target.reached(bound) else None
 
@@ -229,15 +231,17 @@ def _counted(objective: Objective, effort: Effort) -> Function:
 
 
 def inside(problem: FeedbackProblem, x: Floats, target: Target, effort: Effort) -> Floats | None:
-    """Move a start into the region: by its spectrum, else by the cost; None if both fail."""
+    """Move a start into the region: by the cost, else by its spectrum; None if both fail."""
     if target.reached(bound_of(problem, x), SLACK):
         return x
-    found = spectral_descent(problem, x, target, effort.part(0.4))
+    moved = ratcheted(problem, x, target, effort.part(0.5))
+    if moved is not None:
+        return moved
+    found = spectral_descent(problem, x, target, effort.part(0.5))
     if target.reached(bound_of(problem, found), SLACK):
         return found
-    for start in (x, found):
-        moved = ratcheted(problem, start, target, effort.part(0.5))
-        if moved is not None:
-            return moved
+    moved = ratcheted(problem, found, target, effort.part(0.7))
+    if moved is not None:
+        return moved
     again = spectral_descent(problem, found, target, effort)
     return again if target.reached(bound_of(problem, again)) else None

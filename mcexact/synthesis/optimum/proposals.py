@@ -32,7 +32,7 @@ _ENOUGH = 1.5
 _GAINS = 10.0
 _LEAST_GAIN = 1.0
 _LARGEST_UNKNOWN = 1e3
-_EFFORT, _EFFORT_GROWS, _FRAGILE = 60_000.0, 130, 0.25
+_EFFORT, _GROWS, _MOST_TIMES, _GROWS_WITH_CUBE, _FRAGILE = 60_000.0, 40, 9.0, 130, 0.25
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,10 +84,11 @@ def target_of(request: Request, central: Figures | None, aims: Aims) -> Target:
 
 
 def _effort(given: float | None, states: int, central: Figures | None, target: Target) -> Effort:
-    """The effort that is given in seconds; by default it grows with the cube of the states."""
+    """The effort that is given in seconds; by default it grows with the states."""
     if given is not None:
         return Effort(given * PER_SECOND)
-    units = _EFFORT * (1 + (states / _EFFORT_GROWS) ** 3)
+    grown = max(min((states / _GROWS) ** 2, _MOST_TIMES), (states / _GROWS_WITH_CUBE) ** 3)
+    units = _EFFORT * (1 + grown)
     # What is fragile even in one hand does not become robust by a longer search.
     fragile = central is None or central.margin < target.margin
     return Effort(units * (_FRAGILE if fragile else 1.0))

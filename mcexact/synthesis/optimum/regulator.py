@@ -99,7 +99,7 @@ def _solved(M: Floats, right: Floats) -> Floats | None:
     return found if np.all(np.isfinite(found)) else None
 
 
-def _estimator(model: Model, shift: float) -> Floats | None:
+def estimator(model: Model, shift: float) -> Floats | None:
     """The gain of the filter: of its derivative, or in discrete time of the newest output."""
     dual = model.dual
     if not dual.discrete:
@@ -137,7 +137,7 @@ def gaussian_controller(model: Model, shift: float) -> tuple[Floats, Floats, Flo
     With gains F and L, in continuous time A_k = A + BF − LC, B_k = L, C_k = F.  In discrete time
     the state is the prediction z of x, and x̂ = z + L(y − Cz) gives u = F x̂ and z⁺ = (A + BF) x̂.
     """
-    F, L = regulator(model, shift), _estimator(model, shift)
+    F, L = regulator(model, shift), estimator(model, shift)
     if F is None or L is None:
         return None
     driven = model.A + model.B @ F

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from mcexact.derived.extended import Share
@@ -28,14 +29,15 @@ class Family:
     network: DerivedNetwork
     share: Share | None = None
 
-    def of_order(self, order: int) -> Structure:
+    def of_order(self, order: int | Sequence[int]) -> Structure:
         """Return the structure in which every agent has a state of at least some order."""
         network, none = self.network, (0,) * self.network.given.m
+        orders = (order,) * network.given.m if isinstance(order, int) else tuple(order)
         if network.graph is None or self.share is None:
-            return network, (order,) * network.given.m
-        if not order:
+            return network, orders
+        if not any(orders):
             return network, none
-        sizes = [max(order, size) for size in network.dimensions]
+        sizes = [max(pair) for pair in zip(orders, network.dimensions, strict=True)]
         wider = shared_network(network.given, network.graph, sizes, self.share, network.kind)
         return wider, none
 
