@@ -3,7 +3,7 @@
 Run as ``python -m benchmarks.heavy_documents``.  Every document of ``tests/checker/heavy.py`` is
 checked by a copied-out checker in a process of its own, at the default limits.  Prints for each the
 bytes, the seconds, the MiB at most, and the start of the verdict; the last line has the largest of
-each.  `tests/checker/test_budget.py` holds the same documents to the work that is counted.
+each.  `tests/checker/test_work.py` holds the same documents to the work that is counted.
 """
 
 from __future__ import annotations

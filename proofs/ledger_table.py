@@ -1,4 +1,4 @@
-"""Write the table of the paper's statements into README.md, from the ledger of the package.
+"""Write the paper's statements into STATEMENTS.md and its examinations into README.md.
 
 Run as ``python proofs/ledger_table.py`` with the package installed, or by ``make ledger``.
 """
@@ -8,19 +8,22 @@ from __future__ import annotations
 from pathlib import Path
 
 from mcexact.reproduce.ledger import table
+from mcexact.reproduce.statements import statement_table
 
 README = Path(__file__).parent / "README.md"
+STATEMENTS = Path(__file__).parent / "STATEMENTS.md"
 BEGIN, END = "<!-- the ledger: made by make ledger -->\n", "<!-- end of the ledger -->\n"
 
 
-def renewed(text: str) -> str:
-    """The text with the table as the ledger has it now."""
+def renewed(text: str, made: str) -> str:
+    """The text with the table as the package makes it now."""
     before, found, rest = text.partition(BEGIN)
     _, closed, after = rest.partition(END)
     if not found or not closed:
-        raise SystemExit(f"{README}: the marks around the table are missing")
-    return before + BEGIN + table() + END + after
+        raise SystemExit("the marks around the table are missing")
+    return before + BEGIN + made + END + after
 
 
 if __name__ == "__main__":
-    README.write_text(renewed(README.read_text(encoding="utf-8")), encoding="utf-8")
+    for path, made in ((README, table()), (STATEMENTS, statement_table())):
+        path.write_text(renewed(path.read_text(encoding="utf-8"), made), encoding="utf-8")

@@ -1,4 +1,4 @@
-"""`mcexact reproduce`: every statement of the paper, checked exactly."""
+"""`mcexact reproduce`: what is known of every statement of the paper, examined exactly."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from mcexact.cli import options
 from mcexact.cli.failures import DEFINITE_NO
 
 
-@click.command(name="reproduce", short_help="Check every statement of the paper exactly.")
+@click.command(name="reproduce", short_help="Say of every statement of the paper what is known.")
 @click.option(
     "-o",
     "--output",
@@ -24,7 +24,7 @@ from mcexact.cli.failures import DEFINITE_NO
     "wanted",
     multiple=True,
     metavar="NAME",
-    help="Check only this statement, such as 'Theorem 2'. May be repeated.",
+    help="Examine only this, such as 'Theorem 2' or '(26)'. May be repeated.",
 )
 @click.option("--latex", is_flag=True, help="Print the table in LaTeX.")
 @options.as_json
@@ -37,9 +37,10 @@ def command(
     timeout: float | None,
     max_memory: int | None,
 ) -> int:
-    """Check the statements of the paper on its own example and on drawn systems, with certificates.
+    """Examine the statements of the paper, on its own example and on drawn systems.
 
-    If a statement does not hold, the status is 1, and the statement is named.
+    Says what is known of each, with certificates. If an examination fails, the status is 1, and the
+    examination is named.
     """
 
     from mcexact.cli.folders import require_replaceable, write_folder
@@ -58,7 +59,7 @@ def command(
             reproduction.examine,
             k,
             keys,
-            doing=f"checking section {name}",
+            doing=f"examining section {name}",
             timeout=timeout,
             max_memory=max_memory,
         )
@@ -76,9 +77,9 @@ def command(
     elif latex:
         emit(pages.reproduction_latex(result))
     else:
-        emit_tables([pages.reproduction_table(result)])
+        emit_tables(pages.reproduction_tables(result))
     for row in result.failures:
-        click.echo(f"mcexact: {row.statement.title}: {row.finding.failure}", err=True)
+        click.echo(f"mcexact: {row.examination.title}: {row.finding.failure}", err=True)
     return 0 if result.holds else DEFINITE_NO
 
 
@@ -87,5 +88,7 @@ def _tell(name: str, findings: tuple[Any, ...]) -> None:
     held = sum(finding.holds for finding in findings)
     made = sum(len(finding.certificates) for finding in findings)
     click.echo(
-        f"mcexact: section {name}: {held} of {len(findings)} hold, {made} certificates", err=True
+        f"mcexact: section {name}: {held} of {len(findings)} examinations hold, "
+        f"{made} certificates",
+        err=True,
     )

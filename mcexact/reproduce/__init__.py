@@ -1,7 +1,8 @@
 """Examination of every statement of the paper, with one module for each section.
 
-This stage gives a finding for every statement of F. Liu, L. Wang, D. Fullmer and A. S. Morse,
+This stage gives a finding for every examination of F. Liu, L. Wang, D. Fullmer and A. S. Morse,
 *Distributed Feedback Control of Multi-Channel Linear Systems*: the checks, the instances, the
-certificates, and whether the statement holds.  ``ledger.toml`` lists the statements and names the
-machine-checked theorems that prove them in general.
+certificates, and the false statements next to it that they refute.  ``ledger.toml`` lists the
+examinations, ``statements.toml`` all statements of the paper with what is known of each, and both
+name the machine-checked theorems that prove them in general.
 """

@@ -11,9 +11,11 @@ from mcexact.analysis.fixed_modes.pencil import pencil_rank
 from mcexact.analysis.fixed_modes.single_channel_gains import single_channel_gains
 from mcexact.analysis.structure.transfer_graph import transfer_graph
 from mcexact.derived.augmented_outputs import augmented_outputs
+from mcexact.derived.extended import extended_system
 from mcexact.derived.feedback import closed_by
 from mcexact.errors import Impossible
 from mcexact.exact.linear_algebra import characteristic_polynomial
+from mcexact.exact.location import TIMES, StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.system import MultiChannelSystem
@@ -28,8 +30,13 @@ from mcexact.reproduce.material import (
     three_channels,
 )
 from mcexact.reproduce.notebook import Notebook, Procedure
+from mcexact.reproduce.plants import fixed_zero
 from mcexact.synthesis.decentralized import design_decentralized
+from mcexact.synthesis.distributed_observer import design_observer
 from mcexact.synthesis.optimum.aims import THEOREM
+
+ZERO_HINDERS = "In discrete time, too, a rate can be attained only if nothing is fixed."
+OUTPUTS_ARE_ENOUGH = "Sharing outputs alone is enough."
 
 
 def definition(note: Notebook) -> None:
@@ -171,6 +178,75 @@ def wang_davison(note: Notebook) -> None:
             note.certify(design.loop.proof)
 
 
+def wang_davison_discrete(note: Notebook) -> None:
+    """In discrete time the fixed modes that hinder a rate are those other than 0."""
+    plant = note.at(fixed_zero())
+    found = fixed_spectrum(plant)
+    note.check("0 is the only fixed mode", found.polynomial == Polynomial.x())
+    design = design_decentralized(plant, radius="1/100", aims=THEOREM)
+    inside = StabilityRegion.of("discrete", radius="1/100")
+    reached = inside.contains_roots_of(design.loop.polynomial or Polynomial.of(0))
+    note.check("every eigenvalue of the loop is below 1/100", reached)
+    note.refute(ZERO_HINDERS, reached and not found.empty)
+    note.certify(found, design.loop.proof)
+    for plant in note.each(drawn_plants(6, states=3, channels=2, time="discrete", first=21)):
+        found = fixed_spectrum(plant)
+        nonzero = found.polynomial.squarefree_part() not in (Polynomial.of(1), Polynomial.x())
+        try:
+            made = design_decentralized(plant, radius="1/100", aims=THEOREM)
+        except Impossible as refused:
+            note.check("refused because a nonzero mode is fixed", nonzero)
+            note.certify(refused.certificate)
+        else:
+            note.check("reached because no nonzero mode is fixed", not nonzero)
+            note.certify(made.loop.proof)
+
+
+def dynamic(note: Notebook) -> None:
+    """No dynamic controller that shares outputs alone moves the mode 1 of the example."""
+    numbers = Numbers(18)
+    for time in TIMES:
+        plant = note.at((f"{PAPER}, {time} time", three_channels(time)))
+        shared = augmented_outputs(plant)
+        found = fixed_spectrum(shared)
+        note.check("1 is fixed when outputs are shared", found.polynomial(1) == 0)
+        note.certify(found)
+        # Private states are shared sub-states that nobody else receives.
+        alone = dict.fromkeys(plant.names, ())
+        base = MultiChannelSystem(
+            shared.A,
+            [channel.B for channel in shared.channels],
+            [channel.C for channel in shared.channels],
+            time=time,
+            names=shared.names,
+            neighbors=alone,
+        )
+        for orders in ([1, 0, 2], [2, 2, 2]):
+            made = extended_system(base, orders, "states")
+            loop = closed_by(made, numbers.gains(made))
+            note.check(
+                f"1 stays with private states of dimensions {orders}",
+                characteristic_polynomial(loop)(1) == 0,
+            )
+
+
+def sharing_states(note: Notebook) -> None:
+    """It is enough to share the estimates x_i: no output of another agent is used."""
+    plant = note.at((PAPER, three_channels()))
+    design = design_observer(plant, rate=1)
+    for i, agent in enumerate(design.controller.agents):
+        others = {j for each in agent.maps() for j in each.outputs} - {i}
+        note.check(f"agent {agent.name} uses its own output alone", not others)
+    note.check("every eigenvalue meets the rate", "distributed_observer" in design.certificates)
+    note.certify(*design.certificates.values())
+    found = fixed_spectrum(extended_system(plant, [plant.n] * plant.m, "states"))
+    note.check("with n_i = n and no outputs nothing is fixed", found.empty)
+    note.certify(found)
+    nothing = fixed_spectrum(augmented_outputs(plant))
+    note.refute(OUTPUTS_ARE_ENOUGH, not nothing.empty)
+    note.certify(nothing)
+
+
 def example(note: Notebook) -> None:
     """IV-B: the mode 1 stays fixed when agents share outputs alone."""
     plant = three_channels()
@@ -201,7 +277,7 @@ def example(note: Notebook) -> None:
 
 
 def shared_outputs(note: Notebook) -> None:
-    """`mss`: agent i receives the outputs y_j of its neighbors."""
+    """(23): agent i receives the outputs y_j of its neighbors."""
     numbers = Numbers(12)
     for plant in note.each(plants(10, connected=None)):
         made = augmented_outputs(plant)
@@ -225,6 +301,9 @@ PROCEDURES: dict[str, Procedure] = {
     "free-assignment": free_assignment,
     "partition": partition,
     "wang-davison": wang_davison,
+    "wang-davison-discrete": wang_davison_discrete,
     "mss": shared_outputs,
     "example": example,
+    "dynamic": dynamic,
+    "sharing-states": sharing_states,
 }

@@ -21,17 +21,19 @@ from mcexact.reproduce.equations import messages_agree, positions, union_of_grap
 from mcexact.reproduce.figures import delays_picture
 from mcexact.reproduce.material import Numbers, drawn_plants, graph_of, plants, three_channels
 from mcexact.reproduce.notebook import Notebook, Procedure
+from mcexact.reproduce.plants import apart, split_spectrum
 from mcexact.simulation.trajectory import simulate
 from mcexact.synthesis.extended import design_extended
 from mcexact.synthesis.optimum.aims import THEOREM
 
-X = Polynomial.x()
+X, ONE = Polynomial.x(), Polynomial.of(1)
+WITHOUT_SHARING = "The same with n_i = 0."
 late = partial(plants, time="discrete", longest_delay=2)
 late_drawn = partial(drawn_plants, time="discrete", longest_delay=2)
 
 
 def shifts(note: Notebook) -> None:
-    """`bunn` and `lift`: S_d shifts the blocks by one place and drops the last."""
+    """(32) and (33): S_d shifts the blocks by one place and drops the last."""
     for d in range(1, 6):
         note.on(f"d = {d}")
         values = Matrix.column(range(1, d + 1))
@@ -41,7 +43,7 @@ def shifts(note: Notebook) -> None:
 
 
 def lifted(note: Notebook) -> None:
-    """`emcsdd`: the lifted system gives the signals that arrive over links with delays."""
+    """(34): the lifted system gives the signals that arrive over links with delays."""
     numbers = Numbers(15)
     for name, plant in plants(14, time="discrete", longest_delay=3, connected=None):
         sizes = [k % 3 for k in range(1, plant.m + 1)]
@@ -60,7 +62,7 @@ def lifted(note: Notebook) -> None:
 
 
 def held(note: Notebook) -> None:
-    """`emcsdd-hold`: all followers of i receive x_i(t − d_i) at the same time."""
+    """(37): all followers of i receive x_i(t − d_i) at the same time."""
     numbers = Numbers(16)
     for name, plant in plants(14, time="discrete", longest_delay=3, connected=None):
         sizes = [k % 3 for k in range(1, plant.m + 1)]
@@ -88,7 +90,7 @@ def transfer_of_the_lift(note: Notebook) -> None:
 
 
 def block_ranks(note: Notebook) -> None:
-    """`eqn:blk-rank`: [M_k; e_i'] is nonsingular for λ ≠ 0."""
+    """(36): [M_k; e_i'] is nonsingular for λ ≠ 0."""
     for value in (Fraction(1), Fraction(-2), Fraction(1, 3)):
         note.on(f"λ = {value}")
         for k in range(1, 6):
@@ -125,8 +127,25 @@ def theorem_3(note: Notebook) -> None:
     ):
         bound = shared_dimension_bound(plant)
         found = fixed_spectrum(lifted_system(plant, [bound.deficiency] * plant.m))
-        note.check("nothing but 0 is fixed", found.polynomial in (Polynomial.of(1), X))
+        note.check("nothing but 0 is fixed", found.polynomial in (ONE, X))
         note.certify(bound, found)
+
+
+def free_of_the_lift(note: Notebook) -> None:
+    """With n_i ≥ 1 the transfer graph is strongly connected; with n_i = 0 it need not be."""
+    for plant in note.each(late(5)):
+        size = max(1, shared_dimension_bound(plant).deficiency)
+        made = lifted_system(plant, [size] * plant.m)
+        found, graph = fixed_spectrum(made), transfer_graph(made)
+        note.check("the transfer graph is strongly connected", graph.strongly_connected)
+        note.check("nothing but 0 is fixed", found.polynomial.squarefree_part() in (ONE, X))
+        note.certify(found, graph)
+    plant = note.at(split_spectrum("discrete", 1))
+    bound, alone = shared_dimension_bound(plant), lifted_system(plant, [0] * plant.m)
+    graph, whole = transfer_graph(alone), completeness(alone)
+    note.check("n_i = 0 meets the hypotheses of Theorem 3", bound.deficiency == 0)
+    note.refute(WITHOUT_SHARING, len(graph.components) > 1 and not whole.complete)
+    note.certify(bound, graph, whole)
 
 
 def theorem_3_states(note: Notebook) -> None:
@@ -135,7 +154,7 @@ def theorem_3_states(note: Notebook) -> None:
         bound = shared_dimension_bound(plant, share="states")
         made = lifted_system(plant, [bound.deficiency] * plant.m, "states")
         found = fixed_spectrum(made)
-        note.check("nothing but 0 is fixed", found.polynomial in (Polynomial.of(1), X))
+        note.check("nothing but 0 is fixed", found.polynomial in (ONE, X))
         note.certify(bound, found)
 
 
@@ -215,6 +234,13 @@ def free_assignment(note: Notebook) -> None:
         design.loop.polynomial == Polynomial.from_roots(wanted),
     )
     note.certify(*design.certificates.values())
+    plant = note.at(apart())
+    bound = shared_dimension_bound(plant, share="states")
+    graph = transfer_graph(held_system(plant, [0] * plant.m))
+    found = completeness(held_system(plant, [0] * plant.m))
+    note.check("n_i = 0 meets the hypotheses of Theorem 4", bound.deficiency == 0)
+    note.refute(WITHOUT_SHARING, not graph.strongly_connected and not found.complete)
+    note.certify(bound, graph, found)
 
 
 PROCEDURES: dict[str, Procedure] = {
@@ -224,6 +250,7 @@ PROCEDURES: dict[str, Procedure] = {
     "eqn:blk-rank": block_ranks,
     "emcsdd-joint": only_zero_is_lost,
     "thm:strg-graph-delay": theorem_3,
+    "lift-free": free_of_the_lift,
     "thm3-states": theorem_3_states,
     "cor:strg-graph-delay": corollary_2,
     "not-controllable": outputs_lose_controllability,

@@ -115,7 +115,7 @@ def errors_agree(
 def integrators_agree(
     plant: MultiChannelSystem, made: MultiChannelSystem, numbers: Numbers
 ) -> bool:
-    """Whether `b1` holds for r = 0: ẇ_i = y_i (discrete: w_i + y_i), and agent i sees w_i."""
+    """Whether (18) holds for r = 0: ẇ_i = y_i (discrete: w_i + y_i), and agent i sees w_i."""
     x = numbers.column(plant.n)
     w = [numbers.column(plant.q(i)) for i in range(plant.m)]
     u = [numbers.column(plant.p(i)) for i in range(plant.m)]

@@ -18,6 +18,13 @@ Instance = tuple[str, MultiChannelSystem]
 
 # The nonempty proper subsets of three channels, written out.
 SUBSETS_OF_THREE = (("1",), ("2",), ("3",), ("1", "2"), ("1", "3"), ("2", "3"))
+_PAIRS_OF_FOUR = ((0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3))
+PROPER_SUBSETS: dict[int, tuple[tuple[int, ...], ...]] = {
+    2: ((0,), (1,)),
+    3: ((0,), (1,), (2,), (0, 1), (0, 2), (1, 2)),
+    4: ((0,), (1,), (2,), (3,), *_PAIRS_OF_FOUR, (0, 1, 2), (0, 1, 3), (0, 2, 3), (1, 2, 3)),
+}
+"""The same for two, three and four channels, by positions."""
 
 
 def three_channels(time: str = "continuous", delay: int = 0) -> MultiChannelSystem:

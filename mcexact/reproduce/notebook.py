@@ -1,4 +1,4 @@
-"""The records of checking one statement: instances, checks, certificates and pictures."""
+"""The records of one examination: instances, checks, refutations, certificates and pictures."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from mcexact.answer.check import checked
 from mcexact.answer.protocol import Answer
 from mcexact.model.system import MultiChannelSystem
 from mcexact.report.picture import EmbeddedPicture, Picture
+from mcexact.reproduce.ledger import examination
 from mcexact.reproduce.material import Instance
 
 
@@ -31,6 +32,23 @@ class Check:
     text: str
     instance: str
     holds: bool
+
+
+@dataclass(frozen=True)
+class Refutation:
+    """A false statement near the one examined, and an instance that has to refute it.
+
+    Attributes
+    ----------
+    statement : str
+        The false statement, as the ledger has it.
+    instance : str
+    refuted : bool
+    """
+
+    statement: str
+    instance: str
+    refuted: bool
 
 
 @dataclass(frozen=True)
@@ -58,16 +76,17 @@ class CheckedCertificate:
 
 @dataclass
 class Notebook:
-    """The evidence for one statement.
+    """The evidence of one examination.
 
     Attributes
     ----------
     key : str
-        The key of the statement in the ledger.
+        The key of the examination in the ledger.
     here : str
         What the next entries are about.
     instances : list of str
     checks : list of Check
+    refutations : list of Refutation
     certificates : list of CheckedCertificate
     pictures : list of EmbeddedPicture
     broken : str
@@ -78,6 +97,7 @@ class Notebook:
     here: str = ""
     instances: list[str] = field(default_factory=list)
     checks: list[Check] = field(default_factory=list)
+    refutations: list[Refutation] = field(default_factory=list)
     certificates: list[CheckedCertificate] = field(default_factory=list)
     pictures: list[EmbeddedPicture] = field(default_factory=list)
     broken: str = ""
@@ -102,6 +122,10 @@ class Notebook:
         """Record whether a property holds."""
         self.checks.append(Check(text, self.here, bool(holds)))
 
+    def refute(self, statement: str, refuted: bool = True) -> None:
+        """Record that the present instance refutes a false statement, or that it fails to."""
+        self.refutations.append(Refutation(statement, self.here, bool(refuted)))
+
     def certify(self, *answers: Answer) -> None:
         """Record answers as certificates, verified by the independent checker."""
         for made in answers:
@@ -125,7 +149,7 @@ class Notebook:
 
     @property
     def failure(self) -> str:
-        """Empty, or why the statement does not hold: the first thing that went wrong."""
+        """Empty, or why the examination fails: the first thing that went wrong."""
         if self.broken:
             return self.broken
         for check in self.checks:
@@ -134,11 +158,18 @@ class Notebook:
         for made in self.certificates:
             if made.verdict != "VALID":
                 return f"{made.instance}: the certificate {made.name}: {made.theorem}"
+        for attempt in self.refutations:
+            if not attempt.refuted:
+                return f"{attempt.instance}: this is not refuted: {attempt.statement}"
+        refuted = {attempt.statement for attempt in self.refutations}
+        for false in examination(self.key).nearest_false:
+            if false not in refuted:
+                return f"no instance refutes: {false}"
         return "" if self.checks or self.certificates else "nothing was checked"
 
     @property
     def holds(self) -> bool:
-        """Whether all checks hold, all certificates are VALID, and there is one of either."""
+        """Whether all checks hold, all certificates are VALID, and all false statements fall."""
         return not self.failure
 
 
@@ -146,7 +177,7 @@ Procedure = Callable[[Notebook], None]
 
 
 def examined(key: str, procedure: Procedure) -> Notebook:
-    """Run the procedure of one statement; after an error, the statement does not hold.
+    """Run the procedure of one examination; after an error, the examination fails.
 
     Parameters
     ----------

@@ -5,8 +5,10 @@ from __future__ import annotations
 from fractions import Fraction
 from functools import cache
 
+from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.fixed_modes.single_channel_gains import single_channel_gains
 from mcexact.analysis.stability.closed_loop_spectrum import closed_loop_spectrum
+from mcexact.analysis.structure.controllability import joint_observability
 from mcexact.analysis.structure.controllability_indices import controllability_indices
 from mcexact.analysis.structure.exceptional_gains import exceptional_gains
 from mcexact.derived.error_system import error_system
@@ -30,10 +32,14 @@ from mcexact.reproduce.material import (
     three_channels,
 )
 from mcexact.reproduce.notebook import Notebook, Procedure
+from mcexact.reproduce.plants import hidden_by_feedback
 from mcexact.simulation.trajectory import simulate
 from mcexact.synthesis.design import Design
 from mcexact.synthesis.distributed_observer import design_observer
 from mcexact.synthesis.methods import default_polynomial, state_feedback
+
+WITHOUT_GRAPH = "Lemma 1 holds over every neighbor graph."
+LITERAL_RECIPE = "With A + Σ B_i F_i in place of A the steps for a plant without feedback suffice."
 
 
 def zeros(plant: MultiChannelSystem) -> list[Matrix]:
@@ -73,7 +79,7 @@ def cancellation(note: Notebook) -> None:
 
 
 def errors_without_feedback(note: Notebook) -> None:
-    """II-B: `mm1` and `mm2` give the error system with F = 0."""
+    """II-B: (3) and (4) give the error system with F = 0."""
     numbers = Numbers(5)
     for plant in note.each(plants(10)):
         made = error_system(plant, zeros(plant))
@@ -84,7 +90,7 @@ def errors_without_feedback(note: Notebook) -> None:
 
 
 def almost_any_choice(note: Notebook) -> None:
-    """II-B: some K̃_i, H̃_ij make `ppe1` controllable and observable through channel q."""
+    """II-B: some K̃_i, H̃_ij make (7) controllable and observable through channel q."""
     for plant in note.each(plants(5)):
         found = single_channel_gains(error_system(plant, zeros(plant)))
         note.check("one choice of gains serves every q", found.exists)
@@ -109,7 +115,7 @@ def centralized_feedback(note: Notebook) -> None:
 
 
 def errors_with_feedback(note: Notebook) -> None:
-    """`eme1` and `auditt`, `com.o`, `anal`: the substitution rule makes the errors autonomous."""
+    """(12), (14) to (16): the substitution rule makes the errors autonomous."""
     numbers = Numbers(6)
     for plant in note.each(plants(14)):
         F = numbers.feedbacks(plant)
@@ -118,7 +124,7 @@ def errors_with_feedback(note: Notebook) -> None:
 
 
 def whole_loop(note: Notebook) -> None:
-    """`2ssxmcs`, `me1`, `me2`: the loop of the agents' programs splits as the paper says."""
+    """(9) to (11): the loop of the agents' programs splits as the paper says."""
     for name, _ in small():
         note.on(name)
         design = designed(name)
@@ -198,6 +204,11 @@ def lemma_1(note: Notebook) -> None:
             hstack([made.B(i) for i in range(made.m)]) == Matrix.identity(made.n),
         )
         note.joint(made)
+    plant = note.at((f"{PAPER}, without arcs", three_channels()))
+    apart = error_system(plant.with_neighbors({name: [] for name in plant.names}), zeros(plant))
+    found = joint_observability(apart)
+    note.refute(WITHOUT_GRAPH, not found.controllable)
+    note.certify(found)
 
 
 def _graph_scalars(graph: NeighborGraph) -> MultiChannelSystem:
@@ -329,6 +340,40 @@ def _in_floating_point(note: Notebook) -> None:
     note.show(spectrum_picture(spectrum, plant.time, title))
 
 
+def recipe(note: Notebook) -> None:
+    """II-D: the steps for a plant without feedback, with A + Σ B_i F_i in place of A, can fail.
+
+    Where the outputs miss an eigenvector of A + Σ B_i F_i, all gains of this recipe leave its
+    eigenvalue in the error system.  The system (16), which has the terms −B_j F_j e_j besides, has
+    gains for every spectrum.
+    """
+    name, plant, entries = hidden_by_feedback()
+    note.on(name)
+    F = [Matrix.from_integers(rows) for rows in entries]
+    fed_back = plant.A + sum(
+        (plant.B(i) @ F[i] for i in range(plant.m)), Matrix.zeros(plant.n, plant.n)
+    )
+    literal = MultiChannelSystem(
+        fed_back,
+        [channel.B for channel in plant.channels],
+        [channel.C for channel in plant.channels],
+        neighbors=graph_of(plant),
+    )
+    lost, stuck = joint_observability(literal), fixed_spectrum(error_system(literal, zeros(plant)))
+    note.check("the plant is jointly observable", joint_observability(plant).controllable)
+    note.check("what is fed back is not", not lost.controllable)
+    note.refute(LITERAL_RECIPE, stuck.polynomial == Polynomial.from_roots([-2]))
+    found = single_channel_gains(error_system(plant, F), want="both", index=plant.m)
+    note.check("(16) has gains, with index m", found.exists)
+    wanted = [-3 - k for k in range(plant.n * plant.m + plant.m - 1)]
+    design = design_observer(plant, spectrum={"error": wanted}, gains=F)
+    note.check(
+        "and its errors get a spectrum without −2",
+        design.parts["error_polynomial"] == Polynomial.from_roots(wanted),
+    )
+    note.certify(lost, stuck, found, design.loop.proof)
+
+
 PROCEDURES: dict[str, Procedure] = {
     "cancellation": cancellation,
     "xe1": errors_without_feedback,
@@ -344,4 +389,5 @@ PROCEDURES: dict[str, Procedure] = {
     "g": lemma_3,
     "lem2": lemma_4,
     "construction": prescribed_rate,
+    "recipe": recipe,
 }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import unicodedata
 from typing import Any
 
 from mcexact.answer.formats import count
@@ -9,14 +10,23 @@ from mcexact.answer.latex import escaped
 from mcexact.report.page import page
 from mcexact.report.text import Table
 from mcexact.reproduce.reproduction import SECTIONS, Reproduction, Row
+from mcexact.reproduce.statements import STATUSES, Statement, counted
 
 _LARGEST_SAMPLE = 6000
-_OF_STATEMENT = ("key", "title", "section", "proofs", "erratum")
+_OF_EXAMINATION = ("key", "title", "section", "proofs", "erratum", "nearest_false")
+_OF_STATEMENT = ("number", "section", "equation", "says", "status", "examined", "proofs", "note")
+COMMON_BOUND = (
+    "The paper asks whether its bound on the common dimension of shared sub-states is tight. It is "
+    "not: a plant with four agents has the bound 2 where outputs and sub-states are shared, and "
+    "n_i = 1 for all suffices, as does (0, 1, 1, 0). Exactly those dimensions suffice whose sum "
+    "over N_s∖s is at least n − rank for every subset s and every eigenvalue."
+)
+"""The answer to the paper's open question, proved by the examination `tight`."""
 
 
 def reproduction_page(found: Reproduction) -> str:
     """The whole report as one page."""
-    shown = {row.statement.key: _shown(row) for row in found.rows}
+    shown = {row.examination.key: _shown(row) for row in found.rows}
     sections = [
         {"name": name, "rows": [shown[key] for key in keys if key in shown]}
         for name, keys in SECTIONS
@@ -27,8 +37,15 @@ def reproduction_page(found: Reproduction) -> str:
         holds=found.holds,
         answer=answer(found),
         rows=list(shown.values()),
+        counts=[(name, str(size)) for name, size in counts(found).items()],
+        statements=[_listed(each, found) for each in found.statements],
         sections=[section for section in sections if section["rows"]],
     )
+
+
+def counts(found: Reproduction) -> dict[str, int]:
+    """How many statements have each status, by what the report calls it."""
+    return {STATUSES[key]: size for key, size in counted(found.statements).items()}
 
 
 def answer(found: Reproduction) -> list[str]:
@@ -36,29 +53,31 @@ def answer(found: Reproduction) -> list[str]:
     rows = found.rows
     certificates = [made for row in rows for made in row.finding.certificates]
     valid = sum(made.verdict == "VALID" for made in certificates)
-    if found.holds and len(rows) == 1:
-        sentences = ["The statement examined holds."]
-    elif found.holds:
-        sentences = [f"All {len(rows)} statements examined hold."]
+    false = sum(len(row.examination.nearest_false) for row in rows)
+    sentences = []
+    if any(row.examination.key == "tight" and row.finding.holds for row in rows):
+        sentences.append(COMMON_BOUND)
+    if not found.holds:
+        named = ", ".join(row.examination.title for row in found.failures)
+        failed = "fails" if len(found.failures) == 1 else "fail"
+        sentences.append(
+            f"{len(found.failures)} of {count(len(rows), 'examination')} {failed}: {named}."
+        )
+    elif len(rows) == 1:
+        sentences.append("The examination finds what the ledger says.")
     else:
-        named = ", ".join(row.statement.title for row in found.failures)
-        sentences = [f"{len(found.failures)} of {len(rows)} statements do not hold: {named}."]
-    numbered = [row for row in rows if row.statement.kind == "numbered"]
-    proved = [row for row in rows if row.statement.proved]
-    if len(rows) > 1 and numbered:
-        sentences.append(
-            f"{len(numbered)} of them are numbered theorems, propositions, lemmas, corollaries and "
-            "remarks of the paper."
-        )
-    if len(rows) > 1:
-        sentences.append(
-            f"{len(proved)} are proved in general by machine-checked proofs; the others are "
-            "checked on instances, as it says beside each."
-        )
-    corrected = [row.statement.title for row in rows if row.statement.erratum]
+        sentences.append(f"All {len(rows)} examinations find what the ledger says.")
+    told = [f"{size} {name}" for name, size in counts(found).items() if size]
+    sentences.append(
+        f"Of {count(len(found.statements), 'statement')} of the paper: {'; '.join(told)}."
+    )
+    corrected = [row.examination.title for row in rows if row.examination.erratum]
     if corrected:
+        sentences.append(f"Corrections concern {'; '.join(corrected)}.")
+    if false and found.holds:
         sentences.append(
-            f"{count(len(corrected), 'statement')} had to be corrected: {'; '.join(corrected)}."
+            f"{count(false, 'false statement')} next to those of the paper "
+            f"{'was' if false == 1 else 'were'} refuted, each by an instance that is named."
         )
     sentences.append(
         f"{valid} of {count(len(certificates), 'certificate')} were found VALID by the independent "
@@ -67,51 +86,89 @@ def answer(found: Reproduction) -> list[str]:
     return sentences
 
 
+def _listed(statement: Statement, found: Reproduction) -> dict[str, Any]:
+    """The data of a statement that the page shows."""
+    titles = {row.examination.key: row.examination.title for row in found.rows}
+    return {
+        **{name: getattr(statement, name) for name in _OF_STATEMENT},
+        "status": "an examination fails" if found.fails(statement) else STATUSES[statement.status],
+        "fails": found.fails(statement),
+        "links": [
+            (key.replace(":", "-"), titles[key]) for key in statement.examined if key in titles
+        ],
+    }
+
+
 def _shown(row: Row) -> dict[str, Any]:
     """The data of a row that the page shows."""
-    said, finding = row.statement, row.finding
+    said, finding = row.examination, row.finding
     sample = next((made for made in finding.certificates if len(made.text) < _LARGEST_SAMPLE), None)
     return {
         "anchor": said.key.replace(":", "-"),
-        **{name: getattr(said, name) for name in (*_OF_STATEMENT, "says", "part", "code")},
+        **{name: getattr(said, name) for name in (*_OF_EXAMINATION, "says", "part", "code")},
         **{name: getattr(finding, name) for name in ("holds", "failure", "pictures")},
         "status": row.status,
         "checks": [
             (check.instance, check.text, "yes" if check.holds else "NO") for check in finding.checks
+        ],
+        "refutations": [
+            (attempt.statement, attempt.instance, "yes" if attempt.refuted else "NO")
+            for attempt in finding.refutations
         ],
         "certificates": [(made.instance, made.name, made.verdict) for made in finding.certificates],
         "sample": sample,
     }
 
 
-def reproduction_table(found: Reproduction) -> Table:
-    """The rows, for a terminal."""
-    return Table(
-        " ".join(answer(found)[:1]),
-        ("statement", "section", "holds", "what is known", "certificates"),
-        tuple(
-            (
-                row.statement.title,
-                row.statement.section,
-                "yes" if row.finding.holds else "NO",
-                row.status + (" (corrected)" if row.statement.erratum else ""),
-                str(len(row.finding.certificates)),
-            )
-            for row in found.rows
+def reproduction_tables(found: Reproduction) -> list[Table]:
+    """The answer, the count of statements by status, and the examinations, for a terminal."""
+    return [
+        Table(
+            " ".join(answer(found)),
+            ("status", "statements"),
+            tuple((name, str(size)) for name, size in counts(found).items()),
         ),
-    )
+        Table(
+            "The examinations.",
+            ("examined", "section", "holds", "what is known", "certificates"),
+            tuple(
+                (
+                    row.examination.title,
+                    row.examination.section,
+                    "yes" if row.finding.holds else "NO",
+                    row.status + (" (corrected)" if row.examination.erratum else ""),
+                    str(len(row.finding.certificates)),
+                )
+                for row in found.rows
+            ),
+        ),
+    ]
 
 
 def reproduction_view(found: Reproduction) -> dict[str, Any]:
     """The rows as plain data."""
     return {
         "holds": found.holds,
+        "counts": counts(found),
         "statements": [
             {
-                **{name: getattr(row.statement, name) for name in _OF_STATEMENT},
+                **{name: getattr(each, name) for name in _OF_STATEMENT},
+                "status": STATUSES[each.status],
+                "holds": not found.fails(each),
+            }
+            for each in found.statements
+        ],
+        "examinations": [
+            {
+                **{name: getattr(row.examination, name) for name in _OF_EXAMINATION},
                 **{name: getattr(row.finding, name) for name in ("holds", "instances", "failure")},
                 "status": row.status,
                 "checks": len(row.finding.checks),
+                "refutations": [
+                    {"statement": each.statement, "instance": each.instance}
+                    for each in row.finding.refutations
+                    if each.refuted
+                ],
                 "certificates": [made.name for made in row.finding.certificates],
             }
             for row in found.rows
@@ -120,24 +177,41 @@ def reproduction_view(found: Reproduction) -> dict[str, Any]:
 
 
 def reproduction_latex(found: Reproduction) -> str:
-    """The rows as a table in LaTeX."""
-    lines = [r"\begin{tabular}{lll}", r"statement & section & what is known \\ \hline"]
-    for row in found.rows:
-        cells = (row.statement.title, row.statement.section, row.status)
+    """The statements with their status as a table in LaTeX."""
+    lines = [
+        r"\begin{tabular}{rlp{8cm}l}",
+        r" & equation & statement & what is known \\ \hline",
+    ]
+    for each in found.statements:
+        cells = (str(each.number), each.equation, each.says, STATUSES[each.status])
         lines.append(" & ".join(_typeset(cell) for cell in cells) + r" \\")
     return "\n".join([*lines, r"\end{tabular}"]) + "\n"
 
 
 _SYMBOLS = {
     "Σ": r"$\Sigma$",
-    "∈": r"$\in$",
-    "̄": "",
-    "∖": r"$\setminus$",
+    "λ": r"$\lambda$",
     "φ": r"$\varphi$",
+    "∈": r"$\in$",
+    "∖": r"$\setminus$",
+    "∅": r"$\emptyset$",
     "≥": r"$\ge$",
+    "−": "$-$",
+    "⁻": "$^{-}$",
+    "¹": "$^{1}$",
+    "…": r"\dots{}",
 }
+_ACCENTS = {"\u0302": "hat", "\u0303": "tilde", "\u0304": "bar"}
 
 
 def _typeset(text: str) -> str:
-    """Escape a text for LaTeX; the mathematical symbols in titles become formulas."""
-    return "".join(_SYMBOLS.get(character, escaped(character)) for character in text)
+    """Escape a text for LaTeX; its mathematical symbols become formulas."""
+    made: list[str] = []
+    for character in unicodedata.normalize("NFD", text):
+        if character in _ACCENTS:
+            made.append(rf"$\{_ACCENTS[character]}{{{made.pop()}}}$")
+        elif character == "\u0338" and made.pop() == "=":
+            made.append(r"$\ne$")
+        else:
+            made.append(_SYMBOLS.get(character, escaped(character)))
+    return "".join(made)

@@ -1,4 +1,4 @@
-"""`reproduce` examines every statement of the paper, section by section."""
+"""`reproduce` carries out the examinations of the paper, section by section."""
 
 from __future__ import annotations
 
@@ -7,38 +7,50 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from mcexact.errors import UsageError
-from mcexact.reproduce import decentralized, delays, extended, observer, problem, setpoint
-from mcexact.reproduce.ledger import Statement, statements
+from mcexact.reproduce import (
+    bounds,
+    decentralized,
+    delays,
+    extended,
+    freedom,
+    observer,
+    problem,
+    setpoint,
+)
+from mcexact.reproduce.ledger import Examination, examinations
 from mcexact.reproduce.notebook import Notebook, Procedure, examined
+from mcexact.reproduce.statements import Statement, statements
 
 SECTIONS: tuple[tuple[str, dict[str, Procedure]], ...] = (
     ("I, the problem", problem.PROCEDURES),
     ("II, the distributed observer", observer.PROCEDURES),
     ("III, set-points", setpoint.PROCEDURES),
     ("IV-A and IV-B, decentralized control", decentralized.PROCEDURES),
-    ("IV-C to IV-E, extended systems", extended.PROCEDURES),
+    ("IV-C, extended systems", extended.PROCEDURES),
+    ("IV-D, shared dimensions", bounds.PROCEDURES),
+    ("IV-E and VI, free assignment", freedom.PROCEDURES),
     ("V, delays", delays.PROCEDURES),
 )
 
 
 @dataclass(frozen=True)
 class Row:
-    """A statement with its finding."""
+    """An examination with its finding."""
 
-    statement: Statement
+    examination: Examination
     finding: Notebook
 
     @property
     def status(self) -> str:
         """What is known, in words."""
         if not self.finding.holds:
-            return "does not hold"
-        return self.statement.status(len(self.finding.instances))
+            return "fails"
+        return self.examination.status(len(self.finding.instances))
 
 
 @dataclass(frozen=True)
 class Reproduction:
-    """The findings on statements of the paper, in the order of the ledger.
+    """The findings of examinations, in the order of the ledger.
 
     Attributes
     ----------
@@ -49,13 +61,30 @@ class Reproduction:
 
     @property
     def holds(self) -> bool:
-        """Whether every statement holds."""
+        """Whether no examination fails."""
         return all(row.finding.holds for row in self.rows)
 
     @property
     def failures(self) -> tuple[Row, ...]:
-        """The rows of statements that do not hold."""
+        """The rows of examinations that fail."""
         return tuple(row for row in self.rows if not row.finding.holds)
+
+    @property
+    def is_whole(self) -> bool:
+        """Whether these are all examinations of the ledger."""
+        return len(self.rows) == len(examinations())
+
+    @property
+    def statements(self) -> tuple[Statement, ...]:
+        """The statements of the paper that these examinations are about: all, if these are all."""
+        keys = {row.examination.key for row in self.rows}
+        return tuple(
+            each for each in statements() if self.is_whole or keys.intersection(each.examined)
+        )
+
+    def fails(self, statement: Statement) -> bool:
+        """Whether an examination of the statement fails."""
+        return any(row.examination.key in statement.examined for row in self.failures)
 
     def certificates(self) -> dict[str, str]:
         """The texts of all certificates, keyed by file names."""
@@ -63,25 +92,30 @@ class Reproduction:
 
 
 def procedures() -> dict[str, Procedure]:
-    """The procedures that examine statements, keyed by statement."""
+    """The procedures of all examinations, by their keys."""
     return {key: made for _, section in SECTIONS for key, made in section.items()}
 
 
 def chosen(wanted: Iterable[str]) -> tuple[str, ...]:
-    """Return the keys for some keys or titles of the ledger; all keys if none is given.
+    """Return the keys of the examinations with some names; all keys if none is given.
+
+    A name is a key or title of the ledger, a number of an equation, or a label of the paper's LaTeX
+    source.
 
     Raises
     ------
     UsageError
-        If the ledger has no such statement.
+        If the ledger has no such name.
 
     Examples
     --------
-    >>> chosen(["Theorem 2"])
-    ('thm:strg-graph',)
+    >>> chosen(["Theorem 2", "(26)", "eqn:n_i", "(21)", "Equation (21)"])
+    ('thm:strg-graph', 'gnd')
     """
-    by_name = {each.title.lower(): each.key for each in statements()}
-    by_name |= {each.key.lower(): each.key for each in statements()}
+    by_name = {name.lower(): each.key for each in examinations() for name in each.names}
+    by_name |= {
+        f"equation ({number})": each.key for each in examinations() for number in each.equations
+    }
     keys = []
     for name in wanted:
         if name.lower() not in by_name:
@@ -89,19 +123,19 @@ def chosen(wanted: Iterable[str]) -> tuple[str, ...]:
             hint = f"; did you mean {near[0]!r}?" if near else ""
             raise UsageError(f"the ledger has no statement {name!r}{hint}")
         keys.append(by_name[name.lower()])
-    return tuple(keys) or tuple(each.key for each in statements())
+    return tuple(dict.fromkeys(keys)) or tuple(each.key for each in examinations())
 
 
 def examine(section: int, keys: tuple[str, ...]) -> tuple[Notebook, ...]:
-    """Examine the statements of one section whose keys are given."""
+    """Carry out the examinations of one section whose keys are given."""
     return tuple(examined(key, made) for key, made in SECTIONS[section][1].items() if key in keys)
 
 
 def assembled(findings: Iterable[Notebook]) -> Reproduction:
-    """Join findings with their statements, in the order of the ledger."""
+    """Join findings with their examinations, in the order of the ledger."""
     by_key = {finding.key: finding for finding in findings}
     return Reproduction(
-        tuple(Row(each, by_key[each.key]) for each in statements() if each.key in by_key)
+        tuple(Row(each, by_key[each.key]) for each in examinations() if each.key in by_key)
     )
 
 
@@ -111,7 +145,7 @@ def reproduce(keys: Iterable[str] = ()) -> Reproduction:
     Parameters
     ----------
     keys : iterable of str
-        Keys or titles of the ledger; all statements if none is named.
+        Names as for `chosen`; all examinations if none is named.
 
     Examples
     --------

@@ -100,6 +100,21 @@ def test_one_document_says_the_same(folder: Path, capsys: pytest.CaptureFixture[
     ]
 
 
+def test_a_document_is_indented_by_one(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["--json", "fixed.json"]) == 0
+    told = capsys.readouterr().out
+    assert told == json.dumps(json.loads(told), indent=1) + "\n"
+
+
+def test_nothing_to_judge_is_well() -> None:
+    assert command.status_of([]) == 0
+
+
+@pytest.mark.parametrize("seconds", ["0.5", "1", "1e300"])
+def test_any_time_above_0_is_a_limit(seconds: str) -> None:
+    assert command.seconds(seconds) == float(seconds)
+
+
 def test_manifests_are_options_or_files_of_that_name(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -186,6 +201,7 @@ def test_a_manifest_is_not_asked_for_one_statement(
         ["valid.json", "--sytem", "system.json"],
         *(["valid.json", "--max-bytes", number] for number in ("0", "-1", "many", "1.5", "\u0663")),
         *(["valid.json", "--timeout", number] for number in ("0", "-1", "nan", "inf", "soon")),
+        ["valid.json", "--max-wor", "40000000"],
     ],
 )
 def test_wrong_usage_ends_with_2(
@@ -255,9 +271,10 @@ def test_when_the_time_is_over_the_rest_is_incomplete(
         raise allowance.OutOfTime
 
     monkeypatch.setattr(allowance.Clock, "within", late)
-    assert main(["valid.json", "--timeout", "900"]) == 5
-    told = capsys.readouterr()
-    assert "time" in told.out + told.err
+    for asked in ([], ["--system", "system.json"]):
+        assert main(["valid.json", "--timeout", "900", *asked]) == 5
+        told = capsys.readouterr()
+        assert "(--timeout allows more)" in told.out + told.err
 
 
 @pytest.mark.parametrize("late", [False, True])

@@ -49,6 +49,15 @@ ESTIMATES = {
 COSTS = {"longest", "turn", "turns", "units"}
 """The names that only such estimates have."""
 
+TOLD = {"message"}
+"""The name that only messages for a human have."""
+
+GUARDS = {"frozen", "strict"}
+"""The arguments by which the checker watches over itself; no document makes a difference."""
+
+SQUARE = {"A", "A_F", "M"}
+"""The names that only square matrices have: their numbers of rows and of columns are one number."""
+
 
 PAIRS = (
     ("any", "all"),
@@ -142,7 +151,7 @@ class SwapName(Operator):  # type: ignore[misc]
 
     def mutation_positions(self, node: Any) -> Iterator[tuple[Any, Any]]:
         called = node.type == "name" and node.value in COUNTERPARTS
-        if called and not node.is_definition():
+        if called and not node.is_definition() and not _is_of_square(node):
             yield node.start_pos, node.end_pos
 
     def mutate(self, node: Any, index: int) -> Any:
@@ -152,6 +161,13 @@ class SwapName(Operator):  # type: ignore[misc]
     @classmethod
     def examples(cls) -> tuple[Any, ...]:
         return ()
+
+
+def _is_of_square(node: Any) -> bool:
+    """Whether a name is a dimension of a square matrix, as in ``A.nrows``."""
+    dot = node.get_previous_leaf()
+    owner = dot.get_previous_leaf() if dot is not None and dot.value == "." else None
+    return node.value in ("nrows", "ncols") and owner is not None and owner.value in SQUARE
 
 
 KNOWN = {each.__name__: each for each in (DeleteStatement, NegateFilter, SwapMembership, SwapName)}
@@ -178,7 +194,7 @@ Span = tuple[tuple[int, int], tuple[int, int]]
 
 
 def outside(source: str) -> list[Span]:
-    """The parts of a file whose changes nothing depends on: annotations, messages and costs."""
+    """The parts of a file that no verdict depends on: annotations, messages, costs and guards."""
     spans = []
     for node in ast.walk(ast.parse(source)):
         parts: list[ast.AST | None] = []
@@ -194,12 +210,14 @@ def outside(source: str) -> list[Span]:
             parts = [
                 part
                 for k, part in enumerate(values)
-                if (named and targets[k] in COSTS) or any(map(_is_about_cost, ast.walk(part)))
+                if (named and targets[k] in COSTS | TOLD)
+                or any(map(_is_about_cost, ast.walk(part)))
             ]
         elif isinstance(node, ast.Call):
             name = getattr(node.func, "id", getattr(node.func, "attr", ""))
             if name in MESSAGES:
                 parts = list(node.args[MESSAGES[name] :])
+            parts += [each.value for each in node.keywords if each.arg in GUARDS]
         for part in parts:
             if part is not None:
                 start, end = (part.lineno, part.col_offset), (part.end_lineno, part.end_col_offset)  # type: ignore[attr-defined]
@@ -215,16 +233,43 @@ def _targets(node: ast.AST) -> list[ast.expr]:
     return first.elts if isinstance(first, ast.Tuple) else [first]
 
 
-def without_order(source: str) -> list[Span]:
-    """The comparisons with a text, such as ``time == "discrete"``, where < and > mean nothing."""
+NAMED_ORDER = ("_LtE", "_GtE", "_Lt", "_Gt")
+LEAST = {"gcd": 1, "denominator": 1, "len": 0, "nrows": 0, "ncols": 0}
+"""The least value of functions and of attributes."""
+
+
+def same_comparisons(source: str) -> list[tuple[Span, tuple[str, ...]]]:
+    """The comparisons that some replacements leave as they are, and the ends of their names.
+
+    Texts, as in ``time == "discrete"``, have no order that means anything; and what is compared
+    with its least value, as in ``gcd(a, b) == 1``, is never below it.
+    """
     spans = []
     for node in ast.walk(ast.parse(source)):
-        if isinstance(node, ast.Compare):
-            parts = [node.left, *node.comparators]
-            if any(isinstance(part, ast.Constant) and type(part.value) is str for part in parts):
-                end = (node.end_lineno or node.lineno, node.end_col_offset or 0)
-                spans.append(((node.lineno, node.col_offset), end))
+        if not isinstance(node, ast.Compare):
+            continue
+        parts = [node.left, *node.comparators]
+        end = (node.end_lineno or node.lineno, node.end_col_offset or 0)
+        values = [part.value for part in parts if isinstance(part, ast.Constant)]
+        if any(type(value) is str for value in values):
+            spans.append((((node.lineno, node.col_offset), end), NAMED_ORDER))
+        elif len(parts) == 2 and values == [_least(node.left)]:
+            same = {
+                ast.Eq: "_Eq_LtE",
+                ast.NotEq: "_NotEq_Gt",
+                ast.Gt: "_Gt_NotEq",
+                ast.LtE: "_LtE_Eq",
+            }
+            if suffix := same.get(type(node.ops[0])):
+                spans.append((((node.lineno, node.col_offset), end), (suffix,)))
     return spans
+
+
+def _least(node: ast.expr) -> int | None:
+    """The least value of a part of a comparison, if that is known."""
+    if isinstance(node, ast.Call):
+        node = node.func
+    return LEAST.get(getattr(node, "id", getattr(node, "attr", "")))
 
 
 def _is_about_cost(node: ast.AST) -> bool:

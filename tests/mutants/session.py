@@ -88,8 +88,8 @@ def plan(path: Path, database: Path) -> None:
     with use_db(str(database), WorkDB.Mode.create) as session:
         init([path], session, {})
         spans = operators.outside(source)
-        ranks = operators.without_order(source)
-        seen, counts = {source}, {"outside": 0, "texts compared": 0, "same or no program": 0}
+        ranks = operators.same_comparisons(source)
+        seen, counts = {source}, {"outside": 0, "same comparison": 0, "same or no program": 0}
         for item in session.work_items:
             spec = item.mutations[0]
             reason = _needless(spec, source, spans, ranks, seen)
@@ -118,14 +118,14 @@ def _needless(
     spec: MutationSpec,
     source: str,
     spans: list[operators.Span],
-    ranks: list[operators.Span],
+    ranks: list[tuple[operators.Span, tuple[str, ...]]],
     seen: set[str],
 ) -> str | None:
     """Why a mutant is left out, if it is."""
-    if spec.operator_name.endswith(("_LtE", "_GtE", "_Lt", "_Gt")) and operators.within(
-        spec.start_pos, spec.end_pos, ranks
-    ):
-        return "texts compared"
+    for span, suffixes in ranks:
+        same = spec.operator_name.endswith(suffixes)
+        if same and operators.within(spec.start_pos, spec.end_pos, [span]):
+            return "same comparison"
     if operators.within(spec.start_pos, spec.end_pos, spans):
         return "outside"
     code = mutated(spec, source)

@@ -10,9 +10,18 @@ import pytest
 
 from mcexact.cli import main
 from mcexact.derived import error_system, extended, feedback, integrators
-from mcexact.reproduce.ledger import statements
-from mcexact.reproduce.pages import answer, reproduction_latex, reproduction_page
+from mcexact.reproduce.ledger import examinations
+from mcexact.reproduce.notebook import Notebook, examined
+from mcexact.reproduce.pages import (
+    COMMON_BOUND,
+    answer,
+    counts,
+    reproduction_latex,
+    reproduction_page,
+    reproduction_view,
+)
 from mcexact.reproduce.reproduction import Reproduction, reproduce
+from mcexact.reproduce.statements import STATUSES
 from tests.report.strict_html import external_addresses
 
 
@@ -22,9 +31,30 @@ def whole() -> Reproduction:
     return reproduce()
 
 
-def test_every_statement_of_the_paper_holds(whole: Reproduction) -> None:
+def test_no_examination_fails(whole: Reproduction) -> None:
     assert [row.finding.failure for row in whole.failures] == []
-    assert len(whole.rows) == len(statements())
+    assert len(whole.rows) == len(examinations()) and whole.is_whole
+
+
+def test_every_nearest_false_statement_is_refuted_by_name(whole: Reproduction) -> None:
+    for row in whole.rows:
+        refuted = {each.statement for each in row.finding.refutations if each.refuted}
+        assert refuted == set(row.examination.nearest_false), row.examination.key
+        assert all(each.refuted and each.instance for each in row.finding.refutations)
+
+
+def test_an_instance_that_does_not_refute_fails_the_examination() -> None:
+    def lame(note: Notebook) -> None:
+        note.on("an instance")
+        note.check("something holds", True)
+        note.refute("The bound on the common dimension is tight.", False)
+
+    def silent(note: Notebook) -> None:
+        note.on("an instance")
+        note.check("something holds", True)
+
+    assert "an instance: this is not refuted: The bound" in examined("tight", lame).failure
+    assert "no instance refutes: The bound" in examined("tight", silent).failure
 
 
 def test_nothing_holds_without_a_check_or_a_certificate(whole: Reproduction) -> None:
@@ -36,7 +66,7 @@ def test_nothing_holds_without_a_check_or_a_certificate(whole: Reproduction) -> 
 def test_the_certificates_are_of_the_kinds_that_the_ledger_names(whole: Reproduction) -> None:
     for row in whole.rows:
         kinds = {made.kind for made in row.finding.certificates}
-        assert set(row.statement.certificates) <= kinds, row.statement.key
+        assert set(row.examination.certificates) <= kinds, row.examination.key
 
 
 def test_the_report_parses_strictly_and_asks_nobody(whole: Reproduction) -> None:
@@ -51,19 +81,25 @@ def test_the_report_parses_strictly_and_asks_nobody(whole: Reproduction) -> None
         assert drawn in text
 
 
-def test_the_report_speaks_of_proofs_only_where_there_are_some(whole: Reproduction) -> None:
-    said = " ".join(answer(whole))
-    proved = sum(row.statement.proved for row in whole.rows)
-    assert f"All {len(whole.rows)} statements examined hold" in said
-    assert answer(Reproduction(whole.rows[:1]))[0] == "The statement examined holds."
-    assert "1 of them" not in " ".join(answer(Reproduction(whole.rows[:1])))
-    assert f"{proved} are proved in general" in said
+def test_the_report_says_first_what_the_paper_asks_and_counts_every_status(
+    whole: Reproduction,
+) -> None:
+    said = answer(whole)
+    assert said[0] == COMMON_BOUND
+    assert f"All {len(whole.rows)} examinations find what the ledger says." == said[1]
+    assert sum(counts(whole).values()) == 134
+    view = reproduction_view(whole)
+    assert view["counts"] == counts(whole) and len(view["statements"]) == 134
+    assert {each["status"] for each in view["statements"]} <= set(STATUSES.values())
+    one = Reproduction(whole.rows[:1])
+    assert answer(one)[0] == "The examination finds what the ledger says."
+    assert [each.number for each in one.statements] == [1]
 
 
-def test_the_rows_are_set_in_latex(whole: Reproduction) -> None:
+def test_the_statements_are_set_in_latex(whole: Reproduction) -> None:
     text = reproduction_latex(whole)
-    assert text.count("\\\\") == len(whole.rows) + 1
-    assert text.isascii() or "·" in text
+    assert text.count("\\\\") == 134 + 1
+    assert text.isascii(), {character for character in text if not character.isascii()}
 
 
 def doubled(module: Any, name: str) -> Any:
@@ -79,11 +115,11 @@ def transposed(module: Any, name: str) -> Any:
 
 
 BROKEN = [
-    (extended, "selector", doubled, "emcs", "Equations bun, emcs"),
-    (extended, "shift", transposed, "emcsdd", "Equations emcsdd, emcsdd-mtrx"),
-    (extended, "shift", transposed, "emcsdd-hold", "Equations emcsdd-hold, emcsdd-hold-mtrx"),
-    (error_system, "block", doubled, "eme1", "Equations eme1, eme2, auditt, com.o, anal"),
-    (integrators, "selector", doubled, "b1", "Equations int, b1, b2"),
+    (extended, "selector", doubled, "emcs", "Equations (24) and (25)"),
+    (extended, "shift", transposed, "emcsdd", "Equations (34) and (35)"),
+    (extended, "shift", transposed, "emcsdd-hold", "Equations (37) and (38)"),
+    (error_system, "block", doubled, "eme1", "Equations (12) to (16)"),
+    (integrators, "selector", doubled, "b1", "Equations (17) and (18)"),
     (feedback, "closed_by", doubled, "mcs", "Equation (1)"),
 ]
 
@@ -104,7 +140,7 @@ def test_a_formula_broken_on_purpose_fails_the_run_and_names_the_statement(
     captured = capsys.readouterr()
     assert ended.value.code == 1
     assert f"mcexact: {title}: " in captured.err
-    assert "1 of 1 statements do not hold" in captured.out
+    assert "1 of 1 examination fails" in captured.out
 
 
 def test_a_wrong_construction_is_refused_by_the_checker_too(
@@ -125,9 +161,9 @@ def test_the_folder_is_written_whole_and_replaces_only_its_own(
             main(["reproduce", "--statement", "Theorem 2", "-o", str(folder), "--json"])
         assert ended.value.code == 0
     view = json.loads(capsys.readouterr().out.partition("\n}\n")[2] or "{}")
-    assert view["statements"][0]["title"] == "Theorem 2"
+    assert view["statements"][0]["equation"] == "Theorem 2, (26)"
     written = sorted(path.name for path in (folder / "certificates").iterdir())
-    assert written == sorted(view["statements"][0]["certificates"])
+    assert written == sorted(view["examinations"][0]["certificates"])
     assert [path.name for path in tmp_path.iterdir()] == ["paper"]
     with pytest.raises(SystemExit) as ended:
         main(["check", *(str(folder / "certificates" / name) for name in written)])

@@ -1,0 +1,105 @@
+"""The named plants: those that refute, and those that show what drawn plants do not."""
+
+from __future__ import annotations
+
+from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem
+from mcexact.reproduce.material import Instance
+
+Columns = list[list[int]]
+RING_OF_THREE = {"1": ["2"], "2": ["3"], "3": ["1"]}
+PAIR = {"1": ["2"], "2": ["1"]}
+
+
+def unit(n: int, *places: int) -> Columns:
+    """The matrix whose columns are the unit vectors at some places, n × their number."""
+    return [[int(row == place) for place in places] for row in range(n)]
+
+
+def transposed(columns: Columns) -> Columns:
+    """The matrix whose rows are these columns."""
+    return [list(row) for row in zip(*columns, strict=True)]
+
+
+def diagonal(*entries: int) -> Columns:
+    """A diagonal matrix."""
+    n = len(entries)
+    return [[entries[i] * (i == j) for j in range(n)] for i in range(n)]
+
+
+def still_pair() -> Instance:
+    """Two agents that exchange messages, with one state that each controls and observes."""
+    one = [[1]]
+    plant = MultiChannelSystem([[0]], [one] * 2, [one] * 2)
+    return "A = 0, two equal agents", plant.with_neighbors(NeighborGraph.complete(plant.names))
+
+
+def two_between() -> Instance:
+    """Agent 1 drives two integrators, 4 measures them, and 1 receives from 2 and 3 alone."""
+    units: list[list[int]] = [[1, 0], [0, 1]]
+    plant = MultiChannelSystem(
+        [[0, 0], [0, 0]],
+        [units, *[[[], []]] * 3],
+        [*[[]] * 3, units],
+        neighbors={"1": ["2", "3"], "2": ["4"], "3": ["4"], "4": ["1"]},
+    )
+    return "A = 0, two agents between those who drive and measure", plant
+
+
+def four_agents() -> Instance:
+    """The same with B_i and C_i that are not zero: the bound is 2, and n_i = 1 for all suffices."""
+    first, last = unit(4, 0, 1, 3), transposed(unit(4, 0, 1, 2))
+    middle, seen = unit(4, 2), transposed(unit(4, 3))
+    plant = MultiChannelSystem(
+        diagonal(0, 0, 5, 7),
+        [first, middle, middle, middle],
+        [seen, seen, seen, last],
+        neighbors={"1": ["2", "3"], "2": ["4"], "3": ["4"], "4": ["1"]},
+    )
+    return "diag(0, 0, 5, 7) and four agents", plant
+
+
+def split_spectrum(time: str = "continuous", delay: int = 0) -> Instance:
+    """No mode is fixed, the bound is 0, and the spectrum splits over two strong components."""
+    e1, e2 = unit(2, 0), unit(2, 1)
+    ring = NeighborGraph.from_names(("1", "2", "3"), RING_OF_THREE)
+    delays = [(i, j, delay) for j, i in ring.edges()]
+    plant = MultiChannelSystem(
+        diagonal(0, 0),
+        [e1, e2, e2],
+        [transposed(e1), transposed(e1), transposed(e2)],
+        time=time,
+        neighbors=NeighborGraph(ring.names, ring.neighbors, delays),
+    )
+    late = f", {delay} step{'s' if delay > 1 else ''} late" if delay else ""
+    return f"A = 0 on a cycle{late}, nothing shared", plant
+
+
+def apart(delay: int = 1) -> Instance:
+    """Two integrators, each controlled and measured by its own agent, in discrete time."""
+    e1, e2 = unit(2, 0), unit(2, 1)
+    graph = NeighborGraph(("1", "2"), [[0, 1], [0, 1]], [(0, 1, delay), (1, 0, delay)])
+    plant = MultiChannelSystem(
+        diagonal(1, 1), [e1, e2], [transposed(e1), transposed(e2)], time="discrete", neighbors=graph
+    )
+    return "two decoupled agents", plant
+
+
+def hidden_by_feedback() -> tuple[str, MultiChannelSystem, list[Columns]]:
+    """A double integrator, and F_i after which the outputs miss an eigenvector of A + Σ B_i F_i."""
+    position = [[1, 0]]
+    plant = MultiChannelSystem(
+        [[0, 1], [0, 0]], [unit(2, 0), unit(2, 1)], [position, position], neighbors=PAIR
+    )
+    return "a double integrator, fed back to diag(−1, −2)", plant, [[[-1, -1]], [[0, -2]]]
+
+
+def fixed_zero() -> Instance:
+    """In discrete time the eigenvalue 2, and the fixed mode 0."""
+    plant = MultiChannelSystem(
+        diagonal(0, 0, 0, 2),
+        [unit(4, 0, 1, 3), unit(4, 2)],
+        [transposed(unit(4, 0, 3)), transposed(unit(4, 1, 2))],
+        time="discrete",
+    )
+    return "diag(0, 0, 0, 2), with the fixed mode 0", plant

@@ -1,0 +1,62 @@
+"""All statements of the paper are there, and none claims more than stands behind it."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+import pytest
+
+from mcexact.reproduce.ledger import examination, examinations
+from mcexact.reproduce.statements import (
+    EXPLAINED,
+    PROVED,
+    STATUSES,
+    Statement,
+    counted,
+    statements,
+)
+from tests.reproduce.test_ledger import NUMBERED, script
+
+# How many statements each section of the paper makes, counted on paper.
+SECTIONS = {
+    "I": 3, "I-A": 2, "I-B": 4, "II-A": 7, "II-B": 10, "II-C": 12, "II-D": 14, "III": 13,
+    "IV": 1, "IV-A": 11, "IV-B": 6, "IV-C": 5, "IV-D": 13, "IV-E": 8, "V": 1, "V-A": 12,
+    "V-B": 9, "VI": 3,
+}  # fmt: skip
+EVERY = pytest.mark.parametrize("said", statements(), ids=lambda said: str(said.number))
+
+
+def test_no_statement_of_the_paper_is_missing() -> None:
+    assert Counter(said.section for said in statements()) == SECTIONS
+    assert len(statements()) == sum(SECTIONS.values()) == 134
+    assert sum(counted(statements()).values()) == 134
+    told = " ".join(said.equation for said in statements())
+    for name in (*NUMBERED, *(f"({number})" for number in range(1, 39))):
+        assert name in told or name in ("(5)", "(6)"), name
+
+
+def test_every_examination_is_of_a_statement() -> None:
+    of = {key for said in statements() for key in said.examined}
+    assert of == {row.key for row in examinations()}
+
+
+@EVERY
+def test_a_status_is_backed(said: Statement) -> None:
+    assert said.status in STATUSES and said.says.endswith((".", "?"))
+    assert bool(said.examined) == (said.status != "absent")
+    assert not (said.status in EXPLAINED and not said.note), "it needs a note"
+    if said.status in PROVED:
+        assert said.proofs
+    if said.status in ("defined", "instances", "absent"):
+        assert not said.proofs
+    rows = [examination(key) for key in said.examined]
+    if said.status == "refuted":
+        assert any(row.nearest_false for row in rows), "no instance refutes it by name"
+    if said.status == "corrected":
+        assert any(row.erratum for row in rows)
+
+
+def test_every_theorem_that_a_statement_cites_exists() -> None:
+    printed = set(script("assumptions").theorems())
+    named = {name for said in statements() for name in said.proofs}
+    assert named <= printed, named - printed
