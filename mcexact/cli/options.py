@@ -175,6 +175,14 @@ def draws(function: F) -> F:
             help="Plant a fixed mode: the roots of an irreducible factor of this degree, by "
             "default 1.",
         ),
+        click.option(
+            "--deficiency",
+            type=click.IntRange(min=1),
+            metavar="BOUND",
+            help="Draw a plant over a strongly connected neighbor graph for which the bound of "
+            "Theorem 2 on shared dimensions is this, with 3 channels or more; the number of "
+            "states follows from it.",
+        ),
         click.option("--channels", type=click.IntRange(min=1), default=2, show_default=True),
         click.option("--states", type=click.IntRange(min=0), default=4, show_default=True),
     ):

@@ -6,6 +6,7 @@ import random
 from collections.abc import Iterator
 
 from mcexact.derived.drawn.choices import SeededChoices
+from mcexact.derived.drawn.deficiency import system_with_deficiency
 from mcexact.derived.drawn.graph import drawn_graph
 from mcexact.derived.drawn.systems import jointly_controllable_system, system_with_fixed_mode
 from mcexact.exact.matrix import Matrix
@@ -92,6 +93,61 @@ def drawn_plants(
         graph = drawn_graph(choices, drawn.system.names, connected, longest_delay)
         kind = "planted fixed mode, " if fixed else ""
         yield f"drawn, {kind}seed {seed}: n={n}, m={m}", drawn.system.with_neighbors(graph)
+
+
+# (bound, boundary, degree, length, transfer, stable, digits) of the n-th deficient plant: bounds 1
+# to 3, tight ones and others, complex pairs, Jordan chains, large rationals.
+_SHAPES = (
+    (1, 1, 1, 1, True, False, 0),
+    (2, 1, 1, 1, True, False, 0),
+    (2, 2, 1, 1, False, True, 0),
+    (1, 1, 2, 1, True, True, 0),
+    (3, 1, 1, 1, True, True, 0),
+    (1, 2, 1, 2, True, False, 0),
+    (2, 1, 1, 1, True, False, 12),
+)
+
+
+def deficient_plants(
+    count: int,
+    *,
+    share: str = "outputs+states",
+    time: str = "continuous",
+    longest_delay: int = 0,
+    first: int = 1,
+) -> Iterator[Instance]:
+    """Plants over strongly connected graphs whose bound is 1, 2 or 3, with it in their names.
+
+    Parameters
+    ----------
+    count : int
+        At most 7, with different shapes.
+    share : {"outputs+states", "states"}
+        For which the bound is prescribed.
+    time : {"continuous", "discrete"}
+    longest_delay : int
+    first : int
+        The first seed.
+    """
+    for seed, shape in enumerate(_SHAPES[:count], first):
+        bound, boundary, degree, length, transfer, stable, digits = shape
+        drawn = system_with_deficiency(
+            SeededChoices(seed),
+            bound,
+            4 if boundary == 2 else 3,
+            share=share,
+            degree=degree,
+            length=length,
+            boundary=boundary,
+            transfer=transfer,
+            stable=stable,
+            digits=digits,
+            delay=longest_delay,
+            time=time,
+        )
+        way = "" if share == "outputs+states" else " for sub-states alone"
+        n, m = drawn.system.n, drawn.system.m
+        yield f"drawn, bound {bound}{way}, seed {seed}: n={n}, m={m}", drawn.system
 
 
 def plants(count: int, **options: object) -> Iterator[Instance]:

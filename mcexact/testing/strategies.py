@@ -11,6 +11,7 @@ from hypothesis.strategies import DrawFn, SearchStrategy
 
 from mcexact.derived.drawn import structure
 from mcexact.derived.drawn import systems as drawn
+from mcexact.derived.drawn.deficiency import system_with_deficiency
 from mcexact.derived.drawn.graph import drawn_graph
 from mcexact.derived.drawn.systems import Drawn
 from mcexact.exact.location import TIMES
@@ -257,6 +258,61 @@ def systems_on_graphs(
     if base is None:
         base = jointly_controllable_systems(time="discrete" if longest_delay else None)
     return _on_graphs(base, strongly_connected, longest_delay)
+
+
+@st.composite
+def _with_deficiency(
+    draw: DrawFn, most: int, share: str | None, time: str | None, delay: int, digits: int
+) -> Drawn:
+    choices = HypothesisChoices(draw)
+    way = choices.option(("outputs+states", "states")) if share is None else share
+    boundary = 1 if way == "states" else choices.option((1, 1, 2))
+    return system_with_deficiency(
+        choices,
+        choices.integer(1, most),
+        choices.integer(2 if way == "states" else boundary + 2, 4),
+        share=way,
+        degree=choices.option((1, 1, 2)),
+        length=choices.option((1, 1, 2)),
+        boundary=boundary,
+        transfer=choices.option((True, False)),
+        stable=choices.option((False, True)),
+        digits=digits and choices.integer(0, digits),
+        delay=delay,
+        time="discrete" if delay else _time(choices, time),
+    )
+
+
+def systems_with_deficiency(
+    most: int = 3,
+    *,
+    share: str | None = None,
+    time: str | None = None,
+    longest_delay: int = 0,
+    digits: int = 0,
+) -> SearchStrategy[Drawn]:
+    """Systems over strongly connected graphs whose bound on shared dimensions is known.
+
+    Parameters
+    ----------
+    most : int
+        The largest bound, at least 1.
+    share : {"outputs+states", "states"}, optional
+        Whether ``deficiency`` is the bound of Theorem 2 or of Remark 2; either by default.
+    time : {"continuous", "discrete"}, optional
+    longest_delay : int
+        Every edge has a delay from 0 to this; the time is discrete then.
+    digits : int
+        The most digits of numerators and denominators by which states are scaled.
+
+    Returns
+    -------
+    SearchStrategy of Drawn
+        With ``deficiency``, ``fixed_mode``, ``multiplicity`` and ``subset``.  Modes are repeated,
+        complex, in Jordan chains, and stable or not; the fixed one may carry a transfer matrix
+        other than 0.
+    """
+    return _with_deficiency(most, share, time, longest_delay, digits)
 
 
 @st.composite

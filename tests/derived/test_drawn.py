@@ -9,7 +9,10 @@ import sympy
 from hypothesis import given, settings
 
 from mcexact import testing
+from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.derived.drawn.choices import SeededChoices
+from mcexact.derived.drawn.deficiency import system_with_deficiency
+from mcexact.derived.drawn.draw import Draw, drawn_system
 from mcexact.derived.drawn.graph import drawn_graph
 from mcexact.derived.drawn.structure import (
     incomplete_system,
@@ -28,6 +31,7 @@ from mcexact.derived.drawn.systems import (
 from mcexact.errors import UsageError
 from mcexact.exact.blocks import hstack
 from mcexact.exact.linear_algebra import characteristic_polynomial, rank
+from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial
 from tests.oracle import enumeration as oracle
 
@@ -208,3 +212,64 @@ def test_systems_on_graphs_carry_them(drawn):
 def test_what_cannot_be_drawn_is_refused(draw, message):
     with pytest.raises(UsageError, match=message):
         draw(SeededChoices(0))
+
+
+def least_ranks(drawn: Drawn, share: str) -> int:
+    """n minus the least rank of the bound's pencils, by enumeration."""
+    system = drawn.system
+    assert system.neighbors is not None
+    plain = oracle.plain(system if share == "states" else augmented_outputs(system))
+    factors = [p.coefficients for p, _ in characteristic_polynomial(system.A).factor()]
+    subsets = [s for k in range(1, system.m) for s in itertools.combinations(range(system.m), k)]
+    return system.n - min(oracle.pencil_rank(plain, s, p) for s in subsets for p in factors)
+
+
+@settings(max_examples=12)
+@given(testing.systems_with_deficiency(2, digits=3))
+def test_a_deficient_system_has_the_bound_that_it_claims(drawn):
+    assert drawn.system.neighbors.is_strongly_connected()
+    assert all(not c.B.is_zero() and not c.C.is_zero() for c in drawn.system.channels)
+    p = drawn.fixed_mode
+    assert p.is_irreducible()
+    bounds = [least_ranks(drawn, share) for share in ("states", "outputs+states")]
+    assert drawn.deficiency in bounds
+
+
+@pytest.mark.parametrize("share", ["states", "outputs+states"])
+@pytest.mark.parametrize("bound", [1, 2, 3])
+def test_a_deficient_system_attains_its_bound_for_the_way_of_sharing(bound, share):
+    drawn = system_with_deficiency(SeededChoices(bound), bound, share=share)
+    assert least_ranks(drawn, share) == drawn.deficiency == bound
+    holds(drawn)
+
+
+def test_the_transfer_matrix_of_a_deficient_system_is_zero_only_if_that_is_asked_for():
+    for seed, transfer in itertools.product(range(4), (True, False)):
+        drawn = system_with_deficiency(SeededChoices(seed), 1, transfer=transfer)
+        shared = augmented_outputs(drawn.system)
+        B = shared.input_matrix(i for i in range(3) if i not in drawn.subset)
+        C = shared.output_matrix(drawn.subset)
+        markov = [C @ shared.A.power(k) @ B for k in range(shared.n)]
+        assert any(not each.is_zero() for each in markov) == transfer
+
+
+@pytest.mark.parametrize("time", ["continuous", "discrete"])
+def test_a_stable_deficient_system_has_all_eigenvalues_in_the_stability_region(time):
+    drawn = system_with_deficiency(SeededChoices(3), 1, degree=2, stable=True, time=time)
+    assert StabilityRegion.of(time).contains_roots_of(characteristic_polynomial(drawn.system.A))
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [{"channels": 2}, {"share": "inputs"}, {"degree": 3}, {"boundary": 0}, {"deficiency": 0}],
+)
+def test_a_deficient_system_that_cannot_be_is_refused(wrong):
+    options = {"deficiency": 1, **wrong}
+    with pytest.raises(UsageError):
+        system_with_deficiency(SeededChoices(0), options.pop("deficiency"), **options)
+
+
+def test_a_draw_prescribes_a_bound_or_a_fixed_mode():
+    assert drawn_system(Draw(seed=1, channels=3, deficiency=2)).neighbors is not None
+    with pytest.raises(UsageError, match="give one"):
+        drawn_system(Draw(seed=1, channels=3, deficiency=2, fixed_degree=1))

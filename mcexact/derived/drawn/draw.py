@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from mcexact.derived.drawn.choices import SeededChoices
+from mcexact.derived.drawn.deficiency import system_with_deficiency
 from mcexact.derived.drawn.graph import drawn_graph
 from mcexact.derived.drawn.systems import jointly_controllable_system, system_with_fixed_mode
-from mcexact.errors import LimitReached
+from mcexact.errors import LimitReached, UsageError
 from mcexact.exact.location import Time
 from mcexact.exact.rational import DEFAULT_LIMITS
 from mcexact.model.system import MultiChannelSystem
@@ -31,6 +32,8 @@ class Draw:
         ``"continuous"`` or ``"discrete"``.
     neighbors : bool
         Whether it has a strongly connected neighbor graph.
+    deficiency : int or None
+        If given, it has one, over which the bound of Theorem 2 is this; n then follows.
     """
 
     seed: int
@@ -39,6 +42,7 @@ class Draw:
     fixed_degree: int | None = None
     time: Time = "continuous"
     neighbors: bool = False
+    deficiency: int | None = None
 
 
 def drawn_system(draw: Draw) -> MultiChannelSystem:
@@ -48,6 +52,8 @@ def drawn_system(draw: Draw) -> MultiChannelSystem:
     ------
     LimitReached
         If the system would be too large for a system file.
+    UsageError
+        If both a fixed mode and a deficiency are prescribed, or there are too few channels.
 
     Examples
     --------
@@ -56,11 +62,17 @@ def drawn_system(draw: Draw) -> MultiChannelSystem:
     """
     choices = SeededChoices(draw.seed)
     n, m, degree, time = draw.states, draw.channels, draw.fixed_degree, draw.time
+    if draw.deficiency is not None:
+        n = max(n, draw.deficiency)
     if (numbers := max(n, 1) * (n + 2 * m)) > _MOST_NUMBERS:
         raise LimitReached(
             f"a system of {n} states and {m} channels has {numbers} numbers or more, and at most "
             f"{_MOST_NUMBERS} are drawn; draw fewer states or channels"
         )
+    if draw.deficiency is not None:
+        if degree is not None:
+            raise UsageError("a plant with a prescribed bound has a fixed mode already: give one")
+        return system_with_deficiency(choices, draw.deficiency, m, time=time).system
     if degree is None:
         system = jointly_controllable_system(choices, n, m, time=time).system
     else:

@@ -183,21 +183,8 @@ def lay_out(choices: Choices, chains: Sequence[Chain], inputs: Ports, outputs: P
         (A, B) is controllable and (C, A) observable, except for chains that no channel may control
         or observe.
     """
-    n = sum(chain.size for chain in chains)
-    A = [[0] * n for _ in range(n)]
-    zones: list[int] = []
-    firsts: list[list[int]] = []
-    lasts: list[list[int]] = []
-    for chain in chains:
-        start, d = len(zones), chain.degree
-        for k in range(len(chain.zones)):
-            _companion(A, start + k * d, chain.polynomial)
-            if k:
-                for j in range(d):
-                    A[start + (k - 1) * d + j][start + k * d + j] = 1
-        zones += [zone for zone in chain.zones for _ in range(d)]
-        firsts.append(list(range(start, start + d)))
-        lasts.append(list(range(len(zones) - d, len(zones))))
+    A, lasts, firsts = place(chains)
+    zones = [zone for chain in chains for zone in chain.zones for _ in range(chain.degree)]
     # A companion matrix is controllable from its last state and observable from its first.
     drive = [
         _End(chain.polynomial, rows, rows[-1], chain.reached_by, chain.pure)
@@ -209,7 +196,27 @@ def lay_out(choices: Choices, chains: Sequence[Chain], inputs: Ports, outputs: P
     ]
     B = _connect(choices, drive, inputs, zones)
     C = _connect(choices, sight, outputs, zones)
-    return Draft(A, [[row[state] for row in B] for state in range(n)], C)
+    return Draft(A, [[row[state] for row in B] for state in range(len(A))], C)
+
+
+def place(chains: Sequence[Chain]) -> tuple[list[list[int]], list[list[int]], list[list[int]]]:
+    """A as the diagonal of all chains, and the states of the last and the first block of each."""
+    n = sum(chain.size for chain in chains)
+    A = [[0] * n for _ in range(n)]
+    firsts: list[list[int]] = []
+    lasts: list[list[int]] = []
+    start = 0
+    for chain in chains:
+        d = chain.degree
+        for k in range(len(chain.zones)):
+            _companion(A, start + k * d, chain.polynomial)
+            if k:
+                for j in range(d):
+                    A[start + (k - 1) * d + j][start + k * d + j] = 1
+        firsts.append(list(range(start, start + d)))
+        start += chain.size
+        lasts.append(list(range(start - d, start)))
+    return A, lasts, firsts
 
 
 def _companion(A: list[list[int]], start: int, polynomial: Coefficients) -> None:

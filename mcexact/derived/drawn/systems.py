@@ -41,6 +41,8 @@ class Drawn:
     remnant : Polynomial or None
         The remnant polynomial of the complementary subsystem of ``subset``.
     complete : bool or None
+    deficiency : int or None
+        The bound of Theorem 2 on shared dimensions (or of Remark 2) over the neighbor graph.
     """
 
     system: MultiChannelSystem
@@ -53,6 +55,7 @@ class Drawn:
     indices: tuple[int, ...] | None = None
     remnant: Polynomial | None = None
     complete: bool | None = None
+    deficiency: int | None = None
 
 
 def jointly_controllable_system(
