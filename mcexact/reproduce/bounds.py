@@ -19,7 +19,7 @@ from mcexact.analysis.structure.controllability import joint_observability
 from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.answer.pencil_rank import PencilRank
 from mcexact.derived.augmented_outputs import augmented_outputs
-from mcexact.derived.extended import extended_system
+from mcexact.derived.extended import Share, extended_system
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
@@ -29,19 +29,14 @@ from mcexact.reproduce.material import (
     PAPER,
     PROPER_SUBSETS,
     SUBSETS_OF_THREE,
+    deficient_plants,
     drawn_plants,
     graph_of,
     plants,
     three_channels,
 )
 from mcexact.reproduce.notebook import Notebook, Procedure
-from mcexact.reproduce.plants import four_agents, still_pair, two_between
-
-NEGATIVE = "Without fixed modes the bound is 0."
-LEAST_RANK_IS_ENOUGH = (
-    "Also a bound below 1 is attained iff some s with N_s∖s = {i} has the least rank."
-)
-TIGHT = "The bound on the common dimension is tight where outputs and sub-states are shared."
+from mcexact.reproduce.plants import four_agents, still_pair, two_between, two_circles
 
 
 def all_ranks(plant: MultiChannelSystem, share: str = "outputs+states") -> Iterator[PencilRank]:
@@ -86,6 +81,12 @@ def rank_identity(note: Notebook) -> None:
                 after.rank == own.rank + outside + heard,
             )
             note.certify(after, own)
+            twice = sum(n_i[j] for i in inside for j in graph.neighborhood(i))
+            if twice != heard:
+                note.refute("as-printed", after.rank != own.rank + outside + twice)
+            if heard != sum(n_i[j] for j in inside):
+                own_only = sum(n_i[j] for j in inside)
+                note.refute("s-alone", after.rank != own.rank + outside + own_only)
 
 
 def theorem_2(note: Notebook) -> None:
@@ -95,6 +96,30 @@ def theorem_2(note: Notebook) -> None:
         found = fixed_spectrum(extended_system(plant, [bound.deficiency] * plant.m))
         note.check(f"nothing is fixed with n_i = {bound.deficiency}", found.empty)
         note.certify(neighbor_graph(plant), bound, found)
+    _less_than_the_bound(note, "outputs+states")
+    plant = note.at(two_circles())
+    bound = shared_dimension_bound(plant)
+    found = fixed_spectrum(extended_system(plant, [bound.deficiency] * plant.m))
+    note.refute("any-graph", not found.empty)
+    note.certify(neighbor_graph(plant), bound, found)
+
+
+def _less_than_the_bound(note: Notebook, share: Share) -> None:
+    """Plants with the bounds 1, 2 and 3: one less leaves a mode fixed where the bound is tight."""
+    for plant in note.each(deficient_plants(7, share=share)):
+        bound, least = (
+            shared_dimension_bound(plant, share=share),
+            common_dimension(plant, share=share),
+        )
+        enough = fixed_spectrum(extended_system(plant, [bound.deficiency] * plant.m, share))
+        note.check(f"nothing is fixed with n_i = {bound.deficiency}", enough.empty)
+        nothing = fixed_spectrum(extended_system(plant, [0] * plant.m, share))
+        note.refute("n_i=0", not nothing.empty)
+        if least.dimension == bound.deficiency:
+            less = fixed_spectrum(extended_system(plant, [bound.deficiency - 1] * plant.m, share))
+            note.refute("bound-1", not less.empty)
+            note.certify(less)
+        note.certify(bound, enough, nothing)
 
 
 def bound_zero(note: Notebook) -> None:
@@ -112,7 +137,7 @@ def bound_zero(note: Notebook) -> None:
         note.certify(found)
     plant = note.at(still_pair())
     note.certify(*all_ranks(plant))
-    note.refute(NEGATIVE, printed_bound(plant) == -1)
+    note.refute("zero", printed_bound(plant) == -1)
 
 
 def falls_short(plant: MultiChannelSystem, agent: int) -> FixedSpectrum:
@@ -142,6 +167,20 @@ def bound_reached(note: Notebook) -> None:
             )
             note.certify(short)
         note.certify(*(each for each in ranks if each.rank == least))
+        if name == four_agents()[0]:
+            among = [each for each in ranks if each.rank == least]
+            some = any("2" in boundary(plant, each.subset) for each in among)
+            note.refute("among-others", some and falls_short(plant, 1).empty)
+    for plant in note.each(deficient_plants(3)):
+        bound = shared_dimension_bound(plant).deficiency
+        ranks = list(all_ranks(plant))
+        note.check("the bound is the printed one", plant.n - min(r.rank for r in ranks) == bound)
+        for i, agent in enumerate(plant.names):
+            alone = [each for each in ranks if boundary(plant, each.subset) == {agent}]
+            short = falls_short(plant, i)
+            attained = any(plant.n - each.rank == bound for each in alone)
+            note.check(f"agent {agent}: the criterion decides", attained != short.empty)
+            note.certify(short)
     pair = note.at(still_pair())
     ranks = list(all_ranks(pair))
     note.certify(*ranks, shared_dimension_bound(pair))
@@ -151,7 +190,7 @@ def bound_reached(note: Notebook) -> None:
         for name in pair.names
     ]
     # The criterion holds for both agents, and no dimension is −1.
-    note.refute(LEAST_RANK_IS_ENOUGH, all(met) and pair.n - least == -1)
+    note.refute("below-1", all(met) and pair.n - least == -1)
 
 
 def tightness(note: Notebook) -> None:
@@ -178,7 +217,7 @@ def tightness(note: Notebook) -> None:
         both = (bound.deficiency, common.dimension)
         note.check("the bound is 2, and n_i = 1 for all suffices", both == (2, 1))
         note.certify(bound, common)
-        note.refute(TIGHT, both == (2, 1))
+        note.refute("tight", both == (2, 1))
     # The last plant meets all assumptions of the paper, B_i ≠ 0 and C_i ≠ 0 among them.
     note.joint(plant)
     for sizes in ([1, 1, 1, 1], [0, 1, 1, 0]):
@@ -204,6 +243,12 @@ def remark_2(note: Notebook) -> None:
         weaker = shared_dimension_bound(plant)
         note.check("which is at least that of Theorem 2", bound.deficiency >= weaker.deficiency)
         note.certify(bound, weaker, found, sight)
+        if weaker.deficiency < bound.deficiency:
+            short = fixed_spectrum(extended_system(plant, [weaker.deficiency] * plant.m, "states"))
+            if not short.empty:
+                note.refute("(26)")
+            note.certify(short)
+    _less_than_the_bound(note, "states")
 
 
 def every_subset_receives(note: Notebook) -> None:
@@ -226,6 +271,10 @@ def every_subset_receives(note: Notebook) -> None:
         plant = three_channels()
         found = neighbor_graph(plant.with_neighbors(NeighborGraph(plant.names, graph.neighbors)))
         note.certify(found)
+    plant = note.at(two_circles())
+    hears = all(len(graph_of(plant).neighborhood(i)) > 1 for i in range(plant.m))
+    note.refute("single-agents", hears and not graph_of(plant).is_strongly_connected())
+    note.certify(neighbor_graph(plant))
 
 
 def sub_states_needed(note: Notebook) -> None:
@@ -234,6 +283,12 @@ def sub_states_needed(note: Notebook) -> None:
         alone, least = fixed_spectrum(augmented_outputs(plant)), minimal_shared_dimensions(plant)
         note.check("some dimensions suffice", least.feasible)
         note.check("none are needed just when nothing is fixed", (least.total == 0) == alone.empty)
+        note.certify(alone, least)
+        if least.total == 0:
+            note.refute("always", alone.empty)
+    for plant in note.each(deficient_plants(7)):
+        alone, least = fixed_spectrum(augmented_outputs(plant)), minimal_shared_dimensions(plant)
+        note.refute("never", not alone.empty and (least.total or 0) > 0)
         note.certify(alone, least)
 
 

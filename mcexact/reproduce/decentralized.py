@@ -2,41 +2,39 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import reduce
 
-from mcexact.analysis.analyze import analyze
+from mcexact.analysis.fixed_modes.assignability import assignability
 from mcexact.analysis.fixed_modes.completeness import completeness
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.fixed_modes.pencil import pencil_rank
 from mcexact.analysis.fixed_modes.single_channel_gains import single_channel_gains
 from mcexact.analysis.structure.transfer_graph import transfer_graph
 from mcexact.derived.augmented_outputs import augmented_outputs
-from mcexact.derived.extended import extended_system
+from mcexact.derived.drawn.choices import SeededChoices
+from mcexact.derived.drawn.deficiency import system_with_deficiency
 from mcexact.derived.feedback import closed_by
-from mcexact.errors import Impossible
+from mcexact.errors import Impossible, InputError
 from mcexact.exact.linear_algebra import characteristic_polynomial
-from mcexact.exact.location import TIMES, StabilityRegion
+from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.system import MultiChannelSystem
-from mcexact.report.graph_figures import graph_picture
-from mcexact.reproduce.equations import outputs, stacked
 from mcexact.reproduce.material import (
     PAPER,
     SUBSETS_OF_THREE,
+    Instance,
     Numbers,
+    deficient_plants,
     drawn_plants,
     plants,
     three_channels,
 )
 from mcexact.reproduce.notebook import Notebook, Procedure
-from mcexact.reproduce.plants import fixed_zero
+from mcexact.reproduce.plants import fixed_zero, split_spectrum
 from mcexact.synthesis.decentralized import design_decentralized
-from mcexact.synthesis.distributed_observer import design_observer
 from mcexact.synthesis.optimum.aims import THEOREM
-
-ZERO_HINDERS = "In discrete time, too, a rate can be attained only if nothing is fixed."
-OUTPUTS_ARE_ENOUGH = "Sharing outputs alone is enough."
 
 
 def definition(note: Notebook) -> None:
@@ -55,6 +53,10 @@ def definition(note: Notebook) -> None:
             shared.squarefree_part() == found.polynomial.squarefree_part(),
         )
         note.certify(found)
+        own = characteristic_polynomial(plant.A).squarefree_part()
+        if not found.empty and own != found.polynomial.squarefree_part():
+            note.refute("spectrum-of-A")
+            note.refute("empty")
 
 
 def proposition_2(note: Notebook) -> None:
@@ -81,6 +83,30 @@ def proposition_2(note: Notebook) -> None:
             any(each.rank < 3 for each in ranks) != found.empty,
         )
         note.certify(found, *ranks)
+    name, plant = split_spectrum()
+    note.on(f"{name} but outputs")
+    shared = augmented_outputs(plant)
+    ranks, found = [pencil_rank(shared, s, 0) for s in SUBSETS_OF_THREE], fixed_spectrum(shared)
+    note.refute("at-most-n", found.empty and min(each.rank for each in ranks) == shared.n)
+    note.certify(found, *ranks)
+    # The subset has two channels, and every single one has full rank.
+    for plant in note.each(_two_of_three()):
+        found = fixed_spectrum(plant)
+        mode = found.factors[0].polynomial
+        single = [pencil_rank(plant, [name], mode) for name in plant.names]
+        note.refute("single-channels", all(each.rank >= plant.n for each in single))
+        note.certify(found, *single)
+
+
+def _two_of_three() -> Iterator[Instance]:
+    """Plants with a fixed mode, whose subset has two of three channels."""
+    for seed in (1, 2, 3, 4):
+        drawn = system_with_deficiency(SeededChoices(seed), 1, share="states", degree=1 + seed % 2)
+        if len(drawn.subset or ()) == 2:
+            yield (
+                f"drawn, a fixed mode by two channels, seed {seed}: n={drawn.system.n}",
+                drawn.system,
+            )
 
 
 def empty_and_all(note: Notebook) -> None:
@@ -93,6 +119,10 @@ def empty_and_all(note: Notebook) -> None:
                     "the pencil of ∅ or of all channels has rank at least n", found.rank >= plant.n
                 )
                 note.certify(found)
+    plant = note.at((f"{PAPER}, sharing outputs", augmented_outputs(three_channels())))
+    rank = pencil_rank(plant, ["2"], 1)
+    note.refute("other-subsets", rank.rank < plant.n)
+    note.certify(rank)
 
 
 def transfer(note: Notebook) -> None:
@@ -113,6 +143,18 @@ def transfer(note: Notebook) -> None:
             set(found.arcs) - {(c, c) for c in plant.names} == edges,
         )
         note.certify(found)
+    note.on(PAPER)
+    plant = three_channels()
+    found = transfer_graph(plant)
+    backwards = {(i, j) for j, i in found.arcs}
+    note.refute("backwards", set(found.arcs) != backwards)
+    direct = {
+        (plant.names[j], plant.names[i])
+        for j in range(plant.m)
+        for i in range(plant.m)
+        if not (plant.C(i) @ plant.B(j)).is_zero()
+    }
+    note.refute("direct", set(found.arcs) - {(c, c) for c in plant.names} != direct)
 
 
 def corfmat_morse(note: Notebook) -> None:
@@ -124,6 +166,18 @@ def corfmat_morse(note: Notebook) -> None:
             "gains for every channel exist just when it is complete", found.exists == whole.complete
         )
         note.certify(whole, found)
+    for name, plant in (_in_series(), *deficient_plants(2, share="states")):
+        note.on(name)
+        found, fixed, graph = (
+            single_channel_gains(plant),
+            fixed_spectrum(plant),
+            transfer_graph(plant),
+        )
+        if fixed.empty:
+            note.refute("any-transfer-graph", not graph.strongly_connected and not found.exists)
+        else:
+            note.refute("fixed-modes", graph.strongly_connected and not found.exists)
+        note.certify(found, fixed, graph)
 
 
 def free_assignment(note: Notebook) -> None:
@@ -140,15 +194,29 @@ def free_assignment(note: Notebook) -> None:
             design.loop.polynomial == Polynomial.from_roots(wanted),
         )
         note.certify(design.loop.proof)
+    for name, plant in (_in_series(), *deficient_plants(1, share="states")):
+        note.on(name)
+        order = plant.n
+        try:
+            design_decentralized(plant, spectrum=[-3 - k for k in range(plant.n + order)])
+        except Impossible as refused:
+            note.refute("fixed-modes", True)
+            note.certify(refused.certificate)
+        except InputError as refused:
+            note.refute("any-transfer-graph", "the spectrum splits" in str(refused))
+
+
+def _in_series() -> Instance:
+    """A double integrator that drives a plant of one state; nothing leads back."""
+    A = [[0, 1, 0], [0, 0, 0], [1, 0, 2]]
+    B = [[[0], [1], [0]], [[0], [0], [1]]]
+    C = [[[1, 0, 0]], [[0, 0, 1]]]
+    return "two subsystems in series, n=3, m=2", MultiChannelSystem(A, B, C)
 
 
 def partition(note: Notebook) -> None:
     """Not strongly connected: the spectrum is one symmetric set for each strong component."""
-    A = [[0, 1, 0], [0, 0, 0], [1, 0, 2]]
-    B = [[[0], [1], [0]], [[0], [0], [1]]]
-    C = [[[1, 0, 0]], [[0, 0, 1]]]
-    plant = MultiChannelSystem(A, B, C)
-    note.on("two subsystems in series, n=3, m=2")
+    plant = note.at(_in_series())
     found = transfer_graph(plant)
     note.check("there are two strong components", len(found.components) == 2)
     note.check("nothing is fixed", fixed_spectrum(plant).empty)
@@ -156,6 +224,11 @@ def partition(note: Notebook) -> None:
     note.check("one set for each component", len(design.parts["blocks"]) == 2)
     sizes = [each.polynomial.degree - each.order for each in design.parts["blocks"]]
     note.check("of the dimensions of the components, 2 and 1", sorted(sizes) == [1, 2])
+    split = assignability(plant)
+    note.refute("one-set", len(split.blocks) == 2)
+    parts = {part.channels: part.dimension for part in split.blocks}
+    note.refute("equal-sizes", sorted(parts.values()) == [1, 2])
+    note.certify(split)
     note.certify(found, fixed_spectrum(plant), design.loop.proof)
 
 
@@ -172,6 +245,7 @@ def wang_davison(note: Notebook) -> None:
             design = design_decentralized(plant, rate=fast, aims=THEOREM)
         except Impossible as refused:
             note.check("refused because something is fixed", not found.empty)
+            note.refute("always", not found.empty)
             note.certify(refused.certificate)
         else:
             note.check("a rate of 1000 is reached because nothing is fixed", found.empty)
@@ -187,8 +261,13 @@ def wang_davison_discrete(note: Notebook) -> None:
     inside = StabilityRegion.of("discrete", radius="1/100")
     reached = inside.contains_roots_of(design.loop.polynomial or Polynomial.of(0))
     note.check("every eigenvalue of the loop is below 1/100", reached)
-    note.refute(ZERO_HINDERS, reached and not found.empty)
+    note.refute("zero-hinders", reached and not found.empty)
     note.certify(found, design.loop.proof)
+    for plant in note.each(deficient_plants(2, share="states", time="discrete")):
+        found = fixed_spectrum(plant)
+        if found.polynomial.squarefree_part() not in (Polynomial.of(1), Polynomial.x()):
+            note.refute("nothing-hinders")
+        note.certify(found)
     for plant in note.each(drawn_plants(6, states=3, channels=2, time="discrete", first=21)):
         found = fixed_spectrum(plant)
         nonzero = found.polynomial.squarefree_part() not in (Polynomial.of(1), Polynomial.x())
@@ -202,96 +281,6 @@ def wang_davison_discrete(note: Notebook) -> None:
             note.certify(made.loop.proof)
 
 
-def dynamic(note: Notebook) -> None:
-    """No dynamic controller that shares outputs alone moves the mode 1 of the example."""
-    numbers = Numbers(18)
-    for time in TIMES:
-        plant = note.at((f"{PAPER}, {time} time", three_channels(time)))
-        shared = augmented_outputs(plant)
-        found = fixed_spectrum(shared)
-        note.check("1 is fixed when outputs are shared", found.polynomial(1) == 0)
-        note.certify(found)
-        # Private states are shared sub-states that nobody else receives.
-        alone = dict.fromkeys(plant.names, ())
-        base = MultiChannelSystem(
-            shared.A,
-            [channel.B for channel in shared.channels],
-            [channel.C for channel in shared.channels],
-            time=time,
-            names=shared.names,
-            neighbors=alone,
-        )
-        for orders in ([1, 0, 2], [2, 2, 2]):
-            made = extended_system(base, orders, "states")
-            loop = closed_by(made, numbers.gains(made))
-            note.check(
-                f"1 stays with private states of dimensions {orders}",
-                characteristic_polynomial(loop)(1) == 0,
-            )
-
-
-def sharing_states(note: Notebook) -> None:
-    """It is enough to share the estimates x_i: no output of another agent is used."""
-    plant = note.at((PAPER, three_channels()))
-    design = design_observer(plant, rate=1)
-    for i, agent in enumerate(design.controller.agents):
-        others = {j for each in agent.maps() for j in each.outputs} - {i}
-        note.check(f"agent {agent.name} uses its own output alone", not others)
-    note.check("every eigenvalue meets the rate", "distributed_observer" in design.certificates)
-    note.certify(*design.certificates.values())
-    found = fixed_spectrum(extended_system(plant, [plant.n] * plant.m, "states"))
-    note.check("with n_i = n and no outputs nothing is fixed", found.empty)
-    note.certify(found)
-    nothing = fixed_spectrum(augmented_outputs(plant))
-    note.refute(OUTPUTS_ARE_ENOUGH, not nothing.empty)
-    note.certify(nothing)
-
-
-def example(note: Notebook) -> None:
-    """IV-B: the mode 1 stays fixed when agents share outputs alone."""
-    plant = three_channels()
-    system = augmented_outputs(plant)
-    note.on(PAPER)
-    note.joint(plant)
-    rank = pencil_rank(system, ["2"], 1)
-    note.check("rank [I − A, B_1, B_3; C_{N_2}, 0] is 2", rank.rank == 2)
-    found = fixed_spectrum(system)
-    note.check("the fixed polynomial is x − 1", found.polynomial == Polynomial.from_roots([1]))
-    note.check(
-        "no linear time-invariant distributed control with outputs alone stabilizes it",
-        not found.stabilizable,
-    )
-    note.certify(rank, found)
-    alone = MultiChannelSystem(
-        system.A, [c.B for c in system.channels], [c.C for c in system.channels]
-    )
-    try:
-        design_decentralized(alone, rate="1/100")
-    except Impossible as refused:
-        note.check("a design is refused, with the fixed mode as the reason", True)
-        note.certify(refused.certificate)
-    else:
-        note.check("a design is refused", False)
-    heard = analyze(plant, ["fixed_spectrum", "transfer_graph"], information="outputs")
-    note.show(graph_picture(heard.account))
-
-
-def shared_outputs(note: Notebook) -> None:
-    """(23): agent i receives the outputs y_j of its neighbors."""
-    numbers = Numbers(12)
-    for plant in note.each(plants(10, connected=None)):
-        made = augmented_outputs(plant)
-        x = numbers.column(plant.n)
-        y = outputs(plant, x)
-        graph = plant.neighbors
-        right = graph is not None and all(
-            made.C(i) @ x == stacked([y[j] for j in graph.neighborhood(i)]) for i in range(plant.m)
-        )
-        note.check("ȳ_i is column{y_j, j ∈ N_i}", right)
-        note.check("A and B_i are the plant's", made.A == plant.A)
-        note.certify(fixed_spectrum(made))
-
-
 PROCEDURES: dict[str, Procedure] = {
     "fixed-spectrum": definition,
     "prp:mtrx-pencil": proposition_2,
@@ -302,8 +291,4 @@ PROCEDURES: dict[str, Procedure] = {
     "partition": partition,
     "wang-davison": wang_davison,
     "wang-davison-discrete": wang_davison_discrete,
-    "mss": shared_outputs,
-    "example": example,
-    "dynamic": dynamic,
-    "sharing-states": sharing_states,
 }

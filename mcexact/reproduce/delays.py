@@ -2,32 +2,46 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import replace
 from fractions import Fraction
 from functools import partial
 
 from mcexact.analysis.fixed_modes.completeness import completeness
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.sharing.allocation import shared_dimension_bound
+from mcexact.analysis.sharing.common_dimension import common_dimension
 from mcexact.analysis.stability.closed_loop_spectrum import closed_loop_spectrum
 from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
 from mcexact.analysis.structure.transfer_graph import transfer_graph
-from mcexact.derived.delayed import held_system, lifted_system
-from mcexact.derived.extended import shift
+from mcexact.derived.delayed import lifted_system
+from mcexact.derived.extended import Share, shift
 from mcexact.exact.blocks import vstack
-from mcexact.exact.linear_algebra import rank
+from mcexact.exact.linear_algebra import characteristic_polynomial, rank
+from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
+from mcexact.model.loop import closed_loop
+from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem
 from mcexact.reproduce.equations import messages_agree, positions, union_of_graphs
 from mcexact.reproduce.figures import delays_picture
-from mcexact.reproduce.material import Numbers, drawn_plants, graph_of, plants, three_channels
+from mcexact.reproduce.material import (
+    Instance,
+    Numbers,
+    deficient_plants,
+    drawn_plants,
+    graph_of,
+    plants,
+    three_channels,
+)
 from mcexact.reproduce.notebook import Notebook, Procedure
-from mcexact.reproduce.plants import apart, split_spectrum
+from mcexact.reproduce.plants import split_spectrum, unreached
 from mcexact.simulation.trajectory import simulate
 from mcexact.synthesis.extended import design_extended
 from mcexact.synthesis.optimum.aims import THEOREM
 
 X, ONE = Polynomial.x(), Polynomial.of(1)
-WITHOUT_SHARING = "The same with n_i = 0."
 late = partial(plants, time="discrete", longest_delay=2)
 late_drawn = partial(drawn_plants, time="discrete", longest_delay=2)
 
@@ -40,6 +54,9 @@ def shifts(note: Notebook) -> None:
         moved = Matrix.column([0, *range(1, d)])
         note.check("S_d (a_1, …, a_d) is (0, a_1, …, a_{d−1})", shift(d) @ values == moved)
         note.check("after d steps nothing is left", shift(d).power(d).is_zero())
+        if d > 1:
+            note.refute("backwards", shift(d).T @ values != moved)
+            note.refute("d-1", not shift(d).power(d - 1).is_zero())
 
 
 def lifted(note: Notebook) -> None:
@@ -59,25 +76,25 @@ def lifted(note: Notebook) -> None:
             messages_agree(plant, made, sizes, "outputs+states", delays, numbers),
         )
         note.certify(fixed_spectrum(made))
+    name, plant = three_delays()
+    note.on(name)
+    graph, sizes, share = graph_of(plant), [1, 1, 1], "outputs+states"
+    made = lifted_system(plant, sizes)
+    right = {(i, j): d for i, j, d in graph.delays}
+    note.check("delays as they are", messages_agree(plant, made, sizes, share, right, numbers))
+    # As printed: the second entry of ỹ_1 arrives with the delay of the first, d_11 = 0.
+    printed = {**right, (0, 1): 0}
+    note.refute("as-printed", not messages_agree(plant, made, sizes, share, printed, numbers))
+    reversed_ = {(i, j): right.get((j, i), 0) for i, j in right}
+    note.refute("d_ji", not messages_agree(plant, made, sizes, share, reversed_, numbers))
 
 
-def held(note: Notebook) -> None:
-    """(37): all followers of i receive x_i(t − d_i) at the same time."""
-    numbers = Numbers(16)
-    for name, plant in plants(14, time="discrete", longest_delay=3, connected=None):
-        sizes = [k % 3 for k in range(1, plant.m + 1)]
-        note.on(f"{name}, n_i = {sizes}")
-        made = held_system(plant, sizes)
-        graph = graph_of(plant)
-        d = [graph.longest_delay(i) for i in range(plant.m)]
-        delays = {(i, j): d[j] for i in range(plant.m) for j in graph.neighborhood(i)}
-        size = plant.n + sum((1 + d[i]) * sizes[i] for i in range(plant.m))
-        note.check("it has n̂ = n + Σ (n_i + d_i n_i) states", made.n == size)
-        note.check(
-            "agents see what is released, step by step",
-            messages_agree(plant, made, sizes, "states", delays, numbers),
-        )
-        note.certify(fixed_spectrum(made))
+def three_delays() -> Instance:
+    """The example over the complete graph, every link with a delay of its own."""
+    plant = three_channels("discrete")
+    links = [(0, 1, 1), (0, 2, 2), (1, 0, 2), (1, 2, 1), (2, 0, 3), (2, 1, 2)]
+    graph = NeighborGraph(plant.names, [range(3)] * 3, links)
+    return "the example over the complete graph, delays 1 to 3", plant.with_neighbors(graph)
 
 
 def transfer_of_the_lift(note: Notebook) -> None:
@@ -87,6 +104,13 @@ def transfer_of_the_lift(note: Notebook) -> None:
         union = union_of_graphs(plant, before)
         note.check("the union is a subgraph", set(union.edges()) <= positions(plant, after))
         note.certify(before, after)
+        if set(union.edges()) != positions(plant, after):
+            note.refute("equality")
+    plant = note.at(split_spectrum("discrete", 1))
+    before, after = transfer_graph(plant), transfer_graph(lifted_system(plant, [0] * plant.m))
+    union = union_of_graphs(plant, before)
+    note.refute("n_i=0", not set(union.edges()) <= positions(plant, after))
+    note.certify(before, after)
 
 
 def block_ranks(note: Notebook) -> None:
@@ -104,6 +128,12 @@ def block_ranks(note: Notebook) -> None:
             unit = Matrix.identity(k + 1)
             ranks = [rank(vstack([M, unit.take(rows=[i])])) for i in range(k + 1)]
             note.check(f"k = {k}: the rank is k + 1 for every i", ranks == [k + 1] * (k + 1))
+    note.on("λ = 0")
+    for k in range(1, 6):
+        M = Matrix.from_rows([[-int(c == r) for c in range(k + 1)] for r in range(k)])
+        unit = Matrix.identity(k + 1)
+        note.refute("zero", rank(vstack([M, unit.take(rows=[0])])) == k)
+        note.refute("k", rank(vstack([M, unit.take(rows=[k])])) == k + 1)
 
 
 def only_zero_is_lost(note: Notebook) -> None:
@@ -117,6 +147,12 @@ def only_zero_is_lost(note: Notebook) -> None:
             not any(reach.uncontrollable_polynomial.coefficients[:-1]),
         )
         note.certify(sight, reach)
+        if not reach.controllable:
+            note.refute("jointly-controllable")
+    plant = note.at(unreached("discrete"))
+    lost = joint_controllability(lifted_system(plant, [1, 1]))
+    note.refute("any-plant", any(lost.uncontrollable_polynomial.coefficients[:-1]))
+    note.certify(lost)
 
 
 def theorem_3(note: Notebook) -> None:
@@ -129,6 +165,9 @@ def theorem_3(note: Notebook) -> None:
         found = fixed_spectrum(lifted_system(plant, [bound.deficiency] * plant.m))
         note.check("nothing but 0 is fixed", found.polynomial in (ONE, X))
         note.certify(bound, found)
+        if found.polynomial == X:
+            note.refute("also-0")
+    less_than_the_bound(note, "outputs+states", lifted_system, "outputs+states")
 
 
 def free_of_the_lift(note: Notebook) -> None:
@@ -144,7 +183,7 @@ def free_of_the_lift(note: Notebook) -> None:
     bound, alone = shared_dimension_bound(plant), lifted_system(plant, [0] * plant.m)
     graph, whole = transfer_graph(alone), completeness(alone)
     note.check("n_i = 0 meets the hypotheses of Theorem 3", bound.deficiency == 0)
-    note.refute(WITHOUT_SHARING, len(graph.components) > 1 and not whole.complete)
+    note.refute("n_i=0", len(graph.components) > 1 and not whole.complete)
     note.certify(bound, graph, whole)
 
 
@@ -156,6 +195,35 @@ def theorem_3_states(note: Notebook) -> None:
         found = fixed_spectrum(made)
         note.check("nothing but 0 is fixed", found.polynomial in (ONE, X))
         note.certify(bound, found)
+    less_than_the_bound(note, "states", lifted_system, "states")
+
+
+def less_than_the_bound(
+    note: Notebook,
+    share: Share,
+    construct: Callable[..., MultiChannelSystem],
+    *options: str,
+) -> None:
+    """Plants with bounds 1 and 2: one less leaves a nonzero mode fixed where the bound is tight."""
+    for plant in note.each(
+        deficient_plants(4, share=share, time="discrete", longest_delay=1, first=11)
+    ):
+        bound, least = (
+            shared_dimension_bound(plant, share=share),
+            common_dimension(plant, share=share),
+        )
+        sizes = {0, bound.deficiency - 1, bound.deficiency}
+        for size in sorted(sizes):
+            found = fixed_spectrum(construct(plant, [size] * plant.m, *options))
+            nonzero = found.polynomial.squarefree_part() not in (ONE, X)
+            if size == bound.deficiency:
+                note.check("nothing but 0 is fixed at the bound", not nonzero)
+            elif size == 0:
+                note.refute("n_i=0", nonzero)
+            if size == bound.deficiency - 1 and least.dimension == bound.deficiency:
+                note.refute("bound-1", nonzero)
+            note.certify(found)
+        note.certify(bound)
 
 
 def corollary_2(note: Notebook) -> None:
@@ -164,83 +232,24 @@ def corollary_2(note: Notebook) -> None:
     for delay in (0, 1, 2):
         plant = three_channels("discrete", delay)
         note.on(f"the example of section IV-B, discrete time, delay {delay} on every link")
-        design = design_extended(plant, radius="1/2", aims=THEOREM)
-        note.check("radius 1/2 is certified", "stability" in design.certificates)
-        note.certify(*design.certificates.values())
+        for radius in ("1/2", "1/10"):
+            design = design_extended(plant, radius=radius, aims=THEOREM)
+            inside = StabilityRegion.of("discrete", radius=radius)
+            reached = inside.contains_roots_of(characteristic_polynomial(design.loop.matrix))
+            note.check(f"every eigenvalue is below the radius {radius}", reached)
+            note.check("which is certified", "stability" in design.certificates)
+            note.certify(*design.certificates.values())
+        if delay:
+            # The controller for links without delay, over links with delay.
+            prompt = design_extended(three_channels("discrete", 0), radius="1/10", aims=THEOREM)
+            late_loop = closed_loop(plant, replace(prompt.controller, system="")).matrix
+            met = inside.contains_roots_of(characteristic_polynomial(late_loop))
+            note.refute("any-controller", not met)
         run = simulate(plant, design.controller, horizon=12 + 4 * delay)
         spectrum = closed_loop_spectrum(design.loop.matrix, "discrete")
         note.check("the loop is stable", spectrum.stable)
         runs.append((delay, run))
     note.show(delays_picture(runs))
-
-
-def held_joint(note: Notebook) -> None:
-    """The held system is jointly controllable and observable."""
-    for plant in note.each(late(10)):
-        made = held_system(plant, [1] * plant.m)
-        note.joint(made)
-
-
-def outputs_lose_controllability(note: Notebook) -> None:
-    """Sending y_i with delays can make 0 fixed; holding and sending x_i alone does not."""
-    plant = three_channels("discrete", 1)
-    note.on("the example of section IV-B, discrete time, delay 1 on every link")
-    sent = joint_controllability(lifted_system(plant, [1, 1, 1]))
-    note.check("with outputs on the links 0 is out of reach", not sent.controllable)
-    kept = fixed_spectrum(held_system(plant, [1, 1, 1]))
-    note.check("with holding nothing is fixed", kept.empty)
-    note.certify(sent, kept)
-
-
-def theorem_4(note: Notebook) -> None:
-    """Theorem 4: with dimensions at Remark 2's bound, the held system has no fixed mode."""
-    for plant in note.each(
-        late(8),
-        late_drawn(5, fixed=True, first=71),
-    ):
-        bound = shared_dimension_bound(plant, share="states")
-        found = fixed_spectrum(held_system(plant, [bound.deficiency] * plant.m))
-        note.check("nothing is fixed", found.empty)
-        note.certify(bound, found)
-
-
-def transfer_of_the_held(note: Notebook) -> None:
-    """n_i > 0: strongly connected iff the union of neighbor and transfer graphs is."""
-    for plant in note.each(
-        late(5),
-        late_drawn(8, connected=False),
-    ):
-        before, after = transfer_graph(plant), transfer_graph(held_system(plant, [1] * plant.m))
-        union = union_of_graphs(plant, before)
-        note.check(
-            "strongly connected just when the union is",
-            after.strongly_connected == union.is_strongly_connected(),
-        )
-        note.certify(before, after)
-
-
-def free_assignment(note: Notebook) -> None:
-    """With holding, the whole spectrum is freely assignable despite delays."""
-    plant = three_channels("discrete", 1)
-    note.on("the example of section IV-B, discrete time, delay 1 on every link")
-    sizes = (1, 1, 1)
-    note.certify(completeness(held_system(plant, sizes)))
-    least = design_extended(plant, network="held", dimensions=sizes, radius="1/2", aims=THEOREM)
-    degree = least.loop.matrix.nrows
-    wanted = [Fraction(k % 3, 4) for k in range(degree)]
-    design = design_extended(plant, network="held", dimensions=sizes, spectrum=wanted)
-    note.check(
-        "the loop has the prescribed spectrum",
-        design.loop.polynomial == Polynomial.from_roots(wanted),
-    )
-    note.certify(*design.certificates.values())
-    plant = note.at(apart())
-    bound = shared_dimension_bound(plant, share="states")
-    graph = transfer_graph(held_system(plant, [0] * plant.m))
-    found = completeness(held_system(plant, [0] * plant.m))
-    note.check("n_i = 0 meets the hypotheses of Theorem 4", bound.deficiency == 0)
-    note.refute(WITHOUT_SHARING, not graph.strongly_connected and not found.complete)
-    note.certify(bound, graph, found)
 
 
 PROCEDURES: dict[str, Procedure] = {
@@ -253,10 +262,4 @@ PROCEDURES: dict[str, Procedure] = {
     "lift-free": free_of_the_lift,
     "thm3-states": theorem_3_states,
     "cor:strg-graph-delay": corollary_2,
-    "not-controllable": outputs_lose_controllability,
-    "emcsdd-hold": held,
-    "hold-joint": held_joint,
-    "thm:strg-graph-delay-hold": theorem_4,
-    "hold-graph": transfer_of_the_held,
-    "hold-free": free_assignment,
 }

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
+from mcexact.analysis.structure.controllability import joint_controllability
 from mcexact.derived.extended import Share, extended_system
 from mcexact.reproduce.equations import messages_agree
-from mcexact.reproduce.material import Numbers, plants
+from mcexact.reproduce.material import PAPER, Numbers, plants, three_channels
 from mcexact.reproduce.notebook import Notebook, Procedure
+from mcexact.reproduce.plants import unreached
 
 SHARING: tuple[Share, ...] = ("outputs+states", "states")
 
@@ -25,6 +27,13 @@ def construction(note: Notebook) -> None:
                 messages_agree(plant, made, sizes, share, {}, numbers),
             )
             note.certify(fixed_spectrum(made))
+    note.on(PAPER)
+    plant, sizes = three_channels(), [1, 2, 1]
+    made = extended_system(plant, sizes)
+    backwards = plant.with_neighbors({"1": ["3"], "2": ["1"], "3": ["2"]})
+    share = "outputs+states"
+    note.refute("followers", not messages_agree(backwards, made, sizes, share, {}, numbers))
+    note.refute("no-outputs", not messages_agree(plant, made, sizes, "states", {}, numbers))
 
 
 def any_graph(note: Notebook) -> None:
@@ -34,6 +43,10 @@ def any_graph(note: Notebook) -> None:
             note.on(f"{name}, {share}")
             made = extended_system(plant, [1] * plant.m, share)
             note.joint(made)
+    plant = note.at(unreached())
+    found = joint_controllability(extended_system(plant, [1, 1]))
+    note.refute("any-plant", not found.controllable)
+    note.certify(found)
 
 
 PROCEDURES: dict[str, Procedure] = {

@@ -8,9 +8,13 @@ from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.fixed_modes.single_channel_gains import single_channel_gains
 from mcexact.analysis.sharing.allocation import shared_dimension_bound
 from mcexact.analysis.stability.closed_loop_spectrum import closed_loop_spectrum
+from mcexact.analysis.structure.controllability_indices import (
+    controllability_indices,
+    observability_indices,
+)
 from mcexact.analysis.structure.transfer_graph import transfer_graph
 from mcexact.derived.extended import extended_system
-from mcexact.derived.feedback import closed_by
+from mcexact.derived.feedback import closed_by, feedback
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
@@ -34,10 +38,6 @@ from mcexact.synthesis.extended import design_extended
 from mcexact.synthesis.gate import Proposal, certify
 from mcexact.synthesis.optimum.aims import THEOREM
 
-WITHOUT_SHARING = "The same with n_i = 0."
-EVERY_PAIR = "Constant gains assign every symmetric set of two there."
-BOUND_IS_NEEDED = "Every agent has to share as many numbers as the bound of Theorem 2 says."
-
 
 def proposition_3(note: Notebook) -> None:
     """Proposition 3, and strong connectivity that follows."""
@@ -51,6 +51,13 @@ def proposition_3(note: Notebook) -> None:
             note.check(
                 "and is strongly connected with the neighbor graph", after.strongly_connected
             )
+            if union != positions(plant, after):
+                note.refute("equality")
+    plant = note.at(split_spectrum())
+    before, after = transfer_graph(plant), transfer_graph(extended_system(plant, [0, 0, 0]))
+    union = set(union_of_graphs(plant, before).edges())
+    note.refute("n_i=0", not union <= positions(plant, after) and not after.strongly_connected)
+    note.certify(before, after)
 
 
 def corollary_1(note: Notebook) -> None:
@@ -68,6 +75,13 @@ def corollary_1(note: Notebook) -> None:
         design.loop.polynomial == Polynomial.from_roots(wanted),
     )
     note.certify(*design.certificates.values())
+    # Three numbers of the plant and one of the rest: no partition has these complex pairs.
+    pairs = Polynomial.of(2, 2, 1) * Polynomial.of(5, 4, 1)
+    complex_ = design_extended(plant, spectrum=pairs)
+    note.check("two complex pairs are assigned", complex_.loop.polynomial == pairs)
+    odd = [factor.degree for factor, _ in pairs.factor() if factor.degree % 2]
+    note.refute("partition", plant.n % 2 == 1 and not odd)
+    note.certify(*complex_.certificates.values())
     spectrum = closed_loop_spectrum(design.loop.matrix, plant.time)
     note.show(spectrum_picture(spectrum, plant.time, "One shared scalar, spectrum −1, −1, −2, −2"))
     plant = note.at(split_spectrum())
@@ -75,7 +89,7 @@ def corollary_1(note: Notebook) -> None:
     graph, found = transfer_graph(alone), completeness(alone)
     note.check("nothing is fixed", fixed_spectrum(alone).empty)
     note.check("and the bound is 0", shared_dimension_bound(plant).deficiency == 0)
-    note.refute(WITHOUT_SHARING, len(graph.components) == 2 and not found.complete)
+    note.refute("n_i=0", len(graph.components) == 2 and not found.complete)
     note.certify(fixed_spectrum(alone), graph, found)
 
 
@@ -113,7 +127,7 @@ def parity(note: Notebook) -> None:
     numbers = Numbers(17)
     loops = [characteristic_polynomial(closed_by(plant, numbers.gains(plant))) for _ in "1234"]
     real = all(factor.degree == 1 for loop in loops for factor, _ in loop.factor())
-    note.refute(EVERY_PAIR, real)
+    note.refute("pair", real)
     note.certify(split, transfer_graph(plant))
 
 
@@ -126,7 +140,7 @@ def through_any_channel(note: Notebook) -> None:
         note.certify(found)
     plant = note.at(split_spectrum())
     found = single_channel_gains(extended_system(plant, [0] * plant.m))
-    note.refute(WITHOUT_SHARING, not found.exists)
+    note.refute("n_i=0", not found.exists)
     note.certify(found, shared_dimension_bound(plant))
 
 
@@ -139,6 +153,19 @@ def total_dimension(note: Notebook) -> None:
         note.check("the order is k_q + Σ n_i", found.order == orders + sum(sizes.values()))
         note.check("less than the observer's", found.order < found.parts["observer_order"])
         note.certify(*found.certificates.values())
+        note.refute("observer", found.order != found.parts["observer_order"])
+    plant = note.at((PAPER, three_channels()))
+    design = design_extended(plant, rate=1, aims=THEOREM)
+    sizes = design.parts["dimensions"]
+    (block,) = design.parts["blocks"]
+    loop = feedback(extended_system(plant, list(sizes.values())), list(design.parts["gains"]))
+    reach = controllability_indices(loop, [block.agent])
+    sight = observability_indices(loop, [block.agent])
+    both = [each.index or 0 for each in (reach, sight)]
+    note.check("the order k_q is the smaller index less 1", block.order == min(both) - 1)
+    note.refute("larger-index", block.order != max(both) - 1)
+    note.refute("private-state", block.order == 0)
+    note.certify(reach, sight, *design.certificates.values())
 
 
 def any_controller(note: Notebook) -> None:
@@ -150,7 +177,7 @@ def any_controller(note: Notebook) -> None:
     sizes = design.parts["dimensions"]
     note.check("one number is shared in all", sum(sizes.values()) == 1)
     note.check("the loop is certified", "stability" in design.certificates)
-    note.refute(BOUND_IS_NEEDED, min(sizes.values()) < bound.deficiency)
+    note.refute("bound-needed", min(sizes.values()) < bound.deficiency)
     note.certify(bound, *design.certificates.values())
 
 

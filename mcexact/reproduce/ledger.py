@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import tomllib
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from functools import cache
 from importlib import resources
 from typing import Any
@@ -49,8 +50,8 @@ class Examination:
         The part that is proved, or the added hypotheses.
     erratum : str
         The correction, or an empty text.
-    nearest_false : tuple of str
-        The nearest false statements, each of which an instance of the examination refutes.
+    nearest_false : mapping of str to str
+        The nearest false statements by short names; an instance of the examination refutes each.
     """
 
     key: str
@@ -66,7 +67,7 @@ class Examination:
     covers: str = ""
     part: str = ""
     erratum: str = ""
-    nearest_false: tuple[str, ...] = ()
+    nearest_false: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def names(self) -> tuple[str, ...]:

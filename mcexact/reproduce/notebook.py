@@ -40,12 +40,13 @@ class Refutation:
 
     Attributes
     ----------
-    statement : str
-        The false statement, as the ledger has it.
+    name, statement : str
+        The false statement, as the ledger has it, and its short name there.
     instance : str
     refuted : bool
     """
 
+    name: str
     statement: str
     instance: str
     refuted: bool
@@ -122,9 +123,10 @@ class Notebook:
         """Record whether a property holds."""
         self.checks.append(Check(text, self.here, bool(holds)))
 
-    def refute(self, statement: str, refuted: bool = True) -> None:
+    def refute(self, name: str, refuted: bool = True) -> None:
         """Record that the present instance refutes a false statement, or that it fails to."""
-        self.refutations.append(Refutation(statement, self.here, bool(refuted)))
+        statement = examination(self.key).nearest_false[name]
+        self.refutations.append(Refutation(name, statement, self.here, bool(refuted)))
 
     def certify(self, *answers: Answer) -> None:
         """Record answers as certificates, verified by the independent checker."""
@@ -161,9 +163,9 @@ class Notebook:
         for attempt in self.refutations:
             if not attempt.refuted:
                 return f"{attempt.instance}: this is not refuted: {attempt.statement}"
-        refuted = {attempt.statement for attempt in self.refutations}
-        for false in examination(self.key).nearest_false:
-            if false not in refuted:
+        refuted = {attempt.name for attempt in self.refutations}
+        for name, false in examination(self.key).nearest_false.items():
+            if name not in refuted:
                 return f"no instance refutes: {false}"
         return "" if self.checks or self.certificates else "nothing was checked"
 

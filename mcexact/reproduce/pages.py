@@ -13,7 +13,7 @@ from mcexact.reproduce.reproduction import SECTIONS, Reproduction, Row
 from mcexact.reproduce.statements import STATUSES, Statement, counted
 
 _LARGEST_SAMPLE = 6000
-_OF_EXAMINATION = ("key", "title", "section", "proofs", "erratum", "nearest_false")
+_OF_EXAMINATION = ("key", "title", "section", "proofs", "erratum")
 _OF_STATEMENT = ("number", "section", "equation", "says", "status", "examined", "proofs", "note")
 COMMON_BOUND = (
     "The paper asks whether its bound on the common dimension of shared sub-states is tight. It is "
@@ -165,7 +165,7 @@ def reproduction_view(found: Reproduction) -> dict[str, Any]:
                 "status": row.status,
                 "checks": len(row.finding.checks),
                 "refutations": [
-                    {"statement": each.statement, "instance": each.instance}
+                    {"name": each.name, "statement": each.statement, "instance": each.instance}
                     for each in row.finding.refutations
                     if each.refuted
                 ],

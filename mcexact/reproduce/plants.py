@@ -94,6 +94,29 @@ def hidden_by_feedback() -> tuple[str, MultiChannelSystem, list[Columns]]:
     return "a double integrator, fed back to diag(−1, −2)", plant, [[[-1, -1]], [[0, -2]]]
 
 
+def unreached(time: str = "continuous") -> Instance:
+    """Two agents over a connected graph, neither of which moves the mode 2."""
+    e1, row = unit(2, 0), [[1, 1]]
+    plant = MultiChannelSystem(diagonal(1, 2), [e1, e1], [row, row], time=time, neighbors=PAIR)
+    return "diag(1, 2), of which 1 is driven", plant
+
+
+def unseen(time: str = "continuous") -> Instance:
+    """Two agents over a connected graph, neither of which measures the mode 2."""
+    row, column = [[1, 0]], [[1], [1]]
+    plant = MultiChannelSystem(
+        diagonal(1, 2), [column, column], [row, row], time=time, neighbors=PAIR
+    )
+    return "diag(1, 2), of which 1 is measured", plant
+
+
+def two_circles() -> Instance:
+    """Agents 1 and 2 receive from each other, 3 and 4 too: every agent hears another one."""
+    name, plant = four_agents()
+    graph = {"1": ["2"], "2": ["1"], "3": ["4"], "4": ["3"]}
+    return f"{name} in two pairs", plant.with_neighbors(graph)
+
+
 def fixed_zero() -> Instance:
     """In discrete time the eigenvalue 2, and the fixed mode 0."""
     plant = MultiChannelSystem(

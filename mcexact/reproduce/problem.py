@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
 from mcexact.derived.feedback import feedback
 from mcexact.exact.matrix import Matrix
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
+from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import digest
 from mcexact.reproduce.equations import driven, outputs, stacked
-from mcexact.reproduce.material import Numbers, graph_of, plants
+from mcexact.reproduce.material import PAPER, Numbers, graph_of, plants, three_channels
 from mcexact.reproduce.notebook import Notebook, Procedure
 from mcexact.simulation.trajectory import InitialState, simulate
 
@@ -22,6 +24,10 @@ def continuous(note: Notebook) -> None:
         u = [F @ y_i for F, y_i in zip(gains, y, strict=True)]
         closed = feedback(plant, gains)
         note.check("A + Σ B_i F_i C_i is the closed loop", driven(plant, x, u) == closed.A @ x)
+        opposite = feedback(plant, [F * -1 for F in gains])
+        if note.here == PAPER:
+            note.refute("sign", driven(plant, x, u) != opposite.A @ x)
+            note.refute("late", driven(plant, x, u[1:] + u[:1]) != closed.A @ x)
 
 
 def discrete(note: Notebook) -> None:
@@ -47,6 +53,10 @@ def discrete(note: Notebook) -> None:
             "five steps of the agents are five powers of A + Σ B_i F_i C_i",
             last == feedback(plant, gains).A.power(5) @ x,
         )
+        if note.here == PAPER:
+            loop = feedback(plant, gains).A
+            note.refute("late", last != loop.power(4) @ x)
+            note.refute("continuous", last != (Matrix.identity(plant.n) + loop).power(5) @ x)
 
 
 def assumptions(note: Notebook) -> None:
@@ -55,6 +65,12 @@ def assumptions(note: Notebook) -> None:
         note.joint(plant)
         live = all(not c.B.is_zero() and not c.C.is_zero() for c in plant.channels)
         note.check("B_i and C_i are not zero", live)
+    plant = note.at((PAPER, three_channels()))
+    for i, name in enumerate(plant.names):
+        single = MultiChannelSystem(plant.A, [plant.B(i)], [plant.C(i)], names=[name])
+        reach, sight = joint_controllability(single), joint_observability(single)
+        note.certify(reach, sight)
+        note.refute("one-channel", not (reach.controllable and sight.controllable))
 
 
 def neighbor_sets(note: Notebook) -> None:
@@ -73,6 +89,13 @@ def neighbor_sets(note: Notebook) -> None:
                 f"C of the neighbors of {plant.names[i]} stacks their outputs",
                 plant.output_matrix(heard) @ x == stacked([y[j] for j in heard]),
             )
+    plant = note.at((PAPER, three_channels()))
+    graph = graph_of(plant)
+    followers = [{i for i in range(3) if j in graph.neighborhood(i)} for j in range(3)]
+    sets = [set(graph.neighborhood(i)) for i in range(3)]
+    note.check("N_1, N_2, N_3 are as printed", sets == [{0, 1}, {1, 2}, {0, 2}])
+    note.refute("followers", sets != followers)
+    note.refute("without-itself", all(i in N for i, N in enumerate(sets)))
 
 
 PROCEDURES: dict[str, Procedure] = {

@@ -11,8 +11,11 @@ from mcexact.reproduce import (
     bounds,
     decentralized,
     delays,
+    example,
     extended,
     freedom,
+    holding,
+    lemmas,
     observer,
     problem,
     setpoint,
@@ -23,13 +26,16 @@ from mcexact.reproduce.statements import Statement, statements
 
 SECTIONS: tuple[tuple[str, dict[str, Procedure]], ...] = (
     ("I, the problem", problem.PROCEDURES),
-    ("II, the distributed observer", observer.PROCEDURES),
+    ("II-A to II-C, the distributed observer", observer.PROCEDURES),
+    ("II-D, its analysis", lemmas.PROCEDURES),
     ("III, set-points", setpoint.PROCEDURES),
-    ("IV-A and IV-B, decentralized control", decentralized.PROCEDURES),
+    ("IV-A, decentralized control", decentralized.PROCEDURES),
+    ("IV-B, sharing outputs", example.PROCEDURES),
     ("IV-C, extended systems", extended.PROCEDURES),
     ("IV-D, shared dimensions", bounds.PROCEDURES),
     ("IV-E and VI, free assignment", freedom.PROCEDURES),
-    ("V, delays", delays.PROCEDURES),
+    ("V-A, delays", delays.PROCEDURES),
+    ("V-B, holding", holding.PROCEDURES),
 )
 
 

@@ -17,16 +17,23 @@ from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.system import MultiChannelSystem
-from mcexact.reproduce.equations import integrators_agree
+from mcexact.reproduce.equations import integrators_agree, stacked
 from mcexact.reproduce.figures import setpoint_picture
-from mcexact.reproduce.material import Instance, Numbers, drawn_plants, plants
+from mcexact.reproduce.material import (
+    PAPER,
+    Instance,
+    Numbers,
+    drawn_plants,
+    plants,
+    three_channels,
+)
 from mcexact.reproduce.notebook import Notebook, Procedure
+from mcexact.reproduce.plants import unreached, unseen
 from mcexact.simulation.trajectory import simulate
 from mcexact.synthesis.methods import default_polynomial, state_feedback
 from mcexact.synthesis.optimum.aims import THEOREM
 from mcexact.synthesis.setpoint import SetpointMethod, design_setpoint
 
-DETERMINANT_DECIDES = "A determinant without a zero at 0 means (21), also if 0 is a pole."
 METHODS: tuple[SetpointMethod, ...] = ("observer", "extended")
 
 
@@ -64,6 +71,14 @@ def integrators(note: Notebook) -> None:
         made = setpoint_system(plant)
         note.check("the states w_i integrate y_i", integrators_agree(plant, made, numbers))
         note.certify(joint_observability(made))
+    note.on(PAPER)
+    plant = three_channels()
+    made = setpoint_system(plant)
+    x = numbers.column(plant.n)
+    state = stacked([x, Matrix.zeros(made.n - plant.n, 1)])
+    moved, y = (made.A @ state).take(rows=range(plant.n, made.n)), plant.output_matrix() @ x
+    note.refute("sign", moved == y and moved != y * -1)
+    note.refute("outputs", made.output_matrix() @ state != y)
 
 
 def any_stabilizing_control(note: Notebook) -> None:
@@ -85,6 +100,11 @@ def any_stabilizing_control(note: Notebook) -> None:
             "at rest y = r, for every r",
             rest is not None and C @ rest.take(rows=range(plant.n)) == Matrix.identity(q),
         )
+        if name == _two_channels()[0] and rest is not None:
+            held = C @ rest.take(rows=range(plant.n))
+            note.refute("sign", held != Matrix.identity(q) * -1)
+            idle = solve(plant.A, Matrix.zeros(plant.n, 1))
+            note.refute("without-integrators", idle is not None and (C @ idle).is_zero())
 
 
 def always_observable(note: Notebook) -> None:
@@ -93,6 +113,10 @@ def always_observable(note: Notebook) -> None:
         found = joint_observability(setpoint_system(plant))
         note.check("jointly observable through the w_i", found.controllable)
         note.certify(found)
+    plant = note.at(unseen())
+    found = joint_observability(setpoint_system(plant))
+    note.refute("any-plant", not found.controllable)
+    note.certify(found)
 
 
 def only_zero_matters(note: Notebook) -> None:
@@ -102,6 +126,12 @@ def only_zero_matters(note: Notebook) -> None:
         lost = found.uncontrollable_polynomial
         note.check("what is out of reach is at 0", not any(lost.coefficients[:-1]))
         note.certify(found)
+        if note.here == _washed_out()[0]:
+            note.refute("also-0", lost == Polynomial.x())
+    plant = note.at(unreached())
+    found = joint_controllability(setpoint_system(plant))
+    note.refute("any-plant", any(found.uncontrollable_polynomial.coefficients[:-1]))
+    note.certify(found)
 
 
 def condition(note: Notebook) -> None:
@@ -117,6 +147,9 @@ def condition(note: Notebook) -> None:
             found.solvable == augmented.controllable,
         )
         note.certify(found, augmented)
+        if note.here == _washed_out()[0]:
+            note.refute("always", not found.solvable)
+            note.refute("rank-n", found.rank >= plant.n and not augmented.controllable)
 
 
 def determinant_at_zero(note: Notebook) -> None:
@@ -136,7 +169,7 @@ def determinant_at_zero(note: Notebook) -> None:
         "det(sI − A) / s is (s + 1)²",
         characteristic_polynomial(plant.A) == Polynomial.from_roots([0, -1, -1]),
     )
-    note.refute(DETERMINANT_DECIDES, not found.solvable)
+    note.refute("pole-at-0", not found.solvable)
     note.certify(found)
 
 
@@ -162,6 +195,7 @@ def distributed_setpoints(note: Notebook) -> None:
         design_setpoint(plant.with_neighbors({plant.names[0]: []}), rate=1)
     except Impossible as refused:
         note.check("refused where a set-point cannot be held", True)
+        note.refute("always", True)
         note.certify(refused.certificate)
     else:
         note.check("refused where a set-point cannot be held", False)

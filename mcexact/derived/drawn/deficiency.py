@@ -11,6 +11,7 @@ from mcexact.derived.drawn.parts import as_polynomial
 from mcexact.derived.drawn.primary_form import Chain, Coefficients, Draft, place
 from mcexact.derived.drawn.systems import Drawn
 from mcexact.errors import UsageError
+from mcexact.exact.location import is_discrete
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.neighbor_graph import NeighborGraph
@@ -234,7 +235,7 @@ def _stabilized(
     bound = 1 + max(abs(c) for chain in chains for c in chain.polynomial[:-1])
     B = [channel.B for channel in system.channels]
     C = [channel.C for channel in system.channels]
-    if system.time == "discrete":
+    if is_discrete(system.time):
         moved, root = system.A * Fraction(1, bound), root.scale(bound).monic()
     else:
         moved = system.A - Matrix.identity(system.n) * bound
