@@ -213,6 +213,11 @@ def test_wrong_usage_ends_with_2(
     assert told.err
 
 
+def test_a_complaint_is_in_ascii(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["a", "--sytem", "\u00f6"]) == 2
+    assert capsys.readouterr().err.endswith("error: unrecognized arguments: --sytem \\xf6\n")
+
+
 def test_help_is_no_wrong_usage(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--help"]) == 0
     told = " ".join(capsys.readouterr().out.split())

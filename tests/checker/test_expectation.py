@@ -304,6 +304,12 @@ def test_what_is_no_statement_and_no_claim_is_refused(value: Any) -> None:
     assert refused.value.verdict == "MALFORMED"
 
 
+def test_a_claim_that_is_missing_is_asked_for() -> None:
+    with pytest.raises(Refused) as refused:
+        saying(FIXED["claim"])
+    assert 'found no "claim"' in refused.value.message
+
+
 # Manifests.
 
 

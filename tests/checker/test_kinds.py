@@ -197,3 +197,17 @@ def test_no_other_kind_s_evidence_is_read(kind: str) -> None:
 def test_what_is_expected_of_a_certificate_is_insisted_on(expected: Expectation, code: str) -> None:
     found = checked(FREE, expected=expected)
     assert (found.verdict, found.code) == ("INVALID" if code else "VALID", code), found.line()
+
+
+def test_only_the_subject_is_what_others_follow(monkeypatch: pytest.MonkeyPatch) -> None:
+    seen: list[bool] = []
+    spend = Budget.spend
+
+    def watched(self: Budget, units: int, after: int = 0) -> None:
+        seen.extend([self.builds] if seen[-1:] != [self.builds] else [])
+        spend(self, units, after)
+
+    monkeypatch.setattr(Budget, "spend", watched)
+    document = changed(FREE, ("subject", [{"construction": "dual"}]))
+    assert check_document(json.dumps(document).encode()).verdict != "MALFORMED"
+    assert seen == [False, True, False]

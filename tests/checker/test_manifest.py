@@ -485,7 +485,8 @@ def test_a_link_to_the_manifest_is_followed(tmp_path: Path) -> None:
 def test_a_manifest_is_a_file(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "manifest.json")
     (found,) = said(tmp_path)
-    assert (found.verdict, found.place) == ("MALFORMED", "file"), found.line()
+    told = ("MALFORMED", "file", "a manifest is a regular file")
+    assert (found.verdict, found.place, found.message) == told
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs named pipes")

@@ -285,6 +285,26 @@ def test_documents_have_at_most_16_levels() -> None:
         reading.parse(b"[" * 17 + b"]" * 17, Limits())
 
 
+def test_what_no_reader_can_nest_is_told() -> None:
+    data = b"[" * 10**5 + b"]" * 10**5
+    found = check_document(data, limits=Limits(depth=10**6, work=10**12))
+    assert (found.verdict, found.code) == ("MALFORMED", "form")
+    assert found.message == "nested deeper than any certificate"
+
+
+def test_a_polynomial_has_a_leading_coefficient_of_one() -> None:
+    assert reading.polynomial([1], "here") == [1]
+    for wrong in ([], [2], [1, 0]):
+        with pytest.raises(reading.Refused) as refused:
+            reading.polynomial(wrong, "here")
+        assert refused.value.args == (
+            "MALFORMED",
+            "form",
+            "here",
+            "expected a monic polynomial of degree at least 0",
+        )
+
+
 def test_a_string_that_is_missing_is_asked_for() -> None:
     with pytest.raises(reading.Refused, match="expected a string, found 3"):
         reading.string(3, "p")
