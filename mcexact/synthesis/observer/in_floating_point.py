@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
+from itertools import islice
 from typing import TYPE_CHECKING
 
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
@@ -30,6 +30,7 @@ from mcexact.synthesis.observer.error_observer import (
     reduced_order_observer,
 )
 from mcexact.synthesis.observer.programs import observer_programs
+from mcexact.synthesis.observer.promising import most_promising, rounds
 from mcexact.synthesis.request import Request
 
 if TYPE_CHECKING:
@@ -39,7 +40,6 @@ if TYPE_CHECKING:
     Floats = npt.NDArray[np.float64]
 
 _BITS = (36, 52)
-_MARGINS = (Fraction(1, 4), Fraction(1, 16), Fraction(1, 256))
 _EFFORTS = (1.0, 1e2, 1e4, 1e-2)
 _GRID = 8
 
@@ -102,22 +102,21 @@ def float_proposals(
     """
     _require_doubles(system)
     tried, region = 0, request.region
-    for margin in _MARGINS:
-        target = region.tightened(margin)
-        request.tell("state feedback")
-        F = _state_feedback(system, target) if gains is None else tuple(gains)
-        if F is None:
-            continue
-        error = error_system(system, F, graph)
-        candidates = []
-        for drawn in _drawn_gains(system, graph, error, F):
-            tried += 1
-            request.tell(f"observer gains K, H number {tried}")
-            candidates += _solved(error, agent, drawn, target, reduced)
-        for each in sorted(
-            candidates, key=lambda found: (found.observer.channel.order, found.size)
-        ):
-            yield _proposal(system, graph, agent, F, each, tried)
+    for each in rounds(region, system.n * system.m):
+        found = list[tuple[_Candidate, tuple[Matrix, ...]]]()
+        for target, price in each.targets:
+            request.tell("state feedback")
+            F = _state_feedback(system, target, price) if gains is None else tuple(gains)
+            if F is None:
+                continue
+            error = error_system(system, F, graph)
+            for drawn in islice(_drawn_gains(system, graph, error, F), each.draws):
+                tried += 1
+                request.tell(f"observer gains K, H number {tried}")
+                found += [(made, F) for made in _solved(error, agent, drawn, target, reduced)]
+        found.sort(key=lambda made: (made[0].observer.channel.order, made[0].size))
+        proposed = (_proposal(system, graph, agent, F, made, tried) for made, F in found)
+        yield from most_promising(system, graph, region, proposed) if each.ranked else proposed
     refuse_if_impossible(system, graph, region, gains)
     raise LimitReached(
         f"{tried} draws of observer gains K_i, H_ij and their Riccati equations led to no loop "
@@ -167,10 +166,10 @@ def _require_doubles(system: MultiChannelSystem) -> None:
 
 
 def _state_feedback(
-    system: MultiChannelSystem, target: StabilityRegion
+    system: MultiChannelSystem, target: StabilityRegion, price: float
 ) -> tuple[Matrix, ...] | None:
     """Compute dyadic F_i from a Riccati equation; None if there is no solution."""
-    rounded = _gain(system.A, system.input_matrix(), target)
+    rounded = _gain(system.A, system.input_matrix(), target, price)
     if rounded is None:
         return None
     return split_by_channel(system, rounded)
@@ -242,17 +241,17 @@ def _solved(
     ]
 
 
-def _gain(A: Matrix, B: Matrix, target: StabilityRegion) -> Matrix | None:
+def _gain(A: Matrix, B: Matrix, target: StabilityRegion, price: float = 1.0) -> Matrix | None:
     """Compute a dyadic F for A + B F from a Riccati equation; None if there is no solution."""
     floats, inputs = matrix_to_float(A), matrix_to_float(B)
-    F = _first_feedback(floats, inputs, target)
+    F = _first_feedback(floats, inputs, target, price)
     return None if F is None else _rounded(floats, inputs, F, target)
 
 
-def _first_feedback(A: Floats, B: Floats, target: StabilityRegion) -> Floats | None:
+def _first_feedback(A: Floats, B: Floats, target: StabilityRegion, price: float) -> Floats | None:
     """Compute a gain with the least effort for which the computed loop is fast enough."""
     for effort in _EFFORTS:
-        F = riccati_feedback(A, B, target, effort=effort)
+        F = riccati_feedback(A, B, target, effort=price * effort)
         if F is not None and is_within(A + B @ F, target):
             return F
     return None

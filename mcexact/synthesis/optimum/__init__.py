@@ -17,6 +17,7 @@ M(K) = A + B K C.  A ladder of starts leads from static gains to the controller 
 `kernel`       one thread, and no warnings about numbers that are dropped
 `regulator`    optimal controllers of one channel
 `starts`       controllers that each agent designs for itself, and drawn ones
+`cuts`         the controller of all agents together, cut to what each agent knows
 `alone`        controllers of low order that each agent finds for its own part
 `polish`       from a start into the region and to a local optimum
 `ladder`       all starts in their order, and the best result

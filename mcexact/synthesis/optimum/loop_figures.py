@@ -16,6 +16,7 @@ from mcexact.floating.margins import is_within
 from mcexact.model.controller import Controller, LinearMap
 from mcexact.model.loop import ClosedLoop, closed_loop
 from mcexact.synthesis.optimum.figures import Figures, peak_of_state
+from mcexact.synthesis.optimum.kernel import quiet_floats
 from mcexact.synthesis.optimum.sensitivity import Complexes, Response, frequencies
 from mcexact.synthesis.optimum.spectrum import SchurForm
 from mcexact.synthesis.optimum.weights import Floats, Weights
@@ -71,6 +72,12 @@ def figures_of_loop(loop: ClosedLoop, weights: Weights, integrators: Sequence[in
         peak_of_state(M, loop.given.n, form),
         _cost(loop, form, U, weights, integrators),
     )
+
+
+def plain_figures(loop: ClosedLoop) -> Figures:
+    """Compute the figures of a closed loop for weights of 1, without warnings about its numbers."""
+    with quiet_floats():
+        return figures_of_loop(loop, Weights.unit(loop.given))
 
 
 def input_response(loop: ClosedLoop) -> Response:
