@@ -159,3 +159,16 @@ def units_of(place: Callable[[Polynomial], bool], p: Polynomial) -> int:
     with limited(taken):
         place(p)
     return taken.spent
+
+
+@pytest.mark.parametrize(
+    ("p", "bound"),
+    [
+        ([comb(30, k) * Fraction(3) ** k for k in range(31)], 42_000),
+        ([Fraction(comb(15, k // 2) * (k % 2 == 0)) for k in range(31)], 8_200),
+        ([Fraction(3)], 600),
+    ],
+    ids=["(3x + 1)^30", "(x^2 + 1)^15", "3"],
+)
+def test_numbers_that_are_short_are_not_made_longer(p: Polynomial, bound: int) -> None:
+    assert units_of(is_hurwitz, p) < bound
