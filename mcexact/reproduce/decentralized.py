@@ -54,9 +54,11 @@ def definition(note: Notebook) -> None:
         )
         note.certify(found)
         own = characteristic_polynomial(plant.A).squarefree_part()
-        if not found.empty and own != found.polynomial.squarefree_part():
-            note.refute("spectrum-of-A")
-            note.refute("empty")
+        if not found.empty:
+            note.refute("empty", found.polynomial.degree > 0)
+            moved = own // own.gcd(found.polynomial)
+            if moved.degree:
+                note.refute("spectrum-of-A", not moved.divides(found.polynomial))
 
 
 def proposition_2(note: Notebook) -> None:

@@ -189,12 +189,18 @@ def free_of_the_lift(note: Notebook) -> None:
 
 def theorem_3_states(note: Notebook) -> None:
     """Theorem 3 for sub-states alone, with the bound of Remark 2."""
-    for plant in note.each(late(8)):
+    for plant in note.each(late(8), late_drawn(5, fixed=True, first=71)):
         bound = shared_dimension_bound(plant, share="states")
         made = lifted_system(plant, [bound.deficiency] * plant.m, "states")
         found = fixed_spectrum(made)
         note.check("nothing but 0 is fixed", found.polynomial in (ONE, X))
         note.certify(bound, found)
+        weaker = shared_dimension_bound(plant).deficiency
+        if weaker < bound.deficiency:
+            short = fixed_spectrum(lifted_system(plant, [weaker] * plant.m, "states"))
+            if not short.empty:
+                note.refute("(26)", short.polynomial.squarefree_part() not in (ONE, X))
+            note.certify(short)
     less_than_the_bound(note, "states", lifted_system, "states")
 
 
@@ -233,12 +239,17 @@ def corollary_2(note: Notebook) -> None:
         plant = three_channels("discrete", delay)
         note.on(f"the example of section IV-B, discrete time, delay {delay} on every link")
         for radius in ("1/2", "1/10"):
-            design = design_extended(plant, radius=radius, aims=THEOREM)
+            least = design_extended(plant, radius=radius, aims=THEOREM)
+            (block,) = least.parts["blocks"]
+            half = [Fraction(radius) / 2] * block.polynomial.degree
+            design = design_extended(plant, spectrum=half, radius=radius)
             inside = StabilityRegion.of("discrete", radius=radius)
             reached = inside.contains_roots_of(characteristic_polynomial(design.loop.matrix))
             note.check(f"every eigenvalue is below the radius {radius}", reached)
             note.check("which is certified", "stability" in design.certificates)
             note.certify(*design.certificates.values())
+            if radius != "1/2":
+                note.refute("one-radius", reached and Fraction(radius) < Fraction(1, 2))
         if delay:
             # The controller for links without delay, over links with delay.
             prompt = design_extended(three_channels("discrete", 0), radius="1/10", aims=THEOREM)

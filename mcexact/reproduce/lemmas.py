@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from fractions import Fraction
 
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
@@ -10,6 +11,7 @@ from mcexact.analysis.stability.closed_loop_spectrum import closed_loop_spectrum
 from mcexact.analysis.structure.controllability import joint_observability
 from mcexact.analysis.structure.controllability_indices import controllability_indices
 from mcexact.analysis.structure.exceptional_gains import exceptional_gains
+from mcexact.answer.controllability_indices import ControllabilityIndices
 from mcexact.derived.error_system import error_system
 from mcexact.derived.feedback import feedback
 from mcexact.exact.blocks import hstack, kronecker, vstack
@@ -32,6 +34,8 @@ from mcexact.reproduce.notebook import Notebook, Procedure
 from mcexact.reproduce.observer import fed_back, without_arcs, zeros
 from mcexact.reproduce.plants import hidden_by_feedback
 from mcexact.synthesis.distributed_observer import design_observer
+
+INDEX_THREE = "four states, two inputs, index 3"
 
 
 def lemma_1(note: Notebook) -> None:
@@ -108,10 +112,9 @@ def lemma_2(note: Notebook) -> None:
 
 def lemma_3(note: Notebook) -> None:
     """Lemma 3: all exceptional values g are found, and there are finitely many."""
-    numbers = Numbers(9)
-    for seed, (n, r) in enumerate(((2, 1), (3, 1), (3, 2), (4, 2))):
-        note.on(f"drawn pair, seed {seed}: n={n}, r={r}")
-        A, B, M = numbers.matrix(n, n), numbers.matrix(n, r), numbers.matrix(n, n)
+    for name, A, B, M in _pairs():
+        note.on(name)
+        n, r = B.shape
         found = exceptional_gains(M, A, B)
         note.check(
             "finitely many g lose the first m blocks",
@@ -119,33 +122,37 @@ def lemma_3(note: Notebook) -> None:
         )
         note.certify(found.index_set, found.controllability_set, found.indices)
         g = next(g for g in range(1, 1000) if g not in found.index_set)
-        pair = MultiChannelSystem(M + A * g, [B], [Matrix.zeros(0, n)])
-        indices = controllability_indices(pair)
+        indices = _indices(M + A * g, B)
         within = indices.index is not None and indices.index <= found.index
         note.check("another g keeps the index within m", within)
         if found.index * r == n:
             note.check("if mr = n another g keeps the index m", indices.index == found.index)
         note.certify(indices)
-    _index_lost(note)
+        if name == INDEX_THREE:
+            after = [_indices(M + A * g, B) for g in (0, 1, 2, 3)]
+            note.check("(A, B) has index 3", found.index == 3)
+            note.refute("without-mr=n", all(each.index == 2 for each in after[1:]))
+            note.refute("larger-index", all((each.index or 0) < 3 for each in after[1:]))
+            note.refute("every-g", after[0].index is None)
+            note.certify(*after)
 
 
-def _index_lost(note: Notebook) -> None:
-    """A pair with index 3 in four states and two inputs, and M with which the index is 2."""
-    note.on("four states, two inputs, index 3")
-    A = Matrix.from_integers([[0, 0, 0, 0], [0, 0, 0, 0], [1, 0, 0, 0], [0, 0, 1, 0]])
-    B = Matrix.from_integers([[1, 0], [0, 1], [0, 0], [0, 0]])
-    M = Matrix.from_integers([[0, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 0], [0, 1, 0, 0]])
-    found = exceptional_gains(M, A, B)
-    before = controllability_indices(MultiChannelSystem(A, [B], [Matrix.zeros(0, 4)]))
-    after = [
-        controllability_indices(MultiChannelSystem(M + A * g, [B], [Matrix.zeros(0, 4)]))
-        for g in (0, 1, 2, 3)
-    ]
-    note.check("(A, B) has index 3", before.index == 3)
-    note.refute("without-mr=n", all(each.index == 2 for each in after[1:]))
-    note.refute("larger-index", all((each.index or 0) < 3 for each in after[1:]))
-    note.refute("every-g", after[0].index is None)
-    note.certify(before, *after, found.controllability_set)
+def _indices(A: Matrix, B: Matrix) -> ControllabilityIndices:
+    """The controllability indices of a pair."""
+    return controllability_indices(MultiChannelSystem(A, [B], [Matrix.zeros(0, A.nrows)]))
+
+
+def _pairs() -> Iterator[tuple[str, Matrix, Matrix, Matrix]]:
+    """Drawn A, B and M; and a pair with index 3, of which M + gA has the index 2 for g ≠ 0."""
+    numbers = Numbers(9)
+    for seed, (n, r) in enumerate(((2, 1), (3, 1), (3, 2), (4, 2))):
+        name = f"drawn pair, seed {seed}: n={n}, r={r}"
+        yield name, numbers.matrix(n, n), numbers.matrix(n, r), numbers.matrix(n, n)
+    A = [[0, 0, 0, 0], [0, 0, 0, 0], [1, 0, 0, 0], [0, 0, 1, 0]]
+    M = [[0, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 0], [0, 1, 0, 0]]
+    rows = (A, [[1, 0], [0, 1], [0, 0], [0, 0]], M)
+    first, second, third = (Matrix.from_integers(each) for each in rows)
+    yield INDEX_THREE, first, second, third
 
 
 def lemma_4(note: Notebook) -> None:
@@ -200,6 +207,7 @@ def prescribed_rate(note: Notebook) -> None:
             slower = design_observer(plant, spectrum=quarters, radius="1/2")
             inside = wanted.contains_roots_of(characteristic_polynomial(slower.loop.matrix))
             note.refute("any-radius", not inside)
+            note.refute("one-radius", fast and Fraction(radius or 1) < Fraction(1, 2))
     _in_floating_point(note)
 
 

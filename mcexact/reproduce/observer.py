@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import cache
 
 from mcexact.analysis.fixed_modes.single_channel_gains import single_channel_gains
@@ -27,6 +28,7 @@ from mcexact.reproduce.material import (
     three_channels,
 )
 from mcexact.reproduce.notebook import Notebook, Procedure
+from mcexact.reproduce.observer_equations import drawn_observer, equations_agree
 from mcexact.simulation.trajectory import simulate
 from mcexact.synthesis.design import Design
 from mcexact.synthesis.distributed_observer import design_observer
@@ -105,6 +107,16 @@ def errors_without_feedback(note: Notebook) -> None:
             errors_agree(plant, made, zeros(plant), numbers),
         )
     plant = note.at((PAPER, three_channels()))
+    for each in note.each(plants(5)):
+        observed = drawn_observer(each, zeros(each), numbers)
+        _, observer, errors, channel = equations_agree(observed, numbers)
+        note.check("the agents' programs obey (3) and (4)", observer)
+        note.check("x_i − x obeys (5), and z obeys (6)", errors and channel)
+    note.on(PAPER)
+    observed = drawn_observer(plant, zeros(plant), numbers)
+    wrong = replace(observed.channel, B=observed.channel.B * -1)
+    opposite = replace(observed, channel=wrong)
+    note.refute("sign-of-K̄", not equations_agree(opposite, numbers)[3])
     open_loop, F = error_system(plant, zeros(plant)), numbers.feedbacks(plant)
     note.refute("with-feedback", not errors_agree(plant, open_loop, F, numbers))
 
@@ -156,6 +168,11 @@ def errors_with_feedback(note: Notebook) -> None:
         F = numbers.feedbacks(plant)
         made = error_system(plant, F)
         note.check("x_i − x obeys the error system", errors_agree(plant, made, F, numbers))
+    for plant in note.each(plants(5)):
+        observed = drawn_observer(plant, numbers.feedbacks(plant), numbers)
+        _, _, errors, channel = equations_agree(observed, numbers)
+        note.check("x_i − x obeys (12)", errors)
+        note.check("z obeys (13)", channel)
     plant = note.at((PAPER, three_channels()))
     F = numbers.feedbacks(plant)
     canceled, opposite = zeros(plant), [each * -1 for each in F]
@@ -167,6 +184,16 @@ def errors_with_feedback(note: Notebook) -> None:
 
 def whole_loop(note: Notebook) -> None:
     """(9) to (11): the loop of the agents' programs splits as the paper says."""
+    numbers = Numbers(19)
+    for each in note.each(plants(5)):
+        made = drawn_observer(each, numbers.feedbacks(each), numbers)
+        plant_moves, observer, *_ = equations_agree(made, numbers)
+        note.check("the plant obeys (9)", plant_moves)
+        note.check("the agents' programs obey (10) and (11)", observer)
+    note.on(PAPER)
+    made = drawn_observer(three_channels(), numbers.feedbacks(three_channels()), numbers)
+    alone = replace(made, channel=replace(made.channel, D=made.channel.D * 0))
+    note.refute("D̄", not equations_agree(alone, numbers)[1])
     for name, _ in small():
         note.on(name)
         design = designed(name)

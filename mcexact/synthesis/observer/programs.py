@@ -37,7 +37,7 @@ def observer_programs(
 
     Notes
     -----
-    Paper, section II-C, equations `me1` and `me2`::
+    Paper, section II-C, equations (10) and (11)::
 
         ẋ_i = (A + Σ B_jF_j + K_iC_i) x_i − K_i y_i + Σ H_ij (x_i − x_j)  (+ C̄ z for i = q)
         ż   = Ā z + K̄ (C_q x_q − y_q) + Σ H̄_j (x_q − x_j),     u_i = F_i x_i
