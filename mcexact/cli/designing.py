@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any, TypeVar
+from math import log10
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
 from mcexact.cli import aiming, options
+
+if TYPE_CHECKING:
+    from mcexact.exact.rational import Limits
+    from mcexact.synthesis.design import Design
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -168,6 +173,7 @@ def _designed(
             "impossible": str(refused),
             "json": account.as_json(design=name, possible=False, reason=reason),
         }
+    _require_readable(found, Limits(**limits))
     account, assessment = found.account, assess(found, aims)
     figures = measured(
         found.measures(), assessment.rows(), account.sentences, found.region.discrete
@@ -182,3 +188,17 @@ def _designed(
             "json": account.as_json(**found.view(), assessment=assessment.view()),
         }
     )
+
+
+def _require_readable(found: Design, limits: Limits) -> None:
+    """Stop where no command would read the controller, or check what is certified of it."""
+    from mcexact.errors import LimitReached
+
+    digits = int(found.controller.bit_length() * log10(2)) + 1
+    if digits > limits.digits:
+        other = " or choose gains in floating point (--arithmetic float)"
+        raise LimitReached(
+            f"the controller has numbers of about {digits} digits, and files with more than "
+            f"{limits.digits} in a row are not read: allow them (--max-digits {digits + 1})"
+            f"{other if found.arithmetic == 'exact' else ''}"
+        )

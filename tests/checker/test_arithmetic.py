@@ -119,6 +119,14 @@ def test_the_sharpest_bound_decides_how_many_moduli_there_are(
     ]
 
 
+def test_moduli_are_looked_for_down_to_the_least(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(characteristic, "FIRST", 2003)
+    A = Matrix([[2, 1], [1, 3]], 2)
+    found = list(characteristic._residues(A))
+    assert [ell for ell, _ in found] == [k for k in range(2003, 1000, -2) if isprime(k)]
+    assert all(p == [5, ell - 5, 1] for ell, p in found)
+
+
 def test_characteristic_polynomials_modulo_l_are_reductions_or_nothing() -> None:
     rng = random.Random(2)
     for _ in range(300):

@@ -6,8 +6,10 @@ from pathlib import Path
 
 import pytest
 
+from mcexact.model import gallery
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import save_system
+from tests.answer.written import with_graph
 from tests.end_to_end.command_line import run
 from tests.report.strict_html import Page, external_addresses
 
@@ -47,6 +49,21 @@ def test_without_an_output_the_verdict_is_on_standard_error(plant: str) -> None:
     done = run("design", "decentralized", plant, "--rate", "1/2")
     assert json.loads(done.stdout)["format"].startswith("mcexact-controller/")
     assert done.messages[0].startswith("mcexact: Worth installing: ")
+
+
+def test_a_controller_that_no_command_would_read_is_not_written(tmp_path: Path) -> None:
+    controller, folder = tmp_path / "controller.json", tmp_path / "certificates"
+    plant = str(tmp_path / "plant.json")
+    save_system(with_graph(gallery.load("quadruple-tank-pminus")), plant)
+    ask = ("design", "observer", plant, "--rate", "1/100", "--arithmetic", "exact")
+    files = ("-o", str(controller), "--certificates", str(folder))
+    refused = run(*ask, *files, "--max-digits", "20")
+    assert refused.status == 4
+    digits = re.search(r"of about ([0-9]+) digits", refused.stderr)
+    assert digits is not None and int(digits[1]) > 20
+    assert f"(--max-digits {int(digits[1]) + 1})" in refused.stderr
+    assert "--arithmetic float" in refused.stderr
+    assert not controller.exists() and not folder.exists()
 
 
 def test_json_has_the_figures_apart_from_what_is_certified(plant: str, tmp_path: Path) -> None:
