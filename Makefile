@@ -57,7 +57,7 @@ coverage: $(STAMP)
 	$(BIN)/coverage run --rcfile=pyproject.toml -m pytest --quiet tests/checker
 	$(BIN)/coverage report --rcfile=pyproject.toml
 
-# Mutation testing of the checker: every small change has to make one of these tests fail.  Hours.
+# Mutation testing of the checker: every small change has to make one of these tests fail: half an hour.
 # FILES='location rank' tries some files, and continues where an earlier run has ended.
 mutants: $(STAMP)
 	$(BIN)/python -m pip install --quiet --quiet --disable-pip-version-check --editable '.[mutants]'
