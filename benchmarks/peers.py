@@ -2,8 +2,6 @@
 
 - ``heuristic``: what practice does in floating point: the eigenvalues of A and of one drawn closed
   loop, matched.  Not rigorous.
-- ``floor``: the two characteristic polynomials modulo a word-size prime, on matrices that are
-  already there: this method needs at least as much for a certificate.
 - ``pencil_enumeration``: the rank of every pencil P_s modulo a word-size prime at a root of each
   irreducible factor of χ_A, over Q[x]/(p) only where it drops.  Rigorous.
 - ``reduced_enumeration``: the same, with λI − A eliminated once for each factor, so that only a
@@ -12,8 +10,6 @@
 
 from __future__ import annotations
 
-import itertools
-import random
 from typing import Any
 
 import flint
@@ -54,28 +50,6 @@ def heuristic(A: Any, B: Any, C: Any, widths: list[tuple[int, int]], seed: int) 
     scale = max(1.0, float(np.max(np.abs(before), initial=0.0)))
     gaps = np.abs(before[:, None] - after[None, :]).min(axis=1)
     return int(np.count_nonzero(gaps < 1e-8 * scale))
-
-
-def floor(A: flint.nmod_mat, A_F: flint.nmod_mat) -> int:
-    """The degree of the common factor of two characteristic polynomials modulo a prime."""
-    return int(A.charpoly().gcd(A_F.charpoly()).degree())
-
-
-def floor_matrices(system: MultiChannelSystem, seed: int) -> tuple[flint.nmod_mat, flint.nmod_mat]:
-    """A and a drawn A_F modulo a word-size prime, as flint holds them."""
-    ell = next(primes(seed))
-    rng = random.Random(seed)
-    A, B, C, widths = arrays(system)
-    left = flint.nmod_mat(*B.shape, B.ravel().tolist(), ell)
-    right = flint.nmod_mat(*C.shape, C.ravel().tolist(), ell)
-    F = flint.nmod_mat(B.shape[1], C.shape[0], ell)
-    row = column = 0
-    for p, q in widths:
-        for i, j in itertools.product(range(p), range(q)):
-            F[row + i, column + j] = rng.randrange(ell)
-        row, column = row + p, column + q
-    open_loop = flint.nmod_mat(*A.shape, A.ravel().tolist(), ell)
-    return open_loop, open_loop + left * F * right
 
 
 def pencil_enumeration(system: MultiChannelSystem, seed: int) -> Found:

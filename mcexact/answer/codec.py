@@ -7,25 +7,24 @@ certificates are reproducible, and which are only valid.
 
 from __future__ import annotations
 
-import json
 import os
 from typing import Any
 
 from mcexact.answer.protocol import Answer
 from mcexact.errors import InputError
 from mcexact.model.atomic import write_text
-from mcexact.model.canonical import PlainObject, plain, text_of
+from mcexact.model.canonical import plain, text_of
+from mcexact.model.system_file import canonical_text
 
 FORMAT = "mcexact-certificate/1"
 
 
 def document(answer: Answer) -> dict[str, Any]:
     """Return the certificate as a JSON object of plain data, with the six keys of ``FORMAT.md``."""
-    system = answer.system
     return {
         "format": FORMAT,
         "kind": answer.kind,
-        "system": json.loads(system.text) if isinstance(system, PlainObject) else plain(system),
+        "system": answer.system,
         "subject": plain(answer.subject),
         "claim": plain(answer.claim()),
         "witness": plain(answer.witness()),
@@ -42,14 +41,14 @@ def encode(answer: Answer) -> str:
     controller designed in floating point.  Such certificates are only valid.
     """
     parts = {
-        "claim": answer.claim(),
-        "format": FORMAT,
-        "kind": answer.kind,
-        "subject": answer.subject,
-        "system": answer.system,
-        "witness": answer.witness(),
+        "claim": text_of(answer.claim()),
+        "format": text_of(FORMAT),
+        "kind": text_of(answer.kind),
+        "subject": text_of(answer.subject),
+        "system": canonical_text(answer.about),
+        "witness": text_of(answer.witness()),
     }
-    return "{" + ",".join(f'"{key}":{text_of(value)}' for key, value in parts.items()) + "}\n"
+    return "{" + ",".join(f'"{key}":{text}' for key, text in parts.items()) + "}\n"
 
 
 def save_certificate(answer: Answer, path: str | os.PathLike[str]) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from mcexact.answer.evidence import ShrunkSubspace, ZeroTransfer
+from mcexact.answer.evidence import KrylovSequence, ShrunkSubspace, ZeroTransfer
 from mcexact.answer.protocol import Answer, Part, answer, claim, witness
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
@@ -27,6 +27,25 @@ class FreedomWitness(Part):
 
     modulus: int
     gains: tuple[Matrix, ...]
+    arcs: tuple[tuple[str, str, int], ...]
+
+
+@dataclass(frozen=True)
+class SequenceWitness(Part):
+    """Evidence for yes: one sequence of one channel, and edges that connect all channels.
+
+    Attributes
+    ----------
+    sequence : KrylovSequence
+        Of degree n.
+    modulus : int
+        ℓ ≥ 2, for the edges.
+    arcs : tuple of (str, str, int)
+        As in `FreedomWitness`.
+    """
+
+    sequence: KrylovSequence
+    modulus: int
     arcs: tuple[tuple[str, str, int], ...]
 
 
@@ -59,6 +78,9 @@ class CutWitness(Part):
     zero: ZeroTransfer
 
 
+Evidence = SequenceWitness | FreedomWitness | FixedModeWitness | CutWitness
+
+
 @answer("completeness")
 class Completeness(Answer):
     """Whether the system is complete: no fixed mode, and a strongly connected transfer graph.
@@ -70,9 +92,9 @@ class Completeness(Answer):
         subsets of channels included.  For n ≥ 1 this holds if and only if some F makes the system
         controllable and observable through every single channel.  For n = 0 every F does, but a
         system with several channels is not complete, since no channel affects another.
-    evidence : FreedomWitness, FixedModeWitness or CutWitness
-        The first for yes, one of the others for no.
+    evidence : SequenceWitness, FreedomWitness, FixedModeWitness or CutWitness
+        One of the first two for yes, one of the others for no.
     """
 
     complete: bool = claim()
-    evidence: FreedomWitness | FixedModeWitness | CutWitness = witness(whole=True)
+    evidence: Evidence = witness(whole=True)

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from mcexact.answer.evidence import ShrunkSubspace, ZeroTransfer
+from mcexact.answer.evidence import KrylovSequence, ShrunkSubspace, ZeroTransfer
 from mcexact.answer.protocol import Part
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
@@ -34,6 +34,25 @@ class Absence(Part):
     gains: tuple[Matrix, ...]
     modulus: int
     allowed: tuple[tuple[Polynomial, int], ...] = ()
+    arcs: tuple[tuple[str, str, int], ...] | None = None
+
+
+@dataclass(frozen=True)
+class SequenceAbsence(Part):
+    """Evidence that no mode is fixed and, if claimed, of a connected graph.
+
+    Attributes
+    ----------
+    sequence : KrylovSequence
+        Of the system of the claim, of as many degrees as it has states.
+    modulus : int or None
+        ℓ ≥ 2, for the edges; None if there are none.
+    arcs : tuple of (str, str, int), or None
+        (j, i, k) with C̄_i Ā^k B̄_j ≠ 0 modulo ℓ.
+    """
+
+    sequence: KrylovSequence
+    modulus: int | None = None
     arcs: tuple[tuple[str, str, int], ...] | None = None
 
 

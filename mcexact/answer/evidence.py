@@ -32,6 +32,43 @@ class ShrunkSubspace(Part):
 
 
 @dataclass(frozen=True)
+class KrylovSequence(Part):
+    """The numbers s_k = y C_q A_F^k B_q x modulo ℓ, by their least recurrence d, of degree L.
+
+    Whatever divides det(xI − A_F) for all F has a degree of at most n − L.  If L = n, no mode is
+    fixed.
+
+    Attributes
+    ----------
+    modulus : int
+        ℓ ≥ 2.
+    gains : tuple of Matrix
+        F_i, p_i × q_i, one for each channel.
+    channel : str
+        The name of channel q.
+    inputs, outputs : tuple of int
+        x, p_q residues, and y, q_q residues.
+    recurrence : tuple of int
+        d = Σ d_j x^j, monic: Σ_j d_j s_{k+j} = 0.
+    cofactors : (tuple of int, tuple of int)
+        a and e with a·num + e·d = 1, num the polynomial part of d·Σ s_k x^{−k−1}.
+    """
+
+    modulus: int
+    gains: tuple[Matrix, ...]
+    channel: str
+    inputs: tuple[int, ...]
+    outputs: tuple[int, ...]
+    recurrence: tuple[int, ...]
+    cofactors: tuple[tuple[int, ...], tuple[int, ...]]
+
+    @property
+    def degree(self) -> int:
+        """L, the degree of the recurrence."""
+        return len(self.recurrence) - 1
+
+
+@dataclass(frozen=True)
 class ZeroTransfer(Part):
     """An invariant subspace im X that contains im B_j for the channels of a set.
 

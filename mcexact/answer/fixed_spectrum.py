@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from mcexact.answer.evidence import RateInterval, RootDisc, ShrunkSubspace
+from mcexact.answer.evidence import KrylovSequence, RateInterval, RootDisc, ShrunkSubspace
 from mcexact.answer.protocol import Answer, Part, answer, claim, shown, witness
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
@@ -22,9 +22,9 @@ class FixedFactor(Part):
     multiplicity_in_A : int
         The exponent of p in χ_A.
     multiplicity_at_most : int
-        The exponent of p in χ_{A_F} for the drawn F.  The multiplicity of p as a fixed factor is
-        the least such exponent over all constant gains, which is at most this, and nearly always
-        equal.
+        A bound for the multiplicity of p as a fixed factor, which is the least exponent of p in
+        χ_{A_F} over all constant gains: the multiplicity itself if one sequence is the evidence,
+        else the exponent for the drawn F, which is nearly always equal.
     channels : tuple of str
         s, the largest set of channels whose pencil P_s(λ) = [λI − A, B_{m−s}; C_s, 0] has the
         least rank.
@@ -53,6 +53,44 @@ class Completion(Part):
     C0: Matrix
 
 
+@dataclass(frozen=True)
+class OneSequence(Part):
+    """Evidence by one channel: no more is fixed than the factors, n − rank times each.
+
+    Attributes
+    ----------
+    sequence : KrylovSequence
+        Its degree is n less the degrees of the factors, each taken n − rank times.
+    subspaces : tuple of ShrunkSubspace
+        One for each factor, of deficiency n − rank.
+    """
+
+    sequence: KrylovSequence
+    subspaces: tuple[ShrunkSubspace, ...]
+
+
+@dataclass(frozen=True)
+class TwoPolynomials(Part):
+    """Evidence by two characteristic polynomials: gains move all that is no factor.
+
+    Attributes
+    ----------
+    gains : tuple of Matrix
+        F_i, p_i × q_i, one for each channel.
+    modulus : int
+        ℓ ≥ 2, modulo which the rest of χ_A is coprime to χ_{A_F}.
+    subspaces : tuple of ShrunkSubspace
+        One for each factor, of deficiency n − rank.
+    completion : Completion or None
+        None if there is no factor.
+    """
+
+    gains: tuple[Matrix, ...]
+    modulus: int
+    subspaces: tuple[ShrunkSubspace, ...]
+    completion: Completion | None
+
+
 @answer("fixed_spectrum")
 class FixedSpectrum(Answer):
     """The modes that are fixed under all linear time-invariant decentralized feedback.
@@ -73,24 +111,15 @@ class FixedSpectrum(Answer):
     best_rate : RateInterval or None
         Encloses minus the largest real part (continuous time) or the largest modulus (discrete
         time) of the fixed modes; None if there is none.
-    gains : tuple of Matrix
-        F_i, p_i × q_i, one for each channel.
-    modulus : int
-        ℓ ≥ 2, modulo which the rest of χ_A is coprime to χ_{A_F}.
-    subspaces : tuple of ShrunkSubspace
-        One for each factor, of deficiency n − rank.
-    completion : Completion or None
-        None if there is no factor.
+    evidence : OneSequence or TwoPolynomials
+        The second where no sequence was found.
     """
 
     polynomial: Polynomial = claim()
     factors: tuple[FixedFactor, ...] = claim()
     stabilizable: bool = claim()
     best_rate: RateInterval | None = claim()
-    gains: tuple[Matrix, ...] = witness()
-    modulus: int = witness()
-    subspaces: tuple[ShrunkSubspace, ...] = witness()
-    completion: Completion | None = witness()
+    evidence: OneSequence | TwoPolynomials = witness(whole=True)
 
     @property
     @shown("nothing is fixed")

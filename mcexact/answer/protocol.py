@@ -17,7 +17,7 @@ from typing import Any, ClassVar, NoReturn, TypeVar, dataclass_transform
 from mcexact.answer import showing
 from mcexact.model.canonical import Document, text_of
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import canonical_document
+from mcexact.model.system_file import canonical_document, digest
 
 KINDS: dict[str, type[Answer]] = {}
 """The kinds of answers whose files have been imported, by name."""
@@ -128,7 +128,7 @@ class Answer:
         return {key: showing.plain_view(value) for key, _, value in self.entries()}
 
     def _text(self) -> str:
-        return text_of([self.kind, self.system, self.subject, self.document()])
+        return text_of([self.kind, digest(self.about), self.subject, self.document()])
 
     def __eq__(self, other: object) -> bool:
         return self._text() == other._text() if isinstance(other, Answer) else NotImplemented

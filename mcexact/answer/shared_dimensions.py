@@ -4,7 +4,13 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from mcexact.answer.covering import Absence, ConnectivityCut, DeficiencyCut, Tree
+from mcexact.answer.covering import (
+    Absence,
+    ConnectivityCut,
+    DeficiencyCut,
+    SequenceAbsence,
+    Tree,
+)
 from mcexact.answer.protocol import Answer, answer, claim, shown, witness
 
 
@@ -30,7 +36,7 @@ class SharedDimensions(Answer):
         The optimal n_i; None if no dimensions suffice.
     cost : Fraction or None
         Σ c_i n_i.
-    absence : Absence or None
+    absence : SequenceAbsence, Absence or None
     cuts : tuple of DeficiencyCut and ConnectivityCut
     tree : Tree
     """
@@ -43,7 +49,7 @@ class SharedDimensions(Answer):
     feasible: bool = claim()
     dimensions: tuple[int, ...] | None = claim()
     cost: Fraction | None = claim()
-    absence: Absence | None = witness()
+    absence: SequenceAbsence | Absence | None = witness()
     cuts: tuple[DeficiencyCut | ConnectivityCut, ...] = witness()
     tree: Tree = witness()
 

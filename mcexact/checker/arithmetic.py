@@ -10,6 +10,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from itertools import chain
 from operator import mul
 from typing import Any
 
@@ -55,8 +56,7 @@ class Matrix:
     def limbs(self) -> int:
         """The limbs of the longest entry, or of the denominator."""
         spend(self.nrows * (8 + self.ncols))
-        longest = max(map(budget.limbs, self.rows), default=1)
-        return max(longest, budget.limbs([self.denominator]))
+        return budget.limbs(chain(*self.rows, [self.denominator]))
 
     @property
     def T(self) -> Matrix:

@@ -1,7 +1,7 @@
 """Kind ``completeness``: connected and nothing fixed, or not; ``proofs/completeness.md``."""
 
 from . import evidence, subspaces
-from .characteristic_polynomial import characteristic_polynomial
+from .absence import OneSequence, TwoPolynomials, by_sequence
 from .reading import Json, boolean, fields, polynomial, require
 from .statement import FIXED, denied
 from .system import System
@@ -9,7 +9,7 @@ from .transfer_graph import require_connected
 
 
 def check(claim: Json, witness: Json, system: System) -> None:
-    """Check gains and edges for yes; a fixed mode or a cut of the transfer graph for no.
+    """Check freedom and edges for yes; a fixed mode or a cut of the transfer graph for no.
 
     Theorems ``completeness.completeness_yes``, ``completeness.completeness_no_mode``,
     ``completeness.completeness_no_cut``.
@@ -39,13 +39,17 @@ def statement(claim: Json, system: System) -> str:
 
 
 def _require_freedom(witness: Json, system: System) -> None:
-    """Check that gains move every mode, and edges that connect all channels.
+    """Check that no mode is fixed, and edges that connect all channels.
 
     Theorem ``transfer_graph.strongly_connected_arcs``.
     """
-    number, gains, listed = fields(witness, "witness", "modulus", "gains", "arcs")
-    ell = evidence.modulus(number, "witness.modulus")
-    A_F = evidence.closed_loop(system, evidence.read_gains(gains, "witness.gains", system))
-    before, after = (characteristic_polynomial(M, ell) for M in (system.A, A_F))
-    evidence.require_coprime(before, after, ell, "det(xI - A) and det(xI - A_F)")
+    if by_sequence(witness):
+        number, value, listed = fields(witness, "witness", "modulus", "sequence", "arcs")
+        ell = evidence.modulus(number, "witness.modulus")
+        OneSequence(value, "witness", system).require_no_more([])
+    else:
+        number, gains, listed = fields(witness, "witness", "modulus", "gains", "arcs")
+        proof = TwoPolynomials(gains, number, "witness", system)
+        proof.require_moved([])
+        ell = proof.ell
     require_connected(listed, "witness.arcs", system, ell)

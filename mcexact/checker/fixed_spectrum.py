@@ -3,37 +3,32 @@
 from fractions import Fraction
 
 from . import arithmetic, evidence, location, reading, root_discs, subspaces
-from .arithmetic import Matrix, Polynomial
+from .absence import OneSequence, TwoPolynomials, by_sequence
+from .arithmetic import Polynomial
 from .characteristic_polynomial import characteristic_polynomial
 from .reading import Json, fields, require
 from .statement import FIXED, PENCIL, channel_set, denied, polynomial_text
 from .system import System
 
 CLAIM = ("polynomial", "factors", "stabilizable", "best_rate")
-WITNESS = ("gains", "modulus", "subspaces", "completion")
 COUNTS = ("multiplicity_in_A", "multiplicity_at_most", "rank")
 FACTOR = ("polynomial", "channels", "stable", "roots", *COUNTS)
 SLOWEST = {
     "continuous": "minus the largest real part of a fixed mode",
     "discrete": "the largest modulus of a fixed mode",
 }
-Loss = tuple[Polynomial, int]
-"""A factor, and the rank that is lost at its roots."""
 REGION = {"continuous": "Hurwitz", "discrete": "Schur"}
 
 
 def check(claim: Json, witness: Json, system: System) -> None:
-    """Check a shrunk subspace for every factor, and gains that move all other modes.
+    """Check a shrunk subspace for every factor, and that no more is fixed.
 
-    Theorems ``fixed_spectrum.fixed_spectrum_rule``, ``fixed_spectrum.absence``,
-    ``fixed_spectrum.absence_all``, ``fixed_spectrum.multiplicity_at_most``.
+    Theorem ``fixed_spectrum.fixed_spectrum_rule``.
     """
     whole, entries, verdict, rate = fields(claim, "claim", *CLAIM)
-    gains, number, spaces, completion = fields(witness, "witness", *WITNESS)
-    ell, n = evidence.modulus(number, "witness.modulus"), system.n
+    proof, spaces, completion = _proof(witness, system)
     reading.items(spaces, "witness.subspaces", len(reading.items(entries, "claim.factors")))
-    A_F = evidence.closed_loop(system, evidence.read_gains(gains, "witness.gains", system))
-    chi_F, product = characteristic_polynomial(A_F, ell), [1]
+    n, product = system.n, [1]
     psi = characteristic_polynomial(system.A) if entries else []
     found: list[tuple[Polynomial, int, bool, list[root_discs.Disc]]] = []
     for k, entry in enumerate(entries):
@@ -44,16 +39,19 @@ def check(claim: Json, witness: Json, system: System) -> None:
         in_A, at_most, r = map(reading.integer, counts, [place] * 3, (1, 1, 0))
         T = subspaces.shrunk_subspace(spaces[k], space, system, p, n - r)
         require(s == evidence.complement(system, T), "claim", place, "T is not the complement of s")
-        evidence.require_coprime(product, p, ell, "two factors")
+        evidence.require_coprime(product, p, proof.ell, "two factors")
         (a, psi), product = arithmetic.exponent(p, psi), arithmetic.poly_product(product, p)
-        e, _ = arithmetic.exponent(arithmetic.poly_modulo(p, ell), chi_F, ell)
+        e = proof.multiplicity(p, n - r)
         require((in_A, at_most) == (a, e), "claim", place, f"the multiplicities are {a}, {e}")
         stable = location.in_stability_region(p, system.time)
         require(reading.boolean(flag, place) == stable, "claim", f"{place}.stable", "not implied")
         discs = root_discs.root_discs(roots, f"{place}.roots", p)
         found.append((p, n - r, stable, discs))
-    psi = psi or characteristic_polynomial(system.A, ell)
-    evidence.require_coprime(psi, chi_F, ell, "det(xI - A) without factors and det(xI - A_F)")
+    losses = [(p, loss) for p, loss, *_ in found]
+    if isinstance(proof, OneSequence):
+        proof.require_no_more(losses)
+    else:
+        proof.require_moved(psi)
     stabilizable = all(stable for _, _, stable, _ in found)
     agrees = reading.polynomial(whole, "claim.polynomial") == product
     agrees = agrees and reading.boolean(verdict, "claim.stabilizable") == stabilizable
@@ -61,9 +59,20 @@ def check(claim: Json, witness: Json, system: System) -> None:
     if not entries:
         require(rate is None and completion is None, "claim", "claim", "expected null for both")
     else:
-        _require_ranks(completion, [(p, loss) for p, loss, *_ in found], A_F, ell)
+        if isinstance(proof, TwoPolynomials):
+            proof.require_ranks(completion, losses)
         centers = [disc for *_, discs in found for disc in discs]
         root_discs.require_rate(rate, "claim.best_rate", centers, system.time)
+
+
+def _proof(witness: Json, system: System) -> tuple[OneSequence | TwoPolynomials, Json, Json]:
+    """The proof that no more is fixed, with the subspaces, and the completion if it has one."""
+    if by_sequence(witness):
+        sequence, spaces = fields(witness, "witness", "sequence", "subspaces")
+        return OneSequence(sequence, "witness", system), spaces, None
+    keys = ("gains", "modulus", "subspaces", "completion")
+    gains, number, spaces, completion = fields(witness, "witness", *keys)
+    return TwoPolynomials(gains, number, "witness", system), spaces, completion
 
 
 def statement(claim: Json, system: System) -> str:
@@ -93,18 +102,3 @@ def _factor_text(factor: Json, system: System) -> str:
         "of channels, C the outputs of the set and B the inputs of the others, is "
         f"{factor['rank']}, reached by {channel_set(factor['channels'])}"
     )
-
-
-def _require_ranks(completion: Json, losses: list[Loss], A_F: Matrix, ell: int) -> None:
-    """Stop unless A_F + B_0 C_0, with d columns and rows, has no root of a p that loses d.
-
-    Theorems ``fixed_spectrum.completion``, ``fixed_spectrum.rank_exact``.
-    """
-    left, right = fields(completion, "witness.completion", "B0", "C0")
-    rho = max(loss for _, loss in losses)
-    B0 = reading.matrix(left, "witness.completion.B0", A_F.nrows, rho)
-    C0 = reading.matrix(right, "witness.completion.C0", rho, A_F.nrows)
-    for p, d in losses:
-        completed = A_F + B0.take(cols=range(d)) @ C0.take(range(d))
-        chi = characteristic_polynomial(completed, ell)
-        evidence.require_coprime(p, chi, ell, "a factor, and det(xI - A_F - B0 C0),")

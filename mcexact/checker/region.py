@@ -3,6 +3,7 @@
 from fractions import Fraction
 
 from . import evidence
+from .absence import OneSequence, TwoPolynomials, by_sequence
 from .arithmetic import Polynomial, exponent
 from .characteristic_polynomial import characteristic_polynomial
 from .location import in_region
@@ -18,30 +19,38 @@ Bound = Fraction | None
 def require_absence(value: Json, system: System, bound: Bound, connected: bool = False) -> None:
     """Stop unless every fixed mode lies in the region; and the graph is connected, if asked.
 
-    Theorems ``fixed_spectrum.absence``, ``fixed_spectrum.absence_all``,
-    ``transfer_graph.strongly_connected_arcs``.
+    Theorem ``transfer_graph.strongly_connected_arcs``.
     """
     place = "witness.absence"
-    gains, number, listed, arcs = fields(value, place, "gains", "modulus", "allowed", "arcs")
-    ell = evidence.modulus(number, f"{place}.modulus")
-    A_F = evidence.closed_loop(system, evidence.read_gains(gains, f"{place}.gains", system))
-    after = characteristic_polynomial(A_F, ell)
-    allowed = items(listed, f"{place}.allowed")
+    if by_sequence(value):
+        sequence, number, arcs = fields(value, place, "sequence", "modulus", "arcs")
+        OneSequence(sequence, place, system).require_no_more([])
+        alone = (number is None) == (arcs is None)
+        require(alone, "claim", f"{place}.modulus", "expected for edges alone")
+    else:
+        keys = ("gains", "modulus", "allowed", "arcs")
+        gains, number, listed, arcs = fields(value, place, *keys)
+        proof = TwoPolynomials(gains, number, place, system)
+        proof.require_moved(_without(listed, f"{place}.allowed", system, bound))
+    require((arcs is not None) == connected, "claim", f"{place}.arcs", "expected iff claimed")
+    if arcs is not None:
+        ell = evidence.modulus(number, f"{place}.modulus")
+        require_connected(arcs, f"{place}.arcs", system, ell)
+
+
+def _without(value: Json, place: str, system: System, bound: Bound) -> Polynomial:
+    """det(xI − A) without factors that lie in the region; [] if there is none."""
+    allowed = items(value, place)
     rest = characteristic_polynomial(system.A) if allowed else []
     for k, entry in enumerate(allowed):
-        where = f"{place}.allowed[{k}]"
+        where = f"{place}[{k}]"
         factor, power = items(entry, where, 2)
         p = polynomial(factor, where, 1)
         inside = in_region(p, system.time, bound)
         require(inside, "region", where, "has a root outside the region")
         times, rest = exponent(p, rest)
         require(times == integer(power, where, 1), "exponent", where, f"divides {times} times")
-    before = rest or characteristic_polynomial(system.A, ell)
-    what = "det(xI - A) without the allowed factors and det(xI - A_F)"
-    evidence.require_coprime(before, after, ell, what)
-    require((arcs is not None) == connected, "claim", f"{place}.arcs", "expected iff claimed")
-    if arcs is not None:
-        require_connected(arcs, f"{place}.arcs", system, ell)
+    return rest
 
 
 def read_bound(value: Json, system: System) -> Bound:

@@ -4,6 +4,7 @@ import math
 import re
 from dataclasses import dataclass, field
 from fractions import Fraction
+from itertools import chain
 
 from . import budget, reading
 from .arithmetic import Matrix
@@ -51,13 +52,14 @@ class System:
         return reading.names([name], place, self.names)[0]
 
 
-def number(value: Json, place: str, limits: Limits | None = None) -> Fraction:
+def number(value: Json, place: str, limits: Limits | None = None) -> Fraction | int:
     """A number of a system file: an integer, a decimal as typed, or a string "p/q".
 
     ``limits`` are those of a file; a certificate's numbers were limited when it was parsed.
     """
+    result: Fraction | int
     if type(value) is int or isinstance(value, Fraction):
-        result, typed = Fraction(value), 0
+        result, typed = value, 0
     else:
         good = type(value) is str and NUMBER.fullmatch(value)
         mantissa, exponent, *_ = [*re.split("[eE]", value), "0"] if good else ["", "0"]
@@ -66,8 +68,10 @@ def number(value: Json, place: str, limits: Limits | None = None) -> Fraction:
         typed = 0 if "/" in mantissa else len(mantissa.strip("-").replace(".", ""))
         budget.spend(300 + (len(value) + abs(int(exponent))) ** 2 // 500)
         result = Fraction(value)
+    if limits is None:
+        return result
     size = max(abs(result.numerator), result.denominator)
-    if limits and (typed > limits.digits or too_long(size, limits.digits)):
+    if typed > limits.digits or too_long(size, limits.digits):
         reading.incomplete("size", place, f"needs more than {limits.digits} digits (Limits.digits)")
     return result
 
@@ -87,7 +91,7 @@ def read_matrix(
         if max(r, 1) * max(c, 1) > LARGEST:
             reading.incomplete("size", f"{place}.shape", f"{r} by {c} is too large")
         budget.spend(budget.table(r + 1, c))
-        rows: list[list[Fraction]] = [[Fraction(0)] * c for _ in range(r)]
+        rows: list[list[Json]] = [[0] * c for _ in range(r)]
         seen = set()
         for i, j, entry in (items(triple, place, 3) for triple in items(entries, place)):
             if integer(i, place) >= r or integer(j, place) >= c or (i, j) in seen:
@@ -97,16 +101,25 @@ def read_matrix(
     else:
         r, listed = len(items(value, place)), value
         c = len(items(listed[0], place)) if listed else ncols or 0
-        rows = [[number(entry, place, limits) for entry in items(row, place, c)] for row in listed]
+        rows = [_numbers(items(row, place, c), place, limits) for row in listed]
     if nrows not in (None, r) or ncols not in (None, c):
         malformed(place, f"expected another shape, found {r} by {c}")
-    different = {entry.denominator for row in rows for entry in row}
+    whole = set(map(type, chain(*rows))) <= {int}
+    different = {1} if whole else {entry.denominator for row in rows for entry in row}
     budget.spend(budget.fractions(len(different), sum(budget.limbs([d]) for d in different)))
     d = math.lcm(*different)
-    longest = (budget.limbs([entry.numerator for entry in row]) for row in rows)
-    size = max(longest, default=1) + budget.limbs([d])
+    numerators = chain(*rows) if whole else (entry.numerator for row in rows for entry in row)
+    size = budget.limbs(numerators) + budget.limbs([d])
     budget.build(r, c, size, size)
+    if whole:
+        return Matrix(rows, c)
     return Matrix([[e.numerator * (d // e.denominator) for e in row] for row in rows], c, d)
+
+
+def _numbers(row: list[Json], place: str, limits: Limits | None) -> list[Json]:
+    """The numbers of a row; integers of a certificate are as they should be."""
+    known = limits is None and set(map(type, row)) <= {int}
+    return row if known else [number(entry, place, limits) for entry in row]
 
 
 def read_system(value: Json, limits: Limits | None = None) -> System:
@@ -172,6 +185,8 @@ def _with_graph(plant: System, heard: Json, waits: Json) -> System:
 def rows_of(M: Matrix) -> list[list[Json]]:
     """The rows of a matrix as in JSON: integers, or "p/q" in lowest terms."""
     budget.spend(budget.fractions(M.nrows * M.ncols, M.limbs))
+    if M.denominator == 1:
+        return M.rows
     values = [[Fraction(entry, M.denominator) for entry in row] for row in M.rows]
     return [[v.numerator if v.denominator == 1 else str(v) for v in row] for row in values]
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import prod
@@ -177,6 +177,37 @@ def loop_polynomials(
         return modular.A.characteristic_polynomial(), closed.characteristic_polynomial()
     B, C = zip(*((channel.B, channel.C) for channel in system.channels), strict=True)
     return krylov.loop_polynomials(system.A, B, C, gains, ell)
+
+
+def channel_sequences(
+    modular: ModularSystem, gains: Gains, starts: Iterable[krylov.Start]
+) -> Iterator[list[int]]:
+    """Compute y C_q A_F^k B_q x modulo ℓ, k < 2n, for one channel q with x and y after the other.
+
+    Parameters
+    ----------
+    modular : ModularSystem
+    gains : Gains
+        F_i, p_i × q_i residues modulo ℓ.
+    starts : iterable of (int, residues, residues)
+        (q, x, y), x of p_q and y of q_q residues.
+    """
+    system, ell = modular.system, modular.modulus
+    if system.n >= _KRYLOV_SIZE and ell.bit_length() <= quick_bits(system):
+        B, C = zip(*((channel.B, channel.C) for channel in system.channels), strict=True)
+        loop = krylov.FloatLoop(system.A, B, C, ell)
+        yield from loop.sequences(loop.closed(gains), starts)
+        return
+    A_F = closed_loop(modular, gains)
+    for q, x, y in starts:
+        inputs, outputs = residues(system.B(q), ell), residues(system.C(q), ell)
+        b = inputs @ ModularMatrix.from_rows([[entry] for entry in x], ell, ncols=1)
+        c = ModularMatrix.from_rows([y], ell) @ outputs
+        numbers = []
+        for _ in range(2 * system.n):
+            numbers.append((c @ b)[0, 0])
+            c = c @ A_F
+        yield numbers
 
 
 def lifted(M: ModularMatrix) -> Matrix:

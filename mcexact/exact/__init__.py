@@ -16,7 +16,8 @@ No other stage imports flint.  This stage refuses sizes and moduli for which fli
 `linear_algebra`     ranks, kernels, solutions, characteristic polynomials over Q
 `polynomial`         rational polynomials
 `modular`            matrices and polynomials modulo word-size primes
-`krylov`             characteristic polynomials modulo smaller primes, by exact float products
+`krylov`             Krylov sequences modulo smaller primes, by exact float products
+`recurrence`         least recurrences of sequences modulo primes
 `reconstruction`     rational numbers from their residues
 `polynomial_matrix`  matrices of polynomials
 `number_field`       kernels and ranks over Q[x]/(p)

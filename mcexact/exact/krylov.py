@@ -1,35 +1,39 @@
-"""Characteristic polynomials modulo primes so small that sums of products are exact in float64.
+"""Krylov sequences modulo primes so small that sums of products are exact in floating point.
 
-A double holds every integer up to 2**53.  With n(ℓ/2)² below that, a product of n × n matrices of
-symmetric residues is exact for every order of its additions, and the processor's fastest
-routine for floats computes it.  The sequence uMᵏv of 2n terms, in steps of b and of one
-(M^b by repeated squaring), and the algorithm of Berlekamp and Massey then give the least
-recurrence; its polynomial divides the minimal polynomial of M, so where it has degree n it is the
-characteristic polynomial.
+A double holds every integer up to 2**53, and a single up to 2**24.  With n(ℓ/2)² below that, a
+product of n × n matrices of symmetric residues is exact for every order of its additions, and the
+processor's fastest routine for floats computes it.  The numbers c Mᵏ b of 2n terms, in steps of
+some powers of two and of one, determine their least recurrence; its polynomial divides the minimal
+polynomial of M, so where it has degree n it is the characteristic polynomial.
 
-At n = 200, 400 and 800 this takes 0.5, 0.27 and 0.1 times as long as flint's characteristic
-polynomial, and an array is made of a matrix in a quarter of the time.
+At n = 200, 400 and 800 a characteristic polynomial takes 0.5, 0.27 and 0.1 times as long as with
+flint.
 """
 
 from __future__ import annotations
 
 import random
-from collections.abc import Sequence
+from array import array
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 import flint
 
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular_polynomial import ModularPolynomial
+from mcexact.exact.recurrence import least_recurrence
 
 if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
-    Floats = npt.NDArray[np.float64]
-    Integers = npt.NDArray[np.int64]
+    Floats = npt.NDArray[np.floating[Any]]
 
 _EXACT = 2**53
+_EXACT_IN_SINGLE = 2**24
+
+Start = tuple[int, Sequence[int], Sequence[int]]
+"""A channel q and residues x, y: b = B_q x and c = y C_q."""
 
 
 def exact_bits(terms: int) -> int:
@@ -45,15 +49,17 @@ def exact_bits(terms: int) -> int:
     (23, 22)
     """
     bits = 26
-    while terms * (2 ** (bits - 1) + 3) ** 2 + 2**bits > _EXACT:
+    while _largest_sum(terms, 2**bits) > _EXACT:
         bits -= 1
     return bits
 
 
-def loop_polynomials(
-    A: Matrix, B: Sequence[Matrix], C: Sequence[Matrix], gains: Sequence[Any], ell: int
-) -> tuple[ModularPolynomial, ModularPolynomial]:
-    """Compute χ_A and χ_{A + Σ B_i F_i C_i} modulo ℓ.
+def _largest_sum(terms: int, ell: int) -> int:
+    return terms * (ell // 2 + 3) ** 2 + ell
+
+
+class FloatLoop:
+    """A, B = [B_1 … B_m] and C = [C_1; …; C_m] as arrays of symmetric residues modulo ℓ.
 
     Parameters
     ----------
@@ -61,23 +67,90 @@ def loop_polynomials(
         n × n.
     B, C : sequences of Matrix
         n × p_i and q_i × n.
-    gains : sequence of p_i × q_i rows of integers
     ell : int
         A prime of at most ``exact_bits`` of the longest sum: n, Σ p_i, or a q_i.  It divides no
         denominator.
     """
-    import numpy as np
 
-    n = A.nrows
-    open_loop = _residues(A, ell)
-    inputs = _stacked([_residues(M, ell) for M in B], (n, 0), axis=1)
-    heard = [
-        _reduced(_reduced(np.array(F, dtype=np.float64).reshape(M.ncols, N.nrows), ell) @ c, ell)
-        for F, M, N, c in zip(gains, B, C, (_residues(N, ell) for N in C), strict=True)
-    ]
-    added = _reduced(inputs @ _stacked(heard, (0, n), axis=0), ell)
-    closed = _reduced(open_loop + added, ell)
-    return characteristic_polynomial(open_loop, ell), characteristic_polynomial(closed, ell)
+    def __init__(self, A: Matrix, B: Sequence[Matrix], C: Sequence[Matrix], ell: int) -> None:
+        import numpy as np
+
+        self.ell, self.n = ell, A.nrows
+        self.inputs = _offsets([M.ncols for M in B])
+        self.outputs = _offsets([M.nrows for M in C])
+        terms = max(self.n, self.inputs[-1], self.outputs[-1])
+        single = _largest_sum(terms, ell) <= _EXACT_IN_SINGLE
+        self.kind: type[np.floating[Any]] = np.float32 if single else np.float64
+        self.A = _residues([A], ell, self.kind)[0]
+        if all(M.shape[1] == M.denominator == 1 for M in B):
+            self.B = _numbers(B, ell, self.kind).reshape(len(B), self.n).T
+        else:
+            self.B = np.hstack([np.zeros((self.n, 0), self.kind), *_residues(B, ell, self.kind)])
+        if all(M.denominator == 1 for M in C):
+            self.C = _numbers(C, ell, self.kind).reshape(self.outputs[-1], self.n)
+        else:
+            self.C = np.vstack([np.zeros((0, self.n), self.kind), *_residues(C, ell, self.kind)])
+
+    def closed(self, gains: Sequence[Any]) -> Floats:
+        """A + Σ B_i F_i C_i, for p_i × q_i rows of integers."""
+        import numpy as np
+
+        F = np.zeros((self.inputs[-1], self.outputs[-1]), self.kind)
+        for i, rows in enumerate(gains):
+            part = F[self.inputs[i] : self.inputs[i + 1], self.outputs[i] : self.outputs[i + 1]]
+            part[:] = np.array(rows, dtype=np.int64).reshape(part.shape)
+        heard = _reduced(_reduced(F, self.ell) @ self.C, self.ell)
+        return _reduced(self.A + _reduced(self.B @ heard, self.ell), self.ell)
+
+    def sequences(self, M: Floats, starts: Iterable[Start]) -> Iterator[list[int]]:
+        """The numbers y C_q Mᵏ B_q x modulo ℓ, k < 2n, for each (q, x, y)."""
+        steps = KrylovSteps(M, self.ell)
+        for q, x, y in starts:
+            some_inputs = self.B[:, self.inputs[q] : self.inputs[q + 1]]
+            some_outputs = self.C[self.outputs[q] : self.outputs[q + 1]]
+            column = _reduced(some_inputs @ self._vector(x), self.ell)
+            row = _reduced(self._vector(y) @ some_outputs, self.ell)
+            yield steps.sequence(row, column)
+
+    def _vector(self, x: Sequence[int]) -> Floats:
+        import numpy as np
+
+        return _reduced(np.array(x, dtype=self.kind), self.ell)
+
+
+class KrylovSteps:
+    """Powers of an n × n array of symmetric residues, with which sequences are computed."""
+
+    def __init__(self, M: Floats, ell: int) -> None:
+        self.ell, self.powers = ell, [M]
+        # at n = 800: three squarings, and 200 products with a row for each sequence
+        for _ in range(min(3, len(M).bit_length() // 2)):
+            self.powers.append(_reduced(self.powers[-1] @ self.powers[-1], ell))
+
+    def sequence(self, row: Floats, column: Floats) -> list[int]:
+        """The numbers c Mᵏ b, k < 2n: (c M^{hg})(M^j b) for k = hg + j, j < h."""
+        import numpy as np
+
+        *small, power = self.powers
+        columns = column[:, None]
+        for M in small:
+            columns = np.hstack([columns, _reduced(M @ columns, self.ell)])
+        n, h = columns.shape
+        rows = np.empty((-(-2 * n // h), n), dtype=power.dtype)
+        for k in range(len(rows)):
+            rows[k] = row if k == 0 else _reduced(rows[k - 1] @ power, self.ell)
+        numbers = _reduced(rows @ columns, self.ell).ravel()[: 2 * n]
+        found: list[int] = (numbers.astype(np.int64) % self.ell).tolist()
+        return found
+
+
+def loop_polynomials(
+    A: Matrix, B: Sequence[Matrix], C: Sequence[Matrix], gains: Sequence[Any], ell: int
+) -> tuple[ModularPolynomial, ModularPolynomial]:
+    """Compute χ_A and χ_{A + Σ B_i F_i C_i} modulo ℓ; the arguments are those of `FloatLoop`."""
+    loop = FloatLoop(A, B, C, ell)
+    closed = loop.closed(gains)
+    return characteristic_polynomial(loop.A, ell), characteristic_polynomial(closed, ell)
 
 
 def characteristic_polynomial(M: Floats, ell: int) -> ModularPolynomial:
@@ -88,90 +161,71 @@ def characteristic_polynomial(M: Floats, ell: int) -> ModularPolynomial:
     """
     import numpy as np
 
-    n = len(M)
-    recurrence = _least_recurrence(_krylov_sequence(M, ell), ell)
-    if len(recurrence) == n + 1:
-        return ModularPolynomial(ell, flint.nmod_poly(recurrence[::-1].tolist(), ell))
+    n, draw = len(M), random.Random(ell).randrange
+    drawn = np.array([draw(ell) for _ in range(2 * n)], dtype=M.dtype)
+    row, column = _reduced(drawn, ell).reshape(2, n)
+    sequence = KrylovSteps(M, ell).sequence(row, column)
+    recurrence = least_recurrence(sequence, ell)
+    if recurrence.degree == n:
+        return recurrence
     entries = (M.astype(np.int64) % ell).ravel().tolist()
     return ModularPolynomial(ell, flint.nmod_mat(n, n, entries, ell).charpoly())
 
 
-def _krylov_sequence(M: Floats, ell: int) -> Integers:
-    """The numbers uMᵏv, k < 2n, of drawn u and v: (uM^{bj})(M^i v) for k = bj + i, i < b."""
+def _offsets(sizes: Sequence[int]) -> list[int]:
+    """Where parts of these sizes begin, one after the other, and where the last one ends."""
+    found = [0]
+    for size in sizes:
+        found.append(found[-1] + size)
+    return found
+
+
+def _residues(parts: Sequence[Matrix], ell: int, kind: type[np.floating[Any]]) -> list[Floats]:
+    """The symmetric residues of rational matrices, all of them reduced at once."""
+    residues, found, start = _numbers(parts, ell, kind), [], 0
+    for M in parts:
+        part = residues[start : start + M.nrows * M.ncols].reshape(M.shape)
+        start += part.size
+        if M.denominator != 1:
+            part = _reduced(part * pow(M.denominator, -1, ell), ell)
+        found.append(part)
+    return found
+
+
+def _numbers(parts: Sequence[Matrix], ell: int, kind: type[np.floating[Any]]) -> Floats:
+    """The symmetric residues of the numerators of all parts, row by row, one after the other."""
     import numpy as np
 
-    n = len(M)
-    draw = random.Random(ell).randrange
-    first, steps = _reduced(np.array([draw(ell) for _ in range(2 * n)], float), ell).reshape(
-        2, n, 1
-    )
-    power = M
-    # b near the root of n: at n = 800 five squarings, and 50 products with a vector.
-    for _ in range(n.bit_length() // 2):
-        steps = np.hstack([steps, _reduced(power @ steps, ell)])
-        power = _reduced(power @ power, ell)
-    rows = [first[:, 0]]
-    while len(rows) * steps.shape[1] < 2 * n:
-        rows.append(_reduced(rows[-1] @ power, ell))
-    sequence = _reduced(np.array(rows) @ steps, ell).ravel()[: 2 * n]
-    return sequence.astype(np.int64) % ell
+    if all(M.words is not None for M in parts):
+        words = array("q")
+        for M in parts:
+            words.extend(M.words or ())
+        together = np.frombuffer(words, dtype=np.int64) if words else np.zeros(0, np.int64)
+    else:
+        together = np.concatenate([_words(M, ell) for M in parts])
+    if max(int(together.max(initial=0)), -int(together.min(initial=0))) >= _EXACT_IN_SINGLE // 2:
+        together = together % ell
+    return _reduced(together.astype(kind), ell)
 
 
-def _least_recurrence(sequence: Integers, ell: int) -> Integers:
-    """The c with c_0 = 1 and c_0 s_k + c_1 s_{k−1} + … + c_L s_{k−L} = 0 for L ≤ k, L least.
-
-    Berlekamp and Massey (Massey, Shift-register synthesis and BCH decoding, 1969).
-    """
+def _words(M: Matrix, ell: int) -> Any:
+    """The numerators row by row, or residues of them if some are longer than a word."""
     import numpy as np
 
-    length = len(sequence)
-    backward = sequence[::-1].copy()
-    current, earlier = np.zeros((2, length + 1), dtype=np.int64)
-    current[0] = earlier[0] = 1
-    L, width, shift, divisor = 0, 1, 1, 1
-    for k in range(length):
-        # ℓ has at most 26 bits, and n(ℓ/2)² is below 2**53: int64 holds the sum.
-        recent = backward[length - 1 - k : length + L - k]
-        discrepancy = int(current[: L + 1] @ recent) % ell
-        if discrepancy:
-            before = current[: L + 1].copy() if 2 * L <= k else None
-            factor = discrepancy * pow(divisor, -1, ell) % ell
-            place = slice(shift, shift + width)
-            current[place] = (current[place] - factor * earlier[:width]) % ell
-            if before is not None:
-                earlier[: L + 1] = before
-                L, width, shift, divisor = k + 1 - L, L + 1, 0, discrepancy
-        shift += 1
-    return current[: L + 1]
-
-
-def _residues(M: Matrix, ell: int) -> Floats:
-    """The symmetric residues of a rational matrix."""
-    import numpy as np
-
-    try:
-        table = np.array(M.numerators, dtype=np.int64)
-    except OverflowError:
-        table = np.array([[entry % ell for entry in row] for row in M.numerators], np.int64)
-    residues = _reduced((table % ell).reshape(M.shape).astype(np.float64), ell)
-    return residues if M.denominator == 1 else _reduced(residues * pow(M.denominator, -1, ell), ell)
-
-
-def _stacked(tables: Sequence[Floats], empty: tuple[int, int], axis: int) -> Floats:
-    """Arrays side by side or one below the other; an empty one of this shape if there is none."""
-    import numpy as np
-
-    return np.concatenate([np.zeros(empty), *tables], axis=axis)
+    if M.words is None:
+        return np.array([entry % ell for row in M.numerators for entry in row], dtype=np.int64)
+    return np.frombuffer(M.words, dtype=np.int64)
 
 
 def _reduced(table: Floats, ell: int) -> Floats:
     """Integers of at most 2**53 − ℓ in size, each less a multiple of ℓ: at most ℓ/2 + 3 is left.
 
     The quotient has an error of at most 2 units of 2**−53 relative to |x|/ℓ, so that what is left
-    exceeds ℓ/2 by at most 2; the multiple and the difference are integers below 2**53.
+    exceeds ℓ/2 by at most 2; the multiple and the difference are integers below 2**53.  In singles
+    the same holds with 24 in place of 53.
     """
     import numpy as np
 
-    quotient = np.rint(table * (1.0 / ell))
+    quotient = np.rint(table * table.dtype.type(1.0 / ell))
     quotient *= ell
     return np.subtract(table, quotient, out=quotient)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from array import array
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -153,8 +154,17 @@ class Matrix:
     @cached_property
     def numerators(self) -> Rows:
         """The rows of N."""
-        entries, width = tuple(map(int, self._integer.entries())), self.ncols
+        words, width = self.__dict__.get("words"), self.ncols
+        entries = tuple(words or map(int, self._integer.entries()))
         return tuple(entries[i * width : (i + 1) * width] for i in range(self.nrows))
+
+    @cached_property
+    def words(self) -> array[int] | None:
+        """The entries of N row by row as machine words of 64 bits; None if one is longer.
+
+        A matrix that was made of integers has them from the start: others convert each entry.
+        """
+        return _words(list(chain.from_iterable(self.numerators)))
 
     @property
     def T(self) -> Matrix:
@@ -283,9 +293,19 @@ def require_positions(
 
 def from_numerators(rows: Sequence[Sequence[int]], denominator: int, ncols: int) -> Matrix:
     """The matrix rows / denominator; the rows are valid, denominator ≠ 0."""
-    return from_flint(
-        flint.fmpz_mat(len(rows), ncols, list(chain.from_iterable(rows))), denominator
-    )
+    entries = list(chain.from_iterable(rows))
+    made = from_flint(flint.fmpz_mat(len(rows), ncols, entries), denominator)
+    if denominator == 1:
+        made.__dict__["words"] = _words(entries)
+    return made
+
+
+def _words(entries: list[int]) -> array[int] | None:
+    """Integers as machine words; None if one is longer."""
+    try:
+        return array("q", entries)
+    except OverflowError:
+        return None
 
 
 def from_flint(table: flint.fmpz_mat, denominator: int = 1) -> Matrix:

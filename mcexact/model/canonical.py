@@ -5,9 +5,9 @@ from __future__ import annotations
 import hashlib
 import json
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from fractions import Fraction
-from functools import cached_property
 from typing import Any
 
 from mcexact.exact.matrix import Matrix
@@ -17,19 +17,6 @@ from mcexact.exact.rational import written
 
 Document = Mapping[str, Any]
 """A JSON object made of plain data."""
-
-
-class PlainObject(dict[str, Any]):
-    """A JSON object of plain data that must not be changed, so that its text is made once.
-
-    The system is the largest part of a certificate, and all certificates about it share this
-    object.
-    """
-
-    @cached_property
-    def text(self) -> str:
-        """The canonical JSON text."""
-        return canonical(self)
 
 
 def plain(value: Any) -> Any:
@@ -60,7 +47,7 @@ def plain(value: Any) -> Any:
         ...
     TypeError: a certificate holds exact data only, found float
     """
-    if value is None or isinstance(value, (bool, int, str, PlainObject)):
+    if value is None or isinstance(value, (bool, int, str)):
         return value
     if isinstance(value, Fraction):
         return written(value)
@@ -85,6 +72,17 @@ def _integers(rows: Sequence[Sequence[int]]) -> list[list[int]]:
     return [list(map(int, row)) for row in rows]
 
 
+@contextmanager
+def numbers_of_any_length() -> Iterator[None]:
+    """Let the interpreter convert longer integers than it does by default."""
+    digits = sys.get_int_max_str_digits()
+    try:
+        sys.set_int_max_str_digits(0)
+        yield
+    finally:
+        sys.set_int_max_str_digits(digits)
+
+
 def canonical(value: Any) -> str:
     """Return the canonical JSON text: sorted keys, no blanks, non-ASCII characters escaped.
 
@@ -93,20 +91,15 @@ def canonical(value: Any) -> str:
     >>> print(canonical({"b": [1, 2], "a": "é"}))
     {"a":"\\u00e9","b":[1,2]}
     """
-    digits = sys.get_int_max_str_digits()
-    try:
-        # A certificate may contain longer numbers than the interpreter prints by default.
-        sys.set_int_max_str_digits(0)
+    with numbers_of_any_length():
         return json.dumps(
             value, sort_keys=True, separators=(",", ":"), ensure_ascii=True, check_circular=False
         )
-    finally:
-        sys.set_int_max_str_digits(digits)
 
 
 def text_of(value: Any) -> str:
     """Return the canonical JSON text of exact objects."""
-    return value.text if isinstance(value, PlainObject) else canonical(plain(value))
+    return canonical(plain(value))
 
 
 def sha256(text: str | bytes) -> str:

@@ -9,9 +9,9 @@ from typing import Any
 from mcexact.errors import InputError, place_of
 from mcexact.exact.location import require_time
 from mcexact.exact.matrix import Matrix
-from mcexact.exact.rational import DEFAULT_LIMITS, Limits, written
+from mcexact.exact.rational import DEFAULT_LIMITS, Limits
 from mcexact.model.atomic import write_text
-from mcexact.model.canonical import PlainObject, sha256
+from mcexact.model.canonical import canonical, numbers_of_any_length, sha256
 from mcexact.model.json_text import (
     expect_format,
     expect_integer,
@@ -26,6 +26,7 @@ from mcexact.model.json_text import (
 )
 from mcexact.model.matrix_entry import Table, require_square
 from mcexact.model.matrix_json import (
+    canonical_matrix_text,
     json_text_of_number,
     matrix_json,
     number_json,
@@ -174,41 +175,40 @@ def _mapping(value: Any, where: str) -> dict[str, Any]:
     return value
 
 
-def canonical_document(system: MultiChannelSystem) -> PlainObject:
-    """The plant of a system as the ``system`` object of a certificate.
+def canonical_text(system: MultiChannelSystem) -> str:
+    """The plant of a system as the text of the ``system`` object of a certificate.
 
     Parameters
     ----------
     system : MultiChannelSystem
         For a derived system, its plant is written.
 
-    Returns
-    -------
-    dict
-        Plain data that must not be changed.  Matrices are rows of reduced rationals; name and
-        source are left out.
+    Notes
+    -----
+    Keys are sorted; matrices are rows of reduced rationals; name and source are left out.
     """
     plant = system.plant
-    known: PlainObject | None = plant.__dict__.get("_canonical_document")
+    known: str | None = plant.__dict__.get("_canonical_text")
     if known is not None:
         return known
-    document = PlainObject()
-    document |= {
-        "time": plant.time,
-        "A": matrix_json(plant.A, written),
-        "channels": [
-            {
-                "name": channel.name,
-                "B": matrix_json(channel.B, written),
-                "C": matrix_json(channel.C, written),
-            }
-            for channel in plant.channels
-        ],
-    }
-    if plant.neighbors is not None:
-        document.update(_graph_json(plant.neighbors))
-    # Systems are immutable, so the document is made once and shared by all certificates.
-    object.__setattr__(plant, "_canonical_document", document)
+    channels = ",".join(
+        f'{{"B":{canonical_matrix_text(channel.B)},"C":{canonical_matrix_text(channel.C)},'
+        f'"name":{canonical(channel.name)}}}'
+        for channel in plant.channels
+    )
+    parts = [f'"A":{canonical_matrix_text(plant.A)},"channels":[{channels}]']
+    graph = {} if plant.neighbors is None else _graph_json(plant.neighbors)
+    parts += [f'"{key}":{canonical(graph[key])}' for key in sorted(graph)]
+    text = "{" + ",".join([*parts, f'"time":"{plant.time}"']) + "}"
+    # Systems are immutable, so the text is made once and shared by all certificates.
+    object.__setattr__(plant, "_canonical_text", text)
+    return text
+
+
+def canonical_document(system: MultiChannelSystem) -> dict[str, Any]:
+    """The plant of a system as the ``system`` object of a certificate, as plain data."""
+    with numbers_of_any_length():
+        document: dict[str, Any] = json.loads(canonical_text(system))
     return document
 
 
@@ -241,7 +241,12 @@ def digest(system: MultiChannelSystem) -> str:
     >>> digest(first) == digest(second)
     True
     """
-    return sha256(canonical_document(system).text)
+    plant = system.plant
+    known: str | None = plant.__dict__.get("_digest")
+    if known is None:
+        known = sha256(canonical_text(plant))
+        object.__setattr__(plant, "_digest", known)
+    return known
 
 
 def save_system(system: MultiChannelSystem, path: str | os.PathLike[str]) -> None:

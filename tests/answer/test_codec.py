@@ -13,7 +13,12 @@ import pytest
 from mcexact import MultiChannelSystem, fixed_spectrum
 from mcexact.answer import codec
 from mcexact.answer.evidence import RateInterval, RootDisc, ShrunkSubspace, ZeroTransfer
-from mcexact.answer.fixed_spectrum import Completion, FixedFactor, FixedSpectrum
+from mcexact.answer.fixed_spectrum import (
+    Completion,
+    FixedFactor,
+    FixedSpectrum,
+    TwoPolynomials,
+)
 from mcexact.answer.reading import load_certificate
 from mcexact.checker.kinds import check_document
 from mcexact.errors import InputError
@@ -30,12 +35,7 @@ PLANT = MultiChannelSystem(
     neighbors={"1": ["2"], "2": ["3"], "3": ["1"]},
 )
 X_MINUS_1 = Polynomial.of(-1, 1)
-FIXED_SPECTRUM = FixedSpectrum(
-    PLANT,
-    polynomial=X_MINUS_1,
-    factors=(FixedFactor(X_MINUS_1, 3, 1, ("2", "3"), 2, False, (RootDisc("1", "0", "0"),)),),
-    stabilizable=False,
-    best_rate=RateInterval("-1", "-1"),
+EVIDENCE = TwoPolynomials(
     gains=tuple(Matrix.from_integers(F) for F in ([[1, 0]], [[2]], [[0]])),
     modulus=101,
     subspaces=(
@@ -48,6 +48,20 @@ FIXED_SPECTRUM = FixedSpectrum(
     ),
     completion=Completion(Matrix.column([0, 0, 1]), Matrix.from_integers([[0, 0, 1]])),
 )
+FIXED_SPECTRUM = FixedSpectrum(
+    PLANT,
+    polynomial=X_MINUS_1,
+    factors=(FixedFactor(X_MINUS_1, 3, 1, ("2", "3"), 2, False, (RootDisc("1", "0", "0"),)),),
+    stabilizable=False,
+    best_rate=RateInterval("-1", "-1"),
+    evidence=EVIDENCE,
+)
+
+
+def with_modulus(number: float) -> FixedSpectrum:
+    """The same with another modulus."""
+    evidence = dataclasses.replace(EVIDENCE, modulus=number)  # type: ignore[arg-type]
+    return dataclasses.replace(FIXED_SPECTRUM, evidence=evidence)
 
 
 def test_an_answer_becomes_the_document_of_the_format() -> None:
@@ -60,7 +74,7 @@ def test_equal_answers_give_equal_bytes() -> None:
     again = dataclasses.replace(FIXED_SPECTRUM)
     assert again == FIXED_SPECTRUM
     assert hash(again) == hash(FIXED_SPECTRUM)
-    assert dataclasses.replace(FIXED_SPECTRUM, modulus=103) != FIXED_SPECTRUM
+    assert with_modulus(103) != FIXED_SPECTRUM
     assert text == codec.encode(again)
     assert text.isascii()
     assert text.endswith("}\n")
@@ -70,7 +84,7 @@ def test_equal_answers_give_equal_bytes() -> None:
 
 def test_a_float_has_no_place_in_a_certificate() -> None:
     with pytest.raises(TypeError, match="found float"):
-        codec.encode(dataclasses.replace(FIXED_SPECTRUM, modulus=0.5))  # type: ignore[arg-type]
+        codec.encode(with_modulus(0.5))
 
 
 def test_a_file_is_written_whole_or_not_at_all(tmp_path: Path) -> None:
@@ -80,8 +94,7 @@ def test_a_file_is_written_whole_or_not_at_all(tmp_path: Path) -> None:
     assert first == codec.encode(FIXED_SPECTRUM)
     assert stat.S_IMODE(target.stat().st_mode) & 0o600 == 0o600
     with pytest.raises(TypeError):
-        wrong = dataclasses.replace(FIXED_SPECTRUM, modulus=7.5)  # type: ignore[arg-type]
-        codec.save_certificate(wrong, target)
+        codec.save_certificate(with_modulus(7.5), target)
     assert target.read_text() == first
     assert list(tmp_path.iterdir()) == [target]
     with pytest.raises(InputError, match="No such file"):
@@ -97,7 +110,7 @@ def test_a_file_is_read_back_as_the_answer_that_was_written(tmp_path: Path) -> N
     assert read == found
     assert read.about == PLANT
     assert read.factors == found.factors
-    assert read.subspaces == found.subspaces
+    assert read.evidence == found.evidence
 
 
 @pytest.mark.parametrize(

@@ -72,7 +72,8 @@ HARMLESS: dict[str, str] = {
     "reading.py: polynomial_matrix: not 1 <= len(items(layers, f'{place}.coefficients')) <= degree": (
         "no layer is a matrix of zeros; a layer too many has no coefficient of p to go with it"
     ),
-    "region.py: require_absence: times == integer(power, where, 1)": (
+    "region.py: require_absence: (number is None) == (arcs is None)": UNREAD,
+    "region.py: _without: times == integer(power, where, 1)": (
         "the exponent is computed, and the claimed one only compared"
     ),
     "root_discs.py: root_discs: slope > 0": (

@@ -24,6 +24,7 @@ from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import read_system
 from tests.campaigns.allocation import drawn, drawn_neighbors
 from tests.checker.handmade import CHAIN, GRAPH, Document, certificate, changed, checked
+from tests.checker.polynomials import by_polynomials
 from tests.checker.tables import accepts, rejects
 from tests.oracle.allocation import Neighbors, demands
 from tests.oracle.draws import exact
@@ -83,6 +84,7 @@ def enough(made: Document, k: int) -> Document:
 
 
 BOTH = sharing(PLANT, RING)
+MOVED = by_polynomials(common_dimension, PLANT, RING)
 STATES = sharing(PLANT, RING, "states")
 NOTHING = sharing(PLANT, NeighborGraph.empty(PLANT.names))
 FREE = sharing(PLANT, NeighborGraph.complete(PLANT.names))
@@ -92,6 +94,7 @@ WIDER = ("system.neighbors.1", ["2", "3", "4"])
 
 ACCEPTED = [
     ("the paper's example, outputs and sub-states", BOTH),
+    ("the paper's example by two polynomials", MOVED),
     ("the paper's example, sub-states alone", STATES),
     ("nothing suffices without a graph", NOTHING),
     ("outputs suffice where everybody hears everybody", FREE),
@@ -137,14 +140,25 @@ REJECTED = [
     ("a subspace that is none", HALVES, ("witness.cut.subspace.U.coefficients.0.0.0", 2)),
     ("no subspace", HALVES, ("witness.cut.subspace", None)),
     ("no evidence that it is enough", BOTH, ("witness.absence", None)),
-    ("a mode allowed to stay", BOTH, ("witness.absence.allowed", [[[-1, 1], 3]]), "INVALID"),
-    ("gains of zeros", BOTH, (
+    ("a mode allowed to stay", MOVED, ("witness.absence.allowed", [[[-1, 1], 3]]), "INVALID"),
+    ("a mode allowed to stay besides", BOTH, ("witness.absence.allowed", []), "MALFORMED"),
+    ("gains of zeros", MOVED, (
         "witness.absence.gains",
         [{"denominator": 1, "entries": [[0 for _ in row] for row in gain["entries"]]}
-         for gain in BOTH["witness"]["absence"]["gains"]],
+         for gain in MOVED["witness"]["absence"]["gains"]],
     ), "INVALID"),
-    ("modulus 1", BOTH, ("witness.absence.modulus", 1)),
-    ("arcs nobody asked for", BOTH, ("witness.absence.arcs", [])),
+    ("a channel of other sizes", BOTH, ("witness.absence.sequence.channel", "3"), "MALFORMED"),
+    ("a sequence of fewer degrees", BOTH, (
+        ("witness.absence.sequence.recurrence", [1]),
+        ("witness.absence.sequence.cofactors", [[], [1]]),
+    ), "INVALID"),
+    ("modulus 1", MOVED, ("witness.absence.modulus", 1)),
+    ("modulus 1 of the sequence", BOTH, ("witness.absence.sequence.modulus", 1), "INVALID"),
+    ("a modulus for no edges", BOTH, ("witness.absence.modulus", 7), "INVALID"),
+    ("arcs nobody asked for", MOVED, ("witness.absence.arcs", [])),
+    ("arcs and a modulus nobody asked for", BOTH, (
+        ("witness.absence.arcs", []), ("witness.absence.modulus", 7),
+    ), "INVALID"),
     ("the other way of sharing", STATES, ("claim.share", "outputs+states")),
     ("an unknown way of sharing", BOTH, ("claim.share", "outputs")),
     ("a dimension that is true", BOTH, ("claim.dimension", True), "MALFORMED"),
@@ -216,10 +230,11 @@ def test_what_makes_no_sense_is_refused() -> None:
 @pytest.mark.parametrize(
     ("made", "digest"),
     [
-        (BOTH, "c53a28c54d2d81fc"),
-        (STATES, "57887ae4adf7dac3"),
+        (BOTH, "23d3d4ee30b086ea"),
+        (STATES, "c40553fa45524529"),
+        (MOVED, "c53a28c54d2d81fc"),
         (NOTHING, "3667fe8d7b085b3d"),
-        (HALVES, "79262a7a25140fb4"),
+        (HALVES, "6810e85131ea95e3"),
     ],
 )
 def test_the_bytes_stay(made: Document, digest: str) -> None:

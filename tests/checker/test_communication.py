@@ -8,6 +8,7 @@ from mcexact.model import gallery
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from tests.checker.handmade import certificate, changed, checked, layers, plant
+from tests.checker.polynomials import by_polynomials
 from tests.checker.tables import accepts, rejects
 
 PLANT = gallery.load("liu2020-3ch-no-communication")
@@ -15,6 +16,7 @@ SILENT = NeighborGraph.empty(PLANT.names)
 CHAIN = NeighborGraph.from_names(PLANT.names, {"1": ["2"], "3": ["1"]})
 
 OUTPUTS = document(minimal_communication(PLANT, SILENT))
+MOVED = by_polynomials(minimal_communication, PLANT, SILENT)
 WITHOUT_GRAPH = document(minimal_communication(PLANT))
 EXTENDED = document(minimal_communication(PLANT, CHAIN, dimensions=(0, 0, 1)))
 BLOCKED = document(
@@ -74,7 +76,8 @@ ACCEPTED = [
     ("a plant without a neighbor graph", WITHOUT_GRAPH),
     ("one more link for the extended system", EXTENDED),
     ("no candidate, no way", BLOCKED),
-    ("another modulus", changed(OUTPUTS, ("witness.absence.modulus", 2**31 - 1))),
+    ("by two polynomials", MOVED),
+    ("another modulus", changed(MOVED, ("witness.absence.modulus", 2**31 - 1))),
 ]
 
 REJECTED = [
@@ -114,7 +117,8 @@ REJECTED = [
     ("a violated cut that is not", EXTENDED, ("witness.tree", [{"violated": 0}])),
     ("possible after all", BLOCKED, ("claim.feasible", True)),
     ("a candidate forgotten", BLOCKED, ("claim.candidates", [["1", "2", 1]])),
-    ("modulus 0", OUTPUTS, ("witness.absence.modulus", 0)),
+    ("modulus 0", MOVED, ("witness.absence.modulus", 0)),
+    ("modulus 0 of the sequence", OUTPUTS, ("witness.absence.sequence.modulus", 0)),
     ("another plant", OUTPUTS, ("system.A.2.1", 0)),
 ]  # fmt: skip
 

@@ -15,6 +15,7 @@ from mcexact.model import gallery
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from tests.checker.handmade import Document, changed, checked, matrix, plant
+from tests.checker.polynomials import by_polynomials
 from tests.checker.tables import accepts, rejects
 
 PLANT = gallery.load("liu2020-3ch-no-communication")
@@ -28,6 +29,10 @@ SQUARE = MultiChannelSystem(
 
 BOTH = document(minimal_shared_dimensions(PLANT, RING))
 STATES = document(minimal_shared_dimensions(PLANT, RING, "states"))
+MOVED = by_polynomials(minimal_shared_dimensions, PLANT, RING, "states")
+CONNECTED = by_polynomials(
+    minimal_shared_dimensions, SQUARE, share="states", free_assignability=True
+)
 NOTHING = document(minimal_shared_dimensions(PLANT, NeighborGraph.empty(PLANT.names)))
 FREE = document(minimal_shared_dimensions(SQUARE, share="states", free_assignability=True))
 STABLE = document(minimal_shared_dimensions(PLANT, RING, "states", rate=1, costs=[2, 1, "1/3"]))
@@ -45,8 +50,11 @@ ACCEPTED = [
     ("nor where it may decay less", changed(DECAYS, ("claim.bound", 2))),
     ("the paper's example, outputs and sub-states", BOTH),
     ("the paper's example, sub-states alone", STATES),
+    ("the same by two polynomials", MOVED),
     ("nothing suffices without a graph", NOTHING),
     ("a connected graph required as well", FREE),
+    ("the same by two polynomials", CONNECTED),
+    ("another modulus for the edges", changed(FREE, ("witness.absence.modulus", 15))),
     ("only modes beyond a rate, at other prices", STABLE),
     ("more split than needed", changed(
         STATES,
@@ -113,15 +121,23 @@ REJECTED = [
     ("a rate that the mode does not violate", STABLE, ("claim.bound", -2)),
     ("possible after all", NOTHING, ("claim.feasible", True)),
     ("impossible after all", BOTH, ("claim.feasible", False)),
-    ("a mode allowed that violates the bound", STATES, ("witness.absence.allowed", [[[-1, 1], 1]])),
-    ("gains of zeros", STATES, (
+    ("a mode allowed that violates the bound", MOVED, ("witness.absence.allowed", [[[-1, 1], 1]])),
+    ("gains of zeros", MOVED, (
         "witness.absence.gains",
         [{"denominator": 1, "entries": [[0 for _ in row] for row in gain["entries"]]}
-         for gain in STATES["witness"]["absence"]["gains"]],
+         for gain in MOVED["witness"]["absence"]["gains"]],
     )),
-    ("modulus 1", STATES, ("witness.absence.modulus", 1)),
-    ("arcs forgotten", FREE, ("witness.absence.arcs", None)),
-    ("arcs that do not connect", FREE, ("witness.absence.arcs", [])),
+    ("modulus 1", MOVED, ("witness.absence.modulus", 1)),
+    ("modulus 1 of the sequence", STATES, ("witness.absence.sequence.modulus", 1)),
+    ("modulus 1 for the edges", FREE, ("witness.absence.modulus", 1)),
+    ("no modulus for the edges", FREE, ("witness.absence.modulus", None)),
+    ("a modulus for no edges", STATES, ("witness.absence.modulus", 7)),
+    ("arcs forgotten", CONNECTED, ("witness.absence.arcs", None)),
+    ("arcs and their modulus forgotten", FREE, (
+        ("witness.absence.arcs", None), ("witness.absence.modulus", None),
+    )),
+    ("arcs that do not connect", CONNECTED, ("witness.absence.arcs", [])),
+    ("arcs that do not connect, by a sequence", FREE, ("witness.absence.arcs", [])),
     ("a cut of connectivity for no such claim", FREE, ("claim.free_assignability", False)),
     ("a cut of connectivity for everyone", FREE, ("witness.cuts.0.subset", ["1", "2"])),
     ("another plant", STATES, ("system.A.2.1", 0)),

@@ -19,8 +19,10 @@ STEMS = sorted(path.stem for path in FOLDER.glob("*.py"))
 SENTENCES = {stem for stem in STEMS if stem.startswith("sentence")} | {"manifest"}
 SPOKEN = {"__init__", "__main__", "command", "controller", "expectation", "kinds", "reading"}
 SPOKEN |= {"allowance", "statement", "system"}
-NO_RULE = {*SPOKEN, "budget"} | SENTENCES
-"""What reads, starts, speaks and counts; every other file holds a rule, or evidence of several."""
+NO_RULE = {*SPOKEN, "budget", "packed_rows"} | SENTENCES
+"""What reads, starts, speaks, counts and packs numbers.
+
+Every other file holds a rule, or evidence of several."""
 SENTENCE = re.compile(r"Theorems? ((?:``\w+\.\w+``(?:,\s+)?)+)\.")
 OPEN = "Open: see ``proofs/OPEN.md``."
 ELSEWHERE = ("paper, ", "supporting: ")

@@ -20,14 +20,22 @@ from mcexact.checker import Limits as CheckerLimits
 from mcexact.checker import check_document
 from mcexact.derived.extended import extended_system
 from mcexact.errors import InputError
+from mcexact.exact.matrix import Matrix
 from mcexact.exact.rational import Limits
 from mcexact.model import gallery
 from mcexact.model.atomic import write_text
-from mcexact.model.matrix_json import matrix_json, number_json, read_matrix
+from mcexact.model.canonical import canonical, numbers_of_any_length
+from mcexact.model.matrix_json import (
+    canonical_matrix_text,
+    matrix_json,
+    number_json,
+    read_matrix,
+)
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import (
     canonical_document,
+    canonical_text,
     digest,
     load_system,
     read_system,
@@ -401,6 +409,35 @@ def test_a_matrix_read_from_its_own_json_is_the_same(drawn):
     A = drawn.system.A
     plain = json.loads(json.dumps(matrix_json(A)))
     assert read_matrix(plain, "A") == A
+
+
+@pytest.mark.parametrize(
+    "rows",
+    [
+        [],
+        [[]] * 3,
+        [[0, -1, 12], [2**63 - 1, -(2**63), 7]],
+        [[5], [-6], [70]],
+        [["1/2", "-4/6", 3], ["0", "8/2", "-1/1"]],
+        [[2**63, 1]],
+        [[-(10**5000), "1/3"]],
+        [[Fraction(10**5000, 7)]],
+    ],
+)
+def test_the_canonical_text_of_a_matrix_is_the_json_of_its_reduced_entries(rows):
+    M = Matrix.from_rows([[Fraction(entry) for entry in row] for row in rows])
+    with numbers_of_any_length():
+        table = [[int(x) if x.denominator == 1 else str(x) for x in row] for row in M.rows()]
+        assert canonical_matrix_text(M) == canonical(table)
+        assert canonical_matrix_text(M.T.T) == canonical_matrix_text(M)
+
+
+def test_the_canonical_text_of_a_system_is_the_json_of_its_document():
+    for name in gallery.names():
+        system = gallery.load(name)
+        assert canonical_text(system) == canonical(canonical_document(system))
+    named = MultiChannelSystem([[1]], [[[1]]], [[[1]]], names=['ä "b"\\'])
+    assert canonical_text(named) == canonical(canonical_document(named))
 
 
 def test_an_unknown_gallery_system_is_refused():

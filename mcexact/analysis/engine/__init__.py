@@ -4,6 +4,7 @@ This folder answers no question by itself.  The other folders of `analysis` impo
 
 ========================  =============================================================
 `obstructions`            the fixed factors of a system, with gains that move all others
+`one_channel`             proofs that no more is fixed, by one sequence of one channel
 `shrunk_subspace`         proofs that a mode is fixed, by Wong sequences modulo a prime
 `reachability`            the transfer graph modulo a prime, and zero transfers
 `rate`                    root discs, and the best rate that some modes allow
@@ -25,6 +26,7 @@ from mcexact.analysis.engine.covering import (
 )
 from mcexact.analysis.engine.lyapunov import QuadraticForm, quadratic_form
 from mcexact.analysis.engine.obstructions import Decision, Obstruction, decide
+from mcexact.analysis.engine.one_channel import best_sequences, free_sequence
 from mcexact.analysis.engine.rate import located
 from mcexact.analysis.engine.reachability import (
     Edge,
@@ -52,10 +54,12 @@ __all__ = [
     "Obstruction",
     "QuadraticForm",
     "Tree",
+    "best_sequences",
     "branch_tree",
     "decide",
     "evidence",
     "exact_subspace",
+    "free_sequence",
     "located",
     "minimize",
     "obstruction_modulo",

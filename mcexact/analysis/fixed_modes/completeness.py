@@ -3,19 +3,28 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Iterator
 
 from mcexact.analysis.engine import Edge, decide, suspected_edges, witnessed_powers, zero_transfer
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.answer.completeness import (
     Completeness,
     CutWitness,
+    Evidence,
     FixedModeWitness,
     FreedomWitness,
+    SequenceWitness,
 )
-from mcexact.answer.fixed_spectrum import FixedSpectrum
-from mcexact.derived.modular_system import ModularSystem, generator, lifted_gains
+from mcexact.answer.evidence import KrylovSequence
+from mcexact.answer.fixed_spectrum import FixedSpectrum, OneSequence
+from mcexact.derived.modular_system import ModularSystem, generator, lifted_gains, residue_systems
+from mcexact.errors import InternalError
 from mcexact.exact.invariant_subspace import controllable_subspace
+from mcexact.exact.matrix import Matrix
 from mcexact.model.system import MultiChannelSystem
+
+Freedom = KrylovSequence | tuple[Matrix, ...]
+"""The proof that no mode is fixed: a sequence, or gains that move every mode."""
 
 
 def completeness(
@@ -31,7 +40,7 @@ def completeness(
 
     Notes
     -----
-    Exact.  The certificate for yes has gains that move every mode, and edges that connect all
+    Exact.  The certificate for yes proves that no mode is fixed, and has edges that connect all
     channels.  The certificate for no has a shrunk subspace for one fixed mode, or a set of channels
     whose inputs do not affect the outputs of the others.
 
@@ -52,37 +61,50 @@ def completeness(
         spectrum = fixed_spectrum(system)
     rng = generator(system, "completeness")
     evidence = _evidence(system, spectrum, rng)
-    complete = isinstance(evidence, FreedomWitness)
+    complete = isinstance(evidence, SequenceWitness | FreedomWitness)
     return Completeness(system, complete=complete, evidence=evidence)
 
 
-def _evidence(
-    system: MultiChannelSystem, spectrum: FixedSpectrum, rng: random.Random
-) -> FreedomWitness | FixedModeWitness | CutWitness:
+def _evidence(system: MultiChannelSystem, spectrum: FixedSpectrum, rng: random.Random) -> Evidence:
     if not spectrum.empty:
-        return FixedModeWitness(spectrum.factors[0].polynomial, spectrum.subspaces[0])
-    modular = ModularSystem(system, spectrum.modulus)
-    gains = spectrum.gains
-    while True:
+        return FixedModeWitness(spectrum.factors[0].polynomial, spectrum.evidence.subspaces[0])
+    # Some edges vanish by accident, perhaps modulo one prime for all draws.
+    for modular, proof in _freedom(system, spectrum, rng):
         suspected = suspected_edges(modular, rng)
         closed = _closed_set(system.m, suspected)
         if closed is None:
-            break
+            return _connected(modular, proof, _connecting_edges(system.m, suspected))
         found = controllable_subspace(system.A, system.input_matrix(closed), rng)
         rest = [i for i in range(system.m) if i not in closed]
         if (system.output_matrix(rest) @ found.X).is_zero():
             return CutWitness(zero_transfer(system, closed, found))
-        # Some edges vanish by accident, perhaps modulo this prime for all draws.
+    raise InternalError("the stream of primes is endless")
+
+
+def _connected(modular: ModularSystem, proof: Freedom, chosen: set[Edge]) -> Evidence:
+    """The evidence for yes, with edges that connect all channels."""
+    powers, names = witnessed_powers(modular, chosen), modular.system.names
+    arcs = tuple((names[j], names[i], powers[j, i]) for j, i in sorted(chosen))
+    if isinstance(proof, KrylovSequence):
+        return SequenceWitness(proof, modular.modulus, arcs)
+    return FreedomWitness(modular.modulus, proof, arcs)
+
+
+def _freedom(
+    system: MultiChannelSystem, spectrum: FixedSpectrum, rng: random.Random
+) -> Iterator[tuple[ModularSystem, Freedom]]:
+    """Yield systems modulo primes for the edges, each with a proof that nothing is fixed.
+
+    Gains are proved to move every mode modulo the prime of their own.
+    """
+    if isinstance(spectrum.evidence, OneSequence):
+        for modular in residue_systems(system, rng):
+            yield modular, spectrum.evidence.sequence
+        return
+    yield ModularSystem(system, spectrum.evidence.modulus), spectrum.evidence.gains
+    while True:
         decision = decide(system, rng)
-        modular, gains = decision.modular, lifted_gains(decision.modular, decision.gains)
-    chosen = _connecting_edges(system.m, suspected)
-    powers = witnessed_powers(modular, chosen)
-    names = system.names
-    return FreedomWitness(
-        modulus=modular.modulus,
-        gains=gains,
-        arcs=tuple((names[j], names[i], powers[j, i]) for j, i in sorted(chosen)),
-    )
+        yield decision.modular, lifted_gains(decision.modular, decision.gains)
 
 
 def _reached(m: int, start: int, edges: set[Edge]) -> list[Edge]:

@@ -3,11 +3,25 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Sequence
 from typing import cast
 
-from mcexact.analysis.engine import Decision, Obstruction, decide, evidence, located
-from mcexact.answer.evidence import RootDisc
-from mcexact.answer.fixed_spectrum import Completion, FixedFactor, FixedSpectrum
+from mcexact.analysis.engine import (
+    Decision,
+    Obstruction,
+    best_sequences,
+    decide,
+    evidence,
+    located,
+)
+from mcexact.answer.evidence import KrylovSequence, RateInterval, RootDisc
+from mcexact.answer.fixed_spectrum import (
+    Completion,
+    FixedFactor,
+    FixedSpectrum,
+    OneSequence,
+    TwoPolynomials,
+)
 from mcexact.derived.modular_system import closed_loop, generator, lifted, lifted_gains
 from mcexact.exact.location import StabilityRegion, Time
 from mcexact.exact.modular import polynomial_residues, random_matrix
@@ -25,10 +39,13 @@ def fixed_spectrum(system: MultiChannelSystem) -> FixedSpectrum:
 
     Notes
     -----
-    Exact; no subset of channels is enumerated.  The certificate has gains F and a modulus ℓ such
-    that χ_{A_F} is coprime modulo ℓ to χ_A without its fixed factors, and a shrunk subspace for
-    each of these.  Without fixed modes it takes two characteristic polynomials modulo a word-size
-    prime, O(n³); by float64 products, exact modulo a smaller one, from 128 states on.
+    Exact; no subset of channels is enumerated.  The certificate has one Krylov sequence of drawn
+    gains and one channel, modulo a small prime, which bounds how much is fixed, and a shrunk
+    subspace for each fixed factor.  Where no sequence proves this, because the transfer graph is
+    not strongly connected or the channels reach a mode by Jordan chains, the certificate has gains
+    F and a modulus ℓ such that χ_{A_F} is coprime modulo ℓ to χ_A without its fixed factors.
+    Without fixed modes it takes O(n³), by products in floating point that are exact from 128
+    states on.
 
     Examples
     --------
@@ -42,25 +59,64 @@ def fixed_spectrum(system: MultiChannelSystem) -> FixedSpectrum:
     >>> fixed_spectrum(MultiChannelSystem([[1]], [[[1]]], [[[1]]])).empty
     True
     """
+    sequences = []
+    for sequence in best_sequences(system):
+        if sequence.degree == system.n:
+            return _found(system, (), None, OneSequence(sequence, ()))
+        sequences.append(sequence)
     rng = generator(system, "fixed_spectrum")
     decision = decide(system, rng)
     region = StabilityRegion(cast(Time, system.time))
     discs, rate = located(system.time, [o.polynomial for o in decision.obstructions])
+    deciding = _deciding(sequences, decision, system.n)
     factors = tuple(
-        _factor(system, decision, o, roots, region)
+        _factor(system, decision, o, roots, region, deciding is not None)
         for o, roots in zip(decision.obstructions, discs, strict=True)
     )
+    subspaces = tuple(evidence(system, o.subspace) for o in decision.obstructions)
+    if deciding is not None:
+        return _found(system, factors, rate, OneSequence(deciding, subspaces))
+    moved = TwoPolynomials(
+        gains=lifted_gains(decision.modular, decision.gains),
+        modulus=decision.modular.modulus,
+        subspaces=subspaces,
+        completion=_completion(decision, rng) if factors else None,
+    )
+    return _found(system, factors, rate, moved)
+
+
+def _found(
+    system: MultiChannelSystem,
+    factors: tuple[FixedFactor, ...],
+    rate: RateInterval | None,
+    proof: OneSequence | TwoPolynomials,
+) -> FixedSpectrum:
     return FixedSpectrum(
         system,
         polynomial=product(factor.polynomial for factor in factors),
         factors=factors,
         stabilizable=all(factor.stable for factor in factors),
         best_rate=rate,
-        gains=lifted_gains(decision.modular, decision.gains),
-        modulus=decision.modular.modulus,
-        subspaces=tuple(evidence(system, o.subspace) for o in decision.obstructions),
-        completion=_completion(decision, rng) if factors else None,
+        evidence=proof,
     )
+
+
+def _deciding(
+    sequences: Sequence[KrylovSequence], decision: Decision, n: int
+) -> KrylovSequence | None:
+    """The first sequence that leaves no more than the factors, with the ranks that they lose.
+
+    Modulo its ℓ the factors are coprime, and none has a multiple root.
+    """
+    left = n - sum(o.polynomial.degree * o.subspace.deficiency for o in decision.obstructions)
+    whole = product(o.polynomial for o in decision.obstructions)
+    for sequence in sequences:
+        ell = sequence.modulus
+        if sequence.degree == left and all(c.denominator % ell for c in whole.coefficients):
+            p = polynomial_residues(whole, ell)
+            if p.gcd(polynomial_residues(whole.derivative(), ell)).degree == 0:
+                return sequence
+    return None
 
 
 def _factor(
@@ -69,15 +125,16 @@ def _factor(
     found: Obstruction,
     roots: tuple[RootDisc, ...],
     region: StabilityRegion,
+    by_sequence: bool,
 ) -> FixedFactor:
     T = set(found.subspace.channels_T)
-    p = found.polynomial
+    p, at_most = found.polynomial, found.subspace.deficiency
+    if not by_sequence:
+        at_most = polynomial_residues(p, decision.closed.modulus).multiplicity_in(decision.closed)
     return FixedFactor(
         polynomial=p,
         multiplicity_in_A=found.multiplicity_in_A,
-        multiplicity_at_most=polynomial_residues(p, decision.closed.modulus).multiplicity_in(
-            decision.closed
-        ),
+        multiplicity_at_most=at_most,
         channels=system.named(i for i in range(system.m) if i not in T),
         rank=system.n - found.subspace.deficiency,
         stable=region.contains_roots_of(p),

@@ -8,7 +8,14 @@ from mcexact.analysis.fixed_modes.completeness import completeness
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.fixed_modes.single_channel_gains import single_channel_gains
 from mcexact.answer import codec
-from mcexact.answer.completeness import Completeness, CutWitness, FixedModeWitness, FreedomWitness
+from mcexact.answer.completeness import (
+    Completeness,
+    CutWitness,
+    FixedModeWitness,
+    FreedomWitness,
+    SequenceWitness,
+)
+from mcexact.answer.fixed_spectrum import OneSequence, TwoPolynomials
 from mcexact.checker import check_document
 from mcexact.model import gallery
 from mcexact.model.system import MultiChannelSystem
@@ -50,9 +57,10 @@ def test_yes_names_no_more_arcs_than_connect_all_channels() -> None:
     )
     spectrum = fixed_spectrum(system)
     evidence = checked(completeness(system, spectrum=spectrum)).evidence
-    assert isinstance(evidence, FreedomWitness)
+    assert isinstance(evidence, SequenceWitness)
+    assert isinstance(spectrum.evidence, OneSequence)
     assert len(evidence.arcs) <= 2 * (n - 1)
-    assert evidence.modulus == spectrum.modulus
+    assert evidence.sequence == spectrum.evidence.sequence
 
 
 def test_one_channel_is_complete_iff_it_controls_and_observes_everything() -> None:
@@ -64,7 +72,9 @@ def test_one_channel_is_complete_iff_it_controls_and_observes_everything() -> No
 def test_an_arc_that_vanishes_modulo_the_prime_of_the_gains_is_seen_modulo_another() -> None:
     system = MultiChannelSystem([[1, 0], [0, 2]], [[[1], [0]], [[0], [1]]], [[[0, 1]], [[7, 0]]])
     spectrum = fixed_spectrum(system)
-    at_7 = replace(spectrum, modulus=7)
+    assert isinstance(spectrum.evidence, OneSequence)
+    gains = spectrum.evidence.sequence.gains
+    at_7 = replace(spectrum, evidence=TwoPolynomials(gains, 7, (), None))
     answer = checked(completeness(system, spectrum=at_7))
     assert answer.complete and isinstance(answer.evidence, FreedomWitness)
     assert answer.evidence.modulus > 7

@@ -11,6 +11,7 @@ from ..oracle import algebra
 from ..oracle.constructions import subject_of
 from ..oracle.modes import transfer_edges
 from ..oracle.reading import polynomial
+from . import sequences
 from .joined import factors_joined
 from .writing import PRIME, coefficients, drawn, drawn_gains, unit, zeros
 
@@ -38,11 +39,9 @@ def unconnected(rng: random.Random, document: Document) -> Forged:
     """Complete, by edges that are there and do not connect all channels."""
     system = subject_of(document)
     document["claim"]["complete"] = True
-    document["witness"] = {
-        "modulus": PRIME,
-        "gains": drawn_gains(rng, system),
-        "arcs": shown_edges(system),
-    }
+    made = sequences.sequence(rng, system) if rng.random() < 0.4 else None
+    proof = {"gains": drawn_gains(rng, system)} if made is None else {"sequence": made}
+    document["witness"] = {"modulus": PRIME, "arcs": shown_edges(system), **proof}
     return document
 
 
@@ -146,6 +145,17 @@ def factor_added(rng: random.Random, document: Document) -> Forged:
     return document
 
 
+def by_two_polynomials(rng: random.Random, document: Document) -> Forged:
+    """The same factors, with drawn gains, exponents and completion in place of a sequence."""
+    witness, system = document["witness"], subject_of(document)
+    if "sequence" not in witness:
+        return None
+    spaces = witness["subspaces"]
+    document["witness"] = {"modulus": PRIME, "subspaces": spaces, "gains": drawn_gains(rng, system)}
+    document["witness"]["completion"] = None
+    return factor_details(rng, document) if rng.random() < 0.5 else factor_dropped(rng, document)
+
+
 def _restated(rng: random.Random, document: Document) -> None:
     """The rest of the claim, as it follows from its factors."""
     claim, witness, n = document["claim"], document["witness"], subject_of(document).n
@@ -154,11 +164,13 @@ def _restated(rng: random.Random, document: Document) -> None:
         product *= polynomial(factor["polynomial"])
     claim["polynomial"] = coefficients(product)
     claim["stabilizable"] = all(factor["stable"] for factor in claim["factors"])
+    rho = max((n - factor["rank"] for factor in claim["factors"]), default=0)
+    if "sequence" not in witness:
+        completion = {"B0": drawn(rng, n, rho), "C0": drawn(rng, rho, n)}
+        witness["completion"] = completion if claim["factors"] else None
     if not claim["factors"]:
-        claim["best_rate"] = witness["completion"] = None
+        claim["best_rate"] = None
         return
-    rho = max(n - factor["rank"] for factor in claim["factors"])
-    witness["completion"] = {"B0": drawn(rng, n, rho), "C0": drawn(rng, rho, n)}
     if claim["best_rate"] is None:
         claim["best_rate"] = {"lower": "-100", "upper": "100"}
 
@@ -271,6 +283,8 @@ COMPLETENESS = (no_subset_at_all, unconnected, unconnected, fixed_by_nothing)
 DEFICIENCY = (other_deficiency,)
 SPECTRUM = (
     *(factor_dropped, factor_twice, factor_added, factor_details, factor_details),
+    *(by_two_polynomials, by_two_polynomials),
     factors_joined,
+    *sequences.SPECTRUM,
 )
 PENCIL = (pencil_of_another_set, vanishing_kernel)

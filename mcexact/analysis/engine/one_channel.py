@@ -1,0 +1,123 @@
+"""The proof that no more is fixed than what is known: one Krylov sequence of one channel."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator, Sequence
+from math import prod
+
+from mcexact.answer.evidence import KrylovSequence
+from mcexact.derived.modular_system import (
+    Gains,
+    ModularSystem,
+    channel_sequences,
+    drawn_gains,
+    lifted_gains,
+)
+from mcexact.exact.krylov import Start
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.modular import ModularPolynomial
+from mcexact.exact.recurrence import cofactors, least_recurrence
+from mcexact.model.system import MultiChannelSystem
+
+MODULI = (7, 31, 2**19 - 1)
+"""Small moduli make certificates that are quick to check; structured plants need larger ones."""
+STARTS = 3
+"""How many channels are tried with the same gains: a second one takes a third of the time."""
+
+
+def free_sequence(system: MultiChannelSystem) -> KrylovSequence | None:
+    """Find a sequence that proves that no mode is fixed; None if none was found."""
+    found = (each for each in best_sequences(system) if each.degree == system.n)
+    return next(found, None)
+
+
+def best_sequences(system: MultiChannelSystem) -> Iterator[KrylovSequence]:
+    """Draw gains modulo one prime after the other, and yield the longest sequence for each.
+
+    The last one has degree n, or two in a row have the same degree, or all primes are used up.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+
+    Notes
+    -----
+    If nothing is fixed and the transfer graph is strongly connected, generic gains make the system
+    controllable and observable through each channel with inputs and outputs (Corfmat and Morse
+    1976), and then generic x and y give a sequence of degree n.  Modulo ℓ, gains, x and y that are
+    drawn do so with a probability near (1 − 1/ℓ)².  The draws depend on ℓ and on the sizes of the
+    gains alone.
+    """
+    if not system.m:
+        return
+    denominator = prod({M.denominator for M in (system.A, *_ports(system))})
+    before = -1
+    for ell in MODULI:
+        if denominator % ell:
+            best = _longest(ModularSystem(system, ell), random.Random(ell))
+            yield best
+            if best.degree in (before, system.n):
+                return
+            before = best.degree
+
+
+def _ports(system: MultiChannelSystem) -> Iterator[Matrix]:
+    for channel in system.channels:
+        yield channel.B
+        yield channel.C
+
+
+def _longest(modular: ModularSystem, rng: random.Random) -> KrylovSequence:
+    """The longest sequence of a few channels for drawn gains."""
+    system, ell = modular.system, modular.modulus
+    gains, starts = drawn_gains(modular, rng), _starts(system, ell, rng)
+    found = []
+    for start, numbers in zip(starts, channel_sequences(modular, gains, starts), strict=False):
+        found.append((least_recurrence(numbers, ell), start, numbers))
+        if found[-1][0].degree == system.n:
+            break
+    return _evidence(modular, gains, *max(found, key=lambda each: each[0].degree))
+
+
+def _starts(system: MultiChannelSystem, ell: int, rng: random.Random) -> list[Start]:
+    """Channels with inputs and outputs, with a combination of each; no two alike."""
+    live = [i for i in range(system.m) if not (system.B(i).is_zero() or system.C(i).is_zero())] or [
+        0
+    ]
+    rng.shuffle(live)
+    found: list[Start] = []
+    for k in range(STARTS):
+        q = live[k % len(live)]
+        start = q, _direction(system.p(q), ell, rng), _direction(system.q(q), ell, rng)
+        if start not in found:
+            found.append(start)
+    return found
+
+
+def _direction(size: int, ell: int, rng: random.Random) -> tuple[int, ...]:
+    """Residues that are not all 0, up to a common factor."""
+    if size == 1:
+        return (1,)
+    drawn = [rng.randrange(ell) for _ in range(size)]
+    return tuple(drawn) if any(drawn) else (1,) * size
+
+
+def _evidence(
+    modular: ModularSystem,
+    gains: Gains,
+    recurrence: ModularPolynomial,
+    start: Start,
+    numbers: Sequence[int],
+) -> KrylovSequence:
+    q, x, y = start
+    a, e = cofactors(recurrence, numbers)
+    return KrylovSequence(
+        modulus=modular.modulus,
+        gains=lifted_gains(modular, gains),
+        channel=modular.system.names[q],
+        inputs=tuple(x),
+        outputs=tuple(y),
+        recurrence=recurrence.coefficients,
+        cofactors=(a.coefficients, e.coefficients),
+    )

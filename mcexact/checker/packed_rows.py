@@ -1,0 +1,89 @@
+"""Rows and polynomials modulo ℓ as long integers, with slots for their entries."""
+
+from collections.abc import Sequence
+from functools import cache
+from operator import mul
+
+from . import budget
+from .budget import spend
+
+SMALL = 64
+"""Up to this modulus a residue is a byte, and rows with equal coefficients are added up first."""
+
+
+class PackedRows:
+    """Rows modulo ℓ, each one long integer with a slot of so many bytes for every entry."""
+
+    def __init__(self, rows: Sequence[Sequence[int]], ncols: int, ell: int) -> None:
+        self.ell, self.ncols = ell, ncols
+        self.size = 1 if ell <= SMALL else _slot(len(rows), ell)
+        spend((len(rows) + 1) * (64 + (8 + self.size) * ncols))
+        self.rows = [_packed(row, self.size) for row in rows]
+
+    def combined(self, u: Sequence[int]) -> Sequence[int]:
+        """Σ u_i row_i modulo ℓ."""
+        if self.ell <= SMALL:
+            return self._by_coefficient(u)
+        spend(budget.products(len(self.rows) + 1, self._limbs, budget.limbs(u)))
+        total = sum(map(mul, u, self.rows))
+        return _unpacked(total, self.ncols, self.size, self.ell)
+
+    @property
+    def _limbs(self) -> int:
+        return self.ncols * self.size * 8 // budget.LIMB + 1
+
+    def _by_coefficient(self, u: Sequence[int]) -> bytes:
+        """The same where no sum of so many rows leaves a byte: rows of one coefficient together."""
+        most, tables = 255 // (self.ell - 1), _multiples(self.ell)
+        parts = len(self.rows) // most + min(len(self.rows), self.ell)
+        spend(len(self.rows) * (4 + self._limbs // 16) + (parts + 1) * (40 + self.ncols // 8))
+        alike: list[list[int]] = [[] for _ in range(self.ell)]
+        for factor, row in zip(u, self.rows, strict=True):
+            alike[factor].append(row)
+        total, addends = 0, 0
+        for factor in range(1, self.ell):
+            for k in range(0, len(alike[factor]), most):
+                if addends == most:
+                    total, addends = self._mapped(total, tables[1]), 1
+                total += self._mapped(sum(alike[factor][k : k + most]), tables[factor])
+                addends += 1
+        return total.to_bytes(self.ncols, "little").translate(tables[1])
+
+    def _mapped(self, number: int, table: bytes) -> int:
+        mapped = number.to_bytes(self.ncols, "little").translate(table)
+        return int.from_bytes(mapped, "little")
+
+
+@cache
+def _multiples(ell: int) -> list[bytes]:
+    """The multiples of all bytes modulo ℓ, by the factor."""
+    return [bytes(factor * byte % ell for byte in range(256)) for factor in range(ell)]
+
+
+def convolution(f: Sequence[int], g: Sequence[int], ell: int) -> list[int]:
+    """The product of two polynomials modulo ℓ, by one product of two integers (Kronecker)."""
+    shorter, length = min(len(f), len(g)), len(f) + len(g) - 1
+    if not shorter:
+        return []
+    size = _slot(shorter, ell)
+    long, short = ((k * size * 8) // budget.LIMB + 1 for k in (length, shorter))
+    spend((8 + size) * 2 * length + budget.products(1, long, short))
+    return _unpacked(_packed(f, size) * _packed(g, size), length, size, ell)
+
+
+def _slot(terms: int, ell: int) -> int:
+    """The bytes that hold every sum of so many products of residues."""
+    return (terms * (ell - 1) ** 2).bit_length() // 8 + 1
+
+
+def _packed(numbers: Sequence[int], size: int) -> int:
+    if size == 1:
+        return int.from_bytes(bytes(numbers), "little")
+    return int.from_bytes(b"".join(x.to_bytes(size, "little") for x in numbers), "little")
+
+
+def _unpacked(number: int, length: int, size: int, ell: int) -> list[int]:
+    spend(length * (8 + size))
+    data = number.to_bytes(length * size, "little")
+    slots = range(0, length * size, size)
+    return [int.from_bytes(data[k : k + size], "little") % ell for k in slots]

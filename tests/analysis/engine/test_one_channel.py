@@ -1,0 +1,127 @@
+"""One sequence of one channel: where it is found, and that it is never more than is moved."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+
+from mcexact.analysis.engine import best_sequences, free_sequence
+from mcexact.analysis.engine.one_channel import MODULI, STARTS
+from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
+from mcexact.analysis.structure.transfer_graph import transfer_graph
+from mcexact.answer.fixed_spectrum import OneSequence, TwoPolynomials
+from mcexact.derived import modular_system
+from mcexact.exact.matrix import Matrix
+from mcexact.model import gallery
+from mcexact.model.system import MultiChannelSystem
+from tests.oracle.draws import exact, sparse_system
+
+
+def drawn(n: int, widths: list[tuple[int, int]], bound: int = 9) -> MultiChannelSystem:
+    """A dense system with p_i inputs and q_i outputs of each channel."""
+    rng = random.Random(n)
+
+    def table(rows: int, cols: int) -> Matrix:
+        entries = [[rng.randint(-bound, bound) for _ in range(cols)] for _ in range(rows)]
+        return Matrix.from_integers(entries, ncols=cols)
+
+    return MultiChannelSystem(
+        table(n, n), [table(n, p) for p, _ in widths], [table(q, n) for _, q in widths]
+    )
+
+
+@pytest.mark.parametrize("n", [1, 2, 5, 30, 127, 128, 200])
+@pytest.mark.parametrize("bound", [9, 10**6, 10**30])
+def test_a_dense_system_has_a_sequence_of_all_degrees(n: int, bound: int) -> None:
+    found = free_sequence(drawn(n, [(1, 1)] * max(n // 3, 1), bound))
+    assert found is not None
+    assert found.degree == n
+    assert found.modulus in MODULI
+    assert all(0 <= c < found.modulus for c in (*found.recurrence, *found.cofactors[0]))
+
+
+def test_floats_and_flint_give_the_same_sequence(monkeypatch: pytest.MonkeyPatch) -> None:
+    for widths in ([(1, 1)] * 5, [(2, 3), (0, 1), (1, 0), (2, 1)]):
+        system = drawn(130, widths)
+        by_floats = list(best_sequences(system))
+        with monkeypatch.context() as patched:
+            patched.setattr(modular_system, "_KRYLOV_SIZE", 10**9)
+            assert list(best_sequences(system)) == by_floats
+
+
+def test_what_is_left_is_never_less_than_what_is_fixed() -> None:
+    for seed in range(300):
+        system = exact(sparse_system(random.Random(seed)), "continuous")
+        spectrum = fixed_spectrum(system)
+        fixed = sum((system.n - f.rank) * f.polynomial.degree for f in spectrum.factors)
+        for sequence in best_sequences(system):
+            assert sequence.degree <= system.n - fixed
+        if isinstance(spectrum.evidence, OneSequence):
+            assert spectrum.evidence.sequence.degree == system.n - fixed
+
+
+def test_two_moduli_that_agree_end_the_search() -> None:
+    chain = MultiChannelSystem([[0, 0], [1, 0]], [[[1], [0]], [[0], [1]]], [[[1, 0]], [[0, 1]]])
+    found = list(best_sequences(chain))
+    assert [each.degree for each in found] == [1, 1]
+    assert [each.modulus for each in found] == list(MODULI[:2])
+    assert free_sequence(chain) is None
+    assert isinstance(fixed_spectrum(chain).evidence, TwoPolynomials)
+
+
+def test_a_modulus_that_divides_a_denominator_is_left_out() -> None:
+    system = MultiChannelSystem([["1/7"]], [[["1/31"]]], [[[1]]])
+    [found] = best_sequences(system)
+    assert found.modulus == MODULI[2]
+    nothing = MultiChannelSystem([["1/7"]], [[["1/31"]]], [[[f"1/{MODULI[2]}"]]])
+    assert list(best_sequences(nothing)) == []
+    assert fixed_spectrum(nothing).empty
+
+
+def test_channels_without_inputs_or_outputs_are_passed_over() -> None:
+    system = MultiChannelSystem(
+        [[1]], [[[]], [[0]], [[2]]], [[[1]], [[1]], [[3]]], names=["none", "zero", "live"]
+    )
+    [found] = best_sequences(system)
+    assert (found.channel, found.degree) == ("live", 1)
+    dead = MultiChannelSystem([[1]], [[[0]]], [[[1]]])
+    assert {each.degree for each in best_sequences(dead)} == {0}
+
+
+def test_wide_channels_are_tried_with_several_combinations() -> None:
+    # b and c of one combination each miss a mode; STARTS of them rarely all do
+    n = 6
+    I = [[int(i == j) for j in range(n)] for i in range(n)]
+    found = free_sequence(MultiChannelSystem(I, [I], [I]))
+    assert STARTS > 1
+    assert found is not None and len(found.inputs) == len(found.outputs) == n
+
+
+def test_without_states_there_is_nothing_to_move() -> None:
+    for m in (1, 2):
+        found = free_sequence(MultiChannelSystem([], [[]] * m, [[]] * m))
+        assert found is not None and (found.recurrence, found.cofactors) == ((1,), ((), (1,)))
+
+
+def test_a_mode_that_stays_once_is_proved_by_one_sequence_and_a_chain_is_not() -> None:
+    once = fixed_spectrum(gallery.load("compleib-cse1"))
+    assert [str(factor.polynomial) for factor in once.factors] == ["x + 1"]
+    assert isinstance(once.evidence, OneSequence)
+    jordan = MultiChannelSystem([[1, 1], [0, 1]], [[[0], [0]]], [[[0, 0]]])
+    assert isinstance(fixed_spectrum(jordan).evidence, TwoPolynomials)
+
+
+def test_factors_that_meet_modulo_the_prime_wait_for_another() -> None:
+    # 1 and 8 are the same modulo 7
+    system = MultiChannelSystem([[1, 0], [0, 8]], [[[0], [0]]], [[[1, 1]]])
+    evidence = fixed_spectrum(system).evidence
+    assert isinstance(evidence, OneSequence)
+    assert evidence.sequence.modulus == 31
+
+
+@pytest.mark.parametrize("name", gallery.names())
+def test_a_published_plant_whose_channels_are_connected_needs_one_sequence(name: str) -> None:
+    plant = gallery.load(name)
+    if transfer_graph(plant).strongly_connected:
+        assert isinstance(fixed_spectrum(plant).evidence, OneSequence)

@@ -1,0 +1,17 @@
+"""Certificates whose evidence are two polynomials, as it is where no sequence is found."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+from unittest import mock
+
+from mcexact.answer.codec import document
+from mcexact.answer.protocol import Answer
+from tests.checker.handmade import Document
+
+
+def by_polynomials(decide: Callable[..., Answer], *arguments: Any, **keywords: Any) -> Document:
+    """The certificate of a decision about what agents share."""
+    with mock.patch("mcexact.analysis.sharing.separation.free_sequence", return_value=None):
+        return document(decide(*arguments, **keywords))

@@ -1,0 +1,79 @@
+"""Rows as long integers: the same as number by number, however many there are."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+
+from mcexact.checker.budget import Budget, limited
+from mcexact.checker.packed_rows import SMALL, PackedRows, convolution
+from mcexact.checker.reading import Refused
+
+MODULI = [2, 3, 7, SMALL - 1, SMALL, SMALL + 1, 127, 128, 2**30 - 35, 10**20 + 39]
+
+
+@pytest.mark.parametrize("ell", MODULI)
+@pytest.mark.parametrize("nrows", [0, 1, 4, 5, 300])
+@pytest.mark.parametrize("ncols", [0, 1, 3])
+def test_rows_are_combined_as_number_by_number(ell: int, nrows: int, ncols: int) -> None:
+    rng = random.Random(ell)
+    rows = [[rng.randrange(ell) for _ in range(ncols)] for _ in range(nrows)]
+    packed = PackedRows(rows, ncols, ell)
+    drawn = [rng.randrange(ell) for _ in range(nrows)]
+    for u in (drawn, [ell - 1] * nrows, [0] * nrows, [1] * nrows):
+        expected = [
+            sum(x * row[j] for x, row in zip(u, rows, strict=True)) % ell for j in range(ncols)
+        ]
+        assert list(packed.combined(u)) == expected
+
+
+@pytest.mark.parametrize("ell", MODULI)
+def test_the_largest_residues_do_not_run_into_the_next_slot(ell: int) -> None:
+    nrows = 70_000 if ell == 2 else 1100
+    packed = PackedRows([[ell - 1, 0, ell - 1]] * nrows, 3, ell)
+    found = nrows * (ell - 1) ** 2 % ell
+    assert list(packed.combined([ell - 1] * nrows)) == [found, 0, found]
+
+
+@pytest.mark.parametrize("ell", MODULI)
+def test_polynomials_are_multiplied_as_coefficient_by_coefficient(ell: int) -> None:
+    rng = random.Random(ell)
+    for m, n in ((1, 1), (1, 7), (7, 1), (5, 6), (40, 300)):
+        for most in (0, ell - 1):
+            f, g = ([rng.randint(most, ell - 1) for _ in range(k)] for k in (m, n))
+            expected = [0] * (m + n - 1)
+            for i, a in enumerate(f):
+                for k, b in enumerate(g):
+                    expected[i + k] += a * b
+            assert convolution(f, g, ell) == [c % ell for c in expected]
+
+
+@pytest.mark.parametrize(("f", "g"), [([], [1]), ([1], []), ([], [])])
+def test_a_product_with_zero_has_no_coefficients(f: list[int], g: list[int]) -> None:
+    assert convolution(f, g, 7) == []
+
+
+def _units(ell: int, nrows: int, ncols: int) -> tuple[int, int]:
+    """What it takes to pack rows of zeros, and to combine them once."""
+    budget = Budget(10**12, 0)
+    with limited(budget):
+        packed = PackedRows([[0] * ncols] * nrows, ncols, ell)
+        before = budget.spent
+        packed.combined([0] * nrows)
+    return before, budget.spent - before
+
+
+@pytest.mark.parametrize("ell", [7, 10**20 + 39])
+def test_packing_takes_a_unit_for_each_byte_and_combining_less(ell: int) -> None:
+    packed, combined = _units(ell, 200, 300)
+    slot = 1 if ell == 7 else 18
+    assert 200 * 300 * slot <= packed <= 200 * 300 * (slot + 10)
+    assert 200 * 4 < combined <= 200 * 300 * slot
+    assert 5 < _units(ell, 4000, 300)[1] / _units(ell, 400, 300)[1] < 10
+    assert 5 < _units(ell, 400, 30_000)[1] / _units(ell, 400, 3000)[1] < 10
+
+
+def test_no_product_is_begun_beyond_the_budget() -> None:
+    with limited(Budget(10**4, 0)), pytest.raises(Refused, match="work"):
+        convolution([1] * 5000, [1] * 5000, 7)
