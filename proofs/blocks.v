@@ -4,7 +4,7 @@
    `block` a gives the block of the state a.  A channel that acts within a block, by a row of B_i and a column of
    C_i there, does so in no other: no gain is shared by two blocks. *)
 From mathcomp Require Import all_ssreflect fingroup perm all_algebra.
-From mcexact Require Import multichannel evidence fixed_polynomial.
+From mcexact Require Import multichannel evidence fixed_polynomial fixed_bound.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -167,6 +167,10 @@ Lemma fixed_polynomial_restrict (K L : fieldType) (f : {rmorphism K -> L}) n m (
   fixed_polynomial (map_system f (restrict S c)) phi -> fixed_polynomial (restrict (map_system f S) c) phi.
 Proof. by apply: fixed_polynomial_same => F; apply: restrict_map. Qed.
 
+Lemma bounded_restrict (K L : fieldType) (f : {rmorphism K -> L}) n m (p q : 'I_m -> nat)
+    (S : multichannel K n p q) c d : bounded (map_system f (restrict S c)) d -> bounded (restrict (map_system f S) c) d.
+Proof. by apply: bounded_loops => F; exists F; rewrite restrict_map. Qed.
+
 Lemma triangular_map (K L : fieldType) (f : {rmorphism K -> L}) n m (p q : 'I_m -> nat)
     (S : multichannel K n p q) block : triangular S block -> triangular (map_system f S) block.
 Proof.
@@ -188,6 +192,28 @@ split=> [F|D dvD]; first by rewrite (block_spectrum tri few); apply: (dv (fun=> 
 apply: top => G; have [F FG] := block_gains tri G.
 have -> : \prod_(k < r) char_poly (closed_loop (part k) (G k)) = char_poly (closed_loop S F); last exact: dvD.
 by rewrite (block_spectrum tri few); apply: eq_bigr => k _; rewrite FG.
+Qed.
+
+(* Bounds for the blocks add up, whatever each of them rests on. *)
+Theorem block_bounded (L : 'I_r -> nat) : (forall k : 'I_r, bounded (part k) (L k)) -> bounded S (\sum_k L k).
+Proof.
+move=> bd; have [g gP] := fin_all_exists bd; have g0 k : g k != 0 by case: (gP k).
+exists (\prod_k g k); split; first by apply/prodf_neq0 => k _.
+  have top : dominated (fun G : 'I_r -> gains K p q => \prod_(k < r) char_poly (closed_loop (part k) (G k))) (\prod_k g k).
+    have each (k : 'I_r) : dominated (fun G : gains K p q => char_poly (closed_loop (part k) G)) (g k) by case: (gP k).
+    exact: (dominated_product (fun=> fun=> 0) each).
+  move=> D dv; apply: top => G; have [F FG] := block_gains tri G.
+  suff -> : \prod_(k < r) char_poly (closed_loop (part k) (G k)) = char_poly (closed_loop S F) by apply: dv.
+  by rewrite (block_spectrum tri few); apply: eq_bigr => k _; rewrite FG.
+have := size_char_poly (closed_loop S (fun=> 0)); rewrite (block_spectrum tri few) size_prod => [<-|k _]; last first.
+  by rewrite monic_neq0 ?char_poly_monic.
+rewrite size_prod// !cardT /= size_enum_ord.
+have : (\sum_(k < r) (size (g k) + L k) <= \sum_(k < r) size (char_poly (closed_loop (part k) (fun=> 0%R))))%N.
+  by apply: leq_sum => k _; rewrite size_char_poly; case: (gP k).
+have few' : (r <= \sum_(k < r) size (g k))%N.
+  by rewrite -[X in (X <= _)%N]card_ord -sum1_card; apply: leq_sum => k _; rewrite lt0n size_poly_eq0.
+rewrite big_split /= => total; rewrite addnBAC ?(leqW few')//.
+by rewrite leq_sub2r// addSn ltnS.
 Qed.
 
 (* What is fixed for a block is fixed for the plant. *)

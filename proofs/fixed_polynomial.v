@@ -13,10 +13,13 @@ Variable K : fieldType.
 Definition greatest (X : Type) (f : X -> {poly K}) (phi : {poly K}) :=
   (forall x, phi %| f x) /\ (forall D, (forall x, D %| f x) -> D %| phi).
 
-Lemma greatest_multiple (X : Type) (f : X -> {poly K}) phi (g D : {poly K}) :
-  greatest f phi -> (forall x, D %| g * f x) -> D %| g * phi.
+(* Whatever divides them all divides g, which need not divide them. *)
+Definition dominated (X : Type) (f : X -> {poly K}) (g : {poly K}) := forall D, (forall x, D %| f x) -> D %| g.
+
+Lemma dominated_multiple (X : Type) (f : X -> {poly K}) phi (g D : {poly K}) :
+  dominated f phi -> (forall x, D %| g * f x) -> D %| g * phi.
 Proof.
-case=> _ top dv; have [->|g0] := eqVneq g 0; first by rewrite mul0r dvdp0.
+move=> top dv; have [->|g0] := eqVneq g 0; first by rewrite mul0r dvdp0.
 have G0 : gcdp D g != 0 by rewrite gcdp_eq0 (negPf g0) andbF.
 have cop : coprimep (D %/ gcdp D g) (g %/ gcdp D g) by rewrite coprimep_div_gcd// g0 orbT.
 have eD := divpK (dvdp_gcdl D g); have eg := divpK (dvdp_gcdr D g).
@@ -35,18 +38,16 @@ Lemma exchange_other (I : eqType) (X : I -> Type) (x : forall i, X i) j (v : X j
   i != j -> exchange x v i = x i.
 Proof. by rewrite /exchange eq_sym; case: eqP. Qed.
 
-(* Families that are chosen independently: the greatest common divisor of the products is the product. *)
-Lemma greatest_product (I : finType) (X : I -> Type) (f : forall i, X i -> {poly K}) (phi : I -> {poly K})
-    (x0 : forall i, X i) : (forall i, greatest (f i) (phi i)) ->
-  greatest (fun x : forall i, X i => \prod_i f i (x i)) (\prod_i phi i).
+(* Families that are chosen independently: what divides all products divides the product. *)
+Lemma dominated_product (I : finType) (X : I -> Type) (f : forall i, X i -> {poly K}) (phi : I -> {poly K})
+    (x0 : forall i, X i) : (forall i, dominated (f i) (phi i)) ->
+  dominated (fun x : forall i, X i => \prod_i f i (x i)) (\prod_i phi i).
 Proof.
-move=> gr; split=> [x|D dv].
-  by apply: (big_ind2 (fun a b => a %| b)) => // [a b c d|i _]; [apply: dvdp_mul | case: (gr i)].
-have stage (s : seq I) : uniq s ->
+move=> gr D dv; have stage (s : seq I) : uniq s ->
     (forall x : forall i, X i, D %| (\prod_(i in s) phi i) * \prod_(i | i \notin s) f i (x i)).
   elim: s => [_ x|j s IH /andP[js us] x].
     by rewrite big_pred0 ?mul1r// => i; rewrite inE.
-  rewrite (bigD1 j) ?mem_head//= -mulrA mulrC; apply: (greatest_multiple (gr j)) => v.
+  rewrite (bigD1 j) ?mem_head//= -mulrA mulrC; apply: (dominated_multiple (gr j)) => v.
   have := IH us (exchange x v); rewrite [X in _ * X](bigD1 j)//= exchange_same mulrCA mulrC.
   congr (_ %| _ * _ * _).
     by apply: eq_bigl => i; rewrite inE; case: eqVneq => [->|]; rewrite ?(negPf js) ?andbF ?andbT.
@@ -55,6 +56,15 @@ have stage (s : seq I) : uniq s ->
 have := stage (enum I) (enum_uniq _) x0; rewrite [X in _ * X]big_pred0 ?mulr1 => [|i].
   by congr (_ %| _); apply: eq_bigl => i; rewrite mem_enum.
 by rewrite mem_enum.
+Qed.
+
+(* The greatest common divisor of the products is the product. *)
+Lemma greatest_product (I : finType) (X : I -> Type) (f : forall i, X i -> {poly K}) (phi : I -> {poly K})
+    (x0 : forall i, X i) : (forall i, greatest (f i) (phi i)) ->
+  greatest (fun x : forall i, X i => \prod_i f i (x i)) (\prod_i phi i).
+Proof.
+move=> gr; split=> [x|]; last by apply: dominated_product => // i; case: (gr i).
+by apply: (big_ind2 (fun a b => a %| b)) => // [a b c d|i _]; [apply: dvdp_mul | case: (gr i)].
 Qed.
 End Greatest.
 

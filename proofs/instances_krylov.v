@@ -1,7 +1,7 @@
 (* The one-channel rule on the systems of instances.v, modulo 6; blocks; and what the rules cannot do without. *)
 From mathcomp Require Import all_ssreflect all_algebra all_field.
 From mcexact Require Import multichannel arithmetic evidence controllability transfer_graph fixed_spectrum.
-From mcexact Require Import krylov_sequence gauss shrunk_multiplicity fixed_polynomial krylov blocks instances.
+From mcexact Require Import krylov_sequence gauss shrunk_multiplicity fixed_polynomial fixed_bound krylov blocks instances.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.Theory GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -51,8 +51,22 @@ apply: (@KrylovCertificate _ _ _ _ _ _ 1 0 1) => //; first exact: monic1.
 - by rewrite mul0r add0r mul1r.
 Defined.
 
-Definition inst_krylov_absence (lambda : algC) : ~ fixed (map_system h (Q free)) lambda :=
-  @krylov_absence l6 _ _ _ _ free F0 ord0 1%:M 1%:M certificate_free _ h lambda.
+Definition inst_krylov_free : bounded (map_system h (Q free)) 1 :=
+  @krylov_bounded l6 _ _ _ _ free F0 ord0 1%:M 1%:M 1 certificate_free _ h.
+Definition inst_krylov_stuck : bounded (map_system h (Q stuck)) 0 :=
+  @krylov_bounded l6 _ _ _ _ stuck F0 ord0 1%:M 1%:M 0 certificate_stuck _ h.
+Definition inst_bounded_absence (lambda : algC) : ~ fixed (map_system h (Q free)) lambda :=
+  bounded_absence inst_krylov_free.
+Definition inst_nothing_bounded : bounded (map_system h (Q stuck)) 0 := nothing_bounded _.
+Lemma inst_coprime_bounded : bounded (map_system h (Q free)) 1.
+Proof.
+apply: (@coprime_bounded l6 _ _ _ _ free _ h (fun=> 1%:M) 1 (-1)); rewrite mul1r mulN1r.
+rewrite /closed_loop big_ord1 /= add0r !mulmx1 !map_char_poly map_mx0.
+have char1 (a : 'Z_l6) : char_poly (a%:M : 'M_1) = 'X - a%:P by rewrite /char_poly /char_poly_mx map_scalar_mx -raddfB det_scalar.
+have -> : (0 : 'M['Z_l6]_1) = 0%:M by rewrite raddf0.
+by rewrite map_scalar_mx rmorph1 !char1 opprB polyC0 subr0 addrCA subrr addr0.
+Qed.
+Definition inst_bounded_channels := @bounded_channels _ 1 1 _ _ (map_system h (Q free)) 1 id 1 inst_krylov_free.
 
 Notation X := ('X : {poly R}).
 Lemma evidence_factor (i : 'I_1) : shrunk_subspace (Q stuck) (map_poly (@Zloc_rat l6) X) setT 1.
@@ -63,29 +77,28 @@ Proof. by exists 0, 1; rewrite ord1 big_pred0 ?rmorph1 ?mul0r ?add0r ?mul1r// =>
 Lemma factor_full : (1 <= 0 + \sum_(i < 1) 1 * (size X).-1)%N.
 Proof. by rewrite big_ord1 size_polyX. Qed.
 
-Definition inst_krylov_rule : fixed_polynomial (map_system h (Q stuck)) (\prod_(i < 1) map_poly (into h) X ^+ 1) :=
-  @krylov_rule l6 _ _ _ _ stuck F0 ord0 1%:M 1%:M 0 certificate_stuck 1 (fun=> X) (fun=> setT) (fun=> 1%N)
-    evidence_factor (fun=> monicX _) factor_alone factor_full _ h.
-Definition inst_krylov_fixed (lambda : algC) :
+Definition inst_bounded_rule : fixed_polynomial (map_system h (Q stuck)) (\prod_(i < 1) map_poly (into h) X ^+ 1) :=
+  @bounded_rule l6 _ _ _ _ stuck 0 1 (fun=> X) (fun=> setT) (fun=> 1%N)
+    evidence_factor (fun=> monicX _) factor_alone factor_full _ h inst_krylov_stuck.
+Definition inst_bounded_fixed (lambda : algC) :
     fixed (map_system h (Q stuck)) lambda <-> exists i : 'I_1, root (map_poly (into h) X) lambda :=
-  @krylov_fixed l6 _ _ _ _ stuck F0 ord0 1%:M 1%:M 0 certificate_stuck 1 (fun=> X) (fun=> setT) (fun=> 1%N)
-    evidence_factor (fun=> monicX _) factor_alone factor_full _ h lambda (fun=> isT).
+  @bounded_fixed l6 _ _ _ _ stuck 0 1 (fun=> X) (fun=> setT) (fun=> 1%N)
+    evidence_factor (fun=> monicX _) factor_alone factor_full _ h inst_krylov_stuck lambda (fun=> isT).
 Lemma simple_zero : ~~ (('X - 0%:P) ^+ 2 %| map_poly (into h) X).
 Proof.
 rewrite map_polyX subr0; apply/negP => /dvdp_leq; rewrite polyX_eq0 => /(_ isT).
 by rewrite size_polyXn size_polyX.
 Qed.
 Lemma inst_polynomial_rank s : (1 <= \rank (pencil (map_system h (Q stuck)) s 0) + 1)%N.
-Proof. by apply: (fixed_polynomial_rank inst_krylov_rule); rewrite big_ord1 expr1 simple_zero. Qed.
-Lemma inst_krylov_rank : (\rank (pencil (map_system h (Q stuck)) (~: setT) 0) + 1 = 1)%N.
+Proof. by apply: (fixed_polynomial_rank inst_bounded_rule); rewrite big_ord1 expr1 simple_zero. Qed.
+Lemma inst_bounded_rank : (\rank (pencil (map_system h (Q stuck)) (~: setT) 0) + 1 = 1)%N.
 Proof.
-have [_ //] := @krylov_rank l6 _ _ _ _ stuck F0 ord0 1%:M 1%:M 0 certificate_stuck 1 (fun=> X) (fun=> setT)
-  (fun=> 1%N) evidence_factor (fun=> monicX _) factor_alone factor_full _ h ord0 0 root0' simple_zero.
+have [_ //] := @bounded_rank l6 _ _ _ _ stuck 0 1 (fun=> X) (fun=> setT)
+  (fun=> 1%N) evidence_factor (fun=> monicX _) factor_alone factor_full _ h inst_krylov_stuck ord0 0 root0' simple_zero.
 Qed.
 Definition inst_shrunk_divides (G : gains algC one one) :
     map_poly h 'X ^+ 1 %| char_poly (closed_loop (map_system h (Q stuck)) G) :=
   shrunk_subspace_divides E h G (negbT (polyX_eq0 _)).
-Definition inst_krylov_bound D := @krylov_bound l6 _ _ _ _ stuck F0 ord0 1%:M 1%:M 0 certificate_stuck _ h D.
 
 (* The theorems over a ring: A = 0, b = c = 1, d = x, over Z/6. *)
 Section Sequence.
@@ -268,6 +281,12 @@ Proof. by move/(fixed_polynomial_root _ (part_moved k)); rewrite (negPf (root1 _
 Definition inst_block_spectrum := block_spectrum two_triangular two_few.
 Definition inst_block_polynomial : fixed_polynomial two_apart (\prod_(k < 2) 1) :=
   block_fixed_polynomial two_triangular two_few (fun k => part_moved k).
+Lemma inst_block_bounded : bounded two_apart (\sum_(k < 2) #|[set a | own a == k]|).
+Proof.
+apply: (block_bounded two_triangular two_few) => k; exists 1; split; last by rewrite size_poly1.
+  exact: oner_neq0.
+by case: (part_moved k).
+Qed.
 Definition inst_block_absence lambda : ~ fixed two_apart lambda :=
   block_absence two_triangular two_few (fun k => @part_not_fixed k lambda).
 

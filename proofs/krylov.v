@@ -5,7 +5,7 @@
    denominators are prime to l, and h embeds Q into any field K. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From mcexact Require Import multichannel arithmetic evidence controllability transfer_graph.
-From mcexact Require Import fixed_spectrum krylov_sequence gauss shrunk_multiplicity fixed_polynomial.
+From mcexact Require Import fixed_spectrum krylov_sequence gauss fixed_polynomial fixed_bound.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -117,111 +117,15 @@ Variables (K : fieldType) (h : {rmorphism rat -> K}).
 Notation SK := (map_system h SQ).
 
 (* Whatever divides det(xI - A_F) for all F has a degree of at most n - L. *)
-Theorem krylov_bound D : (forall G : gains K p q, D %| char_poly (closed_loop SK G)) -> (size D + L <= n.+1)%N.
+Theorem krylov_bounded : bounded SK L.
 Proof.
-move=> dv; apply: (@krylov_common _ _ _ _ _ _ E _ h); rewrite -?changed_loop map_char_poly map_loop_into; exact: dv.
+pose at_gains G := map_poly (into h) (char_poly (closed_loop S G)).
+have at_one G : at_gains G = char_poly (closed_loop SK (fun i => map_mx (into h) (G i))).
+  by rewrite /at_gains map_char_poly map_loop_into.
+exists (gcdp (at_gains F) (at_gains changed)); split.
+- by rewrite gcdp_eq0 negb_and monic_neq0 ?monic_map ?char_poly_monic.
+- by move=> D dv; rewrite dvdp_gcd !at_one !dv.
+apply: (@krylov_common _ _ _ _ _ _ E _ h); last by rewrite -changed_loop dvdp_gcdr.
+exact: dvdp_gcdl.
 Qed.
 End Rule.
-
-Section Rules.
-Variables (l : modulus) (n m : nat) (p q : 'I_m -> nat) (S : multichannel (Zloc l) n p q).
-Variables (F : gains (Zloc l) p q) (o : 'I_m) (x : 'cV[Zloc l]_(p o)) (y : 'rV[Zloc l]_(q o)).
-Notation SQ := (map_system (@Zloc_rat l) S).
-Notation res := (map_poly (@residue l)).
-Notation certificate L := (krylov_certificate (closed_loop S F) (mcB S o *m x) (y *m mcC S o) L).
-
-(* Rule "absence by one channel": d of degree n, nothing is fixed over any field that contains Q. *)
-Theorem krylov_absence (E : certificate n) (K : fieldType) (h : {rmorphism rat -> K}) lambda :
-  ~ fixed (map_system h SQ) lambda.
-Proof.
-move=> fx; have dv G : 'X - lambda%:P %| char_poly (closed_loop (map_system h SQ) G).
-  by rewrite dvdp_XsubCl -eigenvalue_root_char.
-by have := krylov_bound E dv; rewrite size_XsubC !addSn ltnn.
-Qed.
-
-(* With factors: pairwise coprime monic p_i, each with a shrunk subspace of deficiency d_i, whose degrees times
-   d_i sum to n - L.  Their product is all that is fixed, with multiplicities. *)
-Variables (L : nat) (E : certificate L) (r : nat) (P : 'I_r -> {poly Zloc l}) (T : 'I_r -> {set 'I_m}).
-Variables (d : 'I_r -> nat) (sh : forall i, shrunk_subspace SQ (map_poly (@Zloc_rat l) (P i)) (T i) (d i)).
-Hypotheses (mP : forall i, P i \is monic).
-Hypothesis cop : forall i, exists u v, u * res (P i) + v * res (\prod_(j < r | (j < i)%N) P j) = 1.
-Hypothesis full : (n <= L + \sum_i d i * (size (P i)).-1)%N.
-Variables (K : fieldType) (h : {rmorphism rat -> K}).
-Notation SK := (map_system h SQ).
-Notation PK i := (map_poly (into h) (P i)).
-
-Lemma factors_coprime i j : i != j -> coprimep (PK i) (PK j).
-Proof.
-have earlier k : coprimep (PK k) (\prod_(t < r | (t < k)%N) PK t).
-  by have [u [v bez]] := cop k; rewrite -rmorph_prod (coprime_modulo h (monic_unit_lead (mP k)) bez).
-have lt (k t : 'I_r) : (t < k)%N -> coprimep (PK k) (PK t).
-  by move=> tk; apply: coprimep_dvdl (earlier k); rewrite (bigD1 t)//= dvdp_mulr.
-by rewrite neq_ltn => /orP[/lt|/lt//]; rewrite coprimep_sym.
-Qed.
-
-Theorem krylov_rule : fixed_polynomial SK (\prod_i PK i ^+ d i).
-Proof.
-set Pi := \prod_i _.
-have mI i : PK i \is monic by apply: monic_map.
-have mPi : Pi \is monic by apply: monic_prod => i _; apply: monic_exp.
-have each i G : PK i ^+ d i %| char_poly (closed_loop SK G).
-  rewrite map_poly_into; apply: (shrunk_subspace_divides (sh i)).
-  by rewrite monic_neq0// monic_map.
-have copP i j : i != j -> coprimep (PK i ^+ d i) (PK j ^+ d j).
-  by move=> ij; apply: coprimep_expl; apply: coprimep_expr; apply: factors_coprime.
-have dv G : Pi %| char_poly (closed_loop SK G).
-  rewrite /Pi; elim: (index_enum _) (index_enum_uniq [finType of 'I_r]) => [_|i s IH /= /andP[si us]].
-    by rewrite big_nil dvd1p.
-  rewrite big_cons Gauss_dvdp ?each ?IH//; rewrite big_seq.
-  apply: (big_ind (coprimep _)) => [|b c cb cc|j js]; first exact: coprimep1.
-    by rewrite coprimepMr cb.
-  by apply: copP; apply: contraNneq si => ->.
-have sPi : size Pi = (\sum_i d i * (size (P i)).-1).+1%N.
-  apply: (proj2 (big_rec2 (fun (Q : {poly K}) s => Q \is monic /\ size Q = s.+1) _ _)).
-    by rewrite monic1 size_poly1.
-  move=> i Q s _ [mQ sQ]; have me : PK i ^+ d i \is monic by apply: monic_exp.
-  rewrite monicMl ?mQ// size_monicM ?monic_neq0// sQ addnS /=; split=> //.
-  rewrite -[size (map_poly _ _ ^+ _)]prednK ?size_poly_gt0 ?monic_neq0// size_exp size_map_poly_id0.
-    by rewrite mulnC.
-  by rewrite (monicP (mP i)) rmorph1 oner_eq0.
-split=> // D dvD; pose g := gcdp (char_poly (closed_loop SK (fun i => map_mx (into h) (F i))))
-  (char_poly (closed_loop SK (fun i => map_mx (into h) (changed F x y i)))).
-have Pg : Pi %| g by rewrite dvdp_gcd !dv.
-have Dg : D %| g by rewrite dvdp_gcd !dvD.
-have : (size g + L <= n.+1)%N.
-  apply: (krylov_common E (h := h)); rewrite -?changed_loop map_char_poly map_loop_into.
-    exact: dvdp_gcdl.
-  exact: dvdp_gcdr.
-move=> sg; suff e : Pi %= g by rewrite (eqp_dvdr _ e).
-have g0 : g != 0 by rewrite gcdp_eq0 negb_and monic_neq0 ?char_poly_monic.
-rewrite -dvdp_size_eqp// eqn_leq (dvdp_leq g0 Pg) sPi -(leq_add2r L) (leq_trans sg)//.
-by rewrite addSn ltnS addnC.
-Qed.
-
-(* The fixed modes are the roots. *)
-Theorem krylov_fixed lambda : (forall i, 0 < d i)%N -> fixed SK lambda <-> exists i, root (PK i) lambda.
-Proof.
-move=> d0; rewrite (fixed_polynomial_root lambda krylov_rule) /root horner_prod.
-split=> [/prodf_eq0[i _]|[i ri]]; first by rewrite horner_exp expf_eq0 => /andP[_ ri]; exists i.
-by apply/prodf_eq0; exists i => //; rewrite horner_exp expf_eq0 d0.
-Qed.
-
-(* At a simple root of p_i no pencil has a rank below n - d_i, and that of the subset named has this rank. *)
-Theorem krylov_rank i lambda : root (PK i) lambda -> ~~ (('X - lambda%:P) ^+ 2 %| PK i) ->
-  (forall s, n <= \rank (pencil SK s lambda) + d i)%N /\ (\rank (pencil SK (~: T i) lambda) + d i = n)%N.
-Proof.
-move=> ri simple; have low : forall s, (n <= \rank (pencil SK s lambda) + d i)%N.
-  apply: (fixed_polynomial_rank krylov_rule); apply: contra simple; rewrite (bigD1 i)//=.
-  set t := 'X - _; have [R eR] := factor_theorem _ _ ri; rewrite -/t in eR.
-  have t0 : t != 0 by rewrite polyXsubC_eq0.
-  rewrite Gauss_dvdpl => [|]; last first.
-    apply: coprimep_expl; apply: (big_ind (coprimep t)) => [|a b ca cb|j ji]; first exact: coprimep1.
-      by rewrite coprimepMr ca.
-    by apply/coprimep_expr/(coprimep_dvdr _ (factors_coprime (_ : i != j))); rewrite ?dvdp_XsubCl// eq_sym.
-  rewrite eR exprMn exprS dvdp_mul2r ?expf_neq0// => tR.
-  rewrite expr2 dvdp_mul2r// dvdp_XsubCl; move: tR; rewrite dvdp_XsubCl /root horner_exp expf_eq0.
-  by case/andP.
-split=> //; apply/eqP; rewrite eqn_leq low andbT.
-apply: (shrunk_subspace_pencil (sh i)); by rewrite -map_poly_into.
-Qed.
-End Rules.

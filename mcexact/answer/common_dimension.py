@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from mcexact.answer.covering import Absence, DeficiencyCut, SequenceAbsence
+from mcexact.answer.covering import Absence, BlocksAbsence, DeficiencyCut
 from mcexact.answer.protocol import Answer, answer, claim, witness
 from mcexact.answer.sentence import Claim, Given, Rulebook
 from mcexact.answer.template import Sentence, Template
@@ -22,7 +22,7 @@ class CommonDimension(Answer):
         Whether some common dimension suffices.
     dimension : int or None
         k; None if no dimension suffices.
-    absence : SequenceAbsence, Absence or None
+    absence : BlocksAbsence, Absence or None
         The evidence that k suffices.
     cut : DeficiencyCut or None
         A set s for which k − 1 does not suffice, or with an empty boundary N_s∖s; None if k = 0.
@@ -31,7 +31,7 @@ class CommonDimension(Answer):
     share: str = claim("what is shared")
     feasible: bool = claim("some common dimension suffices")
     dimension: int | None = claim("least common dimension")
-    absence: SequenceAbsence | Absence | None = witness()
+    absence: BlocksAbsence | Absence | None = witness()
     cut: DeficiencyCut | None = witness()
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from mcexact.answer.covering import Absence, LinkCut, SequenceAbsence, Tree
+from mcexact.answer.covering import Absence, BlocksAbsence, LinkCut, Tree
 from mcexact.answer.protocol import Answer, answer, claim, witness
 
 
@@ -27,7 +27,7 @@ class MinimalCommunication(Answer):
     added : tuple of (str, str), or None
         The links (from, to) to add; None if no candidates suffice.
     cost : Fraction or None
-    absence : SequenceAbsence, Absence or None
+    absence : BlocksAbsence, Absence or None
     cuts : tuple of LinkCut
     tree : Tree
     """
@@ -39,6 +39,6 @@ class MinimalCommunication(Answer):
     feasible: bool = claim()
     added: tuple[tuple[str, str], ...] | None = claim()
     cost: Fraction | None = claim()
-    absence: SequenceAbsence | Absence | None = witness()
+    absence: BlocksAbsence | Absence | None = witness()
     cuts: tuple[LinkCut, ...] = witness()
     tree: Tree = witness()

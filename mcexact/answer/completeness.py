@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from mcexact.answer.evidence import KrylovSequence, ShrunkSubspace, ZeroTransfer
+from mcexact.answer.evidence import Block, ShrunkSubspace, ZeroTransfer
 from mcexact.answer.protocol import Answer, Part, answer, claim, witness
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
@@ -31,20 +31,20 @@ class FreedomWitness(Part):
 
 
 @dataclass(frozen=True)
-class SequenceWitness(Part):
-    """Evidence for yes: one sequence of one channel, and edges that connect all channels.
+class BlocksWitness(Part):
+    """Evidence for yes: blocks that leave no mode, and edges that connect all channels.
 
     Attributes
     ----------
-    sequence : KrylovSequence
-        Of degree n.
+    blocks : tuple of Block
+        One block, unless there are no states.
     modulus : int
         ℓ ≥ 2, for the edges.
     arcs : tuple of (str, str, int)
         As in `FreedomWitness`.
     """
 
-    sequence: KrylovSequence
+    blocks: tuple[Block, ...]
     modulus: int
     arcs: tuple[tuple[str, str, int], ...]
 
@@ -78,7 +78,7 @@ class CutWitness(Part):
     zero: ZeroTransfer
 
 
-Evidence = SequenceWitness | FreedomWitness | FixedModeWitness | CutWitness
+Evidence = BlocksWitness | FreedomWitness | FixedModeWitness | CutWitness
 
 
 @answer("completeness")
@@ -92,7 +92,7 @@ class Completeness(Answer):
         subsets of channels included.  For n ≥ 1 this holds if and only if some F makes the system
         controllable and observable through every single channel.  For n = 0 every F does, but a
         system with several channels is not complete, since no channel affects another.
-    evidence : SequenceWitness, FreedomWitness, FixedModeWitness or CutWitness
+    evidence : BlocksWitness, FreedomWitness, FixedModeWitness or CutWitness
         One of the first two for yes, one of the others for no.
     """
 

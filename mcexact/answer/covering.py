@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from mcexact.answer.evidence import KrylovSequence, ShrunkSubspace, ZeroTransfer
+from mcexact.answer.evidence import Block, ShrunkSubspace, ZeroTransfer
 from mcexact.answer.protocol import Part
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
@@ -38,20 +38,20 @@ class Absence(Part):
 
 
 @dataclass(frozen=True)
-class SequenceAbsence(Part):
+class BlocksAbsence(Part):
     """Evidence that no mode is fixed and, if claimed, of a connected graph.
 
     Attributes
     ----------
-    sequence : KrylovSequence
-        Of the system of the claim, of as many degrees as it has states.
+    blocks : tuple of Block
+        Of the system of the claim; they leave no mode.
     modulus : int or None
         ℓ ≥ 2, for the edges; None if there are none.
     arcs : tuple of (str, str, int), or None
         (j, i, k) with C̄_i Ā^k B̄_j ≠ 0 modulo ℓ.
     """
 
-    sequence: KrylovSequence
+    blocks: tuple[Block, ...]
     modulus: int | None = None
     arcs: tuple[tuple[str, str, int], ...] | None = None
 

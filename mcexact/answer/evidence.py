@@ -69,6 +69,41 @@ class KrylovSequence(Part):
 
 
 @dataclass(frozen=True)
+class CoprimePolynomials(Part):
+    """Gains with which det(xI − A) and det(xI − A_F) are coprime modulo ℓ: no mode is fixed.
+
+    Attributes
+    ----------
+    gains : tuple of Matrix
+        F_i, p_i × q_i, one for each channel.
+    modulus : int
+        ℓ ≥ 2.
+    """
+
+    gains: tuple[Matrix, ...]
+    modulus: int
+
+
+@dataclass(frozen=True)
+class Block(Part):
+    """Some states, and how many of their modes may be fixed.
+
+    Attributes
+    ----------
+    states : tuple of int
+        Increasing.  No arc leads from them to a later block of the list: A_ab = 0 for a state b of
+        this block and a state a of a later one, and so are the rows a of B_i or the columns b of
+        C_i for every channel.
+    evidence : KrylovSequence, CoprimePolynomials or None
+        About the system of these states and of the channels with a row of B_i and a column of C_i
+        that are not 0 there.  None if nothing is said about their modes.
+    """
+
+    states: tuple[int, ...]
+    evidence: KrylovSequence | CoprimePolynomials | None
+
+
+@dataclass(frozen=True)
 class ZeroTransfer(Part):
     """An invariant subspace im X that contains im B_j for the channels of a set.
 

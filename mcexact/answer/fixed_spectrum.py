@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from mcexact.answer.evidence import KrylovSequence, RateInterval, RootDisc, ShrunkSubspace
+from mcexact.answer.evidence import Block, RateInterval, RootDisc, ShrunkSubspace
 from mcexact.answer.protocol import Answer, Part, answer, claim, shown, witness
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
@@ -23,8 +23,8 @@ class FixedFactor(Part):
         The exponent of p in χ_A.
     multiplicity_at_most : int
         A bound for the multiplicity of p as a fixed factor, which is the least exponent of p in
-        χ_{A_F} over all constant gains: the multiplicity itself if one sequence is the evidence,
-        else the exponent for the drawn F, which is nearly always equal.
+        χ_{A_F} over all constant gains: the multiplicity itself if the evidence is by blocks, else
+        the exponent for the drawn F, which is nearly always equal.
     channels : tuple of str
         s, the largest set of channels whose pencil P_s(λ) = [λI − A, B_{m−s}; C_s, 0] has the
         least rank.
@@ -54,18 +54,22 @@ class Completion(Part):
 
 
 @dataclass(frozen=True)
-class OneSequence(Part):
-    """Evidence by one channel: no more is fixed than the factors, n − rank times each.
+class ByBlocks(Part):
+    """Evidence block by block: no more is fixed than the factors, n − rank times each.
 
     Attributes
     ----------
-    sequence : KrylovSequence
-        Its degree is n less the degrees of the factors, each taken n − rank times.
+    blocks : tuple of Block
+        They leave as many modes as the degrees of the factors, each taken n − rank times.
+    modulus : int or None
+        ℓ ≥ 2, modulo which no two factors have a common root and none has a multiple one; None if
+        there is no factor.
     subspaces : tuple of ShrunkSubspace
         One for each factor, of deficiency n − rank.
     """
 
-    sequence: KrylovSequence
+    blocks: tuple[Block, ...]
+    modulus: int | None
     subspaces: tuple[ShrunkSubspace, ...]
 
 
@@ -111,15 +115,15 @@ class FixedSpectrum(Answer):
     best_rate : RateInterval or None
         Encloses minus the largest real part (continuous time) or the largest modulus (discrete
         time) of the fixed modes; None if there is none.
-    evidence : OneSequence or TwoPolynomials
-        The second where no sequence was found.
+    evidence : ByBlocks or TwoPolynomials
+        The second where the blocks leave more than the factors.
     """
 
     polynomial: Polynomial = claim()
     factors: tuple[FixedFactor, ...] = claim()
     stabilizable: bool = claim()
     best_rate: RateInterval | None = claim()
-    evidence: OneSequence | TwoPolynomials = witness(whole=True)
+    evidence: ByBlocks | TwoPolynomials = witness(whole=True)
 
     @property
     @shown("nothing is fixed")

@@ -6,9 +6,9 @@ from fractions import Fraction
 
 from mcexact.answer.covering import (
     Absence,
+    BlocksAbsence,
     ConnectivityCut,
     DeficiencyCut,
-    SequenceAbsence,
     Tree,
 )
 from mcexact.answer.protocol import Answer, answer, claim, shown, witness
@@ -36,7 +36,7 @@ class SharedDimensions(Answer):
         The optimal n_i; None if no dimensions suffice.
     cost : Fraction or None
         Σ c_i n_i.
-    absence : SequenceAbsence, Absence or None
+    absence : BlocksAbsence, Absence or None
     cuts : tuple of DeficiencyCut and ConnectivityCut
     tree : Tree
     """
@@ -49,7 +49,7 @@ class SharedDimensions(Answer):
     feasible: bool = claim()
     dimensions: tuple[int, ...] | None = claim()
     cost: Fraction | None = claim()
-    absence: SequenceAbsence | Absence | None = witness()
+    absence: BlocksAbsence | Absence | None = witness()
     cuts: tuple[DeficiencyCut | ConnectivityCut, ...] = witness()
     tree: Tree = witness()
 

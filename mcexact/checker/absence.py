@@ -2,8 +2,9 @@
 
 from collections.abc import Mapping
 
-from . import arithmetic, evidence, krylov, reading
+from . import arithmetic, blocks, evidence, krylov, reading
 from .arithmetic import Polynomial
+from .budget import counted
 from .characteristic_polynomial import characteristic_polynomial
 from .reading import Json, fields, require
 from .system import System
@@ -12,17 +13,23 @@ Loss = tuple[Polynomial, int]
 """A factor, and the rank that is lost at its roots."""
 
 
-def by_sequence(witness: Json) -> bool:
-    """Whether the evidence is one sequence, and not two characteristic polynomials."""
-    return isinstance(witness, Mapping) and "sequence" in witness
+def by_blocks(witness: Json) -> bool:
+    """Whether the evidence is block by block, and not two characteristic polynomials of all."""
+    return isinstance(witness, Mapping) and "blocks" in witness
 
 
-class OneSequence:
-    """One channel moves all but n − L of the n modes, whatever these are."""
+class Blocks:
+    """The blocks leave so many modes that may be fixed; the others move, whatever these are."""
 
-    def __init__(self, value: Json, place: str, system: System) -> None:
-        self.place = f"{place}.sequence"
-        self.left, self.ell = krylov.unmoved_degree(value, self.place, system)
+    def __init__(self, value: Json, place: str, system: System, number: Json = None) -> None:
+        self.place, self.number = f"{place}.blocks", number
+        parts = blocks.split(value, self.place, system)
+        self.left = sum(_left(proof, where, part) for where, part, proof in counted(parts))
+
+    @property
+    def ell(self) -> int:
+        """The modulus for factors."""
+        return evidence.modulus(self.number, "witness.modulus")
 
     def multiplicity(self, p: Polynomial, loss: int) -> int:
         """How often a factor occurs; stop if it may have multiple roots."""
@@ -33,11 +40,27 @@ class OneSequence:
     def require_no_more(self, losses: list[Loss]) -> None:
         """Stop unless the factors, as often as they lose rank, are all that is left.
 
-        Theorems ``krylov.krylov_absence``, ``krylov.krylov_rule``, ``krylov.krylov_fixed``,
-        ``krylov.krylov_rank``.
+        Theorems ``fixed_bound.bounded_absence``, ``fixed_bound.bounded_rule``,
+        ``fixed_bound.bounded_fixed``, ``fixed_bound.bounded_rank``.
         """
+        if not losses:
+            require(self.number is None, "claim", "witness.modulus", "expected null: no factors")
         more = self.left - sum(loss * (len(p) - 1) for p, loss in losses)
         require(more == 0, "degree", self.place, f"{more} more modes may be fixed")
+
+
+def _left(proof: Json, place: str, block: System) -> int:
+    """The most degrees of a common divisor of det(xI − A_F) for all F, by the evidence of a block.
+
+    Theorems ``fixed_bound.nothing_bounded``, ``fixed_bound.coprime_bounded``.
+    """
+    if proof is None:
+        return block.n
+    if isinstance(proof, Mapping) and "channel" in proof:
+        return krylov.unmoved_degree(proof, place, block)
+    gains, number = fields(proof, place, "gains", "modulus")
+    TwoPolynomials(gains, number, place, block).require_moved([])
+    return 0
 
 
 class TwoPolynomials:

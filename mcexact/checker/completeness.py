@@ -1,7 +1,7 @@
 """Kind ``completeness``: connected and nothing fixed, or not; ``proofs/completeness.md``."""
 
 from . import evidence, subspaces
-from .absence import OneSequence, TwoPolynomials, by_sequence
+from .absence import Blocks, TwoPolynomials, by_blocks
 from .reading import Json, boolean, fields, polynomial, require
 from .statement import FIXED, denied
 from .system import System
@@ -43,10 +43,10 @@ def _require_freedom(witness: Json, system: System) -> None:
 
     Theorem ``transfer_graph.strongly_connected_arcs``.
     """
-    if by_sequence(witness):
-        number, value, listed = fields(witness, "witness", "modulus", "sequence", "arcs")
+    if by_blocks(witness):
+        number, value, listed = fields(witness, "witness", "modulus", "blocks", "arcs")
         ell = evidence.modulus(number, "witness.modulus")
-        OneSequence(value, "witness", system).require_no_more([])
+        Blocks(value, "witness", system).require_no_more([])
     else:
         number, gains, listed = fields(witness, "witness", "modulus", "gains", "arcs")
         proof = TwoPolynomials(gains, number, "witness", system)

@@ -3,7 +3,7 @@
 from fractions import Fraction
 
 from . import arithmetic, evidence, location, reading, root_discs, subspaces
-from .absence import OneSequence, TwoPolynomials, by_sequence
+from .absence import Blocks, TwoPolynomials, by_blocks
 from .arithmetic import Polynomial
 from .characteristic_polynomial import characteristic_polynomial
 from .reading import Json, fields, require
@@ -48,7 +48,7 @@ def check(claim: Json, witness: Json, system: System) -> None:
         discs = root_discs.root_discs(roots, f"{place}.roots", p)
         found.append((p, n - r, stable, discs))
     losses = [(p, loss) for p, loss, *_ in found]
-    if isinstance(proof, OneSequence):
+    if isinstance(proof, Blocks):
         proof.require_no_more(losses)
     else:
         proof.require_moved(psi)
@@ -65,11 +65,11 @@ def check(claim: Json, witness: Json, system: System) -> None:
         root_discs.require_rate(rate, "claim.best_rate", centers, system.time)
 
 
-def _proof(witness: Json, system: System) -> tuple[OneSequence | TwoPolynomials, Json, Json]:
+def _proof(witness: Json, system: System) -> tuple[Blocks | TwoPolynomials, Json, Json]:
     """The proof that no more is fixed, with the subspaces, and the completion if it has one."""
-    if by_sequence(witness):
-        sequence, spaces = fields(witness, "witness", "sequence", "subspaces")
-        return OneSequence(sequence, "witness", system), spaces, None
+    if by_blocks(witness):
+        parts, number, spaces = fields(witness, "witness", "blocks", "modulus", "subspaces")
+        return Blocks(parts, "witness", system, number), spaces, None
     keys = ("gains", "modulus", "subspaces", "completion")
     gains, number, spaces, completion = fields(witness, "witness", *keys)
     return TwoPolynomials(gains, number, "witness", system), spaces, completion

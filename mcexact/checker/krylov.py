@@ -14,14 +14,14 @@ from .system import System
 KEYS = ("modulus", "gains", "channel", "inputs", "outputs", "recurrence", "cofactors")
 
 
-def unmoved_degree(value: Json, place: str, system: System) -> tuple[int, int]:
-    """n − L, the most degrees of a common divisor of det(xI − A_F) for all F, and the modulus ℓ.
+def unmoved_degree(value: Json, place: str, system: System) -> int:
+    """n − L, the most degrees of a common divisor of det(xI − A_F) for all F.
 
     With b = B_q x, c = y C_q and s_k = c A_F^k b, the monic d of degree L modulo ℓ satisfies
     Σ_j d_j s_{k+j} = 0 for k < L − 1, and a·num + e·d = 1, num the polynomial part of
     d·Σ s_k x^{−k−1}.
 
-    Theorems ``krylov.krylov_common``, ``krylov.krylov_bound``.
+    Theorem ``krylov.krylov_bounded``.
     """
     number, gains, name, *lists, pair = fields(value, place, *KEYS)
     ell = evidence.modulus(number, f"{place}.modulus")
@@ -48,7 +48,7 @@ def unmoved_degree(value: Json, place: str, system: System) -> tuple[int, int]:
     sums = zip_longest(convolution(a, num, ell), convolution(e, d, ell), fillvalue=0)
     one = stripped([(f + g) % ell for f, g in sums]) == [1]
     require(one, "common_factor", f"{place}.cofactors", "a num + e d is not 1 modulo l")
-    return n - L, ell
+    return n - L
 
 
 def _residues(value: Json, place: str, ell: int) -> list[int]:

@@ -3,7 +3,7 @@
 from fractions import Fraction
 
 from . import evidence
-from .absence import OneSequence, TwoPolynomials, by_sequence
+from .absence import Blocks, TwoPolynomials, by_blocks
 from .arithmetic import Polynomial, exponent
 from .characteristic_polynomial import characteristic_polynomial
 from .location import in_region
@@ -22,9 +22,9 @@ def require_absence(value: Json, system: System, bound: Bound, connected: bool =
     Theorem ``transfer_graph.strongly_connected_arcs``.
     """
     place = "witness.absence"
-    if by_sequence(value):
-        sequence, number, arcs = fields(value, place, "sequence", "modulus", "arcs")
-        OneSequence(sequence, place, system).require_no_more([])
+    if by_blocks(value):
+        parts, number, arcs = fields(value, place, "blocks", "modulus", "arcs")
+        Blocks(parts, place, system).require_no_more([])
         alone = (number is None) == (arcs is None)
         require(alone, "claim", f"{place}.modulus", "expected for edges alone")
     else:

@@ -118,7 +118,7 @@ REJECTED = [
     ("possible after all", BLOCKED, ("claim.feasible", True)),
     ("a candidate forgotten", BLOCKED, ("claim.candidates", [["1", "2", 1]])),
     ("modulus 0", MOVED, ("witness.absence.modulus", 0)),
-    ("modulus 0 of the sequence", OUTPUTS, ("witness.absence.sequence.modulus", 0)),
+    ("modulus 0 of the sequence", OUTPUTS, ("witness.absence.blocks.0.evidence.modulus", 0)),
     ("another plant", OUTPUTS, ("system.A.2.1", 0)),
 ]  # fmt: skip
 

@@ -7,7 +7,7 @@ import random
 import pytest
 
 from mcexact.checker.budget import Budget, limited
-from mcexact.checker.packed_rows import SMALL, PackedRows, convolution
+from mcexact.checker.packed_rows import SMALL, PackedRows, _multiples, convolution
 from mcexact.checker.reading import Refused
 
 MODULI = [2, 3, 7, SMALL - 1, SMALL, SMALL + 1, 127, 128, 2**30 - 35, 10**20 + 39]
@@ -36,6 +36,19 @@ def test_the_largest_residues_do_not_run_into_the_next_slot(ell: int) -> None:
     assert list(packed.combined([ell - 1] * nrows)) == [found, 0, found]
 
 
+@pytest.mark.parametrize("ell", [SMALL - 3, SMALL])
+def test_no_sum_of_many_rows_leaves_its_byte(ell: int) -> None:
+    rng, nrows, ncols = random.Random(ell), 400, 500
+    rows = [[rng.randrange(ell) for _ in range(ncols)] for _ in range(nrows)]
+    u = [rng.randrange(ell) for _ in range(nrows)]
+    expected = [sum(x * row[j] for x, row in zip(u, rows, strict=True)) % ell for j in range(ncols)]
+    assert list(PackedRows(rows, ncols, ell).combined(u)) == expected
+
+
+def test_the_multiples_of_bytes_are_made_once() -> None:
+    assert _multiples(7) is _multiples(7)
+
+
 @pytest.mark.parametrize("ell", MODULI)
 def test_polynomials_are_multiplied_as_coefficient_by_coefficient(ell: int) -> None:
     rng = random.Random(ell)
@@ -49,7 +62,18 @@ def test_polynomials_are_multiplied_as_coefficient_by_coefficient(ell: int) -> N
             assert convolution(f, g, ell) == [c % ell for c in expected]
 
 
-@pytest.mark.parametrize(("f", "g"), [([], [1]), ([1], []), ([], [])])
+@pytest.mark.parametrize(("ell", "terms"), [(2, 256), (3, 127), (5, 63), (65, 17), (257, 256)])
+def test_the_largest_sums_have_room(ell: int, terms: int) -> None:
+    most = [ell - 1] * terms
+    ends = [*range(1, terms + 1), *range(terms - 1, 0, -1)]
+    assert convolution(most, most, ell) == [count % ell for count in ends]
+    if ell > 64:
+        assert PackedRows([[ell - 1]] * terms, 1, ell).combined(most) == [terms % ell]
+
+
+@pytest.mark.parametrize(
+    ("f", "g"), [([], [1]), ([1], []), ([], []), ([], [1, 2, 3]), ([1, 2, 3], [])]
+)
 def test_a_product_with_zero_has_no_coefficients(f: list[int], g: list[int]) -> None:
     assert convolution(f, g, 7) == []
 

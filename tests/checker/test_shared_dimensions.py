@@ -128,9 +128,9 @@ REJECTED = [
          for gain in MOVED["witness"]["absence"]["gains"]],
     )),
     ("modulus 1", MOVED, ("witness.absence.modulus", 1)),
-    ("modulus 1 of the sequence", STATES, ("witness.absence.sequence.modulus", 1)),
+    ("modulus 1 of the sequence", STATES, ("witness.absence.blocks.0.evidence.modulus", 1)),
     ("modulus 1 for the edges", FREE, ("witness.absence.modulus", 1)),
-    ("no modulus for the edges", FREE, ("witness.absence.modulus", None)),
+    ("no modulus for the edges", FREE, ("witness.absence.modulus", None), "INVALID"),
     ("a modulus for no edges", STATES, ("witness.absence.modulus", 7)),
     ("arcs forgotten", CONNECTED, ("witness.absence.arcs", None)),
     ("arcs and their modulus forgotten", FREE, (

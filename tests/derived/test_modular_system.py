@@ -6,7 +6,7 @@ import pytest
 
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.answer import codec
-from mcexact.answer.fixed_spectrum import OneSequence
+from mcexact.answer.fixed_spectrum import ByBlocks
 from mcexact.checker import check_document
 from mcexact.derived.drawn.choices import SeededChoices
 from mcexact.derived.drawn.systems import system_with_fixed_mode
@@ -57,8 +57,9 @@ def test_many_outputs_make_the_prime_smaller() -> None:
 
 def test_a_large_system_without_fixed_modes_is_certified() -> None:
     spectrum = fixed_spectrum(drawn(128, [(1, 1)] * 8, seed=2))
-    assert spectrum.empty and isinstance(spectrum.evidence, OneSequence)
-    assert spectrum.evidence.sequence.modulus < 2**24
+    assert spectrum.empty and isinstance(spectrum.evidence, ByBlocks)
+    [block] = spectrum.evidence.blocks
+    assert block.evidence is not None and block.evidence.modulus < 2**24
     verdict = check_document(codec.encode(spectrum).encode())
     assert verdict.verdict == "VALID", verdict
 

@@ -32,7 +32,7 @@ def drawn_pair(seed: int) -> tuple[PlainSystem, MultiChannelSystem]:
     return found, exact(found, rng.choice(["continuous", "discrete"]))
 
 
-def _fixed_factors(
+def fixed_factors(
     small: PlainSystem, system: MultiChannelSystem, spectrum: FixedSpectrum
 ) -> list[str]:
     wanted = {
@@ -92,7 +92,7 @@ def disagreements(
 ) -> tuple[list[str], bool]:
     """What differs from the oracle or is not VALID, and whether there are fixed modes."""
     spectrum = fixed_spectrum(system)
-    problems = _fixed_factors(small, system, spectrum)
+    problems = fixed_factors(small, system, spectrum)
     answers: dict[str, Any] = {
         "spectrum": spectrum,
         "completeness": completeness(system, spectrum=spectrum),

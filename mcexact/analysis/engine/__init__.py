@@ -5,6 +5,7 @@ This folder answers no question by itself.  The other folders of `analysis` impo
 ========================  =============================================================
 `obstructions`            the fixed factors of a system, with gains that move all others
 `one_channel`             proofs that no more is fixed, by one sequence of one channel
+`state_blocks`            the same for blocks of states, which share no gain
 `shrunk_subspace`         proofs that a mode is fixed, by Wong sequences modulo a prime
 `reachability`            the transfer graph modulo a prime, and zero transfers
 `rate`                    root discs, and the best rate that some modes allow
@@ -26,7 +27,7 @@ from mcexact.analysis.engine.covering import (
 )
 from mcexact.analysis.engine.lyapunov import QuadraticForm, quadratic_form
 from mcexact.analysis.engine.obstructions import Decision, Obstruction, decide
-from mcexact.analysis.engine.one_channel import best_sequences, free_sequence
+from mcexact.analysis.engine.one_channel import MODULI, best_sequences
 from mcexact.analysis.engine.rate import located
 from mcexact.analysis.engine.reachability import (
     Edge,
@@ -42,9 +43,18 @@ from mcexact.analysis.engine.shrunk_subspace import (
     exact_subspace,
     obstruction_modulo,
 )
+from mcexact.analysis.engine.state_blocks import (
+    StateBlock,
+    bounded_blocks,
+    completed_blocks,
+    free_blocks,
+    modes_left,
+    state_blocks,
+)
 
 __all__ = [
     "DEFAULT_NODE_LIMIT",
+    "MODULI",
     "CoveringCut",
     "CoveringProgram",
     "Decision",
@@ -53,18 +63,23 @@ __all__ = [
     "Node",
     "Obstruction",
     "QuadraticForm",
+    "StateBlock",
     "Tree",
     "best_sequences",
+    "bounded_blocks",
     "branch_tree",
+    "completed_blocks",
     "decide",
     "evidence",
     "exact_subspace",
-    "free_sequence",
+    "free_blocks",
     "located",
     "minimize",
+    "modes_left",
     "obstruction_modulo",
     "quadratic_form",
     "separated_instability",
+    "state_blocks",
     "strong_components",
     "suspected_edges",
     "witnessed_powers",

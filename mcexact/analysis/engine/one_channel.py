@@ -26,13 +26,7 @@ STARTS = 3
 """How many channels are tried with the same gains: a second one takes a third of the time."""
 
 
-def free_sequence(system: MultiChannelSystem) -> KrylovSequence | None:
-    """Find a sequence that proves that no mode is fixed; None if none was found."""
-    found = (each for each in best_sequences(system) if each.degree == system.n)
-    return next(found, None)
-
-
-def best_sequences(system: MultiChannelSystem) -> Iterator[KrylovSequence]:
+def best_sequences(system: MultiChannelSystem, denominator: int = 1) -> Iterator[KrylovSequence]:
     """Draw gains modulo one prime after the other, and yield the longest sequence for each.
 
     The last one has degree n, or two in a row have the same degree, or all primes are used up.
@@ -40,6 +34,8 @@ def best_sequences(system: MultiChannelSystem) -> Iterator[KrylovSequence]:
     Parameters
     ----------
     system : MultiChannelSystem
+    denominator : int
+        Moduli that divide it are passed over, as are those that divide one of the system.
 
     Notes
     -----
@@ -51,7 +47,7 @@ def best_sequences(system: MultiChannelSystem) -> Iterator[KrylovSequence]:
     """
     if not system.m:
         return
-    denominator = prod({M.denominator for M in (system.A, *_ports(system))})
+    denominator *= prod({M.denominator for M in (system.A, *_ports(system))})
     before = -1
     for ell in MODULI:
         if denominator % ell:

@@ -8,23 +8,22 @@ from collections.abc import Iterator
 from mcexact.analysis.engine import Edge, decide, suspected_edges, witnessed_powers, zero_transfer
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.answer.completeness import (
+    BlocksWitness,
     Completeness,
     CutWitness,
     Evidence,
     FixedModeWitness,
     FreedomWitness,
-    SequenceWitness,
 )
-from mcexact.answer.evidence import KrylovSequence
-from mcexact.answer.fixed_spectrum import FixedSpectrum, OneSequence
+from mcexact.answer.fixed_spectrum import ByBlocks, FixedSpectrum
 from mcexact.derived.modular_system import ModularSystem, generator, lifted_gains, residue_systems
 from mcexact.errors import InternalError
 from mcexact.exact.invariant_subspace import controllable_subspace
 from mcexact.exact.matrix import Matrix
 from mcexact.model.system import MultiChannelSystem
 
-Freedom = KrylovSequence | tuple[Matrix, ...]
-"""The proof that no mode is fixed: a sequence, or gains that move every mode."""
+Freedom = ByBlocks | tuple[Matrix, ...]
+"""The proof that no mode is fixed: by blocks, or gains that move every mode."""
 
 
 def completeness(
@@ -61,7 +60,7 @@ def completeness(
         spectrum = fixed_spectrum(system)
     rng = generator(system, "completeness")
     evidence = _evidence(system, spectrum, rng)
-    complete = isinstance(evidence, SequenceWitness | FreedomWitness)
+    complete = isinstance(evidence, BlocksWitness | FreedomWitness)
     return Completeness(system, complete=complete, evidence=evidence)
 
 
@@ -85,8 +84,8 @@ def _connected(modular: ModularSystem, proof: Freedom, chosen: set[Edge]) -> Evi
     """The evidence for yes, with edges that connect all channels."""
     powers, names = witnessed_powers(modular, chosen), modular.system.names
     arcs = tuple((names[j], names[i], powers[j, i]) for j, i in sorted(chosen))
-    if isinstance(proof, KrylovSequence):
-        return SequenceWitness(proof, modular.modulus, arcs)
+    if isinstance(proof, ByBlocks):
+        return BlocksWitness(proof.blocks, modular.modulus, arcs)
     return FreedomWitness(modular.modulus, proof, arcs)
 
 
@@ -97,9 +96,9 @@ def _freedom(
 
     Gains are proved to move every mode modulo the prime of their own.
     """
-    if isinstance(spectrum.evidence, OneSequence):
+    if isinstance(spectrum.evidence, ByBlocks):
         for modular in residue_systems(system, rng):
-            yield modular, spectrum.evidence.sequence
+            yield modular, spectrum.evidence
         return
     yield ModularSystem(system, spectrum.evidence.modulus), spectrum.evidence.gains
     while True:

@@ -3,23 +3,25 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Sequence
 from typing import cast
 
 from mcexact.analysis.engine import (
+    MODULI,
     Decision,
     Obstruction,
-    best_sequences,
+    bounded_blocks,
+    completed_blocks,
     decide,
     evidence,
     located,
+    modes_left,
 )
-from mcexact.answer.evidence import KrylovSequence, RateInterval, RootDisc
+from mcexact.answer.evidence import Block, RateInterval, RootDisc, ShrunkSubspace
 from mcexact.answer.fixed_spectrum import (
+    ByBlocks,
     Completion,
     FixedFactor,
     FixedSpectrum,
-    OneSequence,
     TwoPolynomials,
 )
 from mcexact.derived.modular_system import closed_loop, generator, lifted, lifted_gains
@@ -39,13 +41,13 @@ def fixed_spectrum(system: MultiChannelSystem) -> FixedSpectrum:
 
     Notes
     -----
-    Exact; no subset of channels is enumerated.  The certificate has one Krylov sequence of drawn
-    gains and one channel, modulo a small prime, which bounds how much is fixed, and a shrunk
-    subspace for each fixed factor.  Where no sequence proves this, because the transfer graph is
-    not strongly connected or the channels reach a mode by Jordan chains, the certificate has gains
-    F and a modulus ℓ such that χ_{A_F} is coprime modulo ℓ to χ_A without its fixed factors.
-    Without fixed modes it takes O(n³), by products in floating point that are exact from 128
-    states on.
+    Exact; no subset of channels is enumerated.  The certificate splits the states into blocks
+    that share no gain.  For each it has one Krylov sequence of drawn gains and one channel, modulo
+    a small prime, which bounds how much is fixed; for each fixed factor it has a shrunk subspace.
+    Where the blocks leave more than the factors, because a mode is fixed by Jordan chains, the
+    certificate has gains F and a modulus ℓ such that χ_{A_F} is coprime modulo ℓ to χ_A without
+    its fixed factors.  Without fixed modes it takes O(n³), by products in floating point that are
+    exact from 128 states on.
 
     Examples
     --------
@@ -59,23 +61,21 @@ def fixed_spectrum(system: MultiChannelSystem) -> FixedSpectrum:
     >>> fixed_spectrum(MultiChannelSystem([[1]], [[[1]]], [[[1]]])).empty
     True
     """
-    sequences = []
-    for sequence in best_sequences(system):
-        if sequence.degree == system.n:
-            return _found(system, (), None, OneSequence(sequence, ()))
-        sequences.append(sequence)
+    blocks = bounded_blocks(system)
+    if not modes_left(blocks):
+        return _found(system, (), None, ByBlocks(blocks, None, ()))
     rng = generator(system, "fixed_spectrum")
     decision = decide(system, rng)
     region = StabilityRegion(cast(Time, system.time))
     discs, rate = located(system.time, [o.polynomial for o in decision.obstructions])
-    deciding = _deciding(sequences, decision, system.n)
+    subspaces = tuple(evidence(system, o.subspace) for o in decision.obstructions)
+    by_blocks = _by_blocks(system, blocks, decision, subspaces)
     factors = tuple(
-        _factor(system, decision, o, roots, region, deciding is not None)
+        _factor(system, decision, o, roots, region, by_blocks is not None)
         for o, roots in zip(decision.obstructions, discs, strict=True)
     )
-    subspaces = tuple(evidence(system, o.subspace) for o in decision.obstructions)
-    if deciding is not None:
-        return _found(system, factors, rate, OneSequence(deciding, subspaces))
+    if by_blocks is not None:
+        return _found(system, factors, rate, by_blocks)
     moved = TwoPolynomials(
         gains=lifted_gains(decision.modular, decision.gains),
         modulus=decision.modular.modulus,
@@ -89,7 +89,7 @@ def _found(
     system: MultiChannelSystem,
     factors: tuple[FixedFactor, ...],
     rate: RateInterval | None,
-    proof: OneSequence | TwoPolynomials,
+    proof: ByBlocks | TwoPolynomials,
 ) -> FixedSpectrum:
     return FixedSpectrum(
         system,
@@ -101,21 +101,32 @@ def _found(
     )
 
 
-def _deciding(
-    sequences: Sequence[KrylovSequence], decision: Decision, n: int
-) -> KrylovSequence | None:
-    """The first sequence that leaves no more than the factors, with the ranks that they lose.
+def _by_blocks(
+    system: MultiChannelSystem,
+    blocks: tuple[Block, ...],
+    decision: Decision,
+    subspaces: tuple[ShrunkSubspace, ...],
+) -> ByBlocks | None:
+    """The proof by blocks, if they leave no more than the factors with the ranks that they lose."""
+    found = decision.obstructions
+    fixed = sum(o.polynomial.degree * o.subspace.deficiency for o in found)
+    if modes_left(blocks) > fixed and len(blocks) > 1:
+        blocks = completed_blocks(system, blocks)
+    if modes_left(blocks) > fixed:
+        return None
+    if not found:
+        return ByBlocks(blocks, None, ())
+    ell = _separating(product(o.polynomial for o in found), decision.modular.modulus)
+    return None if ell is None else ByBlocks(blocks, ell, subspaces)
 
-    Modulo its ℓ the factors are coprime, and none has a multiple root.
-    """
-    left = n - sum(o.polynomial.degree * o.subspace.deficiency for o in decision.obstructions)
-    whole = product(o.polynomial for o in decision.obstructions)
-    for sequence in sequences:
-        ell = sequence.modulus
-        if sequence.degree == left and all(c.denominator % ell for c in whole.coefficients):
+
+def _separating(whole: Polynomial, last: int) -> int | None:
+    """A prime modulo which a product of different factors has no multiple root."""
+    for ell in (*MODULI, last):
+        if all(c.denominator % ell for c in whole.coefficients):
             p = polynomial_residues(whole, ell)
             if p.gcd(polynomial_residues(whole.derivative(), ell)).degree == 0:
-                return sequence
+                return ell
     return None
 
 
@@ -125,11 +136,11 @@ def _factor(
     found: Obstruction,
     roots: tuple[RootDisc, ...],
     region: StabilityRegion,
-    by_sequence: bool,
+    by_blocks: bool,
 ) -> FixedFactor:
     T = set(found.subspace.channels_T)
     p, at_most = found.polynomial, found.subspace.deficiency
-    if not by_sequence:
+    if not by_blocks:
         at_most = polynomial_residues(p, decision.closed.modulus).multiplicity_in(decision.closed)
     return FixedFactor(
         polynomial=p,

@@ -9,7 +9,7 @@ from typing import Any
 
 from mcexact.analysis.engine import CoveringCut, CoveringProgram, Node, Tree, branch_tree, minimize
 from mcexact.analysis.sharing.separation import absence
-from mcexact.answer.covering import Absence, SequenceAbsence
+from mcexact.answer.covering import Absence, BlocksAbsence
 from mcexact.derived.modular_system import generator
 from mcexact.errors import LimitReached, UsageError
 from mcexact.exact.location import StabilityRegion
@@ -54,7 +54,7 @@ class CoveringOptimum:
     values : tuple of int, or None
         The point; None if no point satisfies all cuts.
     cost : Fraction or None
-    absence : SequenceAbsence, Absence or None
+    absence : BlocksAbsence, Absence or None
         The evidence that the system has the required properties at ``values``.
     cuts : tuple of CoveringCut
     nodes : Tree
@@ -63,7 +63,7 @@ class CoveringOptimum:
 
     values: tuple[int, ...] | None
     cost: Fraction | None
-    absence: SequenceAbsence | Absence | None
+    absence: BlocksAbsence | Absence | None
     cuts: tuple[CoveringCut, ...]
     nodes: Tree
 

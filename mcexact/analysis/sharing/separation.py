@@ -10,13 +10,13 @@ from mcexact.analysis.engine import (
     decide,
     evidence,
     exact_subspace,
-    free_sequence,
+    free_blocks,
     obstruction_modulo,
     strong_components,
     suspected_edges,
     witnessed_powers,
 )
-from mcexact.answer.covering import Absence, DeficiencyCut, SequenceAbsence
+from mcexact.answer.covering import Absence, BlocksAbsence, DeficiencyCut
 from mcexact.derived.dual import dual
 from mcexact.derived.modular_system import (
     ModularSystem,
@@ -152,7 +152,7 @@ def absence(
     rng: random.Random,
     *,
     connected: bool = False,
-) -> SequenceAbsence | Absence:
+) -> BlocksAbsence | Absence:
     """Prove that no mode outside a region is fixed and, on request, that the graph is connected.
 
     Parameters
@@ -170,12 +170,12 @@ def absence(
     InternalError
         If some mode outside the region is fixed, or the transfer graph is not connected.
     """
-    sequence = free_sequence(system)
-    if sequence is not None:
+    blocks = free_blocks(system)
+    if blocks is not None:
         if not connected:
-            return SequenceAbsence(sequence)
+            return BlocksAbsence(blocks)
         modular = next(residue_systems(system, rng))
-        return SequenceAbsence(sequence, modular.modulus, _connecting_edges(modular, rng))
+        return BlocksAbsence(blocks, modular.modulus, _connecting_edges(modular, rng))
     decision = decide(system, rng)
     allowed = tuple((o.polynomial, o.multiplicity_in_A) for o in decision.obstructions)
     if any(region is None or not region.contains_roots_of(p) for p, _ in allowed):

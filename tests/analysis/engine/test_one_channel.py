@@ -6,11 +6,18 @@ import random
 
 import pytest
 
-from mcexact.analysis.engine import best_sequences, free_sequence
+from mcexact.analysis.engine import (
+    best_sequences,
+    bounded_blocks,
+    free_blocks,
+    modes_left,
+    state_blocks,
+)
 from mcexact.analysis.engine.one_channel import MODULI, STARTS
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.structure.transfer_graph import transfer_graph
-from mcexact.answer.fixed_spectrum import OneSequence, TwoPolynomials
+from mcexact.answer.evidence import KrylovSequence
+from mcexact.answer.fixed_spectrum import ByBlocks, TwoPolynomials
 from mcexact.derived import modular_system
 from mcexact.exact.matrix import Matrix
 from mcexact.model import gallery
@@ -31,11 +38,18 @@ def drawn(n: int, widths: list[tuple[int, int]], bound: int = 9) -> MultiChannel
     )
 
 
+def longest(system: MultiChannelSystem) -> KrylovSequence:
+    """The sequence of a system that is one block."""
+    [block] = bounded_blocks(system)
+    assert block.states == tuple(range(system.n))
+    assert isinstance(block.evidence, KrylovSequence)
+    return block.evidence
+
+
 @pytest.mark.parametrize("n", [1, 2, 5, 30, 127, 128, 200])
 @pytest.mark.parametrize("bound", [9, 10**6, 10**30])
 def test_a_dense_system_has_a_sequence_of_all_degrees(n: int, bound: int) -> None:
-    found = free_sequence(drawn(n, [(1, 1)] * max(n // 3, 1), bound))
-    assert found is not None
+    found = longest(drawn(n, [(1, 1)] * max(n // 3, 1), bound))
     assert found.degree == n
     assert found.modulus in MODULI
     assert all(0 <= c < found.modulus for c in (*found.recurrence, *found.cofactors[0]))
@@ -55,10 +69,9 @@ def test_what_is_left_is_never_less_than_what_is_fixed() -> None:
         system = exact(sparse_system(random.Random(seed)), "continuous")
         spectrum = fixed_spectrum(system)
         fixed = sum((system.n - f.rank) * f.polynomial.degree for f in spectrum.factors)
-        for sequence in best_sequences(system):
-            assert sequence.degree <= system.n - fixed
-        if isinstance(spectrum.evidence, OneSequence):
-            assert spectrum.evidence.sequence.degree == system.n - fixed
+        assert modes_left(bounded_blocks(system)) >= fixed
+        if isinstance(spectrum.evidence, ByBlocks):
+            assert modes_left(spectrum.evidence.blocks) == fixed
 
 
 def test_two_moduli_that_agree_end_the_search() -> None:
@@ -66,14 +79,14 @@ def test_two_moduli_that_agree_end_the_search() -> None:
     found = list(best_sequences(chain))
     assert [each.degree for each in found] == [1, 1]
     assert [each.modulus for each in found] == list(MODULI[:2])
-    assert free_sequence(chain) is None
-    assert isinstance(fixed_spectrum(chain).evidence, TwoPolynomials)
 
 
 def test_a_modulus_that_divides_a_denominator_is_left_out() -> None:
     system = MultiChannelSystem([["1/7"]], [[["1/31"]]], [[[1]]])
     [found] = best_sequences(system)
     assert found.modulus == MODULI[2]
+    [found] = best_sequences(MultiChannelSystem([[1]], [[[1]]], [[[1]]]), denominator=14)
+    assert found.modulus == MODULI[1]
     nothing = MultiChannelSystem([["1/7"]], [[["1/31"]]], [[[f"1/{MODULI[2]}"]]])
     assert list(best_sequences(nothing)) == []
     assert fixed_spectrum(nothing).empty
@@ -93,21 +106,21 @@ def test_wide_channels_are_tried_with_several_combinations() -> None:
     # b and c of one combination each miss a mode; STARTS of them rarely all do
     n = 6
     I = [[int(i == j) for j in range(n)] for i in range(n)]
-    found = free_sequence(MultiChannelSystem(I, [I], [I]))
+    found = longest(MultiChannelSystem(I, [I], [I]))
     assert STARTS > 1
-    assert found is not None and len(found.inputs) == len(found.outputs) == n
+    assert found.degree == n and len(found.inputs) == len(found.outputs) == n
 
 
 def test_without_states_there_is_nothing_to_move() -> None:
     for m in (1, 2):
-        found = free_sequence(MultiChannelSystem([], [[]] * m, [[]] * m))
-        assert found is not None and (found.recurrence, found.cofactors) == ((1,), ((), (1,)))
+        system = MultiChannelSystem([], [[]] * m, [[]] * m)
+        assert state_blocks(system) == free_blocks(system) == ()
 
 
 def test_a_mode_that_stays_once_is_proved_by_one_sequence_and_a_chain_is_not() -> None:
     once = fixed_spectrum(gallery.load("compleib-cse1"))
     assert [str(factor.polynomial) for factor in once.factors] == ["x + 1"]
-    assert isinstance(once.evidence, OneSequence)
+    assert isinstance(once.evidence, ByBlocks)
     jordan = MultiChannelSystem([[1, 1], [0, 1]], [[[0], [0]]], [[[0, 0]]])
     assert isinstance(fixed_spectrum(jordan).evidence, TwoPolynomials)
 
@@ -116,12 +129,12 @@ def test_factors_that_meet_modulo_the_prime_wait_for_another() -> None:
     # 1 and 8 are the same modulo 7
     system = MultiChannelSystem([[1, 0], [0, 8]], [[[0], [0]]], [[[1, 1]]])
     evidence = fixed_spectrum(system).evidence
-    assert isinstance(evidence, OneSequence)
-    assert evidence.sequence.modulus == 31
+    assert isinstance(evidence, ByBlocks)
+    assert evidence.modulus == 31
 
 
 @pytest.mark.parametrize("name", gallery.names())
 def test_a_published_plant_whose_channels_are_connected_needs_one_sequence(name: str) -> None:
     plant = gallery.load(name)
     if transfer_graph(plant).strongly_connected:
-        assert isinstance(fixed_spectrum(plant).evidence, OneSequence)
+        assert isinstance(fixed_spectrum(plant).evidence, ByBlocks)

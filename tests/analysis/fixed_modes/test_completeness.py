@@ -9,13 +9,13 @@ from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.fixed_modes.single_channel_gains import single_channel_gains
 from mcexact.answer import codec
 from mcexact.answer.completeness import (
+    BlocksWitness,
     Completeness,
     CutWitness,
     FixedModeWitness,
     FreedomWitness,
-    SequenceWitness,
 )
-from mcexact.answer.fixed_spectrum import OneSequence, TwoPolynomials
+from mcexact.answer.fixed_spectrum import ByBlocks, TwoPolynomials
 from mcexact.checker import check_document
 from mcexact.model import gallery
 from mcexact.model.system import MultiChannelSystem
@@ -57,10 +57,10 @@ def test_yes_names_no_more_arcs_than_connect_all_channels() -> None:
     )
     spectrum = fixed_spectrum(system)
     evidence = checked(completeness(system, spectrum=spectrum)).evidence
-    assert isinstance(evidence, SequenceWitness)
-    assert isinstance(spectrum.evidence, OneSequence)
+    assert isinstance(evidence, BlocksWitness)
+    assert isinstance(spectrum.evidence, ByBlocks)
     assert len(evidence.arcs) <= 2 * (n - 1)
-    assert evidence.sequence == spectrum.evidence.sequence
+    assert evidence.blocks == spectrum.evidence.blocks
 
 
 def test_one_channel_is_complete_iff_it_controls_and_observes_everything() -> None:
@@ -72,8 +72,10 @@ def test_one_channel_is_complete_iff_it_controls_and_observes_everything() -> No
 def test_an_arc_that_vanishes_modulo_the_prime_of_the_gains_is_seen_modulo_another() -> None:
     system = MultiChannelSystem([[1, 0], [0, 2]], [[[1], [0]], [[0], [1]]], [[[0, 1]], [[7, 0]]])
     spectrum = fixed_spectrum(system)
-    assert isinstance(spectrum.evidence, OneSequence)
-    gains = spectrum.evidence.sequence.gains
+    assert isinstance(spectrum.evidence, ByBlocks)
+    [block] = spectrum.evidence.blocks
+    assert block.evidence is not None
+    gains = block.evidence.gains
     at_7 = replace(spectrum, evidence=TwoPolynomials(gains, 7, (), None))
     answer = checked(completeness(system, spectrum=at_7))
     assert answer.complete and isinstance(answer.evidence, FreedomWitness)

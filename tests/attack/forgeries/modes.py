@@ -39,8 +39,8 @@ def unconnected(rng: random.Random, document: Document) -> Forged:
     """Complete, by edges that are there and do not connect all channels."""
     system = subject_of(document)
     document["claim"]["complete"] = True
-    made = sequences.sequence(rng, system) if rng.random() < 0.4 else None
-    proof = {"gains": drawn_gains(rng, system)} if made is None else {"sequence": made}
+    made = sequences.blocks(rng, system) if rng.random() < 0.4 else None
+    proof = {"gains": drawn_gains(rng, system)} if made is None else {"blocks": made}
     document["witness"] = {"modulus": PRIME, "arcs": shown_edges(system), **proof}
     return document
 
@@ -148,7 +148,7 @@ def factor_added(rng: random.Random, document: Document) -> Forged:
 def by_two_polynomials(rng: random.Random, document: Document) -> Forged:
     """The same factors, with drawn gains, exponents and completion in place of a sequence."""
     witness, system = document["witness"], subject_of(document)
-    if "sequence" not in witness:
+    if "blocks" not in witness:
         return None
     spaces = witness["subspaces"]
     document["witness"] = {"modulus": PRIME, "subspaces": spaces, "gains": drawn_gains(rng, system)}
@@ -165,7 +165,7 @@ def _restated(rng: random.Random, document: Document) -> None:
     claim["polynomial"] = coefficients(product)
     claim["stabilizable"] = all(factor["stable"] for factor in claim["factors"])
     rho = max((n - factor["rank"] for factor in claim["factors"]), default=0)
-    if "sequence" not in witness:
+    if "blocks" not in witness:
         completion = {"B0": drawn(rng, n, rho), "C0": drawn(rng, rho, n)}
         witness["completion"] = completion if claim["factors"] else None
     if not claim["factors"]:

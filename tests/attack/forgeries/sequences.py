@@ -1,4 +1,4 @@
-"""Forgeries of one sequence: a degree too high, and one condition that stands against it."""
+"""Forgeries of blocks and of one sequence: one condition stands against a degree too high."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ import math
 import random
 from typing import Any
 
-from flint import nmod_mat, nmod_poly
+from flint import fmpq_mat, nmod_mat, nmod_poly
 
 from ..draws.plants import Document
 from ..oracle.constructions import subject_of
 from ..oracle.systems import System
-from .writing import drawn_gains, zeros
+from .writing import PRIME, drawn, drawn_gains, zeros
 
 Forged = Document | None
 Vector = list[int]
@@ -123,33 +123,99 @@ def sequence(rng: random.Random, system: System) -> Document | None:
     return None if d is None else numbers.with_recurrence(d)
 
 
+def blocks(rng: random.Random, system: System) -> list[Document] | None:
+    """The states in parts, with what would prove that no mode of any part is fixed."""
+    states, what = list(range(system.n)), rng.randrange(8)
+    if what < 4:
+        parts = [states] if states or rng.random() < 0.5 else []
+    else:  # in an order that may be the wrong one
+        count = rng.randint(2, 3)
+        at = [rng.randrange(count) for _ in states]
+        parts = [[a for a in states if at[a] == k] for k in range(count)]
+    if what == 5 and any(parts):  # a state left out, or in two blocks
+        chosen = rng.choice([part for part in parts if part])
+        chosen.pop(rng.randrange(len(chosen)))
+    elif what == 6 and states:
+        rng.choice(parts).append(rng.choice(states))
+    parts = [part for part in parts if part or rng.random() < 0.1]
+    made = []
+    for part in parts:
+        acting = [i for i in range(system.m) if _acts(system, i, part)]
+        block = _restricted(system, sorted(part), acting)
+        proof = sequence(rng, block)
+        if proof is None or rng.random() < 0.2:
+            proof = {"modulus": PRIME, "gains": drawn_gains(rng, block)}
+        made.append({"states": sorted(part), "evidence": proof if rng.random() < 0.9 else None})
+    return made
+
+
+def _acts(system: System, i: int, part: list[int]) -> bool:
+    """Whether a channel has inputs and outputs of these states."""
+    moved = any(v != 0 for a in part for v in system.B[i].tolist()[a])
+    return moved and any(row[a] != 0 for a in part for row in system.C[i].tolist())
+
+
+def _restricted(system: System, part: list[int], acting: list[int]) -> System:
+    """Some states and channels by themselves."""
+
+    def picked(M: Any, rows: list[int], cols: list[int]) -> fmpq_mat:
+        return fmpq_mat(len(rows), len(cols), [M[i, j] for i in rows for j in cols])
+
+    return System(
+        system.time,
+        picked(system.A, part, part),
+        tuple(system.names[i] for i in acting),
+        tuple(picked(system.B[i], part, list(range(system.B[i].ncols()))) for i in acting),
+        tuple(picked(system.C[i], list(range(system.C[i].nrows())), part) for i in acting),
+    )
+
+
 def nothing_fixed(rng: random.Random, document: Document) -> Forged:
-    """Fixed modes denied by a sequence."""
-    made = sequence(rng, subject_of(document))
+    """Fixed modes denied by blocks."""
+    made = blocks(rng, subject_of(document))
     if made is None:
         return None
     document["claim"] = {"polynomial": [1], "factors": [], "stabilizable": True, "best_rate": None}
-    document["witness"] = {"sequence": made, "subspaces": []}
+    document["witness"] = {"blocks": made, "modulus": None, "subspaces": []}
     return document
 
 
-def other_sequence(rng: random.Random, document: Document) -> Forged:
-    """The same factors, said to be all by another sequence."""
-    made = sequence(rng, subject_of(document))
+def coupled(rng: random.Random, document: Document) -> Forged:
+    """Two double integrators whose positions have a constant sum, decided as if they were apart."""
+    a = rng.choice((1, -1, 2, 3))
+    rows = [[0, a, 0, -a], [0, 0, 0, 0], [0, -a, 0, a], [0, 0, 0, 0]]
+    channels, parts = [], []
+    for k in (0, 2):
+        column = [[int(i == k + 1)] for i in range(4)]
+        channels.append({"name": str(k), "B": column, "C": [[int(i == k) for i in range(4)]]})
+        proof = {"modulus": PRIME, "gains": [drawn(rng, 1, 1)]}
+        parts.append({"states": [k, k + 1], "evidence": proof})
+    document["system"] = {"time": document["system"]["time"], "A": rows, "channels": channels}
+    document["subject"] = []
+    document["claim"] = {"polynomial": [1], "factors": [], "stabilizable": True, "best_rate": None}
+    document["witness"] = {"blocks": parts, "modulus": None, "subspaces": []}
+    return document
+
+
+def other_blocks(rng: random.Random, document: Document) -> Forged:
+    """The same factors, said to be all by other blocks."""
+    made = blocks(rng, subject_of(document))
     if made is None:
         return None
-    document["witness"] = {"sequence": made, "subspaces": document["witness"]["subspaces"]}
+    spaces = document["witness"]["subspaces"]
+    ell = rng.choice((2, 7, 101)) if spaces else None
+    document["witness"] = {"blocks": made, "modulus": ell, "subspaces": spaces}
     return document
 
 
 def multiplicities(rng: random.Random, document: Document) -> Forged:
     """A multiplicity that is not the rank that is lost."""
     claim = document["claim"]
-    if "sequence" not in document["witness"] or not claim["factors"]:
+    if "blocks" not in document["witness"] or not claim["factors"]:
         return None
     factor = rng.choice(claim["factors"])
     factor["multiplicity_at_most"] = max(factor["multiplicity_at_most"] + rng.choice((-1, 1)), 1)
     return document
 
 
-SPECTRUM = (nothing_fixed, nothing_fixed, other_sequence, multiplicities)
+SPECTRUM = (nothing_fixed, nothing_fixed, coupled, other_blocks, multiplicities)

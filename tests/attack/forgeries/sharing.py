@@ -20,7 +20,7 @@ from ..oracle.constructions import augmented_outputs, extended, subject_of
 from ..oracle.reading import demand
 from ..oracle.systems import System
 from .modes import cut_off, shown_edges
-from .sequences import sequence
+from .sequences import blocks
 from .writing import PRIME, drawn_gains
 
 Forged = Document | None
@@ -30,11 +30,11 @@ Cut = tuple[set[int], int]
 def absence(rng: random.Random, system: System, *, connected: bool = False) -> Document:
     """Drawn gains, which prove that nothing is fixed if nothing is; or a sequence."""
     arcs = rng.choice((shown_edges(system), [])) if connected else None
-    made = sequence(rng, system) if rng.random() < 0.4 else None
+    made = blocks(rng, system) if rng.random() < 0.4 else None
     if made is None:
         proof = {"gains": drawn_gains(rng, system), "allowed": []}
         return {**proof, "modulus": PRIME, "arcs": arcs}
-    return {"sequence": made, "modulus": PRIME if connected else None, "arcs": arcs}
+    return {"blocks": made, "modulus": PRIME if connected else None, "arcs": arcs}
 
 
 class Tree:
