@@ -18,6 +18,7 @@ import os
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -252,6 +253,11 @@ def answered(kind: Kind, system: MultiChannelSystem) -> Row:
     return {**bound, **found, "by hand": made_by_hand(system, cost)}
 
 
+def designed_for(kind: Kind, n: int, domain: str) -> Row:
+    """The row of a plant of a family."""
+    return answered(kind, plant(kind, n, domain))
+
+
 def main(arguments: list[str]) -> int:
     """Design for all plants, or for some."""
     if not arguments or arguments[0] in FAMILIES or arguments[0].isdigit():
@@ -268,7 +274,7 @@ def main(arguments: list[str]) -> int:
                 row = measured(
                     path,
                     f"{name} {n} {domain}",
-                    lambda kind=kind, n=n, domain=domain: answered(kind, plant(kind, n, domain)),
+                    partial(designed_for, kind, n, domain),
                     known,
                 )
                 asked = row.get("rate") or row.get("radius")

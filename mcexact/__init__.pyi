@@ -91,6 +91,7 @@ from .model.controller_file import load_controller as load_controller
 from .model.controller_file import save_controller as save_controller
 from .model.local_controllers import local_controllers as local_controllers
 from .model.neighbor_graph import NeighborGraph as NeighborGraph
+from .model.sampled import c2d as c2d
 from .model.statespace import from_statespace as from_statespace
 from .model.statespace import loop_from_statespace as loop_from_statespace
 from .model.system import MultiChannelSystem as MultiChannelSystem

@@ -13,7 +13,10 @@ if TYPE_CHECKING:
 
 F = TypeVar("F", bound=Callable[..., Any])
 
-AIMS = ("margin", "largest_gain", "largest_order", "most_digits", "effort", "seeds")
+AIMS = (
+    "margin", "damping", "largest_modulus", "largest_gain", "largest_order", "most_digits",
+    "effort", "seeds",
+)  # fmt: skip
 
 
 def number(text: str) -> float:
@@ -74,6 +77,19 @@ def aims(function: F) -> F:
             type=number,
             metavar="GAIN",
             help="Largest gain to aim at; by default ten times that of one controller for all.",
+        ),
+        click.option(
+            "--fastest",
+            "largest_modulus",
+            type=number,
+            metavar="MODULUS",
+            help="Largest modulus of an eigenvalue to aim at, in continuous time; not certified.",
+        ),
+        click.option(
+            "--damping",
+            type=number,
+            metavar="RATIO",
+            help="Least damping ratio of an eigenvalue to aim at; not certified.",
         ),
         click.option(
             "--margin",

@@ -11,6 +11,14 @@ from mcexact.cli.commands import GroupedCommand
 from mcexact.cli.designing import page
 from mcexact.cli.failures import DEFINITE_NO
 
+rounded_output = click.option(
+    "-o",
+    "--output",
+    type=options.FOLDER,
+    metavar="FILE",
+    help="Write the rounded controller to this file.",
+)
+
 
 @click.command(
     name="certify",
@@ -29,7 +37,14 @@ from mcexact.cli.failures import DEFINITE_NO
     type=click.Choice(["polynomial", "lyapunov"]),
     help="Decide by the characteristic polynomial or by Lyapunov matrices; by default by size.",
 )
+@click.option(
+    "--round-gains",
+    type=click.IntRange(min=1, max=1000),
+    metavar="DIGITS",
+    help="Certify the controller with every entry rounded to this many significant digits.",
+)
 @aiming.weights
+@rounded_output
 @page
 @options.answering
 def command(file: str, controller: str, **given: Any) -> int:
@@ -47,7 +62,12 @@ def command(file: str, controller: str, **given: Any) -> int:
     from mcexact.model.atomic import write_text
 
     run, weights, html = Run(given), given.pop("weights"), given.pop("html")
-    require_other(html, file, controller, weights)
+    output = given.pop("output")
+    if output is not None and given["round_gains"] is None:
+        raise click.UsageError("-o writes the rounded controller: give --round-gains, too")
+    require_other(output, file, controller, weights)
+    require_other(html, file, controller, weights, None if output is None else str(output))
+    require_writable(output, run.certificates)
     require_writable(html, run.certificates)
     about = place_of(controller)
     programs = run.read(file), run.read(controller), None if weights is None else run.read(weights)
@@ -63,6 +83,8 @@ def command(file: str, controller: str, **given: Any) -> int:
         return True
 
     def write(checked: Rechecked) -> None:
+        if output is not None:
+            write_text(output, answer["controller"])
         if html is not None:
             write_text(html, answer["page"].rendered(answer["certificates"], checked.verdicts))
 
@@ -80,27 +102,35 @@ def _certified(
     with_page: bool,
 ) -> dict[str, Any]:
     """Decide and format the answer, in the child process."""
+    from mcexact.answer.formats import count
     from mcexact.cli.assessing import assessed
     from mcexact.cli.files import system_in
     from mcexact.cli.running import told
     from mcexact.errors import InputError
     from mcexact.exact.rational import Limits
-    from mcexact.model.controller_file import read_controller
+    from mcexact.model.controller_file import controller_text, read_controller
     from mcexact.model.loop import closed_loop
-    from mcexact.report.account import NOT_CERTIFIED, tables
+    from mcexact.report.account import tables
     from mcexact.report.text import Table
     from mcexact.synthesis.assessment import BASIS, assessed_loop
     from mcexact.synthesis.certify import account_of_verdict, certify_controller
+    from mcexact.synthesis.optimum.loop_figures import rounded_controller
 
     system = system_in(*plant, limits)
     with InputError.inside(program[0]):
         controller = read_controller(program[1], Limits(**limits))
+        digits, notes = wanted.pop("round_gains"), tuple[str, ...]()
+        if digits is not None:
+            controller = rounded_controller(controller, digits)
+            notes = (f"the verdict is about the controller rounded to {count(digits, 'digit')}",)
         found = certify_controller(system, controller, **wanted)
     loop, weighed = closed_loop(system, controller), aiming.read_weights(weights, limits)
     with InputError.inside(plant[0] if weights is None else weights[0]):
-        assessment = assessed_loop(loop, found.region, certified=found.stable, weights=weighed)
+        assessment = assessed_loop(
+            loop, found.region, certified=found.stable, weights=weighed, notes=notes
+        )
     account = account_of_verdict(found, largest=wanted["largest"])
-    figures = Table(BASIS, (), tuple(assessment.rows()), NOT_CERTIFIED)
+    figures = Table(BASIS, (), tuple(assessment.rows()))
     shown = (*tables(account.sentences), figures)
     bound = None if found.bound is None else str(found.bound)
     return (
@@ -116,7 +146,9 @@ def _certified(
                 blocks=list(found.blocks),
                 largest=bound if wanted["largest"] else None,
                 warnings=list(controller.warnings_for(system)),
+                rounded_to_digits=digits,
                 assessment=assessment.view(),
             ),
+            "controller": controller_text(controller),
         }
     )

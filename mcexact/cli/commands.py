@@ -20,6 +20,7 @@ COMMANDS = (
     "reproduce",
     "demo",
     "sample",
+    "c2d",
     "sweep",
 )
 
@@ -31,11 +32,12 @@ class NoCommand(click.UsageError):
 LAST = "Limits and help"
 GROUPS = {
     "Asked of the loop": (
-        "rate", "radius", "spectrum", "largest", "method", "dimensions", "share", "network",
-        "free_assignability", "order", "agent", "arithmetic",
+        "rate", "radius", "spectrum", "largest", "round_gains", "method", "dimensions", "share",
+        "network", "free_assignability", "order", "agent", "arithmetic",
     ),
     "Weights and limits of the search": (
-        "weights", "margin", "largest_gain", "largest_order", "most_digits", "effort", "seeds",
+        "weights", "margin", "damping", "largest_modulus", "largest_gain",
+        "largest_order", "most_digits", "effort", "seeds",
     ),
     "Output": ("output", "html", "certificates", "as_json"),
     LAST: ("timeout", "max_memory", "help_all"),

@@ -34,7 +34,8 @@ from mcexact.cli.commands import GroupedCommand
 @click.option(
     "--network",
     type=click.Choice(["extended", "lifted", "held"]),
-    help="With delays: `lifted` (the mode 0 is fixed, the default) or `held` (no mode is fixed).",
+    help="With delays: `lifted` (the mode 0 is fixed) or `held` (no mode is fixed). By default a "
+    "search tries both and keeps the cheaper one; else it is `lifted`.",
 )
 @click.option(
     "--free",

@@ -35,6 +35,12 @@ from mcexact.cli import options
     help="By default exact in discrete time and float in continuous time.",
 )
 @click.option(
+    "--fractions",
+    is_flag=True,
+    help="Write the numbers of an exact run to a .csv file as fractions, which can be very long; "
+    "by default as decimals of 17 digits.",
+)
+@click.option(
     "-o",
     "--output",
     type=click.Path(path_type=Path),
@@ -51,6 +57,7 @@ def command(
     horizon: Fraction | None,
     reference: str | None,
     arithmetic: str | None,
+    fractions: bool,
     output: Path | None,
     **given: Any,
 ) -> None:
@@ -74,7 +81,8 @@ def command(
     }
     plant, program = run.read(file), run.read(controller)
     doing = f"simulating {plant[0]}"
-    answer = run.result(_simulated, plant, program, run.limits, wanted, suffix, doing=doing)
+    how = suffix, fractions
+    answer = run.result(_simulated, plant, program, run.limits, wanted, *how, doing=doing)
     for warning in answer["warnings"]:
         click.echo(f"mcexact: warning: {warning}", err=True)
     if output is not None:
@@ -101,6 +109,7 @@ def _simulated(
     limits: dict[str, int],
     wanted: dict[str, Any],
     suffix: str,
+    fractions: bool,
 ) -> dict[str, Any]:
     """Simulate and format the results, in the child process."""
     from mcexact.cli.files import system_in
@@ -114,7 +123,7 @@ def _simulated(
     with InputError.inside(program[0]):
         controller = read_controller(program[1], Limits(**limits))
     done = simulated_loop(system, controller, **wanted)
-    report = SimulationReport(done)
+    report = SimulationReport(done, fractions)
     return {
         "warnings": done.warnings,
         "json": report.as_json(),

@@ -6,28 +6,47 @@ from collections.abc import Sequence
 from typing import Any
 
 from mcexact.errors import InputError, UsageError
+from mcexact.exact.floats import Rounding, matrix_from_float
 from mcexact.exact.matrix import Matrix
 from mcexact.model.matrix_entry import as_matrix, require_shape
 from mcexact.model.system import MultiChannelSystem
 
 
 def checked_gains(
-    system: MultiChannelSystem, gains: Sequence[Any], widths: Sequence[int]
+    system: MultiChannelSystem,
+    gains: Sequence[Any],
+    widths: Sequence[int],
+    *,
+    rounding: Rounding | None = None,
 ) -> list[Matrix]:
     """Check and return gains F_i of p_i rows and ``widths[i]`` columns as exact matrices.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    gains : sequence of m matrices
+    widths : sequence of m int
+    rounding : {"decimal", "dyadic"}, optional
+        How floats become exact; see `MultiChannelSystem.from_float`.
 
     Raises
     ------
     InputError
-        If the number of gains is not m, or a gain has the wrong shape.
+        If the number of gains is not m, a gain has the wrong shape, or there are floats and no
+        rounding.
     """
     gains = list(gains)
     if len(gains) != system.m:
         raise InputError(f"expected {system.m} gains, found {len(gains)}", where="gains")
+
+    def exact(F: Any, i: int) -> Matrix:
+        where = f"gains[{i}]"
+        if rounding is not None and not isinstance(F, Matrix):
+            return matrix_from_float(F, rounding, where=where)
+        return as_matrix(F, where, ncols=widths[i])
+
     return [
-        require_shape(
-            as_matrix(F, f"gains[{i}]", ncols=widths[i]), f"gains[{i}]", system.p(i), widths[i]
-        )
+        require_shape(exact(F, i), f"gains[{i}]", system.p(i), widths[i])
         for i, F in enumerate(gains)
     ]
 

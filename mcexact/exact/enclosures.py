@@ -19,7 +19,7 @@ from mcexact.exact.rational import digits_of
 # Digits of the first grid after the first nonzero digit of the smallest root below 1.
 _DIGITS = 12
 # The precision of flint is global, so one thread at a time may change it.
-_PRECISION = threading.Lock()
+PRECISION = threading.Lock()
 
 
 @dataclass(frozen=True)
@@ -126,7 +126,7 @@ def _moduli(p: Polynomial) -> list[float]:
 
 
 def _flint_roots(p: Polynomial, bits: int) -> list[flint.acb]:
-    with _PRECISION, flint.ctx.workprec(bits):
+    with PRECISION, flint.ctx.workprec(bits):
         pairs: list[Any] = list(p._integer.complex_roots())
     return [root for root, _ in pairs]
 

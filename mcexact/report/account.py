@@ -18,7 +18,6 @@ _COLUMNS = {
 _COLUMNS_OF_ROWS = {"allocate-row": ("agent", "least"), "allocate-link": ("from", "to", "cost")}
 _BOUNDS = {"outputs+states": "Theorem 2's bound", "states": "Remark 2's bound"}
 _MORE = "Further fixed modes are listed below."
-NOT_CERTIFIED = "computed, not certified: only the lines above are certified"
 _SHOWN = "the first {}; the JSON document and the HTML page list all. "
 
 
@@ -121,7 +120,7 @@ def measured(
         (label, "–" if (value := figures.get(name)) is None else f"{value:.6g}")
         for name, label in labels.items()
     ]
-    return Table("".join(said.at("measured.title")), (), (*assessed, *rows), NOT_CERTIFIED)
+    return Table("".join(said.at("measured.title")), (), (*assessed, *rows))
 
 
 def latex(account: Account) -> str:

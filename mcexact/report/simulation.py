@@ -20,9 +20,12 @@ class SimulationReport:
     Attributes
     ----------
     done : SimulatedLoop
+    fractions : bool
+        Whether exact numbers are written as fractions.
     """
 
     done: SimulatedLoop
+    fractions: bool = False
 
     @property
     def columns(self) -> tuple[str, ...]:
@@ -64,7 +67,7 @@ class SimulationReport:
     def file(self, suffix: str) -> bytes:
         """Return the content of a file with suffix .csv, .png or .html; empty without a suffix."""
         if suffix == ".csv":
-            return trajectory_csv(self.done.run).encode("utf-8")
+            return trajectory_csv(self.done.run, fractions=self.fractions).encode("utf-8")
         if suffix == ".png":
             return simulation_png(self.done.run, self.done.spectrum, self.done.title)
         if suffix == ".html":

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+from decimal import MAX_EMAX, MIN_EMIN, Decimal, localcontext
 from fractions import Fraction
 from typing import Any
 
@@ -11,11 +12,18 @@ from mcexact.exact.floats import to_float
 from mcexact.exact.rational import rational_text
 from mcexact.simulation.trajectory import Trajectory
 
+_DIGITS = 17
 
-def trajectory_csv(run: Trajectory) -> str:
+
+def trajectory_csv(run: Trajectory, *, fractions: bool = False) -> str:
     """Write one line for each time: t, x, then x_i and z_i of every agent.
 
-    Rational numbers are written exactly, as "p/q", other numbers with all their digits.
+    Parameters
+    ----------
+    run : Trajectory
+    fractions : bool
+        Whether rational numbers are written exactly, as "p/q"; else as decimals, rounded to 17
+        significant digits.  Other numbers are written with all their digits.
     """
     first = run.snapshots[0]
     header = ["t", *(f"x[{k + 1}]" for k in range(len(first.plant)))]
@@ -26,17 +34,35 @@ def trajectory_csv(run: Trajectory) -> str:
     writer = csv.writer(stream, lineterminator="\n")
     writer.writerow(header)
     for time, snapshot in zip(run.times, run.snapshots, strict=True):
-        writer.writerow([_written(time, run), *(_written(v, run) for v in snapshot.flat())])
+        numbers = (time, *snapshot.flat())
+        writer.writerow([_written(value, run, fractions=fractions) for value in numbers])
     return stream.getvalue()
 
 
-def _written(value: Any, run: Trajectory) -> str:
+def _written(value: Any, run: Trajectory, *, fractions: bool) -> str:
     """Format a number."""
     if isinstance(value, Fraction) and run.arithmetic == "float":
         return repr(to_float(value))
-    if isinstance(value, Fraction):
-        return rational_text(value)
+    if isinstance(value, int | Fraction) and not isinstance(value, bool):
+        exact = Fraction(value)
+        return rational_text(exact) if fractions else decimal_text(exact)
     return repr(value) if isinstance(value, float) else str(value)
+
+
+def decimal_text(x: Fraction, digits: int = _DIGITS) -> str:
+    """Write a rational number as a decimal with a number of significant digits.
+
+    Examples
+    --------
+    >>> decimal_text(Fraction(1, 4)), decimal_text(Fraction(-200)), decimal_text(Fraction(1, 3), 4)
+    ('0.25', '-200', '0.3333')
+    >>> decimal_text(Fraction(1, 10**400))
+    '1E-400'
+    """
+    with localcontext(prec=digits, Emax=MAX_EMAX, Emin=MIN_EMIN):
+        found = (Decimal(x.numerator) / Decimal(x.denominator)).normalize()
+    short = -_DIGITS <= found.adjusted() <= _DIGITS
+    return f"{found:f}" if short else str(found)
 
 
 def state_norms(run: Trajectory) -> list[float]:

@@ -27,6 +27,7 @@ from mcexact.synthesis.optimum.loop_figures import (
     figures_of_loop,
     integrators_of,
 )
+from mcexact.synthesis.optimum.shape import NO_LIMITS, Shape
 from mcexact.synthesis.optimum.weights import Weights
 
 Install = Literal["yes", "with care", "no"]
@@ -73,6 +74,8 @@ class Assessment:
         The largest output while one set-point steps from 0 to 1; None without integrators.
     notes : tuple of str
         What was chosen for the user, and what is to be known of the method.
+    shape : Shape
+        The limits on the eigenvalues that were aimed at.
     """
 
     orders: Mapping[str, int]
@@ -84,6 +87,7 @@ class Assessment:
     links: tuple[Link, ...]
     step_peak: float | None = None
     notes: tuple[str, ...] = ()
+    shape: Shape = NO_LIMITS
 
     def __repr__(self) -> str:
         return f"Assessment({self.verdict})"
@@ -142,9 +146,14 @@ class Assessment:
         seen, central, told = self.figures, self.central, list[str]()
         if _NO_MARGIN <= seen.margin < MARGIN:
             told.append(f"fragile, the margin at the plant's inputs is {_shown(seen.margin)}")
-        if self.digits is None:
+        if not self.shape.met(seen.damping, seen.fastest):
+            told.append(
+                f"the least damping ratio is {_shown(seen.damping)} and the largest modulus of an "
+                f"eigenvalue {_shown(seen.fastest)}, not as aimed at"
+            )
+        if self.digits is None and self.certified:
             told.append(f"rounded to {MOST_DIGITS} digits, the programs lose {self.region}")
-        elif self.digits > _DIGITS:
+        elif self.digits is not None and self.digits > _DIGITS:
             told.append(f"the programs need {self.digits} digits to keep {self.region}")
         if seen.peak > _PEAK or (central and seen.peak > _TIMES_THE_PEAK * central.peak):
             beside = f", {_shown(central.peak)} with one controller for all" if central else ""
@@ -178,18 +187,24 @@ class Assessment:
             ("states of each agent", per_agent),
             ("largest gain", compared("largest_gain")),
             ("slowest eigenvalue", f"{self.region.measure} = {_shown(seen.bound)}"),
+            ("fastest eigenvalue", f"|λ| = {_shown(seen.fastest)}"),
+            ("least damping ratio", _shown(seen.damping)),
             ("margin at the plant's inputs", compared("margin")),
             ("peak of the state", compared("peak")),
             ("linear-quadratic cost", compared("cost")),
             ("cost relative to that controller", _shown(self.relative_cost)),
-            ("digits that suffice", f"more than {MOST_DIGITS}" if self.digits is None
-             else str(self.digits)),
+            ("digits that suffice", self._digits()),
             ("numbers sent at each step", network),
             (f"sensible {word}", self.diagnosis.sensible_bound),
         ]  # fmt: skip
         if self.step_peak is not None:
-            rows.insert(5, ("peak of an output after a unit step", _shown(self.step_peak)))
+            rows.insert(7, ("peak of an output after a unit step", _shown(self.step_peak)))
         return rows
+
+    def _digits(self) -> str:
+        if not self.certified:
+            return "none"
+        return f"more than {MOST_DIGITS}" if self.digits is None else str(self.digits)
 
     def view(self) -> dict[str, Any]:
         """Return the assessment as plain data."""
@@ -258,6 +273,12 @@ def assess(design: Design, aims: Aims | None = None) -> Assessment:
             "no search found a controller: this is the one of the theorem, whose dynamics are all "
             "in one agent of each strong component"
         )
+    if "observer_gains" in parts and design.order > design.loop.closed.given.m:
+        notes.append(
+            f"the agents of a distributed observer have {design.order} states together: "
+            f"`design {'setpoint' if design.name == 'setpoint' else 'extended'}` searches "
+            "controllers of low order over the same links"
+        )
     return assessed_loop(
         design.loop.closed,
         design.region,
@@ -265,6 +286,7 @@ def assess(design: Design, aims: Aims | None = None) -> Assessment:
         weights=(aims or Aims()).weights,
         notes=tuple(notes),
         diagnosis=parts.get("diagnosis"),
+        shape=(aims or Aims()).shape,
     )
 
 
@@ -276,6 +298,7 @@ def assessed_loop(
     weights: Mapping[str, Any] | None = None,
     notes: tuple[str, ...] = (),
     diagnosis: Diagnosis | None = None,
+    shape: Shape = NO_LIMITS,
 ) -> Assessment:
     """Compute the figures of a closed loop.
 
@@ -290,6 +313,8 @@ def assessed_loop(
     notes : tuple of str
     diagnosis : Diagnosis, optional
         That of the plant, with integrators if the controller has them, for the same region.
+    shape : Shape
+        The limits on the eigenvalues that were aimed at.
     """
     given, places = loop.given, integrators_of(loop)
     about = as_plant(setpoint_system(given)) if places else as_plant(given)
@@ -306,6 +331,7 @@ def assessed_loop(
             _links(loop.controller, given),
             step_peak(loop) if places and certified else None,
             notes,
+            shape,
         )
 
 

@@ -25,9 +25,11 @@ from mcexact.model.loop import closed_loop
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.observer.coordinates import observer_coordinates
+from mcexact.synthesis.optimum.loop_figures import rounded_controller
 from mcexact.synthesis.request import Progress
 
 _PARTS_TRIED = 32
+_MOST_ROUNDED = 1000
 _POLYNOMIAL_UNASKED = 90
 
 
@@ -40,6 +42,7 @@ def certify_controller(
     radius: Entry | None = None,
     method: Method | None = None,
     largest: bool = False,
+    round_gains: int | None = None,
     progress: Progress | None = None,
 ) -> StabilityVerdict:
     """Decide whether every eigenvalue of a closed loop meets a rate or a radius.
@@ -58,6 +61,9 @@ def certify_controller(
         See `certify_stability`.
     largest : bool
         Whether to search for the largest rate (least radius) and certify it.
+    round_gains : int, optional
+        Certify the controller whose entries are rounded to this many significant decimal digits,
+        as `rounded_controller` does.
     progress : callable, optional
         A function that is called with a short description of each step.
 
@@ -91,6 +97,10 @@ def certify_controller(
     True
     >>> certify_controller(plant, local_controllers(plant, [[[-3]]]), rate=2).stable
     False
+    >>> stuck = local_controllers(plant, [[["-1.04"]]])
+    >>> certify_controller(plant, stuck).stable, certify_controller(
+    ...     plant, stuck, round_gains=1).stable
+    (True, False)
     """
     InputError.require(system, MultiChannelSystem, "system")
     InputError.require(controller, Controller, "controller")
@@ -98,6 +108,13 @@ def certify_controller(
     region = StabilityRegion.of(system.time, rate, radius)
     if largest and region.bound is not None:
         raise UsageError("give either a rate (radius) or `largest`, not both")
+    if round_gains is not None:
+        if type(round_gains) is not int or not 1 <= round_gains <= _MOST_ROUNDED:
+            raise UsageError(
+                f"expected a number of digits from 1 to {_MOST_ROUNDED}, found {round_gains!r}",
+                where="round_gains",
+            )
+        controller = rounded_controller(controller, round_gains)
     tell("the closed loop")
     loop = closed_loop(system, controller, graph).system
     separation = None

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any, Literal
 
+from mcexact.exact.floats import Rounding
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_graph
 from mcexact.synthesis.asking import request_for
@@ -23,6 +24,7 @@ def design_observer(
     radius: Any = None,
     gains: Sequence[Any] | None = None,
     order: Literal["least"] | None = None,
+    rounding: Rounding | None = None,
     arithmetic: Arithmetic = "exact",
     progress: Progress | None = None,
 ) -> Design:
@@ -50,6 +52,8 @@ def design_observer(
         Use a channel controller of order one less than the smaller of the two indices, instead of m
         − 1.  In floating point, use an observer of reduced order instead of nm, if it can be
         certified.
+    rounding : {"decimal", "dyadic"}, optional
+        How floats in ``gains`` become exact; see `MultiChannelSystem.from_float`.
     arithmetic : {"exact", "float"}
         "exact" assigns the whole spectrum, for small systems.  "float" designs for a rate or a
         radius, with a proof that is exact as well (`float_proposals`).
@@ -96,5 +100,7 @@ H_ij let one agent control and observe all estimation errors
     """
     system, graph = with_graph(system, graph)
     request = request_for(system, agent, spectrum, rate, radius, arithmetic, progress)
-    proposals = observer_proposals(system, graph, request, gains=gains, order=order)
+    proposals = observer_proposals(
+        system, graph, request, gains=gains, order=order, rounding=rounding
+    )
     return designed("observer", request, system, graph, proposals)

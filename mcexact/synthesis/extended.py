@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from math import inf
 from typing import Any, Literal
 
 from mcexact.derived.extended import Share
+from mcexact.errors import Impossible, LimitReached, McexactError
 from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system import MultiChannelSystem, with_graph
 from mcexact.synthesis.asking import request_for
 from mcexact.synthesis.design import Design
 from mcexact.synthesis.network.network_design import network_design
 from mcexact.synthesis.network.sharing import Dimensions, sharing_network, sharing_of
-from mcexact.synthesis.optimum.aims import Aims
+from mcexact.synthesis.optimum.aims import MARGIN, Aims
 from mcexact.synthesis.optimum.proposals import searched_proposals
 from mcexact.synthesis.optimum.structures import Family
-from mcexact.synthesis.request import Arithmetic, Progress
+from mcexact.synthesis.request import Arithmetic, Progress, Request
+
+SharedNetwork = Literal["extended", "lifted", "held"]
+_WITH_DELAYS: tuple[SharedNetwork, ...] = ("lifted", "held")
 
 
 def design_extended(
@@ -25,7 +30,7 @@ def design_extended(
     *,
     dimensions: Dimensions = "minimal",
     share: Share | None = None,
-    network: Literal["extended", "lifted", "held"] | None = None,
+    network: SharedNetwork | None = None,
     spectrum: Any = None,
     rate: Any = None,
     radius: Any = None,
@@ -50,8 +55,9 @@ def design_extended(
     share : {"outputs+states", "states"}, optional
         The signals that agents send; by default both, but with holding sub-states alone.
     network : {"extended", "lifted", "held"}, optional
-        With delays, the lifted system, in which only 0 is fixed (the default), or the held one, in
-        which no mode is.
+        With delays, the lifted system, in which only 0 is fixed, or the held one, in which no mode
+        is.  By default a search tries both and keeps the cheaper one with a margin of 0.3, which
+        `Design.notes` tells with the figures of both; else the system is lifted.
     spectrum : polynomial, list of roots, or mapping, optional
         n̄ + k_q prescribed numbers; see `network_proposals`.  The dimensions then suffice for all
         modes to be moved, or if that is impossible, all modes that are not stable.  It is placed by
@@ -106,20 +112,92 @@ the modes that are not fast enough: agents 2 and 3 need 1 shared state of other 
 receive from nobody
     """
     request = request_for(system, agent, spectrum, rate, radius, arithmetic, progress, aims=aims)
-    derived, allocation = sharing_network(
-        system,
-        graph,
-        request,
-        dimensions=dimensions,
-        share=share,
-        network=network,
-        free_assignability=free_assignability,
-    )
-    family = Family(derived, sharing_of(derived.kind, share))
-    made = network_design("extended", derived, request, searched_proposals(family, request, aims))
-    if allocation is None:
-        return made
-    parts = {**made.parts, "allocation": allocation}
-    return replace(
-        made, certificates={**made.certificates, allocation.kind: allocation}, parts=parts
-    )
+    asked = _Asked(system, graph, request, dimensions, share, free_assignability, aims or Aims())
+    if network is None and asked.compares:
+        return asked.cheaper()
+    return asked.designed(network)
+
+
+@dataclass(frozen=True)
+class _Asked:
+    """The arguments of `design_extended`, checked, without the network."""
+
+    system: MultiChannelSystem
+    graph: NeighborGraph | None
+    request: Request
+    dimensions: Dimensions
+    share: Share | None
+    free_assignability: bool
+    aims: Aims
+
+    @property
+    def compares(self) -> bool:
+        """Whether a search can use the lifted and the held system."""
+        _, graph = with_graph(self.system, self.graph)
+        asked = self.request
+        searched = asked.spectrum is None and asked.agent is None and self.aims.effort != 0
+        return searched and bool(graph.delays) and self.share != "outputs+states"
+
+    def designed(self, network: SharedNetwork | None) -> Design:
+        """Design over one network."""
+        derived, allocation = sharing_network(
+            self.system,
+            self.graph,
+            self.request,
+            dimensions=self.dimensions,
+            share=self.share,
+            network=network,
+            free_assignability=self.free_assignability,
+        )
+        family = Family(derived, sharing_of(derived.kind, self.share))
+        proposals = searched_proposals(family, self.request, self.aims)
+        made = network_design("extended", derived, self.request, proposals)
+        if allocation is None:
+            return made
+        parts = {**made.parts, "allocation": allocation}
+        return replace(
+            made, certificates={**made.certificates, allocation.kind: allocation}, parts=parts
+        )
+
+    def cheaper(self) -> Design:
+        """Design over the lifted and over the held network, and keep the cheaper one.
+
+        Raises
+        ------
+        Impossible, LimitReached
+            That of the lifted network, if both fail.
+        """
+        found: dict[SharedNetwork, Design] = {}
+        told, failed = list[str](), list[McexactError]()
+        for network in _WITH_DELAYS:
+            self.request.tell(f"the {network} network")
+            try:
+                made = self.designed(network)
+            except (Impossible, LimitReached) as error:
+                failed.append(error)
+                told.append(f"{network}: {error}")
+                continue
+            found[network] = made
+            told.append(f"{network}: {_figures(made)}")
+        if not found:
+            raise failed[0]
+        best = min(found.values(), key=_price)
+        note = f"of the networks with delays, the {best.parts['network']} one was kept"
+        return replace(best, notes=(*best.notes, f"{note} ({'; '.join(told)})"))
+
+
+def _price(made: Design) -> tuple[bool, float]:
+    """Whether a design is fragile, and its cost; without a search both are unknown."""
+    found = made.parts.get("optimum")
+    if found is None:
+        return True, inf
+    return not found.figures.margin >= MARGIN, found.figures.cost
+
+
+def _figures(made: Design) -> str:
+    """The figures of a design in a few words."""
+    found = made.parts.get("optimum")
+    if found is None:
+        return f"the controller of the theorem, of order {made.order}"
+    seen = found.figures
+    return f"order {made.order}, margin {seen.margin:.3g}, cost {seen.cost:.3g}"

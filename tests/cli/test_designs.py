@@ -31,7 +31,7 @@ def test_a_file_is_enough_and_the_first_line_says_whether_to_install(
     first, second, *_ = done.stdout.splitlines()
     assert first.startswith("Worth installing: margin ")
     assert re.fullmatch(r"note: no rate was given: .* is half the sensible rate", second)
-    assert "computed, not certified" in done.stdout
+    assert done.stdout.count("not certified") == 1
     assert "numbers sent at each step" in done.stdout and "sensible rate" in done.stdout
     shown = page.read_text(encoding="utf-8")
     Page(shown)
@@ -43,6 +43,31 @@ def test_a_file_is_enough_and_the_first_line_says_whether_to_install(
     fast = run("certify", plant, str(controller), "--rate", "1000")
     assert fast.status == 1
     assert fast.stdout.splitlines()[0] == ("Do not install: the loop does not satisfy Re λ < -1000")
+
+
+def test_rounded_gains_are_certified_and_written(plant: str, tmp_path: Path) -> None:
+    controller, rounded = tmp_path / "controller.json", tmp_path / "rounded.json"
+    run("design", "decentralized", plant, "--rate", "1/2", "--effort", "0", "-o", str(controller))
+    done = run(
+        "certify", plant, str(controller), "--round-gains", "3", "-o", str(rounded), "--json"
+    )
+    told = json.loads(done.stdout)
+    assert told["rounded_to_digits"] == 3
+    assert told["assessment"]["notes"] == [
+        "the verdict is about the controller rounded to 3 digits"
+    ]
+    again = json.loads(run("certify", plant, str(rounded), "--json").stdout)
+    assert again["stability"] == told["stability"] and again["rounded_to_digits"] is None
+    assert run("certify", plant, str(controller), "-o", str(rounded)).status == 2
+
+
+def test_few_digits_can_lose_stability(plant: str, tmp_path: Path) -> None:
+    controller = tmp_path / "controller.json"
+    run("design", "decentralized", plant, "--rate", "20", "--effort", "0", "-o", str(controller))
+    assert run("certify", plant, str(controller), "--rate", "20").status == 0
+    done = run("certify", plant, str(controller), "--rate", "20", "--round-gains", "1")
+    assert done.status == 1
+    assert "rounded to 16 digits" not in done.stdout
 
 
 def test_without_an_output_the_verdict_is_on_standard_error(plant: str) -> None:

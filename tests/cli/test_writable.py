@@ -32,6 +32,7 @@ WRITING = {
     ),
     "reproduce -o": ("reproduce", "-o", "FOLDER"),
     "sample -o": ("sample", "-o", "FOLDER"),
+    "c2d -o": ("c2d", "PLANT", "--step", "1/10", "-o", "FILE"),
     "simulate -o": ("simulate", "PLANT", "PLANT", "-o", "FILE.csv"),
     "sweep -o": ("sweep", "PLANT", "-o", "FILE"),
     "sweep --certificates": ("sweep", "PLANT", "--certificates", "FOLDER"),

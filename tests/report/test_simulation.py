@@ -26,13 +26,19 @@ def halving(time="discrete", gain="-1/2"):
 
 def test_exact_values_are_written_exactly():
     run = simulate(*halving(), horizon=2)
-    rows = list(csv.reader(io.StringIO(trajectory_csv(run))))
+    rows = list(csv.reader(io.StringIO(trajectory_csv(run, fractions=True))))
     assert rows == [["t", "x[1]"], ["0", "1"], ["1", "1/2"], ["2", "1/4"]]
+
+
+def test_exact_values_are_decimals_unless_fractions_are_asked_for():
+    run = simulate(*halving(gain="-1/3"), horizon=2)
+    rows = list(csv.reader(io.StringIO(trajectory_csv(run))))
+    assert rows[1:] == [["0", "1"], ["1", "0.66666666666666667"], ["2", "0.44444444444444444"]]
 
 
 def test_numbers_of_any_length_are_written():
     run = simulate(*halving(gain=f"-1/3{'0' * 99}"), horizon=50)
-    last = trajectory_csv(run).splitlines()[-1].split(",")[1]
+    last = trajectory_csv(run, fractions=True).splitlines()[-1].split(",")[1]
     numerator, denominator = last.split("/")
     assert len(denominator) > 4300 and set(numerator) <= set("0123456789")
 

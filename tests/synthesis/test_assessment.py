@@ -15,6 +15,7 @@ from mcexact.model.loop import ClosedLoop, closed_loop
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.assessment import Assessment, assess, assessed_loop
 from mcexact.synthesis.decentralized import design_decentralized
+from mcexact.synthesis.distributed_observer import design_observer
 from mcexact.synthesis.extended import design_extended
 from mcexact.synthesis.optimum.aims import THEOREM, Aims
 from mcexact.synthesis.optimum.curves import curves_of
@@ -220,3 +221,14 @@ def test_only_designs_are_assessed() -> None:
     with pytest.raises(InputError, match="design: expected a Design"):
         assess(3)  # type: ignore[arg-type]
     assert isinstance(assessed().figures, Figures)
+
+
+def test_an_observer_tells_which_command_searches_lower_orders() -> None:
+    plant = MultiChannelSystem(
+        [[1, 1], [0, 2]], [[[1], [0]], [[0], [1]]], [[[1, 0]], [[0, 1]]],
+        neighbors={"1": ["2"], "2": ["1"]},
+    )  # fmt: skip
+    told = assess(design_observer(plant, rate=1, arithmetic="float"))
+    assert any("`design extended` searches controllers of low order" in each for each in told.notes)
+    searched = assess(design_extended(plant, rate=1))
+    assert not any("searches controllers" in each for each in searched.notes)

@@ -24,6 +24,7 @@ from mcexact.simulation.trajectory import simulate
 from mcexact.synthesis.design import Design
 from mcexact.synthesis.extended import design_extended
 from mcexact.synthesis.optimum.aims import THEOREM
+from tests.synthesis.optimum.plants import delayed
 from tests.synthesis.three_channels import three_channels
 
 
@@ -226,3 +227,23 @@ def test_drawn_networks_come_to_rest_with_late_messages(seed: int, network: str)
     require_valid(design)
     run = simulate(system, design.controller, graph, horizon=2 * design.loop.closed.dimension)
     assert not any(run.snapshots[-1].flat())
+
+
+def test_over_delays_the_cheaper_network_is_kept_and_both_are_told() -> None:
+    made = design_extended(delayed(), radius="19/20")
+    assert made.parts["network"] in ("lifted", "held")
+    [note] = made.notes
+    assert f"the {made.parts['network']} one was kept (lifted: order" in note
+    assert "; held: order" in note
+    costs = {
+        each: design_extended(delayed(), radius="19/20", network=each).parts["optimum"]
+        for each in ("lifted", "held")
+    }
+    least = min(costs, key=lambda each: costs[each].figures.cost)
+    assert made.parts["network"] == least
+
+
+def test_a_network_with_delays_that_is_refused_leaves_the_other() -> None:
+    """With share both, agents cannot hold; and for a prescribed spectrum nothing is compared."""
+    made = design_extended(delayed(), radius="19/20", share="outputs+states")
+    assert made.parts["network"] == "lifted" and not made.notes

@@ -45,7 +45,7 @@ STEADY = Template(
     "B. A. Francis and W. M. Wonham 1976",
     "gain from set-points to outputs",
 )
-MEASURED = Template("design-measured", "measured in floating point, not proved")
+MEASURED = Template("design-measured", "computed in floating point, not certified")
 
 LOOP = Template("certify-loop", "closed loop")
 LOOP_STATES = Template("certify-states", "{n:int}", label="states of the loop")

@@ -10,6 +10,7 @@ from mcexact.analysis.structure.controllability import joint_observability
 from mcexact.derived.error_system import error_system
 from mcexact.derived.feedback import checked_gains
 from mcexact.errors import Impossible, InputError, LimitReached, UsageError
+from mcexact.exact.floats import Rounding
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.model.neighbor_graph import NeighborGraph
@@ -37,6 +38,7 @@ def observer_proposals(
     *,
     gains: Sequence[Any] | None = None,
     order: Literal["least"] | None = None,
+    rounding: Rounding | None = None,
 ) -> Iterator[Proposal]:
     """Yield the proposals of `design_observer` for the gate; exact arithmetic yields one.
 
@@ -49,6 +51,7 @@ def observer_proposals(
     gains : sequence of m matrices, optional
         Given F_i (p_i×n).
     order : {"least"}, optional
+    rounding : {"decimal", "dyadic"}, optional
         See `design_observer`.
 
     Raises
@@ -66,7 +69,11 @@ def observer_proposals(
     if order not in (None, "least"):
         raise UsageError(f'expected order "least" or none, found {order!r}', where="order")
     carrier, region = request.agent or 0, request.region
-    exact = None if gains is None else checked_gains(system, gains, [system.n] * system.m)
+    exact = (
+        None
+        if gains is None
+        else checked_gains(system, gains, [system.n] * system.m, rounding=rounding)
+    )
     if request.arithmetic == "float":
         from mcexact.synthesis.observer.in_floating_point import float_proposals
 

@@ -11,7 +11,8 @@ M(K) = A + B K C.  A ladder of starts leads from static gains to the controller 
 `spectrum`     one Schur form of a loop, and the Gramians of its shifts
 `cost`         the linear-quadratic cost with its gradient
 `sensitivity`  the response at the inputs of the plant, and the penalty on it
-`objective`    cost, barrier of the region, margin and size of the gains
+`shape`        how well damped eigenvalues are, and how fast at most
+`objective`    cost, barrier of the region, margin, size of the gains and shape
 `descent`      the BFGS method, which accepts infinite values
 `effort`       the work of a search, counted
 `kernel`       one thread, and no warnings about numbers that are dropped

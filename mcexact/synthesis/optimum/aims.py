@@ -8,6 +8,7 @@ from math import isfinite
 from typing import Any
 
 from mcexact.errors import UsageError
+from mcexact.synthesis.optimum.shape import Shape
 
 MARGIN = 0.3
 SEEDS = 4
@@ -28,6 +29,10 @@ class Aims:
         of all agents together.
     largest_order : int, optional
         The largest number of states of each agent.
+    damping : float, optional
+        The least damping ratio of an eigenvalue, −Re s/|s| for s = λ or in discrete time log λ.
+    largest_modulus : float, optional
+        The largest modulus of an eigenvalue, in continuous time.
     digits : int, optional
         The largest number of significant decimal digits of an entry.
     effort : float, optional
@@ -55,6 +60,8 @@ class Aims:
     margin: float = MARGIN
     largest_gain: float | None = None
     largest_order: int | None = None
+    damping: float | None = None
+    largest_modulus: float | None = None
     digits: int | None = None
     effort: float | None = None
     seeds: int = SEEDS
@@ -64,6 +71,12 @@ class Aims:
         if self.largest_gain is not None:
             good = 0 < self.largest_gain and isfinite(self.largest_gain)
             _require(good, "largest_gain", "a number above 0", self.largest_gain)
+        if self.damping is not None:
+            good = 0 < self.damping < 1
+            _require(good, "damping", "a number above 0 and below 1", self.damping)
+        if self.largest_modulus is not None:
+            good = 0 < self.largest_modulus and isfinite(self.largest_modulus)
+            _require(good, "largest_modulus", "a number above 0", self.largest_modulus)
         for name, least in (("largest_order", 0), ("digits", 1), ("seeds", 1)):
             number = getattr(self, name)
             if number is not None:
@@ -72,6 +85,11 @@ class Aims:
         if self.effort is not None:
             good = 0 <= self.effort and isfinite(self.effort)
             _require(good, "effort", "a number of seconds", self.effort)
+
+    @property
+    def shape(self) -> Shape:
+        """The limits on the eigenvalues."""
+        return Shape(self.damping, self.largest_modulus)
 
 
 def _require(good: bool, name: str, expected: str, found: object) -> None:

@@ -19,6 +19,7 @@ from mcexact.synthesis.optimum.problem import FeedbackProblem, Sizes
 from mcexact.synthesis.optimum.programs import balanced
 from mcexact.synthesis.optimum.regulator import Model, gaussian_controller
 from mcexact.synthesis.optimum.sensitivity import Sensitivity, frequencies, norm
+from mcexact.synthesis.optimum.shape import least_damping
 from mcexact.synthesis.optimum.spectrum import SchurForm
 from mcexact.synthesis.optimum.weights import Floats, Weights
 
@@ -46,6 +47,10 @@ class Figures:
         The largest ‖x(t)‖ from a unit state of the plant, the agents' states being 0.
     cost : float
         E[x'Qx + u'Ru], with tr(R K_y V K_y') also in continuous time.
+    damping : float
+        The least damping ratio of an eigenvalue; see `least_damping`.
+    fastest : float
+        The largest modulus of an eigenvalue.
     """
 
     order: int
@@ -54,6 +59,8 @@ class Figures:
     margin: float
     peak: float
     cost: float
+    damping: float = np.nan
+    fastest: float = np.nan
 
 
 def figures_of(problem: FeedbackProblem, K: Floats, *, peak: bool = True) -> Figures:
@@ -76,6 +83,8 @@ def figures_of(problem: FeedbackProblem, K: Floats, *, peak: bool = True) -> Fig
         1 / largest if largest else np.inf,
         peak_of_state(M, problem.n, form) if peak else np.nan,
         cost,
+        least_damping(form.eigenvalues, discrete=problem.discrete),
+        float(np.max(np.abs(form.eigenvalues), initial=0.0)),
     )
 
 

@@ -91,6 +91,7 @@ class Ladder:
         return (
             found.cost <= self.enough
             and found.margin >= self.target.margin
+            and self.target.shape.met(found.damping, found.fastest)
             and found.largest_gain <= 1.001 * self.target.largest_gain
         )
 
@@ -199,6 +200,7 @@ def _price(ladder: Ladder, candidate: Candidate) -> float:
     lacking = _FRAGILE * target.margin / max(figures.margin, 1e-9)
     lacking = 1.0 if figures.margin >= target.margin else lacking
     large = max(figures.largest_gain / target.largest_gain, 1.0)
+    lacking *= 1.0 if target.shape.met(figures.damping, figures.fastest) else _FRAGILE
     return figures.cost * lacking * large * _PRICE_OF_ORDER**figures.order
 
 

@@ -18,6 +18,7 @@ from mcexact.model.loop import ClosedLoop, closed_loop
 from mcexact.synthesis.optimum.figures import Figures, peak_of_state
 from mcexact.synthesis.optimum.kernel import quiet_floats
 from mcexact.synthesis.optimum.sensitivity import Complexes, Response, frequencies
+from mcexact.synthesis.optimum.shape import least_damping
 from mcexact.synthesis.optimum.spectrum import SchurForm
 from mcexact.synthesis.optimum.weights import Floats, Weights
 
@@ -71,6 +72,8 @@ def figures_of_loop(loop: ClosedLoop, weights: Weights, integrators: Sequence[in
         1 / largest if largest else np.inf,
         peak_of_state(M, loop.given.n, form),
         _cost(loop, form, U, weights, integrators),
+        least_damping(form.eigenvalues, discrete=discrete),
+        float(np.max(np.abs(form.eigenvalues), initial=0.0)),
     )
 
 

@@ -9,15 +9,19 @@ import numpy as np
 from mcexact.synthesis.optimum.cost import INFINITE, Valued, quadratic_costs
 from mcexact.synthesis.optimum.problem import FeedbackProblem
 from mcexact.synthesis.optimum.sensitivity import Complexes, Sensitivity
+from mcexact.synthesis.optimum.shape import NO_LIMITS, Shape
 from mcexact.synthesis.optimum.weights import Floats
 
+_SHAPE = 100.0
 SHARE_OF_SHIFTED = 0.05
 """The weight of the cost of the shifted loop, which makes the border of the region a barrier."""
 
 
 @dataclass(frozen=True, eq=False)
 class Objective:
-    """J_0 + 0.05 J_a + μ Σ max(0, σ_max(T)/τ − 1)² + J_0 Σ max(0, |K_ij|/g − 1)².
+    """J_0 + 0.05 J_a + μ Σ max(0, σ_max(T)/τ − 1)² + J_0 (Σ max(0, |K_ij|/g − 1)² + 100 e).
+
+    Here e is `Shape.excess`.
 
     Attributes
     ----------
@@ -32,6 +36,7 @@ class Objective:
         τ.
     points : ndarray of complex or None
         The frequencies of the sum.
+    shape : Shape
     """
 
     problem: FeedbackProblem
@@ -40,6 +45,7 @@ class Objective:
     weight: float = 0.0
     limit: float = np.inf
     points: Complexes | None = None
+    shape: Shape = NO_LIMITS
 
     def __call__(self, x: Floats) -> Valued:
         """Compute the objective and its gradient in the free entries of K.
@@ -64,6 +70,10 @@ class Objective:
             if size:
                 value += plain * size
                 G = G + size * G0 + plain * 2 * over * np.sign(K) / self.largest_gain
+        if not self.shape.free:
+            excess, Ge = self.shape.excess(problem, K)
+            value += _SHAPE * plain * excess
+            G = G + _SHAPE * (excess * G0 + plain * Ge)
         if not np.isfinite(value):
             return INFINITE
         return value, problem.gradient(G)

@@ -23,6 +23,7 @@ from mcexact.synthesis.optimum.sensitivity import (
     Sensitivity,
     frequencies,
 )
+from mcexact.synthesis.optimum.shape import NO_LIMITS, Shape
 from mcexact.synthesis.optimum.weights import Floats
 
 SLACK = 1.02
@@ -43,11 +44,14 @@ class Target:
     largest_gain : float
     margin : float
         The margin that is enough; the search aims a tenth higher.
+    shape : Shape
+        Limits on the eigenvalues, which the search aims at.
     """
 
     region: StabilityRegion
     largest_gain: float = np.inf
     margin: float = 0.3
+    shape: Shape = NO_LIMITS
 
     def reached(self, bound: float, factor: float = 1.0) -> bool:
         """Whether a largest real part or modulus lies in the region, tightened by a factor."""
@@ -170,7 +174,7 @@ def _objective(problem: FeedbackProblem, x: Floats, target: Target) -> Objective
     shift = shift_of(target.region, SLACK)
     if not target.reached(bound, SLACK):
         shift = (edge + (bound if problem.discrete else -bound)) / 2
-    return Objective(problem, shift, target.largest_gain)
+    return Objective(problem, shift, target.largest_gain, shape=target.shape)
 
 
 def polished(

@@ -26,7 +26,7 @@ from mcexact.synthesis.optimum.structures import Family
 from mcexact.synthesis.optimum.weights import Floats, Weights
 from mcexact.synthesis.request import Request, Warned
 
-MOST_DIGITS = 12
+_MOST_TRIED = 12
 _LEAST_STORED = 3
 _ENOUGH = 1.5
 _GAINS = 10.0
@@ -80,7 +80,7 @@ def target_of(request: Request, central: Figures | None, aims: Aims) -> Target:
         largest = aims.largest_gain
     elif central is not None and np.isfinite(central.cost):
         largest = _GAINS * max(central.largest_gain, _LEAST_GAIN)
-    return Target(request.region, largest, aims.margin)
+    return Target(request.region, largest, aims.margin, aims.shape)
 
 
 def _effort(given: float | None, states: int, central: Figures | None, target: Target) -> Effort:
@@ -187,7 +187,7 @@ def with_few_digits(
     At least three digits are kept, unless these are too many or are not certified and fewer are.
     """
     problem, K, least = found.problem, found.K, None
-    for digits in range(1, min(MOST_DIGITS, most or MOST_DIGITS) + 1):
+    for digits in range(1, min(_MOST_TRIED, most or _MOST_TRIED) + 1):
         if _certified(problem, rounded(K, digits), target):
             least = digits
             break

@@ -1,5 +1,8 @@
 """The distributed observer: prescribed spectra on the paper's example and on drawn plants."""
 
+from fractions import Fraction
+
+import numpy as np
 import pytest
 
 from mcexact.answer.codec import encode
@@ -232,3 +235,12 @@ def test_the_bit_length_is_that_of_the_controller():
         M for agent in design.controller.agents for each in agent.maps() for M in each.matrices()
     ]
     assert design.controller.bit_length() == bit_length(entries)
+
+
+def test_gains_of_floats_need_a_named_rounding() -> None:
+    plant = MultiChannelSystem([[0]], [[[1]]], [[[1]]], neighbors={"1": []})
+    gains = [np.array([[-0.1]])]
+    with pytest.raises(InputError, match="float"):
+        design_observer(plant, rate=1, gains=gains)
+    found = design_observer(plant, gains=[[[-3.1]]], rounding="decimal", spectrum={"error": [-2]})
+    assert found.parts["feedback"][0].rows() == ((Fraction(-31, 10),),)

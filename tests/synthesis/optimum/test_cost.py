@@ -11,6 +11,7 @@ from mcexact.synthesis.optimum.cost import quadratic_costs
 from mcexact.synthesis.optimum.objective import Objective
 from mcexact.synthesis.optimum.problem import FeedbackProblem, Sizes
 from mcexact.synthesis.optimum.sensitivity import Sensitivity, frequencies
+from mcexact.synthesis.optimum.shape import Shape
 from mcexact.synthesis.optimum.spectrum import SchurForm
 from mcexact.synthesis.optimum.weights import Weights
 from tests.synthesis.optimum.plants import coupled, networks
@@ -41,7 +42,7 @@ def differences(function, x: np.ndarray, step: float = 1e-5) -> np.ndarray:
 
 
 @pytest.mark.parametrize("kind", NETWORKS)
-@pytest.mark.parametrize("part", ["cost", "margin", "gains"])
+@pytest.mark.parametrize("part", ["cost", "margin", "gains", "shape"])
 def test_the_gradient_agrees_with_finite_differences(kind, part):
     of, x = stable(kind)
     shift = 0.9 if of.discrete else 0.5
@@ -53,6 +54,10 @@ def test_the_gradient_agrees_with_finite_differences(kind, part):
         objective = replace(objective, weight=10.0, limit=limit, points=points)
     elif part == "gains":
         objective = replace(objective, largest_gain=0.02)
+    elif part == "shape":
+        sizes = np.abs(np.linalg.eigvals(of.loop(x)))
+        limits = Shape(damping=0.97, largest=0.9 * float(np.max(sizes)))
+        objective = replace(objective, shape=limits)
     value, gradient = objective(x)
     assert value > Objective(of, shift)(x)[0] or part == "cost"
     expected = differences(objective, x)

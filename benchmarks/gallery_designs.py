@@ -1,0 +1,94 @@
+"""How good are the controllers of the ladder on the published plants, without a rate?
+
+Run as ``python -m benchmarks.gallery_designs ROWS [PLANT …]``; by default all plants of the
+gallery, each designed for as ``decentralized``, ``extended`` (over its own links, or else over a
+ring) and ``setpoint``.  ROWS is a file: rows that it holds are printed and not measured again.
+
+A line holds the rate that was chosen and the figures as in `families`, or what the request was
+answered with, and the figures of what is made by hand.  The last lines count the answers.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections import Counter
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+from benchmarks.by_hand import made_by_hand, told_by_hand
+from benchmarks.families import figures_row, told
+from benchmarks.kept_rows import Row, kept, measured
+from mcexact import Aims, design_decentralized, design_extended, design_setpoint
+from mcexact.errors import Impossible, LimitReached, OutOfReach
+from mcexact.model import gallery
+from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem
+from mcexact.synthesis.assessment import assess
+
+EFFORT = 10.0
+"""Seconds for each search: a grid of 111 rows ends within the hour."""
+DESIGNS: dict[str, Any] = {
+    "decentralized": design_decentralized,
+    "extended": design_extended,
+    "setpoint": design_setpoint,
+}
+
+
+def prepared(name: str, structure: str) -> MultiChannelSystem:
+    """The plant, with a ring of links where agents have to receive something."""
+    plant = gallery.load(name)
+    if structure == "extended" and plant.neighbors is None:
+        return plant.with_neighbors(NeighborGraph.ring(plant.names))
+    return plant
+
+
+def answered(name: str, structure: str) -> Row:
+    """What the request is answered with, and what is made by hand."""
+    plant = prepared(name, structure)
+    try:
+        made = DESIGNS[structure](plant, arithmetic="float", aims=Aims(effort=EFFORT))
+    except Impossible as refused:
+        return {"answer": "refused", "told": str(refused), "by hand": {}}
+    except OutOfReach as far:
+        return {"answer": "out of reach", "told": str(far), "by hand": {}}
+    except LimitReached as limit:
+        return {"answer": "limit", "told": str(limit), "by hand": {}}
+    found, seen = figures_row(made), assess(made)
+    hand: dict[str, Any] = {}
+    if structure != "setpoint":
+        hand = made_by_hand(plant, (found.get("central") or {}).get("cost"))
+    return {
+        **found,
+        "asked": str(made.region),
+        "install": seen.install,
+        "verdict": seen.verdict,
+        "step peak": seen.step_peak,
+        "by hand": hand,
+    }
+
+
+def main(arguments: list[str]) -> int:
+    """Design for all plants, or for some."""
+    if not arguments:
+        print(__doc__, file=sys.stderr)
+        return 2
+    path, names = Path(arguments[0]), arguments[1:] or gallery.names()
+    known, counts = kept(path), Counter[str]()
+    for name in names:
+        for structure in DESIGNS:
+            row = measured(path, f"{name} {structure}", partial(answered, name, structure), known)
+            counts[f"{structure}: {row['answer']}"] += 1
+            line = f"{row['name']}, {row.get('asked', '')} | {told(row)}, {row['seconds']} s"
+            line += f" | {row.get('verdict', '')} | {told_by_hand(row['by hand'])}"
+            print(line, flush=True)
+    for what, count in sorted(counts.items()):
+        print(f"{what}: {count}")
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(sys.argv[1:]))

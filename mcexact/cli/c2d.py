@@ -1,0 +1,67 @@
+"""`mcexact c2d`: sample a plant in continuous time."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import click
+
+from mcexact.cli import options
+
+
+@click.command(name="c2d", short_help="Sample a plant in continuous time.")
+@click.argument("file")
+@click.option(
+    "--step", type=options.rational, required=True, help="The time between samples, such as 1/10."
+)
+@click.option(
+    "--decimals",
+    type=click.IntRange(min=0, max=1000),
+    default=12,
+    show_default=True,
+    help="Decimals to which the matrix exponential is rounded.",
+)
+@click.option(
+    "-o",
+    "--output",
+    type=options.FOLDER,
+    metavar="FILE",
+    help="Write the system to this file; by default to standard output.",
+)
+@options.as_json
+@options.work_limits
+@options.file_limits
+def command(file: str, step: Fraction, decimals: int, output: Path | None, **given: Any) -> None:
+    """Sample the system in FILE, whose inputs are held between samples (- for standard input).
+
+    The system file that is written has exact data, and its "source" states by how much they differ
+    from the matrix exponential at most. Later answers are about the rounded plant. The output is
+    JSON with and without --json, since a system file is JSON.
+    """
+    from mcexact.cli.files import require_other, require_writable
+    from mcexact.cli.output import emit
+    from mcexact.cli.running import Run
+    from mcexact.model.atomic import write_text
+
+    run = Run(given)
+    require_other(output, file)
+    require_writable(output)
+    plant = run.read(file)
+    text = run.result(_sampled, plant, run.limits, step, decimals, doing=f"sampling {plant[0]}")
+    if output is None:
+        emit(text)
+    else:
+        write_text(output, text)
+
+
+def _sampled(
+    plant: tuple[str, bytes], limits: dict[str, int], step: Fraction, decimals: int
+) -> str:
+    """Sample a system and return its file's text, in the child process."""
+    from mcexact.cli.files import system_in
+    from mcexact.model.sampled import c2d
+    from mcexact.model.system_file import system_text
+
+    return system_text(c2d(system_in(*plant, limits), step, decimals=decimals))
