@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from fractions import Fraction
 
 import numpy as np
 
+from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
 from mcexact.analysis.structure.setpoint import setpoint_solvability
 from mcexact.derived.integrators import setpoint_system
@@ -13,7 +15,7 @@ from mcexact.errors import Impossible
 from mcexact.exact.blocks import block, vstack
 from mcexact.exact.floats import matrix_to_float, to_float
 from mcexact.exact.linear_algebra import characteristic_polynomial, determinant, rank, solve
-from mcexact.exact.location import StabilityRegion
+from mcexact.exact.location import TIMES, StabilityRegion, is_discrete, steady_point
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.system import MultiChannelSystem
@@ -30,6 +32,7 @@ from mcexact.reproduce.material import (
 from mcexact.reproduce.notebook import Notebook, Procedure
 from mcexact.reproduce.plants import unreached, unseen
 from mcexact.simulation.trajectory import simulate
+from mcexact.synthesis.design import Design
 from mcexact.synthesis.methods import default_polynomial, state_feedback
 from mcexact.synthesis.optimum.aims import THEOREM
 from mcexact.synthesis.setpoint import SetpointMethod, design_setpoint
@@ -43,12 +46,13 @@ def _washed_out() -> Instance:
     return "a zero at 0: y = s/(s² + 3s + 2) u", plant
 
 
-def _two_channels() -> Instance:
+def _two_channels(time: str = "continuous") -> Instance:
     """Two scalar outputs; set-points can be held."""
     plant = MultiChannelSystem(
         [[0, 1], [2, -1]],
         [[[1], [0]], [[0], [1]]],
         [[[1, 0]], [[0, 1]]],
+        time=time,
         neighbors={"1": ["2"], "2": ["1"]},
         name="two tanks",
     )
@@ -81,30 +85,62 @@ def integrators(note: Notebook) -> None:
     note.refute("outputs", made.output_matrix() @ state != y)
 
 
+def _held_plants() -> Iterator[Instance]:
+    """Plants whose set-points can be held, over graphs, in both time domains."""
+    for time in TIMES:
+        name, plant = _two_channels(time)
+        yield f"{name}, {time} time", plant
+    for name, plant in drawn_plants(10, states=3, channels=2, first=31):
+        if joint_controllability(setpoint_system(plant)).controllable:
+            yield name, plant
+
+
 def any_stabilizing_control(note: Notebook) -> None:
-    """A stabilizing control holds y at r: at the equilibrium ẇ = y − r = 0."""
-    for name, plant in (_two_channels(), *drawn_plants(10, states=3, channels=2, first=31)):
-        made = setpoint_system(plant)
-        if not joint_controllability(made).controllable:
-            continue
+    """A stabilizing control holds y at r: at the equilibrium ẇ = y − r = 0.
+
+    Static state feedback, decentralized dynamic controllers, and distributed ones: the equilibrium
+    is computed exactly, and the loop is proved stable, so that the state tends to it.
+    """
+    for name, plant in _held_plants():
         note.on(name)
-        F = state_feedback(
-            made, default_polynomial(StabilityRegion.of("continuous", rate=1), made.n)
-        )
-        loop = made.A + made.input_matrix() @ vstack(list(F.gains), ncols=made.n)
+        made = setpoint_system(plant)
         q = made.n - plant.n
-        R = vstack([Matrix.zeros(plant.n, q), Matrix.identity(q)])
-        rest = solve(loop, R)
+        wanted = Matrix.identity(q)
+        region = StabilityRegion.of(plant.time, *_speed(plant.time))
+        F = state_feedback(made, default_polynomial(region, made.n))
+        loop = made.A + made.input_matrix() @ vstack(list(F.gains), ncols=made.n)
+        still = Matrix.identity(made.n) * steady_point(plant.time) - loop
+        # ẇ = y − r (w(t+1) − w = y − r), and r enters nowhere else.
+        rest = solve(still, vstack([Matrix.zeros(plant.n, q), wanted * -1]))
         C = plant.output_matrix()
-        note.check(
-            "at rest y = r, for every r",
-            rest is not None and C @ rest.take(rows=range(plant.n)) == Matrix.identity(q),
-        )
-        if name == _two_channels()[0] and rest is not None:
-            held = C @ rest.take(rows=range(plant.n))
-            note.refute("sign", held != Matrix.identity(q) * -1)
+        held = None if rest is None else C @ rest.take(rows=range(plant.n))
+        note.check("at rest y = r under state feedback, for every r", held == wanted)
+        for what, design in _designs(plant):
+            note.check(f"at rest y = r, {what}", design.loop.closed.steady_gain == wanted)
+            note.check(f"which is stable, {what}", "stability" in design.certificates)
+            note.certify(*design.certificates.values())
+        if plant.n == q and held is not None:
+            note.refute("sign", held != wanted * -1)
             idle = solve(plant.A, Matrix.zeros(plant.n, 1))
             note.refute("without-integrators", idle is not None and (C @ idle).is_zero())
+
+
+def _speed(time: str) -> tuple[str | None, str | None]:
+    """A rate in continuous time, or a radius in discrete time."""
+    return (None, "1/2") if is_discrete(time) else ("1", None)
+
+
+def _designs(plant: MultiChannelSystem) -> Iterator[tuple[str, Design]]:
+    """Controllers that stabilize plant and integrators: both methods, and without messages."""
+    rate, radius = _speed(plant.time)
+    if plant.n == 2:
+        for method in METHODS:
+            design = design_setpoint(plant, rate=rate, radius=radius, method=method, aims=THEOREM)
+            yield f"distributed, by the method {method}", design
+    apart = plant.with_neighbors({name: [] for name in plant.names})
+    if fixed_spectrum(setpoint_system(apart)).empty:
+        design = design_setpoint(apart, rate=rate, radius=radius, method="extended", aims=THEOREM)
+        yield "decentralized", design
 
 
 def always_observable(note: Notebook) -> None:
@@ -187,6 +223,9 @@ def distributed_setpoints(note: Notebook) -> None:
         matrix_to_float(plant.output_matrix()) @ np.array([shot.plant for shot in run.snapshots]).T
     ).tolist()
     goals = [to_float(r) for r in wanted]
+    gain = design.loop.closed.steady_gain
+    note.check("exactly, every output rests at its set-point", gain == Matrix.identity(2))
+    note.refute("other-agent", gain != Matrix.from_integers([[0, 1], [1, 0]]))
     near = all(abs(y[-1] - r) < 1e-3 for y, r in zip(outputs, goals, strict=True))
     note.check("the run ends at the set-points 1 and −2", near)
     note.show(setpoint_picture(run, outputs, goals, ["y of agent 1", "y of agent 2"]))
@@ -201,6 +240,27 @@ def distributed_setpoints(note: Notebook) -> None:
         note.check("refused where a set-point cannot be held", False)
 
 
+def wrong_estimates(note: Notebook) -> None:
+    """The observers of the set-point design estimate the state wrongly, and y = r all the same."""
+    for time in TIMES:
+        name, plant = _two_channels(time)
+        note.on(f"{name}, {time} time")
+        rate, radius = _speed(time)
+        design = design_setpoint(plant, rate=rate, radius=radius, method="observer", aims=THEOREM)
+        loop = design.loop.closed
+        still = Matrix.identity(loop.dimension) * steady_point(time) - loop.matrix
+        rest = solve(still, loop.reference)
+        note.check("there is one equilibrium for every r", rest is not None)
+        if rest is None:
+            continue
+        x = loop.pick("x") @ rest
+        note.check("at which y = r", plant.output_matrix() @ x == Matrix.identity(2))
+        for i in range(plant.m):
+            estimate = (loop.pick("x_", i) @ rest).take(rows=range(plant.n))
+            note.refute("right-estimates", estimate != x)
+        note.certify(*design.certificates.values())
+
+
 PROCEDURES: dict[str, Procedure] = {
     "b1": integrators,
     "attained": any_stabilizing_control,
@@ -209,4 +269,5 @@ PROCEDURES: dict[str, Procedure] = {
     "gnd": condition,
     "det": determinant_at_zero,
     "setpoints": distributed_setpoints,
+    "wrong-estimates": wrong_estimates,
 }
