@@ -84,6 +84,7 @@ def example(note: Notebook) -> None:
     system = augmented_outputs(plant)
     note.on(PAPER)
     note.joint(plant)
+    note.print(plant)
     rank = pencil_rank(system, ["2"], 1)
     note.check("rank [I − A, B_1, B_3; C_{N_2}, 0] is 2", rank.rank == 2)
     found = fixed_spectrum(system)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from itertools import chain
@@ -13,7 +14,7 @@ from mcexact.answer.protocol import Answer
 from mcexact.model.system import MultiChannelSystem
 from mcexact.report.picture import EmbeddedPicture, Picture
 from mcexact.reproduce.ledger import examination
-from mcexact.reproduce.material import Instance
+from mcexact.reproduce.material import PAPER, Instance
 
 
 @dataclass(frozen=True)
@@ -90,6 +91,8 @@ class Notebook:
     refutations : list of Refutation
     certificates : list of CheckedCertificate
     pictures : list of EmbeddedPicture
+    matrices : list of (str, rows)
+        Matrices of an instance, with the entries as texts.
     broken : str
         Empty, or why the examination came to no end.
     """
@@ -101,6 +104,7 @@ class Notebook:
     refutations: list[Refutation] = field(default_factory=list)
     certificates: list[CheckedCertificate] = field(default_factory=list)
     pictures: list[EmbeddedPicture] = field(default_factory=list)
+    matrices: list[tuple[str, list[list[str]]]] = field(default_factory=list)
     broken: str = ""
 
     def on(self, instance: str) -> None:
@@ -145,9 +149,28 @@ class Notebook:
             self.check("jointly controllable and observable", found.controllable)
             self.certify(found)
 
+    def print(self, system: MultiChannelSystem) -> None:
+        """Show A, all B_i and all C_i of a system."""
+        named = [("A", system.A)]
+        named += [
+            (f"B_{name}", channel.B)
+            for name, channel in zip(system.names, system.channels, strict=True)
+        ]
+        named += [
+            (f"C_{name}", channel.C)
+            for name, channel in zip(system.names, system.channels, strict=True)
+        ]
+        for name, found in named:
+            self.matrices.append((name, [[str(entry) for entry in row] for row in found.rows()]))
+
     def show(self, picture: Picture) -> None:
         """Add a picture."""
         self.pictures.append(picture.embedded())
+
+    def on_what(self) -> str:
+        """How many instances there are, and what those of one kind have in common."""
+        count = Counter(_kind(name) for name in self.instances)
+        return "; ".join(f"{size} {kind}" for kind, size in count.items())
 
     @property
     def failure(self) -> str:
@@ -173,6 +196,21 @@ class Notebook:
     def holds(self) -> bool:
         """Whether all checks hold, all certificates are VALID, and all false statements fall."""
         return not self.failure
+
+
+_KINDS = (
+    (PAPER, "with the matrices of the example of IV-B"),
+    ("drawn, bound", "drawn over strongly connected graphs for a bound of 1, 2 or 3 that is known"),
+    ("drawn, planted", "drawn with a planted fixed mode"),
+    ("drawn, a fixed mode", "drawn with a fixed mode by two channels"),
+    ("drawn pair", "drawn pairs of matrices"),
+    ("drawn", "drawn, jointly controllable and observable"),
+)
+
+
+def _kind(instance: str) -> str:
+    """What an instance has in common with others, by the beginning of its name."""
+    return next((kind for start, kind in _KINDS if instance.startswith(start)), "named")
 
 
 Procedure = Callable[[Notebook], None]

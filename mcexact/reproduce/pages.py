@@ -7,6 +7,7 @@ from typing import Any
 
 from mcexact.answer.formats import count
 from mcexact.answer.latex import escaped
+from mcexact.report.mathml import matrix, typeset
 from mcexact.report.page import page
 from mcexact.report.text import Table
 from mcexact.reproduce.reproduction import SECTIONS, Reproduction, Row
@@ -91,6 +92,8 @@ def _listed(statement: Statement, found: Reproduction) -> dict[str, Any]:
     titles = {row.examination.key: row.examination.title for row in found.rows}
     return {
         **{name: getattr(statement, name) for name in _OF_STATEMENT},
+        "says": typeset(statement.says),
+        "note": typeset(statement.note),
         "status": "an examination fails" if found.fails(statement) else STATUSES[statement.status],
         "fails": found.fails(statement),
         "links": [
@@ -107,12 +110,18 @@ def _shown(row: Row) -> dict[str, Any]:
         "anchor": said.key.replace(":", "-"),
         **{name: getattr(said, name) for name in (*_OF_EXAMINATION, "says", "part", "code")},
         **{name: getattr(finding, name) for name in ("holds", "failure", "pictures")},
+        "says": typeset(said.says),
+        "erratum": typeset(said.erratum),
+        "part": typeset(said.part),
         "status": row.status,
+        "instances": finding.on_what(),
+        "matrices": [matrix(name, rows) for name, rows in finding.matrices],
         "checks": [
-            (check.instance, check.text, "yes" if check.holds else "NO") for check in finding.checks
+            (check.instance, typeset(check.text), "yes" if check.holds else "NO")
+            for check in finding.checks
         ],
         "refutations": [
-            (attempt.statement, attempt.instance, "yes" if attempt.refuted else "NO")
+            (typeset(attempt.statement), attempt.instance, "yes" if attempt.refuted else "NO")
             for attempt in finding.refutations
         ],
         "certificates": [(made.instance, made.name, made.verdict) for made in finding.certificates],

@@ -69,9 +69,11 @@ def test_the_certificates_are_of_the_kinds_that_the_ledger_names(whole: Reproduc
         assert set(row.examination.certificates) <= kinds, row.examination.key
 
 
-def test_the_report_parses_strictly_and_asks_nobody(whole: Reproduction) -> None:
+def test_the_report_parses_strictly_and_links_its_certificates_alone(whole: Reproduction) -> None:
     text = reproduction_page(whole)
-    assert external_addresses(text) == []
+    beside = {f"a href=certificates/{name}" for name in whole.certificates()}
+    assert set(external_addresses(text)) == beside
+    assert "<math>" in text and "with the matrices of the example" in text
     for drawn in (
         "Graphs",
         "The effect of delays",

@@ -1,0 +1,39 @@
+"""Symbols with indices are set as MathML, and nothing else is touched."""
+
+from __future__ import annotations
+
+import pytest
+
+from mcexact.report.mathml import matrix, typeset
+
+SET = [
+    ("no formula, a < b", "no formula, a &lt; b"),
+    ("n_i", "<math><msub><mi>n</mi><mi>i</mi></msub></math>"),
+    ("C_{N_s}", "<math><msub><mi>C</mi><msub><mi>N</mi><mi>s</mi></msub></msub></math>"),
+    (
+        "B_jF_j",
+        "<math><msub><mi>B</mi><mi>j</mi></msub></math>"
+        "<math><msub><mi>F</mi><mi>j</mi></msub></math>",
+    ),
+    (
+        "Ĥ_i",
+        '<math><msub><mover accent="true"><mi>H</mi><mo>^</mo></mover><mi>i</mi></msub></math>',
+    ),
+    (
+        "B_{m−s}",
+        "<math><msub><mi>B</mi><mrow><mi>m</mi><mo>−</mo><mi>s</mi></mrow></msub></math>",
+    ),
+    ("A_32", "<math><msub><mi>A</mi><mn>32</mn></msub></math>"),
+]
+
+
+@pytest.mark.parametrize(("text", "made"), SET, ids=[text for text, _ in SET])
+def test_symbols_with_indices_are_set(text: str, made: str) -> None:
+    assert typeset(text) == made
+
+
+def test_a_matrix_is_set_with_its_name_and_escaped() -> None:
+    made = matrix("B_1", [["1", "<"], ["0", "-1/2"]])
+    assert made.startswith("<math><msub><mi>B</mi><mn>1</mn></msub><mo>=</mo>")
+    assert made.count("<mtr>") == 2 and "&lt;" in made
+    assert made.__html__() is made
