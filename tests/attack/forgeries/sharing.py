@@ -144,7 +144,8 @@ def false_cuts(rng: random.Random, document: Document, system: System) -> list[C
         if "deficiency" in cut and rng.random() < 0.3:
             cut["deficiency"] = max(cut["deficiency"] + rng.choice((-1, -1, 1)), 1)
     if system.m > 1 and rng.random() < 0.4:
-        s = [i for i in range(system.m) if rng.random() < 0.5]
+        some = [i for i in range(system.m) if rng.random() < 0.5]
+        s = rng.choice(([], list(range(system.m)), some, some))
         outside = [system.names[i] for i in range(system.m) if i not in s]
         zero = cut_off(system.n, outside, whole=rng.random() < 0.7)
         witness["cuts"].append({"subset": [system.names[i] for i in s], "zero": zero})
