@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from mcexact.checker import Verdict
-from mcexact.checker.allowance import Clock, OutOfTime, memory
+from mcexact.checker.allowance import AGAIN, Clock, OutOfTime, memory
 
 ABOUT = {"file": "a.json"}
 
@@ -140,3 +140,7 @@ def test_memory_is_added_to_what_the_system_says_is_occupied(
     (tmp_path / "statm").unlink()
     with memory(1):
         assert calls.pop() == (2**20, 2**40)
+
+
+def test_an_alarm_that_is_lost_comes_again_soon() -> None:
+    assert 0 < AGAIN <= 0.1

@@ -13,6 +13,17 @@ from mcexact.checker.reading import Refused
 MODULI = [2, 3, 7, SMALL - 1, SMALL, SMALL + 1, 127, 128, 2**30 - 35, 10**20 + 39]
 
 
+def test_no_sum_of_rows_leaves_a_byte() -> None:
+    for ell in (29, 31, 61):
+        rows = [[pow(-factor, -1, ell)] * 2 for factor in range(1, ell)]
+        u = list(range(1, ell))  # every product is ell - 1
+        assert list(PackedRows(rows, 2, ell).combined(u)) == [-len(u) % ell] * 2
+
+
+def test_a_slot_is_as_wide_as_it_has_to_be() -> None:
+    assert [PackedRows([[1]], 1, ell).size for ell in (64, 65, 182, 183)] == [1, 2, 2, 3]
+
+
 @pytest.mark.parametrize("ell", MODULI)
 @pytest.mark.parametrize("nrows", [0, 1, 4, 5, 300])
 @pytest.mark.parametrize("ncols", [0, 1, 3])

@@ -320,6 +320,20 @@ def test_a_document_has_at_most_64_mebibytes() -> None:
     assert (found.value.verdict, found.value.code) == ("INCOMPLETE", "size")
 
 
+@pytest.mark.parametrize(("most", "parts"), [(2**22, [2**20] * 3), (10, [11, 6])])
+def test_a_stream_is_read_in_parts(most: int, parts: list[int]) -> None:
+    asked: list[int] = []
+
+    class Stream(io.BytesIO):
+        def read(self, size: int | None = -1) -> bytes:
+            asked.append(size or 0)
+            return super().read(min(size or 0, 5) if most < 2**20 else size)
+
+    length = 2**21 if most > 2**20 else 5
+    assert len(reading.read_bytes(Stream(bytes(length)), Limits(bytes=most))) == length
+    assert asked == parts
+
+
 def test_a_file_is_read_or_refused(tmp_path: Path) -> None:
     path = tmp_path / "a.json"
     path.write_bytes(b"[]")
