@@ -123,7 +123,7 @@ pose at_gains G := map_poly (into h) (char_poly (closed_loop S G)).
 have at_one G : at_gains G = char_poly (closed_loop SK (fun i => map_mx (into h) (G i))).
   by rewrite /at_gains map_char_poly map_loop_into.
 exists (gcdp (at_gains F) (at_gains changed)); split.
-- by rewrite gcdp_eq0 negb_and monic_neq0 ?monic_map ?char_poly_monic.
+- by rewrite gcdp_eq0 negb_and at_one [X in ~~ X || _](negPf (monic_neq0 (char_poly_monic _))).
 - by move=> D dv; rewrite dvdp_gcd !at_one !dv.
 apply: (@krylov_common _ _ _ _ _ _ E _ h); last by rewrite -changed_loop dvdp_gcdr.
 exact: dvdp_gcdl.
