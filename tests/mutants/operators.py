@@ -55,9 +55,12 @@ TOLD = {"message"}
 GUARDS = {"frozen", "strict"}
 """The arguments by which the checker watches over itself; no document makes a difference."""
 
-SQUARE = {"A", "A_F", "M"}
-"""The names that only square matrices have: their numbers of rows and of columns are one number."""
-
+SQUARE = {
+    "absence", "characteristic_polynomial", "closed_loop_spectrum", "exceptional_gains",
+    "quadratic_forms", "stability",
+}  # fmt: skip
+"""The files in which only square matrices are called A, A_F or M, so that they have as many rows
+as columns."""
 
 PAIRS = (
     ("any", "all"),
@@ -151,7 +154,7 @@ class SwapName(Operator):  # type: ignore[misc]
 
     def mutation_positions(self, node: Any) -> Iterator[tuple[Any, Any]]:
         called = node.type == "name" and node.value in COUNTERPARTS
-        if called and not node.is_definition() and not _is_of_square(node):
+        if called and not node.is_definition():
             yield node.start_pos, node.end_pos
 
     def mutate(self, node: Any, index: int) -> Any:
@@ -161,13 +164,6 @@ class SwapName(Operator):  # type: ignore[misc]
     @classmethod
     def examples(cls) -> tuple[Any, ...]:
         return ()
-
-
-def _is_of_square(node: Any) -> bool:
-    """Whether a name is a dimension of a square matrix, as in ``A.nrows``."""
-    dot = node.get_previous_leaf()
-    owner = dot.get_previous_leaf() if dot is not None and dot.value == "." else None
-    return node.value in ("nrows", "ncols") and owner is not None and owner.value in SQUARE
 
 
 KNOWN = {each.__name__: each for each in (DeleteStatement, NegateFilter, SwapMembership, SwapName)}
@@ -220,8 +216,23 @@ def outside(source: str) -> list[Span]:
             parts += [each.value for each in node.keywords if each.arg in GUARDS]
         for part in parts:
             if part is not None:
-                start, end = (part.lineno, part.col_offset), (part.end_lineno, part.end_col_offset)  # type: ignore[attr-defined]
-                spans.append((start, end))
+                spans.append(_span(part))
+    return spans
+
+
+def _span(node: Any) -> Span:
+    """Where a part of a file begins and ends."""
+    return (node.lineno, node.col_offset), (node.end_lineno, node.end_col_offset)
+
+
+def dimensions(source: str) -> list[Span]:
+    """The numbers of rows and of columns of the matrices called A, A_F or M."""
+    spans = []
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.Attribute) and node.attr in ("nrows", "ncols"):
+            owner = getattr(node.value, "id", getattr(node.value, "attr", ""))
+            if owner in ("A", "A_F", "M"):
+                spans.append(_span(node))
     return spans
 
 
@@ -249,10 +260,9 @@ def same_comparisons(source: str) -> list[tuple[Span, tuple[str, ...]]]:
         if not isinstance(node, ast.Compare):
             continue
         parts = [node.left, *node.comparators]
-        end = (node.end_lineno or node.lineno, node.end_col_offset or 0)
         values = [part.value for part in parts if isinstance(part, ast.Constant)]
         if any(type(value) is str for value in values):
-            spans.append((((node.lineno, node.col_offset), end), NAMED_ORDER))
+            spans.append((_span(node), NAMED_ORDER))
         elif len(parts) == 2 and values == [_least(node.left)]:
             same = {
                 ast.Eq: "_Eq_LtE",
@@ -261,7 +271,7 @@ def same_comparisons(source: str) -> list[tuple[Span, tuple[str, ...]]]:
                 ast.LtE: "_LtE_Eq",
             }
             if suffix := same.get(type(node.ops[0])):
-                spans.append((((node.lineno, node.col_offset), end), (suffix,)))
+                spans.append((_span(node), (suffix,)))
     return spans
 
 

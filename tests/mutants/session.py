@@ -87,7 +87,8 @@ def plan(path: Path, database: Path) -> None:
     database.unlink(missing_ok=True)
     with use_db(str(database), WorkDB.Mode.create) as session:
         init([path], session, {})
-        spans = operators.outside(source)
+        square = operators.dimensions(source) if path.stem in operators.SQUARE else []
+        spans = operators.outside(source) + square
         ranks = operators.same_comparisons(source)
         seen, counts = {source}, {"outside": 0, "same comparison": 0, "same or no program": 0}
         for item in session.work_items:
