@@ -24,7 +24,7 @@ from mcexact.cli.failures import DEFINITE_NO
     "wanted",
     multiple=True,
     metavar="NAME",
-    help="Examine only this, such as 'Theorem 2' or '(26)'. May be repeated.",
+    help="Examine only 'Theorem 2', 31 for equation (31), or 'statement 89'. May be repeated.",
 )
 @click.option("--latex", is_flag=True, help="Print the table in LaTeX.")
 @options.as_json

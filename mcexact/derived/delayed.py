@@ -47,7 +47,7 @@ def lifted_system(
 
     Notes
     -----
-    Paper, section V-A, equations `emcsdd` and `emcsdd-mtrx`.  The state is
+    Paper, section V-A, equations (34) and (35).  The state is
     (x, x_1, w_1, x_2, w_2, …), w_j = (x_j(t−1), …, x_j(t−d_j), y_j(t−1), …, y_j(t−d_j)), and w_j
     is empty when d_j = 0.  In block form::
 
@@ -118,7 +118,7 @@ def held_system(
 
     Notes
     -----
-    Paper, section V-B, equations `emcsdd-hold` and `emcsdd-hold-mtrx`.  The state is
+    Paper, section V-B, equations (37) and (38).  The state is
     (x, x_1(t), …, x_1(t−d_1), x_2(t), …, x_m(t−d_m)).  In block form::
 
         Â = diag(A, S_{d_1+1} ⊗ I_{n_1}, …, S_{d_m+1} ⊗ I_{n_m})

@@ -126,7 +126,7 @@ def extended_system(
 
     Notes
     -----
-    Paper, section IV-C, equation `emcs`, and Remark 2 for ``share="states"``.  In block form, with
+    Paper, section IV-C, equation (25), and Remark 2 for ``share="states"``.  In block form, with
     x̄ = (x, x_1, …, x_m), ū_i = (u_i, v_i) and ȳ_i = (y_j, j ∈ N_i, then x_j, j ∈ N_i), neighbors
     in the order of the channels::
 

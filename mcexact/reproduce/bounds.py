@@ -293,12 +293,12 @@ def sub_states_needed(note: Notebook) -> None:
 
 
 PROCEDURES: dict[str, Procedure] = {
-    "funch": rank_identity,
-    "thm:strg-graph": theorem_2,
+    "equations-28-30": rank_identity,
+    "theorem-2": theorem_2,
     "bound-zero": bound_zero,
     "bound-reached": bound_reached,
     "tight": tightness,
-    "rmk:no-yi": remark_2,
+    "remark-2": remark_2,
     "every-subset": every_subset_receives,
     "necessary": sub_states_needed,
 }

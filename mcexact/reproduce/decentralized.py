@@ -285,7 +285,7 @@ def wang_davison_discrete(note: Notebook) -> None:
 
 PROCEDURES: dict[str, Procedure] = {
     "fixed-spectrum": definition,
-    "prp:mtrx-pencil": proposition_2,
+    "proposition-2": proposition_2,
     "footnote": empty_and_all,
     "transfer-graph": transfer,
     "corfmat-morse": corfmat_morse,

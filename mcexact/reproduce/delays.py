@@ -264,13 +264,13 @@ def corollary_2(note: Notebook) -> None:
 
 
 PROCEDURES: dict[str, Procedure] = {
-    "lift": shifts,
-    "emcsdd": lifted,
-    "emcsdd-graph": transfer_of_the_lift,
-    "eqn:blk-rank": block_ranks,
-    "emcsdd-joint": only_zero_is_lost,
-    "thm:strg-graph-delay": theorem_3,
-    "lift-free": free_of_the_lift,
-    "thm3-states": theorem_3_states,
-    "cor:strg-graph-delay": corollary_2,
+    "equations-32-33": shifts,
+    "equations-34-35": lifted,
+    "delayed-graph": transfer_of_the_lift,
+    "equation-36": block_ranks,
+    "delayed-joint": only_zero_is_lost,
+    "theorem-3": theorem_3,
+    "delayed-free": free_of_the_lift,
+    "theorem-3-states": theorem_3_states,
+    "corollary-2": corollary_2,
 }

@@ -168,7 +168,7 @@ def shared_outputs(note: Notebook) -> None:
 
 
 PROCEDURES: dict[str, Procedure] = {
-    "mss": shared_outputs,
+    "equation-23": shared_outputs,
     "example": example,
     "dynamic": dynamic,
     "sharing-states": sharing_states,

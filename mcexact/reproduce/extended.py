@@ -50,6 +50,6 @@ def any_graph(note: Notebook) -> None:
 
 
 PROCEDURES: dict[str, Procedure] = {
-    "emcs": construction,
-    "emcs-joint": any_graph,
+    "equations-24-25": construction,
+    "extended-joint": any_graph,
 }

@@ -182,10 +182,10 @@ def any_controller(note: Notebook) -> None:
 
 
 PROCEDURES: dict[str, Procedure] = {
-    "prp:transfer-matrix-graph": proposition_3,
-    "cor:free-assign": corollary_1,
+    "proposition-3": proposition_3,
+    "corollary-1": corollary_1,
     "parity": parity,
-    "sys:contr-obs-thru-q": through_any_channel,
+    "equation-31": through_any_channel,
     "order": total_dimension,
     "any-controller": any_controller,
 }

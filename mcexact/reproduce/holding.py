@@ -178,9 +178,9 @@ def free_assignment(note: Notebook) -> None:
 
 PROCEDURES: dict[str, Procedure] = {
     "not-controllable": outputs_lose_controllability,
-    "emcsdd-hold": held,
-    "hold-joint": held_joint,
-    "thm:strg-graph-delay-hold": theorem_4,
-    "hold-graph": transfer_of_the_held,
-    "hold-free": free_assignment,
+    "equations-37-38": held,
+    "held-joint": held_joint,
+    "theorem-4": theorem_4,
+    "held-graph": transfer_of_the_held,
+    "held-free": free_assignment,
 }

@@ -26,7 +26,7 @@ class Examination:
     Attributes
     ----------
     key : str
-        Its label in the paper's LaTeX source, or a chosen word if it has none.
+        Its printed name or number in small letters, or a chosen word if it has none.
     title, section : str
     kind : {"definition", "claim", "example", "numbered"}
         An equation that defines something, a claim in the text, the example of IV-B, or a numbered
@@ -38,7 +38,7 @@ class Examination:
     equations : tuple of int
         The numbers of the paper's equations that it is about, as printed.
     labels : tuple of str
-        Further labels of the LaTeX source by which it can be named.
+        Labels of the paper's LaTeX source, by which it can be named as well.
     certificates : tuple of str
         The kinds of certificates that are written for it.
     proofs : tuple of str
@@ -80,12 +80,12 @@ class Examination:
 
         Examples
         --------
-        >>> examination("thm:strg-graph").status(7)
+        >>> examination("theorem-2").status(7)
         'proved in general as printed, checked on 7 instances'
         >>> from dataclasses import replace
-        >>> replace(examination("thm:strg-graph"), proofs=(), covers="").status(1)
+        >>> replace(examination("theorem-2"), proofs=(), covers="").status(1)
         'checked on 1 instance'
-        >>> examination("lanal").status(2)
+        >>> examination("lemma-1").status(2)
         'proved in general under added hypotheses (if the neighbor graph is strongly connected), \
 checked on 2 instances'
         """

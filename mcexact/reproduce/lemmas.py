@@ -251,10 +251,10 @@ def recipe(note: Notebook) -> None:
 
 
 PROCEDURES: dict[str, Procedure] = {
-    "lanal": lemma_1,
-    "daniel": lemma_2,
-    "g": lemma_3,
-    "lem2": lemma_4,
+    "lemma-1": lemma_1,
+    "lemma-2": lemma_2,
+    "lemma-3": lemma_3,
+    "lemma-4": lemma_4,
     "construction": prescribed_rate,
     "recipe": recipe,
 }

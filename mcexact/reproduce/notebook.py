@@ -138,7 +138,7 @@ class Notebook:
             text = codec.encode(made)
             said = checked(text.encode("ascii"))
             number = len(self.certificates) + 1
-            name = f"{self.key.replace(':', '-')}-{number:02d}-{made.kind}.json"
+            name = f"{self.key}-{number:02d}-{made.kind}.json"
             self.certificates.append(
                 CheckedCertificate(name, made.kind, self.here, text, said.verdict, said.line())
             )

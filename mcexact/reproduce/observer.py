@@ -287,12 +287,12 @@ def remark_1(note: Notebook) -> None:
 
 PROCEDURES: dict[str, Procedure] = {
     "cancellation": cancellation,
-    "xe1": errors_without_feedback,
-    "ppe1": almost_any_choice,
+    "equations-3-6": errors_without_feedback,
+    "equations-7-8": almost_any_choice,
     "candidate": centralized_feedback,
-    "me1": whole_loop,
-    "eme1": errors_with_feedback,
-    "maint": proposition_1,
-    "thm:obs-main": theorem_1,
-    "rmk:central-design": remark_1,
+    "equations-9-11": whole_loop,
+    "equations-12-16": errors_with_feedback,
+    "proposition-1": proposition_1,
+    "theorem-1": theorem_1,
+    "remark-1": remark_1,
 }

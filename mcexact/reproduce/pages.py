@@ -96,9 +96,7 @@ def _listed(statement: Statement, found: Reproduction) -> dict[str, Any]:
         "note": typeset(statement.note),
         "status": "an examination fails" if found.fails(statement) else STATUSES[statement.status],
         "fails": found.fails(statement),
-        "links": [
-            (key.replace(":", "-"), titles[key]) for key in statement.examined if key in titles
-        ],
+        "links": [(key, titles[key]) for key in statement.examined if key in titles],
     }
 
 
@@ -107,7 +105,6 @@ def _shown(row: Row) -> dict[str, Any]:
     said, finding = row.examination, row.finding
     sample = next((made for made in finding.certificates if len(made.text) < _LARGEST_SAMPLE), None)
     return {
-        "anchor": said.key.replace(":", "-"),
         **{name: getattr(said, name) for name in (*_OF_EXAMINATION, "says", "part", "code")},
         **{name: getattr(finding, name) for name in ("holds", "failure", "pictures")},
         "says": typeset(said.says),

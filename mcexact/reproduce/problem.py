@@ -99,8 +99,8 @@ def neighbor_sets(note: Notebook) -> None:
 
 
 PROCEDURES: dict[str, Procedure] = {
-    "mcs": continuous,
-    "mcsd": discrete,
+    "equation-1": continuous,
+    "equation-2": discrete,
     "jointly": assumptions,
     "neighbor-graph": neighbor_sets,
 }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -105,30 +106,35 @@ def procedures() -> dict[str, Procedure]:
 def chosen(wanted: Iterable[str]) -> tuple[str, ...]:
     """Return the keys of the examinations with some names; all keys if none is given.
 
-    A name is a key or title of the ledger, a number of an equation, or a label of the paper's LaTeX
-    source.
+    A name is a key or title of the ledger, a printed number of an equation, a label of the paper's
+    LaTeX source, or ``statement 89`` for a number of the list of statements.
 
     Raises
     ------
     UsageError
-        If the ledger has no such name.
+        If there is nothing of this name, or if nothing examines it.
 
     Examples
     --------
-    >>> chosen(["Theorem 2", "(26)", "eqn:n_i", "(21)", "Equation (21)"])
-    ('thm:strg-graph', 'gnd')
+    >>> chosen(["Theorem 2", "(26)", "26", "eqn:n_i", "statement 89", "Equation (21)"])
+    ('theorem-2', 'equation-21')
     """
-    by_name = {name.lower(): each.key for each in examinations() for name in each.names}
-    by_name |= {
-        f"equation ({number})": each.key for each in examinations() for number in each.equations
+    by_name: dict[str, tuple[str, ...]] = {
+        name.lower(): (each.key,) for each in examinations() for name in each.names
     }
-    keys = []
+    by_name |= {f"statement {each.number}": each.examined for each in statements()}
+    keys: list[str] = []
     for name in wanted:
-        if name.lower() not in by_name:
-            near = difflib.get_close_matches(name.lower(), by_name, n=1)
+        number = re.fullmatch(r"(?:(?:equation|eq\.) )?\(?(\d+)\)?", name.lower())
+        asked = f"({number[1]})" if number else name.lower()
+        if asked not in by_name:
+            near = difflib.get_close_matches(asked, by_name, n=1)
             hint = f"; did you mean {near[0]!r}?" if near else ""
             raise UsageError(f"the ledger has no statement {name!r}{hint}")
-        keys.append(by_name[name.lower()])
+        if not by_name[asked]:
+            why = statements()[int(asked.removeprefix("statement ")) - 1].note
+            raise UsageError(f"nothing examines {asked}: {why}")
+        keys += by_name[asked]
     return tuple(dict.fromkeys(keys)) or tuple(each.key for each in examinations())
 
 

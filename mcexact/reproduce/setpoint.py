@@ -262,12 +262,12 @@ def wrong_estimates(note: Notebook) -> None:
 
 
 PROCEDURES: dict[str, Procedure] = {
-    "b1": integrators,
+    "equations-17-18": integrators,
     "attained": any_stabilizing_control,
-    "ober": always_observable,
-    "thy": only_zero_matters,
-    "gnd": condition,
-    "det": determinant_at_zero,
+    "equation-19": always_observable,
+    "equation-20": only_zero_matters,
+    "equation-21": condition,
+    "determinant": determinant_at_zero,
     "setpoints": distributed_setpoints,
     "wrong-estimates": wrong_estimates,
 }

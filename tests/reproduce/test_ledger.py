@@ -11,6 +11,7 @@ from types import ModuleType
 import pytest
 
 from mcexact.checker.kinds import KINDS as CERTIFICATES
+from mcexact.errors import UsageError
 from mcexact.reproduce.ledger import COVERS, KINDS, Examination, examinations, table
 from mcexact.reproduce.reproduction import chosen, procedures
 from mcexact.reproduce.statements import statement_table
@@ -57,6 +58,24 @@ def test_every_name_means_one_row() -> None:
     assert all(chosen([name]) == (said.key,) for said in examinations() for name in said.names)
 
 
+@pytest.mark.parametrize("name", ["31", "(31)", "Equation 31", "eq. (31)", "statement 106"])
+def test_an_equation_is_found_by_its_number_however_that_is_written(name: str) -> None:
+    assert chosen([name]) == chosen(["sys:contr-obs-thru-q"]) == ("equation-31",)
+
+
+@pytest.mark.parametrize(
+    ("name", "why"),
+    [
+        ("39", r"the ledger has no statement '39'"),
+        ("statement 135", "the ledger has no statement 'statement 135'; did you mean"),
+        ("statement 134", "nothing examines statement 134: The paper names them as open"),
+    ],
+)
+def test_what_nothing_examines_is_said(name: str, why: str) -> None:
+    with pytest.raises(UsageError, match=why):
+        chosen([name])
+
+
 @EVERY
 def test_a_row_names_what_exists(said: Examination) -> None:
     assert said.kind in KINDS and said.says and said.code
@@ -96,11 +115,15 @@ def test_the_tables_of_the_proofs_are_the_ledger(file: str, made: object) -> Non
 def test_every_correction_is_in_the_errata() -> None:
     """Each examination that corrects the paper is spoken of there."""
     errata = (PROOFS / "ERRATA.md").read_text(encoding="utf-8")
-    words = {"det": "(21) and the zeros", "funch": "Equation (30)", "emcsdd": "G_i"}
+    words = {
+        "determinant": "(21) and the zeros",
+        "equations-28-30": "Equation (30)",
+        "equations-34-35": "G_i",
+    }
     for said in examinations():
         if said.erratum:
             assert words.get(said.key, f"`{said.key}`") in errata, said.key
     keys = {said.key for said in examinations()}
-    assert set(re.findall(r"\(((?:`[\w:-]+`(?:, )?)+)\)$", errata, re.MULTILINE))
-    for listed in re.findall(r"\(((?:`[\w:-]+`(?:, )?)+)\)$", errata, re.MULTILINE):
+    assert set(re.findall(r"\(((?:`[\w-]+`(?:, )?)+)\)$", errata, re.MULTILINE))
+    for listed in re.findall(r"\(((?:`[\w-]+`(?:, )?)+)\)$", errata, re.MULTILINE):
         assert set(re.findall(r"[\w:-]+", listed)) <= keys, listed

@@ -117,12 +117,12 @@ def transposed(module: Any, name: str) -> Any:
 
 
 BROKEN = [
-    (extended, "selector", doubled, "emcs", "Equations (24) and (25)"),
-    (extended, "shift", transposed, "emcsdd", "Equations (34) and (35)"),
-    (extended, "shift", transposed, "emcsdd-hold", "Equations (37) and (38)"),
-    (error_system, "block", doubled, "eme1", "Equations (12) to (16)"),
-    (integrators, "selector", doubled, "b1", "Equations (17) and (18)"),
-    (feedback, "closed_by", doubled, "mcs", "Equation (1)"),
+    (extended, "selector", doubled, "equations-24-25", "Equations (24) and (25)"),
+    (extended, "shift", transposed, "equations-34-35", "Equations (34) and (35)"),
+    (extended, "shift", transposed, "equations-37-38", "Equations (37) and (38)"),
+    (error_system, "block", doubled, "equations-12-16", "Equations (12) to (16)"),
+    (integrators, "selector", doubled, "equations-17-18", "Equations (17) and (18)"),
+    (feedback, "closed_by", doubled, "equation-1", "Equation (1)"),
 ]
 
 
@@ -150,7 +150,7 @@ def test_a_wrong_construction_is_refused_by_the_checker_too(
 ) -> None:
     """The checker builds the extended system itself, so evidence about another one is not valid."""
     monkeypatch.setattr(extended, "selector", doubled(extended, "selector"))
-    (row,) = reproduce(["emcs"]).rows
+    (row,) = reproduce(["equations-24-25"]).rows
     assert {made.verdict for made in row.finding.certificates} != {"VALID"}
 
 

@@ -44,7 +44,7 @@ def shared_dimension_bound(
     graph : NeighborGraph, optional
         Overrides ``system.neighbors``.
     share : {"outputs+states", "states"}
-        Theorem 2's bound (`eqn:n_i`) or Remark 2's (`neqn:n_i`).
+        Theorem 2's bound (26) or Remark 2's (27).
 
     Raises
     ------

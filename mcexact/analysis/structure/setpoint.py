@@ -34,7 +34,7 @@ def setpoint_solvability(system: MultiChannelSystem) -> SetpointSolvability:
 
     Notes
     -----
-    Exact; paper, section III, equation `gnd`.  The certificate for yes is a rank modulo a prime,
+    Exact; paper, section III, equation (21).  The certificate for yes is a rank modulo a prime,
     that for no a matrix W with W S = 0.  A row (w_1, w_2) of W gives w_2 r = 0 for every
     equilibrium Ax + Bu = 0, r = Cx; w_2 = 0 only if the mode is not controllable.  An invariant
     zero is claimed only if the pencil has full rank somewhere; otherwise the certificate has a
