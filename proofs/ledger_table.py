@@ -1,4 +1,5 @@
-"""Write the paper's statements into STATEMENTS.md and its examinations into README.md.
+"""Write the paper's statements into STATEMENTS.md, those that are not proved into OPEN.md, and its
+examinations into README.md.
 
 Run as ``python proofs/ledger_table.py`` with the package installed, or by ``make ledger``.
 """
@@ -8,10 +9,11 @@ from __future__ import annotations
 from pathlib import Path
 
 from mcexact.reproduce.ledger import table
-from mcexact.reproduce.statements import statement_table
+from mcexact.reproduce.statements import open_table, statement_table
 
-README = Path(__file__).parent / "README.md"
-STATEMENTS = Path(__file__).parent / "STATEMENTS.md"
+FOLDER = Path(__file__).parent
+TABLES = {"README.md": table, "STATEMENTS.md": statement_table, "OPEN.md": open_table}
+"""The pages with a table, and what makes it."""
 BEGIN, END = "<!-- the ledger: made by make ledger -->\n", "<!-- end of the ledger -->\n"
 
 
@@ -25,5 +27,6 @@ def renewed(text: str, made: str) -> str:
 
 
 if __name__ == "__main__":
-    for path, made in ((README, table()), (STATEMENTS, statement_table())):
-        path.write_text(renewed(path.read_text(encoding="utf-8"), made), encoding="utf-8")
+    for name, made in TABLES.items():
+        page = FOLDER / name
+        page.write_text(renewed(page.read_text(encoding="utf-8"), made()), encoding="utf-8")

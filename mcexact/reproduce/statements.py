@@ -14,16 +14,20 @@ STATUSES = {
     "corrected": "proved as corrected",
     "added": "proved under added hypotheses",
     "defined": "defined",
+    "shown": "shown by an instance",
     "instances": "seen on instances",
     "weaker": "weaker than printed",
     "refuted": "refuted by an instance",
+    "informal": "claims nothing exact",
     "absent": "absent",
 }
 """What can be known of a statement: the word in ``statements.toml``, and what the report says."""
 
 PROVED = ("printed", "corrected", "added")
-EXPLAINED = ("corrected", "added", "weaker", "refuted", "absent")
+EXPLAINED = ("corrected", "added", "weaker", "refuted", "informal", "absent")
 """The statuses that need a note: what was wrong, added or missing, or why."""
+OPEN = ("instances", "weaker", "absent")
+"""The statuses of what is not proved, and not settled otherwise."""
 
 
 @dataclass(frozen=True)
@@ -47,6 +51,8 @@ class Statement:
         Machine-checked theorems, as file.theorem in ``proofs/``.
     note : str
         What was corrected, added or is missing, or why it is absent.
+    closes : str
+        What would prove it in general, if it is open.
     """
 
     number: int
@@ -57,6 +63,7 @@ class Statement:
     examined: tuple[str, ...] = ()
     proofs: tuple[str, ...] = ()
     note: str = ""
+    closes: str = ""
 
 
 @cache
@@ -81,6 +88,7 @@ def statements() -> tuple[Statement, ...]:
             tuple(row.get("examined", ())),
             tuple(row.get("proofs", ())),
             row.get("note", ""),
+            row.get("closes", ""),
         )
         for number, row in enumerate(tomllib.loads(text)["statement"], 1)
     )
@@ -113,4 +121,20 @@ def statement_table() -> str:
         proofs = ", ".join(f"`{name}`" for name in each.proofs)
         cells = (str(each.number), each.section, each.equation, each.says, STATUSES[each.status])
         lines.append(f"| {' | '.join((*cells, keys, proofs, each.note))} |")
+    return "\n".join(lines) + "\n"
+
+
+def open_table() -> str:
+    """The statements that are not proved as ``proofs/OPEN.md`` lists them."""
+    lines = [
+        "| | section | statement | what is known | machine-checked so far | what would close it |",
+        "|---|---|---|---|---|---|",
+    ]
+    for each in statements():
+        if each.status in OPEN:
+            where = f"{each.section} {each.equation}".strip()
+            known = f"{STATUSES[each.status]}. {each.note}".strip().removesuffix(".")
+            proofs = ", ".join(f"`{name}`" for name in each.proofs) or "nothing"
+            cells = (str(each.number), where, each.says, f"{known}.", proofs, each.closes)
+            lines.append(f"| {' | '.join(cells)} |")
     return "\n".join(lines) + "\n"

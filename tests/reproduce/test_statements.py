@@ -9,10 +9,12 @@ import pytest
 from mcexact.reproduce.ledger import examination, examinations
 from mcexact.reproduce.statements import (
     EXPLAINED,
+    OPEN,
     PROVED,
     STATUSES,
     Statement,
     counted,
+    open_table,
     statements,
 )
 from tests.reproduce.test_ledger import NUMBERED, script
@@ -43,15 +45,18 @@ def test_every_examination_is_of_a_statement() -> None:
 @EVERY
 def test_a_status_is_backed(said: Statement) -> None:
     assert said.status in STATUSES and said.says.endswith((".", "?"))
-    assert bool(said.examined) == (said.status != "absent")
+    assert bool(said.examined) == (said.status not in ("informal", "absent"))
+    assert bool(said.closes) == (said.status in OPEN)
     assert not (said.status in EXPLAINED and not said.note), "it needs a note"
     if said.status in PROVED:
         assert said.proofs
-    if said.status in ("defined", "instances", "absent"):
+    if said.status in ("defined", "shown", "instances", "informal", "absent"):
         assert not said.proofs
     rows = [examination(key) for key in said.examined]
     if said.status == "refuted":
         assert any(row.nearest_false for row in rows), "no instance refutes it by name"
+    if said.status == "shown":
+        assert any(row.certificates for row in rows), "no certificate shows it"
     if said.status == "corrected":
         assert any(row.erratum for row in rows)
 
@@ -60,3 +65,10 @@ def test_every_theorem_that_a_statement_cites_exists() -> None:
     printed = set(script("assumptions").theorems())
     named = {name for said in statements() for name in said.proofs}
     assert named <= printed, named - printed
+
+
+def test_what_is_open_is_listed_with_what_would_close_it() -> None:
+    rows = open_table().splitlines()[2:]
+    assert len(rows) == sum(counted(statements())[status] for status in OPEN)
+    for row in rows:
+        assert row.count("|") == 7 and all(cell.strip() for cell in row.split("|")[1:-1]), row
