@@ -2,6 +2,7 @@
 From mathcomp Require Import all_ssreflect all_algebra all_field.
 From mcexact Require Import multichannel arithmetic evidence controllability transfer_graph fixed_spectrum.
 From mcexact Require Import krylov_sequence gauss shrunk_multiplicity fixed_polynomial fixed_bound krylov blocks instances.
+From mcexact Require Import controllability_bound.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.Theory GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -66,6 +67,8 @@ have char1 (a : 'Z_l6) : char_poly (a%:M : 'M_1) = 'X - a%:P by rewrite /char_po
 have -> : (0 : 'M['Z_l6]_1) = 0%:M by rewrite raddf0.
 by rewrite map_scalar_mx rmorph1 !char1 opprB polyC0 subr0 addrCA subrr addr0.
 Qed.
+Lemma inst_bounded_reach : (1 <= \rank (reach (mcA (map_system h (Q free))) (mcB (map_system h (Q free)) ord0) 1))%N.
+Proof. by apply: (bounded_reach _ inst_krylov_free) => i; exists 1%:M; rewrite mulmx1. Qed.
 Definition inst_bounded_channels := @bounded_channels _ 1 1 _ _ (map_system h (Q free)) 1 id 1 inst_krylov_free.
 
 Notation X := ('X : {poly R}).

@@ -178,6 +178,9 @@ class Analysis:
             if question.needs not in {"", "neighbors"}:
                 arguments.append(self._arguments[question.needs])
             reused = {key: self._answer(other) for key, other in question.reuses.items()}
+            for key, other in question.shares.items():
+                if other in self._asked and not isinstance(self._answer(other), LimitReached):
+                    reused[key] = self._answer(other)
             try:
                 self._found[name] = question.decide(*arguments, **reused)
             except LimitReached as reached:

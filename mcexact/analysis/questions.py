@@ -40,6 +40,8 @@ class Question:
         Further keyword arguments of the function.
     reuses : mapping
         Keyword arguments that take the answer to another question about the same system.
+    shares : mapping
+        The same, where the other question is asked as well; the answer does not depend on it.
     kind : str
         The kind of the certificate, if it is not the name of the question.
     dual : bool
@@ -55,6 +57,7 @@ class Question:
     ports: str = ""
     given: Mapping[str, Any] = field(default_factory=dict)
     reuses: Mapping[str, str] = field(default_factory=dict)
+    shares: Mapping[str, str] = field(default_factory=dict)
     kind: str = ""
     dual: bool = False
 
@@ -74,7 +77,9 @@ class Question:
         return getattr(module, self.function)(*arguments, **self.given, **keywords)
 
 
-def _joint(about: str = "system", needs: str = "", option: str = "") -> dict[str, Question]:
+def _joint(
+    about: str = "system", needs: str = "", option: str = "", spectrum: str = ""
+) -> dict[str, Question]:
     """The questions on controllability and observability of all channels or of one channel."""
     return {
         f"{what}ability": Question(
@@ -84,6 +89,7 @@ def _joint(about: str = "system", needs: str = "", option: str = "") -> dict[str
             needs=needs,
             unbidden=not option,
             option=option,
+            shares={"spectrum": spectrum} if spectrum else {},
             kind="controllability",
             dual=what == "observ",
         )
@@ -109,7 +115,7 @@ _SHARING = (
         "the least dimension that agents must share if all share equally many",
     ),
 )
-_JOINT, _ALONE = _joint(), _joint(needs="channels")
+_JOINT, _ALONE = _joint(spectrum="fixed_spectrum"), _joint(needs="channels")
 _SPECTRUM = {"spectrum": "fixed_spectrum"}
 
 QUESTIONS: Mapping[str, Question] = MappingProxyType(
@@ -231,7 +237,9 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
                 ),
                 **{
                     f"joint_{what}": found
-                    for what, found in _joint(network, "neighbors", "delayed").items()
+                    for what, found in _joint(
+                        network, "neighbors", "delayed", f"{network}_fixed_spectrum"
+                    ).items()
                 },
             }.items()
         },

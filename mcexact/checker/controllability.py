@@ -1,9 +1,21 @@
 """Kind ``controllability``: the subspace that channels control; ``proofs/controllability.md``."""
 
-from .arithmetic import Echelon, product
+from .absence import Blocks, by_blocks
+from .arithmetic import Echelon, Matrix, product
 from .characteristic_polynomial import characteristic_polynomial
 from .evidence import inputs, modulus, require_identity
-from .reading import Json, boolean, fields, integer, matrix, names, polynomial, positions, require
+from .reading import (
+    Json,
+    boolean,
+    fields,
+    integer,
+    items,
+    matrix,
+    names,
+    polynomial,
+    positions,
+    require,
+)
 from .statement import channel_set, denied, polynomial_text
 from .system import System
 
@@ -11,12 +23,14 @@ CLAIM = ("channels", "dimension", "controllable", "uncontrollable_polynomial")
 
 
 def check(claim: Json, witness: Json, system: System) -> None:
-    """Check an annihilator W from above and a Krylov rank modulo ℓ from below.
+    """Check an annihilator W from above, and a Krylov rank modulo ℓ or a bound from below.
 
-    Theorem ``controllability.controllability_rule``.
+    Theorems ``controllability.controllability_rule``,
+    ``controllability_bound.controllability_by_bound``.
     """
     listed, size, verdict, factor = fields(claim, "claim", *CLAIM)
-    ell, rows, columns = fields(witness, "witness", "modulus", "annihilator", "pivots")
+    keys = ("blocks", "measured") if by_blocks(witness) else ("modulus",)
+    *proof, rows, columns = fields(witness, "witness", *keys, "annihilator", "pivots")
     T = names(listed, "claim.channels", system.names)
     d, n = integer(size, "claim.dimension"), system.n
     chi = polynomial(factor, "claim.uncontrollable_polynomial")
@@ -28,8 +42,9 @@ def check(claim: Json, witness: Json, system: System) -> None:
     Z = WA.take(cols=pivots)
     require(WA.equals(Z @ W), "identity", "witness.annihilator", "W A is not Z W")
     require((W @ B_T).is_zero(), "identity", "witness.annihilator", "W B is not zero")
-    reached = krylov_ranks(system, T, modulus(ell, "witness.modulus"), n)[-1]
-    require(reached >= d, "rank", "claim.dimension", f"only {reached} reached modulo l")
+    low = _by_blocks if by_blocks(witness) else _by_rank
+    reached = low(system, T, *proof)
+    require(reached >= d, "rank", "claim.dimension", f"only {reached} are proved to be reached")
     controllable = boolean(verdict, "claim.controllable")
     require(controllable == (d == n), "claim", "claim.controllable", f"{d} of {n} are controllable")
     same = characteristic_polynomial(Z) == chi
@@ -44,6 +59,27 @@ def statement(claim: Json, system: System) -> str:
         "them, with the uncontrollable polynomial "
         f"{polynomial_text(claim['uncontrollable_polynomial'])}"
     )
+
+
+def _by_rank(system: System, T: list[int], number: Json) -> int:
+    """The dimension that the inputs of T reach modulo ℓ."""
+    return krylov_ranks(system, T, modulus(number, "witness.modulus"), system.n)[-1]
+
+
+def _by_blocks(system: System, T: list[int], parts: Json, measured: Json) -> int:
+    """L, if at most n − L modes of the channels T are fixed, whatever these measure.
+
+    Theorem ``controllability_bound.bounded_reach``.
+    """
+    C = [system.C[i] for i in T]
+    if measured is not None:
+        place = "witness.measured"
+        C = [
+            Matrix.picking(positions(chosen, f"{place}[{k}]", system.n), system.n)
+            for k, chosen in enumerate(items(measured, place, len(T)))
+        ]
+    named, B = [system.names[i] for i in T], [system.B[i] for i in T]
+    return system.n - Blocks(parts, "witness", System(system.time, named, system.A, B, C)).left
 
 
 def krylov_ranks(system: System, T: list[int], ell: int, blocks: int) -> list[int]:

@@ -13,12 +13,14 @@ import random
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 import scipy
 
 import mcexact
 from mcexact.analysis.sharing.neighbor_graph import neighbor_graph
 from mcexact.analysis.stability.closed_loop_spectrum import open_loop_spectrum
+from mcexact.analysis.structure import controllability
 from mcexact.analysis.structure.setpoint import setpoint_solvability
 from mcexact.answer.codec import encode
 from mcexact.derived.extended import Share
@@ -76,6 +78,7 @@ def answers(plant: MultiChannelSystem) -> Answers:
 def of_the_system(system: MultiChannelSystem) -> Answers:
     yield "joint_controllability", mcexact.joint_controllability(system)
     yield "joint_observability", mcexact.joint_observability(system)
+    yield from of_large_systems(system)
     yield "transfer_graph", mcexact.transfer_graph(system)
     yield "fixed_spectrum", mcexact.fixed_spectrum(system)
     yield "completeness", mcexact.completeness(system)
@@ -83,6 +86,13 @@ def of_the_system(system: MultiChannelSystem) -> Answers:
     yield "observability_indices", mcexact.observability_indices(system)
     yield "assignability", mcexact.assignability(system)
     yield "setpoint", setpoint_solvability(system)
+
+
+def of_large_systems(system: MultiChannelSystem) -> Answers:
+    """The evidence that large systems have, for a small one."""
+    with mock.patch.object(controllability, "_SMALL", -1):
+        found = mcexact.joint_controllability(system), mcexact.joint_observability(system)
+    yield from zip(("controllability_by_blocks", "observability_by_blocks"), found, strict=True)
 
 
 def of_its_channels(system: MultiChannelSystem) -> Answers:

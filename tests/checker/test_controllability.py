@@ -85,6 +85,113 @@ DRIVEN = changed(
     ("witness.annihilator", matrix([0, 1])),
 )
 
+DOUBLE = certificate(
+    "controllability",
+    plant([[0, 1], [0, 0]], ([[0], [1]], [[1, 0]])),
+    {"channels": ["1"], "dimension": 2, "controllable": True, "uncontrollable_polynomial": [1]},
+    {
+        "blocks": [
+            {
+                "states": [0, 1],
+                "evidence": {
+                    "modulus": 7,
+                    "gains": [matrix([0])],
+                    "channel": "1",
+                    "inputs": [1],
+                    "outputs": [1],
+                    "recurrence": [0, 0, 1],
+                    "cofactors": [[1], []],
+                },
+            }
+        ],
+        "measured": None,
+        "annihilator": matrix(),
+        "pivots": [],
+    },
+)
+"""x'' = u, y = x: one sequence of the channel is 0, 1, 0, …."""
+S = "witness.blocks.0.evidence"
+STATES = changed(
+    DOUBLE,
+    ("system.channels.0.C", {"shape": [0, 2], "entries": []}),
+    ("witness.measured", [[0, 1]]),
+    (f"{S}.gains", [matrix([0, 0])]),
+    (f"{S}.outputs", [1, 0]),
+)
+"""The same without outputs; the proof measures both states."""
+FIRST_STATE = changed(
+    STATES, ("witness.measured", [[0]]), (f"{S}.gains", [matrix([0])]), (f"{S}.outputs", [1])
+)
+BESIDE = certificate(
+    "controllability",
+    plant([[1, 0], [0, 2]], ([[1], [0]], [[1, 0]]), ([[0], [1]], [[0, 1]])),
+    {
+        "channels": ["1"],
+        "dimension": 1,
+        "controllable": False,
+        "uncontrollable_polynomial": [-2, 1],
+    },
+    {
+        "blocks": [
+            {
+                "states": [0],
+                "evidence": {
+                    **DOUBLE["witness"]["blocks"][0]["evidence"],
+                    "recurrence": [6, 1],
+                },
+            },
+            {"states": [1], "evidence": None},
+        ],
+        "measured": None,
+        "annihilator": matrix([0, 1]),
+        "pivots": [1],
+    },
+)
+"""Channel 2 moves what channel 1 does not, and is none of those asked about."""
+BOTH = changed(
+    BESIDE,
+    (
+        "claim",
+        {
+            "channels": ["1", "2"],
+            "dimension": 2,
+            "controllable": True,
+            "uncontrollable_polynomial": [1],
+        },
+    ),
+    (
+        "witness.blocks.1.evidence",
+        {
+            **BESIDE["witness"]["blocks"][0]["evidence"],
+            "channel": "2",
+            "recurrence": [5, 1],
+        },
+    ),
+    ("witness.annihilator", matrix()),
+    ("witness.pivots", []),
+)
+SECOND = changed(
+    BESIDE,
+    ("claim.channels", ["2"]),
+    ("claim.uncontrollable_polynomial", [-1, 1]),
+    ("witness.blocks", [{"states": [0], "evidence": None}, BOTH["witness"]["blocks"][1]]),
+    ("witness.annihilator", matrix([1, 0])),
+    ("witness.pivots", [0]),
+)
+NO_CHANNEL = changed(
+    BESIDE,
+    ("claim.channels", []),
+    ("claim.dimension", 0),
+    ("claim.uncontrollable_polynomial", [2, -3, 1]),
+    ("witness.blocks", [{"states": [0, 1], "evidence": None}]),
+    ("witness.annihilator", matrix([1, 0], [0, 1])),
+    ("witness.pivots", [0, 1]),
+)
+OTHERS_STATE = changed(
+    BOTH,
+    ("witness.measured", [[0], [1]]),
+)
+
 FORGED = [("a state that the input drives on", FIRST), ("a W of zeros", ZEROS)]
 
 ACCEPTED = [
@@ -100,6 +207,15 @@ ACCEPTED = [
     ("no states", NO_STATES),
     ("another modulus", changed(UNCONTROLLABLE, ("witness.modulus", 2))),
     ("channels that add nothing", changed(CONTROLLABLE, ("claim.channels", ["1", "2"]))),
+    ("two states, by a sequence of the channel", DOUBLE),
+    ("two states that the proof measures", STATES),
+    ("the first of them", FIRST_STATE),
+    ("a mode that the other channel alone moves", BESIDE),
+    ("two blocks with a channel each", BOTH),
+    ("the second channel alone", SECOND),
+    ("nobody, by blocks", NO_CHANNEL),
+    ("nobody who measures", changed(NO_CHANNEL, ("witness.measured", []))),
+    ("each measures what it moves", OTHERS_STATE),
     (
         "observability, by the dual",
         changed(UNCONTROLLABLE, ("subject", [{"construction": "dual"}])),
@@ -126,6 +242,37 @@ REJECTED = [
     ("a power of it", UNCONTROLLABLE, ("claim.uncontrollable_polynomial", [4, -4, 1]), "INVALID"),
     ("modulus 1", UNCONTROLLABLE, ("witness.modulus", 1), "INVALID"),
     ("modulus 0", UNCONTROLLABLE, ("witness.modulus", 0), "INVALID"),
+    ("one mode more than the blocks leave", BESIDE, ("witness.blocks.0.evidence", None), "INVALID"),
+    ("nothing of the blocks", DOUBLE, (S, None), "INVALID"),
+    ("nothing measured", STATES, ("witness.measured", [[]]), "MALFORMED"),
+    ("states measured twice", STATES, ("witness.measured", [[1, 1]]), "MALFORMED"),
+    ("a state that is not there", STATES, ("witness.measured", [[0, 2]]), "MALFORMED"),
+    ("states for too many channels", STATES, ("witness.measured", [[0, 1], []]), "MALFORMED"),
+    ("no list of states", STATES, ("witness.measured", 0), "MALFORMED"),
+    ("no word of what is measured", DOUBLE, ("witness", {"blocks": []}), "MALFORMED"),
+    ("outputs that there are none", STATES, ("witness.measured", None), "MALFORMED"),
+    (
+        "measures what does not see the first state",
+        FIRST_STATE,
+        ("witness.measured", [[1]]),
+        "INVALID",
+    ),
+    ("a modulus besides", DOUBLE, ("witness.modulus", 7), "MALFORMED"),
+    ("W that the input drives, by blocks", BESIDE, ("claim.channels", ["2"]), "INVALID"),
+    (
+        "the blocks of all channels for one",
+        BOTH,
+        (
+            "claim",
+            {
+                "channels": ["1"],
+                "dimension": 2,
+                "controllable": True,
+                "uncontrollable_polynomial": [1],
+            },
+        ),
+        "MALFORMED",
+    ),
     (
         "a modulus that divides a denominator",
         changed(UNCONTROLLABLE, ("system.channels.0.B", [["1/7"], [0]])),

@@ -6,6 +6,7 @@ This folder answers no question by itself.  The other folders of `analysis` impo
 `obstructions`            the fixed factors of a system, with gains that move all others
 `one_channel`             proofs that no more is fixed, by one sequence of one channel
 `state_blocks`            the same for blocks of states, which share no gain
+`reached_blocks`          the same for what channels control, whatever they measure
 `shrunk_subspace`         proofs that a mode is fixed, by Wong sequences modulo a prime
 `reachability`            the transfer graph modulo a prime, and zero transfers
 `rate`                    root discs, and the best rate that some modes allow
@@ -36,6 +37,7 @@ from mcexact.analysis.engine.reachability import (
     witnessed_powers,
     zero_transfer,
 )
+from mcexact.analysis.engine.reached_blocks import measured_blocks, transposed_blocks
 from mcexact.analysis.engine.separated_instability import separated_instability
 from mcexact.analysis.engine.shrunk_subspace import (
     ExactSubspace,
@@ -74,6 +76,7 @@ __all__ = [
     "exact_subspace",
     "free_blocks",
     "located",
+    "measured_blocks",
     "minimize",
     "modes_left",
     "obstruction_modulo",
@@ -82,6 +85,7 @@ __all__ = [
     "state_blocks",
     "strong_components",
     "suspected_edges",
+    "transposed_blocks",
     "witnessed_powers",
     "zero_transfer",
 ]

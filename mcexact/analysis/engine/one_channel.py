@@ -26,7 +26,9 @@ STARTS = 3
 """How many channels are tried with the same gains: a second one takes a third of the time."""
 
 
-def best_sequences(system: MultiChannelSystem, denominator: int = 1) -> Iterator[KrylovSequence]:
+def best_sequences(
+    system: MultiChannelSystem, denominator: int = 1, through: str | None = None
+) -> Iterator[KrylovSequence]:
     """Draw gains modulo one prime after the other, and yield the longest sequence for each.
 
     The last one has degree n, or two in a row have the same degree, or all primes are used up.
@@ -36,6 +38,8 @@ def best_sequences(system: MultiChannelSystem, denominator: int = 1) -> Iterator
     system : MultiChannelSystem
     denominator : int
         Moduli that divide it are passed over, as are those that divide one of the system.
+    through : str, optional
+        The name of the only channel that is tried.
 
     Notes
     -----
@@ -51,7 +55,7 @@ def best_sequences(system: MultiChannelSystem, denominator: int = 1) -> Iterator
     before = -1
     for ell in MODULI:
         if denominator % ell:
-            best = _longest(ModularSystem(system, ell), random.Random(ell))
+            best = _longest(ModularSystem(system, ell), random.Random(ell), through)
             yield best
             if best.degree in (before, system.n):
                 return
@@ -64,10 +68,10 @@ def _ports(system: MultiChannelSystem) -> Iterator[Matrix]:
         yield channel.C
 
 
-def _longest(modular: ModularSystem, rng: random.Random) -> KrylovSequence:
+def _longest(modular: ModularSystem, rng: random.Random, through: str | None) -> KrylovSequence:
     """The longest sequence of a few channels for drawn gains."""
     system, ell = modular.system, modular.modulus
-    gains, starts = drawn_gains(modular, rng), _starts(system, ell, rng)
+    gains, starts = drawn_gains(modular, rng), _starts(system, ell, rng, through)
     found = []
     for start, numbers in zip(starts, channel_sequences(modular, gains, starts), strict=False):
         found.append((least_recurrence(numbers, ell), start, numbers))
@@ -76,11 +80,15 @@ def _longest(modular: ModularSystem, rng: random.Random) -> KrylovSequence:
     return _evidence(modular, gains, *max(found, key=lambda each: each[0].degree))
 
 
-def _starts(system: MultiChannelSystem, ell: int, rng: random.Random) -> list[Start]:
+def _starts(
+    system: MultiChannelSystem, ell: int, rng: random.Random, through: str | None
+) -> list[Start]:
     """Channels with inputs and outputs, with a combination of each; no two alike."""
-    live = [i for i in range(system.m) if not (system.B(i).is_zero() or system.C(i).is_zero())] or [
-        0
-    ]
+    if through is None:
+        live = [i for i, c in enumerate(system.channels) if not (c.B.is_zero() or c.C.is_zero())]
+    else:
+        live = [system.index(through)]
+    live = live or [0]
     rng.shuffle(live)
     found: list[Start] = []
     for k in range(STARTS):

@@ -177,10 +177,18 @@ def _finished(arcs: list[int], roots: Sequence[int], unseen: int) -> tuple[list[
     return order, unseen
 
 
-def bounded_blocks(system: MultiChannelSystem) -> tuple[Block, ...]:
-    """The blocks, each with the longest sequence that is found for it."""
+def bounded_blocks(system: MultiChannelSystem, through: str | None = None) -> tuple[Block, ...]:
+    """The blocks, each with the longest sequence that is found for it.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    through : str, optional
+        The name of a channel: only this one is tried, in the block in which it acts.
+    """
+    denominator = _denominator(system)
     return tuple(
-        Block(block.states, _longest(block, _denominator(system))) for block in state_blocks(system)
+        Block(block.states, _longest(block, denominator, through)) for block in state_blocks(system)
     )
 
 
@@ -189,10 +197,10 @@ def _denominator(system: MultiChannelSystem) -> int:
     return prod({M.denominator for M in (system.A, *parts)})
 
 
-def _longest(block: StateBlock, denominator: int) -> KrylovSequence | None:
-    if block.system is None:
+def _longest(block: StateBlock, denominator: int, through: str | None) -> KrylovSequence | None:
+    if block.system is None or through not in {None, *block.system.names}:
         return None
-    found = best_sequences(block.system, denominator)
+    found = best_sequences(block.system, denominator, through)
     return max(found, key=lambda each: each.degree, default=None)
 
 

@@ -2,18 +2,36 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import dataclasses
+from collections.abc import Callable, Iterable, Sequence
 
-from mcexact.answer.controllability import JointControllability
+from mcexact.analysis.engine import (
+    free_blocks,
+    measured_blocks,
+    modes_left,
+    transposed_blocks,
+)
+from mcexact.answer.controllability import ByBlocks, ByRank, JointControllability
+from mcexact.answer.evidence import Block
+from mcexact.answer.fixed_spectrum import ByBlocks as FixedByBlocks
+from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.derived.dual import dual
 from mcexact.derived.modular_system import generator
 from mcexact.exact.invariant_subspace import controllable_subspace
 from mcexact.exact.linear_algebra import characteristic_polynomial
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.polynomial import Polynomial
 from mcexact.model.system import MultiChannelSystem
+
+# Up to this size a rank modulo a prime is the shorter evidence, and quick to check.
+_SMALL = 128
 
 
 def joint_controllability(
-    system: MultiChannelSystem, channels: Iterable[str] | None = None
+    system: MultiChannelSystem,
+    channels: Iterable[str] | None = None,
+    *,
+    spectrum: FixedSpectrum | None = None,
 ) -> JointControllability:
     """Decide whether (A, B_T) is controllable.
 
@@ -22,12 +40,16 @@ def joint_controllability(
     system : MultiChannelSystem
     channels : iterable of str, optional
         T, names of channels, by default all.
+    spectrum : FixedSpectrum, optional
+        ``fixed_spectrum(system)``, if it is known already.
 
     Notes
     -----
-    Exact.  The certificate has a prime modulo which [B_T, AB_T, …] reaches the rank, and a rational
-    W, WA = ZW and WB_T = 0, that bounds it from above.  O(n³ log n) word operations, for each word
-    of the entries of W.
+    Exact.  The certificate has a rational W, WA = ZW and WB_T = 0, that bounds the dimension from
+    above.  From below it has a prime modulo which [B_T, AB_T, …] reaches the rank; or, for large
+    systems, blocks of states that feedback of T moves.  These are those of the fixed spectrum if no
+    mode is fixed, else they are of channels that measure states.  O(n³ log n) word operations, for
+    each word of the entries of W; O(n³) with blocks.
 
     Examples
     --------
@@ -39,7 +61,55 @@ def joint_controllability(
     >>> alone.controllable, str(alone.uncontrollable_polynomial)
     (False, 'x - 2')
     """
+    return _decided(system, channels, lambda: _own(system, spectrum))
+
+
+def _decided(
+    system: MultiChannelSystem,
+    channels: Iterable[str] | None,
+    own: Callable[[], tuple[Block, ...]],
+) -> JointControllability:
+    """Decide it with the blocks that all channels have with their own outputs, if they serve."""
     T = range(system.m) if channels is None else system.indices(channels)
+    if system.n <= _SMALL:
+        return _by_rank(system, T)
+    if len(T) == system.m:
+        blocks = own()
+        if not modes_left(blocks):
+            return _all_reached(system, T, ByBlocks(blocks, None, Matrix.zeros(0, system.n), ()))
+    blocks, measured = measured_blocks(system, T)
+    if not modes_left(blocks):
+        evidence = ByBlocks(blocks, measured, Matrix.zeros(0, system.n), ())
+        return _all_reached(system, T, evidence)
+    found = _by_rank(system, T)
+    if modes_left(blocks) > system.n - found.dimension:
+        return found
+    W, pivots = found.evidence.annihilator, found.evidence.pivots
+    return dataclasses.replace(found, evidence=ByBlocks(blocks, measured, W, pivots))
+
+
+def _own(system: MultiChannelSystem, spectrum: FixedSpectrum | None) -> tuple[Block, ...]:
+    """Blocks that leave no mode, if they are found; those of the fixed spectrum if it is known."""
+    blocks = free_blocks(system) if spectrum is None else None
+    if spectrum is not None and isinstance(spectrum.evidence, FixedByBlocks):
+        blocks = spectrum.evidence.blocks
+    return blocks or (Block(tuple(range(system.n)), None),)
+
+
+def _all_reached(
+    system: MultiChannelSystem, T: Sequence[int], evidence: ByBlocks
+) -> JointControllability:
+    return JointControllability(
+        system,
+        channels=system.named(T),
+        dimension=system.n,
+        controllable=True,
+        uncontrollable_polynomial=Polynomial.from_coefficients([1]),
+        evidence=evidence,
+    )
+
+
+def _by_rank(system: MultiChannelSystem, T: Sequence[int]) -> JointControllability:
     found = controllable_subspace(
         system.A, system.input_matrix(T), generator(system, "controllability")
     )
@@ -50,14 +120,15 @@ def joint_controllability(
         dimension=found.dimension,
         controllable=found.dimension == system.n,
         uncontrollable_polynomial=characteristic_polynomial((W @ system.A).take(cols=found.free)),
-        modulus=found.modulus,
-        annihilator=W,
-        pivots=found.free,
+        evidence=ByRank(found.modulus, W, found.free),
     )
 
 
 def joint_observability(
-    system: MultiChannelSystem, channels: Iterable[str] | None = None
+    system: MultiChannelSystem,
+    channels: Iterable[str] | None = None,
+    *,
+    spectrum: FixedSpectrum | None = None,
 ) -> JointControllability:
     """Decide whether (C_T, A) is observable, by controllability of the dual system.
 
@@ -66,6 +137,8 @@ def joint_observability(
     system : MultiChannelSystem
     channels : iterable of str, optional
         T, names of channels, by default all.
+    spectrum : FixedSpectrum, optional
+        ``fixed_spectrum(system)``, if it is known already.
 
     Returns
     -------
@@ -73,4 +146,4 @@ def joint_observability(
         The answer about ``dual(system)``: ``observable`` says whether (C_T, A) is, ``dimension`` is
         the rank of [C_T; C_T A; …], and ``uncontrollable_polynomial`` has the unobservable modes.
     """
-    return joint_controllability(dual(system), channels)
+    return _decided(dual(system), channels, lambda: transposed_blocks(_own(system, spectrum)))

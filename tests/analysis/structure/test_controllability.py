@@ -1,12 +1,16 @@
 """Joint controllability and observability, with what escapes them."""
 
 import random
+from collections import Counter
 from fractions import Fraction
 
 import pytest
 
+from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
+from mcexact.analysis.structure import controllability
 from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
 from mcexact.answer import codec
+from mcexact.answer.controllability import ByBlocks
 from mcexact.checker import check_document
 from mcexact.derived.dual import dual
 from mcexact.errors import UsageError
@@ -79,3 +83,32 @@ def test_a_system_without_states_is_controllable_and_observable() -> None:
     for answer in (joint_controllability(system), joint_observability(system)):
         assert answer.controllable
         assert check_document(codec.encode(answer).encode()).verdict == "VALID"
+
+
+def answers_by_blocks(number: int, monkeypatch: pytest.MonkeyPatch) -> Counter[str]:
+    """Compare the answers that large systems get with those of small ones; count the evidence."""
+    rng, counted = random.Random(number), Counter[str]()
+    system = exact(sparse_system(rng))
+    subsets = [None, [], system.names[:1], [name for name in system.names if rng.random() < 0.5]]
+    spectrum = fixed_spectrum(system)
+    for decide in (joint_controllability, joint_observability):
+        for channels in subsets:
+            expected = decide(system, channels)
+            with monkeypatch.context() as patched:
+                patched.setattr(controllability, "_SMALL", -1)
+                found = decide(system, channels)
+                assert found == decide(system, channels, spectrum=spectrum)
+            assert found.claim() == expected.claim()
+            assert check_document(codec.encode(found).encode()).verdict == "VALID"
+            assert check_document(codec.encode(expected).encode()).verdict == "VALID"
+            kind = "rank"
+            if isinstance(found.evidence, ByBlocks):
+                kind = "own outputs" if found.evidence.measured is None else "states"
+            counted[f"{kind}, {'all' if found.controllable else 'part'}"] += 1
+    return counted
+
+
+def test_blocks_say_what_ranks_say(monkeypatch: pytest.MonkeyPatch) -> None:
+    counted = sum((answers_by_blocks(k, monkeypatch) for k in range(40)), Counter[str]())
+    assert set(counted) >= {"own outputs, all", "states, all", "states, part"}
+    assert counted["rank, all"] + counted["rank, part"] <= counted.total() // 20, counted

@@ -7,9 +7,11 @@ import random
 from collections.abc import Callable, Mapping
 from fractions import Fraction
 from typing import Any
+from unittest import mock
 
 import mcexact
 from mcexact.analysis.sharing.deficiency import deficiency
+from mcexact.analysis.structure import controllability
 from mcexact.answer import codec
 from mcexact.answer.reading import constructed
 from mcexact.errors import McexactError
@@ -99,6 +101,13 @@ def _common(rng: random.Random, system: MultiChannelSystem) -> Found:
     return mcexact.common_dimension(system, None, share)
 
 
+def _joint(rng: random.Random, system: MultiChannelSystem) -> Found:
+    """By a rank as for small systems, or by blocks as for large ones."""
+    channels = _some(rng, system.names) or None
+    with mock.patch.object(controllability, "_SMALL", rng.choice((-1, controllability._SMALL))):
+        return mcexact.joint_controllability(system, channels)
+
+
 DECISIONS: Mapping[str, Callable[[random.Random, MultiChannelSystem], Found]] = {
     "assignability": lambda rng, s: mcexact.assignability(s),
     "closed_loop_spectrum": lambda rng, s: mcexact.open_loop_spectrum(s),
@@ -108,7 +117,7 @@ DECISIONS: Mapping[str, Callable[[random.Random, MultiChannelSystem], Found]] = 
         s, s.names[: rng.randint(1, s.m - 1)] if s.m > 1 else s.names
     ),
     "completeness": lambda rng, s: mcexact.completeness(s),
-    "controllability": lambda rng, s: mcexact.joint_controllability(s, _some(rng, s.names) or None),
+    "controllability": _joint,
     "controllability_indices": lambda rng, s: mcexact.controllability_indices(
         s, _some(rng, s.names) or None
     ),

@@ -18,6 +18,8 @@ from ..oracle import algebra
 from ..oracle.constructions import subject_of
 from ..oracle.modes import transfer_edges
 from ..oracle.reading import polynomial, positions
+from ..oracle.systems import System
+from .sequences import blocks
 from .writing import (
     PRIME,
     coefficients,
@@ -59,6 +61,39 @@ def larger_dimension(rng: random.Random, document: Document) -> Forged:
     }
     document["witness"] |= {"annihilator": {"denominator": 1, "entries": []}, "pivots": []}
     return document
+
+
+def reached_by_blocks(rng: random.Random, document: Document) -> Forged:
+    """More said to be controllable than is, by blocks of too many channels or of other outputs."""
+    system, claim = subject_of(document), document["claim"]
+    T = positions(claim["channels"], system.names)
+    wrong = rng.random() < 0.3
+    acting = list(range(system.m)) if wrong else T
+    measured = None
+    if rng.random() < 0.6:
+        measured = [[a for a in range(system.n) if rng.random() < 0.7] for _ in T]
+    part = _measuring(system, acting, None if wrong else measured)
+    made = blocks(rng, part)
+    if made is None:
+        return None
+    if rng.random() < 0.5:
+        larger_dimension(rng, document)
+    W = {key: document["witness"][key] for key in ("annihilator", "pivots")}
+    document["witness"] = {"blocks": made, "measured": measured, **W}
+    return document
+
+
+def _measuring(system: System, acting: list[int], measured: list[list[int]] | None) -> System:
+    """Some channels, with outputs of their own or with states that they measure."""
+    C = [system.C[i] for i in acting]
+    if measured is not None:
+        states = range(system.n)
+        C = [
+            fmpq_mat(len(part), system.n, [int(a == b) for a in part for b in states])
+            for part in measured
+        ]
+    named, B = [system.names[i] for i in acting], [system.B[i] for i in acting]
+    return System(system.time, system.A, tuple(named), tuple(B), tuple(C))
 
 
 def ranks_cut_short(rng: random.Random, document: Document) -> Forged:
@@ -390,7 +425,13 @@ def all_edges(rng: random.Random, document: Document) -> Forged:
     return document
 
 
-CONTROLLABILITY = (smaller_dimension, smaller_dimension, larger_dimension)
+CONTROLLABILITY = (
+    smaller_dimension,
+    smaller_dimension,
+    larger_dimension,
+    reached_by_blocks,
+    reached_by_blocks,
+)
 INDICES = (ranks_cut_short, ranks_too_large)
 GRAPH = (missing_edge, extra_edge, all_edges, unsorted_edges)
 ASSIGNABILITY = (smaller_realization, outputs_alone, larger_realization, whole_space)
