@@ -1,16 +1,14 @@
-"""Symbols with indices in plain text, such as ``B_i`` and ``C_{N_s}``, and matrices, in MathML."""
+"""Plain text with its formulas, and matrices, in MathML."""
 
 from __future__ import annotations
 
-import re
 import unicodedata
 from collections.abc import Sequence
 from html import escape
 
-_ACCENTS = {"\u0302": "^", "\u0303": "~", "\u0304": "¯"}
-_LETTER = r"[A-Za-zΑ-Ωα-ω][\u0302\u0303\u0304]?"
-_INDEX = r"\{[^{}]*(?:_[^{}])?[^{}]*\}|[A-Z]|[a-z0-9]+"
-_SYMBOL = re.compile(rf"(?<![a-z][a-z])({_LETTER})_({_INDEX})")
+from mcexact.report.formulas import Node, formulas
+
+_ACCENTS = {"\u0302": "^", "\u0303": "~", "\u0304": "¯", "\u0307": "˙"}
 
 
 class Markup(str):
@@ -24,7 +22,7 @@ class Markup(str):
 
 
 def typeset(text: str) -> Markup:
-    """Set the symbols with indices in a text as MathML, and escape the rest.
+    """Set the formulas in a text as MathML and names in backticks as code, and escape the rest.
 
     Parameters
     ----------
@@ -32,15 +30,23 @@ def typeset(text: str) -> Markup:
 
     Examples
     --------
-    >>> typeset("n_i < m")
-    '<math><msub><mi>n</mi><mi>i</mi></msub></math> &lt; m'
+    >>> typeset("if n_i < m")
+    'if <math><msub><mi>n</mi><mi>i</mi></msub><mo>&lt;</mo><mi>m</mi></math>'
     """
-    plain = unicodedata.normalize("NFD", text)
-    parts, end = [], 0
-    for found in _SYMBOL.finditer(plain):
-        parts += [_plain(plain[end : found.start()]), f"<math>{_symbol(*found.groups())}</math>"]
-        end = found.end()
-    return Markup("".join([*parts, _plain(plain[end:])]))
+    pieces = text.split("`")
+    made = [
+        f"<code>{escape(piece, quote=False)}</code>" if k % 2 else _with_formulas(piece)
+        for k, piece in enumerate(pieces)
+    ]
+    return Markup("".join(made))
+
+
+def _with_formulas(text: str) -> str:
+    """A text without code."""
+    return "".join(
+        escape(each, quote=False) if isinstance(each, str) else f"<math>{_set(each)}</math>"
+        for each in formulas(text)
+    )
 
 
 def matrix(name: str, rows: Sequence[Sequence[str]]) -> Markup:
@@ -58,40 +64,60 @@ def matrix(name: str, rows: Sequence[Sequence[str]]) -> Markup:
     '<math><mi>A</mi><mo>=</mo><mo>[</mo><mtable><mtr><mtd><mn>1</mn></mtd></mtr></mtable><mo>]\
 </mo></math>'
     """
-    found = _SYMBOL.fullmatch(name)
-    left = _symbol(*found.groups()) if found else f"<mi>{escape(name)}</mi>"
-    cells = "".join(
-        f"<mtr>{''.join(f'<mtd><mn>{escape(entry)}</mn></mtd>' for entry in row)}</mtr>"
-        for row in rows
-    )
-    inside = f"<mtable>{cells}</mtable>"
-    return Markup(f"<math>{left}<mo>=</mo><mo>[</mo>{inside}<mo>]</mo></math>")
+    (left,) = (_set(each) for each in formulas(name) if isinstance(each, Node))
+    cells = [[f"<mn>{escape(entry)}</mn>" for entry in row] for row in rows]
+    return Markup(f"<math>{left}<mo>=</mo>{_table(cells)}</math>")
 
 
-def _plain(text: str) -> str:
-    return escape(unicodedata.normalize("NFC", text), quote=False)
+def _table(cells: Sequence[Sequence[str]]) -> str:
+    """A matrix in square brackets."""
+    rows = "".join(f"<mtr>{''.join(f'<mtd>{cell}</mtd>' for cell in row)}</mtr>" for row in cells)
+    return f"<mo>[</mo><mtable>{rows}</mtable><mo>]</mo>"
 
 
-def _symbol(letter: str, index: str) -> str:
-    """A letter, perhaps with an accent, and its index."""
-    base = f"<mi>{letter[0]}</mi>"
-    if letter[1:]:
-        base = f'<mover accent="true">{base}<mo>{_ACCENTS[letter[1]]}</mo></mover>'
-    return f"<msub>{base}{_index(index.strip('{}'))}</msub>"
+def _set(node: Node) -> str:
+    """A formula in MathML."""
+    match node.kind:
+        case "letter":
+            return _letter(node.text)
+        case "number":
+            return f"<mn>{node.text}</mn>"
+        case "name":
+            return f"<mi>{node.text}</mi><mspace width='0.2em'></mspace>"
+        case "sum":
+            return "<mo>∑</mo>"
+        case "operator":
+            return f"<mo>{escape(node.text)}</mo>"
+        case "power" if set(node.parts[1].text) == {"′"}:
+            # The sign is raised already.
+            return f"{_one(node.parts[0])}<mo>{node.parts[1].text}</mo>"
+        case "index" | "power":
+            base, mark = (_one(part) for part in node.parts)
+            name = "msub" if node.kind == "index" else "msup"
+            return f"<{name}>{base}{mark}</{name}>"
+        case "fenced":
+            inside = "<mo>,</mo>".join(map(_set, node.parts))
+            fence = "<mo stretchy='false'>"
+            return f"{fence}{node.text[0]}</mo>{inside}{fence}{node.text[1]}</mo>"
+        case "matrix" if len(node.parts) == 1:
+            inside = "<mspace width='0.5em'></mspace>".join(map(_set, node.parts[0].parts))
+            return f"<mo>[</mo>{inside}<mo>]</mo>"
+        case "matrix":
+            return _table([[_set(cell) for cell in row.parts] for row in node.parts])
+        case _:
+            return "".join(map(_set, node.parts))
 
 
-def _index(text: str) -> str:
-    """An index: a symbol with an index of its own, letters, numbers and signs."""
-    found = _SYMBOL.fullmatch(text)
-    if found:
-        return _symbol(*found.groups())
-    tokens = re.findall(r"[A-Za-zα-ω]|[0-9]+|[^\sA-Za-zα-ω0-9]", text)
-    names = [
-        f"<mn>{each}</mn>"
-        if each.isdigit()
-        else f"<mi>{each}</mi>"
-        if each.isalpha()
-        else f"<mo>{escape(each)}</mo>"
-        for each in tokens
-    ]
-    return names[0] if len(names) == 1 else f"<mrow>{''.join(names)}</mrow>"
+def _one(node: Node) -> str:
+    """A formula as one element."""
+    made = _set(node)
+    single = node.kind in ("letter", "number", "operator", "index", "power", "sum")
+    return made if single and made.count("<mo>′") == 0 else f"<mrow>{made}</mrow>"
+
+
+def _letter(text: str) -> str:
+    """A letter, perhaps with an accent."""
+    base = f"<mi>{unicodedata.normalize('NFC', text[0])}</mi>"
+    if text[1:]:
+        return f'<mover accent="true">{base}<mo>{_ACCENTS[text[1]]}</mo></mover>'
+    return base

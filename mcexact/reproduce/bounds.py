@@ -67,7 +67,7 @@ def rank_identity(note: Notebook) -> None:
     complete = plant.with_neighbors(NeighborGraph.complete(plant.names))
     chosen.append((f"{PAPER}, over the complete graph", complete, [1, 1, 1]))
     for name, system, n_i in chosen:
-        note.on(name)
+        note.on(name, system)
         graph = graph_of(system)
         extended = extended_system(system, n_i)
         before = augmented_outputs(system)
@@ -128,7 +128,7 @@ def bound_zero(note: Notebook) -> None:
         found = fixed_spectrum(plant)
         if not found.empty:
             continue
-        note.on(name)
+        note.on(name, plant)
         for share in SHARING:
             bound, printed = shared_dimension_bound(plant, share=share), printed_bound(plant, share)
             note.check(f"no rank is below n ({share})", printed <= 0)
@@ -154,7 +154,7 @@ def falls_short(plant: MultiChannelSystem, agent: int) -> FixedSpectrum:
 def bound_reached(note: Notebook) -> None:
     """A bound of at least 1 is attained for agent i iff some s has N_s∖s = {i} and least rank."""
     for name, plant in ((PAPER, three_channels()), four_agents()):
-        note.on(name)
+        note.on(name, plant)
         ranks = list(all_ranks(plant))
         least = min(each.rank for each in ranks)
         note.check("the bound is at least 1", plant.n - least >= 1)
@@ -199,7 +199,7 @@ def tightness(note: Notebook) -> None:
     If all agents share equally many sub-states, a bound of 1 is least; a larger one need not be.
     """
     plant = three_channels()
-    note.on(PAPER)
+    note.on(PAPER, plant)
     found = analyze(plant, also=LEAST.values())
     for share, total in zip(SHARING, (1, 2), strict=True):
         stem = SHARES[share]

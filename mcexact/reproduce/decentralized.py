@@ -77,7 +77,7 @@ def proposition_2(note: Notebook) -> None:
         (PAPER, example),
         (f"{PAPER}, sharing outputs", augmented_outputs(example)),
     ):
-        note.on(name)
+        note.on(name, system)
         ranks = [pencil_rank(system, s, 1) for s in SUBSETS_OF_THREE]
         found = fixed_spectrum(system)
         note.check(
@@ -169,7 +169,7 @@ def corfmat_morse(note: Notebook) -> None:
         )
         note.certify(whole, found)
     for name, plant in (_in_series(), *deficient_plants(2, share="states")):
-        note.on(name)
+        note.on(name, plant)
         found, fixed, graph = (
             single_channel_gains(plant),
             fixed_spectrum(plant),
@@ -187,7 +187,7 @@ def free_assignment(note: Notebook) -> None:
     for name, plant in plants(6, states=2, channels=2):
         if not completeness(plant).complete:
             continue
-        note.on(name)
+        note.on(name, plant)
         order = design_decentralized(plant, rate=1, aims=THEOREM).order
         wanted = [-3 - k for k in range(plant.n + order)]
         design = design_decentralized(plant, spectrum=wanted)
@@ -197,7 +197,7 @@ def free_assignment(note: Notebook) -> None:
         )
         note.certify(design.loop.proof)
     for name, plant in (_in_series(), *deficient_plants(1, share="states")):
-        note.on(name)
+        note.on(name, plant)
         order = plant.n
         try:
             design_decentralized(plant, spectrum=[-3 - k for k in range(plant.n + order)])

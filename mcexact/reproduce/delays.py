@@ -64,7 +64,7 @@ def lifted(note: Notebook) -> None:
     numbers = Numbers(15)
     for name, plant in plants(14, time="discrete", longest_delay=3, connected=None):
         sizes = [k % 3 for k in range(1, plant.m + 1)]
-        note.on(f"{name}, n_i = {sizes}")
+        note.on(f"{name}, n_i = {sizes}", plant)
         made = lifted_system(plant, sizes)
         graph = graph_of(plant)
         d = [graph.longest_delay(i) for i in range(plant.m)]
@@ -77,7 +77,7 @@ def lifted(note: Notebook) -> None:
         )
         note.certify(fixed_spectrum(made))
     name, plant = three_delays()
-    note.on(name)
+    note.on(name, plant)
     graph, sizes, share = graph_of(plant), [1, 1, 1], "outputs+states"
     made = lifted_system(plant, sizes)
     right = {(i, j): d for i, j, d in graph.delays}
@@ -116,7 +116,7 @@ def transfer_of_the_lift(note: Notebook) -> None:
 def block_ranks(note: Notebook) -> None:
     """(36): [M_k; e_i'] is nonsingular for λ ≠ 0."""
     for value in (Fraction(1), Fraction(-2), Fraction(1, 3)):
-        note.on(f"λ = {value}")
+        note.on(f"λ = {value}".replace("-", "−"))
         for k in range(1, 6):
             rows = [[0] * (k + 1) for _ in range(k)]
             M = Matrix.from_rows(
@@ -237,7 +237,7 @@ def corollary_2(note: Notebook) -> None:
     runs = []
     for delay in (0, 1, 2):
         plant = three_channels("discrete", delay)
-        note.on(f"the example of section IV-B, discrete time, delay {delay} on every link")
+        note.on(f"the example of section IV-B, discrete time, delay {delay} on every link", plant)
         for radius in ("1/2", "1/10"):
             least = design_extended(plant, radius=radius, aims=THEOREM)
             (block,) = least.parts["blocks"]

@@ -82,11 +82,11 @@ def example(note: Notebook) -> None:
     """IV-B: the mode 1 stays fixed when agents share outputs alone."""
     plant = three_channels()
     system = augmented_outputs(plant)
-    note.on(PAPER)
+    note.on(PAPER, plant)
     note.joint(plant)
     note.print(plant)
     rank = pencil_rank(system, ["2"], 1)
-    note.check("rank [I − A, B_1, B_3; C_{N_2}, 0] is 2", rank.rank == 2)
+    note.check("rank [I − A, B_1, B_3; C_{N_2}, 0, 0] is 2", rank.rank == 2)
     found = fixed_spectrum(system)
     note.check("the fixed polynomial is x − 1", found.polynomial == Polynomial.from_roots([1]))
     note.check(

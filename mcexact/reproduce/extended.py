@@ -19,7 +19,7 @@ def construction(note: Notebook) -> None:
     for name, plant in plants(10, connected=None):
         sizes = [k % 3 for k in range(1, plant.m + 1)]
         for share in SHARING:
-            note.on(f"{name}, n_i = {sizes}, {share}")
+            note.on(f"{name}, n_i = {sizes}, {share}", plant)
             made = extended_system(plant, sizes, share)
             note.check("there are n + Σ n_i states", made.n == plant.n + sum(sizes))
             note.check(
@@ -40,7 +40,7 @@ def any_graph(note: Notebook) -> None:
     """Jointly controllable and observable for every graph."""
     for name, plant in (*plants(5, connected=None), *plants(1, connected=False)):
         for share in SHARING:
-            note.on(f"{name}, {share}")
+            note.on(f"{name}, {share}", plant)
             made = extended_system(plant, [1] * plant.m, share)
             note.joint(made)
     plant = note.at(unreached())

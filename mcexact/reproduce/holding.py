@@ -31,7 +31,7 @@ def held(note: Notebook) -> None:
     numbers = Numbers(16)
     for name, plant in plants(14, time="discrete", longest_delay=3, connected=None):
         sizes = [k % 3 for k in range(1, plant.m + 1)]
-        note.on(f"{name}, n_i = {sizes}")
+        note.on(f"{name}, n_i = {sizes}", plant)
         made = held_system(plant, sizes)
         graph = graph_of(plant)
         d = [graph.longest_delay(i) for i in range(plant.m)]
@@ -44,7 +44,7 @@ def held(note: Notebook) -> None:
         )
         note.certify(fixed_spectrum(made))
     name, plant = three_delays()
-    note.on(name)
+    note.on(name, plant)
     graph, sizes = graph_of(plant), [1, 1, 1]
     made, d = held_system(plant, sizes), [graph.longest_delay(i) for i in range(plant.m)]
     pairs = [(i, j) for i in range(plant.m) for j in graph.neighborhood(i)]
@@ -86,7 +86,7 @@ def held_joint(note: Notebook) -> None:
         made = held_system(plant, [1] * plant.m)
         note.joint(made)
     plant = three_channels("discrete", 1)
-    note.on("the example of section IV-B, discrete time, delay 1 on every link")
+    note.on("the example of section IV-B, discrete time, delay 1 on every link", plant)
     found = joint_controllability(lifted_system(plant, [1, 1, 1]))
     note.refute("without-holding", not found.controllable)
     note.certify(found)
@@ -95,7 +95,7 @@ def held_joint(note: Notebook) -> None:
 def outputs_lose_controllability(note: Notebook) -> None:
     """Sending y_i with delays can make 0 fixed; holding and sending x_i alone does not."""
     plant = three_channels("discrete", 1)
-    note.on("the example of section IV-B, discrete time, delay 1 on every link")
+    note.on("the example of section IV-B, discrete time, delay 1 on every link", plant)
     sent = joint_controllability(lifted_system(plant, [1, 1, 1]))
     note.check("with outputs on the links 0 is out of reach", not sent.controllable)
     kept = fixed_spectrum(held_system(plant, [1, 1, 1]))
@@ -155,7 +155,7 @@ def transfer_of_the_held(note: Notebook) -> None:
 def free_assignment(note: Notebook) -> None:
     """With holding, the whole spectrum is freely assignable despite delays."""
     plant = three_channels("discrete", 1)
-    note.on("the example of section IV-B, discrete time, delay 1 on every link")
+    note.on("the example of section IV-B, discrete time, delay 1 on every link", plant)
     sizes = (1, 1, 1)
     note.certify(completeness(held_system(plant, sizes)))
     least = design_extended(plant, network="held", dimensions=sizes, radius="1/2", aims=THEOREM)

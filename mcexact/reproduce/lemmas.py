@@ -192,7 +192,7 @@ def prescribed_rate(note: Notebook) -> None:
     chosen = [*drawn_plants(1, states=2, channels=2)]
     chosen += [*drawn_plants(1, states=2, channels=2, time="discrete", first=4)]
     for name, plant in chosen:
-        note.on(f"{name}, {plant.time} time")
+        note.on(f"{name}, {plant.time} time", plant)
         rate, radius = (None, "1/10") if is_discrete(plant.time) else (5, None)
         design = design_observer(plant, rate=rate, radius=radius)
         wanted = StabilityRegion.of(plant.time, rate, radius)
@@ -232,7 +232,7 @@ def recipe(note: Notebook) -> None:
     gains for every spectrum.
     """
     name, plant, entries = hidden_by_feedback()
-    note.on(name)
+    note.on(name, plant)
     F = [Matrix.from_integers(rows) for rows in entries]
     literal = fed_back(plant, F)
     lost, stuck = joint_observability(literal), fixed_spectrum(error_system(literal, zeros(plant)))

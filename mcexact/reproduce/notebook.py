@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from itertools import chain
@@ -14,7 +13,8 @@ from mcexact.answer.protocol import Answer
 from mcexact.model.system import MultiChannelSystem
 from mcexact.report.picture import EmbeddedPicture, Picture
 from mcexact.reproduce.ledger import examination
-from mcexact.reproduce.material import PAPER, Instance
+from mcexact.reproduce.material import Instance
+from mcexact.reproduce.properties import in_common
 
 
 @dataclass(frozen=True)
@@ -87,37 +87,44 @@ class Notebook:
     here : str
         What the next entries are about.
     instances : list of str
+    plants : dict of str to MultiChannelSystem
+        Those instances that are plants.
     checks : list of Check
     refutations : list of Refutation
     certificates : list of CheckedCertificate
     pictures : list of EmbeddedPicture
-    matrices : list of (str, rows)
-        Matrices of an instance, with the entries as texts.
+    matrices : list of (str, str, rows)
+        Instances, and their matrices by name, with the entries as texts.
     broken : str
         Empty, or why the examination came to no end.
+    in_common : str
+        What the instances have in common; set when the examination has ended.
     """
 
     key: str
     here: str = ""
     instances: list[str] = field(default_factory=list)
+    plants: dict[str, MultiChannelSystem] = field(default_factory=dict)
     checks: list[Check] = field(default_factory=list)
     refutations: list[Refutation] = field(default_factory=list)
     certificates: list[CheckedCertificate] = field(default_factory=list)
     pictures: list[EmbeddedPicture] = field(default_factory=list)
-    matrices: list[tuple[str, list[list[str]]]] = field(default_factory=list)
+    matrices: list[tuple[str, str, list[list[str]]]] = field(default_factory=list)
     broken: str = ""
+    in_common: str = ""
 
-    def on(self, instance: str) -> None:
-        """Name the instance of the next entries."""
+    def on(self, instance: str, plant: MultiChannelSystem | None = None) -> None:
+        """Name the instance of the next entries, and say which plant it is, if it is one."""
         self.here = instance
         if instance not in self.instances:
             self.instances.append(instance)
+        if plant is not None:
+            self.plants.setdefault(instance, plant)
 
     def at(self, instance: Instance) -> MultiChannelSystem:
         """The plant of an instance, which the next entries are about."""
-        name, plant = instance
-        self.on(name)
-        return plant
+        self.on(*instance)
+        return instance[1]
 
     def each(self, *groups: Iterable[Instance]) -> Iterator[MultiChannelSystem]:
         """The plants of some instances, one after another."""
@@ -150,7 +157,7 @@ class Notebook:
             self.certify(found)
 
     def print(self, system: MultiChannelSystem) -> None:
-        """Show A, all B_i and all C_i of a system."""
+        """Show A, all B_i and all C_i of a system, which is the present instance."""
         named = [("A", system.A)]
         named += [
             (f"B_{name}", channel.B)
@@ -161,16 +168,12 @@ class Notebook:
             for name, channel in zip(system.names, system.channels, strict=True)
         ]
         for name, found in named:
-            self.matrices.append((name, [[str(entry) for entry in row] for row in found.rows()]))
+            rows = [[str(entry) for entry in row] for row in found.rows()]
+            self.matrices.append((self.here, name, rows))
 
     def show(self, picture: Picture) -> None:
         """Add a picture."""
         self.pictures.append(picture.embedded())
-
-    def on_what(self) -> str:
-        """How many instances there are, and what those of one kind have in common."""
-        count = Counter(_kind(name) for name in self.instances)
-        return "; ".join(f"{size} {kind}" for kind, size in count.items())
 
     @property
     def failure(self) -> str:
@@ -198,21 +201,6 @@ class Notebook:
         return not self.failure
 
 
-_KINDS = (
-    (PAPER, "with the matrices of the example of IV-B"),
-    ("drawn, bound", "drawn over strongly connected graphs for a bound of 1, 2 or 3 that is known"),
-    ("drawn, planted", "drawn with a planted fixed mode"),
-    ("drawn, a fixed mode", "drawn with a fixed mode by two channels"),
-    ("drawn pair", "drawn pairs of matrices"),
-    ("drawn", "drawn, jointly controllable and observable"),
-)
-
-
-def _kind(instance: str) -> str:
-    """What an instance has in common with others, by the beginning of its name."""
-    return next((kind for start, kind in _KINDS if instance.startswith(start)), "named")
-
-
 Procedure = Callable[[Notebook], None]
 
 
@@ -231,4 +219,5 @@ def examined(key: str, procedure: Procedure) -> Notebook:
     except Exception as error:
         first = str(error).splitlines()[0] if str(error) else ""
         notebook.broken = f"{notebook.here}: {type(error).__name__}: {first}"
+    notebook.in_common = in_common(notebook.instances, notebook.plants)
     return notebook

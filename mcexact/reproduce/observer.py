@@ -234,7 +234,7 @@ def proposition_1(note: Notebook) -> None:
 def theorem_1(note: Notebook) -> None:
     """Theorem 1: every number of the error system is prescribed; any q."""
     for name, plant in small():
-        note.on(name)
+        note.on(name, plant)
         design = designed(name)
         size = plant.n * plant.m + plant.m - 1
         wanted = Polynomial.from_roots([-2 - k % 2 for k in range(size)])
@@ -272,7 +272,7 @@ def _show_example(note: Notebook) -> None:
 def remark_1(note: Notebook) -> None:
     """Remark 1: the design is central, and programs use only signals that their agents receive."""
     for name, plant in small():
-        note.on(name)
+        note.on(name, plant)
         controller = designed(name).controller
         graph = graph_of(plant)
         note.check(

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import unicodedata
+from collections.abc import Iterable
+from itertools import groupby
 from typing import Any
 
 from mcexact.answer.formats import count
-from mcexact.answer.latex import escaped
+from mcexact.report.formula_latex import typeset_latex
 from mcexact.report.mathml import matrix, typeset
 from mcexact.report.page import page
 from mcexact.report.text import Table
@@ -36,7 +37,7 @@ def reproduction_page(found: Reproduction) -> str:
         "reproduction",
         title="The paper, reproduced",
         holds=found.holds,
-        answer=answer(found),
+        answer=[typeset(sentence) for sentence in answer(found)],
         rows=list(shown.values()),
         counts=[(name, str(size)) for name, size in counts(found).items()],
         statements=[_listed(each, found) for each in found.statements],
@@ -96,7 +97,7 @@ def _listed(statement: Statement, found: Reproduction) -> dict[str, Any]:
         "note": typeset(statement.note),
         "status": "an examination fails" if found.fails(statement) else STATUSES[statement.status],
         "fails": found.fails(statement),
-        "links": [(key, titles[key]) for key in statement.examined if key in titles],
+        "links": [(key, typeset(titles[key])) for key in statement.examined if key in titles],
     }
 
 
@@ -107,23 +108,41 @@ def _shown(row: Row) -> dict[str, Any]:
     return {
         **{name: getattr(said, name) for name in (*_OF_EXAMINATION, "says", "part", "code")},
         **{name: getattr(finding, name) for name in ("holds", "failure", "pictures")},
+        "name": said.title,
+        "title": typeset(said.title),
+        "printed": ", ".join(f"({each})" for each in said.equations if said.kind == "numbered"),
         "says": typeset(said.says),
         "erratum": typeset(said.erratum),
         "part": typeset(said.part),
-        "status": row.status,
-        "instances": finding.on_what(),
-        "matrices": [matrix(name, rows) for name, rows in finding.matrices],
-        "checks": [
-            (check.instance, typeset(check.text), "yes" if check.holds else "NO")
-            for check in finding.checks
+        "status": typeset(row.status),
+        "instances": typeset(finding.in_common),
+        "matrices": [
+            (typeset(instance), [matrix(name, rows) for _, name, rows in group])
+            for instance, group in groupby(finding.matrices, key=lambda each: each[0])
         ],
-        "refutations": [
-            (typeset(attempt.statement), attempt.instance, "yes" if attempt.refuted else "NO")
-            for attempt in finding.refutations
+        "checks": _grouped((each.text, each.instance, each.holds) for each in finding.checks),
+        "refutations": _grouped(
+            (each.statement, each.instance, each.refuted) for each in finding.refutations
+        ),
+        "certificates": [
+            (typeset(made.instance), made.name, made.verdict) for made in finding.certificates
         ],
-        "certificates": [(made.instance, made.name, made.verdict) for made in finding.certificates],
         "sample": sample,
     }
+
+
+def _grouped(entries: Iterable[tuple[str, str, bool]]) -> list[tuple[str, str, str]]:
+    """Rows of a table from texts, their instances, and whether they hold there: one for each text.
+
+    What fails has a row of its own.
+    """
+    instances: dict[tuple[str, bool], dict[str, None]] = {}
+    for text, instance, holds in entries:
+        instances.setdefault((text, holds), {})[instance] = None
+    return [
+        (typeset(text), typeset("; ".join(names)), "yes" if holds else "NO")
+        for (text, holds), names in instances.items()
+    ]
 
 
 def reproduction_tables(found: Reproduction) -> list[Table]:
@@ -190,34 +209,5 @@ def reproduction_latex(found: Reproduction) -> str:
     ]
     for each in found.statements:
         cells = (str(each.number), each.equation, each.says, STATUSES[each.status])
-        lines.append(" & ".join(_typeset(cell) for cell in cells) + r" \\")
+        lines.append(" & ".join(typeset_latex(cell) for cell in cells) + r" \\")
     return "\n".join([*lines, r"\end{tabular}"]) + "\n"
-
-
-_SYMBOLS = {
-    "Σ": r"$\Sigma$",
-    "λ": r"$\lambda$",
-    "φ": r"$\varphi$",
-    "∈": r"$\in$",
-    "∖": r"$\setminus$",
-    "∅": r"$\emptyset$",
-    "≥": r"$\ge$",
-    "−": "$-$",
-    "⁻": "$^{-}$",
-    "¹": "$^{1}$",
-    "…": r"\dots{}",
-}
-_ACCENTS = {"\u0302": "hat", "\u0303": "tilde", "\u0304": "bar"}
-
-
-def _typeset(text: str) -> str:
-    """Escape a text for LaTeX; its mathematical symbols become formulas."""
-    made: list[str] = []
-    for character in unicodedata.normalize("NFD", text):
-        if character in _ACCENTS:
-            made.append(rf"$\{_ACCENTS[character]}{{{made.pop()}}}$")
-        elif character == "\u0338" and made.pop() == "=":
-            made.append(r"$\ne$")
-        else:
-            made.append(_SYMBOLS.get(character, escaped(character)))
-    return "".join(made)

@@ -71,7 +71,7 @@ def integrators(note: Notebook) -> None:
     """(17) and (18), in both time domains."""
     numbers = Numbers(13)
     for name, plant in [*plants(5), *drawn_plants(2, time="discrete")]:
-        note.on(f"{name}, {plant.time} time")
+        note.on(f"{name}, {plant.time} time", plant)
         made = setpoint_system(plant)
         note.check("the states w_i integrate y_i", integrators_agree(plant, made, numbers))
         note.certify(joint_observability(made))
@@ -102,7 +102,7 @@ def any_stabilizing_control(note: Notebook) -> None:
     is computed exactly, and the loop is proved stable, so that the state tends to it.
     """
     for name, plant in _held_plants():
-        note.on(name)
+        note.on(name, plant)
         made = setpoint_system(plant)
         q = made.n - plant.n
         wanted = Matrix.identity(q)
@@ -244,7 +244,7 @@ def wrong_estimates(note: Notebook) -> None:
     """The observers of the set-point design estimate the state wrongly, and y = r all the same."""
     for time in TIMES:
         name, plant = _two_channels(time)
-        note.on(f"{name}, {time} time")
+        note.on(f"{name}, {time} time", plant)
         rate, radius = _speed(time)
         design = design_setpoint(plant, rate=rate, radius=radius, method="observer", aims=THEOREM)
         loop = design.loop.closed

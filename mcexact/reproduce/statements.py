@@ -18,7 +18,7 @@ STATUSES = {
     "instances": "seen on instances",
     "weaker": "weaker than printed",
     "refuted": "refuted by an instance",
-    "informal": "claims nothing exact",
+    "informal": "informal",
     "absent": "absent",
 }
 """What can be known of a statement: the word in ``statements.toml``, and what the report says."""

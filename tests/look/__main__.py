@@ -13,9 +13,9 @@ from pathlib import Path
 
 from mcexact.cli import main as mcexact
 from mcexact.model import gallery
-from tests.look.browser import Browser, NoBrowser, open_page
+from tests.look.browser import Browser, NoBrowser, closed_panels, open_page
 
-WIDTHS = (1280, 390)
+WIDTHS = (1280, 400)
 SCHEMES = ("light", "dark")
 TALLEST = 5000
 
@@ -38,6 +38,9 @@ def look(browser: Browser, page: Path, folder: Path) -> int:
     """Open one page four times; the number of complaints."""
     name = page.parent.name if page.stem == "report" else page.stem
     count = 0
+    for closed in closed_panels(browser, page):
+        print(f"{page}: {closed} is linked, and its panel stays closed")
+        count += 1
     for width in WIDTHS:
         for scheme in SCHEMES:
             wrong = open_page(browser, page, width, scheme)

@@ -175,6 +175,25 @@ def open_page(browser: Browser, path: Path, width: int, scheme: str) -> list[str
     return wrong
 
 
+_CLOSED = """
+[...new Set([...document.querySelectorAll('a[href^="#"]')].map(link => link.hash))].filter(hash => {
+  document.querySelectorAll('details').forEach(panel => { panel.open = false });
+  location.hash = hash;
+  const panel = document.getElementById(hash.slice(1)).closest('details');
+  return panel && !panel.open;
+})
+"""
+
+
+def closed_panels(browser: Browser, path: Path) -> list[str]:
+    """Which links within a page lead into a panel that does not open."""
+    browser.events.clear()
+    browser.call("Page.navigate", url=path.resolve().as_uri())
+    browser.until("Page.loadEventFired")
+    found: list[str] = browser.evaluate(_CLOSED)
+    return found
+
+
 def _complaint(event: dict[str, Any], address: str) -> str:
     """What an event says against the page; empty if nothing."""
     said = event.get("params", {})

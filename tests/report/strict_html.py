@@ -9,7 +9,20 @@ VOID = {"meta", "img", "br", "hr", "link", "input"}
 KNOWN = VOID | {"html", "head", "title", "style", "body", "header", "main", "section", "p", "div"}
 KNOWN |= {"h1", "h2", "h3", "table", "thead", "tbody", "tr", "th", "td", "ul", "li", "pre", "code"}
 KNOWN |= {"details", "summary", "figure", "figcaption", "cite", "span", "a", "b"}
-KNOWN |= {"math", "mrow", "mi", "mo", "mn", "msub", "mover", "mtable", "mtr", "mtd"}
+KNOWN |= {
+    "math",
+    "mrow",
+    "mi",
+    "mo",
+    "mn",
+    "msub",
+    "msup",
+    "mspace",
+    "mover",
+    "mtable",
+    "mtr",
+    "mtd",
+}
 BOXED = {"table", "pre", "img"}
 ONCE = {"html", "head", "title", "body", "h1"}
 

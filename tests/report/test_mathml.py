@@ -1,4 +1,4 @@
-"""Symbols with indices are set as MathML, and nothing else is touched."""
+"""Formulas are set as MathML, and everything else is escaped."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ import pytest
 from mcexact.report.mathml import matrix, typeset
 
 SET = [
-    ("no formula, a < b", "no formula, a &lt; b"),
+    ("no formula & none", "no formula &amp; none"),
+    ("`a_b` < `c`", "<code>a_b</code> &lt; <code>c</code>"),
     ("n_i", "<math><msub><mi>n</mi><mi>i</mi></msub></math>"),
     ("C_{N_s}", "<math><msub><mi>C</mi><msub><mi>N</mi><mi>s</mi></msub></msub></math>"),
     (
         "B_jF_j",
-        "<math><msub><mi>B</mi><mi>j</mi></msub></math>"
-        "<math><msub><mi>F</mi><mi>j</mi></msub></math>",
+        "<math><msub><mi>B</mi><mi>j</mi></msub><msub><mi>F</mi><mi>j</mi></msub></math>",
     ),
     (
         "Ĥ_i",
@@ -23,12 +23,22 @@ SET = [
         "B_{m−s}",
         "<math><msub><mi>B</mi><mrow><mi>m</mi><mo>−</mo><mi>s</mi></mrow></msub></math>",
     ),
+    (
+        "[x; 0]",
+        "<math><mo>[</mo><mtable><mtr><mtd><mi>x</mi></mtd></mtr><mtr><mtd><mn>0</mn></mtd></mtr>"
+        "</mtable><mo>]</mo></math>",
+    ),
+    (
+        "(A, B)⁻¹",
+        "<math><msup><mrow><mo stretchy='false'>(</mo><mi>A</mi><mo>,</mo><mi>B</mi>"
+        "<mo stretchy='false'>)</mo></mrow><mrow><mo>−</mo><mn>1</mn></mrow></msup></math>",
+    ),
     ("A_32", "<math><msub><mi>A</mi><mn>32</mn></msub></math>"),
 ]
 
 
 @pytest.mark.parametrize(("text", "made"), SET, ids=[text for text, _ in SET])
-def test_symbols_with_indices_are_set(text: str, made: str) -> None:
+def test_formulas_are_set(text: str, made: str) -> None:
     assert typeset(text) == made
 
 

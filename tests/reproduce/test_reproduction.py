@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import re
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -73,7 +75,7 @@ def test_the_report_parses_strictly_and_links_its_certificates_alone(whole: Repr
     text = reproduction_page(whole)
     beside = {f"a href=certificates/{name}" for name in whole.certificates()}
     assert set(external_addresses(text)) == beside
-    assert "<math>" in text and "with the matrices of the example" in text
+    assert "<math>" in text and "the matrices of the example of IV-B; 10 drawn; 2 or 3" in text
     for drawn in (
         "Graphs",
         "The effect of delays",
@@ -81,6 +83,10 @@ def test_the_report_parses_strictly_and_links_its_certificates_alone(whole: Repr
         "Shared states by agent",
     ):
         assert drawn in text
+    outside = re.sub(r"<details.*?</details>", "", text, flags=re.DOTALL)
+    assert "<figure>" in text and "<figure>" not in outside
+    assert text.count("<summary>") == len(whole.rows)
+    assert '<div class="inside" id="theorem-2">' in text and "<b>Theorem 2</b> (26):" in text
 
 
 def test_the_report_says_first_what_the_paper_asks_and_counts_every_status(
@@ -98,9 +104,21 @@ def test_the_report_says_first_what_the_paper_asks_and_counts_every_status(
     assert [each.number for each in one.statements] == [1]
 
 
+def test_what_fails_on_an_instance_has_a_row_of_its_own(whole: Reproduction) -> None:
+    row = next(row for row in whole.rows if row.examination.key == "every-subset")
+    checks = [
+        *row.finding.checks,
+        replace(row.finding.checks[0], holds=False, instance="an agent"),
+    ]
+    broken = replace(row, finding=replace(row.finding, checks=checks))
+    text = reproduction_page(Reproduction((broken,)))
+    assert "<td>an agent</td><td>NO</td>" in text
+    assert "; drawn graph, seed 62;" in text and "an agent;" not in text
+
+
 def test_the_statements_are_set_in_latex(whole: Reproduction) -> None:
     text = reproduction_latex(whole)
-    assert text.count("\\\\") == 134 + 1
+    assert sum(line.endswith("\\\\") for line in text.splitlines()) == 134
     assert text.isascii(), {character for character in text if not character.isascii()}
 
 

@@ -1,0 +1,303 @@
+"""Find the formulas in plain text, such as ``A + Σ B_i F_i`` and ``[λI − A, B_i; C_s, 0]``."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+RELATIONS = ["=", "≠", "≥", "≤", "<", ">", "∈", "⊂", "→"]
+OPERATORS = ["+", "−", "∖", "∪", "∩", "·", "×", "⊗", "/"]
+BRACKETS = {"(": ")", "[": "]", "{": "}"}
+NAMES = ("rank", "det", "column", "diag", "exp", "min")
+PRODUCTS = ("BF", "KC", "Fx", "Fe", "BFe", "Ax", "Mt", "ct", "mn", "nm", "mr", "gA", "sI", "λI")
+"""Products of letters without a space, which cannot be told from words by their form."""
+
+_LETTER = "[A-Za-zΑ-ΩΣα-ω][\u0302\u0303\u0304\u0307]?"
+_TOKEN = re.compile(
+    rf"(?P<product>(?:{'|'.join(PRODUCTS)})(?![A-Za-z]))"
+    rf"|(?P<name>(?:{'|'.join(NAMES)})(?![A-Za-z]))"
+    r"|(?P<sum>Σ)"
+    rf"|(?P<letter>{_LETTER})(?![A-Za-zα-ω])(?!['’][a-z])"
+    r"|(?P<number>[0-9]+(?:\.[0-9]+)?)"
+    r"|(?P<symbol>[∅…ℝℂℚ])"
+)
+_INDEX = re.compile(r"_(\{[^{}]*\}|[A-Z]|[a-z0-9]+)")
+_IN_INDEX = re.compile(r"([0-9]+|\S)(?:_([A-Za-z0-9]))?")
+_POWER = re.compile(r"⁻?[⁰¹²³⁴⁵⁶⁷⁸⁹]+|'+(?![A-Za-z])")
+_DIGITS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻'", "0123456789−′")
+
+
+@dataclass(frozen=True)
+class Node:
+    """A part of a formula.
+
+    Attributes
+    ----------
+    kind : str
+        ``letter``, ``number``, ``name``, ``operator``, or a construction from parts: ``row``,
+        ``index``, ``power``, ``product``, ``fenced``, ``matrix`` with rows as parts.
+    text : str
+        The sign, letter or word; for ``fenced`` the opening and the closing bracket.
+    parts : tuple of Node
+    """
+
+    kind: str
+    text: str = ""
+    parts: tuple[Node, ...] = ()
+
+    def any(self, *kinds: str) -> bool:
+        """Whether it or a part of it is of some kind."""
+        return self.kind in kinds or any(part.any(*kinds) for part in self.parts)
+
+
+class _NoFormula(Exception):
+    """There is no formula at this place."""
+
+
+class _Reader:
+    """Read one formula from a place of a text.
+
+    A relation is between sums, a sum is of products, and a product is of factors, with a space
+    between them only where neither could be a word.
+    """
+
+    def __init__(self, text: str, at: int, end: int) -> None:
+        self.text, self.at, self.end = text, at, end
+
+    def relation(self) -> Node:
+        return self._chain(self._sum, RELATIONS)
+
+    def _sum(self) -> Node:
+        if self._sign(["−"]):
+            return Node("row", parts=(Node("operator", "−"), self._sum()))
+        return self._chain(self._product, OPERATORS)
+
+    def _chain(self, inner: Callable[[], Node], signs: list[str]) -> Node:
+        """Parts with signs between them; a sign without a part after it is left in the text."""
+        parts = [inner()]
+        while True:
+            before = self.at
+            sign = self._sign(signs)
+            if sign is None:
+                break
+            try:
+                parts += [Node("operator", sign), inner()]
+            except _NoFormula:
+                self.at = before
+                break
+        return parts[0] if len(parts) == 1 else Node("row", parts=tuple(parts))
+
+    def _sign(self, signs: list[str]) -> str | None:
+        """Step over one of these signs, with spaces around it."""
+        at = self._past_spaces(self.at)
+        found = next((sign for sign in signs if self.text.startswith(sign, at, self.end)), None)
+        if found is None:
+            return None
+        self.at = self._past_spaces(at + len(found))
+        return found
+
+    def _past_spaces(self, at: int) -> int:
+        while at < self.end and self.text[at] == " ":
+            at += 1
+        return at
+
+    def _product(self) -> Node:
+        parts = [self._factor()]
+        while self.at < self.end:
+            before = self.at
+            self.at = self._past_spaces(before)
+            try:
+                following = self._factor()
+            except _NoFormula:
+                self.at = before
+                break
+            # A word may follow after a space; letters with indices and brackets are no words.
+            if self.at > before and self.text[before] == " " and not _joins(parts[-1], following):
+                self.at = before
+                break
+            parts.append(following)
+        return parts[0] if len(parts) == 1 else Node("row", parts=tuple(parts))
+
+    def _factor(self) -> Node:
+        found = self._primary()
+        if self.at < self.end and (index := _INDEX.match(self.text, self.at, self.end)):
+            inside = index[1].strip("{}")
+            self.at = index.end()
+            found = Node("index", parts=(found, _index(inside)))
+        if power := _POWER.match(self.text, self.at, self.end):
+            self.at = power.end()
+            raised = power[0].translate(_DIGITS)
+            found = Node("power", parts=(found, _index(raised)))
+        return found
+
+    def _primary(self) -> Node:
+        if self.at >= self.end:
+            raise _NoFormula
+        if self.text[self.at] in BRACKETS:
+            return self._bracket()
+        token = _TOKEN.match(self.text, self.at, self.end)
+        if token is None or _within_a_word(self.text, self.at):
+            raise _NoFormula
+        self.at = token.end()
+        kind, said = str(token.lastgroup), token[0]
+        if kind == "product":
+            return Node("row", parts=tuple(Node("letter", each) for each in said))
+        kinds = {"symbol": "letter", "sum": "sum"}
+        return Node(kinds.get(kind, kind), said)
+
+    def _bracket(self) -> Node:
+        opening = self.text[self.at]
+        close = _closing(self.text, self.at, self.end)
+        inside = (self.at + 1, close)
+        if opening == "[":
+            made = _matrix(self.text, *inside)
+        else:
+            made = Node("fenced", opening + BRACKETS[opening], _listed(self.text, *inside))
+        self.at = close + 1
+        return made
+
+
+def _within_a_word(text: str, at: int) -> bool:
+    """Whether the letter before this place belongs to the same word."""
+    before = text[at - 1 : at]
+    return before.isalpha() and before.isascii() and text[at - 2 : at - 1].isalpha()
+
+
+def _joins(left: Node, right: Node) -> bool:
+    """Whether two factors with a space between them are a product."""
+    sure = ("index", "power", "sum", "fenced", "matrix")
+    if left.kind in ("sum", "name"):
+        return True
+    if right.kind == "fenced" and len(right.parts) == 1 and right.parts[0].kind == "number":
+        return False
+    if right.text == "a":
+        return False
+    return "power" in (left.kind, right.kind) or (left.any(*sure) and right.any(*sure))
+
+
+def _closing(text: str, at: int, end: int) -> int:
+    """The place of the bracket that closes the one at a place."""
+    depth = 0
+    for place in range(at, end):
+        depth += (text[place] in "([{") - (text[place] in ")]}")
+        if depth == 0:
+            if text[place] != BRACKETS[text[at]]:
+                break
+            return place
+    raise _NoFormula
+
+
+def _split(text: str, start: int, end: int, sign: str) -> list[tuple[int, int]]:
+    """The places between signs outside of brackets."""
+    places, depth, first = [], 0, start
+    for place in range(start, end):
+        depth += (text[place] in "([{") - (text[place] in ")]}")
+        if depth == 0 and text[place] == sign:
+            places.append((first, place))
+            first = place + 1
+    return [*places, (first, end)]
+
+
+def _whole(text: str, start: int, end: int) -> Node:
+    """The formula that a part of the text is, without spaces at its ends."""
+    while start < end and text[start] == " ":
+        start += 1
+    while start < end and text[end - 1] == " ":
+        end -= 1
+    reader = _Reader(text, start, end)
+    made = reader.relation()
+    if reader.at != end:
+        raise _NoFormula
+    return made
+
+
+def _listed(text: str, start: int, end: int) -> tuple[Node, ...]:
+    """Formulas with commas between them."""
+    return tuple(_whole(text, *each) for each in _split(text, start, end, ","))
+
+
+def _matrix(text: str, start: int, end: int) -> Node:
+    """Rows with semicolons between them; entries with commas, or else with spaces."""
+    rows = []
+    for row in _split(text, start, end, ";"):
+        commas = _split(text, *row, ",")
+        try:
+            entries = commas if len(commas) > 1 else [row]
+            cells = [_whole(text, *each) for each in entries]
+        except _NoFormula:
+            spaced = [each for each in _split(text, *row, " ") if each[0] < each[1]]
+            cells = [_whole(text, *each) for each in spaced]
+        rows.append(Node("row", parts=tuple(cells)))
+    return Node("matrix", parts=tuple(rows))
+
+
+def _index(text: str) -> Node:
+    """An index or a power: a formula, or letters and digits side by side."""
+    try:
+        return _whole(text, 0, len(text))
+    except _NoFormula:
+        parts = [_sign_of_index(*each) for each in _IN_INDEX.findall(text)]
+        return parts[0] if len(parts) == 1 else Node("row", parts=tuple(parts))
+
+
+def _sign_of_index(sign: str, index: str) -> Node:
+    """A letter of an index, which may have one of its own, a number, or a sign."""
+    kind = "number" if sign.isdigit() else "letter" if sign.isalpha() else "operator"
+    found = Node(kind, sign)
+    return Node("index", parts=(found, _index(index))) if index else found
+
+
+def _is_worth_setting(made: Node, text: str, start: int, end: int) -> bool:
+    """Whether what was read is a formula, and no word, number or reference to an equation."""
+    if made.any("index", "power", "operator", "sum", "matrix", "name"):
+        return made.kind != "name"
+    if made.kind == "fenced":
+        numbers = all(part.kind == "number" for part in made.parts)
+        return not (numbers and len(made.parts) == 1 and made.text == "()")
+    if made.kind == "row":
+        return True
+    if made.kind != "letter" or made.text in ("a", "I", "V", "…"):
+        return False
+    article = made.text == "A" and re.match(r" (?!(?:and|is|has) )[a-z]{2}", text[end:])
+    begins = start == 0 or text[:start].rstrip().endswith((".", ":"))
+    hyphened = text[end : end + 1] == "-" or text[start - 1 : start] == "-"
+    return not (article and begins) and not hyphened
+
+
+def formulas(text: str) -> Iterator[str | Node]:
+    """Split a text into words, as they are, and formulas.
+
+    Parameters
+    ----------
+    text : str
+
+    Yields
+    ------
+    str or Node
+
+    Examples
+    --------
+    >>> [each if isinstance(each, str) else each.kind for each in formulas("All n_i > 0 do.")]
+    ['All ', 'row', ' do.']
+    """
+    plain = unicodedata.normalize("NFD", text).replace("=\u0338", "≠")
+    words, at = 0, 0
+    while at < len(plain):
+        reader = _Reader(plain, at, len(plain))
+        try:
+            if at and (plain[at - 1].isalnum() or plain[at - 1] in "`_.'’"):
+                raise _NoFormula
+            made = reader.relation()
+            if not _is_worth_setting(made, plain, at, reader.at):
+                raise _NoFormula
+        except _NoFormula:
+            at += 1
+            continue
+        if words < at:
+            yield unicodedata.normalize("NFC", plain[words:at])
+        yield made
+        at = words = reader.at
+    if words < len(plain):
+        yield unicodedata.normalize("NFC", plain[words:])
