@@ -53,7 +53,7 @@ class Matrix:
         spend(budget.table(len(places), ncols))
         return Matrix([[int(j == place) for j in range(ncols)] for place in places], ncols)
 
-    @property
+    @cached_property
     def nrows(self) -> int:
         """The number of rows."""
         return len(self.rows)
@@ -113,8 +113,11 @@ class Matrix:
         """The submatrix of these rows and columns."""
         if cols is not None:
             return self.take(rows).T.take(cols).T
-        chosen = self.rows if rows is None else [self.rows[i] for i in rows]
-        return Matrix(chosen, self.ncols, self.denominator)
+        return self if rows is None else self.at(rows)
+
+    def at(self, rows: Iterable[int]) -> Matrix:
+        """The submatrix of these rows."""
+        return Matrix([self.rows[i] for i in rows], self.ncols, self.denominator)
 
     def modulo(self, ell: int) -> Rows:
         """The residues modulo ℓ; the denominator must be a unit."""

@@ -6,12 +6,13 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import chain
 
-from . import budget, reading
+from . import budget, reading, sparse
 from .arithmetic import Matrix
 from .reading import Json, Limits, fields, integer, items, malformed, printable, shown, string
+from .sparse import SparseMatrix
 
-LARGEST = 2**22
-"""The cells of the largest sparse matrix, a side of length 0 counted as 1."""
+LONGEST = 2**20
+"""The most rows and columns of a matrix that lists its entries."""
 
 NUMBER = re.compile(r"-?[0-9]++(?:/0*+[1-9][0-9]*+|(?:\.[0-9]++)?(?:[eE][+-]?[0-9]++)?)")
 
@@ -85,32 +86,37 @@ def read_matrix(
     value: Json, place: str, nrows: int | None, ncols: int | None, limits: Limits | None = None
 ) -> Matrix:
     """A matrix of a system: a list of rows, or an object that lists its nonzero entries."""
+    rows: list[list[Json]] = []
+    cells: dict[tuple[int, int], Json] = {}
     if isinstance(value, dict):
         shape, entries = fields(value, place, "shape", "entries")
         r, c = (integer(size, f"{place}.shape") for size in items(shape, f"{place}.shape", 2))
-        if max(r, 1) * max(c, 1) > LARGEST:
+        if max(r, c) > LONGEST:
             reading.incomplete("size", f"{place}.shape", f"{r} by {c} is too large")
-        budget.spend(budget.table(r + 1, c))
-        rows: list[list[Json]] = [[0] * c for _ in range(r)]
-        seen = set()
         for i, j, entry in (items(triple, place, 3) for triple in items(entries, place)):
-            if integer(i, place) >= r or integer(j, place) >= c or (i, j) in seen:
+            if integer(i, place) >= r or integer(j, place) >= c or (i, j) in cells:
                 malformed(place, f"expected a position of its own inside {r} by {c}")
-            seen.add((i, j))
-            rows[i][j] = number(entry, place, limits)
+            cells[i, j] = number(entry, place, limits)
     else:
         r, listed = len(items(value, place)), value
         c = len(items(listed[0], place)) if listed else ncols or 0
         rows = [_numbers(items(row, place, c), place, limits) for row in listed]
     if nrows not in (None, r) or ncols not in (None, c):
         malformed(place, f"expected another shape, found {r} by {c}")
-    whole = set(map(type, chain(*rows))) <= {int}
-    different = {1} if whole else {entry.denominator for row in rows for entry in row}
+    given = [*chain(*rows), *cells.values()]
+    whole = set(map(type, given)) <= {int}
+    different = {1} if whole else {entry.denominator for entry in given}
     budget.spend(budget.fractions(len(different), sum(budget.limbs([d]) for d in different)))
     d = math.lcm(*different)
-    numerators = chain(*rows) if whole else (entry.numerator for row in rows for entry in row)
-    size = budget.limbs(numerators) + budget.limbs([d])
-    budget.build(r, c, size, size)
+    size = budget.limbs(given if whole else [entry.numerator for entry in given])
+    size += budget.limbs([d])
+    budget.build(r if rows else 1, c if rows else len(cells), size, size)
+    if isinstance(value, dict):
+        known = sorted(
+            (i, j, e.numerator * (d // e.denominator)) for (i, j), e in cells.items() if e
+        )
+        found = SparseMatrix(r, c, known, d)
+        return sparse.listed(found) or Matrix(found.rows, c, d)
     if whole:
         return Matrix(rows, c)
     return Matrix([[e.numerator * (d // e.denominator) for e in row] for row in rows], c, d)
@@ -187,20 +193,32 @@ def rows_of(M: Matrix) -> list[list[Json]]:
     budget.spend(budget.fractions(M.nrows * M.ncols, M.limbs))
     if M.denominator == 1:
         return M.rows
-    values = [[Fraction(entry, M.denominator) for entry in row] for row in M.rows]
-    return [[v.numerator if v.denominator == 1 else str(v) for v in row] for row in values]
+    return [[_in_json(entry, M.denominator) for entry in row] for row in M.rows]
+
+
+def _in_json(numerator: int, denominator: int) -> Json:
+    value = Fraction(numerator, denominator)
+    return value.numerator if value.denominator == 1 else str(value)
+
+
+def _form_of(M: Matrix) -> Json:
+    """The canonical form of a matrix: its rows, or the entries of a large one that is sparse."""
+    found = sparse.listed(M)
+    if found is None and (M.nrows or not M.ncols):
+        return rows_of(M)
+    entries = [] if found is None else found.entries
+    budget.spend(budget.fractions(len(entries), M.limbs))
+    triples = [[i, j, _in_json(x, M.denominator)] for i, j, x in entries]
+    return {"shape": [M.nrows, M.ncols], "entries": triples}
 
 
 def canonical(system: System) -> dict[str, Json]:
     """The canonical object of this plant in a certificate."""
-
-    def rows(M: Matrix) -> Json:
-        alone = not M.nrows and M.ncols
-        return {"shape": [0, M.ncols], "entries": []} if alone else rows_of(M)
-
     known, channels = system.names, zip(system.names, system.B, system.C, strict=True)
-    result: dict[str, Json] = {"time": system.time, "A": rows(system.A)}
-    result["channels"] = [{"name": name, "B": rows(B), "C": rows(C)} for name, B, C in channels]
+    result: dict[str, Json] = {"time": system.time, "A": _form_of(system.A)}
+    result["channels"] = [
+        {"name": name, "B": _form_of(B), "C": _form_of(C)} for name, B, C in channels
+    ]
     if system.neighbors is not None:
         sets = enumerate(system.neighbors)
         result["neighbors"] = {known[i]: [known[j] for j in N_i if j != i] for i, N_i in sets}

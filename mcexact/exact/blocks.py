@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from mcexact.errors import InputError
-from mcexact.exact.matrix import Matrix, Rows, from_numerators
+from mcexact.exact.matrix import Matrix, Rows, from_cells, from_numerators, require_sides
 
 
 def hstack(matrices: Sequence[Matrix], nrows: int | None = None) -> Matrix:
@@ -27,9 +27,13 @@ def hstack(matrices: Sequence[Matrix], nrows: int | None = None) -> Matrix:
     (2, 0)
     """
     height = _common(matrices, [M.nrows for M in matrices], nrows, "rows", "hstack")
+    width = sum(M.ncols for M in matrices)
+    if any(M.is_sparse for M in matrices):
+        left = _offsets(M.ncols for M in matrices)
+        return _placed((height, width), [(M, 0, j) for M, j in zip(matrices, left, strict=True)])
     tables, denominator = _over_one_denominator(matrices)
     rows = [[entry for table in tables for entry in table[i]] for i in range(height)]
-    return from_numerators(rows, denominator, sum(M.ncols for M in matrices))
+    return from_numerators(rows, denominator, width)
 
 
 def vstack(matrices: Sequence[Matrix], ncols: int | None = None) -> Matrix:
@@ -53,6 +57,10 @@ def vstack(matrices: Sequence[Matrix], ncols: int | None = None) -> Matrix:
     (Fraction(5, 1), Fraction(1, 2))
     """
     width = _common(matrices, [M.ncols for M in matrices], ncols, "columns", "vstack")
+    if any(M.is_sparse for M in matrices):
+        top = _offsets(M.nrows for M in matrices)
+        shape = sum(M.nrows for M in matrices), width
+        return _placed(shape, [(M, i, 0) for M, i in zip(matrices, top, strict=True)])
     tables, denominator = _over_one_denominator(matrices)
     return from_numerators([row for table in tables for row in table], denominator, width)
 
@@ -81,15 +89,9 @@ def block_diagonal(matrices: Sequence[Matrix]) -> Matrix:
     >>> block_diagonal([Matrix.identity(1), Matrix.zeros(0, 2), Matrix.identity(1)]).numerators
     ((1, 0, 0, 0), (0, 0, 0, 1))
     """
-    tables, denominator = _over_one_denominator(matrices)
-    width = sum(M.ncols for M in matrices)
-    rows: list[tuple[int, ...]] = []
-    left = 0
-    for M, table in zip(matrices, tables, strict=True):
-        right = width - left - M.ncols
-        rows += [(0,) * left + row + (0,) * right for row in table]
-        left += M.ncols
-    return from_numerators(rows, denominator, width)
+    top, left = _offsets(M.nrows for M in matrices), _offsets(M.ncols for M in matrices)
+    shape = sum(M.nrows for M in matrices), sum(M.ncols for M in matrices)
+    return _placed(shape, list(zip(matrices, top, left, strict=True)))
 
 
 def kronecker(A: Matrix, B: Matrix) -> Matrix:
@@ -100,10 +102,37 @@ def kronecker(A: Matrix, B: Matrix) -> Matrix:
     >>> kronecker(Matrix.from_rows([[1, 2]]), Matrix.identity(2)).numerators
     ((1, 0, 2, 0), (0, 1, 0, 2))
     """
-    rows = [
-        [a * b for a in upper for b in lower] for upper in A.numerators for lower in B.numerators
-    ]
-    return from_numerators(rows, A.denominator * B.denominator, A.ncols * B.ncols)
+    shape = A.nrows * B.nrows, A.ncols * B.ncols
+    small = list(B.nonzero())
+    found = {
+        (i * B.nrows + k) * shape[1] + j * B.ncols + l: a * b
+        for i, j, a in A.nonzero()
+        for k, l, b in small
+    }
+    cells = sorted(found)
+    return from_cells(shape, cells, map(found.__getitem__, cells), A.denominator * B.denominator)
+
+
+def _placed(shape: tuple[int, int], parts: Sequence[tuple[Matrix, int, int]]) -> Matrix:
+    """The matrix with each part at the place where its first row and column go, and zeros."""
+    require_sides(*shape)
+    denominator = math.lcm(*(M.denominator for M, _, _ in parts))
+    found = {
+        (top + i) * shape[1] + left + j: x * (denominator // M.denominator)
+        for M, top, left in parts
+        for i, j, x in M.nonzero()
+    }
+    cells = sorted(found)
+    return from_cells(shape, cells, map(found.__getitem__, cells), denominator)
+
+
+def _offsets(sizes: Iterable[int]) -> list[int]:
+    """Where parts of these sizes begin, one after the other."""
+    found, start = [], 0
+    for size in sizes:
+        found.append(start)
+        start += size
+    return found
 
 
 def _common(

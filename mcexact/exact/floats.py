@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from mcexact.errors import InputError
 from mcexact.exact.matrix import Matrix
-from mcexact.exact.rows import rows_of
+from mcexact.exact.rows import entries_of, is_sparse_array, rows_of
 
 if TYPE_CHECKING:
     import numpy as np
@@ -88,7 +88,8 @@ def matrix_from_float(
     Parameters
     ----------
     M : array_like, r × c
-        A real two-dimensional array, or a list of rows of numbers.  Integers do not change.
+        A real two-dimensional array, a sparse array of scipy, or a list of rows of numbers.
+        Integers do not change.
     rounding : {"decimal", "dyadic"}
         See `from_float`.
     where : str, optional
@@ -104,6 +105,12 @@ def matrix_from_float(
     >>> matrix_from_float([[0.1, 2.0]]).rows()
     ((Fraction(1, 10), Fraction(2, 1)),)
     """
+    if is_sparse_array(M):
+        entries = entries_of(M, where, floats=True)
+        return Matrix.from_entries(
+            M.shape,
+            ((i, j, _exact(x, rounding, f"{where or ''}[{i}][{j}]")) for i, j, x in entries),
+        )
     exact = [
         [_exact(entry, rounding, f"{where or ''}[{i}][{j}]") for j, entry in enumerate(row)]
         for i, row in enumerate(rows_of(M, where, floats=True))

@@ -4,20 +4,19 @@ from __future__ import annotations
 
 import math
 from array import array
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
-from itertools import chain
 from typing import Any
 
 import flint
 
 from mcexact.errors import InputError, LimitReached
+from mcexact.exact import tables
 from mcexact.exact.rational import Entry, as_fraction, rational_text, require_power
 from mcexact.exact.rows import common_width, rows_of
-
-Rows = tuple[tuple[int, ...], ...]
+from mcexact.exact.tables import DenseTable, SparseTable, Table
+from mcexact.exact.tables import Rows as Rows
 
 # 2 GiB of machine words
 _MOST_ENTRIES = 2**28
@@ -35,8 +34,11 @@ class Matrix:
     Notes
     -----
     Exact, immutable, hashable; equal matrices are equal objects in the sense of ``==``.  Build one
-    with `from_rows` (any exact entries) or `from_integers`.  The numerators stay in flint's form
-    from one operation to the next; `numerators` converts them to integers when it is first read.
+    with `from_rows` (any exact entries), `from_entries` or `from_integers`.  The numerators stay in
+    flint's form from one operation to the next; `numerators` converts them to integers when it is
+    first read.  A matrix of at least 2**11 cells of which at most an eighth are not 0 keeps these
+    alone, and so do its submatrices, transposes, sums, and products with others of this sort; only
+    `numerators`, `words` and algorithms for dense matrices write it out with its zeros.
 
     Examples
     --------
@@ -49,8 +51,7 @@ class Matrix:
     (3, 0)
     """
 
-    # Other matrices and functions of this stage share this object, so nothing may change it.
-    _integer: flint.fmpz_mat
+    _table: Table
     denominator: int
 
     @classmethod
@@ -95,6 +96,57 @@ class Matrix:
         return from_numerators(numerators, denominator, width)
 
     @classmethod
+    def from_entries(
+        cls,
+        shape: tuple[int, int],
+        entries: Iterable[tuple[int, int, Entry]],
+        *,
+        where: str | None = None,
+    ) -> Matrix:
+        """Make the matrix of a shape with the given entries, and zeros elsewhere.
+
+        Parameters
+        ----------
+        shape : (int, int)
+        entries : iterable of (int, int, entry)
+            Row, column and value, in any order; positions are counted from 0.
+        where : str, optional
+            The place to name in an error.
+
+        Raises
+        ------
+        InputError
+            A position is outside the shape or is given twice, or a value is not rational.
+        FloatRefused
+            A value is a float.
+
+        Examples
+        --------
+        >>> Matrix.from_entries((2, 3), [(1, 2, "1/2"), (0, 0, 3)]).rows()[1]
+        (Fraction(0, 1), Fraction(0, 1), Fraction(1, 2))
+        >>> Matrix.from_entries((100_000, 100_000), [(7, 8, 9)])[7, 8]
+        Fraction(9, 1)
+        """
+        r, c = shape
+        require_sides(r, c)
+        found: dict[int, Entry] = {}
+        for i, j, value in entries:
+            if not (0 <= i < r and 0 <= j < c):
+                raise InputError(
+                    f"expected a position inside {r} × {c}, found ({i}, {j})", where=where
+                )
+            if i * c + j in found:
+                raise InputError(f"the position ({i}, {j}) is given twice", where=where)
+            found[i * c + j] = value
+        cells = sorted(found)
+        if not {type(value) for value in found.values()} <= {int}:
+            for k, value in found.items():
+                found[k] = as_fraction(value, where=f"{where or ''}[{k // c}][{k % c}]")
+        denominator = math.lcm(*{value.denominator for value in found.values()})
+        values = (found[k].numerator * (denominator // found[k].denominator) for k in cells)
+        return from_cells(shape, cells, values, denominator)
+
+    @classmethod
     def from_integers(
         cls, rows: Iterable[Iterable[int]], denominator: int = 1, ncols: int | None = None
     ) -> Matrix:
@@ -120,16 +172,13 @@ class Matrix:
     @classmethod
     def zeros(cls, nrows: int, ncols: int) -> Matrix:
         """The nrows × ncols zero matrix."""
-        require_sizes(nrows, ncols)
-        return cls(flint.fmpz_mat(nrows, ncols), 1)
+        return from_cells((nrows, ncols), (), ())
 
     @classmethod
     def identity(cls, n: int) -> Matrix:
         """The n × n identity matrix."""
-        made = cls.zeros(n, n)
-        for i in range(n):
-            made._integer[i, i] = 1
-        return made
+        require_sides(n, n)
+        return from_cells((n, n), range(0, n * n, n + 1), (1,) * n)
 
     @classmethod
     def column(cls, entries: Iterable[Entry]) -> Matrix:
@@ -139,44 +188,73 @@ class Matrix:
     @property
     def nrows(self) -> int:
         """Number of rows."""
-        return self._integer.nrows()
+        return self._table.nrows
 
     @property
     def ncols(self) -> int:
         """Number of columns."""
-        return self._integer.ncols()
+        return self._table.ncols
 
     @property
     def shape(self) -> tuple[int, int]:
         """Numbers of rows and columns."""
         return self.nrows, self.ncols
 
-    @cached_property
-    def numerators(self) -> Rows:
-        """The rows of N."""
-        words, width = self.__dict__.get("words"), self.ncols
-        entries = tuple(words or map(int, self._integer.entries()))
-        return tuple(entries[i * width : (i + 1) * width] for i in range(self.nrows))
+    @property
+    def is_sparse(self) -> bool:
+        """Whether only the entries that are not 0 are kept; equal matrices may differ in this."""
+        return isinstance(self._table, SparseTable)
 
-    @cached_property
+    def suited(self) -> Matrix:
+        """The same matrix, sparse if its size and its entries suit that."""
+        return Matrix(tables.suited(self._table), self.denominator)
+
+    @property
+    def _integer(self) -> flint.fmpz_mat:
+        """N in flint's form, which nothing may change."""
+        return self._table.integer
+
+    @property
+    def numerators(self) -> Rows:
+        """The rows of N, with all zeros.
+
+        Raises
+        ------
+        LimitReached
+            The matrix is sparse, and too large to be written out.
+        """
+        return self._table.rows
+
+    @property
     def words(self) -> array[int] | None:
         """The entries of N row by row as machine words of 64 bits; None if one is longer.
 
         A matrix that was made of integers has them from the start: others convert each entry.
         """
-        return _words(list(chain.from_iterable(self.numerators)))
+        return self._table.words
+
+    def nonzero(self) -> Iterator[tuple[int, int, int]]:
+        """The entries of N that are not 0, row by row: row, column, numerator.
+
+        Examples
+        --------
+        >>> list(Matrix.from_rows([[0, "1/2"], [3, 0]]).nonzero())
+        [(0, 1, 1), (1, 0, 6)]
+        """
+        for cell, value in self._table.nonzero():
+            yield *divmod(cell, self.ncols), value
 
     @property
     def T(self) -> Matrix:
         """The transpose."""
-        return Matrix(self._integer.transpose(), self.denominator)
+        return Matrix(self._table.T, self.denominator)
 
     def __getitem__(self, position: tuple[int, int]) -> Fraction:
         """The entry in a row and a column, counted from 0; negative positions are refused."""
         i, j = position
         if not (0 <= i < self.nrows and 0 <= j < self.ncols):
             raise IndexError(f"no entry ({i}, {j}) in a {self.nrows} × {self.ncols} matrix")
-        return Fraction(int(self._integer[i, j]), self.denominator)
+        return Fraction(self._table.entry(i, j), self.denominator)
 
     def rows(self) -> tuple[tuple[Fraction, ...], ...]:
         """The entries as Fractions; slower than `numerators` for large matrices."""
@@ -193,14 +271,11 @@ class Matrix:
         ((0, 0, 1), (1, 0, 0))
         """
         require_positions(self.shape, rows, cols)
-        table = self.numerators if rows is None else [self.numerators[i] for i in rows]
-        if cols is not None:
-            table = [tuple(row[j] for j in cols) for row in table]
-        return from_numerators(table, self.denominator, self.ncols if cols is None else len(cols))
+        return _lowest(self._table.take(rows, cols), self.denominator)
 
     def is_zero(self) -> bool:
         """Whether every entry is 0; true without entries."""
-        return not self._integer
+        return self._table.is_zero()
 
     def is_square(self) -> bool:
         """Whether there are as many rows as columns."""
@@ -209,10 +284,10 @@ class Matrix:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Matrix):
             return NotImplemented
-        return self.denominator == other.denominator and bool(self._integer == other._integer)
+        return self.denominator == other.denominator and tables.equal(self._table, other._table)
 
     def __hash__(self) -> int:
-        return hash((self.shape, self.numerators, self.denominator))
+        return hash((self.shape, self.denominator, tuple(self._table.nonzero())))
 
     def __add__(self, other: Matrix) -> Matrix:
         return self._combined(other, 1)
@@ -226,30 +301,26 @@ class Matrix:
         if self.shape != other.shape:
             raise _shapes_do_not_match("+" if sign > 0 else "-", self, other)
         denominator = math.lcm(self.denominator, other.denominator)
-        left = self._over(denominator)
-        right = other._over(denominator)
-        return from_flint(left + right if sign > 0 else left - right, denominator)
-
-    def _over(self, denominator: int) -> flint.fmpz_mat:
-        """The numerators over a multiple of the denominator."""
-        factor = denominator // self.denominator
-        return self._integer if factor == 1 else self._integer * factor
+        left = self._table.scaled(denominator // self.denominator)
+        right = other._table.scaled(denominator // other.denominator)
+        return _lowest(tables.total(left, right, sign), denominator)
 
     def __neg__(self) -> Matrix:
-        return Matrix(-self._integer, self.denominator)
+        return Matrix(self._table.scaled(-1), self.denominator)
 
     def __matmul__(self, other: Matrix) -> Matrix:
         if not isinstance(other, Matrix):
             return NotImplemented
         if self.ncols != other.nrows:
             raise _shapes_do_not_match("@", self, other)
-        return from_flint(self._integer * other._integer, self.denominator * other.denominator)
+        made = tables.product(self._table, other._table)
+        return _lowest(made, self.denominator * other.denominator)
 
     def __mul__(self, factor: int | Fraction) -> Matrix:
         if isinstance(factor, bool) or not isinstance(factor, (int, Fraction)):
             return NotImplemented
         p, q = factor.numerator, factor.denominator
-        return from_flint(self._integer * p, q * self.denominator)
+        return _lowest(self._table.scaled(p), q * self.denominator)
 
     __rmul__ = __mul__
 
@@ -262,23 +333,39 @@ class Matrix:
         return from_flint(self._integer**k, self.denominator**k)
 
     def __reduce__(self) -> tuple[Any, ...]:
+        if isinstance(self._table, SparseTable):
+            table = self._table
+            return from_cells, (self.shape, table.cells, table.values, self.denominator)
         return Matrix.from_integers, (self.numerators, self.denominator, self.ncols)
 
     def __repr__(self) -> str:
+        if isinstance(self._table, SparseTable):
+            return f"Matrix(shape={self.shape}, {len(self._table.values)} entries that are not 0)"
         rows = ", ".join("[" + ", ".join(map(rational_text, row)) + "]" for row in self.rows())
         shape = "" if self.nrows and self.ncols else f", shape={self.shape}"
         return f"Matrix([{rows}]{shape})"
 
 
-def require_sizes(nrows: int, ncols: int) -> None:
-    """Raise an error for sizes for which flint would abort, or that exceed the memory."""
+def require_sides(nrows: int, ncols: int) -> None:
+    """Raise an error for numbers of rows and columns that no matrix has."""
     for size, name in ((nrows, "rows"), (ncols, "columns")):
         if type(size) is not int or size < 0:
             raise InputError(f"expected a number of {name} that is at least 0, found {size!r}")
-    if max(nrows, 1) * max(ncols, 1) > _MOST_ENTRIES:
-        raise LimitReached(
-            f"a {nrows} × {ncols} matrix has more than {_MOST_ENTRIES} entries: too many for memory"
-        )
+    if max(nrows, ncols) > _MOST_ENTRIES:
+        raise _too_large(nrows, ncols)
+
+
+def require_sizes(nrows: int, ncols: int) -> None:
+    """Raise an error for sizes for which flint would abort, or that exceed the memory."""
+    require_sides(nrows, ncols)
+    if nrows * ncols > _MOST_ENTRIES:
+        raise _too_large(nrows, ncols)
+
+
+def _too_large(nrows: int, ncols: int) -> LimitReached:
+    return LimitReached(
+        f"a {nrows} × {ncols} matrix has more than {_MOST_ENTRIES} entries: too many for memory"
+    )
 
 
 def require_positions(
@@ -293,27 +380,30 @@ def require_positions(
 
 def from_numerators(rows: Sequence[Sequence[int]], denominator: int, ncols: int) -> Matrix:
     """The matrix rows / denominator; the rows are valid, denominator ≠ 0."""
-    entries = list(chain.from_iterable(rows))
-    made = from_flint(flint.fmpz_mat(len(rows), ncols, entries), denominator)
-    if denominator == 1:
-        made.__dict__["words"] = _words(entries)
-    return made
+    return _lowest(tables.table_of_rows(rows, ncols), denominator)
 
 
-def _words(entries: list[int]) -> array[int] | None:
-    """Integers as machine words; None if one is longer."""
-    try:
-        return array("q", entries)
-    except OverflowError:
-        return None
+def from_cells(
+    shape: tuple[int, int], cells: Sequence[int], values: Iterable[int], denominator: int = 1
+) -> Matrix:
+    """The matrix with values / denominator at increasing cells i·ncols + j, and zeros elsewhere.
+
+    No position is given twice, and denominator ≠ 0.
+    """
+    require_sides(*shape)
+    pairs = [(cell, value) for cell, value in zip(cells, values, strict=True) if value]
+    made = tables.table_of_cells(*shape, [cell for cell, _ in pairs], [x for _, x in pairs])
+    return _lowest(made, denominator)
 
 
 def from_flint(table: flint.fmpz_mat, denominator: int = 1) -> Matrix:
     """The matrix table / denominator in lowest terms, denominator ≠ 0."""
-    if denominator == 1:
-        return Matrix(table, 1)
-    numerators, least = (flint.fmpq_mat(table) / denominator).numer_denom()
-    return Matrix(numerators, int(least))
+    return _lowest(DenseTable(table), denominator)
+
+
+def _lowest(table: Table, denominator: int) -> Matrix:
+    """The matrix table / denominator in lowest terms, denominator ≠ 0."""
+    return Matrix(*table.reduced(denominator))
 
 
 def _shapes_do_not_match(operation: str, a: Matrix, b: Matrix) -> InputError:

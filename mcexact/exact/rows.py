@@ -34,21 +34,11 @@ def rows_of(value: Any, where: str | None = None, *, floats: bool = False) -> li
     >>> rows_of([[1, "1/2"], [0, 3]])
     [(1, '1/2'), (0, 3)]
     """
-    if hasattr(value, "toarray"):
+    if is_sparse_array(value):
         value = value.toarray()
     elif hasattr(value, "__array__") and not hasattr(value, "tolist"):
         value = value.__array__()
-    dtype = getattr(value, "dtype", None)
-    if dtype is not None and hasattr(dtype, "kind"):
-        if dtype.kind == "f" and not floats:
-            raise FloatRefused(f"found an array of {dtype}: {TWO_WAYS_IN}", where=where)
-        if dtype.kind not in "fiuO":
-            kinds = "real numbers" if floats else "integers or of exact objects"
-            raise InputError(f"expected an array of {kinds}, found {dtype}", where=where)
-        if value.ndim != 2:
-            raise InputError(
-                f"expected a two-dimensional array, found {value.ndim} dimensions", where=where
-            )
+    _require_numbers(value, where, floats)
     if hasattr(value, "tolist"):
         value = value.tolist()
     if not _is_sequence(value):
@@ -68,6 +58,51 @@ def rows_of(value: Any, where: str | None = None, *, floats: bool = False) -> li
             )
         copied.append(tuple(row))
     return copied
+
+
+def _require_numbers(value: Any, where: str | None, floats: bool) -> None:
+    """Refuse an array with entries of another kind, or with one dimension or three."""
+    dtype = getattr(value, "dtype", None)
+    if dtype is None or not hasattr(dtype, "kind"):
+        return
+    if dtype.kind == "f" and not floats:
+        raise FloatRefused(f"found an array of {dtype}: {TWO_WAYS_IN}", where=where)
+    if dtype.kind not in "fiuO":
+        kinds = "real numbers" if floats else "integers or of exact objects"
+        raise InputError(f"expected an array of {kinds}, found {dtype}", where=where)
+    if value.ndim != 2:
+        raise InputError(
+            f"expected a two-dimensional array, found {value.ndim} dimensions", where=where
+        )
+
+
+def is_sparse_array(value: Any) -> bool:
+    """Whether a value is a sparse array or matrix of scipy."""
+    return hasattr(value, "tocoo") and hasattr(value, "shape")
+
+
+def entries_of(
+    value: Any, where: str | None = None, *, floats: bool = False
+) -> list[tuple[int, int, Any]]:
+    """List the row, the column and the value of each stored entry of a sparse array of scipy.
+
+    Values that are stored for the same position are added, as scipy does.
+
+    Raises
+    ------
+    FloatRefused
+        If it is an array of floats, which is not allowed.
+    InputError
+        If it is not a matrix of numbers.
+    """
+    _require_numbers(value, where, floats)
+    found: dict[tuple[int, int], Any] = {}
+    stored = value.tocoo()
+    for i, j, entry in zip(
+        *(x.tolist() for x in (stored.row, stored.col, stored.data)), strict=True
+    ):
+        found[i, j] = found[i, j] + entry if (i, j) in found else entry
+    return [(i, j, entry) for (i, j), entry in found.items()]
 
 
 def _is_sequence(value: Any) -> bool:

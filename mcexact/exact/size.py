@@ -19,7 +19,7 @@ def bit_length(matrices: Iterable[Matrix]) -> int:
     longest = 0
     for M in matrices:
         d = M.denominator
-        for entry in {x for row in M.numerators for x in row}:
+        for entry in {x for _, _, x in M.nonzero()}:
             # For most entries the bound without cancellation is already small enough.
             if max(entry.bit_length(), d.bit_length()) > longest:
                 p, q = Fraction(entry, d).as_integer_ratio()
@@ -37,7 +37,7 @@ def largest_entry(matrices: Iterable[Matrix]) -> Fraction:
     """
     return max(
         (
-            Fraction(max((abs(x) for row in M.numerators for x in row), default=0), M.denominator)
+            Fraction(max((abs(x) for _, _, x in M.nonzero()), default=0), M.denominator)
             for M in matrices
         ),
         default=Fraction(0),

@@ -9,7 +9,7 @@ from typing import Any, Protocol, TypeVar
 
 from mcexact.errors import InputError
 from mcexact.exact.matrix import Matrix
-from mcexact.exact.rows import common_width, rows_of
+from mcexact.exact.rows import common_width, entries_of, is_sparse_array, rows_of
 
 
 class Shaped(Protocol):
@@ -80,6 +80,9 @@ def as_table(value: Any, where: str, ncols: int | None = None) -> Table:
     """
     if isinstance(value, Matrix):
         return Table(value.shape, lambda: value)
+    if is_sparse_array(value):
+        entries, shape = entries_of(value, where), (int(value.shape[0]), int(value.shape[1]))
+        return Table(shape, partial(Matrix.from_entries, shape, entries, where=where))
     rows = rows_of(value, where)
     width = common_width(rows, where)
     if width is None:

@@ -8,7 +8,7 @@ from functools import lru_cache, partial
 from typing import Any
 
 from mcexact.errors import InputError
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, from_cells
 from mcexact.exact.rational import (
     DEFAULT_LIMITS,
     PRINTABLE_BITS,
@@ -28,8 +28,8 @@ from mcexact.model.json_text import (
 )
 from mcexact.model.matrix_entry import Table, require_shape
 
-LARGEST_SPARSE = 2**22
-"""The number of cells of the largest sparse matrix; a few bytes must not fill the memory."""
+LONGEST_SIDE = 2**20
+"""The most rows and columns of a sparse matrix; a few bytes must not fill the memory."""
 
 
 def read_number(value: Any, where: str, limits: Limits = DEFAULT_LIMITS) -> Fraction:
@@ -160,9 +160,9 @@ def _sparse_shape(value: Any, where: str) -> tuple[int, int]:
             f"expected [rows, columns], found {len(sizes)} numbers", where=f"{where}.shape"
         )
     r, c = (expect_integer(size, f"{where}.shape[{k}]") for k, size in enumerate(sizes))
-    if max(r, c) * max(min(r, c), 1) > LARGEST_SPARSE:
+    if max(r, c) > LONGEST_SIDE:
         raise InputError(
-            f"expected at most {LARGEST_SPARSE} cells in a sparse matrix, "
+            f"expected at most {LONGEST_SIDE} rows and columns in a sparse matrix, "
             f"found {shown_integer(r)} × {shown_integer(c)}",
             where=where,
         )
@@ -172,29 +172,34 @@ def _sparse_shape(value: Any, where: str) -> tuple[int, int]:
 def _sparse(entries: list[Any], shape: tuple[int, int], where: str, limits: Limits) -> Matrix:
     """Read the entries of a sparse matrix."""
     r, c = shape
-    values: dict[tuple[int, int], Fraction] = {}
+    values: dict[int, Fraction | int] = {}
     for k, entry in enumerate(entries):
-        place = f"{where}.entries[{k}]"
-        if len(expect_list(entry, place)) != 3:
+        if type(entry) is not list or len(entry) != 3:
+            length = len(expect_list(entry, f"{where}.entries[{k}]"))
             raise InputError(
-                f"expected [row, column, value], found {len(entry)} items", where=place
+                f"expected [row, column, value], found {length} items",
+                where=f"{where}.entries[{k}]",
             )
-        i, j = (expect_integer(entry[axis], f"{place}[{axis}]") for axis in (0, 1))
+        i, j, value = entry
+        if type(i) is not int or type(j) is not int or i < 0 or j < 0:
+            i, j = (expect_integer(entry[axis], f"{where}.entries[{k}][{axis}]") for axis in (0, 1))
         if i >= r or j >= c:
             found = f"[{shown_integer(i)}, {shown_integer(j)}]"
-            raise InputError(f"expected a position inside {r} × {c}, found {found}", where=place)
-        if (i, j) in values:
-            raise InputError(f"the position [{i}, {j}] is listed twice", where=place)
-        values[i, j] = read_number(entry[2], f"{place}[2]", limits)
-    denominator = math.lcm(*(number.denominator for number in values.values()))
-    touched: dict[int, list[int]] = {}
-    for (i, j), number in values.items():
-        row = touched.setdefault(i, [0] * c)
-        row[j] = number.numerator * (denominator // number.denominator)
-    # Rows of zeros share one tuple.
-    zeros = (0,) * c
-    rows = [touched.get(i, zeros) for i in range(r)]
-    return Matrix.from_integers(rows, denominator, ncols=c)
+            raise InputError(
+                f"expected a position inside {r} × {c}, found {found}",
+                where=f"{where}.entries[{k}]",
+            )
+        if i * c + j in values:
+            raise InputError(
+                f"the position [{i}, {j}] is listed twice", where=f"{where}.entries[{k}]"
+            )
+        if type(value) is not int:
+            value = read_number(value, f"{where}.entries[{k}][2]", limits)
+        values[i * c + j] = value
+    denominator = math.lcm(*{number.denominator for number in values.values()})
+    cells = sorted(values)
+    numerators = (values[k].numerator * (denominator // values[k].denominator) for k in cells)
+    return from_cells(shape, cells, numerators, denominator)
 
 
 def number_json(value: Fraction) -> int | str:
@@ -209,7 +214,13 @@ def number_json(value: Fraction) -> int | str:
 
 
 def matrix_json(M: Matrix) -> Any:
-    """Write a matrix as a list of rows; one with columns but no rows says its shape."""
+    """Write a matrix as a list of rows; one with columns but no rows says its shape.
+
+    Raises
+    ------
+    LimitReached
+        The matrix is sparse, and too large for that.
+    """
     r, c = M.shape
     if not r and c:
         return {"shape": [0, c], "entries": []}
@@ -220,7 +231,10 @@ def matrix_json(M: Matrix) -> Any:
 
 
 def canonical_matrix_text(M: Matrix) -> str:
-    """The canonical JSON text of a matrix in a certificate's system: rows in lowest terms.
+    """The canonical JSON text of a matrix in a certificate's system, in lowest terms.
+
+    A matrix of at least 2**11 cells of which at most an eighth are not 0 is an object that has its
+    shape and lists these entries row by row; any other one is a list of rows.
 
     Notes
     -----
@@ -233,8 +247,11 @@ def canonical_matrix_text(M: Matrix) -> str:
     [["1/2",3]]
     """
     r, c = M.shape
+    M = M.suited()
+    if M.is_sparse or (c and not r):
+        return sparse_matrix_text(M)
     if not r:
-        return f'{{"entries":[],"shape":[0,{c}]}}' if c else "[]"
+        return "[]"
     words = M.words if M.denominator == 1 else None
     if words is None:
         rows = [",".join([_entry_text(x, M.denominator) for x in row]) for row in M.numerators]
@@ -244,6 +261,16 @@ def canonical_matrix_text(M: Matrix) -> str:
         template = _template(c, ",")
         rows = [template % tuple(words[k * c : (k + 1) * c]) for k in range(r)]
     return "[[" + "],[".join(rows) + "]]"
+
+
+def sparse_matrix_text(M: Matrix, between: str = ",") -> str:
+    """The JSON text of a matrix by its shape and its entries that are not 0."""
+    d = M.denominator
+    if d == 1:
+        found = between.join([f"[{i},{j},{digits_of(x)}]" for i, j, x in M.nonzero()])
+    else:
+        found = between.join([f"[{i},{j},{_entry_text(x, d)}]" for i, j, x in M.nonzero()])
+    return f'{{"entries":[{found}],"shape":[{M.nrows},{M.ncols}]}}'
 
 
 @lru_cache(maxsize=16)

@@ -32,6 +32,7 @@ from mcexact.model.matrix_json import (
     number_json,
     read_matrix,
     read_number,
+    sparse_matrix_text,
     unread_matrix,
 )
 from mcexact.model.names import checked_names, checked_text, quoted
@@ -185,7 +186,8 @@ def canonical_text(system: MultiChannelSystem) -> str:
 
     Notes
     -----
-    Keys are sorted; matrices are rows of reduced rationals; name and source are left out.
+    Keys are sorted; matrices are rows of reduced rationals, or list their entries if they are
+    large and sparse; name and source are left out.
     """
     plant = system.plant
     known: str | None = plant.__dict__.get("_canonical_text")
@@ -298,6 +300,9 @@ def _channels_text(system: MultiChannelSystem) -> str:
 
 def _matrix_text(M: Matrix, indent: str) -> str:
     """Return the JSON text of a matrix, on one line if it is short, else one line for each row."""
+    M = M.suited()
+    if M.is_sparse:
+        return sparse_matrix_text(M, f",\n{indent}  ")
     value = matrix_json(M)
     if isinstance(value, dict) or not value:
         return json.dumps(value)

@@ -20,6 +20,12 @@ def matrix(*rows: Sequence[int], denominator: int = 1) -> Document:
     return {"denominator": denominator, "entries": [list(row) for row in rows]}
 
 
+def listed(rows: Sequence[Sequence[Any]], ncols: int) -> Document:
+    """A matrix of a system by its entries that are not 0."""
+    entries = [[i, j, x] for i, row in enumerate(rows) for j, x in enumerate(row) if x]
+    return {"shape": [len(rows), ncols], "entries": entries}
+
+
 def layers(*parts: Sequence[Sequence[int]], denominator: int = 1) -> Document:
     """A polynomial matrix of a certificate, constant layer first."""
     rows = [[list(row) for row in part] for part in parts]

@@ -144,7 +144,7 @@ NINES = 10**4200 - 1
 RADIUS = f"{NINES}/{10**4200}"
 HARD = prod(2**61 - 1 + 2 * k for k in range(200))
 """No unit modulo any of the first 200 moduli that are tried."""
-WIDE = {"shape": [0, 4 * 10**6], "entries": []}
+WIDE = {"shape": [0, 2**20], "entries": []}
 DELAYED = {"neighbors": {"1": ["2"], "2": []}, "delays": {"1": {"2": 10**8}}}
 SHARED = {"share": "states", "dimensions": [0, 0]}
 MESH = {str(i): [str(j) for j in range(1, 41) if j != i] for i in range(1, 41)}
@@ -171,11 +171,11 @@ HEAVY: dict[str, dict[str, Any]] = {
     "a radius of 4200 digits": stable(plant(chain(20, 1), port(20), time="discrete"), bound=RADIUS),
     "a rate of 4200 digits": stable(plant(chain(30, 1), port(30)), bound=NINES),
     "pivots that are no units": stable(plant(chain(40, HARD), port(40))),
-    "60 channels of millions of inputs": connected(
+    "60 channels of a million inputs": connected(
         plant([], *[(WIDE, [])] * 60, **heard(60)),
         step("extended", share="states", dimensions=[0] * 60),
     ),
-    "the dual of millions of inputs": connected(plant([], (WIDE, [])), step("dual")),
+    "the dual of a million inputs": connected(plant([], (WIDE, [])), step("dual")),
     "a delay of a hundred million steps": connected(
         plant([[0]], port(1), port(1), time="discrete", **DELAYED), step("lifted", **SHARED)
     ),

@@ -21,6 +21,7 @@ from tests.checker.handmade import (
     changed,
     checked,
     layers,
+    listed,
     matrix,
     plant,
 )
@@ -231,6 +232,6 @@ def test_the_work_of_splitting_grows_with_the_entries_that_are_looked_at() -> No
 def test_many_blocks_are_within_what_is_granted() -> None:
     n = 60
     unit = [[int(i == j) for j in range(n)] for i in range(n)]
-    system = plant(unit, *(([[v] for v in unit[i]], [unit[i]]) for i in range(n)))
+    system = plant(listed(unit, n), *(([[v] for v in unit[i]], [unit[i]]) for i in range(n)))
     verdict = checked(spectrum(system, *(block([i], one_state(str(i + 1))) for i in range(n))))
     assert verdict.verdict == "VALID", verdict.line()

@@ -42,7 +42,7 @@ from mcexact.checker.system import read_system_file
 from mcexact.errors import InputError
 from tests import effort
 from tests.checker import heavy
-from tests.checker.handmade import FIXED, VALID, changed
+from tests.checker.handmade import FIXED, VALID, changed, plant
 
 ENOUGH = Limits(work=10**15)
 
@@ -219,28 +219,38 @@ def sha256(data: bytes) -> str:
 
 
 def test_a_system_file_is_read_within_a_budget() -> None:
-    entries = {"shape": [2000, 2000], "entries": []}
+    entries = {"shape": [2**20, 0], "entries": []}
     text = data_of({"format": "mcexact-system/1", "time": "discrete", "A": entries, "channels": []})
     with pytest.raises(Refused, match=r"Limits\.work"):
         read_system_file(text, Limits(work=10**6))
 
 
-@pytest.mark.parametrize("zero", [{"shape": [2048, 2048], "entries": []}, [[0] * 2048]])
-def test_a_controller_file_is_read_within_a_budget(zero: Any, tmp_path: Path) -> None:
-    maps = {"shared_update": {}, "private_update": {"private": zero}, "input": {}}
-    agent = {"name": "1", "shared": 0, "private": 2048, **maps}
+def test_matrices_of_zeros_are_read_at_once_however_large() -> None:
+    zeros, none = {"shape": [2**20, 2**20], "entries": []}, {"shape": [0, 2**20], "entries": []}
+    system = plant(zeros, *[({"shape": [2**20, 1], "entries": []}, none)] * 50, time="discrete")
+    data = data_of({"format": "mcexact-system/1", **system})
+    assert read_system_file(data, Limits(work=40 * len(data) + 10**5)).n == 2**20
+
+
+@pytest.mark.parametrize("sparse", [True, False])
+def test_a_controller_file_is_read_within_a_budget(sparse: bool, tmp_path: Path) -> None:
+    private = {"private": [[0] * 2048]}
+    if sparse:
+        private = {"outputs": {"1": {"shape": [2**20, 0], "entries": []}}}
+    maps = {"shared_update": {}, "private_update": private, "input": {}}
+    agent = {"name": "1", "shared": 0, "private": 2**20 if sparse else 2048, **maps}
     head = {"format": "mcexact-controller/1", "system": "", "time": "discrete"}
     text = data_of({**head, "agents": [agent]})
-    if isinstance(zero, list):
+    if not sparse:
         with pytest.raises(Refused, match=r"Limits\.work"):
             read_controller_file(text, Limits(work=40 * len(text)))
         return
     with pytest.raises(Refused, match=r"Limits\.work"):
         read_controller_file(text, Limits())
     (tmp_path / "controller.json").write_bytes(text)
-    plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    system = MultiChannelSystem([[1]], [[[1]]], [[]])
     with pytest.raises(InputError, match="units of work"):
-        check(fixed_spectrum(plant), controller=tmp_path / "controller.json")
+        check(fixed_spectrum(system), controller=tmp_path / "controller.json")
 
 
 def test_an_expected_claim_is_read_within_a_budget() -> None:

@@ -9,7 +9,9 @@ import stat
 import sys
 from fractions import Fraction
 
+import numpy as np
 import pytest
+import scipy.sparse
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -19,7 +21,7 @@ from mcexact.answer import codec
 from mcexact.checker import Limits as CheckerLimits
 from mcexact.checker import check_document
 from mcexact.derived.extended import extended_system
-from mcexact.errors import InputError
+from mcexact.errors import FloatRefused, InputError
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.rational import Limits
 from mcexact.model import gallery
@@ -259,7 +261,7 @@ def test_bytes_that_are_no_json_object_are_refused(data, message):
         ({"A": {"shape": [2, 2.5], "entries": []}}, r"A.shape\[1\]: .* found 2.5"),
         (
             {"A": {"shape": [10**9, 10**9], "entries": []}},
-            "at most 4194304 cells in a sparse matrix",
+            "at most 1048576 rows and columns in a sparse matrix",
         ),
         ({"A": {"shape": [2, 2]}}, "A: the key 'entries' is missing"),
         ({"A": {"shape": [2, 2], "entries": [[0, 0]]}}, r"A.entries\[0\]: expected \[row, column"),
@@ -449,3 +451,32 @@ def test_certificates_about_plants_with_very_long_integers_are_canonical() -> No
     plant = MultiChannelSystem([[10**6000]], [[[1]]], [[[1]]])
     text = codec.encode(joint_controllability(plant)).encode("ascii")
     assert check_document(text, limits=CheckerLimits(digits=10**4)).verdict == "VALID"
+
+
+def test_large_sparse_systems_stay_sparse_in_files():
+    n = 3000
+    A = scipy.sparse.coo_array((np.arange(1, n), (np.arange(1, n), np.arange(n - 1))), shape=(n, n))
+    B = scipy.sparse.csr_array(([5], ([0], [0])), shape=(n, 1))
+    C = [["1/3"] + [0] * (n - 1)]
+    system = MultiChannelSystem(A, [B, B], [C, B.T], names=["first", "last"])
+    again = read_system(system_text(system))
+    for each in (system, again):
+        assert each.A.is_sparse
+        assert each.A[1, 0] == 1
+        assert each.B(0).is_sparse
+        assert each.C(0)[0, 0] * 3 == 1
+    assert again == system
+    text = canonical_text(again)
+    assert text.startswith('{"A":{"entries":[[1,0,1],[2,1,2],')
+    assert '"C":{"entries":[[0,0,"1/3"]],"shape":[1,3000]},"name":"first"' in text
+    assert digest(again) == "23c1fad59f8e329bb292e5eb48fcec12671f655c45332f9eb8a80a24c79c1fb3"
+
+
+def test_sparse_arrays_of_floats_and_of_a_wrong_shape_are_refused():
+    eye = scipy.sparse.eye_array(3)
+    with pytest.raises(FloatRefused, match="A: found an array of float64"):
+        MultiChannelSystem(eye, [[[1]] * 3], [[[1] * 3]])
+    system = MultiChannelSystem.from_float(eye, [[[1]] * 3], [[[1] * 3]], rounding="decimal")
+    assert system.A == Matrix.identity(3)
+    with pytest.raises(InputError, match=r"B\[0\]: expected 3 rows, found 2"):
+        MultiChannelSystem(eye.astype(int), [eye.astype(int).tocsr()[:2]], [[[1] * 3]])

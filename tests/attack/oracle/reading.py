@@ -103,19 +103,35 @@ def matrix(value: Any, nrows: int, ncols: int) -> fmpq_mat:
 
 
 def table(value: Any, nrows: int | None, ncols: int | None) -> fmpq_mat:
-    """A matrix of a system: rows of rationals; without rows, possibly an object with its shape."""
+    """A matrix of a system: rows of rationals, or its shape and entries in the form prescribed."""
     if isinstance(value, Mapping):
         found = record(value, "shape", "entries")
         r, c = (integer(v, 0) for v in listed(found["shape"], 2))
-        demand(r == 0 and listed(found["entries"]) == [], "expected a matrix without rows")
-        demand(nrows in (None, 0) and ncols in (None, c), "expected another shape")
-        return fmpq_mat(0, c)
+        demand(nrows in (None, r) and ncols in (None, c), "expected another shape")
+        entries = [listed(entry, 3) for entry in listed(found["entries"])]
+        places = [(integer(i, 0), integer(j, 0)) for i, j, _ in entries]
+        demand(places == sorted(set(places)), "expected sorted positions")
+        demand(all(i < r and j < c for i, j in places), "expected positions inside")
+        demand((r == 0 < c) or is_sparse(r, c, len(places)), "expected rows")
+        M = fmpq_mat(r, c)
+        for (i, j), (_, _, v) in zip(places, entries, strict=True):
+            M[i, j] = rational(v)
+            demand(M[i, j] != 0, "expected an entry other than 0")
+        return M
     rows = [listed(row) for row in listed(value, nrows)]
     width = len(rows[0]) if rows else 0
     demand(all(len(row) == width for row in rows), "expected rows of one length")
     demand(bool(rows) or not ncols, "expected a matrix without rows to say its columns")
     demand(ncols in (None, width), f"expected {ncols} columns")
-    return fmpq_mat(len(rows), width, [rational(v) for row in rows for v in row])
+    values = [rational(v) for row in rows for v in row]
+    nonzero = sum(v != 0 for v in values)
+    demand(not is_sparse(len(rows), width, nonzero), "expected a list of entries")
+    return fmpq_mat(len(rows), width, values)
+
+
+def is_sparse(nrows: int, ncols: int, nonzero: int) -> bool:
+    """Whether a matrix of a system lists its entries."""
+    return nrows * ncols >= 2048 and 8 * nonzero <= nrows * ncols
 
 
 def positions(value: Any, names: Sequence[str]) -> list[int]:

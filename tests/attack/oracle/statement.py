@@ -7,7 +7,7 @@ from typing import Any
 
 from .constructions import output_gains, subject_of
 from .controllers import MAPS, read_agents
-from .reading import matrix
+from .reading import is_sparse, matrix
 from .sentences import SENTENCES, SHARING
 from .systems import System, read_plant
 from .words import (
@@ -49,7 +49,11 @@ def plant_digest(document: Mapping[str, Any]) -> str:
 
 
 def _table(M: Any) -> Any:
-    return M if M.nrows() or not M.ncols() else {"shape": [0, M.ncols()], "entries": []}
+    rows = M.tolist()
+    found = [[i, j, v] for i, row in enumerate(rows) for j, v in enumerate(row) if v != 0]
+    if is_sparse(M.nrows(), M.ncols(), len(found)) or (M.ncols() and not M.nrows()):
+        return {"shape": [M.nrows(), M.ncols()], "entries": found}
+    return M
 
 
 def _sizes(system: System) -> str:

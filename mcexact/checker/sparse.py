@@ -1,0 +1,74 @@
+"""Matrices of which only the entries that are not 0 are kept."""
+
+from collections.abc import Iterable
+from functools import cached_property
+
+from . import budget
+from .arithmetic import Matrix, Rows
+from .budget import spend
+
+Entry = tuple[int, int, int]
+"""Row, column and numerator."""
+
+LEAST, SHARE = 2**11, 8
+"""A matrix of so many cells lists its entries if at most one cell of so many is not 0."""
+
+
+class SparseMatrix(Matrix):
+    """A rational matrix by its entries, row by row, which become rows where these are used."""
+
+    entries: list[Entry]
+
+    def __init__(self, nrows: int, ncols: int, entries: list[Entry], denominator: int = 1) -> None:
+        found = {"nrows": nrows, "ncols": ncols, "entries": entries, "denominator": denominator}
+        self.__dict__.update(found)
+
+    @cached_property
+    def rows(self) -> Rows:
+        """The rows with all zeros."""
+        spend(budget.table(self.nrows, self.ncols))
+        found = [[0] * self.ncols for _ in range(self.nrows)]
+        for i, j, entry in self.entries:
+            found[i][j] = entry
+        return found
+
+    @cached_property
+    def limbs(self) -> int:
+        """The limbs of the longest entry, or of the denominator."""
+        spend(8 + len(self.entries))
+        return budget.limbs([self.denominator, *(entry for _, _, entry in self.entries)])
+
+    @property
+    def T(self) -> Matrix:
+        """The transpose."""
+        spend(100 * len(self.entries))
+        turned = sorted((j, i, entry) for i, j, entry in self.entries)
+        return SparseMatrix(self.ncols, self.nrows, turned, self.denominator)
+
+    def is_zero(self) -> bool:
+        """Whether there is no entry."""
+        return not self.entries
+
+    def at(self, rows: Iterable[int]) -> Matrix:
+        """The submatrix of these rows."""
+        chosen = list(rows)
+        spend(100 * (len(chosen) + len(self.entries)))
+        lines: dict[int, list[Entry]] = {}
+        for entry in self.entries:
+            lines.setdefault(entry[0], []).append(entry)
+        moved = [(new, j, x) for new, i in enumerate(chosen) for _, j, x in lines.get(i, ())]
+        return SparseMatrix(len(chosen), self.ncols, moved, self.denominator)
+
+
+def listed(M: Matrix) -> SparseMatrix | None:
+    """A matrix by its entries, if it is large and most cells are 0; otherwise None."""
+    cells = M.nrows * M.ncols
+    if isinstance(M, SparseMatrix):
+        return M if SHARE * len(M.entries) <= cells >= LEAST else None
+    spend(M.nrows * (8 + M.ncols))
+    nonzero = sum(M.ncols - row.count(0) for row in M.rows)
+    if SHARE * nonzero > cells or cells < LEAST:
+        return None
+    spend(100 * nonzero)
+    entries = [(i, j, x) for i, row in enumerate(M.rows) for j, x in enumerate(row) if x]
+    return SparseMatrix(M.nrows, M.ncols, entries, M.denominator)

@@ -1,0 +1,352 @@
+"""Tables of integers, the numerators of matrices: all entries in flint, or those that are not 0.
+
+`DenseTable` and `SparseTable` answer the same questions.  `table_of_rows` and `table_of_cells`
+choose between them; operations of flint give dense tables, and a sparse one takes flint's form only
+when an algorithm asks for it.
+"""
+
+from __future__ import annotations
+
+from array import array
+from bisect import bisect_left
+from collections.abc import Iterable, Iterator, Sequence
+from functools import cached_property
+from itertools import chain
+from math import gcd
+
+import flint
+
+from mcexact.errors import LimitReached
+
+Rows = tuple[tuple[int, ...], ...]
+Cells = Sequence[int]
+"""Positions i·ncols + j, increasing."""
+
+LEAST_SPARSE = 2**11
+"""The cells from which on a table is sparse if most of its entries are 0."""
+_SHARE = 8
+
+# No text of 64 MiB, the limit of files, lists more entries.
+LARGEST_WRITTEN_OUT = 2**25
+"""The cells of the largest sparse table that is written out with its zeros."""
+
+# A product of entries that are not 0 costs so many times as much as a product in flint.
+_DEARER = 64
+
+
+def is_mostly_zero(cells: int, nonzero: int) -> bool:
+    """Whether a table is large enough, and few enough entries are not 0, for a sparse form."""
+    return cells >= LEAST_SPARSE and _SHARE * nonzero <= cells
+
+
+def _are_mostly_zero(entries: Sequence[int]) -> bool:
+    """The same for all entries of a table; of a dense one an eighth is looked at."""
+    nonzero = 0
+    for start in range(0, len(entries), LEAST_SPARSE):
+        if not is_mostly_zero(len(entries), nonzero):
+            return False
+        part = entries[start : start + LEAST_SPARSE]
+        nonzero += len(part) - part.count(0)
+    return is_mostly_zero(len(entries), nonzero)
+
+
+class DenseTable:
+    """A table of integers in flint's form.
+
+    Attributes
+    ----------
+    integer : fmpz_mat
+        Tables and functions of this stage share this object, so nothing may change it.
+    """
+
+    def __init__(self, table: flint.fmpz_mat) -> None:
+        self.integer = table
+
+    @property
+    def nrows(self) -> int:
+        """Number of rows."""
+        return self.integer.nrows()
+
+    @property
+    def ncols(self) -> int:
+        """Number of columns."""
+        return self.integer.ncols()
+
+    @cached_property
+    def rows(self) -> Rows:
+        """The rows."""
+        words, width = self.__dict__.get("words"), self.ncols
+        entries = tuple(words or map(int, self.integer.entries()))
+        return tuple(entries[i * width : (i + 1) * width] for i in range(self.nrows))
+
+    @cached_property
+    def words(self) -> array[int] | None:
+        """The entries row by row as machine words of 64 bits; None if one is longer."""
+        return _words(list(chain.from_iterable(self.rows)))
+
+    @property
+    def T(self) -> DenseTable:
+        """The transpose."""
+        return DenseTable(self.integer.transpose())
+
+    def entry(self, i: int, j: int) -> int:
+        """One entry."""
+        return int(self.integer[i, j])
+
+    def nonzero(self) -> Iterator[tuple[int, int]]:
+        """The cells whose entry is not 0, in increasing order, and their entries."""
+        return ((k, x) for k, x in enumerate(chain.from_iterable(self.rows)) if x)
+
+    def is_zero(self) -> bool:
+        """Whether every entry is 0."""
+        return not self.integer
+
+    def scaled(self, factor: int) -> DenseTable:
+        """All entries times a factor."""
+        return self if factor == 1 else DenseTable(self.integer * factor)
+
+    def take(self, rows: Sequence[int] | None, cols: Sequence[int] | None) -> Table:
+        """The rows and columns chosen, in this order; None takes all."""
+        table = self.rows if rows is None else [self.rows[i] for i in rows]
+        if cols is not None:
+            table = [tuple(row[j] for j in cols) for row in table]
+        return table_of_rows(table, self.ncols if cols is None else len(cols))
+
+    def reduced(self, denominator: int) -> tuple[DenseTable, int]:
+        """The table and a denominator, not 0, both divided by what they have in common."""
+        if denominator == 1:
+            return self, 1
+        numerators, least = (flint.fmpq_mat(self.integer) / denominator).numer_denom()
+        return DenseTable(numerators), int(least)
+
+
+class SparseTable:
+    """A table of integers of which those that are not 0 are listed.
+
+    Parameters
+    ----------
+    nrows, ncols : int
+    cells : increasing integers
+        i·ncols + j for each entry that is not 0.
+    values : integers
+        These entries.
+    """
+
+    def __init__(self, nrows: int, ncols: int, cells: Cells, values: Iterable[int]) -> None:
+        self.nrows, self.ncols = nrows, ncols
+        self.cells, self.values = array("q", cells), tuple(values)
+
+    @cached_property
+    def integer(self) -> flint.fmpz_mat:
+        """The table with its zeros.
+
+        Raises
+        ------
+        LimitReached
+            If it is too large.
+        """
+        self._require_room()
+        return self._written_out()
+
+    def _written_out(self) -> flint.fmpz_mat:
+        made = flint.fmpz_mat(self.nrows, self.ncols)
+        for cell, value in self.nonzero():
+            made[divmod(cell, self.ncols)] = value
+        return made
+
+    @cached_property
+    def rows(self) -> Rows:
+        """The rows; those of zeros are one object.
+
+        Raises
+        ------
+        LimitReached
+            If the table is too large.
+        """
+        self._require_room()
+        touched: dict[int, list[int]] = {}
+        for cell, value in self.nonzero():
+            i, j = divmod(cell, self.ncols)
+            touched.setdefault(i, [0] * self.ncols)[j] = value
+        zeros = (0,) * self.ncols
+        return tuple(tuple(touched[i]) if i in touched else zeros for i in range(self.nrows))
+
+    @cached_property
+    def words(self) -> array[int] | None:
+        """The entries row by row as machine words of 64 bits; None if one is longer.
+
+        Raises
+        ------
+        LimitReached
+            If the table is too large.
+        """
+        self._require_room()
+        found, values = array("q", bytes(8 * self.nrows * self.ncols)), _words(self.values)
+        for cell, value in zip(self.cells, values or (), strict=False):
+            found[cell] = value
+        return None if values is None else found
+
+    @property
+    def T(self) -> SparseTable:
+        """The transpose."""
+        moved = [(cell % self.ncols) * self.nrows + cell // self.ncols for cell in self.cells]
+        return SparseTable(self.ncols, self.nrows, *_sorted(zip(moved, self.values, strict=True)))
+
+    def entry(self, i: int, j: int) -> int:
+        """One entry."""
+        cell = i * self.ncols + j
+        k = bisect_left(self.cells, cell)
+        return self.values[k] if k < len(self.cells) and self.cells[k] == cell else 0
+
+    def nonzero(self) -> Iterator[tuple[int, int]]:
+        """The cells whose entry is not 0, in increasing order, and their entries."""
+        return zip(self.cells, self.values, strict=True)
+
+    def is_zero(self) -> bool:
+        """Whether every entry is 0."""
+        return not self.values
+
+    def scaled(self, factor: int) -> SparseTable:
+        """All entries times a factor."""
+        if factor == 1:
+            return self
+        cells = self.cells if factor else ()
+        values = (factor * value for value in self.values) if factor else ()
+        return SparseTable(self.nrows, self.ncols, cells, values)
+
+    def take(self, rows: Sequence[int] | None, cols: Sequence[int] | None) -> Table:
+        """The rows and columns chosen, in this order; None takes all."""
+        down, across = _places(rows), _places(cols)
+        width, found = self.ncols if cols is None else len(cols), []
+        for cell, value in self.nonzero():
+            i, j = divmod(cell, self.ncols)
+            for a in (i,) if down is None else down.get(i, ()):
+                for b in (j,) if across is None else across.get(j, ()):
+                    found.append((a * width + b, value))
+        return table_of_cells(self.nrows if rows is None else len(rows), width, *_sorted(found))
+
+    def reduced(self, denominator: int) -> tuple[SparseTable, int]:
+        """The table and a denominator, not 0, both divided by what they have in common."""
+        common = gcd(denominator, *self.values) * (-1 if denominator < 0 else 1)
+        if common == 1:
+            return self, denominator
+        values = (value // common for value in self.values)
+        return SparseTable(self.nrows, self.ncols, self.cells, values), denominator // common
+
+    def lines(self) -> dict[int, list[tuple[int, int]]]:
+        """The columns and values of the entries of each row that has any."""
+        found: dict[int, list[tuple[int, int]]] = {}
+        for cell, value in self.nonzero():
+            i, j = divmod(cell, self.ncols)
+            found.setdefault(i, []).append((j, value))
+        return found
+
+    def _require_room(self) -> None:
+        if self.nrows * self.ncols > LARGEST_WRITTEN_OUT:
+            raise LimitReached(
+                f"a sparse {self.nrows} × {self.ncols} matrix has more than {LARGEST_WRITTEN_OUT} "
+                "entries when its zeros are written out"
+            )
+
+
+Table = DenseTable | SparseTable
+
+
+def table_of_rows(rows: Sequence[Sequence[int]], ncols: int) -> Table:
+    """The table with these rows, in the form that suits it."""
+    entries = list(chain.from_iterable(rows))
+    if _are_mostly_zero(entries):
+        cells = [k for k, x in enumerate(entries) if x]
+        return SparseTable(len(rows), ncols, cells, (entries[k] for k in cells))
+    made = DenseTable(flint.fmpz_mat(len(rows), ncols, entries))
+    made.__dict__["words"] = _words(entries)
+    return made
+
+
+def table_of_cells(nrows: int, ncols: int, cells: Cells, values: Iterable[int]) -> Table:
+    """The table with these entries, none of them 0, in the form that suits it."""
+    found = SparseTable(nrows, ncols, cells, values)
+    if is_mostly_zero(nrows * ncols, len(found.values)):
+        return found
+    return DenseTable(found._written_out())
+
+
+def suited(table: Table) -> Table:
+    """The same table, in the form that suits it, whatever it was computed from."""
+    if isinstance(table, DenseTable) and table.nrows * table.ncols >= LEAST_SPARSE:
+        words = table.words
+        if _are_mostly_zero(list(chain.from_iterable(table.rows)) if words is None else words):
+            return listed(table)
+    return table
+
+
+def equal(left: Table, right: Table) -> bool:
+    """Whether two tables have the same shape and the same entries."""
+    if isinstance(left, DenseTable) and isinstance(right, DenseTable):
+        return bool(left.integer == right.integer)
+    if (left.nrows, left.ncols) != (right.nrows, right.ncols):
+        return False
+    a, b = listed(left), listed(right)
+    return a.values == b.values and a.cells == b.cells
+
+
+def total(left: Table, right: Table, sign: int) -> Table:
+    """left + sign · right, of the same shape."""
+    if isinstance(left, DenseTable) or isinstance(right, DenseTable):
+        a, b = left.integer, right.integer
+        return DenseTable(a + b if sign > 0 else a - b)
+    found = dict(left.nonzero())
+    for cell, value in right.nonzero():
+        found[cell] = found.get(cell, 0) + sign * value
+    return table_of_cells(left.nrows, left.ncols, *_sorted(x for x in found.items() if x[1]))
+
+
+def product(left: Table, right: Table) -> Table:
+    """left · right; entries that are 0 are passed over where that is less work."""
+    if isinstance(left, DenseTable) and isinstance(right, DenseTable):
+        return DenseTable(left.integer * right.integer)
+    a, lines = listed(left), listed(right).lines()
+    terms = sum(len(lines.get(cell % a.ncols, ())) for cell in a.cells)
+    if _DEARER * terms > left.nrows * left.ncols * right.ncols:
+        largest = max(left.nrows * left.ncols, right.nrows * right.ncols)
+        if largest <= LARGEST_WRITTEN_OUT:
+            return DenseTable(left.integer * right.integer)
+    found: dict[int, int] = {}
+    for cell, value in a.nonzero():
+        i, k = divmod(cell, a.ncols)
+        start = i * right.ncols
+        for j, factor in lines.get(k, ()):
+            found[start + j] = found.get(start + j, 0) + value * factor
+    return table_of_cells(left.nrows, right.ncols, *_sorted(x for x in found.items() if x[1]))
+
+
+def listed(table: Table) -> SparseTable:
+    """The entries of any table that are not 0."""
+    if isinstance(table, SparseTable):
+        return table
+    pairs = tuple(table.nonzero())
+    return SparseTable(table.nrows, table.ncols, [k for k, _ in pairs], (x for _, x in pairs))
+
+
+def _sorted(pairs: Iterable[tuple[int, int]]) -> tuple[list[int], list[int]]:
+    """Cells in increasing order, and their values."""
+    ordered = sorted(pairs)
+    return [cell for cell, _ in ordered], [value for _, value in ordered]
+
+
+def _places(chosen: Sequence[int] | None) -> dict[int, list[int]] | None:
+    """Where each position goes; None if all stay."""
+    if chosen is None:
+        return None
+    found: dict[int, list[int]] = {}
+    for new, old in enumerate(chosen):
+        found.setdefault(old, []).append(new)
+    return found
+
+
+def _words(entries: Sequence[int]) -> array[int] | None:
+    """Integers as machine words; None if one is longer."""
+    try:
+        return array("q", entries)
+    except OverflowError:
+        return None
