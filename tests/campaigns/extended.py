@@ -159,7 +159,7 @@ def _corollaries(
     """Corollary 1 with n_i ≥ 1, decided; Corollary 2 by a design for a radius, run late."""
     free = completeness(extended_system(plain, [max(bound, 1)] * system.m))
     required(free.complete, "Corollary 1, n_i at least 1", where)
-    design = design_extended(system, radius=RADIUS, network="lifted", aims=THEOREM)
+    design = design_extended(system, radius="1/100", network="lifted", aims=THEOREM)
     required(design.certificates["stability"].stable, "Corollary 2", where)
     seen["designs below the observer's order"] += design.order < design.parts["observer_order"]
     run = simulate(system, design.controller, horizon=2 * design.loop.closed.dimension + 2)

@@ -223,7 +223,7 @@ def test_drawn_networks_come_to_rest_with_late_messages(seed: int, network: str)
     choices = SeededChoices(f"rest {seed}")
     system = jointly_controllable_system(choices, 3, 3, time="discrete").system
     graph = drawn_graph(choices, system.names, strongly_connected=True, longest_delay=3)
-    design = design_extended(system, graph, network=network, radius=1, aims=THEOREM)  # type: ignore[arg-type]
+    design = design_extended(system, graph, network=network, radius="1/100", aims=THEOREM)  # type: ignore[arg-type]
     require_valid(design)
     run = simulate(system, design.controller, graph, horizon=2 * design.loop.closed.dimension)
     assert not any(run.snapshots[-1].flat())

@@ -2,6 +2,7 @@
 
 ====================  =====================================================================
 `spectrum`            the spectrum of a design, from a rate or as prescribed
+`scaled_spectrum`     for a rate, a spectrum near that of what is moved
 `state_feedback`      gains for given eigenvalues
 `fast_modes`          gains that do not move fast modes
 `channel_controller`  a controller at one channel for a given spectrum (Brasch and Pearson)
@@ -21,6 +22,7 @@ from mcexact.synthesis.methods.channel_parts import (
 from mcexact.synthesis.methods.fast_modes import feedback_for_region, observable_part
 from mcexact.synthesis.methods.riccati import riccati_feedback
 from mcexact.synthesis.methods.riccati_channel import riccati_channel_controller
+from mcexact.synthesis.methods.scaled_spectrum import scaled_polynomial
 from mcexact.synthesis.methods.spectrum import default_polynomial, spectrum_polynomial
 from mcexact.synthesis.methods.state_feedback import (
     StateFeedback,
@@ -45,6 +47,7 @@ __all__ = [
     "observable_part",
     "riccati_channel_controller",
     "riccati_feedback",
+    "scaled_polynomial",
     "spectrum_polynomial",
     "split_by_channel",
     "state_feedback",

@@ -21,8 +21,8 @@ from mcexact.synthesis.methods import (
     DrawnGains,
     assigning_controllers,
     channel_part,
-    default_polynomial,
     riccati_channel_controller,
+    scaled_polynomial,
     spectrum_polynomial,
 )
 from mcexact.synthesis.network.networks import DerivedNetwork
@@ -47,10 +47,10 @@ class NetworkTask:
     def component_of(self, channel: int) -> int:
         return next(c for c, members in enumerate(self.components) if channel in members)
 
-    def polynomial(self, channel: int, degree: int, *, only: bool) -> Polynomial:
-        """The prescribed polynomial of the block with this channel."""
+    def polynomial(self, channel: int, own: Polynomial, degree: int, *, only: bool) -> Polynomial:
+        """The polynomial of the block with this channel: prescribed, or near its own."""
         if self.prescribed is None:
-            return default_polynomial(self.request.region, degree)
+            return scaled_polynomial(own, self.request.region, degree)
         if only and not isinstance(self.prescribed, Mapping):
             return spectrum_polynomial(self.prescribed, degree, where="spectrum.closed_loop")
         names = self.network.given.names
@@ -123,7 +123,8 @@ def _candidate(task: NetworkTask, drawn: DrawnGains) -> NetworkCandidate | None:
         reach.channel: channel_part(M, system.B(reach.channel), system.C(reach.channel), rng)
         for reach in drawn.reaches
     }
-    moved = product(characteristic_polynomial(part.A) for part in parts.values())
+    own = {channel: characteristic_polynomial(part.A) for channel, part in parts.items()}
+    moved = product(own.values())
     kept, remainder = divmod(characteristic_polynomial(M), moved)
     if not remainder.is_zero():
         raise InternalError("a part of a loop has modes that the loop does not have")
@@ -136,7 +137,7 @@ def _candidate(task: NetworkTask, drawn: DrawnGains) -> NetworkCandidate | None:
         else:
             part, channel = parts[reach.channel], reach.channel
             degree = part.A.nrows + reach.index - 1
-            polynomial = task.polynomial(channel, degree, only=len(parts) == 1)
+            polynomial = task.polynomial(channel, own[channel], degree, only=len(parts) == 1)
             controllers = assigning_controllers(
                 part.A, part.B, part.C, polynomial, index=reach.index, side=reach.side, rng=rng
             )
