@@ -26,5 +26,5 @@ def assessed(
         from mcexact.report.loop_page import loop_page
         from mcexact.synthesis.optimum.curves import curves_of
 
-        page = loop_page(account, found.install, said, tables, curves_of(loop))
+        page = loop_page(account, found.install, said, tables, curves_of(loop, found.region))
     return {"said": said, "tables": tables, "page": page}

@@ -18,7 +18,8 @@ from mcexact.cli.commands import GroupedCommand
 @click.argument("file")
 @designing.design_options(
     'JSON {"feedback": P, "error": P}, P a list of coefficients or of roots and pairs.',
-    agent_help="The agent with the channel controller; by default the first.",
+    agent_help="The agent with the channel controller; by default the first, in floating point "
+    "none where none is needed.",
     searches=False,
 )
 @click.option(

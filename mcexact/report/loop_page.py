@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 from collections.abc import Sequence
 from typing import Any, Protocol
 
@@ -11,6 +12,8 @@ from mcexact.report.picture import Picture, empty_figure
 from mcexact.report.text import Table
 
 _FRAGILE = 1 / 0.3
+_BLUE, _RED, _GRAY = "#1f4e79", "#b03a2e", "#888888"
+_TURN, _WIDE, _NAMED = 2 * cmath.pi, 100.0, 8
 
 
 class LoopCurves(Protocol):
@@ -19,6 +22,10 @@ class LoopCurves(Protocol):
     @property
     def discrete(self) -> bool: ...
     @property
+    def edge(self) -> float: ...
+    @property
+    def eigenvalues(self) -> list[complex]: ...
+    @property
     def frequencies(self) -> list[float]: ...
     @property
     def sensitivity(self) -> list[float]: ...
@@ -26,6 +33,10 @@ class LoopCurves(Protocol):
     def times(self) -> list[float]: ...
     @property
     def growth(self) -> list[float]: ...
+    @property
+    def effort(self) -> list[float]: ...
+    @property
+    def steps(self) -> list[tuple[str, list[float]]]: ...
 
 
 def loop_page(
@@ -61,28 +72,72 @@ def loop_page(
 
 
 def loop_picture(curves: LoopCurves) -> Picture:
-    """Draw the complementary sensitivity at the plant's inputs, and the decay of the state."""
-    figure = empty_figure(9.2, 3.8)
-    left, right = figure.subplots(1, 2)
-    _draw_sensitivity(left, curves)
-    _draw_growth(right, curves)
-    largest = max(curves.sensitivity, default=0.0)
+    """Draw the eigenvalues, the sensitivity, the decay, and the effort or the step responses."""
+    figure = empty_figure(9.2, 7.4)
+    (poles, sensitivity), (decay, last) = figure.subplots(2, 2)
+    _draw_eigenvalues(poles, curves)
+    _draw_sensitivity(sensitivity, curves)
+    _draw_over_time(decay, curves, curves.growth, "largest norm of the state")
+    if curves.steps:
+        _draw_steps(last, curves)
+    else:
+        _draw_over_time(last, curves, curves.effort, "largest norm of the inputs")
+    return Picture(figure, "Eigenvalues, robustness and decay", _told(curves))
+
+
+def _told(curves: LoopCurves) -> str:
+    """What the pictures show, in words."""
+    largest, count = max(curves.sensitivity, default=0.0), len(curves.eigenvalues)
     margin = "infinite" if not largest else f"{1 / largest:.3g}"
-    return Picture(
-        figure,
-        "Robustness and decay",
-        f"Left: the complementary sensitivity at all inputs of the plant together, at most "
-        f"{largest:.3g}, so that the margin is {margin}; it should stay below the dashed line, "
-        f"which is a margin of 0.3. Right: the largest norm of the plant's state over "
-        f"{'steps' if curves.discrete else 'time'} from a start of norm 1, at most "
-        f"{max(curves.growth, default=0.0):.3g}. Computed, not certified.",
+    beyond = "the dashed circle" if curves.discrete else "the dashed line"
+    edge = f"{curves.edge:.4g}" if curves.discrete else f"{-curves.edge:.3g}"
+    time = "steps" if curves.discrete else "time"
+    last = (
+        f"Bottom right: each output after a unit step of its own set-point, at most "
+        f"{max(max(each) for _, each in curves.steps):.3g}."
+        if curves.steps
+        else f"Bottom right: the largest norm of all inputs from the same start, at most "
+        f"{max(curves.effort, default=0.0):.3g}."
     )
+    return (
+        f"Top left: the {count} eigenvalues of the loop, inside {beyond} at {edge}. Top right: the "
+        f"complementary sensitivity at all inputs of the plant together, at most {largest:.3g}, so "
+        f"that the margin is {margin}; it should stay below the dashed line, which is a margin of "
+        f"0.3. Bottom left: the largest norm of the plant's state over {time} from a start of norm "
+        f"1, at most {max(curves.growth, default=0.0):.3g}. {last} Computed, not certified."
+    )
+
+
+def _draw_eigenvalues(axis: Any, curves: LoopCurves) -> None:
+    """Poles as crosses, and the border of what was asked for."""
+    re = [each.real for each in curves.eigenvalues]
+    im = [each.imag for each in curves.eigenvalues]
+    axis.plot(re, im, linestyle="none", marker="x", color=_BLUE)
+    if curves.discrete:
+        for radius, color, style in ((1.0, _GRAY, "-"), (curves.edge, _RED, "--")):
+            points = [complex(0, _TURN * k / 180) for k in range(181)]
+            circle = [radius * cmath.exp(each) for each in points]
+            x, y = [each.real for each in circle], [each.imag for each in circle]
+            axis.plot(x, y, color=color, linestyle=style, linewidth=1)
+        axis.set_aspect("equal", adjustable="datalim")
+    else:
+        axis.axvline(0.0, color=_GRAY, linewidth=0.8)
+        axis.axvline(-curves.edge, color=_RED, linestyle="--", linewidth=1)
+        widest = max(map(abs, [*re, *im]), default=1.0)
+        if widest > _WIDE * max(min(map(abs, curves.eigenvalues), default=1.0), 1e-300):
+            # Slow eigenvalues would lie on one spot.
+            threshold = min(abs(each) for each in curves.eigenvalues if each)
+            axis.set_xscale("symlog", linthresh=threshold)
+            axis.set_yscale("symlog", linthresh=threshold)
+    axis.set_xlabel("real part")
+    axis.set_ylabel("imaginary part")
+    axis.grid(visible=True, which="major", alpha=0.3)
 
 
 def _draw_sensitivity(axis: Any, curves: LoopCurves) -> None:
     unit = "radians per step" if curves.discrete else "radians per unit of time"
-    axis.plot(curves.frequencies, curves.sensitivity, color="#1f4e79")
-    axis.axhline(_FRAGILE, color="#b03a2e", linestyle="--", linewidth=1)
+    axis.plot(curves.frequencies, curves.sensitivity, color=_BLUE)
+    axis.axhline(_FRAGILE, color=_RED, linestyle="--", linewidth=1)
     axis.set_yscale("log")
     if not curves.discrete:
         axis.set_xscale("log")
@@ -91,10 +146,27 @@ def _draw_sensitivity(axis: Any, curves: LoopCurves) -> None:
     axis.grid(visible=True, which="major", alpha=0.3)
 
 
-def _draw_growth(axis: Any, curves: LoopCurves) -> None:
-    axis.plot(curves.times, curves.growth, color="#1f4e79")
-    axis.axhline(1.0, color="#888888", linewidth=0.8)
+def _draw_over_time(axis: Any, curves: LoopCurves, values: list[float], label: str) -> None:
+    axis.plot(curves.times, values, color=_BLUE, drawstyle=_style(curves))
     axis.set_ylim(bottom=0)
+    axis.set_xlim(left=0)
     axis.set_xlabel("steps" if curves.discrete else "time")
-    axis.set_ylabel("largest norm of the state")
+    axis.set_ylabel(label)
     axis.grid(visible=True, which="major", alpha=0.3)
+
+
+def _draw_steps(axis: Any, curves: LoopCurves) -> None:
+    """Outputs that step to their set-points; those beyond some are not named."""
+    for k, (name, values) in enumerate(curves.steps):
+        label = name if k < _NAMED else None
+        axis.plot(curves.times, values, label=label, drawstyle=_style(curves))
+    axis.axhline(1.0, color=_GRAY, linewidth=0.8)
+    axis.set_xlim(left=0)
+    axis.set_xlabel("steps" if curves.discrete else "time")
+    axis.set_ylabel("output after a step of its set-point")
+    axis.legend(fontsize="small")
+    axis.grid(visible=True, which="major", alpha=0.3)
+
+
+def _style(curves: LoopCurves) -> str:
+    return "steps-post" if curves.discrete else "default"

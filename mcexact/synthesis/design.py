@@ -46,10 +46,10 @@ class Design:
     parts : mapping
         What the method made the controller of, and ``"solvability"`` where it holds set-points:
 
-        - observer: ``agent`` (who carries the channel controller), ``channel_order``, ``feedback``
-          (F_i), ``observer_gains`` ([K_i, H_ij …]), ``estimated`` (L: the agents estimate L x);
-          exact also ``feedback_polynomial`` and ``error_polynomial``, in floating point ``G``,
-          ``L`` and ``attempts``;
+        - observer: ``feedback`` (F_i), ``observer_gains`` ([K_i, H_ij …]), ``estimated`` (L: the
+          agents estimate L x); with a channel controller also ``agent`` (who carries it) and
+          ``channel_order``, exact ``feedback_polynomial`` and ``error_polynomial``, in floating
+          point ``G``, ``L`` and ``attempts``;
         - decentralized and extended: ``network`` (its kind), ``dimensions``, ``kept`` (the modes
           that stay, all fixed), ``observer_order`` (nm + m − 1); extended also ``allocation``.
           A controller that was searched has ``optimum`` and ``diagnosis``, the controller of the

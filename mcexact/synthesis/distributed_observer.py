@@ -8,9 +8,9 @@ from typing import Any, Literal
 from mcexact.exact.floats import Rounding
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_graph
+from mcexact.synthesis.agreeing_observer import observers
 from mcexact.synthesis.asking import request_for
 from mcexact.synthesis.design import Design, designed
-from mcexact.synthesis.observer.observer import observer_proposals
 from mcexact.synthesis.request import Arithmetic, Progress
 
 
@@ -37,7 +37,8 @@ def design_observer(
     graph : NeighborGraph, optional
         A graph without delays; overrides ``system.neighbors``.
     agent : str, optional
-        The agent that carries the channel controller; the first by default.
+        The agent that carries the channel controller; by default the first, in floating point and
+        continuous time none if a loop without one is robust.
     spectrum : mapping, optional
         ``{"feedback": P, "error": P}``: n numbers for A + Σ B_i F_i and mn + m − 1 for the error
         system, see `spectrum_polynomial`.
@@ -100,7 +101,5 @@ H_ij let one agent control and observe all estimation errors
     """
     system, graph = with_graph(system, graph)
     request = request_for(system, agent, spectrum, rate, radius, arithmetic, progress)
-    proposals = observer_proposals(
-        system, graph, request, gains=gains, order=order, rounding=rounding
-    )
+    proposals = observers(system, graph, request, gains=gains, order=order, rounding=rounding)
     return designed("observer", request, system, graph, proposals)

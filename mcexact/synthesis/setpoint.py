@@ -29,13 +29,13 @@ from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, as_plant, with_links
 from mcexact.model.system_file import digest
+from mcexact.synthesis.agreeing_observer import observers
 from mcexact.synthesis.asking import request_for
 from mcexact.synthesis.design import Design, Method, designed
 from mcexact.synthesis.gate import Proposal
 from mcexact.synthesis.network.network_design import network_proposals
 from mcexact.synthesis.network.networks import DerivedNetwork, decentralized_network
 from mcexact.synthesis.network.sharing import Dimensions, sharing_network
-from mcexact.synthesis.observer.observer import observer_proposals
 from mcexact.synthesis.optimum.aims import Aims
 from mcexact.synthesis.optimum.proposals import searched_proposals
 from mcexact.synthesis.optimum.structures import Family
@@ -219,7 +219,7 @@ class _Task:
 
         def proposed(to: MultiChannelSystem, asked: Request) -> Iterator[Proposal]:
             if not extended:
-                return observer_proposals(to, self.graph, asked)
+                return observers(to, self.graph, asked)
             return network_proposals(self._network(to, asked), asked)
 
         minimal = extended and self.dimensions == "minimal" and not self.graph.delays

@@ -65,7 +65,7 @@ def test_a_verdict_says_how_it_was_decided(options, words):
 
 def test_blocks_are_listed():
     plant = three_channels()
-    design = design_observer(plant, rate=1, arithmetic="float")
+    design = design_observer(plant, agent="1", rate=1, arithmetic="float")
     found = certify_controller(plant, design.controller, rate=1, method="lyapunov")
     assert "blocks of 3, 9 and 9 states" in plain(tables(account_of_verdict(found).sentences))
 

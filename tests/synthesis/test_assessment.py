@@ -189,7 +189,7 @@ def test_an_unstable_loop_is_not_to_be_installed() -> None:
     assert found.install == "no" and "does not satisfy" in found.verdict
     assert found.view()["margin"] == 0 and found.view()["cost"] is None
     json.dumps(found.view(), allow_nan=False)
-    assert curves_of(loop_of("1")) is None
+    assert curves_of(loop_of("1"), region) is None
 
 
 def test_the_controller_of_the_theorem_comes_with_its_figures() -> None:

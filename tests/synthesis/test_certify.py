@@ -44,7 +44,7 @@ def test_an_unknown_method_is_refused():
 
 def test_a_large_loop_is_recognized_and_goes_block_by_block():
     plant = three_channels()
-    design = design_observer(plant, rate=1, arithmetic="float")
+    design = design_observer(plant, agent="1", rate=1, arithmetic="float")
     found = certify_controller(plant, design.controller, rate=1, method="lyapunov")
     assert found.stable and found.blocks == (3, 9, 9)
     assert_valid(found)

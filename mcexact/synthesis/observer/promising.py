@@ -87,6 +87,8 @@ def most_promising(
     graph: NeighborGraph,
     region: StabilityRegion,
     proposals: Iterable[Proposal],
+    *,
+    by_order: bool = True,
 ) -> Iterator[Proposal]:
     """Yield proposals, the first of them sorted by order, margin, radius and cost.
 
@@ -98,6 +100,8 @@ def most_promising(
         Of a radius ρ, which a loop honors if its slowest eigenvalue has a modulus above ρ⁴.
     proposals : iterable of Proposal
         Of these the first 8 are compared.
+    by_order : bool
+        Whether the order counts.
     """
     rest = iter(proposals)
     # Only loops inside the region get here, and a radius of 1 asks for no rate.
@@ -105,9 +109,10 @@ def most_promising(
 
     def rank(each: Proposal) -> tuple[int, bool, bool, float]:
         seen = plain_figures(closed_loop(system, each.controller, graph))
+        order = each.controller.order if by_order else 0
         if not seen.margin >= MARGIN:
-            return each.controller.order, True, True, -seen.margin
-        return each.controller.order, False, seen.bound < least, seen.cost
+            return order, True, True, -seen.margin
+        return order, False, seen.bound < least, seen.cost
 
     yield from sorted(islice(rest, _SHOWN), key=rank)
     yield from rest

@@ -22,7 +22,7 @@ def separation(M, n, controller):
 @pytest.mark.parametrize(
     ("options", "sizes"),
     [
-        ({"rate": 1, "arithmetic": "float"}, (3, 9, 9)),
+        ({"rate": 1, "arithmetic": "float"}, (3, 9)),
         ({"rate": 1, "arithmetic": "float", "agent": "3"}, (3, 9, 9)),
         ({"rate": 1}, (3, 11)),
     ],

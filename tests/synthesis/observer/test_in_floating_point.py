@@ -47,7 +47,7 @@ def test_discrete_time_takes_a_radius():
 
 
 def test_only_the_gains_are_rounded_and_all_of_them_are_dyadic():
-    design = design_observer(three_channels(), rate=1, arithmetic="float")
+    design = design_observer(three_channels(), agent="1", rate=1, arithmetic="float")
     for M in (
         *design.parts["feedback"],
         *design.parts["observer_gains"],

@@ -1,0 +1,273 @@
+"""Distributed observers without a channel controller, whose agents are drawn to agree.
+
+The agents use the optimal gains of all outputs together, and estimates that differ are drawn to
+each other strongly (Kim, Shim and Cho 2016; Kim, Lee and Shim 2020).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import chain
+from typing import Any, Literal
+
+import numpy as np
+
+from mcexact.derived.error_system import error_system
+from mcexact.derived.feedback import checked_gains, closed_by
+from mcexact.exact.floats import Rounding, matrix_from_float, matrix_to_float
+from mcexact.exact.location import StabilityRegion
+from mcexact.exact.matrix import Matrix
+from mcexact.floating.margins import is_within
+from mcexact.model.loop import closed_loop
+from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem
+from mcexact.synthesis.gate import Proposal
+from mcexact.synthesis.methods import ChannelController, loop_matrix, split_by_channel
+from mcexact.synthesis.network.networks import decentralized_network
+from mcexact.synthesis.observer.coordinates import observer_coordinates
+from mcexact.synthesis.observer.observer import observer_proposals
+from mcexact.synthesis.observer.programs import observer_programs
+from mcexact.synthesis.observer.promising import most_promising
+from mcexact.synthesis.optimum.aims import MARGIN
+from mcexact.synthesis.optimum.cuts import whole_model
+from mcexact.synthesis.optimum.figures import Figures, central_optimum, shift_of
+from mcexact.synthesis.optimum.kernel import quiet_floats
+from mcexact.synthesis.optimum.loop_figures import plain_figures
+from mcexact.synthesis.optimum.problem import FeedbackProblem
+from mcexact.synthesis.optimum.programs import rounded
+from mcexact.synthesis.optimum.regulator import estimator, regulator
+from mcexact.synthesis.optimum.weights import Floats, Weights
+from mcexact.synthesis.request import Request
+
+_STRENGTHS = (10.0, 30.0, 100.0, 3.0, 1.0)
+_DIGITS = (3, 6, 12)
+_FASTER, _ENOUGH = 1.1, 1.5
+
+
+def observers(
+    system: MultiChannelSystem,
+    graph: NeighborGraph,
+    request: Request,
+    *,
+    gains: Sequence[Any] | None = None,
+    order: Literal["least"] | None = None,
+    rounding: Rounding | None = None,
+) -> Iterator[Proposal]:
+    """Yield distributed observers, where `best_agreeing` has one first that one.
+
+    Parameters
+    ----------
+    system, graph, gains, order, rounding
+        As in `observer_proposals`.
+    request : Request
+        With an agent, every observer has a channel controller.
+
+    Notes
+    -----
+    If an observer without a channel controller is fragile, it is compared with some others.
+    """
+    others = observer_proposals(system, graph, request, gains=gains, order=order, rounding=rounding)
+    first = None
+    if request.arithmetic == "float" and request.agent is None and not graph.delays:
+        request.tell("estimates that agree")
+        exact = (
+            None
+            if gains is None
+            else checked_gains(system, gains, [system.n] * system.m, rounding=rounding)
+        )
+        first = best_agreeing(system, graph, request.region, exact)
+    if first is not None and first.is_fragile:
+        both = chain([first.proposal], others)
+        yield from most_promising(system, graph, request.region, both, by_order=False)
+        return
+    if first is not None:
+        yield first.proposal
+    yield from others
+
+
+@dataclass(frozen=True)
+class Agreeing:
+    """An observer without a channel controller, and the figures of its loop.
+
+    Attributes
+    ----------
+    proposal : Proposal
+    figures : Figures
+    """
+
+    proposal: Proposal
+    figures: Figures
+
+    @property
+    def is_fragile(self) -> bool:
+        """Whether the margin is less than designs aim at."""
+        return not self.figures.margin >= MARGIN
+
+
+def best_agreeing(
+    system: MultiChannelSystem,
+    graph: NeighborGraph,
+    region: StabilityRegion,
+    gains: Sequence[Matrix] | None = None,
+) -> Agreeing | None:
+    """Find the observer of least cost whose agents are drawn to agree.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        In continuous time.
+    graph : NeighborGraph
+        Without delays.
+    region : StabilityRegion
+    gains : sequence of m Matrix, optional
+        Given F_i (p_i × n).
+
+    Returns
+    -------
+    Agreeing or None
+        Of several strengths the first with a margin of 0.3 and 1.5 times the cost of one controller
+        for all agents; else the cheapest with this margin, or the most robust.  None in discrete
+        time, where a strength of this kind makes a loop unstable, for graphs that are not strongly
+        connected, and where no loop lies in the region.
+
+    Notes
+    -----
+    In floating point.  With the optimal gains F and L = [L_1 … L_m] of the shifted plant, and the
+    weights w_i > 0, Σ w_i = 1, of the left null vector of the Laplacian of the graph::
+
+        ẋ_i = (A + BF) x_i + L_i (y_i − C_i x_i)/w_i + γ Σ_j (x_j − x_i)
+
+    The larger γ, the nearer are all x_i to one estimate with the derivative
+    (A + BF) x + L (y − C x), which is that of the optimal controller.  The states of all agents are
+    nm, half as many as with a channel controller.  Gains have 3 decimal digits if these suffice.
+    """
+    if region.discrete:
+        return None
+    with quiet_floats():
+        weights = agreed_weights(graph)
+        if weights is None:
+            return None
+        found = _optimal(system, region, gains)
+        if found is None:
+            return None
+        central = central_optimum(system, Weights.unit(system), region)
+        enough = np.inf if central is None else _ENOUGH * central.figures.cost
+        made = list[Agreeing]()
+        for each in _tried(system, graph, region, weights, *found):
+            made.append(each)
+            if not each.is_fragile and each.figures.cost <= enough:
+                break
+        return min(made, key=_rank, default=None)
+
+
+def _rank(each: Agreeing) -> tuple[bool, float]:
+    """Robust ones first, the cheapest first; of fragile ones the most robust."""
+    return each.is_fragile, -each.figures.margin if each.is_fragile else each.figures.cost
+
+
+def agreed_weights(graph: NeighborGraph) -> Floats | None:
+    """Compute w > 0 with Σ w_i = 1 and w'Λ = 0, Λ the Laplacian; None if there is none.
+
+    Examples
+    --------
+    >>> agreed_weights(NeighborGraph.from_names(["1", "2"], {"1": ["2"], "2": ["1"]})).tolist()
+    [0.5, 0.5]
+    >>> agreed_weights(NeighborGraph.from_names(["1", "2"], {"1": [], "2": ["1"]}))
+    """
+    m = graph.m
+    if not graph.is_strongly_connected():
+        return None
+    laplacian = np.zeros((m, m))
+    for i in range(m):
+        for j in graph.neighborhood(i):
+            laplacian[i, j] -= 1.0
+            laplacian[i, i] += 1.0
+    # The equations are dependent, and the last of them gives way to the sum.
+    system = np.vstack([laplacian.T[:-1], np.ones(m)])
+    return np.asarray(np.linalg.solve(system, np.eye(m)[-1]), dtype=np.float64)
+
+
+def _optimal(
+    system: MultiChannelSystem, region: StabilityRegion, gains: Sequence[Matrix] | None
+) -> tuple[tuple[Matrix, ...], Floats] | None:
+    """The gains F_i, of few digits, and L, of the optimal controller of all agents together."""
+    weights, shift = Weights.unit(system), shift_of(region, _FASTER)
+    problem = FeedbackProblem.of(decentralized_network(system), (0,) * system.m, weights)
+    model = whole_model(problem, weights)
+    L = estimator(model, shift)
+    if L is None:
+        return None
+    if gains is not None:
+        return tuple(gains), L
+    F = regulator(model, shift)
+    if F is None:
+        return None
+    for digits in _DIGITS:
+        short = rounded(F, digits)
+        if is_within(model.A + model.B @ short, region):
+            return split_by_channel(system, matrix_from_float(short, "decimal", where="F")), L
+    return None
+
+
+def _tried(
+    system: MultiChannelSystem,
+    graph: NeighborGraph,
+    region: StabilityRegion,
+    weights: Floats,
+    feedback: tuple[Matrix, ...],
+    L: Floats,
+) -> Iterator[Agreeing]:
+    """Yield observers inside the region, of several strengths."""
+    closed = matrix_to_float(loop_matrix(system, feedback))
+    pace = float(np.max(np.abs(np.linalg.eigvals(closed)), initial=0.0)) or 1.0
+    error = error_system(system, feedback, graph)
+    for strength in _STRENGTHS:
+        for digits in _DIGITS:
+            gains = _gains(system, graph, weights, L, strength * pace, digits)
+            if is_within(matrix_to_float(closed_by(error, gains)), region):
+                proposal = _proposal(system, graph, feedback, gains)
+                loop = closed_loop(system, proposal.controller, graph)
+                yield Agreeing(proposal, plain_figures(loop))
+                break
+
+
+def _gains(
+    system: MultiChannelSystem,
+    graph: NeighborGraph,
+    weights: Floats,
+    L: Floats,
+    strength: float,
+    digits: int,
+) -> tuple[Matrix, ...]:
+    """The gains [K_i, H_ij …] = [−L_i/w_i, −γ I …], rounded to some digits."""
+    found, start = [], 0
+    for i in range(system.m):
+        stop = start + system.q(i)
+        others = len([j for j in graph.neighborhood(i) if j != i])
+        parts = [-L[:, start:stop] / weights[i], *[-strength * np.eye(system.n)] * others]
+        short = rounded(np.hstack(parts), digits)
+        found.append(matrix_from_float(short, "decimal", where="K"))
+        start = stop
+    return tuple(found)
+
+
+def _proposal(
+    system: MultiChannelSystem,
+    graph: NeighborGraph,
+    feedback: tuple[Matrix, ...],
+    gains: tuple[Matrix, ...],
+) -> Proposal:
+    """The agents' programs."""
+    n, seen = system.n, gains[0].ncols
+    none = ChannelController(
+        Matrix.zeros(0, 0), Matrix.zeros(0, seen), Matrix.zeros(n, 0), Matrix.zeros(n, seen), None
+    )
+    controller = observer_programs(system, graph, 0, feedback, gains, none)
+    parts = {
+        "channel_order": 0,
+        "feedback": feedback,
+        "observer_gains": gains,
+        "estimated": Matrix.identity(n),
+    }
+    return Proposal(controller, (), observer_coordinates(n, controller)[-1:], parts)
