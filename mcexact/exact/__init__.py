@@ -20,6 +20,7 @@ No other stage imports flint.  This stage refuses sizes and moduli for which fli
 `recurrence`         least recurrences of sequences modulo primes
 `reconstruction`     rational numbers from their residues
 `polynomial_matrix`  matrices of polynomials
+`field_equations`    linear equations over Q[x]/(p)
 `number_field`       kernels and ranks over Q[x]/(p)
 `location`           Hurwitz and Schur tests, stability regions
 `enclosures`         discs and intervals around roots

@@ -103,6 +103,10 @@ class ModularMatrix:
         """The entries, residues from 0 to ℓ − 1."""
         return [list(map(int, row)) for row in self._table.tolist()]
 
+    def entries(self) -> list[int]:
+        """The entries row by row, residues from 0 to ℓ − 1."""
+        return list(map(int, self._table.entries()))
+
     def __getitem__(self, position: tuple[int, int]) -> int:
         i, j = position
         if not (0 <= i < self.nrows and 0 <= j < self.ncols):
@@ -208,6 +212,20 @@ class ModularMatrix:
                     break
                 basis._table[pivot, k] = -reduced[i, j]
         return basis, free
+
+    def determinant(self) -> int:
+        """The determinant of a square matrix, a residue from 0 to ℓ − 1; 1 if it is 0 × 0."""
+        self._require_square()
+        return int(self._table.det())
+
+    def solve(self, right: ModularMatrix) -> ModularMatrix | None:
+        """The X with M X = right for a square M; None if M is singular."""
+        self._require_square()
+        self._like(right, "solved for", self.nrows == right.nrows)
+        try:
+            return ModularMatrix(self.modulus, self._table.solve(right._table))
+        except ZeroDivisionError:
+            return None
 
     def inverse(self) -> ModularMatrix | None:
         """The inverse of a square matrix; None if it is singular."""

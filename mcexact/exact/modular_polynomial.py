@@ -89,6 +89,12 @@ class ModularPolynomial:
         self._same(other)
         return ModularPolynomial(self.modulus, self._poly.gcd(other._poly))
 
+    def inverse_modulo(self, other: ModularPolynomial) -> ModularPolynomial | None:
+        """The inverse modulo another polynomial; None if they have a common factor."""
+        self._same(other)
+        divisor, inverse, _ = self._poly.xgcd(other._poly)
+        return ModularPolynomial(self.modulus, inverse) if divisor.degree() == 0 else None
+
     def divides(self, other: ModularPolynomial) -> bool:
         """Whether other is a multiple of this polynomial."""
         if self.degree < 0:

@@ -184,7 +184,47 @@ def _product(left: PolynomialMatrix, right: PolynomialMatrix) -> PolynomialMatri
     return PolynomialMatrix.from_matrices(*sums)
 
 
+def inflate(M: PolynomialMatrix, p: Polynomial) -> Matrix:
+    """The rational matrix of M over Q, K = Q[x]/(p) in the basis 1, x, …, x^(deg p − 1).
+
+    Parameters
+    ----------
+    M : PolynomialMatrix, r × c
+    p : Polynomial
+        Of degree d ≥ 1.
+
+    Returns
+    -------
+    Matrix, rd × cd
+        Block (i, j) is the matrix of multiplication by the entry (i, j); its column k holds the
+        coefficients of x^k times the entry.
+    """
+    degree = monic_modulus(p).degree
+    columns = []
+    power = M % p
+    for k in range(degree):
+        columns.append(power.matrices + (Matrix.zeros(*M.shape),) * degree)
+        if k + 1 < degree:
+            power = power.times_x() % p
+    denominator = math.lcm(*(E.denominator for column in columns for E in column))
+    scaled = [
+        [(E.numerators, denominator // E.denominator) for E in column[:degree]]
+        for column in columns
+    ]
+    rows = [
+        [
+            factor * table[i][j]
+            for j in range(M.ncols)
+            for table, factor in (scaled[k][r] for k in range(degree))
+        ]
+        for i in range(M.nrows)
+        for r in range(degree)
+    ]
+    return Matrix.from_integers(rows, denominator, ncols=M.ncols * degree)
+
+
 def monic_modulus(p: Polynomial) -> Polynomial:
+    """The monic multiple of a polynomial of degree at least 1."""
     if p.degree < 1:
         raise InputError(f"expected a polynomial of degree at least 1, found {p}")
     return p.monic()

@@ -147,7 +147,10 @@ def test_square_matrices(M):
     chi = M.characteristic_polynomial()
     assert chi(0) == (-1) ** n * determinant(M) % SMALL_PRIME
     assert M.minimal_polynomial().divides(chi)
+    assert M.determinant() == determinant(M)
+    assert M.entries() == [entry for row in M.rows() for entry in row]
     found = M.inverse()
+    assert M.solve(ModularMatrix.identity(n, SMALL_PRIME)) == found
     if found is None:
         assert determinant(M) == 0
     else:
@@ -198,6 +201,8 @@ I2 = ModularMatrix.identity(2, 7)
         (lambda: I2 - ModularMatrix.identity(3, 7), r"2 × 2 - 3 × 3"),
         (lambda: I2 @ ModularMatrix.identity(3, 7), r"2 × 2 @ 3 × 3"),
         (lambda: hstack([I2, ModularMatrix.identity(3, 7)]), "2 × 2 stacked with 3 × 3"),
+        (lambda: I2.solve(ModularMatrix.identity(3, 7)), "2 × 2 solved for 3 × 3"),
+        (lambda: ModularMatrix.zeros(2, 3, 7).determinant(), "expected a square matrix"),
         (lambda: hstack([]), "expected at least one matrix to stack"),
         (lambda: vstack([]), "expected at least one matrix to stack"),
         (lambda: ModularMatrix.zeros(2, 3, 7).inverse(), "expected a square matrix"),
@@ -236,6 +241,10 @@ def test_polynomial_arithmetic_commutes_with_reduction(p, q):
         assert a // b * b + a % b == a
         assert b.divides(a * b)
     assert a.gcd(b).divides(a)
+    inverse = a.inverse_modulo(b)
+    assert (inverse is None) == (a.gcd(b).degree != 0)
+    if inverse is not None:
+        assert b.divides(inverse * a - ModularPolynomial.from_coefficients([1], a.modulus))
 
 
 def test_roots_and_multiplicities_modulo_a_prime():

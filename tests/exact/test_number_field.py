@@ -15,9 +15,9 @@ from mcexact.exact.linear_algebra import characteristic_polynomial, nullspace
 from mcexact.exact.linear_algebra import rank as rational_rank
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import residues
-from mcexact.exact.number_field import inflate, kernel, kernel_at, rank
+from mcexact.exact.number_field import kernel, kernel_at, rank
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.polynomial_matrix import PolynomialMatrix
+from mcexact.exact.polynomial_matrix import PolynomialMatrix, inflate
 from tests.exact.draws import evaluated, matrices, polynomials, small, square_matrices
 
 GOLDEN = Polynomial.of(-1, -1, 1)

@@ -13,9 +13,9 @@ from mcexact.errors import InputError, InternalError
 from mcexact.exact.blocks import block
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import primes, residues
-from mcexact.exact.number_field import inflate, kernel_at
+from mcexact.exact.number_field import kernel_at
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.polynomial_matrix import PolynomialMatrix
+from mcexact.exact.polynomial_matrix import PolynomialMatrix, inflate
 from mcexact.exact.rational import as_fraction
 from mcexact.model.system import MultiChannelSystem
 
