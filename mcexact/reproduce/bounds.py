@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import product
 
 from mcexact.analysis.analyze import analyze
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
@@ -252,25 +253,29 @@ def remark_2(note: Notebook) -> None:
 
 
 def every_subset_receives(note: Notebook) -> None:
-    """Strongly connected iff N_s∖s is never empty."""
-    chosen: list[NeighborGraph] = [graph_of(three_channels())]
-    chosen += [graph_of(plant) for _, plant in drawn_plants(16, connected=None, first=60)]
-    for number, graph in enumerate(chosen):
-        if graph.m != 3:
-            continue
-        note.on("the cyclic graph" if not number else f"drawn graph, seed {59 + number}")
-        names = graph.names
+    """Strongly connected iff N_s∖s is never empty: all 64 graphs with three agents."""
+    plant = three_channels()
+    names, channels = plant.names, range(3)
+    both = set()
+    for links in product((False, True), repeat=6):
+        heard = iter(links)
+        neighbors = [[j for j in channels if j == i or next(heard)] for i in channels]
+        graph = NeighborGraph(names, neighbors)
+        edges = ", ".join(f"{names[j]} → {names[i]}" for j, i in graph.edges()) or "none"
+        note.on(f"three agents, links: {edges}")
         receives = all(
             {names[j] for j in graph.union([names.index(i) for i in s])} - set(s)
-            for s in (tuple(names[int(k) - 1] for k in each) for each in SUBSETS_OF_THREE)
+            for s in SUBSETS_OF_THREE
         )
+        found = neighbor_graph(plant.with_neighbors(graph))
         note.check(
             "strongly connected just when every subset receives messages from outside",
-            graph.is_strongly_connected() == receives,
+            found.strongly_connected == receives,
         )
-        plant = three_channels()
-        found = neighbor_graph(plant.with_neighbors(NeighborGraph(plant.names, graph.neighbors)))
-        note.certify(found)
+        if receives not in both:
+            both.add(receives)
+            note.certify(found)
+    note.check("both are among them", both == {True, False})
     plant = note.at(two_circles())
     hears = all(len(graph_of(plant).neighborhood(i)) > 1 for i in range(plant.m))
     note.refute("single-agents", hears and not graph_of(plant).is_strongly_connected())

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
-from functools import partial
+from functools import partial, reduce
 
 from mcexact.analysis.fixed_modes.completeness import completeness
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
@@ -16,6 +16,7 @@ from mcexact.analysis.structure.controllability import joint_controllability, jo
 from mcexact.analysis.structure.transfer_graph import transfer_graph
 from mcexact.derived.delayed import lifted_system
 from mcexact.derived.extended import Share, shift
+from mcexact.derived.feedback import closed_by
 from mcexact.exact.blocks import vstack
 from mcexact.exact.linear_algebra import characteristic_polynomial, rank
 from mcexact.exact.location import StabilityRegion
@@ -34,9 +35,10 @@ from mcexact.reproduce.material import (
     graph_of,
     plants,
     three_channels,
+    with_dimensions,
 )
 from mcexact.reproduce.notebook import Notebook, Procedure
-from mcexact.reproduce.plants import split_spectrum, unreached
+from mcexact.reproduce.plants import late_example, split_spectrum, unreached
 from mcexact.simulation.trajectory import simulate
 from mcexact.synthesis.extended import design_extended
 from mcexact.synthesis.optimum.aims import THEOREM
@@ -44,6 +46,7 @@ from mcexact.synthesis.optimum.aims import THEOREM
 X, ONE = Polynomial.x(), Polynomial.of(1)
 late = partial(plants, time="discrete", longest_delay=2)
 late_drawn = partial(drawn_plants, time="discrete", longest_delay=2)
+drawn_links = partial(plants, 14, time="discrete", longest_delay=3, connected=None)
 
 
 def shifts(note: Notebook) -> None:
@@ -62,9 +65,8 @@ def shifts(note: Notebook) -> None:
 def lifted(note: Notebook) -> None:
     """(34): the lifted system gives the signals that arrive over links with delays."""
     numbers = Numbers(15)
-    for name, plant in plants(14, time="discrete", longest_delay=3, connected=None):
-        sizes = [k % 3 for k in range(1, plant.m + 1)]
-        note.on(f"{name}, n_i = {sizes}", plant)
+    for instance, sizes in with_dimensions(drawn_links()):
+        plant = note.at(instance)
         made = lifted_system(plant, sizes)
         graph = graph_of(plant)
         d = [graph.longest_delay(i) for i in range(plant.m)]
@@ -170,8 +172,31 @@ def theorem_3(note: Notebook) -> None:
     less_than_the_bound(note, "outputs+states", lifted_system, "outputs+states")
 
 
+def _rest_assigned(note: Notebook, delay: int) -> None:
+    """Give all eigenvalues of the example's loop but the fixed 0 prescribed values."""
+    plant = note.at(late_example(delay))
+    sizes = [1] * plant.m
+    least = design_extended(plant, network="lifted", dimensions=sizes, radius="1/2", aims=THEOREM)
+    (block,) = least.parts["blocks"]
+    free, fixed = block.polynomial.degree, least.loop.matrix.nrows - block.polynomial.degree
+    # As many complex pairs with the sum 1 and the product 1/2 as there is room for.
+    wanted = Polynomial.of("1/2", -1, 1) ** (free // 2) * Polynomial.of("-1/3", 1) ** (free % 2)
+    design = design_extended(plant, network="lifted", dimensions=sizes, spectrum=wanted)
+    made = characteristic_polynomial(design.loop.matrix)
+    note.check("all but the fixed 0 are assigned, complex pairs too", made == wanted * X**fixed)
+    system, numbers = lifted_system(plant, sizes), Numbers(26)
+    found = fixed_spectrum(system)
+    loops = [characteristic_polynomial(closed_by(system, numbers.gains(system))) for _ in "1234"]
+    shared = reduce(Polynomial.gcd, loops)
+    note.check("the rest is what four drawn loops have in common", shared == X**fixed)
+    note.refute("whole", found.polynomial == X)
+    note.certify(found, *design.certificates.values())
+
+
 def free_of_the_lift(note: Notebook) -> None:
-    """With n_i ≥ 1 the transfer graph is strongly connected; with n_i = 0 it need not be."""
+    """With n_i ≥ 1 all but the fixed 0 is assigned freely; with n_i = 0 the spectrum can split."""
+    for delay in (1, 2):
+        _rest_assigned(note, delay)
     for plant in note.each(late(5)):
         size = max(1, shared_dimension_bound(plant).deficiency)
         made = lifted_system(plant, [size] * plant.m)
@@ -236,8 +261,7 @@ def corollary_2(note: Notebook) -> None:
     """Corollary 2: a controller achieves any radius over links with delays."""
     runs = []
     for delay in (0, 1, 2):
-        plant = three_channels("discrete", delay)
-        note.on(f"the example of section IV-B, discrete time, delay {delay} on every link", plant)
+        plant = note.at(late_example(delay))
         for radius in ("1/2", "1/10"):
             least = design_extended(plant, radius=radius, aims=THEOREM)
             (block,) = least.parts["blocks"]

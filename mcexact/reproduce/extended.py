@@ -6,7 +6,13 @@ from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.structure.controllability import joint_controllability
 from mcexact.derived.extended import Share, extended_system
 from mcexact.reproduce.equations import messages_agree
-from mcexact.reproduce.material import PAPER, Numbers, plants, three_channels
+from mcexact.reproduce.material import (
+    PAPER,
+    Numbers,
+    plants,
+    three_channels,
+    with_dimensions,
+)
 from mcexact.reproduce.notebook import Notebook, Procedure
 from mcexact.reproduce.plants import unreached
 
@@ -16,10 +22,9 @@ SHARING: tuple[Share, ...] = ("outputs+states", "states")
 def construction(note: Notebook) -> None:
     """(24) and (25)."""
     numbers = Numbers(14)
-    for name, plant in plants(10, connected=None):
-        sizes = [k % 3 for k in range(1, plant.m + 1)]
+    for (name, plant), sizes in with_dimensions(plants(10, connected=None)):
         for share in SHARING:
-            note.on(f"{name}, n_i = {sizes}, {share}", plant)
+            note.on(f"{name}, {share}", plant)
             made = extended_system(plant, sizes, share)
             note.check("there are n + Σ n_i states", made.n == plant.n + sum(sizes))
             note.check(

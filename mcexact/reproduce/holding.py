@@ -12,16 +12,22 @@ from mcexact.analysis.structure.transfer_graph import transfer_graph
 from mcexact.derived.delayed import held_system, lifted_system
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
-from mcexact.reproduce.delays import X, late, late_drawn, less_than_the_bound, three_delays
+from mcexact.reproduce.delays import (
+    X,
+    drawn_links,
+    late,
+    late_drawn,
+    less_than_the_bound,
+    three_delays,
+)
 from mcexact.reproduce.equations import messages_agree, union_of_graphs
 from mcexact.reproduce.material import (
     Numbers,
     graph_of,
-    plants,
-    three_channels,
+    with_dimensions,
 )
 from mcexact.reproduce.notebook import Notebook, Procedure
-from mcexact.reproduce.plants import apart
+from mcexact.reproduce.plants import apart, late_example
 from mcexact.synthesis.extended import design_extended
 from mcexact.synthesis.optimum.aims import THEOREM
 
@@ -29,9 +35,8 @@ from mcexact.synthesis.optimum.aims import THEOREM
 def held(note: Notebook) -> None:
     """(37): all followers of i receive x_i(t − d_i) at the same time."""
     numbers = Numbers(16)
-    for name, plant in plants(14, time="discrete", longest_delay=3, connected=None):
-        sizes = [k % 3 for k in range(1, plant.m + 1)]
-        note.on(f"{name}, n_i = {sizes}", plant)
+    for instance, sizes in with_dimensions(drawn_links()):
+        plant = note.at(instance)
         made = held_system(plant, sizes)
         graph = graph_of(plant)
         d = [graph.longest_delay(i) for i in range(plant.m)]
@@ -85,8 +90,7 @@ def held_joint(note: Notebook) -> None:
     for plant in note.each(late(10)):
         made = held_system(plant, [1] * plant.m)
         note.joint(made)
-    plant = three_channels("discrete", 1)
-    note.on("the example of section IV-B, discrete time, delay 1 on every link", plant)
+    plant = note.at(late_example(1))
     found = joint_controllability(lifted_system(plant, [1, 1, 1]))
     note.refute("without-holding", not found.controllable)
     note.certify(found)
@@ -94,8 +98,7 @@ def held_joint(note: Notebook) -> None:
 
 def outputs_lose_controllability(note: Notebook) -> None:
     """Sending y_i with delays can make 0 fixed; holding and sending x_i alone does not."""
-    plant = three_channels("discrete", 1)
-    note.on("the example of section IV-B, discrete time, delay 1 on every link", plant)
+    plant = note.at(late_example(1))
     sent = joint_controllability(lifted_system(plant, [1, 1, 1]))
     note.check("with outputs on the links 0 is out of reach", not sent.controllable)
     kept = fixed_spectrum(held_system(plant, [1, 1, 1]))
@@ -104,9 +107,8 @@ def outputs_lose_controllability(note: Notebook) -> None:
     zero = fixed_spectrum(lifted_system(plant, [1, 1, 1]))
     note.check("0 is fixed", zero.polynomial == X)
     note.refute("other-modes", zero.polynomial(1) != 0)
-    prompt = three_channels("discrete", 0)
+    prompt = note.at(late_example(0))
     whole = joint_controllability(lifted_system(prompt, [1, 1, 1]))
-    note.on("the same without delay")
     note.refute("always", whole.controllable)
     note.certify(zero, whole)
 
@@ -154,8 +156,7 @@ def transfer_of_the_held(note: Notebook) -> None:
 
 def free_assignment(note: Notebook) -> None:
     """With holding, the whole spectrum is freely assignable despite delays."""
-    plant = three_channels("discrete", 1)
-    note.on("the example of section IV-B, discrete time, delay 1 on every link", plant)
+    plant = note.at(late_example(1))
     sizes = (1, 1, 1)
     note.certify(completeness(held_system(plant, sizes)))
     least = design_extended(plant, network="held", dimensions=sizes, radius="1/2", aims=THEOREM)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from typing import Any
 
 from mcexact.derived.drawn.choices import SeededChoices
 from mcexact.derived.drawn.deficiency import system_with_deficiency
@@ -79,7 +80,7 @@ def drawn_plants(
     longest_delay : int
         The largest delay of a link.
     connected : bool or None
-        Whether the neighbor graph is strongly connected; None for any.
+        Whether the neighbor graph is strongly connected; None for graphs of both kinds.
     first : int
         The first seed.
     """
@@ -90,21 +91,22 @@ def drawn_plants(
             drawn = system_with_fixed_mode(choices, n, m, 1, time=time)
         else:
             drawn = jointly_controllable_system(choices, n, m, time=time)
-        graph = drawn_graph(choices, drawn.system.names, connected, longest_delay)
+        wanted = seed % 4 < 2 or None if connected is None else connected
+        graph = drawn_graph(choices, drawn.system.names, wanted, longest_delay)
         kind = "planted fixed mode, " if fixed else ""
         yield f"drawn, {kind}seed {seed}: n={n}, m={m}", drawn.system.with_neighbors(graph)
 
 
-# (bound, boundary, degree, length, transfer, stable, digits) of the n-th deficient plant: bounds 1
-# to 3, tight ones and others, complex pairs, Jordan chains, large rationals.
-_SHAPES = (
-    (1, 1, 1, 1, True, False, 0),
-    (2, 1, 1, 1, True, False, 0),
-    (2, 2, 1, 1, False, True, 0),
-    (1, 1, 2, 1, True, True, 0),
-    (3, 1, 1, 1, True, True, 0),
-    (1, 2, 1, 2, True, False, 0),
-    (2, 1, 1, 1, True, False, 12),
+# The arguments for the n-th deficient plant: bounds 1 to 3, tight ones and others, complex pairs,
+# Jordan chains, large rationals.
+_SHAPES: tuple[dict[str, Any], ...] = (
+    {"deficiency": 1},
+    {"deficiency": 2},
+    {"deficiency": 2, "channels": 4, "boundary": 2, "transfer": False, "stable": True},
+    {"deficiency": 1, "degree": 2, "stable": True},
+    {"deficiency": 3, "stable": True},
+    {"deficiency": 1, "channels": 4, "boundary": 2, "length": 2},
+    {"deficiency": 2, "digits": 12},
 )
 
 
@@ -129,25 +131,13 @@ def deficient_plants(
     first : int
         The first seed.
     """
+    way = "" if share == "outputs+states" else " for sub-states alone"
     for seed, shape in enumerate(_SHAPES[:count], first):
-        bound, boundary, degree, length, transfer, stable, digits = shape
         drawn = system_with_deficiency(
-            SeededChoices(seed),
-            bound,
-            4 if boundary == 2 else 3,
-            share=share,
-            degree=degree,
-            length=length,
-            boundary=boundary,
-            transfer=transfer,
-            stable=stable,
-            digits=digits,
-            delay=longest_delay,
-            time=time,
-        )
-        way = "" if share == "outputs+states" else " for sub-states alone"
-        n, m = drawn.system.n, drawn.system.m
-        yield f"drawn, bound {bound}{way}, seed {seed}: n={n}, m={m}", drawn.system
+            SeededChoices(seed), **{"share": share, "delay": longest_delay, "time": time, **shape}
+        ).system
+        bound = shape["deficiency"]
+        yield f"drawn, bound {bound}{way}, seed {seed}: n={drawn.n}, m={drawn.m}", drawn
 
 
 def plants(count: int, **options: object) -> Iterator[Instance]:
@@ -156,6 +146,13 @@ def plants(count: int, **options: object) -> Iterator[Instance]:
     delay = 1 if options.get("longest_delay") else 0
     yield PAPER, three_channels(time, delay)
     yield from drawn_plants(count, **options)  # type: ignore[arg-type]
+
+
+def with_dimensions(instances: Iterable[Instance]) -> Iterator[tuple[Instance, list[int]]]:
+    """Instances with n_i = 1, 2, 0, 1, …, which their names tell."""
+    for name, plant in instances:
+        sizes = [k % 3 for k in range(1, plant.m + 1)]
+        yield (f"{name}, n_i = {sizes}", plant), sizes
 
 
 def graph_of(plant: MultiChannelSystem) -> NeighborGraph:
@@ -171,14 +168,17 @@ class Numbers:
     Parameters
     ----------
     seed : int
+    largest : int
+        The largest absolute value.
     """
 
-    def __init__(self, seed: int = 0) -> None:
-        self._random = random.Random(seed)
+    def __init__(self, seed: int = 0, largest: int = 4) -> None:
+        self._random, self._largest = random.Random(seed), largest
 
     def matrix(self, nrows: int, ncols: int) -> Matrix:
-        """A matrix of integers from −4 to 4."""
-        rows = [[self._random.randint(-4, 4) for _ in range(ncols)] for _ in range(nrows)]
+        """A matrix of such integers."""
+        top = self._largest
+        rows = [[self._random.randint(-top, top) for _ in range(ncols)] for _ in range(nrows)]
         return Matrix.from_integers(rows, ncols=ncols)
 
     def column(self, size: int) -> Matrix:

@@ -1,4 +1,4 @@
-"""Section II: the distributed observer and certainty equivalence."""
+"""Section II-B and II-C: the distributed observer and certainty equivalence."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from mcexact.analysis.stability.closed_loop_spectrum import closed_loop_spectrum
 from mcexact.analysis.structure.controllability import joint_controllability
 from mcexact.derived.error_system import error_system
 from mcexact.errors import Impossible
-from mcexact.exact.blocks import block, vstack
+from mcexact.exact.blocks import vstack
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
@@ -73,28 +73,6 @@ def designed(name: str) -> Design:
         "error": [-2 - k % 2 for k in range(size)],
     }
     return design_observer(plant, spectrum=wanted)
-
-
-def cancellation(note: Notebook) -> None:
-    """II-A: with one agent the spectrum is that of A + BF and that of A + KC."""
-    numbers = Numbers(4)
-    for plant in note.each(plants(8)):
-        B, C = plant.input_matrix(), plant.output_matrix()
-        F, K = numbers.matrix(B.ncols, plant.n), numbers.matrix(plant.n, C.nrows)
-        loop = block([[plant.A, B @ F], [-(K @ C), plant.A + K @ C + B @ F]])
-        apart = characteristic_polynomial(plant.A + B @ F) * characteristic_polynomial(
-            plant.A + K @ C
-        )
-        note.check("the loop's polynomial is the product", characteristic_polynomial(loop) == apart)
-        if note.here == PAPER:
-            twice = characteristic_polynomial(plant.A + B @ F) ** 2
-            wrong = characteristic_polynomial(plant.A + B @ F) * characteristic_polynomial(
-                plant.A - K @ C
-            )
-            kept = block([[plant.A, B @ F], [-(K @ C), plant.A + K @ C]])
-            note.refute("twice", characteristic_polynomial(loop) != twice)
-            note.refute("sign", characteristic_polynomial(loop) != wrong)
-            note.refute("without-input", characteristic_polynomial(kept) != apart)
 
 
 def errors_without_feedback(note: Notebook) -> None:
@@ -286,7 +264,6 @@ def remark_1(note: Notebook) -> None:
 
 
 PROCEDURES: dict[str, Procedure] = {
-    "cancellation": cancellation,
     "equations-3-6": errors_without_feedback,
     "equations-7-8": almost_any_choice,
     "candidate": centralized_feedback,

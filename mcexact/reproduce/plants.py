@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from mcexact.exact.matrix import Matrix
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.reproduce.material import Instance
+from mcexact.reproduce.material import PAPER, Instance, three_channels
 
 Columns = list[list[int]]
 RING_OF_THREE = {"1": ["2"], "2": ["3"], "3": ["1"]}
@@ -94,6 +95,23 @@ def hidden_by_feedback() -> tuple[str, MultiChannelSystem, list[Columns]]:
     return "a double integrator, fed back to diag(−1, −2)", plant, [[[-1, -1]], [[0, -2]]]
 
 
+def dependent_inputs() -> tuple[str, MultiChannelSystem, list[Matrix]]:
+    """Two agents, and F_i that are not zero, with B_2 F_2 = 0; agent 1 does not hear agent 2."""
+    plant = MultiChannelSystem(
+        [[0]], [[[1]], [[1, 1]]], [[[1]], [[1]]], neighbors={"1": [], "2": ["1"]}
+    )
+    gains = [Matrix.from_integers(rows) for rows in ([[-1]], [[1], [-1]])]
+    return "A = 0, two agents, with B_2 = [1 1] and F_2 = [1; −1]", plant, gains
+
+
+def late_example(delay: int) -> Instance:
+    """The matrices of the paper's example in discrete time, with one delay on every link."""
+    return (
+        f"{PAPER}, discrete time, delay {delay} on every link",
+        three_channels("discrete", delay),
+    )
+
+
 def unreached(time: str = "continuous") -> Instance:
     """Two agents over a connected graph, neither of which moves the mode 2."""
     e1, row = unit(2, 0), [[1, 1]]
@@ -126,3 +144,32 @@ def fixed_zero() -> Instance:
         time="discrete",
     )
     return "diag(0, 0, 0, 2), with the fixed mode 0", plant
+
+
+def washed_out() -> Instance:
+    """A plant with an invariant zero at 0."""
+    plant = MultiChannelSystem([[0, 1], [-2, -3]], [[[0], [1]]], [[[0, 1]]])
+    return "a zero at 0: y = s/(s² + 3s + 2) u", plant
+
+
+def two_tanks(time: str = "continuous") -> Instance:
+    """Two scalar outputs; set-points can be held."""
+    plant = MultiChannelSystem(
+        [[0, 1], [2, -1]],
+        [unit(2, 0), unit(2, 1)],
+        [transposed(unit(2, 0)), transposed(unit(2, 1))],
+        time=time,
+        neighbors=PAIR,
+        name="two tanks",
+    )
+    return "two states, two agents with one output each", plant
+
+
+def hidden_zero() -> Instance:
+    """A plant whose transfer matrix has a determinant without a zero at 0; set-points fail."""
+    plant = MultiChannelSystem(
+        [[0, 0, 0], [0, -2, -1], [0, 1, 0]],
+        [unit(3, 0), unit(3, 1)],
+        [transposed(unit(3, 0)), transposed(unit(3, 1))],
+    )
+    return "diag(1/s, s/(s+1)²)", plant

@@ -14,7 +14,7 @@ _ORIGINS = (
     ("drawn, planted", "drawn with a planted fixed mode"),
     ("drawn, a fixed mode", "drawn with a fixed mode by two channels"),
     ("drawn pair", "drawn pairs of matrices"),
-    ("drawn graph", "drawn graphs"),
+    ("three agents, links", "graphs with three agents"),
     ("drawn", "drawn"),
 )
 _MOST_NAMES = 5

@@ -9,7 +9,9 @@ from dataclasses import dataclass
 
 from mcexact.errors import UsageError
 from mcexact.reproduce import (
+    almost_any,
     bounds,
+    cancellation,
     decentralized,
     delays,
     example,
@@ -19,7 +21,9 @@ from mcexact.reproduce import (
     lemmas,
     observer,
     problem,
+    restated,
     setpoint,
+    tracking,
 )
 from mcexact.reproduce.ledger import Examination, examinations
 from mcexact.reproduce.notebook import Notebook, Procedure, examined
@@ -27,12 +31,14 @@ from mcexact.reproduce.statements import Statement, statements
 
 SECTIONS: tuple[tuple[str, dict[str, Procedure]], ...] = (
     ("I, the problem", problem.PROCEDURES),
-    ("II-A to II-C, the distributed observer", observer.PROCEDURES),
+    ("II-A, certainty equivalence", cancellation.PROCEDURES),
+    ("II-B and II-C, the distributed observer", observer.PROCEDURES),
     ("II-D, its analysis", lemmas.PROCEDURES),
-    ("III, set-points", setpoint.PROCEDURES),
+    ("II-B, II-D and IV-E, almost all gains", almost_any.PROCEDURES),
+    ("III, set-points", {**setpoint.PROCEDURES, **tracking.PROCEDURES}),
     ("IV-A, decentralized control", decentralized.PROCEDURES),
     ("IV-B, sharing outputs", example.PROCEDURES),
-    ("IV-C, extended systems", extended.PROCEDURES),
+    ("IV-C, extended systems", {**extended.PROCEDURES, **restated.PROCEDURES}),
     ("IV-D, shared dimensions", bounds.PROCEDURES),
     ("IV-E and VI, free assignment", freedom.PROCEDURES),
     ("V-A, delays", delays.PROCEDURES),

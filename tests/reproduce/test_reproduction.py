@@ -113,7 +113,7 @@ def test_what_fails_on_an_instance_has_a_row_of_its_own(whole: Reproduction) -> 
     broken = replace(row, finding=replace(row.finding, checks=checks))
     text = reproduction_page(Reproduction((broken,)))
     assert "<td>an agent</td><td>NO</td>" in text
-    assert "; drawn graph, seed 62;" in text and "an agent;" not in text
+    assert "; three agents, links: <math>" in text and "an agent;" not in text
 
 
 def test_the_statements_are_set_in_latex(whole: Reproduction) -> None:
