@@ -224,15 +224,17 @@ class Analysis:
         """Return the sentences with their premises, and the digests of the certificates."""
         return self.account.manifest()
 
-    def save(self, folder: str | os.PathLike[str]) -> None:
+    def save(self, folder: str | os.PathLike[str], *, system_by_digest: bool = False) -> None:
         """Write the certificates and a manifest of the sentences, which the checker can verify.
 
         Parameters
         ----------
         folder : path
             The folder, which is made if it is missing.
+        system_by_digest : bool
+            Whether certificates name the plant by its digest alone, as in `save_certificate`.
         """
-        self.account.save(folder)
+        self.account.save(folder, system_by_digest=system_by_digest)
 
     def as_json(self) -> dict[str, Any]:
         """Return plain data with an entry for each answer, keyed by the name of its question."""

@@ -49,12 +49,31 @@ class Account:
         """Return the sentences with their premises, and the digests of the certificates."""
         return manifest(self.sentences, self.certificates, self.subject)
 
-    def files(self) -> dict[str, str]:
-        """Return the certificates and the manifest, keyed by the names of their files."""
-        return self.certificates | {MANIFEST: canonical(self.manifest()) + "\n"}
+    def files(self, *, system_by_digest: bool = False) -> dict[str, str]:
+        """Return the certificates and the manifest, keyed by the names of their files.
 
-    def save(self, folder: str | os.PathLike[str]) -> None:
+        Parameters
+        ----------
+        system_by_digest : bool
+            Whether certificates name the plant by its digest alone, as in `codec.encode`.
+        """
+        texts = self.certificates
+        if system_by_digest:
+            texts = {
+                f"{name}.json": codec.encode(answer, system_by_digest=True)
+                for name, answer in self.answers.items()
+            }
+        told = manifest(self.sentences, texts, self.subject)
+        return texts | {MANIFEST: canonical(told) + "\n"}
+
+    def save(self, folder: str | os.PathLike[str], *, system_by_digest: bool = False) -> None:
         """Write the certificates and the manifest into a folder, which is made if it is missing.
+
+        Parameters
+        ----------
+        folder : path
+        system_by_digest : bool
+            Whether certificates name the plant by its digest alone, as in `save_certificate`.
 
         Raises
         ------
@@ -64,7 +83,7 @@ class Account:
             If the folder cannot be made.
         """
         os.makedirs(folder, exist_ok=True)
-        for name, text in self.files().items():
+        for name, text in self.files(system_by_digest=system_by_digest).items():
             write_text(os.path.join(folder, name), text)
 
     def as_json(self, **more: Any) -> dict[str, Any]:

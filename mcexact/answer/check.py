@@ -32,8 +32,9 @@ def check(
     certificate : Answer or path
         An answer, or the file of its certificate.
     system : MultiChannelSystem, optional
-        The plant that the certificate must be about; with a derived system, the certificate must be
-        about this system, or with a controller about its closed loop.
+        The plant that the certificate must be about, and may name by its digest; with a derived
+        system, the certificate must be about this system, or with a controller about its closed
+        loop.
     controller : Controller or path, optional
         The controller of the closed loop that the certificate must be about, or its file.  Nothing
         but the plant is in the loop, unless ``system`` or ``expect`` says so.
@@ -72,11 +73,11 @@ fixed_spectrum(system), or the name of a certificate file, found dict
     """
     from mcexact.model.canonical import plain
     from mcexact.model.system import MultiChannelSystem
-    from mcexact.model.system_file import digest
+    from mcexact.model.system_file import canonical_text
 
     if system is not None:
         InputError.require(system, MultiChannelSystem, "system")
-    wanted = Expectation() if system is None else Expectation(system=digest(system.plant))
+    wanted = Expectation() if system is None else about_plant(canonical_text(system))
     if system is not None and system.subject:
         wanted = replace(wanted, subject=json.loads(json.dumps(plain(system.subject))))
     if controller is not None:
@@ -120,14 +121,30 @@ def _controller(controller: Any) -> bytes:
         return read_bytes(controller)
 
 
-def recheck(files: Mapping[str, str], system_digest: str) -> dict[str, Verdict]:
+def about_plant(text: str) -> Expectation:
+    """What is asked of a certificate about a plant, which it may name by its digest.
+
+    Parameters
+    ----------
+    text : str
+        The plant as the ``system`` object of a certificate.
+    """
+    from mcexact.model.canonical import numbers_of_any_length, sha256
+
+    with numbers_of_any_length():
+        plant = json.loads(text)
+    return Expectation(system=sha256(text), plant=plant, size=len(text))
+
+
+def recheck(files: Mapping[str, str], plant: str) -> dict[str, Verdict]:
     """Verify certificates about one plant, and the sentences of their manifest.
 
     Parameters
     ----------
     files : mapping from names to texts
         Certificates, and perhaps a manifest, whose sentences are then verified.
-    system_digest : str
+    plant : str
+        The plant as the ``system`` object of a certificate.
 
     Returns
     -------
@@ -141,7 +158,7 @@ def recheck(files: Mapping[str, str], system_digest: str) -> dict[str, Verdict]:
         can be trusted.
     """
     size, verdicts = max(map(len, files.values()), default=0), {}
-    for about, found in _verdicts(files, Expectation(system=system_digest), _limits(size)):
+    for about, found in _verdicts(files, about_plant(plant), _limits(size)):
         if found.verdict not in {"VALID", "IMPLIED", "INCOMPLETE"} or found.code == "rule":
             [what] = about.values()
             raise InternalError(
@@ -173,9 +190,19 @@ def _limits(size: int) -> Limits:
     return Limits(**limits, work=10**30)
 
 
-def checked(data: bytes, system_digest: str | None = None) -> Verdict:
-    """Return the checker's verdict on the text of a certificate of any length."""
-    return check_document(data, Expectation(system=system_digest or ""), _limits(len(data)))
+def checked(data: bytes, system_digest: str = "", plant: str | None = None) -> Verdict:
+    """Return the checker's verdict on the text of a certificate of any length.
+
+    Parameters
+    ----------
+    data : bytes
+    system_digest : str
+        The digest of the plant that it must be about; empty for any.
+    plant : str, optional
+        In place of the digest, the plant as the ``system`` object of a certificate.
+    """
+    expected = Expectation(system=system_digest) if plant is None else about_plant(plant)
+    return check_document(data, expected, _limits(len(data)))
 
 
 def _text(certificate: Any) -> bytes:

@@ -14,7 +14,7 @@ from mcexact.answer.protocol import Answer
 from mcexact.errors import InputError
 from mcexact.model.atomic import write_text
 from mcexact.model.canonical import plain, text_of
-from mcexact.model.system_file import canonical_text
+from mcexact.model.system_file import canonical_text, digest
 
 FORMAT = "mcexact-certificate/1"
 
@@ -31,8 +31,14 @@ def document(answer: Answer) -> dict[str, Any]:
     }
 
 
-def encode(answer: Answer) -> str:
+def encode(answer: Answer, *, system_by_digest: bool = False) -> str:
     """Return the certificate as JSON text with a final line feed; equal answers give equal text.
+
+    Parameters
+    ----------
+    answer : Answer
+    system_by_digest : bool
+        Whether it names the plant by its digest alone: the checker then needs the system file, too.
 
     Notes
     -----
@@ -45,19 +51,26 @@ def encode(answer: Answer) -> str:
         "format": text_of(FORMAT),
         "kind": text_of(answer.kind),
         "subject": text_of(answer.subject),
-        "system": canonical_text(answer.about),
+        "system": text_of(digest(answer.about))
+        if system_by_digest
+        else canonical_text(answer.about),
         "witness": text_of(answer.witness()),
     }
     return "{" + ",".join(f'"{key}":{text}' for key, text in parts.items()) + "}\n"
 
 
-def save_certificate(answer: Answer, path: str | os.PathLike[str]) -> None:
+def save_certificate(
+    answer: Answer, path: str | os.PathLike[str], *, system_by_digest: bool = False
+) -> None:
     """Write an answer to a certificate file, completely or not at all.
 
     Parameters
     ----------
     answer : Answer
     path : path
+    system_by_digest : bool
+        Whether it names the plant by its digest alone, which is much shorter for a large plant: the
+        checker and `load_certificate` then need the plant, too.
 
     Raises
     ------
@@ -65,4 +78,4 @@ def save_certificate(answer: Answer, path: str | os.PathLike[str]) -> None:
         If the file cannot be written, or the answer is something else.
     """
     InputError.require(answer, Answer, "answer")
-    write_text(path, encode(answer))
+    write_text(path, encode(answer, system_by_digest=system_by_digest))

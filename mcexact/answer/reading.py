@@ -35,12 +35,16 @@ from mcexact.model.loop import closed_loop
 from mcexact.model.system import MultiChannelSystem
 
 
-def load_certificate(path: str | os.PathLike[str]) -> Answer:
+def load_certificate(
+    path: str | os.PathLike[str], system: MultiChannelSystem | None = None
+) -> Answer:
     """Read an answer from the file of its certificate, once the checker has accepted it.
 
     Parameters
     ----------
     path : path
+    system : MultiChannelSystem, optional
+        The plant that the certificate must be about, and may name by its digest.
 
     Raises
     ------
@@ -53,21 +57,24 @@ def load_certificate(path: str | os.PathLike[str]) -> Answer:
     """
     with InputError.inside(place_of(path)):
         data = read_bytes(path)
-    verdict = checked(data)
+    plant = None if system is None else system.plant
+    text = None if plant is None else system_file.canonical_text(plant)
+    verdict = checked(data, plant=text)
     if verdict.verdict != "VALID":
         raise InputError(f"the checker does not accept it ({verdict.line()})", where=str(path))
     digits = sys.get_int_max_str_digits()
     try:
         # A certificate may contain longer numbers than the interpreter reads by default.
         sys.set_int_max_str_digits(0)
-        return answer_of(json.loads(data))
+        return answer_of(json.loads(data), plant)
     finally:
         sys.set_int_max_str_digits(digits)
 
 
-def answer_of(document: Mapping[str, Any]) -> Answer:
-    """Make the answer of a valid certificate's document."""
-    about = constructed(_plant(document["system"]), document["subject"])
+def answer_of(document: Mapping[str, Any], plant: MultiChannelSystem | None = None) -> Answer:
+    """Make the answer of a valid certificate's document, about the plant if it is given."""
+    known = _plant(document["system"]) if plant is None else plant
+    about = constructed(known, document["subject"])
     return _answer(kind_named(document["kind"]), document, about)
 
 

@@ -67,6 +67,10 @@ class Budget:
             raise Refused("INCOMPLETE", "work", "checker", message)
         self.spent += units
 
+    def grant(self, size: int) -> None:
+        """Allow what is granted for so many bytes."""
+        self.usual += PER_BYTE * size
+
     def _named(self, whole: int) -> int:
         """A budget that should do where a step was refused: loops are counted to their ends."""
         reached = self.spent
@@ -89,7 +93,7 @@ _current: ContextVar[Budget | None] = ContextVar("budget", default=None)
 @contextmanager
 def limited(budget: Budget, size: int = 0) -> Iterator[None]:
     """Charge what is done inside, perhaps after a document of so many bytes was read."""
-    budget.usual += PER_BYTE * size
+    budget.grant(size)
     token = _current.set(budget)
     try:
         yield

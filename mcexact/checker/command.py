@@ -150,7 +150,7 @@ def seconds(text: str) -> float:
 
 OPTIONS: tuple[tuple[str, str, Callable[[str], object], str], ...] = (
     ("manifest", "FILE", str, "verify the sentences of this manifest from its certificates"),
-    ("system", "FILE", str, "require certificates about the system in this file"),
+    ("system", "FILE", str, "require this system; certificates with its digest alone need it"),
     ("controller", "FILE", str, "require loops of the plant with the controller in this file"),
     ("expect", "FILE", str, f"require a statement, its SHA-256, its line of a verdict, or {CLAIM}"),
     ("max-bytes", "N", count, "most bytes of a file"),

@@ -5,11 +5,12 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, replace
 
+from . import reading
 from .budget import current, limited
 from .controller import read_controller_file
 from .reading import Json, Limits, fields, items, malformed, parse, require, shown, string
-from .statement import digest, digest_of
-from .system import read_system_file
+from .statement import canonical_json, digest_of
+from .system import canonical, read_system_file
 
 DIGEST = re.compile(r"[0-9a-f]{64}")
 LINE = re.compile(r"(?:VALID (?:'[^']*' )?([0-9a-f]{64}) )?(For .*)")
@@ -26,6 +27,11 @@ class Expectation:
     ----------
     system : str
         The digest of the plant; empty for any.
+    plant : object
+        The plant as in a certificate, which may then name it by its digest; None where only its
+        digest is known, or any will do.
+    size : int
+        The bytes of the plant as JSON, which are granted work as if they stood in the certificate.
     controller : str
         The digest of the controller of the loop; empty for any, or for none.
     made_for : str
@@ -43,6 +49,8 @@ class Expectation:
     """
 
     system: str = ""
+    plant: Json = None
+    size: int = 0
     controller: str = ""
     made_for: str = ""
     statement: str = ""
@@ -52,7 +60,9 @@ class Expectation:
 
     def about(self, data: bytes, limits: Limits) -> Expectation:
         """The same, about the plant in a system file."""
-        return replace(self, system=digest(read_system_file(data, limits)))
+        plant = canonical(read_system_file(data, limits))
+        text = canonical_json(plant)
+        return replace(self, system=digest_of(text), plant=plant, size=len(text))
 
     def controlled(self, data: bytes, limits: Limits) -> Expectation:
         """The same, about a loop with the controller in a controller file."""
@@ -90,6 +100,15 @@ class Expectation:
         if not isinstance(claim, dict):
             malformed("claim", f"expected an object, found {shown(claim)}")
         return replace(self, kind=string(kind, "kind"), subject=subject, claim=claim)
+
+    def named(self, value: str) -> Json:
+        """The plant that a certificate names by its digest."""
+        if not DIGEST.fullmatch(value):
+            malformed("system", f"expected a system or its SHA-256, found {shown(value)}")
+        if self.plant is None:
+            reading.incomplete("system", "system", f"give the system of digest {value} (--system)")
+        self.require_plant(value)
+        return self.plant
 
     def require_plant(self, found: str) -> None:
         """Stop unless the certificate is about the plant."""

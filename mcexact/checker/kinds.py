@@ -116,6 +116,9 @@ def check_document(
         text = data if isinstance(data, bytes) else _text(data)
         with limited(budget, len(text)):
             kind, given, steps, claim, witness = _parts(parse(text, allowed))
+            if type(given) is str:
+                given = wanted.named(given)
+                budget.grant(wanted.size)
             plant = read_plant(given)
             known = digest(plant)
             wanted.require_plant(known)

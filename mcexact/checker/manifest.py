@@ -176,7 +176,9 @@ class Evidence:
     def _premise(self, name: str, document: Json) -> Premise:
         """A certificate that was found VALID."""
         words, steps = f"the plant {self.expected.system}", document["subject"]
-        plant = replace(read_plant(document["system"]), words=words)
+        given = document["system"]
+        given = self.expected.named(given) if type(given) is str else given
+        plant = replace(read_plant(given), words=words)
         own = same(steps[: len(self.base)], self.base)
         path = tuple(step["construction"] for step in steps[len(self.base) :]) if own else None
         system = read_subject(steps, plant)

@@ -89,14 +89,24 @@ def command(file: str, **given: Any) -> int:
     run = Run(given)
     require_writable(None, run.certificates)
     plant = run.read(file)
-    answer = run.result(_answer, plant, run.limits, given, doing=f"allocating for {plant[0]}")
+    answer = run.result(
+        _answer,
+        plant,
+        run.limits,
+        given,
+        run.system_by_digest,
+        doing=f"allocating for {plant[0]}",
+    )
     about = f"the answers about {plant[0]}"
     run.conclude(answer, show_tables(answer), about=about).require_complete()
     return 0 if answer["feasible"] else DEFINITE_NO
 
 
 def _answer(
-    plant: tuple[str, bytes], limits: dict[str, int], question: dict[str, Any]
+    plant: tuple[str, bytes],
+    limits: dict[str, int],
+    question: dict[str, Any],
+    system_by_digest: bool,
 ) -> dict[str, Any]:
     """Decide and format the answer, in the child process."""
     from mcexact.analysis.accounts import account_of_dimensions, account_of_links
@@ -112,7 +122,7 @@ def _answer(
     else:
         account = account_of_dimensions(system, **_dimensions(system.names, question, region))
         least = account.answers["minimal_shared_dimensions"]
-    return told(account) | {
+    return told(account, system_by_digest) | {
         "json": account.as_json(),
         "tables": tables(account.sentences),
         "feasible": least.feasible,

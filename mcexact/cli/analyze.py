@@ -101,6 +101,7 @@ def command(
         also,
         {"information": information, "subset": _named(subset), "channel": channel},
         html is not None,
+        run.system_by_digest,
         doing=f"analyzing {plant[0]}",
     )
     only_latex = latex and html is None
@@ -139,6 +140,7 @@ def _answer(
     also: list[str],
     question: dict[str, Any],
     with_page: bool,
+    system_by_digest: bool,
 ) -> dict[str, Any]:
     """Decide and format the answer, in the child process."""
     from mcexact.analysis.analyze import analyze
@@ -154,7 +156,7 @@ def _answer(
         from mcexact.report.account_page import account_page
 
         page = account_page(account)
-    return told(account) | {
+    return told(account, system_by_digest) | {
         "json": found.as_json(),
         "words": in_lines(account.sentences, _LINES_OF_WORDS),
         "tables": tables(account.sentences, most_modes=_MODES),

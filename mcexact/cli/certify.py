@@ -72,7 +72,13 @@ def command(file: str, controller: str, **given: Any) -> int:
     about = place_of(controller)
     programs = run.read(file), run.read(controller), None if weights is None else run.read(weights)
     answer = run.result(
-        _certified, *programs, run.limits, given, html is not None, doing=f"certifying {about}"
+        _certified,
+        *programs,
+        run.limits,
+        given,
+        html is not None,
+        run.system_by_digest,
+        doing=f"certifying {about}",
     )
     for warning in answer["json"]["warnings"]:
         click.echo(f"mcexact: warning: {warning}", err=True)
@@ -100,6 +106,7 @@ def _certified(
     limits: dict[str, int],
     wanted: dict[str, Any],
     with_page: bool,
+    system_by_digest: bool,
 ) -> dict[str, Any]:
     """Decide and format the answer, in the child process."""
     from mcexact.answer.formats import count
@@ -134,7 +141,7 @@ def _certified(
     shown = (*tables(account.sentences), figures)
     bound = None if found.bound is None else str(found.bound)
     return (
-        told(account)
+        told(account, system_by_digest)
         | assessed(account, assessment, loop, shown, with_page)
         | {
             "json": account.as_json(

@@ -20,7 +20,8 @@ from mcexact.cli import options
 @click.option(
     "--system",
     metavar="FILE",
-    help="Require that each certificate is about the system in this file.",
+    help="Require that each certificate is about the system in this file; one that names its "
+    "system by its digest needs the file.",
 )
 @click.option(
     "--controller",

@@ -39,7 +39,7 @@ GROUPS = {
         "weights", "margin", "damping", "largest_modulus", "largest_gain",
         "largest_order", "most_digits", "effort", "seeds",
     ),
-    "Output": ("output", "html", "certificates", "as_json"),
+    "Output": ("output", "html", "certificates", "system_by_digest", "as_json"),
     LAST: ("timeout", "max_memory", "help_all"),
     "Reading": ("bytes", "depth", "digits", "exponent"),
 }  # fmt: skip

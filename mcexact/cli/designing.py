@@ -88,7 +88,7 @@ def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any
     plant = run.read(file)
     done = run.result(
         _designed,
-        *(name, plant, extra, run.limits, keywords, aimed, html is not None),
+        *(name, plant, extra, run.limits, keywords, aimed, html is not None, run.system_by_digest),
         doing=f"designing for {plant[0]}",
         telling=True,
     )
@@ -125,6 +125,7 @@ def _designed(
     wanted: dict[str, Any],
     aimed: dict[str, Any],
     with_page: bool,
+    system_by_digest: bool,
     tell: Callable[[str], None],
 ) -> dict[str, Any]:
     """Design and format the result, in the child process."""
@@ -169,7 +170,7 @@ def _designed(
         reason, proof = refused.message, refused.certificate
         said = Sentences([reason] if isinstance(reason, Sentence) else [])
         account = Account({proof.kind: proof}, Given(system), said)
-        return told(account) | {
+        return told(account, system_by_digest) | {
             "impossible": str(refused),
             "json": account.as_json(design=name, possible=False, reason=reason),
         }
@@ -179,7 +180,7 @@ def _designed(
         found.measures(), assessment.rows(), account.sentences, found.region.discrete
     )
     return (
-        told(account)
+        told(account, system_by_digest)
         | assessed(
             account, assessment, found.loop.closed, (*tables(account.sentences), figures), with_page
         )

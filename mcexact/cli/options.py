@@ -85,6 +85,13 @@ certificates = click.option(
     help="Write a certificate of every answer into this directory.",
 )
 
+system_by_digest = click.option(
+    "--system-by-digest",
+    is_flag=True,
+    help="Name the system in these certificates by its digest alone, which is shorter; `mcexact "
+    "check` then needs the system file, too (--system).",
+)
+
 
 def file_limits(function: F) -> F:
     """Add the options that change the limits on input files.
@@ -192,6 +199,6 @@ def draws(function: F) -> F:
 
 def answering(function: F) -> F:
     """Add the options of every command whose answers have certificates."""
-    for add in (file_limits, work_limits, as_json, certificates):
+    for add in (file_limits, work_limits, as_json, system_by_digest, certificates):
         function = add(function)
     return function

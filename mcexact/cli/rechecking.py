@@ -54,7 +54,7 @@ class Rechecked:
 
 def rechecked(
     files: Mapping[str, str],
-    system_digest: str,
+    plant: str,
     *,
     doing: str,
     deadline: Deadline,
@@ -66,8 +66,8 @@ def rechecked(
     ----------
     files : mapping from names to texts
         The certificates, and the manifest of the sentences, if there is one.
-    system_digest : str
-        The digest of the plant that all certificates must be about.
+    plant : str
+        The plant that all certificates must be about, as their object ``system``.
     doing : str
         A description of the work, for progress.
     deadline : Deadline
@@ -88,7 +88,7 @@ def rechecked(
         found = supervised(
             recheck,
             dict(files),
-            system_digest,
+            plant,
             doing=doing,
             timeout=deadline,
             max_memory=max_memory,

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
+import click
+
 from mcexact.cli import options
 from mcexact.cli.deadline import Deadline
 from mcexact.cli.rechecking import Rechecked, rechecked
@@ -15,14 +17,21 @@ if TYPE_CHECKING:
 LIMITS = ("bytes", "depth", "digits", "exponent")
 
 
-def told(account: Account) -> dict[str, Any]:
-    """Return the parts of an account that a child process sends back."""
-    from mcexact.model.system_file import digest
+def told(account: Account, system_by_digest: bool) -> dict[str, Any]:
+    """Return the parts of an account that a child process sends back.
+
+    Parameters
+    ----------
+    account : Account
+    system_by_digest : bool
+        Whether the files name the plant by its digest.
+    """
+    from mcexact.model.system_file import canonical_text
 
     return {
         "certificates": account.certificates,
-        "files": account.files(),
-        "digest": digest(account.given.system.plant),
+        "files": account.files(system_by_digest=system_by_digest),
+        "plant": canonical_text(account.given.system),
     }
 
 
@@ -41,6 +50,9 @@ class Run:
         self.max_memory: int | None = given.pop("max_memory")
         self.limits = options.given({name: given.pop(name, None) for name in LIMITS})
         self.certificates = given.pop("certificates", None)
+        self.system_by_digest = given.pop("system_by_digest", False)
+        if self.system_by_digest and self.certificates is None:
+            raise click.UsageError("--system-by-digest is about files: give --certificates, too")
         self.as_json = given.pop("as_json", False)
 
     def read(self, file: str) -> tuple[str, bytes]:
@@ -98,7 +110,7 @@ class Run:
         line_follows = not self.as_json and show()
         checked = rechecked(
             answer["files"],
-            answer["digest"],
+            answer["plant"],
             doing=f"re-checking {about}",
             deadline=self.deadline,
             max_memory=self.max_memory,

@@ -12,6 +12,7 @@ import pytest
 
 from mcexact import MultiChannelSystem, fixed_spectrum
 from mcexact.answer import codec
+from mcexact.answer.check import check
 from mcexact.answer.evidence import RateInterval, RootDisc, ShrunkSubspace, ZeroTransfer
 from mcexact.answer.fixed_spectrum import (
     Completion,
@@ -26,6 +27,7 @@ from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.polynomial_matrix import PolynomialMatrix
 from mcexact.model.canonical import plain
+from mcexact.model.system_file import digest
 from tests.checker.handmade import FIXED
 
 PLANT = MultiChannelSystem(
@@ -111,6 +113,21 @@ def test_a_file_is_read_back_as_the_answer_that_was_written(tmp_path: Path) -> N
     assert read.about == PLANT
     assert read.factors == found.factors
     assert read.evidence == found.evidence
+
+
+def test_a_file_that_names_its_plant_by_digest_is_read_with_the_plant(tmp_path: Path) -> None:
+    file = tmp_path / "certificate.json"
+    found = fixed_spectrum(PLANT)
+    codec.save_certificate(found, file, system_by_digest=True)
+    assert json.loads(file.read_text())["system"] == digest(PLANT)
+    assert {**json.loads(file.read_text()), "system": found.system} == codec.document(found)
+    assert load_certificate(file, PLANT) == found
+    whole, named = check(found), check(file, PLANT)
+    assert named == whole
+    with pytest.raises(InputError, match="INCOMPLETE system system: give the system of digest"):
+        load_certificate(file)
+    with pytest.raises(InputError, match="INVALID system system: about another system"):
+        load_certificate(file, MultiChannelSystem([[0]], [[[1]]], [[[1]]]))
 
 
 @pytest.mark.parametrize(

@@ -56,6 +56,7 @@ HARMLESS: dict[str, str] = {
     "expectation.py: saying: line[1] not in (None, found)": USERS,
     "expectation.py: _claiming: 'claim' not in value": USERS,
     "expectation.py: _claiming: not isinstance(claim, dict)": USERS,
+    "expectation.py: named: not DIGEST.fullmatch(value)": USERS,
     "expectation.py: require_plant: self.system in ('', found)": USERS,
     "expectation.py: require_plant: self.made_for in ('', found)": USERS,
     "expectation.py: require_subject: bool(found)": USERS,

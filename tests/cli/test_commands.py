@@ -134,6 +134,23 @@ def test_analyze_writes_a_valid_certificate_for_every_answer(call: Call, tmp_pat
     assert [line.split()[0] for line in out.splitlines()] == ["VALID"] * len(files)
 
 
+def test_certificates_can_name_the_system_by_its_digest(call: Call, tmp_path: Path) -> None:
+    folders = {name: str(tmp_path / name) for name in ("whole", "named")}
+    outputs = [
+        call("analyze", TRIPLE, "--json", "--certificates", folders["whole"]),
+        call("analyze", TRIPLE, "--json", "--certificates", folders["named"], "--system-by-digest"),
+    ]
+    assert outputs[0] == outputs[1]
+    sizes = [(tmp_path / name / "transfer_graph.json").stat().st_size for name in folders]
+    assert sizes[1] < sizes[0]
+    checks = [call("check", "--manifest", each, "--system", TRIPLE)[1] for each in folders.values()]
+    assert checks[0] == checks[1].replace("named", "whole")
+    assert call("check", "--manifest", folders["named"])[0] == 5
+    status, _, err = call("analyze", TRIPLE, "--system-by-digest")
+    assert status == 2
+    assert "give --certificates, too" in err
+
+
 def test_the_same_input_gives_the_same_bytes(call: Call, tmp_path: Path) -> None:
     for name in ("first", "second"):
         call("analyze", TRIPLE, "--certificates", str(tmp_path / name))

@@ -13,7 +13,7 @@ from mcexact.cli import main
 from mcexact.exact.matrix import Matrix
 from mcexact.model import gallery
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import digest
+from mcexact.model.system_file import canonical_text
 from mcexact.report.account import latex
 from mcexact.report.account_page import account_page
 from mcexact.report.graph_figures import graph_picture
@@ -38,7 +38,7 @@ def hostile() -> MultiChannelSystem:
 def page_of(plant: MultiChannelSystem, **question: bool) -> str:
     """The page with all its evidence, checked, and the results as LaTeX."""
     account = account_of(plant, **question)
-    verdicts = recheck(account.certificates, digest(plant))
+    verdicts = recheck(account.certificates, canonical_text(plant))
     return account_page(account).rendered(account.certificates, verdicts, latex(account))
 
 
