@@ -134,8 +134,7 @@ class _Asked:
     def compares(self) -> bool:
         """Whether a search can use the lifted and the held system."""
         _, graph = with_graph(self.system, self.graph)
-        asked = self.request
-        searched = asked.spectrum is None and asked.agent is None and self.aims.effort != 0
+        searched = self.aims.searched_for(self.request)
         return searched and bool(graph.delays) and self.share != "outputs+states"
 
     def designed(self, network: SharedNetwork | None) -> Design:

@@ -166,9 +166,7 @@ class _Task:
     @property
     def searches(self) -> bool:
         """Whether controllers of low order are searched before those of a theorem."""
-        asked = self.request
-        free = asked.spectrum is None and asked.agent is None and self.aims.effort != 0
-        return free and self.method != "observer"
+        return self.method != "observer" and self.aims.searched_for(self.request)
 
     def proposals(self) -> Iterator[Proposal]:
         """Yield the proposals for the plant with its integrators."""

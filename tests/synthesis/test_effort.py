@@ -31,10 +31,11 @@ def chain_of_three() -> MultiChannelSystem:
 @pytest.mark.parametrize(
     ("design", "options", "decisions"),
     [
-        (design_setpoint, {"arithmetic": "float", "method": "observer"}, 1),
+        # Without an agent, loops of several observers are compared before one is proposed.
+        (design_setpoint, {"arithmetic": "float", "method": "observer", "agent": "1"}, 1),
         (design_setpoint, {"arithmetic": "float", "method": "extended", "aims": THEOREM}, 1),
         (design_setpoint, {"method": "extended", "aims": THEOREM}, 1),
-        (design_observer, {"arithmetic": "float"}, 1),
+        (design_observer, {"arithmetic": "float", "agent": "1"}, 1),
         # The spectra of feedback and errors are promised: nothing more is decided.
         (design_observer, {}, 0),
         (design_extended, {"arithmetic": "float", "aims": THEOREM}, 1),

@@ -9,6 +9,7 @@ from typing import Any
 
 from mcexact.errors import UsageError
 from mcexact.synthesis.optimum.shape import Shape
+from mcexact.synthesis.request import Request
 
 MARGIN = 0.3
 SEEDS = 4
@@ -85,6 +86,10 @@ class Aims:
         if self.effort is not None:
             good = 0 <= self.effort and isfinite(self.effort)
             _require(good, "effort", "a number of seconds", self.effort)
+
+    def searched_for(self, request: Request) -> bool:
+        """Whether there is a search: no spectrum, no agent with a channel controller, effort."""
+        return request.spectrum is None and request.agent is None and self.effort != 0
 
     @property
     def shape(self) -> Shape:

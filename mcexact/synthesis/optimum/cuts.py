@@ -5,10 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 import numpy as np
-from scipy.linalg import LinAlgError, solve_continuous_lyapunov, solve_discrete_lyapunov
 
 from mcexact.synthesis.optimum.problem import AgentPlaces, FeedbackProblem, Places
-from mcexact.synthesis.optimum.regulator import Model, estimator, regulator
+from mcexact.synthesis.optimum.regulator import (
+    Model,
+    estimator,
+    output_gain,
+    regulated_covariance,
+    regulator,
+)
 from mcexact.synthesis.optimum.starts import Locality, drawn_dynamics
 from mcexact.synthesis.optimum.weights import Floats, Weights
 
@@ -53,23 +58,17 @@ def cut_gains(problem: FeedbackProblem, model: Model, shift: float) -> Floats | 
         that it leads to, and ȳ_i the outputs that agent i receives; None without a regulator.
     """
     F = regulator(model, shift)
-    if F is None:
+    S = None if F is None else regulated_covariance(model, F)
+    if F is None or S is None:
         return None
-    closed = model.A + model.B @ F
-    try:
-        if model.discrete:
-            S = solve_discrete_lyapunov(closed, model.W)
-        else:
-            S = solve_continuous_lyapunov(closed, -model.W)
-        K = np.zeros(problem.mask.shape)
-        for agent in problem.agents:
-            outputs = _outputs(agent)
-            C = problem.C[outputs][:, : problem.n]
-            seen = np.linalg.pinv(C @ S @ C.T)
-            K[np.ix_(agent.inputs, outputs)] = F[agent.inputs] @ S @ C.T @ seen
-    except (LinAlgError, ValueError):
-        return None
-    return K if np.all(np.isfinite(K)) else None
+    K = np.zeros(problem.mask.shape)
+    for agent in problem.agents:
+        outputs = _outputs(agent)
+        gain = output_gain(F[agent.inputs], S, problem.C[outputs][:, : problem.n])
+        if gain is None:
+            return None
+        K[np.ix_(agent.inputs, outputs)] = gain
+    return K
 
 
 def _outputs(agent: AgentPlaces) -> Places:

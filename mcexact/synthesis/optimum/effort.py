@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-_OVERHEAD = 40
+_OVERHEAD = 48
 """The number of states at which the arithmetic of one cost takes as long as what surrounds it."""
 PER_SECOND = 3000
 """About as many units as a processor of 2024 does in a second."""

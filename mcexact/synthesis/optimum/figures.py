@@ -65,7 +65,7 @@ class Figures:
 
 def figures_of(problem: FeedbackProblem, K: Floats, *, peak: bool = True) -> Figures:
     """Compute the figures of a loop; without ``peak`` that one is not computed and is NaN."""
-    M = problem.A + problem.B @ K @ problem.C
+    M = problem.closed(K)
     seen = Sensitivity(problem, K)
     form = SchurForm.of(M, discrete=problem.discrete)
     bound, gain = np.inf if form is None else form.bound, float(np.max(np.abs(K), initial=0.0))
@@ -237,7 +237,7 @@ def _sizes(problem: FeedbackProblem, K: Floats, region: StabilityRegion) -> Size
     inputs.
     """
     p, q = problem.p, problem.mask.shape[1] - sum(problem.orders)
-    M = problem.A + problem.B @ K @ problem.C
+    M = problem.closed(K)
     form, noise = SchurForm.of(M, discrete=problem.discrete), problem.B @ K
     pace, gramians = max(to_float(region.edge), 1e-6), None
     if form is not None and form.bound < (1.0 if problem.discrete else 0.0):

@@ -38,6 +38,8 @@ _BETTER, _GOOD = 0.97, 2.0
 _DEAR, _HOPELESS = 0.05, 1000.0
 _SMALL, _FRAGILE = 20, 1.25
 _STATIC = "static gains"
+MOST_STATES = 100
+"""Of plants for which the controller of the theorem is constructed where a search found none."""
 
 
 @dataclass(frozen=True)
@@ -165,13 +167,19 @@ def climbed(ladder: Ladder) -> list[Candidate]:
 
 
 def _draft(ladder: Ladder, start: Start) -> tuple[float, Start]:
-    """Follow a start into the region and for a few steps; infinite if it does not get there."""
-    problem, part = start.problem, ladder.effort.part(0.25)
+    """Follow a start into the region and for a few steps; return its cost, too.
+
+    It is infinite where the region is not reached.  The barrier does not count: at the border of
+    the region it is high, and polishing leaves it.
+    """
+    problem, part = start.problem, ladder.effort.part(0.3)
     x = inside(problem, problem.entries(start.K), ladder.target, part)
     if x is None:
         return np.inf, start
     x, value = drafted(problem, x, ladder.target, part)
-    return value, replace(start, K=problem.gain(x))
+    K = problem.gain(x)
+    [(cost, _)] = quadratic_costs(problem, K, (1.0 if problem.discrete else 0.0,))
+    return min(cost, value), replace(start, K=K)
 
 
 def _finish(ladder: Ladder, draft: Start, found: list[Candidate]) -> bool:
@@ -242,7 +250,8 @@ def _steps(
             return
     yield observers
     # It takes long to construct, and is hardly ever a better start than what was found.
-    proposed = None if found and static.n > _SMALL else ladder.theorem()
+    small = static.n <= (_SMALL if found else MOST_STATES)
+    proposed = ladder.theorem() if small else None
     if proposed is not None:
         problem, K = problem_of(*proposed, ladder.weights, ladder.sizes)
         if problem.size <= _MOST_ENTRIES:

@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.linalg import eig
 
 from mcexact.exact.floats import to_float
 from mcexact.exact.location import StabilityRegion
@@ -14,12 +13,12 @@ from mcexact.floating.margins import spectral_bound
 from mcexact.synthesis.optimum.cost import INFINITE, Valued, quadratic_costs
 from mcexact.synthesis.optimum.descent import Function, minimize
 from mcexact.synthesis.optimum.effort import Effort
+from mcexact.synthesis.optimum.eigenvalues import Eigenvalues
 from mcexact.synthesis.optimum.figures import shift_of
 from mcexact.synthesis.optimum.objective import Objective
 from mcexact.synthesis.optimum.problem import FeedbackProblem
 from mcexact.synthesis.optimum.sensitivity import (
     GRID,
-    Complexes,
     Sensitivity,
     frequencies,
 )
@@ -29,6 +28,7 @@ from mcexact.synthesis.optimum.weights import Floats
 SLACK = 1.02
 """The region is tightened by this factor, so that rounding the controller does not leave it."""
 _RATCHETS, _STALLS, _SHARE = 40, 4, 0.15
+_PARTS = (0.5, 0.25, 0.12, 0.06)
 _MARGIN_ROUNDS = 10
 _DRAFT, _POLISH = 60, 500
 _CHECKED = 200
@@ -84,14 +84,12 @@ def spectral_descent(
         M = problem.loop(x)
         if not np.all(np.isfinite(M)):
             return INFINITE
-        values, left, right = _eigen(M)
+        seen = Eigenvalues.of(problem, M)
+        values = seen.values
         k = int(np.argmax(np.abs(values) if problem.discrete else values.real))
-        w, v, mode = left[:, k].conj(), right[:, k], values[k]
-        paired = complex(w @ v)
-        paired = paired if abs(paired) > 1e-13 else 1e-13 + 0j
-        turn = mode.conj() / max(abs(mode), 1e-300) if problem.discrete else 1.0
-        G = np.real(turn * np.outer(w @ problem.B, problem.C @ v) / paired)
-        height = float(abs(mode) if problem.discrete else mode.real)
+        mode = complex(values[k])
+        G = seen.slope(k, mode.conjugate() / max(abs(mode), 1e-300) if problem.discrete else 1.0)
+        height = abs(mode) if problem.discrete else mode.real
         return height + size * float(x @ x), problem.gradient(G) + 2 * size * x
 
     found, _ = minimize(
@@ -105,16 +103,33 @@ def spectral_descent(
     return found
 
 
-def _eigen(M: Floats) -> tuple[Complexes, Complexes, Complexes]:
-    """Eigenvalues, with left and right eigenvectors as columns."""
-    found = eig(M, left=True)
-    left, right = (np.asarray(each, dtype=np.complex128) for each in found[1:])
-    return np.asarray(found[0], dtype=np.complex128), left, right
-
-
 def _well_inside(region: StabilityRegion) -> float:
     """A factor by which a region is tightened for a start."""
     return 1.5 if region.discrete and to_float(region.edge) == 1.0 else 1.1
+
+
+def calmed(problem: FeedbackProblem, x: Floats, effort: Effort) -> tuple[Floats, float]:
+    """Reduce what the agents do to the plant, where this makes a loop faster.
+
+    Controllers that agents find for themselves can disturb each other: then parts of their inputs
+    may leave a loop stable, from which a search can start.
+
+    Returns
+    -------
+    x : ndarray
+        The fastest of some.
+    bound : float
+        Its largest real part or modulus.
+    """
+    K, found = problem.gain(x), [(bound_of(problem, x), x)]
+    stable = found[0][0] < (1.0 if problem.discrete else 0.0)
+    for part in () if stable else _PARTS:
+        effort.take(len(problem.A), 0.5)
+        K[: problem.p] = part * problem.gain(x)[: problem.p]
+        entries = problem.entries(K)
+        found.append((bound_of(problem, entries), entries))
+    bound, best = min(found, key=lambda each: each[0])
+    return best, bound
 
 
 def ratcheted(problem: FeedbackProblem, x: Floats, target: Target, effort: Effort) -> Floats | None:
@@ -236,9 +251,10 @@ def _counted(objective: Objective, effort: Effort) -> Function:
 
 def inside(problem: FeedbackProblem, x: Floats, target: Target, effort: Effort) -> Floats | None:
     """Move a start into the region: by the cost, else by its spectrum; None if both fail."""
-    if target.reached(bound_of(problem, x), SLACK):
+    x, bound = calmed(problem, x, effort)
+    if target.reached(bound, SLACK):
         return x
-    moved = ratcheted(problem, x, target, effort.part(0.5))
+    moved = ratcheted(problem, x, target, effort.part(0.75))
     if moved is not None:
         return moved
     found = spectral_descent(problem, x, target, effort.part(0.5))

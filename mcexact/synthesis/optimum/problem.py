@@ -241,10 +241,14 @@ class FeedbackProblem:
         found += [np.array([c]) for agent in self.agents for c in agent.private_columns]
         return tuple(found)
 
-    def loop(self, x: Floats) -> Floats:
+    def closed(self, K: Floats) -> Floats:
         """Return M = A + B K C."""
-        M: Floats = self.A + self.B @ self.gain(x) @ self.C
+        M: Floats = self.A + self.B @ K @ self.C
         return M
+
+    def loop(self, x: Floats) -> Floats:
+        """Return M = A + B K C for the free entries x of K."""
+        return self.closed(self.gain(x))
 
 
 def _corner(M: Floats, size: int, diagonal: float) -> Floats:

@@ -18,7 +18,7 @@ from mcexact.synthesis.optimum.diagnosis import Diagnosis, diagnosed
 from mcexact.synthesis.optimum.effort import PER_SECOND, Effort
 from mcexact.synthesis.optimum.figures import Figures, figures_of
 from mcexact.synthesis.optimum.kernel import quiet_floats
-from mcexact.synthesis.optimum.ladder import Candidate, Ladder, best_of, climbed
+from mcexact.synthesis.optimum.ladder import MOST_STATES, Candidate, Ladder, best_of, climbed
 from mcexact.synthesis.optimum.polish import Target, bound_of
 from mcexact.synthesis.optimum.problem import FeedbackProblem
 from mcexact.synthesis.optimum.programs import controller_of, rounded
@@ -266,7 +266,7 @@ def searched_proposals(
     What is hard for all agents together is told as soon as it is known, by a step `Warned`.
     """
     network, aims = family.network, aims or Aims()
-    if request.spectrum is not None or request.agent is not None or aims.effort == 0:
+    if not aims.searched_for(request):
         yield from network_proposals(network, request)
         return
     request.tell("fixed modes")
@@ -298,6 +298,8 @@ def _of_the_theorem(
     family: Family, request: Request, limit: LimitReached, known: Diagnosis
 ) -> Proposal:
     """Return the controller of the theorem; the limit of the search if there is none either."""
+    if family.network.given.n > MOST_STATES:
+        raise limit
     request.tell("the controller of the theorem")
     try:
         made = next(network_proposals(family.network, request))

@@ -6,7 +6,13 @@ import warnings
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import LinAlgError, solve_continuous_are, solve_discrete_are
+from scipy.linalg import (
+    LinAlgError,
+    solve_continuous_are,
+    solve_continuous_lyapunov,
+    solve_discrete_are,
+    solve_discrete_lyapunov,
+)
 
 from mcexact.synthesis.optimum.weights import Floats
 
@@ -94,6 +100,34 @@ def _solved(M: Floats, right: Floats) -> Floats | None:
     """Solve a linear system; None if that is impossible in floating point."""
     try:
         found = np.asarray(np.linalg.solve(M, right), dtype=np.float64)
+    except np.linalg.LinAlgError:
+        return None
+    return found if np.all(np.isfinite(found)) else None
+
+
+def regulated_covariance(model: Model, F: Floats) -> Floats | None:
+    """Compute the covariance S of the states under u = F x; None if that is impossible.
+
+    Notes
+    -----
+    M S + S M' + W = 0 (discrete time: M S M' − S + W = 0) with M = A + B F.
+    """
+    closed = model.A + model.B @ F
+    try:
+        if model.discrete:
+            S = solve_discrete_lyapunov(closed, model.W)
+        else:
+            S = solve_continuous_lyapunov(closed, -model.W)
+    except (LinAlgError, ValueError):
+        return None
+    found = np.asarray(S, dtype=np.float64)
+    return found if np.all(np.isfinite(found)) else None
+
+
+def output_gain(F: Floats, S: Floats, C: Floats) -> Floats | None:
+    """Compute F S C'(C S C')⁺, the gain of y = C x that is nearest to F x in the mean."""
+    try:
+        found = np.asarray(F @ S @ C.T @ np.linalg.pinv(C @ S @ C.T), dtype=np.float64)
     except np.linalg.LinAlgError:
         return None
     return found if np.all(np.isfinite(found)) else None

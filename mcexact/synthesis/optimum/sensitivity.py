@@ -128,9 +128,8 @@ class Sensitivity(Response):
 
     def __init__(self, problem: FeedbackProblem, K: Floats) -> None:
         self._problem, self._K = problem, K
-        M = problem.A + problem.B @ K @ problem.C
         entering, leaving = problem.B[:, : problem.p], (K @ problem.C)[: problem.p]
-        super().__init__(M, entering, leaving, discrete=problem.discrete)
+        super().__init__(problem.closed(K), entering, leaving, discrete=problem.discrete)
 
     def excess(self, points: Complexes, limit: float) -> Valued:
         """Compute Σ max(0, σ_max(T(z))/limit − 1)² over some points, and its gradient in K.

@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import eig
 
 from mcexact.synthesis.optimum.cost import Valued
+from mcexact.synthesis.optimum.eigenvalues import Eigenvalues
 from mcexact.synthesis.optimum.problem import FeedbackProblem
 from mcexact.synthesis.optimum.sensitivity import Complexes
 from mcexact.synthesis.optimum.weights import Floats
 
-_CLOSE, _GONE = 1e-13, 1e-3
+_GONE = 1e-3
 _AIMED_FURTHER = 1.05
 
 
@@ -68,22 +68,15 @@ class Shape:
 
         Notes
         -----
-        d_k are the damping ratios; ζ is 1.05 times the limit, and R the limit over 1.05.  With left
-        and right eigenvectors w, v, dλ = wᴴ dM v/(wᴴ v).
+        d_k are the damping ratios; ζ is 1.05 times the limit, and R the limit over 1.05.
         """
-        M = problem.A + problem.B @ K @ problem.C
+        seen = Eigenvalues.of(problem, problem.closed(K))
         total, G = 0.0, np.zeros(K.shape)
-        solved = eig(M, left=True)
-        values, left, right = (np.asarray(each, dtype=np.complex128) for each in solved)
-        for k, value in enumerate(map(complex, values)):
+        for k, value in enumerate(map(complex, seen.values)):
             size, slope = self._of(value, discrete=problem.discrete)
-            if not size:
-                continue
-            total += size
-            w, v = left[:, k].conj(), right[:, k]
-            paired = complex(w @ v)
-            paired = paired if abs(paired) > _CLOSE else complex(_CLOSE)
-            G += np.real(slope / paired * np.outer(w @ problem.B, problem.C @ v))
+            if size:
+                total += size
+                G += seen.slope(k, slope)
         return total, G
 
     def _of(self, value: complex, *, discrete: bool) -> tuple[float, complex]:

@@ -6,10 +6,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import LinAlgError, solve_continuous_lyapunov, solve_discrete_lyapunov
 
 from mcexact.synthesis.optimum.problem import FeedbackProblem
-from mcexact.synthesis.optimum.regulator import Model, gaussian_controller, regulator
+from mcexact.synthesis.optimum.regulator import (
+    Model,
+    gaussian_controller,
+    output_gain,
+    regulated_covariance,
+    regulator,
+)
 from mcexact.synthesis.optimum.weights import Floats, Weights
 
 Realization = tuple[Floats, Floats, Floats, Floats]
@@ -126,18 +131,10 @@ def local_regulators(problem: FeedbackProblem, parts: Sequence[Locality], shift:
         if not (model.B.any() and model.C.any()):
             continue
         F = regulator(model, shift)
-        if F is None:
-            continue
-        closed, noise = model.A + model.B @ F, model.W
-        try:
-            if model.discrete:
-                S = solve_discrete_lyapunov(closed, noise)
-            else:
-                S = solve_continuous_lyapunov(closed, -noise)
-            seen = np.linalg.pinv(model.C @ S @ model.C.T)
-        except (LinAlgError, ValueError):
-            continue
-        K[np.ix_(agent.inputs, agent.own)] = F @ S @ model.C.T @ seen
+        S = None if F is None else regulated_covariance(model, F)
+        gain = None if F is None or S is None else output_gain(F, S, model.C)
+        if gain is not None:
+            K[np.ix_(agent.inputs, agent.own)] = gain
     return K
 
 

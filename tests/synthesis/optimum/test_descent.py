@@ -69,7 +69,7 @@ def test_the_parts_of_an_effort_are_counted_in_the_whole():
     whole = Effort(1000.0)
     inner = whole.part(0.5).part(0.5)
     assert inner.limit == 250
-    inner.take(40, times=100)
+    inner.take(48, times=100)
     assert inner.spent == whole.spent == 200
     assert not inner.over and whole.left == 800
     inner.take(0, times=900)

@@ -1,0 +1,62 @@
+"""Ways from a start into a region."""
+
+import numpy as np
+import pytest
+
+from mcexact.exact.location import StabilityRegion
+from mcexact.model.system import MultiChannelSystem
+from mcexact.synthesis.network.networks import decentralized_network
+from mcexact.synthesis.optimum.effort import Effort
+from mcexact.synthesis.optimum.eigenvalues import Eigenvalues
+from mcexact.synthesis.optimum.polish import Target, bound_of, calmed, inside
+from mcexact.synthesis.optimum.problem import FeedbackProblem
+from mcexact.synthesis.optimum.weights import Weights
+
+
+def problem_with(A, orders=(0,), time="continuous") -> FeedbackProblem:
+    """A plant of two states, of which one agent measures and drives the first."""
+    plant = MultiChannelSystem(A, [[[1], [0]]], [[[1, 0]]], time=time)
+    return FeedbackProblem.of(decentralized_network(plant), orders, Weights.unit(plant))
+
+
+def test_agents_that_disturb_each_other_are_calmed():
+    problem = problem_with([[-1, 1], [1, -2]])
+    x = np.array([3.0])
+    assert bound_of(problem, x) > 0
+    found, bound = calmed(problem, x, Effort(100))
+    assert 0 < found[0] < 3 and bound < 0 and bound == bound_of(problem, found)
+
+
+def test_what_an_unstable_plant_needs_is_not_reduced():
+    problem = problem_with([[1, 1], [0, -2]])
+    x = np.array([-0.5])
+    found, bound = calmed(problem, x, Effort(100))
+    assert found.tolist() == x.tolist() and bound == bound_of(problem, x)
+
+
+def test_a_stable_loop_stays_as_it_is():
+    problem = problem_with([["-1/2", "1/4"], ["1/4", "1/2"]], time="discrete")
+    x, effort = np.array([0.5]), Effort(100)
+    assert calmed(problem, x, effort)[0].tolist() == [0.5] and effort.spent == 0
+
+
+def test_a_search_gets_inside_from_a_start_that_disturbs():
+    problem = problem_with([[-1, 1], [1, -2]], orders=(1,))
+    target = Target(StabilityRegion("continuous", 1))
+    x = inside(problem, np.array([5.0, 1.0, 1.0, -1.0]), target, Effort(20_000))
+    assert x is not None and target.reached(bound_of(problem, x))
+
+
+@pytest.mark.parametrize("c", [1.0, 1j, 2 - 1j])
+def test_slopes_of_eigenvalues_are_those_of_differences(c):
+    problem = problem_with([[0, 1], [-2, -1]], orders=(1,))
+    K = np.array([[-0.3, 0.7], [0.4, -1.1]])
+    seen = Eigenvalues.of(problem, problem.closed(K))
+    for k, value in enumerate(seen.values):
+        slope = seen.slope(k, c)
+        for i, j in np.ndindex(K.shape):
+            moved = K.copy()
+            moved[i, j] += 1e-6
+            others = Eigenvalues.of(problem, problem.closed(moved)).values
+            nearest = others[np.argmin(abs(others - value))]
+            assert abs((c * (nearest - value)).real / 1e-6 - slope[i, j]) < 1e-4
