@@ -69,6 +69,18 @@ rewrite mulmx_sumr summxE; apply: eq_bigr => j _.
 by rewrite -scalemxAr mxE.
 Qed.
 
+(* d annihilates the row c from the right: sum_j d_j c A^j = 0, and no number of the sequence is needed. *)
+Theorem annihilated_recurrence A b c d :
+  \sum_(j < size d) d`_j *: (c *m krylov A 1%:M j) = 0 -> forall k, recurrence (markov A b c) d k = 0.
+Proof.
+move=> z k; have e j : krylov A b (k + j) = krylov A 1%:M j *m krylov A b k.
+  by elim: j => [|j IH]; rewrite ?addn0 ?mul1mx// addnS !krylovS IH mulmxA.
+transitivity (((\sum_(j < size d) d`_j *: (c *m krylov A 1%:M j)) *m krylov A b k) 0 0); last first.
+  by rewrite z mul0mx mxE.
+rewrite mulmx_suml summxE; apply: eq_bigr => j _.
+by rewrite -scalemxAl [RHS]mxE -mulmxA -e.
+Qed.
+
 Lemma numeratorE (s : nat -> R) d :
   numerator s d = \sum_(j < size d) (d`_j)%:P * \sum_(i < j) s i *: 'X^(j - i.+1).
 Proof.

@@ -2,7 +2,8 @@
 
 from itertools import chain
 
-from .budget import counted, spend, table
+from . import sparse
+from .budget import counted, spend
 from .reading import Json, fields, items, positions, require
 from .system import System
 
@@ -25,24 +26,29 @@ def split(value: Json, place: str, system: System) -> list[tuple[str, System, Js
     require(once, "partition", place, "expected every state in one block")
     at = {a: k for k, block in enumerate(states) for a in block}
     within = _channels(system, at, place, len(states))
+    entered = set() if len(states) < 2 else _entered(system, at)
     found: list[tuple[str, System, Json]] = []
-    earlier: list[int] = []
-    for block, acting, (where, proof) in zip(counted(states), within, listed, strict=True):
-        spend(len(block) * (8 + len(earlier)))
-        down = any(any(map(system.A.rows[a].__getitem__, earlier)) for a in block)
-        require(not down, "order", where, "an earlier block acts on it")
+    turns = zip(counted(states), within, listed, strict=True)
+    for k, (block, acting, (where, proof)) in enumerate(turns):
+        require(k not in entered, "order", where, "an earlier block acts on it")
         found.append((where, _part(system, block, acting), proof))
-        earlier += block
     return found
+
+
+def _entered(system: System, at: dict[int, int]) -> set[int]:
+    """The blocks on which an earlier one acts."""
+    entries = sparse.entries_of(system.A)
+    spend(8 * len(entries))
+    return {at[a] for a, b, _ in entries if at[b] < at[a]}
 
 
 def _channels(system: System, at: dict[int, int], place: str, count: int) -> list[list[int]]:
     """The channels that act within each block: that have inputs and outputs there."""
     found: list[list[int]] = [[] for _ in range(count)]
     for i, (B, C) in enumerate(zip(system.B, system.C, strict=True)):
-        spend(table(B.nrows, B.ncols) + table(C.nrows, C.ncols))
-        moved = [at[a] for a, row in enumerate(B.rows) if any(row)]
-        seen = [at[b] for row in C.rows for b, entry in enumerate(row) if entry]
+        moved = [at[a] for a, _, _ in sparse.entries_of(B)]
+        seen = [at[b] for _, b, _ in sparse.entries_of(C)]
+        spend(8 * (len(moved) + len(seen)))
         if moved and seen:
             message = f"channel number {i + 1} leads to a later block"
             require(max(moved) <= min(seen), "order", place, message)
@@ -53,8 +59,9 @@ def _channels(system: System, at: dict[int, int], place: str, count: int) -> lis
 
 def _part(system: System, block: list[int], acting: list[int]) -> System:
     """The states of a block by themselves, with some channels."""
-    cols = None if len(block) == system.n else block
-    B = [system.B[i].take(block) for i in acting]
-    C = [system.C[i].take(cols=cols) for i in acting]
+    spend(40 * len(block))
+    places = None if len(block) == system.n else {a: k for k, a in enumerate(block)}
+    B = [sparse.within(system.B[i], places, None) for i in acting]
+    C = [sparse.within(system.C[i], None, places) for i in acting]
     named = [system.names[i] for i in acting]
-    return System(system.time, named, system.A.take(block, cols), B, C)
+    return System(system.time, named, sparse.within(system.A, places, places), B, C)

@@ -1,15 +1,17 @@
 """How much can be fixed, by one Krylov sequence of one channel; ``proofs/krylov.md``."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from itertools import zip_longest
-from operator import mul
 
-from . import budget, evidence
+from . import budget, evidence, sparse
 from .arithmetic import Matrix, Rows, stripped
 from .budget import counted, spend
-from .packed_rows import PackedRows, convolution
+from .packed_rows import Combination, PackedRows, convolution
 from .reading import Json, fields, integer, items, require
+from .sparse_step import SparseStep, loop_entries
 from .system import System
+
+Row = Sequence[int]
 
 KEYS = ("modulus", "gains", "channel", "inputs", "outputs", "recurrence", "cofactors")
 
@@ -26,29 +28,68 @@ def unmoved_degree(value: Json, place: str, system: System) -> int:
     number, gains, name, *lists, pair = fields(value, place, *KEYS)
     ell = evidence.modulus(number, f"{place}.modulus")
     F = evidence.read_gains(gains, f"{place}.gains", system)
-    q, n = system.place_of(name, f"{place}.channel"), system.n
+    q = system.place_of(name, f"{place}.channel")
     x, y, d = (_residues(entry, place, ell) for entry in lists)
     a, e = (_residues(entry, place, ell) for entry in items(pair, f"{place}.cofactors", 2))
-    B, C = system.B[q].modulo(ell), system.C[q].modulo(ell)
     items(x, f"{place}.inputs", system.B[q].ncols)
-    items(y, f"{place}.outputs", len(C))
+    items(y, f"{place}.outputs", system.C[q].nrows)
     require(d[-1:] == [1], "monic", f"{place}.recurrence", "expected a monic polynomial")
-    L, u = len(d) - 1, PackedRows(C, n, ell).combined(y)
-    spend(budget.products(n * len(x), budget.limbs([ell]), budget.limbs([ell])))
-    b = [sum(map(mul, row, x)) % ell for row in B]
-    pairs = zip(closed_loop(system, F, ell), b, strict=True)
-    step, s = PackedRows([[*row, entry] for row, entry in pairs], n + 1, ell), []
-    for _ in counted(range(2 * L - 1)):
-        *u, last = step.combined(u)
-        s.append(last)
-    terms = convolution(d, s[::-1], ell)
-    holds = not any(terms[L : 2 * L - 1])
-    require(holds, "recurrence", f"{place}.recurrence", "the sequence does not satisfy it")
-    num = terms[2 * L - 1 :]
+    L, n = len(d) - 1, system.n
+    b, c = [0] * n, [0] * n
+    for i, j, entry in sparse.residues(system.B[q], ell):
+        b[i] = (b[i] + entry * x[j]) % ell
+    for i, j, entry in sparse.residues(system.C[q], ell):
+        c[j] = (c[j] + y[i] * entry) % ell
+    s = _numbers(system, F, ell, b, c, d)
+    if len(s) > L:
+        holds = not any(convolution(d, s[::-1], ell)[L : 2 * L - 1])
+        require(holds, "recurrence", f"{place}.recurrence", "the sequence does not satisfy it")
+    num = convolution(d, s[:L][::-1], ell)[L:]
     sums = zip_longest(convolution(a, num, ell), convolution(e, d, ell), fillvalue=0)
     one = stripped([(f + g) % ell for f, g in sums]) == [1]
     require(one, "common_factor", f"{place}.cofactors", "a num + e d is not 1 modulo l")
     return n - L
+
+
+def _numbers(
+    system: System, gains: Sequence[Matrix], ell: int, b: Row, c: Row, d: Row
+) -> list[int]:
+    """s_k for k < L, if Σ_k d_k c A_F^k = 0: then the recurrence holds; otherwise for k < 2L − 1.
+
+    Theorem ``krylov_sequence.annihilated_recurrence``.
+    """
+    L, s, total = len(d) - 1, [], Combination(system.n, ell)
+    advance, u = _steps(system, gains, ell, b, c, 2 * L)
+    for k in counted(range(L)):
+        total.add(d[k], u)
+        u, number = advance(u)
+        s.append(number)
+    total.add(1, u)
+    if not total.is_zero():
+        for _ in counted(range(L - 1)):
+            u, number = advance(u)
+            s.append(number)
+    return s
+
+
+def _steps(
+    system: System, gains: Sequence[Matrix], ell: int, b: Row, c: Row, turns: int
+) -> tuple[Callable[[Row], tuple[Row, int]], Row]:
+    """A function from u to u A_F and ub modulo ℓ, and where to start so that ub = cb."""
+    n, entries = system.n, loop_entries(system, gains, ell)
+    if entries is None:
+        pairs = zip(closed_loop(system, gains, ell), b, strict=True)
+        rows = PackedRows([[*row, entry] for row, entry in pairs], n + 1, ell)
+
+        def dense(u: Row) -> tuple[Row, int]:
+            *product, last = rows.combined(u)
+            return product, last
+
+        return dense, c
+    step = SparseStep(entries, n, ell)
+    seen = [(k, b[j]) for k, j in enumerate(step.order) if b[j]]
+    spend(turns * (step.units + 2 * len(seen)))
+    return (lambda u: (step(u), sum(u[k] * f for k, f in seen) % ell)), step.start(c)
 
 
 def _residues(value: Json, place: str, ell: int) -> list[int]:

@@ -34,7 +34,7 @@ class PackedRows:
 
     def _by_coefficient(self, u: Sequence[int]) -> bytes:
         """The same where no sum of so many rows leaves a byte: rows of one coefficient together."""
-        most, tables = 255 // (self.ell - 1), _multiples(self.ell)
+        most, tables = 255 // (self.ell - 1), multiples(self.ell)
         parts = len(self.rows) // most + min(len(self.rows), self.ell)
         spend(len(self.rows) * (4 + self._limbs // 16) + (parts + 1) * (40 + self.ncols // 8))
         alike: list[list[int]] = [[] for _ in range(self.ell)]
@@ -55,9 +55,36 @@ class PackedRows:
 
 
 @cache
-def _multiples(ell: int) -> list[bytes]:
+def multiples(ell: int) -> list[bytes]:
     """The multiples of all bytes modulo ℓ, by the factor."""
     return [bytes(factor * byte % ell for byte in range(256)) for factor in range(ell)]
+
+
+class Combination:
+    """Σ f_k u_k modulo ℓ, for rows u_k of residues that come one after the other."""
+
+    def __init__(self, ncols: int, ell: int) -> None:
+        self.ell, self.ncols, self.total, self.addends = ell, ncols, 0, 0
+        self.row = [0] * ncols
+
+    def add(self, factor: int, u: Sequence[int]) -> None:
+        """Add a multiple of a row."""
+        if self.ell > SMALL:
+            spend(budget.reductions(self.ncols, budget.limbs([self.ell])))
+            self.row = [(x + factor * y) % self.ell for x, y in zip(self.row, u, strict=True)]
+            return
+        spend(40 + self.ncols // 8)
+        if self.addends == 255 // (self.ell - 1):
+            self.total, self.addends = int.from_bytes(self._reduced(), "little"), 1
+        self.total += int.from_bytes(bytes(u).translate(multiples(self.ell)[factor]), "little")
+        self.addends += 1
+
+    def _reduced(self) -> bytes:
+        return self.total.to_bytes(self.ncols, "little").translate(multiples(self.ell)[1])
+
+    def is_zero(self) -> bool:
+        """Whether the sum so far is 0."""
+        return not any(self.row if self.ell > SMALL else self._reduced())
 
 
 def convolution(f: Sequence[int], g: Sequence[int], ell: int) -> list[int]:

@@ -1,10 +1,11 @@
 """Matrices of which only the entries that are not 0 are kept."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from functools import cached_property
+from itertools import compress
 
 from . import budget
-from .arithmetic import Matrix, Rows
+from .arithmetic import Matrix, Rows, inverse
 from .budget import spend
 
 Entry = tuple[int, int, int]
@@ -64,7 +65,7 @@ def listed(M: Matrix) -> SparseMatrix | None:
     """A matrix by its entries, if it is large and most cells are 0; otherwise None."""
     cells = M.nrows * M.ncols
     if isinstance(M, SparseMatrix):
-        return M if SHARE * len(M.entries) <= cells >= LEAST else None
+        return M if SHARE * len(M.entries) <= cells and cells >= LEAST else None
     spend(M.nrows * (8 + M.ncols))
     nonzero = sum(M.ncols - row.count(0) for row in M.rows)
     if SHARE * nonzero > cells or cells < LEAST:
@@ -72,3 +73,34 @@ def listed(M: Matrix) -> SparseMatrix | None:
     spend(100 * nonzero)
     entries = [(i, j, x) for i, row in enumerate(M.rows) for j, x in enumerate(row) if x]
     return SparseMatrix(M.nrows, M.ncols, entries, M.denominator)
+
+
+def entries_of(M: Matrix) -> list[Entry]:
+    """The entries of any matrix that are not 0, row by row."""
+    if isinstance(M, SparseMatrix):
+        return M.entries
+    spend(M.nrows * (8 + M.ncols))
+    places = [(i, j) for i, row in enumerate(M.rows) for j in compress(range(M.ncols), row)]
+    spend(100 * len(places))
+    return [(i, j, M.rows[i][j]) for i, j in places]
+
+
+def within(M: Matrix, rows: Mapping[int, int] | None, cols: Mapping[int, int] | None) -> Matrix:
+    """The submatrix of some rows and columns, whose new places increase; None stands for all."""
+    nrows = M.nrows if rows is None else len(rows)
+    ncols = M.ncols if cols is None else len(cols)
+    if not isinstance(M, SparseMatrix):
+        return M.take(rows, cols)
+    spend(100 * len(M.entries))
+    down = [(i if rows is None else rows.get(i), j, x) for i, j, x in M.entries]
+    kept = [(i, j if cols is None else cols.get(j), x) for i, j, x in down if i is not None]
+    moved = [(i, j, x) for i, j, x in kept if j is not None]
+    return SparseMatrix(nrows, ncols, moved, M.denominator)
+
+
+def residues(M: Matrix, ell: int) -> list[Entry]:
+    """The entries modulo ℓ, which is coprime to the denominator."""
+    entries, a, b = entries_of(M), M.limbs, budget.limbs([ell])
+    spend(budget.inversions(1, b) + budget.reductions(len(entries) + 1, a + b, b))
+    f = inverse(M.denominator, ell)
+    return [(i, j, f * x % ell) for i, j, x in entries]

@@ -18,6 +18,7 @@ from mcexact.exact.modular import (
     residues,
 )
 from mcexact.exact.reconstruction import integers
+from mcexact.exact.sparse_krylov import SparseLoop, stays_sparse
 from mcexact.model.canonical import canonical, plain, sha256
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import digest
@@ -193,8 +194,14 @@ def channel_sequences(
         (q, x, y), x of p_q and y of q_q residues.
     """
     system, ell = modular.system, modular.modulus
+    B, C = ([getattr(channel, port) for channel in system.channels] for port in ("B", "C"))
+    if stays_sparse(system.A, B, C):
+        sparse = SparseLoop(system.A, B, C, ell)
+        found = sparse.sequences(sparse.closed(gains), starts)
+        if found is not None:
+            yield from found
+            return
     if system.n >= _KRYLOV_SIZE and ell.bit_length() <= quick_bits(system):
-        B, C = zip(*((channel.B, channel.C) for channel in system.channels), strict=True)
         loop = krylov.FloatLoop(system.A, B, C, ell)
         yield from loop.sequences(loop.closed(gains), starts)
         return

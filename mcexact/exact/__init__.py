@@ -11,12 +11,14 @@ No other stage imports flint.  This stage refuses sizes and moduli for which fli
 ===================  ==================================================================
 `rational`           rational numbers: conversion of entries, the grammar of numbers
 `matrix`             rational matrices
+`tables`             their numerators: all of them, or those that are not 0
 `rows`               conversion of the matrices that Python callers pass
 `blocks`             rational matrices assembled from blocks
 `linear_algebra`     ranks, kernels, solutions, characteristic polynomials over Q
 `polynomial`         rational polynomials
 `modular`            matrices and polynomials modulo word-size primes
 `krylov`             Krylov sequences modulo smaller primes, by exact float products
+`sparse_krylov`      the same for sparse matrices
 `recurrence`         least recurrences of sequences modulo primes
 `reconstruction`     rational numbers from their residues
 `polynomial_matrix`  matrices of polynomials

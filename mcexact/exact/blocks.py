@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
+from itertools import accumulate
 
 from mcexact.errors import InputError
 from mcexact.exact.matrix import Matrix, Rows, from_cells, from_numerators, require_sides
@@ -29,8 +30,8 @@ def hstack(matrices: Sequence[Matrix], nrows: int | None = None) -> Matrix:
     height = _common(matrices, [M.nrows for M in matrices], nrows, "rows", "hstack")
     width = sum(M.ncols for M in matrices)
     if any(M.is_sparse for M in matrices):
-        left = _offsets(M.ncols for M in matrices)
-        return _placed((height, width), [(M, 0, j) for M, j in zip(matrices, left, strict=True)])
+        left = offsets(M.ncols for M in matrices)
+        return _placed((height, width), [(M, 0, j) for M, j in zip(matrices, left, strict=False)])
     tables, denominator = _over_one_denominator(matrices)
     rows = [[entry for table in tables for entry in table[i]] for i in range(height)]
     return from_numerators(rows, denominator, width)
@@ -58,9 +59,9 @@ def vstack(matrices: Sequence[Matrix], ncols: int | None = None) -> Matrix:
     """
     width = _common(matrices, [M.ncols for M in matrices], ncols, "columns", "vstack")
     if any(M.is_sparse for M in matrices):
-        top = _offsets(M.nrows for M in matrices)
+        top = offsets(M.nrows for M in matrices)
         shape = sum(M.nrows for M in matrices), width
-        return _placed(shape, [(M, i, 0) for M, i in zip(matrices, top, strict=True)])
+        return _placed(shape, [(M, i, 0) for M, i in zip(matrices, top, strict=False)])
     tables, denominator = _over_one_denominator(matrices)
     return from_numerators([row for table in tables for row in table], denominator, width)
 
@@ -89,9 +90,9 @@ def block_diagonal(matrices: Sequence[Matrix]) -> Matrix:
     >>> block_diagonal([Matrix.identity(1), Matrix.zeros(0, 2), Matrix.identity(1)]).numerators
     ((1, 0, 0, 0), (0, 0, 0, 1))
     """
-    top, left = _offsets(M.nrows for M in matrices), _offsets(M.ncols for M in matrices)
+    top, left = offsets(M.nrows for M in matrices), offsets(M.ncols for M in matrices)
     shape = sum(M.nrows for M in matrices), sum(M.ncols for M in matrices)
-    return _placed(shape, list(zip(matrices, top, left, strict=True)))
+    return _placed(shape, list(zip(matrices, top, left, strict=False)))
 
 
 def kronecker(A: Matrix, B: Matrix) -> Matrix:
@@ -126,13 +127,15 @@ def _placed(shape: tuple[int, int], parts: Sequence[tuple[Matrix, int, int]]) ->
     return from_cells(shape, cells, map(found.__getitem__, cells), denominator)
 
 
-def _offsets(sizes: Iterable[int]) -> list[int]:
-    """Where parts of these sizes begin, one after the other."""
-    found, start = [], 0
-    for size in sizes:
-        found.append(start)
-        start += size
-    return found
+def offsets(sizes: Iterable[int]) -> list[int]:
+    """Where parts of these sizes begin, one after the other, and where the last one ends.
+
+    Examples
+    --------
+    >>> offsets([2, 0, 3])
+    [0, 2, 2, 5]
+    """
+    return [0, *accumulate(sizes)]
 
 
 def _common(

@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any
 
 import flint
 
+from mcexact.exact.blocks import offsets
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular_polynomial import ModularPolynomial
 from mcexact.exact.recurrence import least_recurrence
@@ -41,7 +42,7 @@ def exact_bits(terms: int) -> int:
 
     Notes
     -----
-    `_reduced` leaves residues of at most ℓ/2 + 3, and takes off a multiple of ℓ.
+    `reduced` leaves residues of at most ℓ/2 + 3, and takes off a multiple of ℓ.
 
     Examples
     --------
@@ -76,8 +77,8 @@ class FloatLoop:
         import numpy as np
 
         self.ell, self.n = ell, A.nrows
-        self.inputs = _offsets([M.ncols for M in B])
-        self.outputs = _offsets([M.nrows for M in C])
+        self.inputs = offsets([M.ncols for M in B])
+        self.outputs = offsets([M.nrows for M in C])
         terms = max(self.n, self.inputs[-1], self.outputs[-1])
         single = _largest_sum(terms, ell) <= _EXACT_IN_SINGLE
         self.kind: type[np.floating[Any]] = np.float32 if single else np.float64
@@ -99,8 +100,8 @@ class FloatLoop:
         for i, rows in enumerate(gains):
             part = F[self.inputs[i] : self.inputs[i + 1], self.outputs[i] : self.outputs[i + 1]]
             part[:] = np.array(rows, dtype=np.int64).reshape(part.shape)
-        heard = _reduced(_reduced(F, self.ell) @ self.C, self.ell)
-        return _reduced(self.A + _reduced(self.B @ heard, self.ell), self.ell)
+        heard = reduced(reduced(F, self.ell) @ self.C, self.ell)
+        return reduced(self.A + reduced(self.B @ heard, self.ell), self.ell)
 
     def sequences(self, M: Floats, starts: Iterable[Start]) -> Iterator[list[int]]:
         """The numbers y C_q Mᵏ B_q x modulo ℓ, k < 2n, for each (q, x, y)."""
@@ -108,14 +109,14 @@ class FloatLoop:
         for q, x, y in starts:
             some_inputs = self.B[:, self.inputs[q] : self.inputs[q + 1]]
             some_outputs = self.C[self.outputs[q] : self.outputs[q + 1]]
-            column = _reduced(some_inputs @ self._vector(x), self.ell)
-            row = _reduced(self._vector(y) @ some_outputs, self.ell)
+            column = reduced(some_inputs @ self._vector(x), self.ell)
+            row = reduced(self._vector(y) @ some_outputs, self.ell)
             yield steps.sequence(row, column)
 
     def _vector(self, x: Sequence[int]) -> Floats:
         import numpy as np
 
-        return _reduced(np.array(x, dtype=self.kind), self.ell)
+        return reduced(np.array(x, dtype=self.kind), self.ell)
 
 
 class KrylovSteps:
@@ -125,7 +126,7 @@ class KrylovSteps:
         self.ell, self.powers = ell, [M]
         # at n = 800: three squarings, and 200 products with a row for each sequence
         for _ in range(min(3, len(M).bit_length() // 2)):
-            self.powers.append(_reduced(self.powers[-1] @ self.powers[-1], ell))
+            self.powers.append(reduced(self.powers[-1] @ self.powers[-1], ell))
 
     def sequence(self, row: Floats, column: Floats) -> list[int]:
         """The numbers c Mᵏ b, k < 2n: (c M^{hg})(M^j b) for k = hg + j, j < h."""
@@ -134,12 +135,12 @@ class KrylovSteps:
         *small, power = self.powers
         columns = column[:, None]
         for M in small:
-            columns = np.hstack([columns, _reduced(M @ columns, self.ell)])
+            columns = np.hstack([columns, reduced(M @ columns, self.ell)])
         n, h = columns.shape
         rows = np.empty((-(-2 * n // h), n), dtype=power.dtype)
         for k in range(len(rows)):
-            rows[k] = row if k == 0 else _reduced(rows[k - 1] @ power, self.ell)
-        numbers = _reduced(rows @ columns, self.ell).ravel()[: 2 * n]
+            rows[k] = row if k == 0 else reduced(rows[k - 1] @ power, self.ell)
+        numbers = reduced(rows @ columns, self.ell).ravel()[: 2 * n]
         found: list[int] = (numbers.astype(np.int64) % self.ell).tolist()
         return found
 
@@ -163,21 +164,13 @@ def characteristic_polynomial(M: Floats, ell: int) -> ModularPolynomial:
 
     n, draw = len(M), random.Random(ell).randrange
     drawn = np.array([draw(ell) for _ in range(2 * n)], dtype=M.dtype)
-    row, column = _reduced(drawn, ell).reshape(2, n)
+    row, column = reduced(drawn, ell).reshape(2, n)
     sequence = KrylovSteps(M, ell).sequence(row, column)
     recurrence = least_recurrence(sequence, ell)
     if recurrence.degree == n:
         return recurrence
     entries = (M.astype(np.int64) % ell).ravel().tolist()
     return ModularPolynomial(ell, flint.nmod_mat(n, n, entries, ell).charpoly())
-
-
-def _offsets(sizes: Sequence[int]) -> list[int]:
-    """Where parts of these sizes begin, one after the other, and where the last one ends."""
-    found = [0]
-    for size in sizes:
-        found.append(found[-1] + size)
-    return found
 
 
 def _residues(parts: Sequence[Matrix], ell: int, kind: type[np.floating[Any]]) -> list[Floats]:
@@ -187,7 +180,7 @@ def _residues(parts: Sequence[Matrix], ell: int, kind: type[np.floating[Any]]) -
         part = residues[start : start + M.nrows * M.ncols].reshape(M.shape)
         start += part.size
         if M.denominator != 1:
-            part = _reduced(part * pow(M.denominator, -1, ell), ell)
+            part = reduced(part * pow(M.denominator, -1, ell), ell)
         found.append(part)
     return found
 
@@ -205,7 +198,7 @@ def _numbers(parts: Sequence[Matrix], ell: int, kind: type[np.floating[Any]]) ->
         together = np.concatenate([_words(M, ell) for M in parts])
     if max(int(together.max(initial=0)), -int(together.min(initial=0))) >= _EXACT_IN_SINGLE // 2:
         together = together % ell
-    return _reduced(together.astype(kind), ell)
+    return reduced(together.astype(kind), ell)
 
 
 def _words(M: Matrix, ell: int) -> Any:
@@ -217,7 +210,7 @@ def _words(M: Matrix, ell: int) -> Any:
     return np.frombuffer(M.words, dtype=np.int64)
 
 
-def _reduced(table: Floats, ell: int) -> Floats:
+def reduced(table: Floats, ell: int) -> Floats:
     """Integers of at most 2**53 − ℓ in size, each less a multiple of ℓ: at most ℓ/2 + 3 is left.
 
     The quotient has an error of at most 2 units of 2**−53 relative to |x|/ℓ, so that what is left

@@ -8,10 +8,13 @@ from typing import Any
 
 import pytest
 
+from mcexact.checker import sparse
 from mcexact.checker.kinds import KINDS
+from mcexact.exact import tables
 from tests.attack import oracle
 from tests.attack.campaign import run, run_batch
 from tests.attack.draws.subjects import CONSTRUCTIONS
+from tests.attack.oracle import reading as oracle_reading
 from tests.attack.oracle.constructions import CONSTRUCTIONS as KNOWN
 from tests.attack.oracle.judge import KINDS as JUDGED
 from tests.attack.oracle.judge import TRUE, judge
@@ -26,6 +29,19 @@ def test_nothing_false_is_accepted_and_nothing_true_is_refused() -> None:
     assert report.total("undecided") <= report.total("tries") / 100
     assert report.total("true") > report.total("tries") / 10
     assert report.total("rejected") > report.total("tries") / 4
+
+
+def test_the_same_holds_where_matrices_list_their_entries(monkeypatch: pytest.MonkeyPatch) -> None:
+    for module, least, share in (
+        (sparse, "LEAST", "SHARE"),
+        (oracle_reading, "LEAST", "SHARE"),
+        (tables, "LEAST_SPARSE", "_SHARE"),
+    ):
+        monkeypatch.setattr(module, least, 2)
+        monkeypatch.setattr(module, share, 1)
+    report = run(2000, processes=1)
+    assert report.findings == []
+    assert report.total("true") > report.total("tries") / 10
 
 
 def test_the_oracle_knows_every_kind_and_every_construction() -> None:

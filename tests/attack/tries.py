@@ -10,7 +10,7 @@ from typing import Any
 
 from .draws.certificates import DECISIONS, certified, some_certificate
 from .draws.observers import drawn_observer
-from .draws.plants import Document
+from .draws.plants import Document, rows_of, table
 from .draws.subjects import CONSTRUCTIONS
 from .forgeries import forged
 from .mutators import (
@@ -109,19 +109,26 @@ def _changed(rng: random.Random, near: Document) -> None:
         change(rng, near, part)
 
 
+def zeros(value: Any) -> Any:
+    """A matrix of zeros of the shape of a matrix of a system that has rows."""
+    rows = rows_of(value)
+    return table([[0] * len(row) for row in rows], len(rows[0]))
+
+
 def perturbed(rng: random.Random, plant: Document) -> None:
     """A matrix of a channel set to 0, another time, a link more or less."""
     what = rng.randrange(5)
     channel = rng.choice(plant["channels"])
     if what == 0:
-        channel["B"] = [[0] * len(row) for row in channel["B"]]
+        channel["B"] = zeros(channel["B"])
     elif what == 1:
-        channel["C"] = [[0] * len(row) for row in channel["C"]]
+        channel["C"] = zeros(channel["C"])
     elif what == 2:
         plant["time"] = "discrete" if plant["time"] == "continuous" else "continuous"
     elif what == 3:
-        k = rng.randrange(len(plant["A"]))
-        plant["A"][k] = [0] * len(plant["A"])
+        rows = rows_of(plant["A"])
+        rows[rng.randrange(len(rows))] = [0] * len(rows)
+        plant["A"] = table(rows, len(rows))
     else:
         names = [c["name"] for c in plant["channels"]]
         i, j = rng.sample(names, 2)

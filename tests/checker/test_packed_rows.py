@@ -7,7 +7,7 @@ import random
 import pytest
 
 from mcexact.checker.budget import Budget, limited
-from mcexact.checker.packed_rows import SMALL, PackedRows, _multiples, convolution
+from mcexact.checker.packed_rows import SMALL, Combination, PackedRows, convolution, multiples
 from mcexact.checker.reading import Refused
 
 MODULI = [2, 3, 7, SMALL - 1, SMALL, SMALL + 1, 127, 128, 2**30 - 35, 10**20 + 39]
@@ -57,7 +57,7 @@ def test_no_sum_of_many_rows_leaves_its_byte(ell: int) -> None:
 
 
 def test_the_multiples_of_bytes_are_made_once() -> None:
-    assert _multiples(7) is _multiples(7)
+    assert multiples(7) is multiples(7)
 
 
 @pytest.mark.parametrize("ell", MODULI)
@@ -112,3 +112,32 @@ def test_packing_takes_a_unit_for_each_byte_and_combining_less(ell: int) -> None
 def test_no_product_is_begun_beyond_the_budget() -> None:
     with limited(Budget(10**4, 0)), pytest.raises(Refused, match="work"):
         convolution([1] * 5000, [1] * 5000, 7)
+
+
+@pytest.mark.parametrize("ell", MODULI)
+def test_rows_that_come_one_after_the_other_are_combined(ell: int) -> None:
+    rng, ncols = random.Random(ell), 5
+    total, expected = Combination(ncols, ell), [0] * ncols
+    assert total.is_zero()
+    rows = [[ell - 1] * ncols] * 600 + [[rng.randrange(ell) for _ in range(ncols)]] * 300
+    for k, row in enumerate(rows):
+        factor = ell - 1 if k < 600 else rng.randrange(ell)
+        total.add(factor, bytes(row) if ell <= SMALL and k % 2 else row)
+        expected = [(x + factor * y) % ell for x, y in zip(expected, row, strict=True)]
+        if k % 37 == 0:
+            assert total.is_zero() == (not any(expected))
+    for j in range(ncols):
+        assert not total.is_zero() or not any(expected[j:])
+        total.add(ell - expected[j] if expected[j] else 0, [int(i == j) for i in range(ncols)])
+    assert total.is_zero()
+    total.add(1, [0] * (ncols - 1) + [1])
+    assert not total.is_zero()
+    assert Combination(0, ell).is_zero()
+
+
+@pytest.mark.parametrize(("ell", "units"), [(31, 165), (97, 1000)])
+def test_a_combination_is_charged_row_by_row(ell: int, units: int) -> None:
+    with limited(Budget(units * 3)), pytest.raises(Refused, match="units of work"):
+        total = Combination(1000, ell)
+        for _ in range(4):
+            total.add(1, [0] * 1000)

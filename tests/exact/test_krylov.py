@@ -72,7 +72,7 @@ def test_sums_of_the_largest_products_are_exact_and_reduced_well(terms):
     total = np.full((1, terms), float(largest)) @ np.full((terms, 1), float(largest))
     assert int(total[0, 0]) == terms * largest**2
     for value in (int(total[0, 0]), -int(total[0, 0]), ell * (2**52 // ell) + ell // 2):
-        left = float(krylov._reduced(np.array([float(value)]), ell)[0])
+        left = float(krylov.reduced(np.array([float(value)]), ell)[0])
         assert left.is_integer() and (value - int(left)) % ell == 0 and abs(left) <= ell // 2 + 3
 
 

@@ -22,6 +22,8 @@ from mcexact.model.system import MultiChannelSystem
 
 MODULI = (7, 31, 2**19 - 1)
 """Small moduli make certificates that are quick to check; structured plants need larger ones."""
+LARGE = 2**12
+"""From so many states on, a sequence that fails costs more than a small modulus saves."""
 STARTS = 3
 """How many channels are tried with the same gains: a second one takes a third of the time."""
 
@@ -53,7 +55,7 @@ def best_sequences(
         return
     denominator *= prod({M.denominator for M in (system.A, *_ports(system))})
     before = -1
-    for ell in MODULI:
+    for ell in MODULI if system.n < LARGE else MODULI[1:]:
         if denominator % ell:
             best = _longest(ModularSystem(system, ell), random.Random(ell), through)
             yield best

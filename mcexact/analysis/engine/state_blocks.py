@@ -15,7 +15,7 @@ from mcexact.analysis.engine.obstructions import decide
 from mcexact.analysis.engine.one_channel import best_sequences
 from mcexact.answer.evidence import Block, CoprimePolynomials, KrylovSequence
 from mcexact.derived.modular_system import generator, lifted_gains
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, from_cells
 from mcexact.model.system import MultiChannelSystem
 
 # So many entries are compared with 0 by numpy: 0.1 ms at n = 200 in place of 2 ms.
@@ -50,17 +50,15 @@ def state_blocks(system: MultiChannelSystem) -> tuple[StateBlock, ...]:
     >>> block.system is None
     True
     """
-    n = system.n
-    [flags] = _flags([system.A])
-    if _connected(flags, n):
+    if not system.A.is_sparse and _connected(_flags(system.A), system.n):
         acting = [i for i, c in enumerate(system.channels) if not (c.B.is_zero() or c.C.is_zero())]
-        states = tuple(range(n))
+        states = tuple(range(system.n))
         return (StateBlock(states, _part(system, states, acting)),)
     found = []
     for component in _components(*_arcs(system)):
-        states = tuple(sorted(v for v in component if v < n))
+        states = tuple(sorted(v for v in component if v < system.n))
         if states:
-            acting = sorted(v - n for v in component if v >= n)
+            acting = sorted(v - system.n for v in component if v >= system.n)
             found.append(StateBlock(states, _part(system, states, acting)))
     return tuple(found)
 
@@ -72,13 +70,28 @@ def _part(
         return None
     if len(states) == system.n and len(acting) == system.m:
         return system
+    at = {state: k for k, state in enumerate(states)}
     return MultiChannelSystem(
-        system.A.take(states, states),
-        [system.B(i).take(rows=states) for i in acting],
-        [system.C(i).take(cols=states) for i in acting],
+        _within(system.A, at, at),
+        [_within(system.B(i), at, None) for i in acting],
+        [_within(system.C(i), None, at) for i in acting],
         time=system.time,
         names=system.named(acting),
     )
+
+
+def _within(M: Matrix, rows: dict[int, int] | None, cols: dict[int, int] | None) -> Matrix:
+    """The rows and columns with new positions, which increase; None takes all."""
+    if not M.is_sparse:
+        return M.take(*(None if places is None else tuple(places) for places in (rows, cols)))
+    shape = (M.nrows if rows is None else len(rows), M.ncols if cols is None else len(cols))
+    cells, values = [], []
+    for i, j, x in M.nonzero():
+        if (rows is None or i in rows) and (cols is None or j in cols):
+            a, b = i if rows is None else rows[i], j if cols is None else cols[j]
+            cells.append(a * shape[1] + b)
+            values.append(x)
+    return from_cells(shape, cells, values, M.denominator)
 
 
 def _connected(flags: bytes, n: int) -> bool:
@@ -99,82 +112,71 @@ def _reaches_all(arcs: Callable[[int], bytes], n: int) -> bool:
     return True
 
 
-def _arcs(system: MultiChannelSystem) -> tuple[list[int], list[int]]:
-    """For each state, then each channel, what arcs come from and lead to: a byte for each."""
-    n, m, moved, seen = system.n, system.m, [], []
-    parts = [M for channel in system.channels for M in (channel.B, channel.C)]
-    A, *ports = _flags([system.A, *parts])
-    for channel, B, C in zip(system.channels, ports[::2], ports[1::2], strict=True):
-        p = channel.B.ncols
-        moved.append(_either(B[u::p] for u in range(p)))
-        seen.append(_either(C[v * n : v * n + n] for v in range(channel.C.nrows)))
-    B, C = (b"".join(mask.to_bytes(n, "little") for mask in masks) for masks in (moved, seen))
-    into = [_number(A[a * n : a * n + n] + B[a::n]) for a in range(n)]
-    out = [_number(A[b::n] + C[b::n]) for b in range(n)]
-    return into + seen, out + moved if n else [0] * m
+def _arcs(system: MultiChannelSystem) -> tuple[list[list[int]], list[list[int]]]:
+    """For each state, then each channel, where arcs come from and lead to, in increasing order."""
+    n = system.n
+    into: list[list[int]] = [[] for _ in range(n + system.m)]
+    out: list[list[int]] = [[] for _ in range(n + system.m)]
+    for a, b, _ in system.A.nonzero():
+        into[a].append(b)
+        out[b].append(a)
+    for i, channel in enumerate(system.channels, start=n):
+        out[i] = sorted({a for a, _, _ in channel.B.nonzero()})
+        into[i] = sorted({b for _, b, _ in channel.C.nonzero()})
+        for a in out[i]:
+            into[a].append(i)
+        for b in into[i]:
+            out[b].append(i)
+    return into, out
 
 
-def _flags(parts: Sequence[Matrix]) -> list[bytes]:
-    """For each matrix a byte for each entry, row by row: 1 if it is not 0."""
-    tables = [M.words for M in parts]
-    words = [table for table in tables if table is not None]
-    if sum(map(len, words)) < _LARGE or len(words) < len(parts):
-        return [
-            bytes(entry != 0 for row in M.numerators for entry in row)
-            if table is None
-            else bytes(map(bool, table))
-            for M, table in zip(parts, tables, strict=True)
-        ]
+def _flags(M: Matrix) -> bytes:
+    """A byte for each entry, row by row: 1 if it is not 0."""
+    words = M.words
+    if words is None:
+        return bytes(entry != 0 for row in M.numerators for entry in row)
+    if len(words) < _LARGE:
+        return bytes(map(bool, words))
     import numpy as np
 
-    together = bytes(np.frombuffer(b"".join(words), dtype=np.int64) != 0)
-    found, start = [], 0
-    for table in words:
-        found.append(together[start : start + len(table)])
-        start += len(table)
-    return found
+    return bytes(np.frombuffer(words, dtype=np.int64) != 0)
 
 
 def _number(flags: bytes) -> int:
     return int.from_bytes(flags, "little")
 
 
-def _either(parts: Iterable[bytes]) -> int:
-    found = 0
-    for part in parts:
-        found |= _number(part)
-    return found
-
-
-def _components(into: list[int], out: list[int]) -> list[list[int]]:
+def _components(into: list[list[int]], out: list[list[int]]) -> list[list[int]]:
     """The strong components, by two depth-first searches; each is reached from later ones alone."""
-    found = []
-    unseen = _number(b"\1" * len(into))
-    order, _ = _finished(into, range(len(into)), unseen)
+    unseen, found = bytearray(b"\1" * len(into)), []
+    order = _finished(into, range(len(into)), unseen)
+    unseen = bytearray(b"\1" * len(into))
     for root in reversed(order):
-        component, unseen = _finished(out, [root], unseen)
+        component = _finished(out, [root], unseen)
         if component:
             found.append(component)
     return found
 
 
-def _finished(arcs: list[int], roots: Sequence[int], unseen: int) -> tuple[list[int], int]:
-    """The nodes that are reached, in the order in which the search leaves them; and the others."""
+def _finished(arcs: list[list[int]], roots: Iterable[int], unseen: bytearray) -> list[int]:
+    """The unseen nodes that are reached, in the order in which the search leaves them."""
     order = []
     for root in roots:
-        if not unseen >> 8 * root & 1:
+        if not unseen[root]:
             continue
-        unseen ^= 1 << 8 * root
-        path = [root]
+        unseen[root] = 0
+        path = [(root, iter(arcs[root]))]
         while path:
-            rest = arcs[path[-1]] & unseen
-            if rest:
-                bit = rest & -rest
-                unseen ^= bit
-                path.append(bit.bit_length() // 8)
+            node, rest = path[-1]
+            for other in rest:
+                if unseen[other]:
+                    unseen[other] = 0
+                    path.append((other, iter(arcs[other])))
+                    break
             else:
-                order.append(path.pop())
-    return order, unseen
+                order.append(node)
+                path.pop()
+    return order
 
 
 def bounded_blocks(system: MultiChannelSystem, through: str | None = None) -> tuple[Block, ...]:

@@ -11,16 +11,21 @@ from mcexact.analysis.engine import (
     bounded_blocks,
     free_blocks,
     modes_left,
+    one_channel,
     state_blocks,
 )
 from mcexact.analysis.engine.one_channel import MODULI, STARTS
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.structure.transfer_graph import transfer_graph
+from mcexact.answer.codec import encode
 from mcexact.answer.evidence import KrylovSequence
 from mcexact.answer.fixed_spectrum import ByBlocks, TwoPolynomials
+from mcexact.checker import check_document
 from mcexact.derived import modular_system
+from mcexact.exact import sparse_krylov, tables
 from mcexact.exact.matrix import Matrix
 from mcexact.model import gallery
+from mcexact.model.canonical import text_of
 from mcexact.model.system import MultiChannelSystem
 from tests.oracle.draws import exact, sparse_system
 
@@ -138,3 +143,49 @@ def test_a_published_plant_whose_channels_are_connected_needs_one_sequence(name:
     plant = gallery.load(name)
     if transfer_graph(plant).strongly_connected:
         assert isinstance(fixed_spectrum(plant).evidence, ByBlocks)
+
+
+def ring(n: int, spacing: int) -> MultiChannelSystem:
+    """States in a ring, coupled to others at a distance, every so many with a channel."""
+    A = [(i, (i + 1) % n, 1 + i % 5) for i in range(n)] + [(i, i, i % 3) for i in range(n)]
+    A += [(i, (i * i + 7) % n, 2) for i in range(n) if (i * i + 7) % n not in (i, (i + 1) % n)]
+    here = range(0, n, spacing)
+    B = [Matrix.from_entries((n, 1), [(i, 0, 1)]) for i in here]
+    C = [Matrix.from_entries((1, n), [(0, (i + 3) % n, 1)]) for i in here]
+    return MultiChannelSystem(Matrix.from_entries((n, n), A), B, C)
+
+
+def test_a_sparse_system_has_the_same_sequences_as_a_dense_one(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    system = ring(150, 10)
+    assert system.A.is_sparse
+    sparsely = list(best_sequences(system))
+    with monkeypatch.context() as patched:
+        patched.setattr(modular_system, "stays_sparse", lambda *_: False)
+        assert list(best_sequences(system)) == sparsely
+        patched.setattr(modular_system, "_KRYLOV_SIZE", 10**9)
+        assert list(best_sequences(system)) == sparsely
+    monkeypatch.setattr(sparse_krylov, "_EXACT", 10)  # then it is computed densely
+    assert list(best_sequences(system)) == sparsely
+
+
+def test_large_systems_begin_with_a_larger_modulus(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert next(best_sequences(ring(999, 250))).modulus == MODULI[0]
+    monkeypatch.setattr(one_channel, "LARGE", 1000)
+    system = ring(1000, 250)
+    found = next(best_sequences(system))
+    assert (found.modulus, found.degree) == (MODULI[1], 1000)
+    spectrum = fixed_spectrum(system)
+    assert spectrum.empty
+    assert check_document(encode(spectrum).encode()).verdict == "VALID"
+
+
+def test_answers_do_not_depend_on_the_form_of_the_matrices(monkeypatch: pytest.MonkeyPatch) -> None:
+    systems = [exact(sparse_system(random.Random(seed)), "discrete") for seed in range(100)]
+    dense = [text_of(fixed_spectrum(system).claim()) for system in systems]
+    monkeypatch.setattr(tables, "LEAST_SPARSE", 1)
+    monkeypatch.setattr(tables, "_SHARE", 1)
+    again = [exact(sparse_system(random.Random(seed)), "discrete") for seed in range(100)]
+    assert sum(system.A.is_sparse for system in again) > 90
+    assert [text_of(fixed_spectrum(system).claim()) for system in again] == dense

@@ -6,6 +6,8 @@ import random
 from fractions import Fraction
 from typing import Any
 
+from ..oracle.reading import is_sparse
+
 Document = dict[str, Any]
 
 NAMES = (
@@ -37,7 +39,21 @@ def entries(
 
 def table(rows: list[list[int | str]], ncols: int) -> Any:
     """A matrix of a system; without rows it has to say how many columns it has."""
-    return rows if rows or not ncols else {"shape": [0, ncols], "entries": []}
+    found = [[i, j, x] for i, row in enumerate(rows) for j, x in enumerate(row) if x != 0]
+    if (ncols and not rows) or is_sparse(len(rows), ncols, len(found)):
+        return {"shape": [len(rows), ncols], "entries": found}
+    return rows
+
+
+def rows_of(value: Any) -> list[list[int | str]]:
+    """The rows of a matrix of a system."""
+    if isinstance(value, list):
+        return value
+    r, c = value["shape"]
+    rows: list[list[int | str]] = [[0] * c for _ in range(r)]
+    for i, j, x in value["entries"]:
+        rows[i][j] = x
+    return rows
 
 
 def drawn_plant(rng: random.Random, *, graph: bool = False, most: int = 3) -> Document:
@@ -65,7 +81,7 @@ def drawn_plant(rng: random.Random, *, graph: bool = False, most: int = 3) -> Do
         B, C = entries(rng, n, p, density, values), entries(rng, q, n, density, values)
         channels.append({"name": name, "B": table(B, p), "C": table(C, n)})
     time = rng.choice(("continuous", "discrete"))
-    plant: Document = {"time": time, "A": A, "channels": channels}
+    plant: Document = {"time": time, "A": table(A, n), "channels": channels}
     if graph or rng.random() < 0.6:
         add_graph(rng, plant)
     return plant

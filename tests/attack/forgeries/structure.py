@@ -12,7 +12,7 @@ import mcexact
 from mcexact.answer import codec
 from mcexact.model.system_file import read_system
 
-from ..draws.plants import Document
+from ..draws.plants import Document, rows_of
 from ..mutators import copied
 from ..oracle import algebra
 from ..oracle.constructions import subject_of
@@ -334,7 +334,7 @@ def improper_subset(rng: random.Random, document: Document) -> Forged:
     others = [c for c in plant["channels"] if (c["name"] in inside) != all_of_them]
     names = [c["name"] for c in others]
     for channel in others:
-        n = len(plant["A"])
+        n = len(rows_of(plant["A"]))
         channel["B"] = [[] for _ in range(n)]
         channel["C"] = {"shape": [0, n], "entries": []} if n else []
     text = json.dumps({"format": "mcexact-system/1", **plant})

@@ -15,6 +15,10 @@ TYPED = re.compile(r"-?[0-9]+/0*[1-9][0-9]*|-?[0-9]+(\.[0-9]+)?([eE][+-]?[0-9]+)
 DECIMAL = re.compile(r"-?[0-9]+(\.[0-9]+)?", re.ASCII)
 
 
+LEAST, SHARE = 2048, 8
+"""The cells of the smallest matrix that lists its entries, and that one in so many is not 0."""
+
+
 class Unspecified(Exception):
     """A document that is not written as the format says."""
 
@@ -131,7 +135,7 @@ def table(value: Any, nrows: int | None, ncols: int | None) -> fmpq_mat:
 
 def is_sparse(nrows: int, ncols: int, nonzero: int) -> bool:
     """Whether a matrix of a system lists its entries."""
-    return nrows * ncols >= 2048 and 8 * nonzero <= nrows * ncols
+    return nrows * ncols >= LEAST and SHARE * nonzero <= nrows * ncols
 
 
 def positions(value: Any, names: Sequence[str]) -> list[int]:
