@@ -93,6 +93,10 @@ system_by_digest = click.option(
 )
 
 
+NETWORKS = ("swing-grid", "swing-hubs", "swing-speed", "platoon", "consensus", "building")
+"""The kinds of networks, as in `mcexact.derived.drawn.networks`, which would import numpy."""
+
+
 def file_limits(function: F) -> F:
     """Add the options that change the limits on input files.
 
@@ -171,6 +175,13 @@ def draws(function: F) -> F:
             type=click.Choice(["continuous", "discrete"]),
             default="continuous",
             show_default=True,
+        ),
+        click.option(
+            "--network",
+            type=click.Choice(NETWORKS),
+            help="Draw the numbers of a large sparse plant of this kind: a power grid (agents "
+            "measure angle and frequency, or the frequency alone), a platoon, consensus, or a "
+            "building. Nothing else about it is prescribed.",
         ),
         click.option(
             "--plant-fixed-mode",

@@ -44,7 +44,7 @@ def command(
     max_memory: int | None,
     **drawn: Any,
 ) -> None:
-    """Draw a system that is jointly controllable and observable, and print its system file.
+    """Draw a system that is jointly controllable and observable, or a network, as a system file.
 
     The output is JSON with and without --json, since a system file is JSON.
     """

@@ -4,17 +4,20 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from mcexact.derived.drawn.choices import SeededChoices
+from mcexact.derived.drawn.choices import Choices, SeededChoices
 from mcexact.derived.drawn.deficiency import system_with_deficiency
 from mcexact.derived.drawn.graph import drawn_graph
+from mcexact.derived.drawn.networks import network_system
 from mcexact.derived.drawn.systems import jointly_controllable_system, system_with_fixed_mode
 from mcexact.errors import LimitReached, UsageError
-from mcexact.exact.location import Time
+from mcexact.exact.location import Time, is_discrete
 from mcexact.exact.rational import DEFAULT_LIMITS
 from mcexact.model.system import MultiChannelSystem
 
 # A drawn system must not exceed the default limit on the size of a system file.
 _MOST_NUMBERS = DEFAULT_LIMITS.bytes // 4
+# A network has less than 16 numbers in a row of A, whose positions are written, too.
+_MOST_STATES = DEFAULT_LIMITS.bytes // 512
 
 
 @dataclass(frozen=True)
@@ -34,6 +37,8 @@ class Draw:
         Whether it has a strongly connected neighbor graph.
     deficiency : int or None
         If given, it has one, over which the bound of Theorem 2 is this; n then follows.
+    network : str or None
+        If given, the equations are those of this kind of network, and what is fixed is not known.
     """
 
     seed: int
@@ -43,17 +48,19 @@ class Draw:
     time: Time = "continuous"
     neighbors: bool = False
     deficiency: int | None = None
+    network: str | None = None
 
 
 def drawn_system(draw: Draw) -> MultiChannelSystem:
-    """Draw a system that is jointly controllable and observable.
+    """Draw a system that is jointly controllable and observable, or a network.
 
     Raises
     ------
     LimitReached
         If the system would be too large for a system file.
     UsageError
-        If both a fixed mode and a deficiency are prescribed, or there are too few channels.
+        If more than one of a fixed mode, a deficiency and a network is prescribed, a network does
+        not exist in this size or this time, or there are too few channels.
 
     Examples
     --------
@@ -64,6 +71,8 @@ def drawn_system(draw: Draw) -> MultiChannelSystem:
     n, m, degree, time = draw.states, draw.channels, draw.fixed_degree, draw.time
     if draw.deficiency is not None:
         n = max(n, draw.deficiency)
+    if draw.network is not None:
+        return _network(choices, draw, draw.network)
     if (numbers := max(n, 1) * (n + 2 * m)) > _MOST_NUMBERS:
         raise LimitReached(
             f"a system of {n} states and {m} channels has {numbers} numbers or more, and at most "
@@ -77,7 +86,22 @@ def drawn_system(draw: Draw) -> MultiChannelSystem:
         system = jointly_controllable_system(choices, n, m, time=time).system
     else:
         system = system_with_fixed_mode(choices, n, m, degree, time=time).system
+    return _with_graph(choices, draw, system)
+
+
+def _network(choices: Choices, draw: Draw, network: str) -> MultiChannelSystem:
+    """A network, which is as it is: nothing else about it can be prescribed."""
+    if draw.fixed_degree is not None or draw.deficiency is not None:
+        raise UsageError("a network has fixed modes or not: prescribe none, and no bound")
+    if is_discrete(draw.time):
+        raise UsageError("networks are drawn in continuous time: sample one with c2d")
+    if draw.states > _MOST_STATES:
+        raise LimitReached(f"at most {_MOST_STATES} states of a network are drawn")
+    return _with_graph(choices, draw, network_system(choices, network, draw.states, draw.channels))
+
+
+def _with_graph(choices: Choices, draw: Draw, system: MultiChannelSystem) -> MultiChannelSystem:
+    """The system with a strongly connected neighbor graph, if it is to have one."""
     if not draw.neighbors:
         return system
-    graph = drawn_graph(choices, system.names, strongly_connected=True)
-    return system.with_neighbors(graph)
+    return system.with_neighbors(drawn_graph(choices, system.names, strongly_connected=True))
