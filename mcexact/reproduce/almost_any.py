@@ -63,12 +63,13 @@ def _on_a_line(
         what = "observable" if dual else "controllable"
         said = f"on a line of gains, finitely many are not {what} through channel {q + 1}"
         note.check(said, not failing.polynomial.is_zero())
-        note.certify(failing)
+        if q == 0:
+            note.certify(failing)
 
 
 def error_gains(note: Notebook) -> None:
     """The gains of (7), of Lemma 4 for given K_i, and those that make (16) observable."""
-    numbers = Numbers(23, largest=99)
+    numbers = Numbers(23, largest=9)
     for plant in note.each(plants(1)):
         made = error_system(plant, zeros(plant))
         drawn = [numbers.gains(made) for _ in range(DRAWN)]

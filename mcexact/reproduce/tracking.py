@@ -98,7 +98,7 @@ def _plants() -> Iterator[Instance]:
     for time, signals in SIGNALS.items():
         name, plant = two_tanks(time)
         yield f"{name}, {time} time", plant
-        for name, plant in drawn_plants(4, states=3, channels=2, time=time, first=31):
+        for name, plant in drawn_plants(2, states=3, channels=2, time=time, first=31):
             scalar = all(plant.q(i) == 1 for i in range(plant.m))
             if scalar and all(
                 joint_controllability(with_internal_model(plant, signal)).controllable

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import json
+import os
 import re
+import subprocess
+import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -195,6 +198,33 @@ def test_the_folder_is_written_whole_and_replaces_only_its_own(
         main(["reproduce", "--statement", "Theorem 2", "-o", str(other)])
     assert ended.value.code == 3
     assert (other / "notes.txt").read_text(encoding="utf-8") == "keep"
+
+
+def test_another_run_elsewhere_and_with_another_hash_seed_writes_the_same_bytes(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The examination of the example has matrices, a figure, checks and certificates."""
+    asked = ("reproduce", "--statement", "example", "--latex", "-o")
+    with pytest.raises(SystemExit):
+        main([*asked, str(tmp_path / "here")])
+    seed = "1" if os.environ.get("PYTHONHASHSEED") == "2" else "2"
+    there = subprocess.run(
+        [sys.executable, "-m", "mcexact", *asked, "there"],
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONHASHSEED": seed, "TZ": "Asia/Tokyo"},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert there.stdout == capsys.readouterr().out
+    files = {
+        folder: {
+            path.relative_to(tmp_path / folder): path.read_bytes()
+            for path in (tmp_path / folder).rglob("*.*")
+        }
+        for folder in ("here", "there")
+    }
+    assert files["here"] == files["there"] and len(files["here"]) > 5
 
 
 def test_an_unknown_statement_is_wrong_usage(capsys: pytest.CaptureFixture[str]) -> None:
