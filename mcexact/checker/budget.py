@@ -62,7 +62,8 @@ class Budget:
             self.largest = max(self.largest, units)
         most = self.usual if self.most is None else self.most
         if self.spent + units > most:
-            named = f"allow {self._named(units + after)} (Limits.work)"
+            total = self._total(units + after)
+            named = f"allow {self._named(total)} (Limits.work), {_duration(total)}"
             message = f"takes more than {most} units of work: {named}"
             raise Refused("INCOMPLETE", "work", "checker", message)
         self.spent += units
@@ -71,20 +72,32 @@ class Budget:
         """Allow what is granted for so many bytes."""
         self.usual += PER_BYTE * size
 
-    def _named(self, whole: int) -> int:
-        """A budget that should do where a step was refused: loops are counted to their ends."""
+    def _total(self, whole: int) -> int:
+        """The units of a check where a step was refused: loops are counted to their ends."""
         reached = self.spent
         for start, turn, before, turns in reversed(self.loops):
             each = max(whole + reached - turn, (turn - start) // max(before, 1))
             whole, reached = each * (turns - before), turn
-        total = reached + whole
         if self.builds:
             # the largest square matrix so far, and its characteristic polynomial with short entries
             n = math.isqrt(self.largest // 8) + 1
-            total += products(2 * n**3, n // 8 + 1, n // 8 + 1)
+            whole += products(2 * n**3, n // 8 + 1, n // 8 + 1)
+        return reached + whole
+
+    def _named(self, total: int) -> int:
+        """A budget that should do where so many units were counted."""
         total = min(max(4 * total, self.usual), MOST)
         digit = int(10 ** max(len(str(total)) - 2, 0))
         return -(-total // digit) * digit
+
+
+def _duration(units: int) -> str:
+    """The time that so many units take at 30 ns each, as on a processor of 2025."""
+    seconds = 3 * units // 10**8
+    for limit, size, name in ((120, 1, "s"), (7200, 60, "min"), (10**6, 3600, "h")):
+        if seconds < limit:
+            return f"about {seconds // size + 1} {name}"
+    return "weeks or more"
 
 
 _current: ContextVar[Budget | None] = ContextVar("budget", default=None)

@@ -59,13 +59,15 @@ def _numbers(
     Theorem ``krylov_sequence.annihilated_recurrence``.
     """
     L, s, total = len(d) - 1, [], Combination(system.n, ell)
-    advance, u = _steps(system, gains, ell, b, c, 2 * L)
+    advance, u, units = _steps(system, gains, ell, b, c)
+    spend(L * units)
     for k in counted(range(L)):
         total.add(d[k], u)
         u, number = advance(u)
         s.append(number)
     total.add(1, u)
     if not total.is_zero():
+        spend(L * units)
         for _ in counted(range(L - 1)):
             u, number = advance(u)
             s.append(number)
@@ -73,9 +75,9 @@ def _numbers(
 
 
 def _steps(
-    system: System, gains: Sequence[Matrix], ell: int, b: Row, c: Row, turns: int
-) -> tuple[Callable[[Row], tuple[Row, int]], Row]:
-    """A function from u to u A_F and ub modulo ℓ, and where to start so that ub = cb."""
+    system: System, gains: Sequence[Matrix], ell: int, b: Row, c: Row
+) -> tuple[Callable[[Row], tuple[Row, int]], Row, int]:
+    """A function from u to u A_F and ub modulo ℓ, the u with ub = cb, and units not yet charged."""
     n, entries = system.n, loop_entries(system, gains, ell)
     if entries is None:
         pairs = zip(closed_loop(system, gains, ell), b, strict=True)
@@ -85,11 +87,14 @@ def _steps(
             *product, last = rows.combined(u)
             return product, last
 
-        return dense, c
+        return dense, c, 0
     step = SparseStep(entries, n, ell)
     seen = [(k, b[j]) for k, j in enumerate(step.order) if b[j]]
-    spend(turns * (step.units + 2 * len(seen)))
-    return (lambda u: (step(u), sum(u[k] * f for k, f in seen) % ell)), step.start(c)
+
+    def gathered(u: Row) -> tuple[Row, int]:
+        return step(u), sum(u[k] * f for k, f in seen) % ell
+
+    return gathered, step.start(c), step.units + 2 * len(seen)
 
 
 def _residues(value: Json, place: str, ell: int) -> list[int]:

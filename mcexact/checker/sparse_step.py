@@ -47,7 +47,7 @@ class SparseStep:
             (itemgetter(*(i for i, _ in column)), [x for _, x in column])
             for column in ordered[self.short :]
         ]
-        self.units = 1000 + len(entries) * (1 if self.values else 8) + n * len(self.values) // 32
+        self.units = 1000 + len(entries) * (1 if self.values else 4) + n * len(self.values) // 32
 
     def start(self, row: Sequence[int]) -> Sequence[int]:
         """A row in the order of the entries here."""

@@ -232,7 +232,7 @@ def test_all_steps_are_charged_before_the_first_one(monkeypatch: pytest.MonkeyPa
         "recurrence": [6] + [0] * (n - 1) + [1],
         "cofactors": [[1], []],
     }
-    with limited(Budget(4 * 10**6)), pytest.raises(Refused, match="units of work"):
+    with limited(Budget(25 * 10**5)), pytest.raises(Refused, match="units of work"):
         krylov.unmoved_degree(value, "witness", system)
     monkeypatch.undo()
     assert sparse_step.LONG == 32

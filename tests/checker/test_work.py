@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import re
 import threading
 from collections.abc import Callable
 from fractions import Fraction
@@ -178,7 +179,26 @@ def test_the_count_is_that_of_the_document_and_exactly_what_is_needed(kind: str)
     refused = check_document(data, limits=Limits(work=first.spent - 1))
     assert (refused.verdict, refused.code) == ("INCOMPLETE", "work")
     assert named(refused.message) >= first.spent
-    assert refused.message.endswith("(Limits.work)")
+    assert re.search(r"\(Limits\.work\), about [0-9]+ s$", refused.message)
+
+
+@pytest.mark.parametrize(
+    ("units", "words"),
+    [
+        (1, "about 1 s"),
+        (10**8, "about 4 s"),
+        (4 * 10**9 - 1, "about 120 s"),
+        (4 * 10**9, "about 3 min"),
+        (24 * 10**10 - 1, "about 120 min"),
+        (24 * 10**10, "about 3 h"),
+        (10**15 // 30 - 1, "about 278 h"),
+        (10**15 // 30 + 1, "weeks or more"),
+    ],
+)
+def test_the_time_that_a_check_takes_is_said_in_words(units: int, words: str) -> None:
+    with pytest.raises(Refused) as refused:
+        Budget(0).spend(units)
+    assert refused.value.message.endswith(f" (Limits.work), {words}")
 
 
 def test_a_document_in_memory_is_granted_as_much_as_its_text() -> None:
