@@ -1,9 +1,9 @@
 """How good are the controllers of the ladder on eight families of plants, of growing size?
 
-Run as ``python -m benchmarks.families ROWS [FAMILY …] [SIZE …]``; by default all families, with
-about 10, 40 and 120 states, in continuous time and sampled, which makes 48 rows.  ROWS is a file:
-rows that it holds are printed and not measured again.  A sampled plant is the rounded one: its
-matrices are those of a zero-order hold, to six decimals.
+Run as ``python -m benchmarks.families [ROWS.jsonl] [FAMILY …] [SIZE …]``; by default all families,
+with about 10, 40 and 120 states, in continuous time and sampled, which makes 48 rows.  ROWS is a
+file: rows that it holds are printed and not measured again.  A sampled plant is the rounded one:
+its matrices are those of a zero-order hold, to six decimals.
 
 A line holds what was asked; the order, the largest gain (and that of the optimal controller of all
 agents together for the same rate), the margin (and its), the cost relative to its cost, the peak
@@ -19,7 +19,6 @@ import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from pathlib import Path
 from typing import Any
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -28,7 +27,7 @@ import numpy as np
 from scipy.linalg import expm
 
 from benchmarks.by_hand import made_by_hand, told_by_hand
-from benchmarks.kept_rows import Row, kept, measured
+from benchmarks.kept_rows import Row, chosen, kept, measured
 from mcexact import design_decentralized, design_extended
 from mcexact.errors import Impossible, LimitReached
 from mcexact.exact.location import is_discrete
@@ -260,10 +259,7 @@ def designed_for(kind: Kind, n: int, domain: str) -> Row:
 
 def main(arguments: list[str]) -> int:
     """Design for all plants, or for some."""
-    if not arguments or arguments[0] in FAMILIES or arguments[0].isdigit():
-        print(__doc__, file=sys.stderr)
-        return 2
-    path, wanted = Path(arguments[0]), arguments[1:]
+    path, wanted = chosen(arguments, "families")
     sizes = [int(each) for each in wanted if each.isdigit()] or SIZES
     names = [each for each in wanted if each in FAMILIES] or list(FAMILIES)
     known = kept(path)

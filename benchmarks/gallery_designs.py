@@ -1,6 +1,6 @@
 """How good are the controllers of the ladder on the published plants, without a rate?
 
-Run as ``python -m benchmarks.gallery_designs ROWS [PLANT …]``; by default all plants of the
+Run as ``python -m benchmarks.gallery_designs [ROWS.jsonl] [PLANT …]``; by default all plants of the
 gallery, each designed for as ``decentralized``, ``extended`` (over its own links, or else over a
 ring) and ``setpoint``.  ROWS is a file: rows that it holds are printed and not measured again.
 
@@ -14,14 +14,13 @@ import os
 import sys
 from collections import Counter
 from functools import partial
-from pathlib import Path
 from typing import Any
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 from benchmarks.by_hand import made_by_hand, told_by_hand
 from benchmarks.families import figures_row, told
-from benchmarks.kept_rows import Row, kept, measured
+from benchmarks.kept_rows import Row, chosen, kept, measured
 from mcexact import Aims, design_decentralized, design_extended, design_setpoint
 from mcexact.errors import Impossible, LimitReached, OutOfReach
 from mcexact.model import gallery
@@ -73,12 +72,9 @@ def answered(name: str, structure: str) -> Row:
 
 def main(arguments: list[str]) -> int:
     """Design for all plants, or for some."""
-    if not arguments:
-        print(__doc__, file=sys.stderr)
-        return 2
-    path, names = Path(arguments[0]), arguments[1:] or gallery.names()
+    path, names = chosen(arguments, "gallery_designs")
     known, counts = kept(path), Counter[str]()
-    for name in names:
+    for name in names or gallery.names():
         for structure in DESIGNS:
             row = measured(path, f"{name} {structure}", partial(answered, name, structure), known)
             counts[f"{structure}: {row['answer']}"] += 1

@@ -129,6 +129,8 @@ def _draw_eigenvalues(axis: Any, curves: LoopCurves) -> None:
             threshold = min(abs(each) for each in curves.eigenvalues if each)
             axis.set_xscale("symlog", linthresh=threshold)
             axis.set_yscale("symlog", linthresh=threshold)
+            axis.set_xlim(right=threshold / 2)
+    axis.set_title("Eigenvalues", fontsize="medium")
     axis.set_xlabel("real part")
     axis.set_ylabel("imaginary part")
     axis.grid(visible=True, which="major", alpha=0.3)
@@ -141,6 +143,7 @@ def _draw_sensitivity(axis: Any, curves: LoopCurves) -> None:
     axis.set_yscale("log")
     if not curves.discrete:
         axis.set_xscale("log")
+    axis.set_title("Robustness at the inputs", fontsize="medium")
     axis.set_xlabel(f"frequency, {unit}")
     axis.set_ylabel("largest singular value of T")
     axis.grid(visible=True, which="major", alpha=0.3)
@@ -148,6 +151,7 @@ def _draw_sensitivity(axis: Any, curves: LoopCurves) -> None:
 
 def _draw_over_time(axis: Any, curves: LoopCurves, values: list[float], label: str) -> None:
     axis.plot(curves.times, values, color=_BLUE, drawstyle=_style(curves))
+    axis.set_title("From a start of norm 1", fontsize="medium")
     axis.set_ylim(bottom=0)
     axis.set_xlim(left=0)
     axis.set_xlabel("steps" if curves.discrete else "time")
@@ -163,6 +167,7 @@ def _draw_steps(axis: Any, curves: LoopCurves) -> None:
     axis.axhline(1.0, color=_GRAY, linewidth=0.8)
     axis.set_xlim(left=0)
     axis.set_xlabel("steps" if curves.discrete else "time")
+    axis.set_title("Step responses", fontsize="medium")
     axis.set_ylabel("output after a step of its set-point")
     axis.legend(fontsize="small")
     axis.grid(visible=True, which="major", alpha=0.3)

@@ -1,0 +1,61 @@
+"""The figure of a loop and its description."""
+
+from mcexact.exact.location import StabilityRegion
+from mcexact.model.local_controllers import local_controllers
+from mcexact.model.loop import closed_loop
+from mcexact.model.system import MultiChannelSystem
+from mcexact.report.loop_page import loop_picture
+from mcexact.synthesis.optimum.curves import curves_of
+from mcexact.synthesis.setpoint import design_setpoint
+
+
+def lines(axis):
+    return [(each.get_xdata(), each.get_ydata()) for each in axis.get_lines()]
+
+
+def pictured(plant, gain, region):
+    curves = curves_of(closed_loop(plant, local_controllers(plant, [[[gain]]])), region)
+    return curves, loop_picture(curves)
+
+
+def test_continuous_time_has_a_line_and_discrete_time_a_circle():
+    moving = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    curves, picture = pictured(moving, -3, StabilityRegion("continuous", 1))
+    assert curves.eigenvalues == [-2] and curves.edge == 1
+    poles, *_ = picture.figure.axes
+    assert [list(x) for x, _ in lines(poles)] == [[-2], [0, 0], [-1, -1]]
+    assert "inside the dashed line at -1." in picture.alternative
+    sampled = MultiChannelSystem([["1/2"]], [[[1]]], [[[1]]], time="discrete")
+    curves, picture = pictured(sampled, "-1/4", StabilityRegion.of("discrete", radius="1/2"))
+    assert "inside the dashed circle at 0.5." in picture.alternative
+    assert curves.growth[:3] == [1, 0.25, 0.0625] and curves.effort[:2] == [0.25, 0.0625]
+
+
+def test_eigenvalues_of_different_sizes_are_all_seen():
+    plant = MultiChannelSystem([[1, 0], [0, -1000]], [[[1], [1]]], [[[1, 0]]])
+    _, picture = pictured(plant, -3, StabilityRegion("continuous"))
+    assert picture.figure.axes[0].get_xscale() == "symlog"
+
+
+def test_a_loop_with_integrators_shows_its_step_responses():
+    plant = MultiChannelSystem([[1, 0], [1, -1]], [[[1], [0]]], [[[1, 0]]], names=["pump"])
+    made = design_setpoint(plant, rate="1/2")
+    curves = curves_of(made.loop.closed, made.region)
+    [(name, values)] = curves.steps
+    assert name == "pump" and values[0] == 0 and abs(values[-1] - 1) < 0.1
+    picture = loop_picture(curves)
+    assert "each output after a unit step" in picture.alternative
+    assert picture.figure.axes[3].get_legend().get_texts()[0].get_text() == "pump"
+
+
+def test_an_output_of_several_is_numbered():
+    plant = MultiChannelSystem(
+        [[0, 0], [0, 0]],
+        [[[1, 0], [0, 1]]],
+        [[[1, 0], [0, 1]]],
+        time="continuous",
+        neighbors={"1": []},
+    )
+    made = design_setpoint(plant, rate="1/2")
+    curves = curves_of(made.loop.closed, made.region)
+    assert [name for name, _ in curves.steps] == ["1, 1", "1, 2"]
