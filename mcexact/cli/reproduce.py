@@ -46,7 +46,7 @@ def command(
     from mcexact.cli.folders import require_replaceable, write_folder
     from mcexact.cli.output import emit, emit_json, emit_tables
     from mcexact.cli.supervision import supervised
-    from mcexact.reproduce import pages, reproduction
+    from mcexact.reproduce import pages, reproduction, terminal
 
     keys = reproduction.chosen(wanted)
     if output is not None:
@@ -77,7 +77,7 @@ def command(
     elif latex:
         emit(pages.reproduction_latex(result))
     else:
-        emit_tables(pages.reproduction_tables(result))
+        emit_tables(terminal.reproduction_tables(result))
     for row in result.failures:
         click.echo(f"mcexact: {row.examination.title}: {row.finding.failure}", err=True)
     return 0 if result.holds else DEFINITE_NO

@@ -175,6 +175,14 @@ class Notebook:
         """Add a picture."""
         self.pictures.append(picture.embedded())
 
+    def grouped_checks(self) -> list[tuple[str, str, bool]]:
+        """Every check once, with all instances where it holds or fails."""
+        return _grouped((each.text, each.instance, each.holds) for each in self.checks)
+
+    def grouped_refutations(self) -> list[tuple[str, str, bool]]:
+        """Every false statement once, with all instances that refute it or fail to."""
+        return _grouped((each.statement, each.instance, each.refuted) for each in self.refutations)
+
     @property
     def failure(self) -> str:
         """Empty, or why the examination fails: the first thing that went wrong."""
@@ -199,6 +207,14 @@ class Notebook:
     def holds(self) -> bool:
         """Whether all checks hold, all certificates are VALID, and all false statements fall."""
         return not self.failure
+
+
+def _grouped(entries: Iterable[tuple[str, str, bool]]) -> list[tuple[str, str, bool]]:
+    """Texts with the instances that they are about, by whether they hold there."""
+    instances: dict[tuple[str, bool], dict[str, None]] = {}
+    for text, instance, holds in entries:
+        instances.setdefault((text, holds), {})[instance] = None
+    return [(text, "; ".join(names), holds) for (text, holds), names in instances.items()]
 
 
 Procedure = Callable[[Notebook], None]

@@ -1,4 +1,4 @@
-"""The report of a reproduction: a page for a browser, lines for a terminal, a table in LaTeX."""
+"""The report of a reproduction: a page for a browser, plain data, and a table in LaTeX."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ from mcexact.answer.formats import count
 from mcexact.report.formula_latex import typeset_latex
 from mcexact.report.mathml import matrix, typeset
 from mcexact.report.page import page
-from mcexact.report.text import Table
 from mcexact.reproduce.reproduction import SECTIONS, Reproduction, Row
 from mcexact.reproduce.statements import STATUSES, Statement, counted
 
@@ -66,9 +65,9 @@ def answer(found: Reproduction) -> list[str]:
             f"{len(found.failures)} of {count(len(rows), 'examination')} {failed}: {named}."
         )
     elif len(rows) == 1:
-        sentences.append("The examination finds what the ledger says.")
+        sentences.append("The examination succeeds: all its checks hold.")
     else:
-        sentences.append(f"All {len(rows)} examinations find what the ledger says.")
+        sentences.append(f"All {len(rows)} examinations succeed: all their checks hold.")
     told = [f"{size} {name}" for name, size in counts(found).items() if size]
     sentences.append(
         f"Of {count(len(found.statements), 'statement')} of the paper: {'; '.join(told)}."
@@ -79,7 +78,8 @@ def answer(found: Reproduction) -> list[str]:
     if false and found.holds:
         sentences.append(
             f"{count(false, 'false statement')} next to those of the paper "
-            f"{'was' if false == 1 else 'were'} refuted, each by an instance that is named."
+            + ("was refuted, by" if false == 1 else "were refuted, each by")
+            + " an instance that is named."
         )
     sentences.append(
         f"{valid} of {count(len(certificates), 'certificate')} were found VALID by the independent "
@@ -120,10 +120,8 @@ def _shown(row: Row) -> dict[str, Any]:
             (typeset(instance), [matrix(name, rows) for _, name, rows in group])
             for instance, group in groupby(finding.matrices, key=lambda each: each[0])
         ],
-        "checks": _grouped((each.text, each.instance, each.holds) for each in finding.checks),
-        "refutations": _grouped(
-            (each.statement, each.instance, each.refuted) for each in finding.refutations
-        ),
+        "checks": _with_formulas(finding.grouped_checks()),
+        "refutations": _with_formulas(finding.grouped_refutations()),
         "certificates": [
             (typeset(made.instance), made.name, made.verdict) for made in finding.certificates
         ],
@@ -131,42 +129,11 @@ def _shown(row: Row) -> dict[str, Any]:
     }
 
 
-def _grouped(entries: Iterable[tuple[str, str, bool]]) -> list[tuple[str, str, str]]:
-    """Rows of a table from texts, their instances, and whether they hold there: one for each text.
-
-    What fails has a row of its own.
-    """
-    instances: dict[tuple[str, bool], dict[str, None]] = {}
-    for text, instance, holds in entries:
-        instances.setdefault((text, holds), {})[instance] = None
+def _with_formulas(rows: Iterable[tuple[str, str, bool]]) -> list[tuple[str, str, str]]:
+    """Rows of a table from texts, their instances, and whether they hold there."""
     return [
-        (typeset(text), typeset("; ".join(names)), "yes" if holds else "NO")
-        for (text, holds), names in instances.items()
-    ]
-
-
-def reproduction_tables(found: Reproduction) -> list[Table]:
-    """The answer, the count of statements by status, and the examinations, for a terminal."""
-    return [
-        Table(
-            " ".join(answer(found)),
-            ("status", "statements"),
-            tuple((name, str(size)) for name, size in counts(found).items()),
-        ),
-        Table(
-            "The examinations.",
-            ("examined", "section", "holds", "what is known", "certificates"),
-            tuple(
-                (
-                    row.examination.title,
-                    row.examination.section,
-                    "yes" if row.finding.holds else "NO",
-                    row.status + (" (corrected)" if row.examination.erratum else ""),
-                    str(len(row.finding.certificates)),
-                )
-                for row in found.rows
-            ),
-        ),
+        (typeset(text), typeset(instances), "yes" if holds else "NO")
+        for text, instances, holds in rows
     ]
 
 

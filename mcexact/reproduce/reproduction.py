@@ -136,7 +136,7 @@ def chosen(wanted: Iterable[str]) -> tuple[str, ...]:
         if asked not in by_name:
             near = difflib.get_close_matches(asked, by_name, n=1)
             hint = f"; did you mean {near[0]!r}?" if near else ""
-            raise UsageError(f"the ledger has no statement {name!r}{hint}")
+            raise UsageError(f"the paper has no statement {name!r}{hint}")
         if not by_name[asked]:
             why = statements()[int(asked.removeprefix("statement ")) - 1].note
             raise UsageError(f"nothing examines {asked}: {why}")

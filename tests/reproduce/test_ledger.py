@@ -65,8 +65,8 @@ def test_an_equation_is_found_by_its_number_however_that_is_written(name: str) -
 @pytest.mark.parametrize(
     ("name", "why"),
     [
-        ("39", r"the ledger has no statement '39'"),
-        ("statement 135", "the ledger has no statement 'statement 135'; did you mean"),
+        ("39", r"the paper has no statement '39'"),
+        ("statement 135", "the paper has no statement 'statement 135'; did you mean"),
         ("statement 134", "nothing examines statement 134: The paper names them as open"),
     ],
 )

@@ -15,6 +15,7 @@ import pytest
 
 from mcexact.cli import main
 from mcexact.derived import error_system, extended, feedback, integrators
+from mcexact.report.text import plain
 from mcexact.reproduce.ledger import examinations
 from mcexact.reproduce.notebook import Notebook, examined
 from mcexact.reproduce.pages import (
@@ -27,6 +28,7 @@ from mcexact.reproduce.pages import (
 )
 from mcexact.reproduce.reproduction import Reproduction, reproduce
 from mcexact.reproduce.statements import STATUSES
+from mcexact.reproduce.terminal import reproduction_tables
 from tests.report.strict_html import external_addresses
 
 
@@ -97,13 +99,13 @@ def test_the_report_says_first_what_the_paper_asks_and_counts_every_status(
 ) -> None:
     said = answer(whole)
     assert said[0] == COMMON_BOUND
-    assert f"All {len(whole.rows)} examinations find what the ledger says." == said[1]
+    assert f"All {len(whole.rows)} examinations succeed: all their checks hold." == said[1]
     assert sum(counts(whole).values()) == 134
     view = reproduction_view(whole)
     assert view["counts"] == counts(whole) and len(view["statements"]) == 134
     assert {each["status"] for each in view["statements"]} <= set(STATUSES.values())
     one = Reproduction(whole.rows[:1])
-    assert answer(one)[0] == "The examination finds what the ledger says."
+    assert answer(one)[0] == "The examination succeeds: all its checks hold."
     assert [each.number for each in one.statements] == [1]
 
 
@@ -117,6 +119,23 @@ def test_what_fails_on_an_instance_has_a_row_of_its_own(whole: Reproduction) -> 
     text = reproduction_page(Reproduction((broken,)))
     assert "<td>an agent</td><td>NO</td>" in text
     assert "; three agents, links: <math>" in text and "an agent;" not in text
+
+
+def test_a_terminal_shows_the_whole_paper_or_a_few_statements_in_full(whole: Reproduction) -> None:
+    text = plain(reproduction_tables(whole), width=100)
+    assert "Corollary 2" in text and "what was checked" not in text
+    row = next(row for row in whole.rows if row.examination.key == "equation-31")
+    text = " ".join(plain(reproduction_tables(Reproduction((row,))), width=200).split())
+    assert "0 absent" not in text and "absent 0" not in text
+    for told in (
+        "106 IV-E (31) Under the hypotheses of Theorem 2 some F̄_i make",
+        "proved as corrected. The extended transfer graph has to be strongly connected besides",
+        "Examined on the matrices of the example of IV-B; 5 drawn",
+        "Machine-checked: free_assignment.corollary_1_gains, free_assignment.corfmat_morse_iff.",
+        "Correction: Needs a strongly connected extended transfer graph",
+        "The same with n_i = 0. yes A = 0 on a cycle, nothing shared",
+    ):
+        assert told in text, told
 
 
 def test_the_statements_are_set_in_latex(whole: Reproduction) -> None:
