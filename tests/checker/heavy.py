@@ -145,6 +145,8 @@ RADIUS = f"{NINES}/{10**4200}"
 HARD = prod(2**61 - 1 + 2 * k for k in range(200))
 """No unit modulo any of the first 200 moduli that are tried."""
 WIDE = {"shape": [0, 2**20], "entries": []}
+NOTHING = {"shape": [2**20, 2**20], "entries": []}
+NO_INPUTS, NO_OUTPUTS = ({"shape": shape, "entries": []} for shape in ([2**20, 1], [1, 2**20]))
 DELAYED = {"neighbors": {"1": ["2"], "2": []}, "delays": {"1": {"2": 10**8}}}
 SHARED = {"share": "states", "dimensions": [0, 0]}
 MESH = {str(i): [str(j) for j in range(1, 41) if j != i] for i in range(1, 41)}
@@ -223,6 +225,17 @@ HEAVY: dict[str, dict[str, Any]] = {
             private_update={"private": {"shape": [300, 300], "entries": POINTS}},
         ),
     ),
+    "a million states without entries": stable(plant(NOTHING, (NO_INPUTS, NO_OUTPUTS))),
+    "the closed loop of a million states": connected(
+        plant(NOTHING, (NO_INPUTS, NO_OUTPUTS), **heard(1)),
+        step("feedback", gains=[{"denominator": 1, "entries": [[1]]}]),
+    ),
+    "a sequence of a million states": certificate(
+        "fixed_spectrum",
+        plant(NOTHING, (NO_INPUTS, NO_OUTPUTS)),
+        {"polynomial": [1], "factors": [], "stabilizable": True, "best_rate": None},
+        {"blocks": [{"states": [0], "evidence": None}], "modulus": None, "subspaces": []},
+    ),
     "channels without anything": certificate(
         "transfer_graph",
         plant([], *[([], [])] * 200),
@@ -241,6 +254,7 @@ EXPECTED = {
     "100 discs of many digits": ("INVALID", "disc"),
     "10 discs of very many digits": ("INVALID", "disc"),
     "channels without anything": ("INVALID", "arc"),
+    "a sequence of a million states": ("INVALID", "partition"),
 }
 """The verdicts and codes of those that the default decides; the others are INCOMPLETE."""
 
