@@ -137,6 +137,7 @@ def bound_zero(note: Notebook) -> None:
             note.certify(bound)
         note.certify(found)
     plant = note.at(still_pair())
+    note.print(plant)
     note.certify(*all_ranks(plant))
     note.refute("zero", printed_bound(plant) == -1)
 
@@ -220,6 +221,7 @@ def tightness(note: Notebook) -> None:
         note.certify(bound, common)
         note.refute("tight", both == (2, 1))
     # The last plant meets all assumptions of the paper, B_i ≠ 0 and C_i ≠ 0 among them.
+    note.print(plant)
     note.joint(plant)
     for sizes in ([1, 1, 1, 1], [0, 1, 1, 0]):
         freed = fixed_spectrum(extended_system(plant, sizes))

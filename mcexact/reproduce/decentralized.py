@@ -257,6 +257,7 @@ def wang_davison(note: Notebook) -> None:
 def wang_davison_discrete(note: Notebook) -> None:
     """In discrete time the fixed modes that hinder a rate are those other than 0."""
     plant = note.at(fixed_zero())
+    note.print(plant)
     found = fixed_spectrum(plant)
     note.check("0 is the only fixed mode", found.polynomial == Polynomial.x())
     design = design_decentralized(plant, radius="1/100", aims=THEOREM)

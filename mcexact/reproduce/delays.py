@@ -205,6 +205,7 @@ def free_of_the_lift(note: Notebook) -> None:
         note.check("nothing but 0 is fixed", found.polynomial.squarefree_part() in (ONE, X))
         note.certify(found, graph)
     plant = note.at(split_spectrum("discrete", 1))
+    note.print(plant)
     bound, alone = shared_dimension_bound(plant), lifted_system(plant, [0] * plant.m)
     graph, whole = transfer_graph(alone), completeness(alone)
     note.check("n_i = 0 meets the hypotheses of Theorem 3", bound.deficiency == 0)

@@ -169,6 +169,7 @@ def free_assignment(note: Notebook) -> None:
     )
     note.certify(*design.certificates.values())
     plant = note.at(apart())
+    note.print(plant)
     bound = shared_dimension_bound(plant, share="states")
     graph = transfer_graph(held_system(plant, [0] * plant.m))
     found = completeness(held_system(plant, [0] * plant.m))

@@ -233,6 +233,7 @@ def recipe(note: Notebook) -> None:
     """
     name, plant, entries = hidden_by_feedback()
     note.on(name, plant)
+    note.print(plant)
     F = [Matrix.from_integers(rows) for rows in entries]
     literal = fed_back(plant, F)
     lost, stuck = joint_observability(literal), fixed_spectrum(error_system(literal, zeros(plant)))

@@ -94,7 +94,7 @@ class Notebook:
     certificates : list of CheckedCertificate
     pictures : list of EmbeddedPicture
     matrices : list of (str, str, rows)
-        Instances, and their matrices by name, with the entries as texts.
+        Instances with their neighbor sets, and their matrices by name, with the entries as texts.
     broken : str
         Empty, or why the examination came to no end.
     in_common : str
@@ -157,7 +157,7 @@ class Notebook:
             self.certify(found)
 
     def print(self, system: MultiChannelSystem) -> None:
-        """Show A, all B_i and all C_i of a system, which is the present instance."""
+        """Show A, all B_i, C_i and N_i of a system, which is the present instance."""
         named = [("A", system.A)]
         named += [
             (f"B_{name}", channel.B)
@@ -167,9 +167,16 @@ class Notebook:
             (f"C_{name}", channel.C)
             for name, channel in zip(system.names, system.channels, strict=True)
         ]
+        where = self.here
+        if system.neighbors is not None:
+            sets = [
+                f"N_{name} = {{{', '.join(map(system.names.__getitem__, heard))}}}"
+                for name, heard in zip(system.names, system.neighbors.neighbors, strict=True)
+            ]
+            where += f", with {', '.join(sets)}"
         for name, found in named:
             rows = [[str(entry) for entry in row] for row in found.rows()]
-            self.matrices.append((self.here, name, rows))
+            self.matrices.append((where, name, rows))
 
     def show(self, picture: Picture) -> None:
         """Add a picture."""

@@ -132,7 +132,7 @@ def _shown(row: Row) -> dict[str, Any]:
 def _with_formulas(rows: Iterable[tuple[str, str, bool]]) -> list[tuple[str, str, str]]:
     """Rows of a table from texts, their instances, and whether they hold there."""
     return [
-        (typeset(text), typeset(instances), "yes" if holds else "NO")
+        (typeset(text), "yes" if holds else "NO", typeset(instances))
         for text, instances, holds in rows
     ]
 

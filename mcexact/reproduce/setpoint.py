@@ -171,6 +171,7 @@ def determinant_at_zero(note: Notebook) -> None:
         note.check("no pole at 0: solvable just when det C A⁻¹ B ≠ 0", found.solvable == nonzero)
         note.certify(found)
     plant = note.at(hidden_zero())
+    note.print(plant)
     found = setpoint_solvability(plant)
     note.check("0 is a pole", characteristic_polynomial(plant.A)(0) == 0)
     # det [sI − A, B; −C, 0] = det(sI − A) det G(s) = s here: det G = 1/(s + 1)² hides the zero.
