@@ -3,7 +3,7 @@
    Where a pencil has rank below n, its kernel is a shrunk subspace. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From mcexact Require Import multichannel arithmetic evidence controllability rank_one_repair.
-From mcexact Require Import pencil_space anderson_clements example.
+From mcexact Require Import pencil_space anderson_clements delays example.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -69,6 +69,22 @@ exists (\rank (lsubmx N)), (row_base (lsubmx N))^T, (- (R *m rsubmx N)^T); split
 exact: kernel_rank.
 Qed.
 End Kernel.
+
+(* the same controllers over a larger field *)
+Definition map_controllers (R R' : ringType) (f : R -> R') m (p q k : 'I_m -> nat)
+    (D : controllers R p q k) : controllers R' p q k :=
+  Controllers (fun i => map_mx f (ctF D i)) (fun i => map_mx f (ctG D i))
+              (fun i => map_mx f (ctL D i)) (fun i => map_mx f (ctK D i)).
+
+Lemma map_dynamic_loop (K L : fieldType) (f : {rmorphism K -> L}) n m (p q k : 'I_m -> nat)
+    (S : multichannel K n p q) (D : controllers K p q k) :
+  map_mx f (dynamic_loop S D) = dynamic_loop (map_system f S) (map_controllers f D).
+Proof.
+rewrite /dynamic_loop map_block_mx map_mxcol map_mxdiag; congr block_mx.
+- exact: closed_loop_map.
+- by apply/matrixP => i j; rewrite !mxE rmorph_sum; apply: eq_bigr => l _; rewrite rmorphM !mxE.
+by apply: eq_mxcol => i; rewrite map_mxM.
+Qed.
 
 Section Dynamic.
 Variables (n m : nat) (p q : 'I_m -> nat).

@@ -69,6 +69,16 @@ by rewrite map_scalar_mx rmorph1 !char1 opprB polyC0 subr0 addrCA subrr addr0.
 Qed.
 Lemma inst_bounded_reach : (1 <= \rank (reach (mcA (map_system h (Q free))) (mcB (map_system h (Q free)) ord0) 1))%N.
 Proof. by apply: (bounded_reach _ inst_krylov_free) => i; exists 1%:M; rewrite mulmx1. Qed.
+(* nothing is annihilated: W has no rows *)
+Lemma inst_controllability_by_bound : let S := map_system h (Q free) in
+  \rank (reach (mcA S) (mcB S ord0) 1) = 1%N.
+Proof.
+set S := map_system h (Q free); pose W : 'M[algC]_(1 - 1, 1) := 0.
+have within i : exists M : 'M_1, mcB S i = mcB S ord0 *m M by exists 1%:M; rewrite mulmx1.
+have no_row a (X Y : 'M[algC]_(1 - 1, a)) : X = Y by apply/matrixP => -[].
+by have [] := @controllability_by_bound _ _ _ _ _ _ S (mcB S ord0) within 1 W (fun=> ord0) 1 (leqnn 1)
+  (no_row _ _ _) (no_row _ _ _) (no_row _ _ _) inst_krylov_free (leqnn 1).
+Qed.
 Definition inst_bounded_channels := @bounded_channels _ 1 1 _ _ (map_system h (Q free)) 1 id 1 inst_krylov_free.
 
 Notation X := ('X : {poly R}).

@@ -35,6 +35,40 @@ have z : M ^+ N.+1 = 0.
 by rewrite trajectory_power -(subnK le) exprD z mulr0 mul0mx.
 Qed.
 
+(* nothing but 0 in the spectrum *)
+Lemma char_poly_only_0 (K : fieldType) (L : closedFieldType) (f : {rmorphism K -> L}) N (M : 'M[K]_N) :
+  (forall lambda, eigenvalue (map_mx f M) lambda -> lambda = 0) -> char_poly M = 'X^N.
+Proof.
+move=> zero; have [rs e] := closed_field_poly_normal (char_poly (map_mx f M)).
+rewrite (monicP (char_poly_monic _)) scale1r in e.
+have {}e : char_poly (map_mx f M) = 'X^(size rs).
+  rewrite e (eq_big_seq (fun=> 'X)) => [|r rin]; last first.
+    by rewrite (zero r) ?subr0 // eigenvalue_root_char e root_prod_XsubC.
+  by rewrite big_const_seq count_predT iter_mulr_1.
+have := size_char_poly (map_mx f M); rewrite e size_polyXn => -[sr].
+by apply: (map_poly_inj f); rewrite map_char_poly e sr map_polyXn.
+Qed.
+
+(* so the loop is at rest after as many steps as it has states *)
+Theorem only_0_at_rest (K : fieldType) (L : closedFieldType) (f : {rmorphism K -> L}) N (M : 'M[K]_N) :
+  (forall lambda, eigenvalue (map_mx f M) lambda -> lambda = 0) ->
+  forall x t, (N <= t)%N -> trajectory M x t = 0.
+Proof. by move=> zero x t; apply: at_rest; apply: char_poly_only_0 zero. Qed.
+
+Lemma at_rest_only_0 (K L : fieldType) (f : {rmorphism K -> L}) N (M : 'M[K]_N) t :
+  (forall x, trajectory M x t = 0) -> forall lambda, eigenvalue (map_mx f M) lambda -> lambda = 0.
+Proof.
+case: N M => [|N] M rest lambda /eigenvalueP[w wM w0]; first by rewrite (thinmx0 w) eqxx in w0.
+have z : M ^+ t = 0.
+  apply/matrixP => i j; have := rest (delta_mx j 0); rewrite trajectory_power -colE.
+  by move/matrixP/(_ i 0); rewrite !mxE.
+have pow s : w *m (map_mx f M) ^+ s = lambda ^+ s *: w.
+  elim: s => [|s IH]; first by rewrite expr0 scale1r mulmx1.
+  by rewrite exprSr mulmxA IH -scalemxAl wM scalerA -exprSr.
+have := pow t; rewrite -(rmorphX (map_mx_rmorphism f N)) /= z map_mx0 mulmx0 => /esym/eqP.
+by rewrite scaler_eq0 (negPf w0) orbF expf_eq0 => /andP[_ /eqP].
+Qed.
+
 Section Construction.
 Variables (K : fieldType) (L : closedFieldType) (f : {rmorphism K -> L}).
 Hypothesis inf : infinite K.

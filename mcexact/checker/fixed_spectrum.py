@@ -23,7 +23,7 @@ REGION = {"continuous": "Hurwitz", "discrete": "Schur"}
 def check(claim: Json, witness: Json, system: System) -> None:
     """Check a shrunk subspace for every factor, and that no more is fixed.
 
-    Theorem ``fixed_spectrum.fixed_spectrum_rule``.
+    Theorems ``fixed_spectrum.fixed_spectrum_rule``, ``wang_davison.region_attained``.
     """
     whole, entries, verdict, rate = fields(claim, "claim", *CLAIM)
     proof, spaces, completion = _proof(witness, system)
