@@ -1,0 +1,555 @@
+(* F. Liu, L. Wang, D. Fullmer, A. S. Morse, Distributed Feedback Control of Multi-Channel Linear Systems: what is
+   proved of the paper, in its order.
+
+   R is any real closed field and C = R[i] its complex numbers; the paper's R is the field of all real numbers.
+   Every statement is one about R and C, and its proof applies a theorem of another file, most of which
+   hold over more fields.  Letters are the paper's, with these exceptions: k i is the dimension n_i of the shared
+   sub-state x_i, f is the inclusion of R in C, o is the agent called q.  A symmetric set of complex numbers
+   with their multiplicities is the monic real polynomial with these roots.  What the paper assumes throughout is
+   assumed of the section; a hypothesis that it does not print where it states a result is named added.
+
+   The definitions are in multichannel.v (systems, closed loops, pencils, extended systems, fixed modes),
+   joint_controllability.v, extended_bound.v (transfer_arc), error_system.v (14) to (16), distributed_observer.v
+   (9) to (11), integrators.v (17), (18), delayed_systems.v (32) to (38), almost_all_gains.v. *)
+From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp.real_closed Require Import complex.
+From mcexact Require Import multichannel arithmetic evidence controllability rank_one_repair.
+From mcexact Require Import pencil_space anderson_clements joint_controllability gain_lines.
+From mcexact Require Import extended neighbor_graph extended_bound sequential_gains feedback.
+From mcexact Require Import corfmat_morse error_system free_assignment lifted held delayed_systems.
+From mcexact Require Import delays delayed_transfer brasch_pearson theorem_1 distributed_observer.
+From mcexact Require Import corollary_1 construction strong_components component_gains.
+From mcexact Require Import component_assignment integrators trajectories dynamic_controllers.
+From mcexact Require Import example example_hypotheses almost_all_gains two_sided_gains wang_davison.
+
+Set Implicit Arguments.
+Unset Strict Implicit.
+Unset Printing Implicit Defensive.
+Import GRing.Theory Num.Theory.
+Local Open Scope ring_scope.
+
+Section Paper.
+Variable R : rcfType.
+Notation C := (complex R).
+Notation f := [rmorphism of real_complex R].
+
+Fact real_numbers (x : C) : x \is Num.real -> exists y, f y = x.
+Proof.
+case: x => a b r; exists a; have -> : b = 0; last by [].
+by case/orP: r; rewrite lecE /= => /andP[/eqP e _]; rewrite // e.
+Qed.
+
+Fact infinitely_many : infinite R.
+Proof. exact: (@reals_infinite _ [numClosedFieldType of C] f). Qed.
+
+(* I.  The plant (1), or (2) in discrete time: x' = A x + sum B_i u_i, y_i = C_i x; agent i hears the agents of
+   N i, itself among them. *)
+Variables (n m : nat) (p q : 'I_m -> nat).
+Variable S : multichannel R n p q.
+Variable N : 'I_m -> {set 'I_m}.
+Hypothesis n_positive : (0 < n)%N.
+Hypothesis m_positive : (0 < m)%N.
+Hypothesis itself : forall i, i \in N i.
+Notation A := (mcA S).
+Notation B := (mcB S).
+Notation nm := (\sum_(i < m) n)%N.
+Notation no_fixed_mode T := (forall lambda : C, ~ fixed_over f T lambda).
+Notation strongly_connected_neighbors := (strongly_connected (neighbor_arc N)).
+
+(* I-A *)
+Hypothesis controllable : jointly_controllable S.
+Hypothesis observable : jointly_observable S.
+
+(* II-A.  One agent, which knows the input: the spectra of A + BF and of A + KC. *)
+Theorem cancellation b c (B : 'M[R]_(n, b)) (C : 'M[R]_(c, n)) F K :
+  char_poly (block_mx A (B *m F) (- (K *m C)) (A + K *m C + B *m F)) =
+  char_poly (A + B *m F) * char_poly (A + K *m C).
+Proof.
+set M := block_mx _ _ _ _; have e : separated M 1%:M = block_mx (A + B *m F) (B *m F) 0 (A + K *m C).
+  have z (V : zmodType) (x y w : V) : - x + (y + x + w) - (y + w) = 0.
+    by rewrite [y + x]addrC -(addrA x) addKr subrr.
+  by rewrite /M separated_blocks !mulmx1 !mul1mx addrK z.
+by have [] := @separation _ _ _ M 1%:M; rewrite e ?block_mxKdl // block_mxKul block_mxKdr.
+Qed.
+
+(* With the cancellation rule agent i needs sum B_j F_j x_j, which it can find from what it hears iff it hears all
+   agents j for which B_j F_j is not zero; where none is, iff it hears all. *)
+Theorem cancellation_graph (F : forall j, 'M[R]_(p j, n)) i :
+  (forall x x' : 'I_m -> 'cV[R]_n, (forall j, j \in N i -> x j = x' j) ->
+     \sum_j B j *m F j *m x j = \sum_j B j *m F j *m x' j) <->
+  (forall j, B j *m F j != 0 -> j \in N i).
+Proof.
+split=> [hears j|needs x x' same]; last first.
+  apply: eq_bigr => j _; have [->|/needs/same -> //] := eqVneq (B j *m F j) 0.
+  by rewrite !mul0mx.
+apply: contraR => nj; apply/eqP/matrixP => a b.
+have unit_ l : l \in N i -> (if l == j then delta_mx b 0 else 0 : 'cV[R]_n) = 0.
+  by move=> Nl; case: eqP => // e; rewrite -e Nl in nj.
+have := hears _ (fun=> 0) unit_; rewrite [RHS]big1 => [|l _]; last by rewrite mulmx0.
+rewrite (bigD1 j) //= eqxx big1 => [|l /negPf ->]; last by rewrite mulmx0.
+by rewrite addr0 -colE => /matrixP/(_ a 0); rewrite !mxE.
+Qed.
+
+Theorem cancellation_complete (F : forall j, 'M[R]_(p j, n)) (added : forall j, B j *m F j != 0) :
+  (forall i j, B j *m F j != 0 -> j \in N i) <-> forall i, N i = setT.
+Proof.
+split=> [needs i|all_ i j _]; last by rewrite all_ inE.
+by apply/setP => j; rewrite inE needs.
+Qed.
+
+(* II-B.  The errors (5), (6) of the observer (3), (4), open-loop: there are no F_i. *)
+Notation no_feedback := (fun i => 0 : 'M[R]_(p i, n)).
+
+Theorem open_loop_dimension : (nm + m.-1 = m * n + m - 1)%N.
+Proof. by rewrite sum_nat_const card_ord -subn1 addnBA. Qed.
+
+Theorem open_loop_spectrum o (Lambda : seq C) : strongly_connected_neighbors ->
+  size Lambda = (m * n + m.-1)%N -> perm_eq Lambda [seq x^* | x <- Lambda] ->
+  exists K H (Kbar : 'M_(m.-1, q o)) (Hbar : 'I_m -> 'M_(m.-1, n)) (Abar : 'M_m.-1) (Cbar : 'M_(n, m.-1)),
+    char_poly (map_mx f (error_loop N S no_feedback K H Kbar Hbar Abar Cbar)) = \prod_(x <- Lambda) ('X - x%:P).
+Proof. by move=> connected; exact: (theorem_1_symmetric real_numbers connected no_feedback o observable). Qed.
+
+(* (7), (8) *)
+Theorem open_loop_gains : strongly_connected_neighbors ->
+  exists KH : gains R (fun=> n) (fun i => q i + nm)%N, let E := error_system N S no_feedback in forall o : 'I_m,
+    controllability_index (closed_loop E KH) (mcB E o) m /\
+    joint_controllability.controllable (closed_loop E KH)^T (mcC E o)^T.
+Proof. by move=> connected; exact: (error_system.proposition_1 f infinitely_many connected n_positive _ observable). Qed.
+
+(* almost any K_i, H_ij will do *)
+Theorem open_loop_almost_all : strongly_connected_neighbors -> let E := error_system N S no_feedback in
+  almost_all (fun KH => forall o : 'I_m, controllability_index (closed_loop E KH) (mcB E o) m /\
+                        joint_controllability.controllable (closed_loop E KH)^T (mcC E o)^T).
+Proof. by move=> connected; exact: (proposition_1_almost_all f infinitely_many connected n_positive _ observable). Qed.
+
+(* Brasch and Pearson *)
+Theorem brasch_pearson k a b c (A : 'M[R]_a) (B : 'M_(a, b)) (C : 'M_(c, a)) (P : {poly R}) :
+  joint_controllability.controllable A B -> joint_controllability.controllable A^T C^T ->
+  \rank (reach A B k.+1) = a \/ \rank (reach A^T C^T k.+1) = a -> P \is monic -> size P = (a + k).+1 ->
+  exists (Ac : 'M_k) (Bc : 'M_(k, c)) (Cc : 'M_(b, k)) (D : 'M_(b, c)),
+    char_poly (compensated A B C Ac Bc Cc D) = P.
+Proof. exact: (brasch_pearson_minimum f infinitely_many). Qed.
+
+(* II-C.  BF = sum B_i F_i has any spectrum *)
+Theorem state_feedback (P : {poly R}) : P \is monic -> size P = n.+1 ->
+  exists F : forall i, 'M_(p i, n), char_poly (A + \sum_i B i *m F i) = P.
+Proof. exact: (joint_state_feedback f infinitely_many controllable). Qed.
+
+Section Observer.
+Variable F : forall i, 'M[R]_(p i, n).
+Notation E := (error_system N S F).
+Variables (k : 'I_m -> nat) (D : controllers R (fun=> n) (fun i => q i + nm)%N k).
+
+(* In terms of the errors the plant (9) with the observer (10), (11) is x' = (A + sum B_i F_i) x + sum B_i F_i e_i,
+   with the errors (12), (13), which obey a system of their own.  observer_loop is the matrix of (9) to (11). *)
+Theorem errors : separated (observer_loop N S F D) (copied R n k) =
+  block_mx (A + \sum_i B i *m F i) (row_mx (\mxrow_j (B j *m F j)) 0) 0 (dynamic_loop E D).
+Proof. exact: paper_separation. Qed.
+
+Theorem spectrum_of_both : char_poly (observer_loop N S F D) =
+  char_poly (A + \sum_i B i *m F i) * char_poly (dynamic_loop E D).
+Proof. exact: paper_spectrum. Qed.
+
+Section Equations.
+Variables (x : 'cV[R]_n) (X : 'cV[R]_nm) (z : 'cV[R]_(\sum_i k i)).
+Notation x_ i := (block_of R n i *m X).
+Notation v := (observer_loop N S F D *m col_mx x (col_mx X z)).
+
+(* (9) *)
+Theorem equation_9 : usubmx v = A *m x + \sum_i B i *m F i *m x_ i.
+Proof. exact: observer_plant. Qed.
+
+(* (10) *)
+Theorem equation_10 i (K := lsubmx (ctF D i)) (H := fun j => submxrow (rsubmx (ctF D i)) j) :
+  block_of R n i *m usubmx (dsubmx v) = A *m x_ i + K *m (mcC S i *m x_ i - mcC S i *m x) +
+    \sum_(j in N i) H j *m (x_ i - x_ j) + ctG D i *m submxcol z i + (\sum_j B j *m F j) *m x_ i.
+Proof. exact: observer_estimate. Qed.
+
+(* (11) *)
+Theorem equation_11 i (Kbar := lsubmx (ctL D i)) (Hbar := fun j => submxrow (rsubmx (ctL D i)) j) :
+  submxcol (dsubmx (dsubmx v)) i = ctK D i *m submxcol z i + Kbar *m (mcC S i *m x_ i - mcC S i *m x) +
+    \sum_(j in N i) Hbar j *m (x_ i - x_ j).
+Proof. exact: observer_channel. Qed.
+End Equations.
+
+(* (12) *)
+Theorem equation_12 o K H l Kbar Hbar (Abar : 'M_l) Cbar (e : 'cV_nm) z (i : 'I_m) (e_ := fun i => block_of R n i *m e) :
+  block_of R n i *m usubmx (error_loop (o := o) N S F K H Kbar Hbar Abar Cbar *m col_mx e z) =
+  (A + K i *m mcC S i) *m e_ i + \sum_(j in N i) H i j *m (e_ i - e_ j)
+  + \sum_j B j *m F j *m (e_ i - e_ j) + (if i == o then Cbar *m z else 0).
+Proof. exact: error_loop_errors. Qed.
+
+(* (13) *)
+Theorem equation_13 o K H l Kbar Hbar (Abar : 'M_l) Cbar (e : 'cV_nm) z (e_ := fun i => block_of R n i *m e) :
+  dsubmx (error_loop (o := o) N S F K H Kbar Hbar Abar Cbar *m col_mx e z) =
+  Abar *m z + Kbar *m (mcC S o *m e_ o) + \sum_(j in N o) Hbar j *m (e_ o - e_ j).
+Proof. exact: error_loop_controller. Qed.
+
+Proposition proposition_1 : strongly_connected_neighbors ->
+  exists KH : gains R (fun=> n) (fun i => q i + nm)%N, forall o : 'I_m,
+    controllability_index (closed_loop E KH) (mcB E o) m /\
+    joint_controllability.controllable (closed_loop E KH)^T (mcC E o)^T.
+Proof. by move=> connected; exact: (error_system.proposition_1 f infinitely_many connected n_positive F observable). Qed.
+
+Theorem theorem_1 (o : 'I_m) (Lambda : seq C) : strongly_connected_neighbors ->
+  size Lambda = (m * n + m.-1)%N -> perm_eq Lambda [seq x^* | x <- Lambda] ->
+  exists K H (Kbar : 'M_(m.-1, q o)) (Hbar : 'I_m -> 'M_(m.-1, n)) (Abar : 'M_m.-1) (Cbar : 'M_(n, m.-1)),
+    char_poly (map_mx f (error_loop N S F K H Kbar Hbar Abar Cbar)) = \prod_(x <- Lambda) ('X - x%:P).
+Proof. by move=> connected; exact: (theorem_1_symmetric real_numbers connected F o observable). Qed.
+
+(* II-D *)
+Lemma lemma_1 (added : strongly_connected_neighbors) : jointly_controllable E /\ jointly_observable E.
+Proof. by split; [exact: lemma_1_controllable | exact: lemma_1_observable]. Qed.
+
+Theorem inputs_identity : inputs E setT = 1%:M.
+Proof. by rewrite /inputs -[RHS](submxrowK 1%:M); apply: eq_mxrow => i; rewrite inE. Qed.
+
+Lemma lemma_2 : strongly_connected_neighbors -> exists H : 'I_m -> 'M[R]_(n, nm), forall o : 'I_m,
+  controllability_index (\sum_j error_input R n j *m H j *m differences R n N j) (error_input R n o) m.
+Proof. by move=> connected; exact: (error_system.lemma_2 f infinitely_many connected n_positive). Qed.
+
+Theorem scalars : strongly_connected_neighbors -> exists phi, forall o : 'I_m,
+  joint_controllability.controllable (closed_loop (graph_system N R) phi) (delta_mx o 0 : 'cV_m).
+Proof. by move=> connected; exact: (lemma_2_scalars f infinitely_many connected). Qed.
+
+Lemma lemma_3 a r (A M : 'M[R]_a) (B : 'M[R]_(a, r)) nu : controllability_index A B nu ->
+  exists d, forall gs : seq R, uniq gs ->
+    all (fun g => \rank (reach (M + g *: A) B nu) != a) gs -> (size gs <= d)%N.
+Proof. exact: gain_lines.lemma_3. Qed.
+
+Lemma lemma_3_moreover a r (A M : 'M[R]_a) (B : 'M[R]_(a, r)) nu :
+  controllability_index A B nu -> (nu * r)%N = a ->
+  exists d, forall gs : seq R, uniq gs ->
+    (forall g, g \in gs -> ~ controllability_index (M + g *: A) B nu) -> (size gs <= d)%N.
+Proof. exact: lemma_3_index. Qed.
+
+Lemma lemma_4 (K : forall i, 'M[R]_(n, q i)) : strongly_connected_neighbors ->
+  exists H : 'I_m -> 'M[R]_(n, nm), forall o : 'I_m,
+    controllability_index (closed_loop E (fun j => row_mx (K j) (H j))) (error_input R n o) m.
+Proof. by move=> connected; exact: (error_system.lemma_4 f infinitely_many connected n_positive S F K). Qed.
+
+(* the gains of Lemma 4 are the complement of a proper algebraic set *)
+Theorem lemma_4_almost_all : strongly_connected_neighbors ->
+  almost_all (fun KH => forall o : 'I_m, controllability_index (closed_loop E KH) (mcB E o) m).
+Proof. by move=> connected; exact: (almost_all_gains.lemma_4_almost_all f infinitely_many connected n_positive). Qed.
+
+(* every complementary subsystem of (16) is complete *)
+Theorem complementary_complete s : strongly_connected_neighbors -> s != set0 -> s != setT ->
+  (exists t, outputs E s *m krylov (mcA E) (inputs E (~: s)) t != 0) /\
+  (forall lambda : C, (nm <= \rank (pencil (map_system f E) s lambda))%N).
+Proof.
+move=> connected s0 sT; have [KH h] := proposition_1 connected.
+have nm0 : (0 < nm)%N by rewrite sum_nat_const card_ord muln_gt0 m_positive.
+have [o|sct nofix] := @corfmat_morse_converse _ _ f _ _ _ _ E KH nm0 m_positive.
+  by have [[r _] ob] := h o; split=> //; apply: controllable_blocks r.
+split; last first.
+  by move=> lambda; rewrite leqNgt; apply/negP => low; apply: (nofix lambda); apply/anderson_clements_over; exists s.
+have /strongly_connectedP/(_ s s0 sT)[j [i [/transfer_arcP[t nz] sj si]]] := sct.
+exists t; apply: contraNneq nz => /outputs_eq0/(_ i si); rewrite inputs_krylov mul_mxrow => /mxrowP/(_ j).
+by rewrite mxrowK submxrow0 inE sj => ->.
+Qed.
+
+(* so are those that make it observable through every channel, and those that do both *)
+Theorem observable_almost_all : strongly_connected_neighbors ->
+  almost_all (fun KH => forall o : 'I_m, joint_controllability.controllable (closed_loop E KH)^T (mcC E o)^T).
+Proof. by move=> connected; exact: (observed_almost_all f infinitely_many connected n_positive F observable). Qed.
+
+Theorem both_almost_all : strongly_connected_neighbors ->
+  almost_all (fun KH => forall o : 'I_m, controllability_index (closed_loop E KH) (mcB E o) m /\
+                        joint_controllability.controllable (closed_loop E KH)^T (mcC E o)^T).
+Proof. by move=> connected; exact: (proposition_1_almost_all f infinitely_many connected n_positive F observable). Qed.
+End Observer.
+
+(* The construction: the F_i, and then the observer, with a channel controller at one agent o *)
+Section Construction.
+Variables (o : 'I_m) (k : 'I_m -> nat).
+Hypothesis at_o : forall i, i != o -> k i = 0%N.
+Hypothesis order : k o = m.-1.
+
+Theorem construction (P P' : {poly R}) : strongly_connected_neighbors ->
+  P \is monic -> size P = n.+1 -> P' \is monic -> size P' = (m * n + m.-1).+1 ->
+  exists (F : forall i, 'M_(p i, n)) (D : controllers R (fun=> n) (fun i => q i + nm)%N k),
+    char_poly (observer_loop N S F D) = P * P'.
+Proof. by move=> connected; exact: (construction.construction f infinitely_many connected at_o order controllable observable). Qed.
+
+Theorem construction_rate (x : R) : strongly_connected_neighbors ->
+  exists (F : forall i, 'M_(p i, n)) (D : controllers R (fun=> n) (fun i => q i + nm)%N k),
+    forall lambda : C, eigenvalue (map_mx f (observer_loop N S F D)) lambda -> lambda = f x.
+Proof. by move=> connected; exact: (construction.construction_rate f infinitely_many connected at_o order x controllable observable). Qed.
+
+(* in discrete time: at rest after as many steps as there are states *)
+Theorem construction_discrete : strongly_connected_neighbors ->
+  exists (F : forall i, 'M_(p i, n)) (D : controllers R (fun=> n) (fun i => q i + nm)%N k),
+    forall x t, (n + (nm + \sum_i k i) <= t)%N -> trajectory (observer_loop N S F D) x t = 0.
+Proof. by move=> connected; exact: (construction_at_rest f infinitely_many connected at_o order controllable observable). Qed.
+End Construction.
+
+(* III.  (19), (20) and (21), mode by mode, for plant and integrators (18) *)
+Theorem equation_19 (lambda : C) :
+  ~~ uncontrollable_mode (integrated_A (map_mx f A) (map_mx f (outputs S setT)))^T (integrated_C [fieldType of C] n (\sum_i q i))^T lambda.
+Proof.
+apply: integrated_observable; rewrite !map_trmx.
+exact: ((controllable_modes f _ _).1 observable).
+Qed.
+
+Theorem equation_20 (lambda : C) : lambda != 0 ->
+  ~~ uncontrollable_mode (integrated_A (map_mx f A) (map_mx f (outputs S setT))) (integrated_B (\sum_i q i) (map_mx f (inputs S setT))) lambda.
+Proof. by move=> l0; apply: integrated_controllable => //; exact: ((controllable_modes f _ _).1 controllable). Qed.
+
+Theorem equation_21 :
+  ~~ uncontrollable_mode (integrated_A A (outputs S setT)) (integrated_B (\sum_i q i) (inputs S setT)) 0 =
+  row_free (block_mx A (inputs S setT) (outputs S setT) (0 : 'M_(\sum_i q i, \sum_i p i))).
+Proof. exact: integrated_zero. Qed.
+
+(* IV-A.  The fixed spectrum is that under dynamic controllers *)
+Theorem fixed_spectrum_dynamic (lambda : C) : fixed_over f S lambda <->
+  forall k (D : controllers R p q k), eigenvalue (map_mx f (dynamic_loop S D)) lambda.
+Proof.
+split=> [fx k D|h F].
+  by rewrite map_dynamic_loop; apply: fixed_dynamic_over.
+have := h _ (assembled (fun i => existT _ 0%N (F i, 0, 0, 0))).
+by rewrite !eigenvalue_root_char -!map_char_poly static_loop.
+Qed.
+
+(* Wang and Davison *)
+Theorem every_rate : no_fixed_mode S <-> forall a : R, exists k (D : controllers R p q k),
+  forall lambda : C, eigenvalue (map_mx f (dynamic_loop S D)) lambda -> 'Re lambda <= f a.
+Proof.
+split=> [nofix a|rate lambda fx].
+  have [k [D h]] := @wang_davison _ _ f _ _ _ _ S infinitely_many pred0 a (fun l fx => False_ind _ (nofix l fx)).
+  exists k, D => lambda /h /= /eqP ->; rewrite (Creal_ReP _ _) //.
+  by rewrite -(RRe_real (x := f a)) // complex_real.
+have [a la] : exists a, ~~ ('Re lambda <= f a).
+  have [a ea] := real_numbers (Creal_Re lambda); exists (a - 1); rewrite -ea rmorphB rmorph1.
+  by rewrite ler_subr_addl ger_addr ler10.
+have [k [D h]] := rate a; case/negP: la; apply: h; exact: (fixed_spectrum_dynamic lambda).1.
+Qed.
+
+(* in discrete time, fixed modes at 0 hinder no rate *)
+Theorem every_rate_discrete : (forall lambda : C, fixed_over f S lambda -> lambda = 0) <->
+  exists k (D : controllers R p q k), forall x t, (n + \sum_i k i <= t)%N -> trajectory (dynamic_loop S D) x t = 0.
+Proof.
+split=> [zero|[k [D rest]] lambda /fixed_spectrum_dynamic/(_ k D)]; last first.
+  by apply: (@at_rest_only_0 _ _ _ _ _ (n + \sum_i k i)%N) => x; apply: rest.
+have [k [D h]] := @wang_davison _ _ f _ _ _ _ S infinitely_many (pred1 0) 0 (fun l fx => introT eqP (zero l fx)).
+exists k, D; apply: (only_0_at_rest (f := f)) => lambda /h /=.
+by rewrite rmorph0 orbb => /eqP.
+Qed.
+
+(* Proposition 2 *)
+Proposition proposition_2 (lambda : C) : fixed_over f S lambda <->
+  exists s, [/\ s != set0, s != setT & (\rank (pencil (map_system f S) s lambda) < n)%N].
+Proof. exact: joint_controllability.proposition_2. Qed.
+
+(* the footnote: the empty set and the set of all *)
+Theorem footnote (lambda : C) : \rank (pencil (map_system f S) set0 lambda) = n /\
+  \rank (pencil (map_system f S) setT lambda) = n.
+Proof. by split; [exact: jointly_controllable_pencil | exact: jointly_observable_pencil]. Qed.
+
+Theorem nothing_fixed : no_fixed_mode S <-> forall s (lambda : C), s != set0 -> s != setT ->
+  eigenvalue (map_mx f A) lambda -> (n <= \rank (pencil (map_system f S) s lambda))%N.
+Proof.
+split=> [nofix s lambda s0 sT _|h lambda /proposition_2[s [s0 sT]]].
+  by rewrite leqNgt; apply/negP => low; apply: (nofix lambda); apply/proposition_2; exists s.
+rewrite ltnNge; case el : (eigenvalue (map_mx f A) lambda); first by rewrite h.
+move: el; rewrite eigenvalue_rank => /negbT; rewrite -leqNgt => full.
+by rewrite (leq_trans full) // /pencil le_rank_block.
+Qed.
+
+(* one channel suffices (Corfmat and Morse) *)
+Theorem one_channel : strongly_connected (transfer_arc S) -> no_fixed_mode S ->
+  exists F, forall o : 'I_m, joint_controllability.controllable (closed_loop S F) (B o) /\
+                             joint_controllability.controllable (closed_loop S F)^T (mcC S o)^T.
+Proof. exact: (corfmat_morse infinitely_many). Qed.
+
+Theorem one_channel_assigns : strongly_connected (transfer_arc S) -> no_fixed_mode S -> freely_assignable S.
+Proof. exact: (free_assignment infinitely_many). Qed.
+
+(* otherwise the spectrum is partitioned into one set for each strong component *)
+Theorem partition : no_fixed_mode S ->
+  exists (d : {set 'I_m} -> nat) (T : forall c, multichannel R (d c) p q),
+  [/\ (\sum_(c in components S) d c = n)%N, forall c, minimal c S (T c),
+  forall k (D : controllers R p q k),
+    char_poly (dynamic_loop S D) = \prod_(c in components S) char_poly (component_loop T c D) &
+  forall (o : {set 'I_m} -> 'I_m) (k : {set 'I_m} -> nat) (P : {set 'I_m} -> {poly R}),
+    (forall c, c \in components S -> [/\ o c \in c, (d c <= (k c).+1)%N, P c \is monic &
+      size (P c) = (d c + k c).+1]) ->
+    exists (k' : 'I_m -> nat) (D : controllers R p q k'),
+      (forall i, k' i = if o (component (transfer_arc S) i) == i then k (component (transfer_arc S) i) else 0%N) /\
+      char_poly (dynamic_loop S D) = \prod_(c in components S) P c].
+Proof. exact: (component_assignment infinitely_many). Qed.
+
+(* IV-B.  The example. *)
+Theorem example_jointly : jointly_controllable (plant [fieldType of R]) /\ jointly_observable (plant [fieldType of R]).
+Proof. by split; [exact: example_controllable | exact: example_observable]. Qed.
+
+Theorem example_rank : \rank (pencil (augmented_outputs N3 (plant [fieldType of C])) [set inord 1] 1) = 2%N.
+Proof. exact: example_hypotheses.example_rank. Qed.
+
+Theorem example_fixed : fixed (augmented_outputs N3 (plant [fieldType of C])) 1.
+Proof. exact: example_mss_fixed. Qed.
+
+(* no distributed controller that shares outputs alone stabilizes it, be time continuous or discrete *)
+Theorem example_not_stabilized l (D : controllers R p3 (fun=> \sum_(i < 3) q3 i)%N l) :
+  eigenvalue (map_mx f (dynamic_loop (augmented_outputs N3 (plant [fieldType of R])) D)) 1.
+Proof. by rewrite -(rmorph1 f) eigenvalue_map; exact: example_dynamic. Qed.
+
+(* IV-C and IV-D.  Shared sub-states of dimensions k i. *)
+Section Extended.
+Variable k : 'I_m -> nat.
+
+(* after (25) *)
+Theorem extended_jointly : jointly_controllable (extended N k S) /\ jointly_observable (extended N k S).
+Proof. by split; [exact: extended_jointly_controllable | exact: extended_jointly_observable]. Qed.
+
+(* (26) and (27) *)
+Definition bound_26 := forall i s (lambda : C), s != set0 -> s != setT -> eigenvalue (map_mx f A) lambda ->
+  (n - \rank (neighbor_pencil N (map_system f S) s lambda) <= k i)%N.
+Definition bound_27 := forall i s (lambda : C), s != set0 -> s != setT -> eigenvalue (map_mx f A) lambda ->
+  (n - \rank (pencil (map_system f S) s lambda) <= k i)%N.
+
+Theorem theorem_2 : strongly_connected_neighbors -> bound_26 -> no_fixed_mode (extended N k S).
+Proof. by move=> connected h; exact: extended_bound.theorem_2. Qed.
+
+(* Remark 2 *)
+Remark remark_2_observable : jointly_observable (extended_states N k S).
+Proof. exact: extended_states_jointly_observable. Qed.
+Remark remark_2 : strongly_connected_neighbors -> bound_27 -> no_fixed_mode (extended_states N k S).
+Proof. by move=> connected h; exact: extended_bound.remark_2. Qed.
+Remark remark_2_demands_more : bound_27 -> bound_26.
+Proof. by move=> h i s lambda s0 sT el; apply: leq_trans (deficiency_le f itself S s lambda) (h i s lambda s0 sT el). Qed.
+
+(* (28) to (30), where the sum of (30) goes over N_s: a neighbor of several members of s counts once *)
+Theorem equations_28_to_30 s (lambda : C) : \rank (pencil (extended N k (map_system f S)) s lambda) =
+  (\rank (neighbor_pencil N (map_system f S) s lambda) + \sum_i k i + \sum_(i in neighborhood N s :\: s) k i)%N.
+Proof. exact: rank_extended. Qed.
+
+(* strong connectivity by subsets *)
+Theorem connected_by_subsets : strongly_connected_neighbors <->
+  (forall s, s != set0 -> s != setT -> neighborhood N s :\: s != set0).
+Proof. exact: neighborhood_strongly_connected. Qed.
+
+(* which dimensions suffice, and are necessary, over any graph *)
+Theorem suitable_dimensions : no_fixed_mode (extended N k S) <->
+  forall s (lambda : C), eigenvalue (map_mx f A) lambda ->
+    (n - \rank (neighbor_pencil N (map_system f S) s lambda) <= \sum_(i in neighborhood N s :\: s) k i)%N.
+Proof. exact: extended_no_fixed. Qed.
+
+(* IV-E *)
+Proposition proposition_3 (positive : forall i, (0 < k i)%N) j i :
+  neighbor_arc N j i || transfer_arc S j i -> transfer_arc (extended N k S) j i.
+Proof. exact: extended_bound.proposition_3. Qed.
+
+Theorem extended_connected (added : forall i, (0 < k i)%N) :
+  strongly_connected_neighbors -> strongly_connected (transfer_arc (extended N k S)).
+Proof. exact: proposition_3_strongly_connected. Qed.
+
+Corollary corollary_1 (added : strongly_connected (transfer_arc (extended N k S))) :
+  strongly_connected_neighbors -> bound_26 -> freely_assignable (extended N k S).
+Proof. by move=> connected h; apply: (corollary_1.corollary_1 (f := f) infinitely_many). Qed.
+
+Corollary corollary_1_positive (added : forall i, (0 < k i)%N) :
+  strongly_connected_neighbors -> bound_26 -> freely_assignable (extended N k S).
+Proof. by move=> connected; apply: corollary_1 => //; exact: extended_connected. Qed.
+
+(* whatever the k i, every rate *)
+Corollary corollary_1_rate (a : R) : strongly_connected_neighbors -> bound_26 -> exists l (D : controllers R _ _ l),
+  forall lambda : C, eigenvalue (map_mx f (dynamic_loop (extended N k S) D)) lambda -> lambda = f a.
+Proof.
+move=> connected /(theorem_2 connected) nofix.
+have [l [D h]] := @wang_davison _ _ f _ _ _ _ (extended N k S) infinitely_many pred0 a
+  (fun x fx => False_ind _ (nofix x fx)).
+by exists l, D => lambda /h /= /eqP.
+Qed.
+
+(* (31) *)
+Theorem equation_31 (added : forall i, (0 < k i)%N) : strongly_connected_neighbors -> bound_26 ->
+  exists F, forall o : 'I_m,
+    joint_controllability.controllable (closed_loop (extended N k S) F) (mcB (extended N k S) o) /\
+    joint_controllability.controllable (closed_loop (extended N k S) F)^T (mcC (extended N k S) o)^T.
+Proof. by move=> connected h; apply: (corollary_1_gains (f := f) infinitely_many). Qed.
+
+(* the footnote: almost all do *)
+Theorem equation_31_almost_all (added : forall i, (0 < k i)%N) : strongly_connected_neighbors -> bound_26 ->
+  almost_all (fun F => forall o : 'I_m,
+    joint_controllability.controllable (closed_loop (extended N k S) F) (mcB (extended N k S) o) /\
+    joint_controllability.controllable (closed_loop (extended N k S) F)^T (mcC (extended N k S) o)^T).
+Proof.
+move=> connected h; apply: (corfmat_morse_almost_all (f := f) infinitely_many); first exact: extended_connected.
+exact: theorem_2.
+Qed.
+
+(* V.  Delays: d i j steps from agent j to agent i. *)
+Variable d : 'I_m -> 'I_m -> nat.
+Hypothesis own_at_once : forall i, d i i = 0%N.
+
+(* V-A, the system (34) *)
+Theorem lifted_graph (positive : forall i, (0 < k i)%N) j i :
+  neighbor_arc N j i || transfer_arc S j i -> transfer_arc (lifted N k d S) j i.
+Proof. exact: lifted_arcs. Qed.
+
+Theorem theorem_3 : strongly_connected_neighbors -> bound_26 ->
+  forall lambda : C, lambda != 0 -> ~ fixed_over f (lifted N k d S) lambda.
+Proof. by move=> connected h; exact: delays.theorem_3. Qed.
+
+Theorem lifted_rank s (lambda : C) : lambda != 0 -> \rank (pencil (lifted N k d (map_system f S)) s lambda) =
+  (\rank (neighbor_pencil N (map_system f S) s lambda) + \sum_i memory q N k d i
+   + \sum_(i in neighborhood N s :\: s) k i)%N.
+Proof. by move=> l0; exact: rank_lifted. Qed.
+
+(* all the spectrum but zeros that are fixed, through any channel *)
+Theorem lifted_assignment (added : forall i, (0 < k i)%N) (o : 'I_m) : strongly_connected_neighbors -> bound_26 ->
+  exists c (psi : {poly R}), [/\ (c + (size psi).-1)%N = (n + \sum_i memory q N k d i)%N, psi \is monic,
+    forall lambda : C, root (map_poly f psi) lambda -> lambda = 0 &
+    forall l (P : {poly R}), (c <= l.+1)%N -> P \is monic -> size P = (c + l).+1 ->
+      exists X : forall i, controller_at R (fun i => p i + k i)%N (fun=> \sum_i q i + (\sum_i q i + \sum_i k i))%N i,
+        [/\ projT1 (X o) = l, forall i, i != o -> projT1 (X i) = 0%N &
+            char_poly (dynamic_loop (lifted N k d S) (assembled X)) = P * psi]].
+Proof.
+move=> connected h.
+have sc := lifted_strongly_connected S itself added own_at_once connected.
+have [|c [psi [e mpsi roots all]]] := @connected_but _ _ f _ _ _ _ (lifted N k d S) infinitely_many (pred1 0) o sc.
+  by move=> lambda fx; apply/eqP; apply/eqP; apply: contraT => /(theorem_3 connected h)/(_ fx).
+by exists c, psi; split=> // lambda /roots /eqP.
+Qed.
+
+(* every rate: at rest after as many steps as there are states *)
+Corollary corollary_2 : strongly_connected_neighbors -> bound_26 -> exists l (D : controllers R _ _ l),
+  forall x t, (n + \sum_i memory q N k d i + \sum_i l i <= t)%N -> trajectory (dynamic_loop (lifted N k d S) D) x t = 0.
+Proof.
+move=> connected h; have zero (lambda : C) : fixed_over f (lifted N k d S) lambda -> pred1 0 lambda.
+  by move=> fx; rewrite /=; apply: contraT => /(theorem_3 connected h)/(_ fx).
+have [l [D e]] := wang_davison infinitely_many 0 zero; exists l, D.
+by apply: (only_0_at_rest (f := f)) => lambda /e /=; rewrite rmorph0 orbb => /eqP.
+Qed.
+
+(* V-B, the system (37) *)
+Theorem held_jointly : jointly_controllable (held N k d S) /\ jointly_observable (held N k d S).
+Proof.
+have full s lambda : s = set0 \/ s = setT -> \rank (pencil (map_system f (held N k d S)) s lambda) =
+    (n + \sum_i chain N k d i)%N.
+  rewrite pencil_map_held rank_held // => -[] ->.
+    by rewrite (footnote lambda).1 neighborhood0 set0D big_set0 addn0.
+  by rewrite (footnote lambda).2 setDT big_set0 addn0.
+split; apply/(controllable_modes f) => lambda; rewrite /uncontrollable_mode -leqNgt.
+  by rewrite -{1}(full set0 lambda (or_introl erefl)) rank_pencil0 map_inputs.
+rewrite -{1}(full setT lambda (or_intror erefl)) rank_pencilT -mxrank_tr tr_col_mx linearB /= tr_scalar_mx.
+by rewrite -!map_trmx map_outputs.
+Qed.
+
+Theorem theorem_4 : strongly_connected_neighbors -> bound_27 -> no_fixed_mode (held N k d S).
+Proof. by move=> connected h; exact: delays.theorem_4. Qed.
+
+Theorem held_rank s (lambda : C) : \rank (pencil (held N k d (map_system f S)) s lambda) =
+  (\rank (pencil (map_system f S) s lambda) + \sum_i chain N k d i + \sum_(i in neighborhood N s :\: s) k i)%N.
+Proof. exact: rank_held. Qed.
+
+Theorem held_graph (positive : forall i, (0 < k i)%N) : strongly_connected (transfer_arc (held N k d S)) <->
+  strongly_connected (fun j i => neighbor_arc N j i || transfer_arc S j i).
+Proof. exact: held_strongly_connected. Qed.
+
+Theorem held_assignment (added : forall i, (0 < k i)%N) : strongly_connected_neighbors -> bound_27 ->
+  freely_assignable (held N k d S).
+Proof. by move=> connected h; apply: (free_assignment_held (f := f) infinitely_many). Qed.
+End Extended.
+End Paper.
