@@ -252,7 +252,7 @@ Proof. by apply: transfer_graph_rule => // j i _; exists 0%N; rewrite // !ord1 r
 
 Lemma inst_transfer_graph_empty : arc (map_system up stuck) =2 (fun _ _ => false).
 Proof.
-apply: transfer_graph_rule => // j i _; exists setT, setT, (zero_stuck setT setT); by rewrite !inE.
+apply: transfer_graph_rule => // j i _; right; exists setT, setT, (zero_stuck setT setT); by rewrite !inE.
 Qed.
 
 Lemma inst_complete : complete (Q free).

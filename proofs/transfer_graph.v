@@ -130,6 +130,25 @@ by apply: IH pt e _; apply: contraLR jt => tT; apply: cut.
 Qed.
 
 (* Rule "cut": a zero transfer from a nonempty proper T to its complement. *)
+(* Rule "no path": states that hold the inputs of j, that A does not leave, and that C_i does not see. *)
+Record closed_states S (j i : 'I_m) (Z : {set 'I_n}) := ClosedStates {
+  cs_input : forall a u, mcB S j a u != 0 -> a \in Z;
+  cs_state : forall a b, b \in Z -> mcA S a b != 0 -> a \in Z;
+  cs_output : forall v b, b \in Z -> mcC S i v b = 0 }.
+
+Theorem closed_states_no_arc S j i Z : closed_states S j i Z -> ~~ arc S j i.
+Proof.
+case=> inp st out; rewrite negbK; apply/eqP/transfer0_markov => k.
+have held a u : krylov (mcA S) (mcB S j) k a u != 0 -> a \in Z.
+  elim: k a u => [|k IH] a u; first exact: inp.
+  apply: contraNT => aZ; rewrite krylovS mxE big1// => b _.
+  have [bZ|/negP bZ] := boolP (b \in Z); last by have [->|/IH//] := eqVneq (krylov (mcA S) (mcB S j) k b u) 0; rewrite mulr0.
+  by have [->|/(st _ _ bZ)] := eqVneq (mcA S a b) 0; rewrite ?mul0r// => /(negP aZ).
+apply/matrixP=> v u; rewrite !mxE big1// => b _.
+have [bZ|/negP bZ] := boolP (b \in Z); first by rewrite out ?mul0r.
+by have [->|/held//] := eqVneq (krylov (mcA S) (mcB S j) k b u) 0; rewrite mulr0.
+Qed.
+
 Theorem zero_transfer_cut S T (E : zero_transfer S T (~: T)) :
   T != set0 -> T != setT -> ~ strongly_connected S.
 Proof.
@@ -167,12 +186,13 @@ Qed.
 Theorem transfer_graph_rule (e : rel 'I_m) :
   (forall j i, e j i -> exists2 k, (k < n)%N &
      map_mx (@residue l) (mcC S i *m krylov (mcA S) (mcB S j) k) != 0) ->
-  (forall j i, ~~ e j i -> exists T T' (E : zero_transfer (map_system (into h) S) T T'),
-     j \in T /\ i \in T') ->
+  (forall j i, ~~ e j i -> (exists Z, closed_states (map_system (into h) S) j i Z) \/
+     exists T T' (E : zero_transfer (map_system (into h) S) T T'), j \in T /\ i \in T') ->
   arc (map_system (into h) S) =2 e.
 Proof.
-move=> yes no j i; have [/yes[k kn]|/no[T [T' [E [jT iT]]]]] := boolP (e j i).
-  exact: arc_rule.
+move=> yes no j i; have [/yes[k kn]|/no[[Z cs]|[T [T' [E [jT iT]]]]]] := boolP (e j i).
+- exact: arc_rule.
+- by apply/negbTE/(closed_states_no_arc cs).
 by apply/negbTE/(zero_transfer_no_arc E jT iT).
 Qed.
 End ArcRule.

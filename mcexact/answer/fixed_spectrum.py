@@ -19,8 +19,8 @@ class FixedFactor(Part):
     ----------
     polynomial : Polynomial
         p, monic and irreducible over Q.
-    multiplicity_in_A : int
-        The exponent of p in χ_A.
+    multiplicity_in_A : int or None
+        The exponent of p in χ_A; None for large sparse systems, whose χ_A is not computed.
     multiplicity_at_most : int
         A bound for the multiplicity of p as a fixed factor, which is the least exponent of p in
         χ_{A_F} over all constant gains: the multiplicity itself if the evidence is by blocks, else
@@ -37,7 +37,7 @@ class FixedFactor(Part):
     """
 
     polynomial: Polynomial
-    multiplicity_in_A: int
+    multiplicity_in_A: int | None
     multiplicity_at_most: int
     channels: tuple[str, ...]
     rank: int

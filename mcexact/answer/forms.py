@@ -46,10 +46,12 @@ def _agreeing(one: str, more: str) -> Write:
 _TIMES = {1: "once", 2: "twice", 3: "three times"}
 
 
-def _often(multiplicities: tuple[int, int]) -> str:
+def _often(multiplicities: tuple[int | None, int]) -> str:
     """Write the multiplicity of a mode in A, and how many of its eigenvalues are fixed at most."""
     times, stuck = multiplicities
-    often = f"{_TIMES.get(times, f'{times} times')} in A"
+    often = "at least once in A"
+    if times is not None:
+        often = f"{_TIMES.get(times, f'{times} times')} in A"
     if stuck == times:
         return often
     return often + (", of which one stays" if stuck == 1 else f", of which at most {stuck} stay")
@@ -164,6 +166,7 @@ def _capital(text: str) -> str:
 
 FORMS: dict[str, Write] = {
     "int": str,
+    "int or open": lambda value: "open" if value is None else str(value),
     "name": name_text,
     "number": number,
     "decimal": decimal_number,

@@ -47,12 +47,6 @@ class Matrix:
         spend(budget.table(size, n))
         return Matrix([[int(j == start + i) for j in range(n)] for i in range(size)], n)
 
-    @staticmethod
-    def picking(places: Sequence[int], ncols: int) -> Matrix:
-        """The rows of the identity for these places."""
-        spend(budget.table(len(places), ncols))
-        return Matrix([[int(j == place) for j in range(ncols)] for place in places], ncols)
-
     @cached_property
     def nrows(self) -> int:
         """The number of rows."""

@@ -29,20 +29,24 @@ def check(claim: Json, witness: Json, system: System) -> None:
     proof, spaces, completion = _proof(witness, system)
     reading.items(spaces, "witness.subspaces", len(reading.items(entries, "claim.factors")))
     n, product = system.n, [1]
-    psi = characteristic_polynomial(system.A) if entries else []
+    psi: Polynomial = []
     found: list[tuple[Polynomial, int, bool, list[root_discs.Disc]]] = []
     for k, entry in enumerate(entries):
         place, space = f"claim.factors[{k}]", f"witness.subspaces[{k}]"
-        listed, names, flag, roots, *counts = fields(entry, place, *FACTOR)
+        listed, names, flag, roots, times, *counts = fields(entry, place, *FACTOR)
         p = reading.polynomial(listed, f"{place}.polynomial", 1)
         s = reading.names(names, f"{place}.channels", system.names)
-        in_A, at_most, r = map(reading.integer, counts, [place] * 3, (1, 1, 0))
+        at_most, r = map(reading.integer, counts, [place] * 2, (1, 0))
         T = subspaces.shrunk_subspace(spaces[k], space, system, p, n - r)
         require(s == evidence.complement(system, T), "claim", place, "T is not the complement of s")
         evidence.require_coprime(product, p, proof.ell, "two factors")
-        (a, psi), product = arithmetic.exponent(p, psi), arithmetic.poly_product(product, p)
+        product = arithmetic.poly_product(product, p)
+        if times is not None or isinstance(proof, TwoPolynomials):
+            a, psi = arithmetic.exponent(p, psi or characteristic_polynomial(system.A))
+            same = reading.integer(times, place, 1) == a
+            require(same, "claim", place, f"the multiplicity in A is {a}")
         e = proof.multiplicity(p, n - r)
-        require((in_A, at_most) == (a, e), "claim", place, f"the multiplicities are {a}, {e}")
+        require(at_most == e, "claim", place, f"the multiplicity is at most {e}")
         stable = location.in_stability_region(p, system.time)
         require(reading.boolean(flag, place) == stable, "claim", f"{place}.stable", "not implied")
         discs = root_discs.root_discs(roots, f"{place}.roots", p)
@@ -93,9 +97,10 @@ def statement(claim: Json, system: System) -> str:
 def _factor_text(factor: Json, system: System) -> str:
     """The proved properties of one factor."""
     p, region = polynomial_text(factor["polynomial"]), REGION[system.time]
+    times = factor["multiplicity_in_A"]
+    exponent = "some exponent" if times is None else f"the exponent {times}"
     return (
-        f"{p} is {denied(factor['stable'])}{region}, has the exponent "
-        f"{factor['multiplicity_in_A']} in det(xI - A) and at most "
+        f"{p} is {denied(factor['stable'])}{region}, has {exponent} in det(xI - A) and at most "
         f"{factor['multiplicity_at_most']} in the greatest common divisor of det(xI - A_F) over "
         f"all constant gains F, and one root in each of the discs "
         f"{root_discs.disc_set(factor['roots'])}, where the least rank of {PENCIL} over all sets "

@@ -161,7 +161,9 @@ def moved(spectrum: Premise, split: Premise) -> tuple[int, int]:
     for factor in spectrum["factors"]:
         degree, times = len(factor["polynomial"]) - 1, factor["multiplicity_in_A"]
         if degree == 1:
-            times = min(times, factor["multiplicity_at_most"])
+            at_most = factor["multiplicity_at_most"]
+            times = at_most if times is None else min(times, at_most)
+        spectrum.expect(times is not None, "a multiplicity in A is left open")
         sizes.append(degree * times)
     return n - sum(sizes), n - max(len(spectrum["polynomial"]) - 1, split["fixed_degree"])
 

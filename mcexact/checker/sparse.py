@@ -46,6 +46,22 @@ class SparseMatrix(Matrix):
         turned = sorted((j, i, entry) for i, j, entry in self.entries)
         return SparseMatrix(self.ncols, self.nrows, turned, self.denominator)
 
+    def __matmul__(self, other: Matrix) -> Matrix:
+        if self.ncols != other.nrows:
+            raise ValueError(f"no product of {self.ncols} columns and {other.nrows} rows")
+        a, b, width = self.limbs, other.limbs, other.ncols
+        spend(budget.table(self.nrows, width, a + b + 1) + 100 * len(self.entries))
+        spend(budget.products(len(self.entries) * width, a, b))
+        rows = [[0] * width for _ in range(self.nrows)]
+        for i, k, x in self.entries:
+            rows[i] = [
+                total + x * entry for total, entry in zip(rows[i], other.rows[k], strict=True)
+            ]
+        return Matrix(rows, width, self.denominator * other.denominator)
+
+    def __rmatmul__(self, other: Matrix) -> Matrix:
+        return (self.T @ other.T).T
+
     def is_zero(self) -> bool:
         """Whether there is no entry."""
         return not self.entries

@@ -3,7 +3,10 @@
 from .arithmetic import Rows, product
 from .budget import counted, spend
 from .evidence import modulus
+from .markov import unseen
 from .neighbor_graph import components
+from .packed_rows import SMALL
+from .paths import without_path
 from .reading import Json, boolean, fields, integer, items, malformed, names, require
 from .statement import channel_set, denied, edge_set
 from .subspaces import zero_transfer
@@ -11,7 +14,7 @@ from .system import System
 
 
 def check(claim: Json, witness: Json, system: System) -> None:
-    """Check a power for each edge, a zero transfer for each other pair, and the components.
+    """Check a power for each edge, no path or a zero transfer for other pairs, and the components.
 
     Theorems ``transfer_graph.transfer_graph_rule``, ``transfer_graph.zero_transfer_no_arc``.
     """
@@ -30,6 +33,8 @@ def check(claim: Json, witness: Json, system: System) -> None:
         unseen = [i for i, C in enumerate(system.C) if (C @ X).is_zero()]
         spend(10 * len(sources) * len(unseen))
         missing -= {(j, i) for j in sources for i in unseen}
+    if missing:
+        missing -= without_path(system, missing)
     pair = [(system.names[j], system.names[i]) for j, i in sorted(missing)][:1]
     require(not missing, "arc", "witness.zeros", f"nothing proves that {pair!a} is not an edge")
     claimed = [names(p, "claim.components", system.names) for p in items(parts, "claim.components")]
@@ -66,11 +71,16 @@ def require_arcs(system: System, triples: list[tuple[int, int, int]], ell: int) 
 
     Theorem ``transfer_graph.arc_rule``.
     """
-    A, C = system.A.modulo(ell), [M.modulo(ell) for M in system.C]
     wanted: dict[int, dict[int, list[int]]] = {}
     for j, i, k in triples:
         require(k < system.n, "arc", "witness", f"the power {k} is not below {system.n}")
         wanted.setdefault(j, {}).setdefault(k, []).append(i)
+    if ell <= SMALL:
+        j, i, k = unseen(system, triples, ell) or (0, 0, -1)
+        message = f"C A^{k} B is 0 modulo l from channel number {j + 1} to {i + 1}"
+        require(k < 0, "arc", "witness", message)
+        return
+    A, C = system.A.modulo(ell), [M.modulo(ell) for M in system.C]
     for j, targets in counted(list(wanted.items())):
         width = system.B[j].ncols
         power: Rows = system.B[j].modulo(ell)

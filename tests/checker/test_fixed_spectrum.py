@@ -217,6 +217,7 @@ REJECTED = [
     ("the product 1", ("claim.polynomial", [1]), "INVALID"),
     ("a repeated root", (f"{FACTOR}.polynomial", [1, -2, 1]), "INVALID"),
     # multiplicities
+    ("nothing said of A", (f"{FACTOR}.multiplicity_in_A", None), "MALFORMED"),
     ("a multiplicity in A too low", (f"{FACTOR}.multiplicity_in_A", 2), "INVALID"),
     ("a multiplicity in A too high", (f"{FACTOR}.multiplicity_in_A", 4), "INVALID"),
     ("a multiplicity of 0", (f"{FACTOR}.multiplicity_at_most", 0), "MALFORMED"),

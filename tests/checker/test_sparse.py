@@ -48,7 +48,8 @@ def test_both_forms_are_the_same_matrix(seed: int) -> None:
         assert same(S.take(*chosen), M.take(*chosen))
         assert isinstance(S.take(*chosen), SparseMatrix)
     other, plain = drawn(rng, c, 3)
-    assert same(S @ other, M @ plain)
+    for left, right in ((S, other), (S, plain), (M, other)):
+        assert same(left @ right, M @ plain)
     assert same(S + S, M + M)
     assert (S - M).is_zero()
     assert same(S.times(Fraction(-2, 3)), M.times(Fraction(-2, 3)))
@@ -60,6 +61,26 @@ def test_the_longest_of_the_entries_and_the_denominator_counts() -> None:
     assert SparseMatrix(1, 3, [(0, 0, 1), (0, 2, -(2**60))]).limbs == 3
     assert SparseMatrix(1, 3, [(0, 0, 1)], 2**60).limbs == 3
     assert SparseMatrix(1, 3, []).limbs == 1
+
+
+def test_matrices_that_do_not_fit_have_no_product() -> None:
+    S = SparseMatrix(1, 2, [])
+    for left, right in ((S, S), (S, Matrix([[1]], 1)), (Matrix([[1, 1]], 2), S)):
+        with pytest.raises(ValueError, match="no product of"):
+            _ = left @ right
+
+
+def test_products_are_charged_before_they_are_made() -> None:
+    full = SparseMatrix(1, 3000, [(0, j, 2**90) for j in range(3000)])
+    column = Matrix([[2**90]] * 3000, 1)
+    wide = Matrix([[1] * 1000], 1000)
+    for left, right, least in (
+        (full, column, 300_000),
+        (SparseMatrix(1000, 1, []), wide, 40_000_000),
+        (SparseMatrix(1000, 1, [(i, 0, 1) for i in range(1000)]), wide, 40_000_000),
+    ):
+        with limited(Budget(least)), pytest.raises(Refused, match="units of work"):
+            _ = left @ right
 
 
 def test_rows_are_charged_before_they_are_made() -> None:

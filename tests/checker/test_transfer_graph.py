@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+import itertools
+import math
+import random
+
 import pytest
 
+from mcexact.checker.arithmetic import Matrix, product
+from mcexact.checker.markov import unseen
 from mcexact.checker.reading import Refused
-from mcexact.checker.system import read_plant
+from mcexact.checker.system import System, read_plant
 from mcexact.checker.transfer_graph import read_arcs, require_arcs, require_connected
 from tests.checker.handmade import GRAPH, certificate, changed, checked, matrix, plant
-from tests.checker.tables import accepts
+from tests.checker.tables import accepts, rejects
 
 WHOLE = {"from": ["1", "2"], "X": matrix([1, 0], [0, 1]), "pivots": [0, 1]}
 ZEROS = GRAPH["witness"]["zeros"]
@@ -30,7 +36,41 @@ GROWING = certificate(
 )
 """C A^k B = 2^k for every k."""
 
+CANCELS = certificate(
+    "transfer_graph",
+    plant([[0, 0], [0, 0]], ([[1], [-1]], [[1, 1]])),
+    {"arcs": [], "components": [["1"]], "strongly_connected": True},
+    {
+        "modulus": 7,
+        "powers": [],
+        "zeros": [{"from": ["1"], "X": matrix([1], [-1]), "pivots": [0]}],
+    },
+)
+"""The output is the sum of two states that the input drives in opposite directions."""
+ROUND = certificate(
+    "transfer_graph",
+    plant(
+        [[0, 0, 0], [0, 0, 1], [1, 0, 0]],
+        ([[1], [0], [0]], [[0, 1, 0]]),
+        ([[0], [0], [0]], [[0, 0, 1]]),
+        ([[0], [2], [0]], [[1, 0, 0], [0, 0, 0]]),
+    ),
+    {
+        "arcs": [["1", "1"], ["1", "2"], ["1", "3"], ["3", "1"]],
+        "components": [["1", "3"], ["2"]],
+        "strongly_connected": False,
+    },
+    {"modulus": 7, "powers": [2, 1, 0, 0], "zeros": []},
+)
+"""x_1 drives x_3, which drives x_2; no path leads to the other outputs."""
+
 ACCEPTED = [
+    ("terms that cancel on a path", CANCELS),
+    ("paths against the order of the states", ROUND),
+    ("the same modulo a prime of many bits", changed(ROUND, ("witness.modulus", 2**31 - 1))),
+    ("the same modulo 64", changed(ROUND, ("witness.modulus", 64))),
+    ("the same modulo 65", changed(ROUND, ("witness.modulus", 65))),
+    ("no path, and no zero transfer", changed(GRAPH, ("witness.zeros", []))),
     ("one state", GROWING),
     ("a chain of two channels", GRAPH),
     ("a channel whose outputs see nothing", DEAD),
@@ -50,12 +90,9 @@ REJECTED = [
     ("a power of n", ("witness.powers.1", 2)),
     ("a negative power", ("witness.powers.1", -1)),
     ("a power missing", ("witness.powers", [0, 1])),
-    ("no zero transfer", ("witness.zeros", [])),
     ("a zero transfer from the wrong channel", ("witness.zeros.0.from", ["1"])),
-    ("a zero transfer from nobody", ("witness.zeros.0.from", [])),
     ("X empty", ("witness.zeros.0.X", matrix([], [])), ("witness.zeros.0.pivots", [])),
     ("X not invariant", ("witness.zeros.0.X", matrix([1], [0])), ("witness.zeros.0.pivots", [0])),
-    ("X that C sees", ("witness.zeros.0", WHOLE)),
     ("components merged", ("claim.components", [["1", "2"]])),
     ("components in another order", ("claim.components", [["2"], ["1"]])),
     ("a component left out", ("claim.components", [["1"]])),
@@ -64,6 +101,53 @@ REJECTED = [
     ("a transfer that vanishes modulo ℓ", ("system.A.1.0", 7)),
     ("a plant with a transfer back", ("system.A.0.1", 1)),
 ]  # fmt: skip
+
+
+PATHS = [
+    ("a path, and no zero transfer", CANCELS, ("witness.zeros", [])),
+    ("a path, and X that C sees", CANCELS, ("witness.zeros.0.X", matrix([1], [1]))),
+    ("a path, and a zero transfer from nobody", CANCELS, ("witness.zeros.0.from", [])),
+    (
+        "an arc left out at the end of a path",
+        ROUND,
+        (("claim.arcs.1", ["1", "3"]), ("claim.arcs.2", ["3", "1"]), ("claim.arcs.3", ["3", "3"])),
+    ),
+    ("a power too low on a path", ROUND, ("witness.powers.0", 1)),
+    ("a power too high on a path", ROUND, ("witness.powers.3", 1)),
+    ("another output", ROUND, ("system.channels.1.C", [[1, 0, 0]])),
+    ("another input", ROUND, ("system.channels.1.B", [[1], [0], [0]])),
+    ("another path", ROUND, ("system.A.0.1", 1)),
+    ("ℓ divides the input", ROUND, ("witness.modulus", 2)),
+    ("ℓ divides a denominator", changed(ROUND, ("system.A.1.2", "1/3")), ("witness.modulus", 3)),
+]
+test_what_a_path_connects_needs_a_power_or_a_zero_transfer = rejects(PATHS)
+
+
+@pytest.mark.parametrize("ell", [2, 3, 7, 31, 61, 64])
+def test_powers_of_all_channels_at_once_are_those_of_each(ell: int) -> None:
+    rng, shown = random.Random(ell), set()
+    for _ in range(12):
+        n, widths = rng.randint(1, 8), [rng.randint(0, 3) for _ in range(3)]
+
+        def drawn(nrows: int, ncols: int) -> Matrix:
+            rows = [
+                [rng.choice((0, rng.randint(-99, 99))) for _ in range(ncols)] for _ in range(nrows)
+            ]
+            return Matrix(
+                rows, ncols, rng.choice([d for d in (1, 5, 7, 11) if math.gcd(d, ell) == 1])
+            )
+
+        B, C = [drawn(n, p) for p in widths], [drawn(rng.randint(0, 2), n) for _ in widths]
+        system = System("continuous", ["a", "b", "c"], drawn(n, n), B, C)
+        A = system.A.modulo(ell)
+        for j, i, k in itertools.product(range(3), range(3), range(n)):
+            power = B[j].modulo(ell)
+            for _ in range(k):
+                power = product(A, power, widths[j], ell)
+            nonzero = any(map(any, product(C[i].modulo(ell), power, widths[j], ell)))
+            assert unseen(system, [(j, i, k)], ell) == (None if nonzero else (j, i, k))
+            shown.add(nonzero)
+    assert shown == {True, False}
 
 
 @pytest.mark.parametrize("power", [1, 2, 10**9])

@@ -8,7 +8,11 @@ This folder answers no question by itself.  The other folders of `analysis` impo
 `state_blocks`            the same for blocks of states, which share no gain
 `reached_blocks`          the same for what channels control, whatever they measure
 `shrunk_subspace`         proofs that a mode is fixed, by Wong sequences modulo a prime
+`sparse_loops`            drawn closed loops of sparse systems modulo primes
+`sparse_annihilator`      what channels of large sparse systems do not control
+`sparse_subspaces`        the same for large sparse systems, by products with sparse matrices
 `reachability`            the transfer graph modulo a prime, and zero transfers
+`sparse_reachability`     the transfer graph of large sparse systems
 `rate`                    root discs, and the best rate that some modes allow
 `covering`                covering integer programs, with a branch tree as proof
 `lyapunov`                Lyapunov matrices, refined and verified exactly
@@ -37,7 +41,11 @@ from mcexact.analysis.engine.reachability import (
     witnessed_powers,
     zero_transfer,
 )
-from mcexact.analysis.engine.reached_blocks import measured_blocks, transposed_blocks
+from mcexact.analysis.engine.reached_blocks import (
+    measured_blocks,
+    measured_system,
+    transposed_blocks,
+)
 from mcexact.analysis.engine.separated_instability import separated_instability
 from mcexact.analysis.engine.shrunk_subspace import (
     ExactSubspace,
@@ -45,6 +53,15 @@ from mcexact.analysis.engine.shrunk_subspace import (
     exact_subspace,
     obstruction_modulo,
 )
+from mcexact.analysis.engine.sparse_annihilator import annihilator
+from mcexact.analysis.engine.sparse_reachability import (
+    edge_modulus,
+    is_connected,
+    is_large_and_sparse,
+    reachable_pairs,
+    sparse_powers,
+)
+from mcexact.analysis.engine.sparse_subspaces import fixed_subspaces
 from mcexact.analysis.engine.state_blocks import (
     StateBlock,
     bounded_blocks,
@@ -67,21 +84,29 @@ __all__ = [
     "QuadraticForm",
     "StateBlock",
     "Tree",
+    "annihilator",
     "best_sequences",
     "bounded_blocks",
     "branch_tree",
     "completed_blocks",
     "decide",
+    "edge_modulus",
     "evidence",
     "exact_subspace",
+    "fixed_subspaces",
     "free_blocks",
+    "is_connected",
+    "is_large_and_sparse",
     "located",
     "measured_blocks",
+    "measured_system",
     "minimize",
     "modes_left",
     "obstruction_modulo",
     "quadratic_form",
+    "reachable_pairs",
     "separated_instability",
+    "sparse_powers",
     "state_blocks",
     "strong_components",
     "suspected_edges",

@@ -18,24 +18,16 @@ Measured = tuple[tuple[int, ...], ...]
 """The states that each channel measures."""
 
 
-def measured_blocks(
+def measured_system(
     system: MultiChannelSystem, T: Sequence[int]
-) -> tuple[tuple[Block, ...], Measured]:
-    """Blocks of the system of some channels that measure states.
+) -> tuple[MultiChannelSystem, Measured]:
+    """The system of some channels, at least one, that measure states; and these states.
 
-    Parameters
-    ----------
-    system : MultiChannelSystem
-    T : sequence of int
-        Channels.
-
-    Returns
-    -------
-    blocks : tuple of Block
-        If the longest sequence is found, they leave n − d modes, d = dim ⟨A | B_T⟩, since the
-        first channel with inputs measures all states, and every other channel states that its own
-        inputs and those of the channel before it drive.  So what T reaches is one block.
-    measured : tuple of tuple of int
+    Notes
+    -----
+    The first channel with inputs measures all states, and every other channel states that its own
+    inputs and those of the channel before it drive.  So what T reaches is one block, and generic
+    gains move all that T controls, observed and controlled through that first channel.
     """
     driven = [_driven(system.B(i)) for i in T]
     live = [k for k, states in enumerate(driven) if states]
@@ -45,8 +37,6 @@ def measured_blocks(
     if live:
         chosen[live[0]] = set(range(system.n))
     measured = tuple(tuple(sorted(states)) for states in chosen)
-    if not T:
-        return (Block(tuple(range(system.n)), None),), measured
     part = MultiChannelSystem(
         system.A,
         [system.B(i) for i in T],
@@ -54,22 +44,25 @@ def measured_blocks(
         time=system.time,
         names=system.named(T),
     )
-    return bounded_blocks(part, part.names[live[0] if live else 0]), measured
+    return part, measured
+
+
+def measured_blocks(part: MultiChannelSystem) -> tuple[Block, ...]:
+    """Blocks of a system of `measured_system`, which leave n − d modes if enough is found."""
+    names = [c.name for c in part.channels if not c.B.is_zero()]
+    return bounded_blocks(part, (names or part.names)[0])
 
 
 def _driven(B: Matrix) -> list[int]:
     """For each input the first state that it drives."""
     found: dict[int, int] = {}
-    for a, row in enumerate(B.numerators):
-        for j, entry in enumerate(row):
-            if entry:
-                found.setdefault(j, a)
+    for a, j, _ in B.nonzero():
+        found.setdefault(j, a)
     return sorted(set(found.values()))
 
 
 def _picking(states: Sequence[int], n: int) -> Matrix:
-    rows = [[int(a == state) for a in range(n)] for state in states]
-    return Matrix.from_integers(rows, ncols=n)
+    return Matrix.from_entries((len(states), n), [(k, a, 1) for k, a in enumerate(states)])
 
 
 def transposed_blocks(blocks: Sequence[Block]) -> tuple[Block, ...]:

@@ -5,7 +5,17 @@ from __future__ import annotations
 import random
 from collections.abc import Iterator
 
-from mcexact.analysis.engine import Edge, decide, suspected_edges, witnessed_powers, zero_transfer
+from mcexact.analysis.engine import (
+    Edge,
+    decide,
+    edge_modulus,
+    is_connected,
+    is_large_and_sparse,
+    sparse_powers,
+    suspected_edges,
+    witnessed_powers,
+    zero_transfer,
+)
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.answer.completeness import (
     BlocksWitness,
@@ -67,6 +77,10 @@ def completeness(
 def _evidence(system: MultiChannelSystem, spectrum: FixedSpectrum, rng: random.Random) -> Evidence:
     if not spectrum.empty:
         return FixedModeWitness(spectrum.factors[0].polynomial, spectrum.evidence.subspaces[0])
+    if isinstance(spectrum.evidence, ByBlocks) and is_large_and_sparse(system):
+        connected = _connected_by_structure(system, spectrum.evidence)
+        if connected is not None:
+            return connected
     # Some edges vanish by accident, perhaps modulo one prime for all draws.
     for modular, proof in _freedom(system, spectrum, rng):
         suspected = suspected_edges(modular, rng)
@@ -78,6 +92,20 @@ def _evidence(system: MultiChannelSystem, spectrum: FixedSpectrum, rng: random.R
         if (system.output_matrix(rest) @ found.X).is_zero():
             return CutWitness(zero_transfer(system, closed, found))
     raise InternalError("the stream of primes is endless")
+
+
+def _connected_by_structure(system: MultiChannelSystem, proof: ByBlocks) -> Evidence | None:
+    """Edges of the least powers that connect all channels of a large sparse system, if any do."""
+    ell = edge_modulus(system)
+    if ell is None:
+        return None
+    powers, names = sparse_powers(system, ell, is_connected), system.names
+    if not is_connected(powers >= 0):
+        return None
+    edges = {(int(j), int(i)) for j, i in zip(*(powers >= 0).nonzero(), strict=True)}
+    chosen = sorted(_connecting_edges(system.m, edges))
+    arcs = tuple((names[j], names[i], int(powers[j, i])) for j, i in chosen)
+    return BlocksWitness(proof.blocks, ell, arcs)
 
 
 def _connected(modular: ModularSystem, proof: Freedom, chosen: set[Edge]) -> Evidence:

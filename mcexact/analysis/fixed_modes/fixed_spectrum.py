@@ -13,6 +13,7 @@ from mcexact.analysis.engine import (
     completed_blocks,
     decide,
     evidence,
+    fixed_subspaces,
     located,
     modes_left,
 )
@@ -25,10 +26,15 @@ from mcexact.answer.fixed_spectrum import (
     TwoPolynomials,
 )
 from mcexact.derived.modular_system import closed_loop, generator, lifted, lifted_gains
+from mcexact.errors import LimitReached
 from mcexact.exact.location import StabilityRegion, Time
 from mcexact.exact.modular import polynomial_residues, random_matrix
 from mcexact.exact.polynomial import Polynomial, product
+from mcexact.exact.sparse_krylov import stays_sparse
 from mcexact.model.system import MultiChannelSystem
+
+# Up to this size dense matrices are searched, which finds Jordan chains as well.
+_DENSE = 500
 
 
 def fixed_spectrum(system: MultiChannelSystem) -> FixedSpectrum:
@@ -41,9 +47,11 @@ def fixed_spectrum(system: MultiChannelSystem) -> FixedSpectrum:
 
     Notes
     -----
-    Exact; no subset of channels is enumerated.  The certificate splits the states into blocks
-    that share no gain.  For each it has one Krylov sequence of drawn gains and one channel, modulo
-    a small prime, which bounds how much is fixed; for each fixed factor it has a shrunk subspace.
+    Exact; no subset of channels is enumerated.  In large sparse systems the factors are found by
+    products with sparse matrices, and how often they occur in χ_A is left open.  The certificate
+    splits the states into blocks that share no gain.  For each it has one Krylov sequence of drawn
+    gains and one channel, modulo a small prime, which bounds how much is fixed; for each fixed
+    factor it has a shrunk subspace.
     Where the blocks leave more than the factors, because a mode is fixed by Jordan chains, the
     certificate has gains F and a modulus ℓ such that χ_{A_F} is coprime modulo ℓ to χ_A without
     its fixed factors.  Without fixed modes it takes O(n³), by products in floating point that are
@@ -64,6 +72,10 @@ def fixed_spectrum(system: MultiChannelSystem) -> FixedSpectrum:
     blocks = bounded_blocks(system)
     if not modes_left(blocks):
         return _found(system, (), None, ByBlocks(blocks, None, ()))
+    if _is_large_and_sparse(system):
+        found = _by_sparse_search(system, blocks)
+        if found is not None:
+            return found
     rng = generator(system, "fixed_spectrum")
     decision = decide(system, rng)
     region = StabilityRegion(cast(Time, system.time))
@@ -83,6 +95,43 @@ def fixed_spectrum(system: MultiChannelSystem) -> FixedSpectrum:
         completion=_completion(decision, rng) if factors else None,
     )
     return _found(system, factors, rate, moved)
+
+
+def _is_large_and_sparse(system: MultiChannelSystem) -> bool:
+    channels = system.channels
+    return system.n > _DENSE and stays_sparse(
+        system.A, [c.B for c in channels], [c.C for c in channels]
+    )
+
+
+def _by_sparse_search(
+    system: MultiChannelSystem, blocks: tuple[Block, ...]
+) -> FixedSpectrum | None:
+    """The fixed spectrum by products with sparse matrices, without χ_A; None if it is not found."""
+    try:
+        found = fixed_subspaces(system)
+    except LimitReached:
+        return None
+    ell = _separating(product(p for p, _ in found), MODULI[-1])
+    fixed = sum(p.degree * space.deficiency for p, space in found)
+    if modes_left(blocks) != fixed or ell is None:
+        return None
+    region = StabilityRegion(cast(Time, system.time))
+    discs, rate = located(system.time, [p for p, _ in found])
+    factors = tuple(
+        FixedFactor(
+            polynomial=p,
+            multiplicity_in_A=None,
+            multiplicity_at_most=space.deficiency,
+            channels=system.named(i for i in range(system.m) if i not in set(space.channels_T)),
+            rank=system.n - space.deficiency,
+            stable=region.contains_roots_of(p),
+            roots=roots,
+        )
+        for (p, space), roots in zip(found, discs, strict=True)
+    )
+    spaces = tuple(evidence(system, space) for _, space in found)
+    return _found(system, factors, rate, ByBlocks(blocks, ell, spaces))
 
 
 def _found(

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Callable, Iterable, Sequence
 
 from mcexact.analysis.engine import (
+    annihilator,
     free_blocks,
     measured_blocks,
+    measured_system,
     modes_left,
     transposed_blocks,
 )
@@ -77,15 +78,39 @@ def _decided(
         blocks = own()
         if not modes_left(blocks):
             return _all_reached(system, T, ByBlocks(blocks, None, Matrix.zeros(0, system.n), ()))
-    blocks, measured = measured_blocks(system, T)
-    if not modes_left(blocks):
+    measuring = _by_measuring(system, T)
+    return _by_rank(system, T) if measuring is None else measuring
+
+
+def _by_measuring(system: MultiChannelSystem, T: Sequence[int]) -> JointControllability | None:
+    """Decide it by blocks of T that measures states; None if their sequences are too short."""
+    if not T:
+        return None
+    part, measured = measured_system(system, T)
+    blocks = measured_blocks(part)
+    left = modes_left(blocks)
+    if not left:
         evidence = ByBlocks(blocks, measured, Matrix.zeros(0, system.n), ())
         return _all_reached(system, T, evidence)
-    found = _by_rank(system, T)
-    if modes_left(blocks) > system.n - found.dimension:
-        return found
-    W, pivots = found.evidence.annihilator, found.evidence.pivots
-    return dataclasses.replace(found, evidence=ByBlocks(blocks, measured, W, pivots))
+    found = annihilator(part, left) if system.A.is_sparse else _annihilator(system, T)
+    if found is None or len(found[1]) < left:
+        return None
+    W, pivots = found
+    return JointControllability(
+        system,
+        channels=system.named(T),
+        dimension=system.n - left,
+        controllable=False,
+        uncontrollable_polynomial=characteristic_polynomial((W @ system.A).take(cols=pivots)),
+        evidence=ByBlocks(blocks, measured, W, pivots),
+    )
+
+
+def _annihilator(system: MultiChannelSystem, T: Sequence[int]) -> tuple[Matrix, tuple[int, ...]]:
+    found = controllable_subspace(
+        system.A, system.input_matrix(T), generator(system, "controllability")
+    )
+    return found.annihilator(), found.free
 
 
 def _own(system: MultiChannelSystem, spectrum: FixedSpectrum | None) -> tuple[Block, ...]:

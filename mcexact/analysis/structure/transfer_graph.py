@@ -6,6 +6,10 @@ import random
 
 from mcexact.analysis.engine import (
     Edge,
+    edge_modulus,
+    is_large_and_sparse,
+    reachable_pairs,
+    sparse_powers,
     strong_components,
     suspected_edges,
     witnessed_powers,
@@ -27,10 +31,11 @@ def transfer_graph(system: MultiChannelSystem) -> TransferGraph:
 
     Notes
     -----
-    Exact.  For an edge the certificate has a k < n with C_i A^k B_j ≠ 0 modulo a prime.  For the
-    other pairs it has invariant subspaces that contain im B_j and lie in ker C_i, one for all j
-    that reach the same channels.  One value of the transfer matrix modulo the prime determines the
-    edges to be proved.  O(n³) word operations, and O(n² p) for each power looked at.
+    Exact.  For an edge the certificate has a k < n with C_i A^k B_j ≠ 0 modulo a prime.  Pairs that
+    no path connects in the structure of the matrices are no edges.  For all others, and for small
+    systems for all pairs, it has invariant subspaces that contain im B_j and lie in ker C_i, one
+    for all j that reach the same channels.  One value of the transfer matrix modulo the prime
+    determines the edges to be proved.  O(n³) word operations, and O(n² p) for each power looked at.
 
     Examples
     --------
@@ -43,6 +48,10 @@ def transfer_graph(system: MultiChannelSystem) -> TransferGraph:
     >>> graph.strongly_connected
     False
     """
+    if is_large_and_sparse(system):
+        found = _by_structure(system)
+        if found is not None:
+            return found
     rng = generator(system, "transfer_graph")
     for modular in residue_systems(system, rng):
         suspected = suspected_edges(modular, rng)
@@ -51,6 +60,18 @@ def transfer_graph(system: MultiChannelSystem) -> TransferGraph:
         if zeros is not None:
             return _result(system, modular.modulus, powers, zeros)
     raise InternalError("the stream of primes is endless")
+
+
+def _by_structure(system: MultiChannelSystem) -> TransferGraph | None:
+    """The graph by paths, if there is an edge for each pair that a path connects."""
+    ell, paths = edge_modulus(system), reachable_pairs(system)
+    if ell is None:
+        return None
+    powers = sparse_powers(system, ell, lambda found: bool((found | ~paths).all()))
+    if ((powers < 0) & paths).any():
+        return None
+    edges = [(int(j), int(i)) for j, i in zip(*paths.nonzero(), strict=True)]
+    return _result(system, ell, {edge: int(powers[edge]) for edge in edges}, [])
 
 
 def _zero_transfers(

@@ -226,10 +226,13 @@ def _spectrum_parts(fixed_spectrum: Claim, assignability: Claim) -> Said:
         yield say.SPECTRUM_FREE() if free else say.SPECTRUM_PARTS(blocks=blocks)
 
 
-def _most(factor: Claim) -> int:
+def _most(factor: Claim) -> int | None:
     """How often the roots of a factor may be fixed, as far as its exponents prove it."""
-    in_A: int = factor.multiplicity_in_A
-    return min(in_A, factor.multiplicity_at_most) if factor.polynomial.degree == 1 else in_A
+    in_A: int | None = factor.multiplicity_in_A
+    if factor.polynomial.degree > 1:
+        return in_A
+    at_most: int = factor.multiplicity_at_most
+    return at_most if in_A is None else min(in_A, at_most)
 
 
 @rule("table", say.SPECTRUM_MOVED, say.SPECTRUM_MOVED_BETWEEN)
@@ -244,7 +247,10 @@ def _spectrum_moved(fixed_spectrum: Claim, assignability: Claim, given: Given) -
     """
     if empty(fixed_spectrum):
         return
-    stuck = sum(f.polynomial.degree * _most(f) for f in fixed_spectrum.factors)
+    counted = [(f.polynomial.degree, _most(f)) for f in fixed_spectrum.factors]
+    if any(most is None for _, most in counted):
+        return
+    stuck = sum(degree * most for degree, most in counted if most is not None)
     stays = max(fixed_spectrum.polynomial.degree, assignability.fixed_degree)
     told = say.SPECTRUM_MOVED if stuck == stays else say.SPECTRUM_MOVED_BETWEEN
     yield told(k=given.n - stuck, most=given.n - stays, n=given.n)

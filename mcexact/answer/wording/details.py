@@ -13,7 +13,7 @@ FIXED_MODES = Template(
 )
 FIXED_MODE = Template(
     "fixed-modes-row",
-    "{p:polynomial} | {roots:roots} | {stable:yes} | {in_A:int} | {stays:int} | {s:set} | "
+    "{p:polynomial} | {roots:roots} | {stable:yes} | {in_A:int or open} | {stays:int} | {s:set} | "
     "{rank:int}",
 )
 FIXED_MODES_NOTE = Template(
@@ -93,5 +93,5 @@ LATEX_NOTHING_FIXED = Template(
 )
 LATEX_FIXED_MODE = Template(
     "latex-fixed-mode",
-    r"${p:latex}$ & {in_A:int} & {rank:int} & $\{{\text{{{s:latex_names}}}\}}$ \\",
+    r"${p:latex}$ & {in_A:int or open} & {rank:int} & $\{{\text{{{s:latex_names}}}\}}$ \\",
 )

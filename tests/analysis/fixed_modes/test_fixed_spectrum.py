@@ -1,15 +1,21 @@
 """Fixed spectra: known answers, laws, the checker, and the oracle that enumerates all subsets."""
 
+import dataclasses
 import random
+from collections import Counter
 from fractions import Fraction
+from pathlib import Path
 
 import pytest
 
+from mcexact.analysis.analyze import Analysis, analyze
 from mcexact.analysis.engine.obstructions import CommonFactor, decide
+from mcexact.analysis.fixed_modes import fixed_spectrum as module
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.answer import codec
-from mcexact.answer.fixed_spectrum import FixedSpectrum
-from mcexact.checker import check_document
+from mcexact.answer.fixed_spectrum import ByBlocks, FixedFactor, FixedSpectrum
+from mcexact.checker import Expectation, Limits, check_document
+from mcexact.checker.manifest import manifest_verdicts
 from mcexact.derived.drawn.choices import SeededChoices
 from mcexact.derived.drawn.systems import system_with_fixed_mode
 from mcexact.derived.dual import dual
@@ -22,6 +28,7 @@ from mcexact.model import gallery
 from mcexact.model.system import MultiChannelSystem
 from tests.oracle.agreement import disagreements, drawn_pair
 from tests.oracle.draws import exact, sparse_system
+from tests.oracle.planted import planted
 
 Factors = dict[Polynomial, tuple[int, int, int, frozenset[str]]]
 
@@ -271,3 +278,62 @@ def test_the_rest_of_the_spectrum_is_moved_by_the_gains_of_the_decision() -> Non
     rest = characteristic_polynomial(system.A) // found.polynomial**found.multiplicity_in_A
     common = polynomial_residues(rest, decision.modular.modulus).gcd(decision.closed)
     assert common.degree == 0
+
+
+def without_multiplicity(spectrum: FixedSpectrum) -> list[FixedFactor]:
+    return [
+        dataclasses.replace(f, multiplicity_in_A=None, multiplicity_at_most=0)
+        for f in spectrum.factors
+    ]
+
+
+def test_the_search_for_large_sparse_systems_finds_the_same(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(module, "_is_large_and_sparse", lambda system: True)
+    counted: Counter[bool] = Counter()
+    for number in range(150):
+        system = exact(sparse_system(random.Random(number)))
+        found = fixed_spectrum(system)
+        with monkeypatch.context() as patched:
+            patched.setattr(module, "_is_large_and_sparse", lambda system: False)
+            expected = fixed_spectrum(system)
+        assert without_multiplicity(found) == without_multiplicity(expected)
+        assert found.best_rate == expected.best_rate
+        assert check_document(codec.encode(found).encode()).verdict == "VALID"
+        if not found.empty:
+            open_ = any(f.multiplicity_in_A is None for f in found.factors)
+            assert isinstance(found.evidence, ByBlocks) or not open_
+            counted[open_] += 1
+    assert counted[True] > 5 * counted[False], counted
+
+
+def test_a_mode_planted_in_a_large_sparse_system_is_certified() -> None:
+    """One channel of 60 sees it, none moves it; how often it is in A stays open."""
+    found = fixed_spectrum(planted(600, 60, 1))
+    [factor] = found.factors
+    assert (str(factor.polynomial), factor.multiplicity_in_A) == ("x + 3", None)
+    assert (len(factor.channels), factor.rank) == (59, 599)
+    assert check_document(codec.encode(found).encode()).verdict == "VALID"
+
+
+def told(found: Analysis, place: str) -> str:
+    return "\n".join(map(str, found.sentences.at(place)))
+
+
+@pytest.mark.parametrize("rows", [[[1]], [[0, -1], [1, 0]]])
+def test_what_is_told_where_it_is_open_how_often_a_mode_is_in_A(
+    rows: list[list[int]], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr(module, "_is_large_and_sparse", lambda system: True)
+    n = len(rows)
+    A = [[*row, 0] for row in rows] + [[0] * n + [5]]
+    found = analyze(MultiChannelSystem(A, [[[0]] * n + [[1]]], [[[0] * n + [1]]]))
+    assert "(at least once in A" in told(found, "answer.mode")
+    assert "| open |" in told(found, "fixed-modes")
+    assert " & open & " in told(found, "latex")
+    assert (" can be moved" in told(found, "table")) is (n == 1)
+    found.save(tmp_path)
+    assert {
+        each.verdict for _, each in manifest_verdicts(str(tmp_path), Expectation(), Limits())
+    } == {"VALID", "IMPLIED"}

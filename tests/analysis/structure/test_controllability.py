@@ -101,7 +101,7 @@ def answers_by_blocks(number: int, monkeypatch: pytest.MonkeyPatch) -> Counter[s
             assert found.claim() == expected.claim()
             assert check_document(codec.encode(found).encode()).verdict == "VALID"
             assert check_document(codec.encode(expected).encode()).verdict == "VALID"
-            kind = "rank"
+            kind = "rank" if found.channels else "nobody"
             if isinstance(found.evidence, ByBlocks):
                 kind = "own outputs" if found.evidence.measured is None else "states"
             counted[f"{kind}, {'all' if found.controllable else 'part'}"] += 1

@@ -187,7 +187,8 @@ def factor_details(rng: random.Random, document: Document) -> Forged:
         factor["rank"] += rng.choice((-1, 1))
         _restated(rng, document)
     elif what == 1:
-        factor[rng.choice(("multiplicity_in_A", "multiplicity_at_most"))] += rng.choice((-1, 1))
+        key = rng.choice(("multiplicity_in_A", "multiplicity_at_most"))
+        factor[key] = (factor[key] or 0) + rng.choice((-1, 1))
     elif what == 2:
         factor["channels"] = [name for name in system.names if rng.random() < 0.5]
     elif what == 3:

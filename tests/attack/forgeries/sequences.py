@@ -214,6 +214,8 @@ def multiplicities(rng: random.Random, document: Document) -> Forged:
     if "blocks" not in document["witness"] or not claim["factors"]:
         return None
     factor = rng.choice(claim["factors"])
+    if rng.random() < 0.5:
+        factor["multiplicity_in_A"] = None
     factor["multiplicity_at_most"] = max(factor["multiplicity_at_most"] + rng.choice((-1, 1)), 1)
     return document
 

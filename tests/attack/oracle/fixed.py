@@ -38,7 +38,8 @@ def fixed_spectrum(claim: Any, witness: Any, system: System) -> bool:
         rank, held = integer(given["rank"]), [modes[part] for part in parts]
         if any(mode.least != rank or mode.ranks[s] != rank for mode in held):
             return False
-        if integer(given["multiplicity_in_A"]) != min(mode.in_A for mode in held):
+        times = given["multiplicity_in_A"]
+        if times is not None and integer(times) != min(mode.in_A for mode in held):
             return False
         if integer(given["multiplicity_at_most"]) < min(mode.in_every_loop for mode in held):
             return False

@@ -175,9 +175,11 @@ def _spectrum(claim: Any, system: System) -> str:
     rows = []
     for factor in claim["factors"]:
         p = polynomial(factor["polynomial"])
+        times = factor["multiplicity_in_A"]
+        exponent = "some exponent" if times is None else f"the exponent {times}"
         text = (
-            f"{polynomial_text(p)} is {_not(factor['stable'])}{place}, has the exponent "
-            f"{factor['multiplicity_in_A']} in det(xI - A) and at most "
+            f"{polynomial_text(p)} is {_not(factor['stable'])}{place}, has {exponent} "
+            "in det(xI - A) and at most "
             f"{factor['multiplicity_at_most']} in the greatest common divisor of det(xI - A_F) "
             "over all constant gains F, and one root in each of the discs "
             f"{discs(factor['roots'])}, "
