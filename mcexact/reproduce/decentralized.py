@@ -202,7 +202,7 @@ def free_assignment(note: Notebook) -> None:
         try:
             design_decentralized(plant, spectrum=[-3 - k for k in range(plant.n + order)])
         except Impossible as refused:
-            note.refute("fixed-modes", True)
+            note.refute("fixed-modes", not fixed_spectrum(plant).empty)
             note.certify(refused.certificate)
         except InputError as refused:
             note.refute("any-transfer-graph", "the spectrum splits" in str(refused))
@@ -226,6 +226,12 @@ def partition(note: Notebook) -> None:
     note.check("one set for each component", len(design.parts["blocks"]) == 2)
     sizes = [each.polynomial.degree - each.order for each in design.parts["blocks"]]
     note.check("of the dimensions of the components, 2 and 1", sorted(sizes) == [1, 2])
+    numbers = Numbers(27)
+    loops = [characteristic_polynomial(closed_by(plant, numbers.gains(plant))) for _ in range(8)]
+    parted = [sorted(factor.degree for factor, _ in loop.factor()) for loop in loops]
+    note.check(
+        "every drawn loop has a rational eigenvalue, the set of one", all(1 in p for p in parted)
+    )
     split = assignability(plant)
     note.refute("one-set", len(split.blocks) == 2)
     parts = {part.channels: part.dimension for part in split.blocks}

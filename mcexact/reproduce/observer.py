@@ -6,13 +6,14 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import cache
 
+from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.fixed_modes.single_channel_gains import single_channel_gains
 from mcexact.analysis.stability.closed_loop_spectrum import closed_loop_spectrum
 from mcexact.analysis.structure.controllability import joint_controllability
 from mcexact.derived.error_system import error_system
 from mcexact.errors import Impossible
 from mcexact.exact.blocks import vstack
-from mcexact.exact.linear_algebra import characteristic_polynomial
+from mcexact.exact.linear_algebra import characteristic_polynomial, rank
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
@@ -220,6 +221,11 @@ def theorem_1(note: Notebook) -> None:
         note.check("the error system has the prescribed polynomial", made == wanted)
         note.certify(design.loop.proof)
     plant = note.at(small()[1])
+    size = plant.n * plant.m + plant.m - 1
+    pairs = Polynomial.of(2, 2, 1) ** (size // 2) * Polynomial.of(3, 1) ** (size % 2)
+    complex_ = design_observer(plant, spectrum={"feedback": [-1] * plant.n, "error": pairs})
+    note.check("complex pairs are prescribed", complex_.parts["error_polynomial"] == pairs)
+    note.certify(complex_.loop.proof)
     other = plant.names[-1]
     design = design_observer(plant, agent=other, rate=1)
     note.check(f"channel {other} can carry the channel controller", design.parts["agent"] == other)
@@ -229,8 +235,9 @@ def theorem_1(note: Notebook) -> None:
     try:
         design_observer(without_arcs(plant), rate=1)
     except Impossible as refused:
-        note.refute("any-graph", True)
-        note.certify(refused.certificate)
+        stuck = fixed_spectrum(error_system(without_arcs(plant), zeros(plant)))
+        note.refute("any-graph", not stuck.empty)
+        note.certify(stuck, refused.certificate)
     _show_example(note)
 
 
@@ -257,8 +264,15 @@ def remark_1(note: Notebook) -> None:
             "every signal that a program uses comes along an arc",
             set(controller.edges()) <= set(graph.edges()),
         )
-        run = simulate(plant, controller, horizon=1, points=4)
-        note.check("the agents run", len(run.snapshots) == 5)
+        loop = designed(name).loop.closed
+        for i in range(plant.m):
+            moved = loop.pick("x_", i) @ loop.matrix
+            strangers = set(range(plant.m)) - set(graph.neighborhood(i))
+            unheard = all((moved @ loop.pick("x_", j).T).is_zero() for j in strangers)
+            note.check(f"x_{i + 1} moves without the x_j of agents that are no neighbors", unheard)
+            felt = moved @ loop.pick("x").T
+            own = rank(vstack([plant.C(i), felt])) == rank(plant.C(i))
+            note.check(f"and is moved by x through y_{i + 1} alone", own)
         if name == PAPER:
             note.refute("all-signals", len(controller.edges()) < plant.m * (plant.m - 1))
 

@@ -92,10 +92,12 @@ def any_stabilizing_control(note: Notebook) -> None:
             note.check(f"at rest y = r, {what}", design.loop.closed.steady_gain == wanted)
             note.check(f"which is stable, {what}", "stability" in design.certificates)
             note.certify(*design.certificates.values())
-        if plant.n == q and held is not None:
+        if plant.n == q == plant.input_matrix().ncols and held is not None:
             note.refute("sign", held != wanted * -1)
-            idle = solve(plant.A, Matrix.zeros(plant.n, 1))
-            note.refute("without-integrators", idle is not None and (C @ idle).is_zero())
+            # u_i = −3(y_i − r_i), without integrators.
+            B, place = plant.input_matrix() * -3, steady_point(plant.time)
+            rest = solve(Matrix.identity(plant.n) * place - plant.A - B @ C, B * -1)
+            note.refute("without-integrators", rest is not None and C @ rest != wanted)
 
 
 def _speed(time: str) -> tuple[str | None, str | None]:
@@ -174,10 +176,19 @@ def determinant_at_zero(note: Notebook) -> None:
     note.print(plant)
     found = setpoint_solvability(plant)
     note.check("0 is a pole", characteristic_polynomial(plant.A)(0) == 0)
-    # det [sI − A, B; −C, 0] = det(sI − A) det G(s) = s here: det G = 1/(s + 1)² hides the zero.
+    # det [sI − A, B; −C, 0] = det(sI − A) det G(s), where the pole hides the zero.
     note.check(
-        "det(sI − A) / s is (s + 1)²",
+        "det(sI − A) is s(s + 1)²",
         characteristic_polynomial(plant.A) == Polynomial.from_roots([0, -1, -1]),
+    )
+    B, C, unit = plant.input_matrix(), plant.output_matrix(), Matrix.identity(plant.n)
+    pencils = [
+        block([[unit * s - plant.A, B], [C * -1, Matrix.zeros(C.nrows, B.ncols)]])
+        for s in range(plant.n + 1)
+    ]
+    note.check(
+        "det [sI − A, B; −C, 0] is s, so that det G is 1/(s + 1)²",
+        [determinant(pencil) for pencil in pencils] == list(range(plant.n + 1)),
     )
     note.refute("pole-at-0", not found.solvable)
     note.certify(found)
@@ -208,7 +219,7 @@ def distributed_setpoints(note: Notebook) -> None:
         design_setpoint(plant.with_neighbors({plant.names[0]: []}), rate=1)
     except Impossible as refused:
         note.check("refused where a set-point cannot be held", True)
-        note.refute("always", True)
+        note.refute("always", not setpoint_solvability(plant).solvable)
         note.certify(refused.certificate)
     else:
         note.check("refused where a set-point cannot be held", False)
