@@ -64,8 +64,7 @@ def selector(start: int, size: int, total: int) -> Matrix:
     >>> selector(1, 2, 3).numerators
     ((0, 0), (1, 0), (0, 1))
     """
-    rows = [[int(row - start == column) for column in range(size)] for row in range(total)]
-    return Matrix.from_integers(rows, ncols=size)
+    return Matrix.from_entries((total, size), [(start + k, k, 1) for k in range(size)])
 
 
 def shift(d: int) -> Matrix:
@@ -76,7 +75,7 @@ def shift(d: int) -> Matrix:
     >>> shift(3).numerators
     ((0, 0, 0), (1, 0, 0), (0, 1, 0))
     """
-    return Matrix.from_integers([[int(i == j + 1) for j in range(d)] for i in range(d)], ncols=d)
+    return Matrix.from_entries((d, d), [(j + 1, j, 1) for j in range(d - 1)])
 
 
 def require_size(states: int) -> None:

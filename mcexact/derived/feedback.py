@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from mcexact.errors import InputError, UsageError
+from mcexact.exact.blocks import vstack
 from mcexact.exact.floats import Rounding, matrix_from_float
 from mcexact.exact.matrix import Matrix
 from mcexact.model.matrix_entry import as_matrix, require_shape
@@ -60,10 +61,8 @@ def closed_by(system: MultiChannelSystem, gains: Sequence[Matrix]) -> Matrix:
     gains : sequence of m Matrix
         F_i, p_i×q_i; `checked_gains` makes them of what a user gives.
     """
-    A = system.A
-    for channel, F in zip(system.channels, gains, strict=True):
-        A = A + channel.B @ (F @ channel.C)
-    return A
+    fed = [F @ channel.C for channel, F in zip(system.channels, gains, strict=True)]
+    return system.A + system.input_matrix() @ vstack(fed, ncols=system.n)
 
 
 def feedback(system: MultiChannelSystem, gains: Sequence[Any]) -> MultiChannelSystem:
