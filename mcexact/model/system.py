@@ -43,8 +43,9 @@ class MultiChannelSystem:
     Parameters
     ----------
     A : matrix, n×n
-        A list of rows, a numpy array of integers, or a sympy matrix; n = 0 is legal.  Entries are
-        int, Fraction, Decimal, sympy Rational, or strings such as "1/3" and "0.25".
+        A list of rows, a numpy array of integers, a sparse array of scipy, which stays sparse if it
+        is large, or a sympy matrix; n = 0 is legal.  Entries are int, Fraction, Decimal, sympy
+        Rational, or strings such as "1/3" and "0.25".
     B : sequence of m matrices
         B_i is n×p_i; p_i = 0 is legal.
     C : sequence of m matrices

@@ -23,6 +23,8 @@ from mcexact.analysis.stability.closed_loop_spectrum import open_loop_spectrum
 from mcexact.analysis.structure import controllability
 from mcexact.analysis.structure.setpoint import setpoint_solvability
 from mcexact.answer.codec import encode
+from mcexact.derived.drawn.choices import SeededChoices
+from mcexact.derived.drawn.networks import NETWORKS, network_system
 from mcexact.derived.extended import Share
 from mcexact.errors import Impossible, LimitReached
 from mcexact.exact.matrix import Matrix
@@ -153,6 +155,19 @@ def of_its_graph(plant: MultiChannelSystem) -> Answers:
             yield f"{name}_joint_observability", verdict.observability
 
 
+def networks() -> Iterator[tuple[str, MultiChannelSystem]]:
+    """Plants whose matrices list their entries."""
+    for name in NETWORKS:
+        yield f"network: {name}", network_system(SeededChoices(1), name, 120, 6)
+
+
+def of_a_network(system: MultiChannelSystem) -> Answers:
+    yield "network_fixed_spectrum", mcexact.fixed_spectrum(system)
+    yield "network_joint_controllability", mcexact.joint_controllability(system)
+    yield "network_joint_observability", mcexact.joint_observability(system)
+    yield "network_transfer_graph", mcexact.transfer_graph(system)
+
+
 def least(solve: Any, plant: MultiChannelSystem, **arguments: Any) -> Any:
     """The answer of a program, or None at its limit."""
     try:
@@ -197,6 +212,9 @@ def digests() -> dict[str, dict[str, str]]:
 
     for name, plant in plants():
         for question, answer in answers(plant):
+            add_answer(answer, ("plants", name), ("questions", question))
+    for name, plant in networks():
+        for question, answer in of_a_network(plant):
             add_answer(answer, ("plants", name), ("questions", question))
     for name, made in designs():
         for _, answer in made:
