@@ -297,3 +297,20 @@ def written(q: Fraction) -> int | str:
     (3, '-1/2')
     """
     return q.numerator if q.denominator == 1 else rational_text(q)
+
+
+def decimal_or_quotient(q: Fraction, most: int = 15) -> int | str:
+    """Return an integer, a decimal of a few places at most if it is exact, or ``"p/q"``.
+
+    Examples
+    --------
+    >>> decimal_or_quotient(Fraction(-13, 1250)), decimal_or_quotient(Fraction(2, 3))
+    ('-0.0104', '2/3')
+    >>> decimal_or_quotient(Fraction(7)), decimal_or_quotient(Fraction(1, 2**16))
+    (7, '1/65536')
+    """
+    if q.denominator == 1 or 10**most % q.denominator:
+        return written(q)
+    places = next(k for k in range(1, most + 1) if not 10**k % q.denominator)
+    whole, rest = divmod(abs(q.numerator) * (10**places // q.denominator), 10**places)
+    return f"{'-' if q < 0 else ''}{digits_of(whole)}.{rest:0{places}d}"

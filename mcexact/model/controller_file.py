@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 import os
+import re
+from fractions import Fraction
 from typing import Any
 
 from mcexact.errors import InputError, place_of
 from mcexact.exact.location import require_time
 from mcexact.exact.matrix import Matrix
-from mcexact.exact.rational import DEFAULT_LIMITS, Limits
+from mcexact.exact.rational import DEFAULT_LIMITS, Limits, decimal_or_quotient
 from mcexact.model.atomic import write_text
 from mcexact.model.controller import MAPS, AgentProgram, Controller, LinearMap
 from mcexact.model.json_text import (
@@ -139,9 +141,25 @@ def _by_agent(value: Any, where: str, names: tuple[str, ...]) -> dict[int, Any]:
 
 
 def controller_text(controller: Controller) -> str:
-    """The text of a controller file."""
-    document = {"format": FORMAT, "system": controller.system, **controller.document()}
-    return json.dumps(document, indent=1, ensure_ascii=True) + "\n"
+    """The text of a controller file: decimals where they are exact and short, a row on one line."""
+    document = {"format": FORMAT, "system": controller.system, **_readable(controller.document())}
+    text = json.dumps(document, indent=1, ensure_ascii=True)
+    return _LIST_OF_NUMBERS.sub(lambda found: f"[{' '.join(found[0][1:-1].split())}]", text) + "\n"
+
+
+_LONG = 40
+_LIST_OF_NUMBERS = re.compile(r"\[\s[^\[\]{}]*\]")
+
+
+def _readable(value: Any, *, listed: bool = False) -> Any:
+    """Write short quotients in lists as decimals; other strings are names."""
+    if isinstance(value, dict):
+        return {key: _readable(each) for key, each in value.items()}
+    if isinstance(value, list):
+        return [_readable(each, listed=True) for each in value]
+    if listed and isinstance(value, str) and len(value) <= _LONG:
+        return decimal_or_quotient(Fraction(value))
+    return value
 
 
 def save_controller(controller: Controller, path: str | os.PathLike[str]) -> None:

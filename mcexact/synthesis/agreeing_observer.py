@@ -43,6 +43,7 @@ from mcexact.synthesis.request import Request
 _STRENGTHS = (10.0, 30.0, 100.0, 3.0, 1.0)
 _DIGITS = (3, 6, 12)
 _FASTER, _ENOUGH = 1.1, 1.5
+_NEGLIGIBLE = 1e-9
 
 
 def observers(
@@ -204,10 +205,16 @@ def _optimal(
     if F is None:
         return None
     for digits in _DIGITS:
-        short = rounded(F, digits)
+        short = _short(F, digits)
         if is_within(model.A + model.B @ short, region):
             return split_by_channel(system, matrix_from_float(short, "decimal", where="F")), L
     return None
+
+
+def _short(M: Floats, digits: int) -> Floats:
+    """Round to some significant digits; what is negligible beside the largest entry becomes 0."""
+    largest = float(np.max(np.abs(M), initial=0.0))
+    return rounded(np.where(np.abs(M) < _NEGLIGIBLE * largest, 0.0, M), digits)
 
 
 def _tried(
@@ -246,8 +253,7 @@ def _gains(
         stop = start + system.q(i)
         others = len([j for j in graph.neighborhood(i) if j != i])
         parts = [-L[:, start:stop] / weights[i], *[-strength * np.eye(system.n)] * others]
-        short = rounded(np.hstack(parts), digits)
-        found.append(matrix_from_float(short, "decimal", where="K"))
+        found.append(matrix_from_float(_short(np.hstack(parts), digits), "decimal", where="K"))
         start = stop
     return tuple(found)
 

@@ -5,21 +5,23 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from math import isfinite
 from typing import Any, Literal
 
 import numpy as np
 
 from mcexact.derived.integrators import setpoint_system
 from mcexact.errors import InputError
-from mcexact.exact.floats import finite
+from mcexact.exact.floats import finite, to_float
 from mcexact.exact.location import StabilityRegion
 from mcexact.model.controller import Controller
 from mcexact.model.loop import ClosedLoop
 from mcexact.model.system import MultiChannelSystem, as_plant
 from mcexact.synthesis.design import Design
+from mcexact.synthesis.network.networks import decentralized_network
 from mcexact.synthesis.optimum.aims import MARGIN, Aims
 from mcexact.synthesis.optimum.diagnosis import Diagnosis, diagnosed
-from mcexact.synthesis.optimum.figures import Figures, step_peak
+from mcexact.synthesis.optimum.figures import Figures, figures_of, step_peak
 from mcexact.synthesis.optimum.kernel import quiet_floats
 from mcexact.synthesis.optimum.loop_figures import (
     MOST_DIGITS,
@@ -27,6 +29,7 @@ from mcexact.synthesis.optimum.loop_figures import (
     figures_of_loop,
     integrators_of,
 )
+from mcexact.synthesis.optimum.problem import FeedbackProblem
 from mcexact.synthesis.optimum.shape import NO_LIMITS, Shape
 from mcexact.synthesis.optimum.weights import Weights
 
@@ -34,7 +37,7 @@ Install = Literal["yes", "with care", "no"]
 
 BASIS = "computed in floating point, not certified"
 _NO_MARGIN, _PEAK, _TIMES_THE_PEAK, _TIMES_THE_COST = 0.05, 100.0, 5.0, 10.0
-_DIGITS, _TIMES_THE_GAIN = 4, 10.0
+_DIGITS, _TIMES_THE_GAIN, _HARDLY = 4, 10.0, 1.02
 
 
 @dataclass(frozen=True)
@@ -74,6 +77,8 @@ class Assessment:
         The largest output while one set-point steps from 0 to 1; None without integrators.
     notes : tuple of str
         What was chosen for the user, and what is to be known of the method.
+    uncontrolled : Figures or None
+        Of the plant without a controller; None with integrators, which are not stable alone.
     shape : Shape
         The limits on the eigenvalues that were aimed at.
     """
@@ -88,6 +93,7 @@ class Assessment:
     step_peak: float | None = None
     notes: tuple[str, ...] = ()
     shape: Shape = NO_LIMITS
+    uncontrolled: Figures | None = None
 
     def __repr__(self) -> str:
         return f"Assessment({self.verdict})"
@@ -187,6 +193,7 @@ class Assessment:
             ("states of each agent", per_agent),
             ("largest gain", compared("largest_gain")),
             ("slowest eigenvalue", f"{self.region.measure} = {_shown(seen.bound)}"),
+            *self._alone(),
             ("fastest eigenvalue", f"|λ| = {_shown(seen.fastest)}"),
             ("least damping ratio", _shown(seen.damping)),
             ("margin at the plant's inputs", compared("margin")),
@@ -198,8 +205,16 @@ class Assessment:
             (f"sensible {word}", self.diagnosis.sensible_bound),
         ]  # fmt: skip
         if self.step_peak is not None:
-            rows.insert(7, ("peak of an output after a unit step", _shown(self.step_peak)))
+            rows.insert(-5, ("peak of an output after a unit step", _shown(self.step_peak)))
         return rows
+
+    def _alone(self) -> list[tuple[str, str]]:
+        """What the plant does without a controller."""
+        alone = self.uncontrolled
+        if alone is None:
+            return []
+        cost = f"cost {_shown(alone.cost)}" if isfinite(alone.cost) else "not stable"
+        return [("without a controller", f"{self.region.measure} = {_shown(alone.bound)}, {cost}")]
 
     def _digits(self) -> str:
         if not self.certified:
@@ -218,6 +233,9 @@ class Assessment:
             **_numbers(self.figures),
             "relative_cost": finite(self.relative_cost),
             "step_peak": None if self.step_peak is None else finite(self.step_peak),
+            "without_a_controller": None
+            if self.uncontrolled is None
+            else _numbers(self.uncontrolled),
             "digits_that_suffice": self.digits,
             "links": [vars(link) for link in self.links],
             "one_controller_for_all_agents": None
@@ -321,18 +339,40 @@ def assessed_loop(
     weighed = Weights.of(given, weights).with_integrators(len(places))
     known = diagnosis or diagnosed(about, region, weighed)
     with quiet_floats():
+        figures = figures_of_loop(loop, weighed, places)
+        alone = None if places else _uncontrolled(given, weighed)
+        if certified and alone is not None and alone.cost <= _HARDLY * figures.cost:
+            notes = (*notes, _hardly(alone, figures, region))
         return Assessment(
             {agent.name: agent.shared + agent.private for agent in loop.controller.agents},
             region,
             certified,
-            figures_of_loop(loop, weighed, places),
+            figures,
             known,
             digits_that_suffice(loop, region) if certified else None,
             _links(loop.controller, given),
             step_peak(loop) if places and certified else None,
             notes,
             shape,
+            alone,
         )
+
+
+def _uncontrolled(system: MultiChannelSystem, weights: Weights) -> Figures:
+    """The figures of the plant without a controller."""
+    network = decentralized_network(as_plant(system))
+    problem = FeedbackProblem.of(network, (0,) * system.m, weights)
+    return figures_of(problem, np.zeros(problem.mask.shape))
+
+
+def _hardly(alone: Figures, figures: Figures, region: StabilityRegion) -> str:
+    """That a controller hardly improves on none."""
+    inside = alone.bound < to_float(region.limit)
+    told = f"it satisfies {region}, too" if inside else f"it does not satisfy {region}"
+    return (
+        f"without a controller the plant has {_shown(alone.cost / figures.cost)} times this cost; "
+        f"{told}"
+    )
 
 
 def _links(controller: Controller, system: MultiChannelSystem) -> tuple[Link, ...]:

@@ -138,6 +138,19 @@ def test_a_controller_file_gives_the_controller_and_the_loop_back(drawn, seed):
     assert controller_text(copy) == controller_text(controller)
 
 
+def test_a_controller_file_is_read_by_people():
+    gains = [["-0.0104", "1/3"], [2, f"1/{3**200}"]]
+    plant = MultiChannelSystem([[1]], [[[1, 1]]], [[[1], [1]]], names=["1/2"])
+    F = Matrix.from_rows(gains)
+    controller = Controller(
+        "continuous", digest(plant), (AgentProgram("1/2", 0, 0, input=LinearMap({0: F})),)
+    )
+    text = controller_text(controller)
+    assert '["-0.0104", "1/3"],\n' in text and f'[2, "1/{3**200}"]' in text
+    assert '"name": "1/2"' in text and '"1/2": [' in text
+    assert read_controller(text).document() == controller.document()
+
+
 def test_static_programs_without_messages_are_decentralized_feedback():
     plant = MultiChannelSystem([[1, 2], [3, 4]], [[[1], [0]], [[0], [1]]], [[[1, 1]], [[0, 1]]])
     F = [Matrix.from_rows([[-5]]), Matrix.from_rows([["1/2"]])]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -190,6 +191,24 @@ def test_an_unstable_loop_is_not_to_be_installed() -> None:
     assert found.view()["margin"] == 0 and found.view()["cost"] is None
     json.dumps(found.view(), allow_nan=False)
     assert curves_of(loop_of("1"), region) is None
+
+
+def test_a_controller_that_hardly_helps_is_told() -> None:
+    plant = MultiChannelSystem([[-1]], [[[1]]], [[[1]]])
+    region = StabilityRegion("continuous", Fraction(1, 2))
+    loop = closed_loop(plant, local_controllers(plant, [[["-0.001"]]]))
+    found = assessed_loop(loop, region, certified=True)
+    assert found.uncontrolled is not None and found.uncontrolled.bound == -1
+    assert "it satisfies Re λ < -1/2, too" in found.notes[-1]
+    assert dict(found.rows())["without a controller"] == "Re λ = -1, cost 0.5"
+    faster = assessed_loop(loop, StabilityRegion("continuous", 1), certified=True)
+    assert "it does not satisfy" in faster.notes[-1]
+
+
+def test_an_unstable_plant_has_no_cost_without_a_controller() -> None:
+    found = assessed()
+    assert dict(found.rows())["without a controller"] == "Re λ = 1, not stable"
+    assert found.view()["without_a_controller"]["cost"] is None and not found.notes
 
 
 def test_the_controller_of_the_theorem_comes_with_its_figures() -> None:

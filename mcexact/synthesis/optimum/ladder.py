@@ -15,7 +15,7 @@ from mcexact.synthesis.optimum.effort import Effort
 from mcexact.synthesis.optimum.figures import Figures, figures_of, shift_of
 from mcexact.synthesis.optimum.polish import SLACK, Target, bound_of, drafted, inside, polished
 from mcexact.synthesis.optimum.problem import FeedbackProblem, Sizes, Structure
-from mcexact.synthesis.optimum.programs import NetworkController, balanced, problem_of
+from mcexact.synthesis.optimum.programs import NetworkController, balanced, problem_of, rounded
 from mcexact.synthesis.optimum.starts import (
     Locality,
     drawn_dynamics,
@@ -35,7 +35,7 @@ _KEPT, _LARGEST_ORDER = 2, 3
 _PRICE_OF_ORDER = 1.02
 _MOST_ENTRIES = 1500
 _BETTER, _GOOD = 0.97, 2.0
-_DEAR, _HOPELESS = 0.05, 1000.0
+_DEAR, _HOPELESS, _CONTENT = 0.05, 1000.0, 1.5
 _SMALL, _FRAGILE = 20, 1.25
 _STATIC = "static gains"
 MOST_STATES = 100
@@ -61,6 +61,8 @@ class Ladder:
         Of the signals of the plant.
     seeds : int
         The number of drawn starts of each order.
+    most_digits : int or None
+        The largest number of digits of an entry.
     most_order : int or None
         The largest number of states of each agent; None without a limit, where starts are drawn
         for orders up to 3.
@@ -75,8 +77,14 @@ class Ladder:
     effort: Effort
     sizes: Sizes | None = None
     seeds: int = SEEDS
+    most_digits: int | None = None
     most_order: int | None = None
     tell: Progress = field(default=lambda _: None)
+
+    @property
+    def large(self) -> bool:
+        """Whether the plant is so large that a search is content with a little more."""
+        return len(self.weights.Q) > MOST_STATES
 
     @property
     def orders(self) -> range:
@@ -96,6 +104,13 @@ class Ladder:
             and self.target.shape.met(found.damping, found.fastest)
             and found.largest_gain <= 1.001 * self.target.largest_gain
         )
+
+    def keeps(self, problem: FeedbackProblem, K: Floats) -> bool:
+        """Whether a gain matrix stays in the region with the digits that it may have."""
+        if self.most_digits is None:
+            return True
+        x = problem.entries(rounded(K, self.most_digits))
+        return self.target.reached(bound_of(problem, x))
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,8 +149,9 @@ def climbed(ladder: Ladder) -> list[Candidate]:
     Notes
     -----
     In floating point; nothing is proved.  All starts of a step are followed for a while, and the
-    best two of them to the end.  Where drafts are dear there is only one, and if its cost is far
-    too high it waits until all steps were tried; a hopeless one waits in any case.
+    best two of them to the end.  For a large plant 1.5 times the price that is enough ends the
+    search after a step.  Where drafts are dear there is only one, and if its cost is far too high
+    it waits until all steps were tried; a hopeless one waits in any case.
     """
     found: list[Candidate] = []
     later: list[tuple[float, Start]] = []
@@ -160,6 +176,8 @@ def climbed(ladder: Ladder) -> list[Candidate]:
                 later.append((value, draft))
             elif _finish(ladder, draft, found):
                 return found
+        if ladder.large and best_price(ladder, found) <= _CONTENT * ladder.enough:
+            return found
     for _, draft in sorted(later, key=lambda each: each[0])[: 2 * _KEPT]:
         if _finish(ladder, draft, found):
             break
@@ -192,14 +210,14 @@ def _finish(ladder: Ladder, draft: Start, found: list[Candidate]) -> bool:
         made = _candidate(ladder, draft.step, problem, problem.gain(x))
         if made is not None:
             found.append(made)
-            if ladder.fine(made.figures):
+            if ladder.fine(made.figures) and ladder.keeps(problem, made.K):
                 return True
     return False
 
 
-def best_of(ladder: Ladder, found: list[Candidate]) -> Candidate:
-    """Return the candidate of the lowest price."""
-    return min(found, key=lambda each: _price(ladder, each))
+def ranked(ladder: Ladder, found: list[Candidate]) -> list[Candidate]:
+    """Return the candidates by their prices, the lowest first."""
+    return sorted(found, key=lambda each: _price(ladder, each))
 
 
 def _price(ladder: Ladder, candidate: Candidate) -> float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -18,7 +18,7 @@ from mcexact.synthesis.optimum.diagnosis import Diagnosis, diagnosed
 from mcexact.synthesis.optimum.effort import PER_SECOND, Effort
 from mcexact.synthesis.optimum.figures import Figures, figures_of
 from mcexact.synthesis.optimum.kernel import quiet_floats
-from mcexact.synthesis.optimum.ladder import MOST_STATES, Candidate, Ladder, best_of, climbed
+from mcexact.synthesis.optimum.ladder import MOST_STATES, Candidate, Ladder, climbed, ranked
 from mcexact.synthesis.optimum.polish import Target, bound_of
 from mcexact.synthesis.optimum.problem import FeedbackProblem
 from mcexact.synthesis.optimum.programs import controller_of, rounded
@@ -27,12 +27,12 @@ from mcexact.synthesis.optimum.weights import Floats, Weights
 from mcexact.synthesis.request import Request, Warned
 
 _MOST_TRIED = 12
-_LEAST_STORED = 3
+_LEAST_STORED, _MORE, _CERTIFIED = 3, 3, 20
 _ENOUGH = 1.5
 _GAINS = 10.0
 _LEAST_GAIN = 1.0
 _LARGEST_UNKNOWN = 1e3
-_EFFORT, _GROWS, _MOST_TIMES, _GROWS_WITH_CUBE, _FRAGILE = 60_000.0, 40, 9.0, 130, 0.25
+_EFFORT, _GROWS, _MOST_TIMES, _GROWS_WITH_CUBE, _FRAGILE = 60_000.0, 40, 5.0, 130, 0.25
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,6 +150,7 @@ def optimum(
         _effort(aims.effort, given.n, figures, target),
         None if central is None else central.sizes,
         seeds=aims.seeds,
+        most_digits=aims.digits,
         most_order=aims.largest_order,
         tell=request.tell,
     )
@@ -157,10 +158,13 @@ def optimum(
         found = climbed(ladder)
     if not found:
         raise LimitReached(f"no controller was found for {request.region}: {known}")
-    try:
-        return with_few_digits(best_of(ladder, found), target, figures, aims.digits)
-    except LimitReached as limit:
-        raise LimitReached(f"{limit}: {known}") from None
+    limit = LimitReached("")
+    for each in ranked(ladder, found)[:_CERTIFIED]:
+        try:
+            return with_few_digits(each, target, figures, aims.digits)
+        except LimitReached as reached:
+            limit = reached
+    raise LimitReached(f"{limit}: {known}")
 
 
 def with_few_digits(
@@ -184,7 +188,8 @@ def with_few_digits(
 
     Notes
     -----
-    At least three digits are kept, unless these are too many or are not certified and fewer are.
+    At least three digits are kept, unless these are too many or are not certified and fewer are,
+    and up to two more where the margin needs them.
     """
     problem, K, least = found.problem, found.K, None
     for digits in range(1, min(_MOST_TRIED, most or _MOST_TRIED) + 1):
@@ -198,10 +203,26 @@ def with_few_digits(
         )
     if least is not None:
         kept = max(least + 1, _LEAST_STORED)
-        stored = rounded(K, kept if most is None else min(kept, most))
-        holds = target.reached(bound_of(problem, problem.entries(stored)))
-        K = stored if holds else rounded(K, least)
+        tried = [min(kept + k, most or _MOST_TRIED) for k in range(_MORE)]
+        K = _stored(found, target, least, tried)
     return Optimum(found.step, problem, K, least, figures_of(problem, K), central)
+
+
+def _stored(found: Candidate, target: Target, least: int, tried: Iterable[int]) -> Floats:
+    """Round to the first number of digits with which the margin is as aimed at, if it was before.
+
+    Otherwise it is the first of them with which the region is kept, or the least of all.
+    """
+    problem, first = found.problem, None
+    robust = found.figures.margin >= target.margin
+    for digits in tried:
+        stored = rounded(found.K, digits)
+        if not target.reached(bound_of(problem, problem.entries(stored))):
+            continue
+        if not robust or figures_of(problem, stored, peak=False).margin >= target.margin:
+            return stored
+        first = stored if first is None else first
+    return rounded(found.K, least) if first is None else first
 
 
 def _certified(problem: FeedbackProblem, K: Floats, target: Target) -> bool:
