@@ -41,7 +41,7 @@ def unmoved_degree(value: Json, place: str, system: System) -> int:
     for i, j, entry in sparse.residues(system.C[q], ell):
         c[j] = (c[j] + y[i] * entry) % ell
     s = _numbers(system, F, ell, b, c, d)
-    if len(s) > L:
+    if s[L:]:
         holds = not any(convolution(d, s[::-1], ell)[L : 2 * L - 1])
         require(holds, "recurrence", f"{place}.recurrence", "the sequence does not satisfy it")
     num = convolution(d, s[:L][::-1], ell)[L:]

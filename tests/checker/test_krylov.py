@@ -219,6 +219,15 @@ FALSE = [
         "recurrence",
     ),
     (
+        "the recurrence for k = L − 2 alone, and not for k = 0",
+        plant(
+            [[0, 0, 0], [1, 0, 0], [0, 1, 0]],
+            ([[1], [0], [0]], [[0, 0, 1]]),
+        ),
+        sequence([3, 0, 1, 1], [1], []),
+        "recurrence",
+    ),
+    (
         "s = 0 and d = x²",
         plant([[1, 0], [0, 2]], ([[0], [0]], [[1, 0]])),
         sequence([0, 0, 1], [1], []),
