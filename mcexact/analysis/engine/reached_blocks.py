@@ -6,6 +6,7 @@ they measure can be chosen, and one of them can measure everything.
 
 from __future__ import annotations
 
+import random
 from collections.abc import Sequence
 from itertools import pairwise
 
@@ -25,15 +26,18 @@ def measured_system(
 
     Notes
     -----
-    The first channel with inputs measures all states, and every other channel states that its own
-    inputs and those of the channel before it drive.  So what T reaches is one block, and generic
-    gains move all that T controls, observed and controlled through that first channel.
+    The first channel with inputs measures all states.  Every other channel measures states that its
+    own inputs and those of the channel before it drive, and a share of all states that is drawn: so
+    what T reaches is one block, and generic gains mostly move all that T controls, observed and
+    controlled through that first channel.
     """
     driven = [_driven(system.B(i)) for i in T]
     live = [k for k, states in enumerate(driven) if states]
     chosen: list[set[int]] = [set() for _ in T]
-    for before, k in pairwise(live):
-        chosen[k] = {*driven[k], driven[before][0]}
+    states = list(range(system.n))
+    random.Random(system.n).shuffle(states)
+    for share, (before, k) in enumerate(pairwise(live)):
+        chosen[k] = {*driven[k], driven[before][0], *states[share :: len(live) - 1]}
     if live:
         chosen[live[0]] = set(range(system.n))
     measured = tuple(tuple(sorted(states)) for states in chosen)
