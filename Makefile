@@ -98,7 +98,7 @@ look: $(STAMP)
 	  { echo "look: Chromium is missing and cannot be installed" >&2; exit 1; }
 	$(BIN)/python -m tests.look look
 
-# The tables of the paper's statements and examinations in proofs/, from the ledger.
+# The tables of the paper's statements, of what is open, and of the examinations in proofs/.
 ledger: $(STAMP)
 	$(BIN)/python proofs/ledger_table.py
 

@@ -26,7 +26,7 @@ from mcexact.cli.failures import DEFINITE_NO
     metavar="NAME",
     help="Examine only 'Theorem 2', 31 for equation (31), or 'statement 89'. May be repeated.",
 )
-@click.option("--latex", is_flag=True, help="Print the table in LaTeX.")
+@click.option("--latex", is_flag=True, help="Print the table in LaTeX, for amsmath.")
 @options.as_json
 @options.work_limits
 def command(

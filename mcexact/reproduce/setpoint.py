@@ -157,6 +157,9 @@ def condition(note: Notebook) -> None:
             "full rank just when (18) is jointly controllable",
             found.solvable == augmented.controllable,
         )
+        if not found.solvable:
+            lost = augmented.uncontrollable_polynomial
+            note.check("otherwise the mode 0 of integrators is canceled", lost(0) == 0)
         note.certify(found, augmented)
         if note.here == washed_out()[0]:
             note.refute("always", not found.solvable)

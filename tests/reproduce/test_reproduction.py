@@ -34,7 +34,7 @@ from tests.report.strict_html import external_addresses
 
 @pytest.fixture(scope="module")
 def whole() -> Reproduction:
-    """The whole paper, once: some fifteen seconds."""
+    """The whole paper, once: some twenty seconds."""
     return reproduce()
 
 
