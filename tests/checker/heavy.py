@@ -253,7 +253,7 @@ EXPECTED = {
     "a polynomial of 330 denominators": ("MALFORMED", "form"),
     "100 discs of many digits": ("INVALID", "disc"),
     "10 discs of very many digits": ("INVALID", "disc"),
-    "channels without anything": ("INVALID", "arc"),
+    "channels without anything": ("INVALID", "claim"),
     "a sequence of a million states": ("INVALID", "partition"),
 }
 """The verdicts and codes of those that the default decides; the others are INCOMPLETE."""
