@@ -13,6 +13,7 @@ from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.network.network_design import network_design
 from mcexact.synthesis.network.networks import decentralized_network
 from mcexact.synthesis.network.sharing import sharing_network
+from mcexact.synthesis.optimum import proposals
 from mcexact.synthesis.optimum.aims import Aims
 from mcexact.synthesis.optimum.alone import found_alone
 from mcexact.synthesis.optimum.effort import Effort
@@ -245,3 +246,23 @@ def test_an_agent_without_input_finds_nothing():
         localities(static, weights), 1, Target(request(plant, "1/5").region), Effort(1e5)
     )
     assert made[0] is not None and made[1] is None
+
+
+@pytest.mark.parametrize(
+    ("needed", "most", "expected"),
+    [(1, None, -2.12), (5, None, -2.1235), (5, 4, -2.12), (9, None, -2.12)],
+)
+def test_digits_are_added_as_long_as_the_margin_needs_them(monkeypatch, needed, most, expected):
+    plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    problem = FeedbackProblem.of(decentralized_network(plant), (0,), Weights.unit(plant))
+    K = np.array([[-2.123456]])
+    figures = replace(figures_of(problem, K), margin=0.31)
+
+    def of(problem, K, *, peak=True):
+        digits = len(f"{abs(K[0, 0])}") - 1
+        return replace(figures, margin=0.31 if digits >= needed else 0.29)
+
+    monkeypatch.setattr(proposals, "figures_of", of)
+    target = Target(request(plant, "1/2").region)
+    found = with_few_digits(Candidate("a start", problem, K, figures), target, None, most)
+    assert found.K.tolist() == [[expected]]
