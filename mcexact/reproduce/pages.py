@@ -15,6 +15,7 @@ from mcexact.reproduce.statements import STATUSES, Statement, counted
 
 _LARGEST_SAMPLE = 6000
 _OF_EXAMINATION = ("key", "title", "section", "proofs", "erratum")
+_OF_FINDING = ("holds", "instances", "in_common", "failure")
 _OF_STATEMENT = ("number", "section", "equation", "says", "status", "examined", "proofs", "note")
 COMMON_BOUND = (
     "The paper asks whether its bound on the common dimension of shared sub-states is tight. It is "
@@ -153,7 +154,10 @@ def reproduction_view(found: Reproduction) -> dict[str, Any]:
         "examinations": [
             {
                 **{name: getattr(row.examination, name) for name in _OF_EXAMINATION},
-                **{name: getattr(row.finding, name) for name in ("holds", "instances", "failure")},
+                **{
+                    name: getattr(row.finding, name)
+                    for name in ("holds", "instances", "in_common", "failure")
+                },
                 "status": row.status,
                 "checks": len(row.finding.checks),
                 "refutations": [

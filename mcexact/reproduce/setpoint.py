@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
 import numpy as np
@@ -217,6 +217,7 @@ def distributed_setpoints(note: Notebook) -> None:
     near = all(abs(y[-1] - r) < 1e-3 for y, r in zip(outputs, goals, strict=True))
     note.check("the run ends at the set-points 1 and −2", near)
     note.show(setpoint_picture(run, outputs, goals, ["y of agent 1", "y of agent 2"]))
+    _exactly_in_time(note, wanted)
     plant = note.at(washed_out())
     try:
         design_setpoint(plant.with_neighbors({plant.names[0]: []}), rate=1)
@@ -226,6 +227,24 @@ def distributed_setpoints(note: Notebook) -> None:
         note.certify(refused.certificate)
     else:
         note.check("refused where a set-point cannot be held", False)
+
+
+def _exactly_in_time(note: Notebook, wanted: Sequence[Fraction]) -> None:
+    """In discrete time, with all eigenvalues at 0, the outputs are at the set-points and stay."""
+    name, plant = two_tanks("discrete")
+    note.on(f"{name}, discrete time", plant)
+    order = plant.n + plant.m
+    spectrum = {"feedback": [0] * order, "error": [0] * (order * plant.m + plant.m - 1)}
+    design = design_setpoint(plant, spectrum=spectrum, method="observer")
+    size = design.loop.matrix.nrows
+    nilpotent = characteristic_polynomial(design.loop.matrix) == Polynomial.x() ** size
+    note.check("all eigenvalues of the loop are 0", nilpotent)
+    run = simulate(plant, design.controller, horizon=size + 3, reference=[[r] for r in wanted])
+    goal = Matrix.column(wanted)
+    there = [plant.output_matrix() @ Matrix.column(shot.plant) == goal for shot in run.snapshots]
+    note.check("after as many steps as it has states y = r, exactly", all(there[size:]))
+    note.refute("at-once", not all(there))
+    note.certify(design.loop.proof)
 
 
 def wrong_estimates(note: Notebook) -> None:
