@@ -24,7 +24,8 @@ from mcexact.cli.failures import DEFINITE_NO
     "wanted",
     multiple=True,
     metavar="NAME",
-    help="Examine only 'Theorem 2', 31 for equation (31), or 'statement 89'. May be repeated.",
+    help="Examine only 'Theorem 2', 31 for equation (31), 'statement 89' or 'section II-D'. "
+    "May be repeated.",
 )
 @click.option("--latex", is_flag=True, help="Print the table in LaTeX, for amsmath.")
 @options.as_json

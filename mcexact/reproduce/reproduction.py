@@ -113,7 +113,7 @@ def chosen(wanted: Iterable[str]) -> tuple[str, ...]:
     """Return the keys of the examinations with some names; all keys if none is given.
 
     A name is a key or title of the ledger, a printed number of an equation, a label of the paper's
-    LaTeX source, or ``statement 89`` for a number of the list of statements.
+    LaTeX source, ``statement 89`` for a number of the list of statements, or ``section II-D``.
 
     Raises
     ------
@@ -128,7 +128,11 @@ def chosen(wanted: Iterable[str]) -> tuple[str, ...]:
     by_name: dict[str, tuple[str, ...]] = {
         name.lower(): (each.key,) for each in examinations() for name in each.names
     }
-    by_name |= {f"statement {each.number}": each.examined for each in statements()}
+    for each in statements():
+        by_name[f"statement {each.number}"] = each.examined
+        for section in {each.section, each.section.partition("-")[0]}:
+            name = f"section {section}".lower()
+            by_name[name] = (*by_name.get(name, ()), *each.examined)
     keys: list[str] = []
     for name in wanted:
         number = re.fullmatch(r"(?:(?:equation|eq\.) )?\(?(\d+)\)?", name.lower())

@@ -62,6 +62,12 @@ def test_an_equation_is_found_by_its_number_however_that_is_written(name: str) -
     assert chosen([name]) == chosen(["sys:contr-obs-thru-q"]) == ("equation-31",)
 
 
+def test_a_section_means_all_that_it_says() -> None:
+    assert chosen(["section iv-b"]) == ("equation-23", "example", "dynamic", "sharing-states")
+    assert set(chosen(["section IV-B"])) < set(chosen(["section IV"]))
+    assert set(chosen(["section VI"])) == {"any-controller", "dynamic"}
+
+
 @pytest.mark.parametrize(
     ("name", "why"),
     [
