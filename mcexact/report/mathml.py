@@ -42,11 +42,18 @@ def typeset(text: str) -> Markup:
 
 
 def _with_formulas(text: str) -> str:
-    """A text without code."""
-    return "".join(
-        escape(each, quote=False) if isinstance(each, str) else f"<math>{_set(each)}</math>"
-        for each in formulas(text)
-    )
+    """A text without code; a sign after a formula stays on its line."""
+    made: list[str] = []
+    for each in formulas(text):
+        if isinstance(each, Node):
+            made.append(f"<math>{_set(each)}</math>")
+            continue
+        said = escape(each, quote=False)
+        if made and said[0] in ",.;:)":
+            made[-1] = f'<span class="kept">{made[-1]}{said[0]}</span>'
+            said = said[1:]
+        made.append(said)
+    return "".join(made)
 
 
 def matrix(name: str, rows: Sequence[Sequence[str]]) -> Markup:

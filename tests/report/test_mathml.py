@@ -10,6 +10,11 @@ SET = [
     ("no formula & none", "no formula &amp; none"),
     ("`a_b` < `c`", "<code>a_b</code> &lt; <code>c</code>"),
     ("n_i", "<math><msub><mi>n</mi><mi>i</mi></msub></math>"),
+    (
+        "n_i, and m.",
+        '<span class="kept"><math><msub><mi>n</mi><mi>i</mi></msub></math>,</span> and '
+        '<span class="kept"><math><mi>m</mi></math>.</span>',
+    ),
     ("C_{N_s}", "<math><msub><mi>C</mi><msub><mi>N</mi><mi>s</mi></msub></msub></math>"),
     (
         "B_jF_j",
