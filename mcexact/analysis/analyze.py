@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
+import time
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -15,6 +17,25 @@ from mcexact.answer.sentence import Given, Sentences
 from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.exact.rational import written
 from mcexact.model.system import MultiChannelSystem
+
+
+@dataclass(frozen=True)
+class Effort:
+    """What became of a question: seconds that passed, and why it is open or left out."""
+
+    question: str
+    outcome: str
+    seconds: float
+    reason: str = ""
+
+    def view(self) -> dict[str, Any]:
+        """Return plain data."""
+        return {
+            "question": self.question,
+            "outcome": self.outcome,
+            "seconds": round(self.seconds, 3),
+            **({"reason": self.reason} if self.reason else {}),
+        }
 
 
 class Analysis:
@@ -54,6 +75,7 @@ class Analysis:
             "channels": None if channel is None else [channel],
         }
         self._found: dict[str, Any] = {}
+        self._seconds: dict[str, float] = {}
         _require_several(questions=questions, subset=subset)
         plant.indices([*(subset or ()), *([] if channel is None else [channel])])
         if information not in {"own", "outputs"}:
@@ -63,7 +85,7 @@ class Analysis:
                 "neighbors", "the information 'outputs' is about messages between neighbors"
             )
         if questions is not None:
-            self.left_out = ()
+            self.left_out = {}
         self._asked = set(self.unbidden if questions is None else questions)
         for name in sorted(self._asked):
             self._require_known(name)
@@ -79,19 +101,18 @@ class Analysis:
         return tuple(name for name in self._applicable() if name not in self.left_out)
 
     @cached_property
-    def left_out(self) -> tuple[str, ...]:
-        """The questions that are left out because their evidence would be very large."""
+    def left_out(self) -> dict[str, str]:
+        """The questions that are left out because they would take very long, and why."""
+        system = self.system
         ports = {
-            "": self.system.n,
-            "inputs": self.system.input_matrix().ncols,
-            "outputs": self.system.output_matrix().nrows,
+            "inputs": sum(map(system.p, range(system.m))),
+            "outputs": sum(map(system.q, range(system.m))),
         }
-        return tuple(
-            name
+        found = {
+            name: QUESTIONS[name].reason_to_leave_out(system.n, ports)
             for name in self._applicable()
-            if QUESTIONS[name].ports
-            and self.system.n**2 > 10**4 * max(ports[QUESTIONS[name].ports], 1)
-        )
+        }
+        return {name: reason for name, reason in found.items() if reason}
 
     def _applicable(self) -> Iterator[str]:
         subset = self._arguments["subset"]
@@ -181,10 +202,12 @@ class Analysis:
             for key, other in question.shares.items():
                 if other in self._asked and not isinstance(self._answer(other), LimitReached):
                     reused[key] = self._answer(other)
+            began = time.perf_counter()
             try:
                 self._found[name] = question.decide(*arguments, **reused)
             except LimitReached as reached:
                 self._found[name] = reached
+            self._seconds[name] = time.perf_counter() - began
         self._asked.add(name)
         return self._found[name]
 
@@ -242,7 +265,23 @@ class Analysis:
         for name, reached in self.open().items():
             bounds = {"lower": _written(reached.lower), "upper": _written(reached.upper)}
             open_[name] = {"decided": False, "computed_not_certified": bounds}
-        return self.account.as_json(information=self.information, **open_)
+        told = [each.view() for each in self.effort()]
+        return self.account.as_json(information=self.information, questions=told, **open_)
+
+    def effort(self) -> tuple[Effort, ...]:
+        """Decide all questions asked, and return how long each took, or why it was left out."""
+        open_ = self.open()
+        asked = [
+            Effort(name, "open" if name in open_ else "decided", self._seconds[name], reason)
+            for name in self.asked
+            for reason in [open_[name].message if name in open_ else ""]
+        ]
+        left = [
+            Effort(name, "left out", 0.0, reason)
+            for name, reason in self.left_out.items()
+            if name not in self._asked
+        ]
+        return (*asked, *left)
 
     def __repr__(self) -> str:
         plant = self.plant

@@ -34,8 +34,10 @@ class Question:
         The name of the option of `mcexact analyze` that asks it, with the help of its first
         question.
     ports : {"", "inputs", "outputs"}
-        If not empty, it is asked by default only if n² ≤ 10⁴ times the number of these, since the
-        evidence is a Krylov sequence, which is longer with fewer inputs or outputs.
+        If not empty, it is asked by default only if n² ≤ 10⁴ and n³ ≤ 2·10⁶ times the number of
+        these, since the evidence is a Krylov sequence, which is longer with fewer of them.
+    most : int
+        If not 0, it is asked by default only of so many states: one minute on one processor.
     given : mapping
         Further keyword arguments of the function.
     reuses : mapping
@@ -55,6 +57,7 @@ class Question:
     unbidden: bool = True
     option: str = ""
     ports: str = ""
+    most: int = 0
     given: Mapping[str, Any] = field(default_factory=dict)
     reuses: Mapping[str, str] = field(default_factory=dict)
     shares: Mapping[str, str] = field(default_factory=dict)
@@ -75,6 +78,15 @@ class Question:
         """Call that function."""
         module = importlib.import_module(f"mcexact.analysis.{self.module}")
         return getattr(module, self.function)(*arguments, **self.given, **keywords)
+
+    def reason_to_leave_out(self, n: int, ports: Mapping[str, int]) -> str:
+        """Why it is not asked by default about n states with so many ports; empty if it is."""
+        if self.most and n > self.most:
+            return f"more than {self.most} states, of which it needs dense matrices"
+        width = max(ports[self.ports], 1) if self.ports else n
+        if self.ports and (n**2 > 10**4 * width or n**3 > 2 * 10**6 * width):
+            return f"{n} states for {width} {self.ports}, which make very long evidence"
+        return ""
 
 
 def _joint(
@@ -115,6 +127,8 @@ _SHARING = (
         "the least dimension that agents must share if all share equally many",
     ),
 )
+_DENSE = 1500
+"""The states of a sparse plant for which exact elimination takes a minute."""
 _JOINT, _ALONE = _joint(spectrum="fixed_spectrum"), _joint(needs="channels")
 _SPECTRUM = {"spectrum": "fixed_spectrum"}
 
@@ -149,11 +163,13 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
             "fixed_modes.assignability:assignability",
             "the parts into which the closed-loop spectrum splits",
             reuses={"graph": "transfer_graph"},
+            most=_DENSE,
         ),
         "setpoint": Question(
             "structure.setpoint:setpoint_solvability",
             "whether every output can be held at any value",
             about="plant",
+            most=_DENSE,
         ),
         "complementary_subsystem": Question(
             "structure.complementary_subsystem:complementary_subsystem",
@@ -208,6 +224,7 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
                 needs="neighbors",
                 unbidden=not option,
                 option=option,
+                most=2 * _DENSE,
                 given={"share": share},
                 kind=kind,
             )

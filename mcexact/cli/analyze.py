@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -12,8 +12,14 @@ from mcexact.analysis.questions import QUESTIONS, asked_by
 from mcexact.cli import options
 from mcexact.cli.failures import DEFINITE_NO
 
+if TYPE_CHECKING:
+    from mcexact.analysis.analyze import Effort
+    from mcexact.report.text import Table
+
 _LINES_OF_WORDS = 5
 _MODES = 6
+_LONG = 10.0
+"""The seconds from which on a question is listed with its time."""
 _ASKED = {question.option: question.help for question in reversed([*QUESTIONS.values()])}
 _ALSO = {option: told for option, told in reversed(_ASKED.items()) if option}
 """The options that add questions, from the table of questions, with their help texts."""
@@ -51,6 +57,15 @@ def _also(function: Callable[..., int]) -> Callable[..., int]:
     help="Also decide what this channel controls and observes, alone and with gains.",
 )
 @click.option(
+    "--also",
+    "named",
+    multiple=True,
+    type=click.Choice(sorted(QUESTIONS)),
+    metavar="QUESTION",
+    help="Also decide this question, by its name in --json, such as one that is left out of large "
+    "systems. May be repeated.",
+)
+@click.option(
     "--assert",
     "asserted",
     type=click.Choice(["no-fixed-modes"]),
@@ -71,6 +86,7 @@ def command(
     information: str,
     subset: str | None,
     channel: str | None,
+    named: tuple[str, ...],
     asserted: str | None,
     html: Path | None,
     latex: bool,
@@ -100,7 +116,9 @@ def command(
         run.limits,
         also,
         {"information": information, "subset": _named(subset), "channel": channel},
+        named,
         html is not None,
+        latex,
         run.system_by_digest,
         doing=f"analyzing {plant[0]}",
     )
@@ -134,12 +152,32 @@ def _named(subset: str | None) -> list[str] | None:
     return [name.strip() for name in subset.split(",")] if subset.strip() else []
 
 
+def _effort(taken: Sequence[Effort]) -> tuple[Table, ...]:
+    """A table of the questions that took long, or were not decided, if there are any."""
+    from mcexact.report.text import Table
+
+    rows = [
+        (
+            each.question.replace("_", " "),
+            "–" if each.outcome == "left out" else f"{each.seconds:.1f}",
+            f"{each.outcome}: {each.reason}" if each.reason else each.outcome,
+        )
+        for each in taken
+        if each.seconds >= _LONG or each.outcome != "decided"
+    ]
+    note = "Decide a question that is left out by --also and its name."
+    columns = ("question", "seconds", "outcome")
+    return (Table("questions that took long", columns, tuple(rows), note),) if rows else ()
+
+
 def _answer(
     plant: tuple[str, bytes],
     limits: dict[str, int],
     also: list[str],
     question: dict[str, Any],
+    named: tuple[str, ...],
     with_page: bool,
+    with_latex: bool,
     system_by_digest: bool,
 ) -> dict[str, Any]:
     """Decide and format the answer, in the child process."""
@@ -149,7 +187,7 @@ def _answer(
     from mcexact.report.account import in_lines, latex, tables
 
     system = system_in(*plant, limits)
-    found = analyze(system, also=asked_by(*also), **question)
+    found = analyze(system, also=[*asked_by(*also), *named], **question)
     account = found.account
     page = None
     if with_page:
@@ -159,7 +197,7 @@ def _answer(
     return told(account, system_by_digest) | {
         "json": found.as_json(),
         "words": in_lines(account.sentences, _LINES_OF_WORDS),
-        "tables": tables(account.sentences, most_modes=_MODES),
-        "latex": latex(account),
+        "tables": (*tables(account.sentences, most_modes=_MODES), *_effort(found.effort())),
+        "latex": latex(account) if with_latex else "",
         "page": page,
     }

@@ -2,6 +2,7 @@
 
 import inspect
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -102,6 +103,36 @@ def test_indices_of_very_long_chains_are_asked_only_by_name() -> None:
     assert "controllability_indices" in found.asked
     alone = analyze(found.plant, ["joint_controllability"])
     assert not any("left out" in each for each in alone.sentences)
+
+
+def test_every_question_is_listed_with_its_seconds_or_why_it_is_left_out(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    found = analyze(PAPER)
+    told = found.as_json()["questions"]
+    assert [each["question"] for each in told] == list(found.unbidden) == list(found.asked)
+    assert all(each["outcome"] == "decided" and each["seconds"] >= 0 for each in told)
+    fewer = dict(QUESTIONS) | {"setpoint": replace(QUESTIONS["setpoint"], most=2)}
+    monkeypatch.setattr("mcexact.analysis.analyze.QUESTIONS", fewer)
+    small = analyze(PAPER)
+    reason = "more than 2 states, of which it needs dense matrices"
+    assert small.left_out == {"setpoint": reason}
+    [left] = [each for each in small.as_json()["questions"] if each["outcome"] != "decided"]
+    expected = {"question": "setpoint", "outcome": "left out", "seconds": 0.0, "reason": reason}
+    assert left == expected
+    asked = analyze(PAPER, also=["setpoint"])
+    assert {each.outcome for each in asked.effort()} == {"decided"}
+    assert asked.setpoint == found.setpoint
+
+
+@pytest.mark.parametrize(
+    ("n", "width", "asked"), [(100, 1, True), (101, 1, False), (1000, 500, True), (600, 60, False)]
+)
+def test_indices_are_asked_where_their_evidence_is_short(n: int, width: int, asked: bool) -> None:
+    ports = {"inputs": width, "outputs": 1}
+    reason = QUESTIONS["controllability_indices"].reason_to_leave_out(n, ports)
+    assert (reason == "") == asked
+    assert QUESTIONS["fixed_spectrum"].reason_to_leave_out(n, ports) == ""
 
 
 @pytest.mark.parametrize(

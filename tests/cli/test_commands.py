@@ -4,11 +4,13 @@ import json
 import os
 import re
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 import mcexact
+from mcexact.analysis.questions import QUESTIONS
 from mcexact.cli import main
 from mcexact.cli.commands import COMMANDS
 from mcexact.crosschecks import demonstration
@@ -134,11 +136,25 @@ def test_analyze_writes_a_valid_certificate_for_every_answer(call: Call, tmp_pat
     assert [line.split()[0] for line in out.splitlines()] == ["VALID"] * len(files)
 
 
+def test_what_took_long_is_listed_and_a_question_that_is_left_out_can_be_named(
+    call: Call, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert "took long" not in call("analyze", TRIPLE)[1]
+    setpoint = replace(QUESTIONS["setpoint"], most=2)
+    monkeypatch.setattr("mcexact.analysis.analyze.QUESTIONS", {**QUESTIONS, "setpoint": setpoint})
+    text = call("analyze", TRIPLE)[1]
+    assert "questions that took long" in text
+    reason = "left out: more than 2 states, of which it needs dense matrices"
+    assert reason in " ".join(text.split())
+    assert "took long" not in call("analyze", TRIPLE, "--also", "setpoint")[1]
+    assert call("analyze", TRIPLE, "--also", "wishes")[0] == 2
+
+
 def test_certificates_can_name_the_system_by_its_digest(call: Call, tmp_path: Path) -> None:
     folders = {name: str(tmp_path / name) for name in ("whole", "named")}
     outputs = [
-        call("analyze", TRIPLE, "--json", "--certificates", folders["whole"]),
-        call("analyze", TRIPLE, "--json", "--certificates", folders["named"], "--system-by-digest"),
+        call("analyze", TRIPLE, "--certificates", folders["whole"]),
+        call("analyze", TRIPLE, "--certificates", folders["named"], "--system-by-digest"),
     ]
     assert outputs[0] == outputs[1]
     sizes = [(tmp_path / name / "transfer_graph.json").stat().st_size for name in folders]
