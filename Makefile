@@ -82,7 +82,7 @@ zipapp: $(STAMP)
 reproduce: $(STAMP)
 	$(BIN)/mcexact reproduce -o reproduction
 
-# Changes of the examinations behind `reproduce`, each of which has to make one fail: a minute or two.
+# Changes of the examinations behind `reproduce`, each of which has to make one fail: minutes.
 paper-mutants: $(STAMP)
 	$(BIN)/python -m tests.paper_mutants
 
