@@ -24,8 +24,8 @@ class SparseStep:
     """
 
     def __init__(self, entries: Sequence[Entry], n: int, ell: int) -> None:
-        self.ell, spent = ell, 300 * (len(entries) + n)
-        spend(spent)
+        self.ell = ell
+        spend(300 * (len(entries) + n))
         columns: list[list[tuple[int, int]]] = [[] for _ in range(n)]
         for i, j, x in entries:
             columns[j].append((i, x))
@@ -69,14 +69,14 @@ class SparseStep:
         """The short columns: multiples of u, looked up, and sums of at most 255 in each byte."""
         tables, most = multiples(self.ell), 255 // (self.ell - 1)
         products = b"".join(u.translate(tables[x]) for x in self.values)
-        total, addends, size = 0, 0, self.short + 2
+        total, addends = 0, 0
         for gather, xs in self.layers:
             if addends == most:
-                reduced = total.to_bytes(size, "little").translate(tables[1])
+                reduced = total.to_bytes(self.short, "little").translate(tables[1])
                 total, addends = int.from_bytes(reduced, "little"), 1
             total += int.from_bytes(bytes(gather(products)[: len(xs)]), "little")
             addends += 1
-        return total.to_bytes(size, "little").translate(tables[1])[: self.short]
+        return total.to_bytes(self.short, "little").translate(tables[1])
 
 
 def loop_entries(system: System, gains: Sequence[Matrix], ell: int) -> list[Entry] | None:

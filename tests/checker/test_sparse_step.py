@@ -60,6 +60,12 @@ def test_rows_are_multiplied_as_number_by_number(ell: int, n: int) -> None:
         assert isinstance(found, bytes) == (ell <= SMALL)
 
 
+def test_one_number_is_multiplied() -> None:
+    for ell in MODULI:
+        step = SparseStep([(0, 0, ell - 1)], 1, ell)
+        assert list(step(step.start([ell - 1]))) == [1]
+
+
 def test_columns_of_many_entries_are_not_added_up_in_layers() -> None:
     for count, layers in ((LONG, LONG), (LONG + 1, 1)):
         entries = [(i, 3, 1) for i in range(count)] + [(0, 7, 1)]
