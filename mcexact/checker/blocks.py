@@ -44,8 +44,11 @@ def _entered(system: System, at: dict[int, int]) -> set[int]:
 
 def _channels(system: System, at: dict[int, int], place: str, count: int) -> list[list[int]]:
     """The channels that act within each block: that have inputs and outputs there."""
+    ports = list(enumerate(zip(system.B, system.C, strict=True)))
+    if count == 1:
+        return [[i for i, (B, C) in ports if not (B.is_zero() or C.is_zero())]]
     found: list[list[int]] = [[] for _ in range(count)]
-    for i, (B, C) in enumerate(zip(system.B, system.C, strict=True)):
+    for i, (B, C) in ports:
         moved = [at[a] for a, _, _ in sparse.entries_of(B)]
         seen = [at[b] for _, b, _ in sparse.entries_of(C)]
         spend(8 * (len(moved) + len(seen)))

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Mapping
 from functools import cached_property
-from itertools import compress
+from itertools import chain, compress
 
 from . import budget
 from .arithmetic import Matrix, Rows, inverse
@@ -82,9 +82,11 @@ def listed(M: Matrix) -> SparseMatrix | None:
     cells = M.nrows * M.ncols
     if isinstance(M, SparseMatrix):
         return M if SHARE * len(M.entries) <= cells and cells >= LEAST else None
+    if cells < LEAST:
+        return None
     spend(M.nrows * (8 + M.ncols))
-    nonzero = sum(M.ncols - row.count(0) for row in M.rows)
-    if SHARE * nonzero > cells or cells < LEAST:
+    nonzero = sum(map(bool, chain.from_iterable(M.rows)))
+    if SHARE * nonzero > cells:
         return None
     spend(100 * nonzero)
     entries = [(i, j, x) for i, row in enumerate(M.rows) for j, x in enumerate(row) if x]
