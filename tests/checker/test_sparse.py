@@ -61,6 +61,7 @@ def test_the_longest_of_the_entries_and_the_denominator_counts() -> None:
     assert SparseMatrix(1, 3, [(0, 0, 1), (0, 2, -(2**60))]).limbs == 3
     assert SparseMatrix(1, 3, [(0, 0, 1)], 2**60).limbs == 3
     assert SparseMatrix(1, 3, []).limbs == 1
+    assert SparseMatrix(1, 3, []).denominator == 1
 
 
 def test_matrices_that_do_not_fit_have_no_product() -> None:
@@ -108,6 +109,7 @@ def rows_with(nrows: int, ncols: int, nonzero: int) -> list[list[Any]]:
 FORMS = [
     ("a large matrix of which an eighth is not 0", 32, 64, 256, True),
     ("a large matrix of zeros", 1, 2048, 0, True),
+    ("a larger matrix", 64, 64, 100, True),
     ("one entry more than an eighth", 32, 64, 257, False),
     ("one cell less", 23, 89, 0, False),
     ("a matrix that is too small", 2, 2, 0, False),

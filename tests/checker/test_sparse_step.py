@@ -21,7 +21,7 @@ from tests.checker.handmade import Document, changed, checked
 from tests.checker.test_krylov import ACCEPTED, FALSE, REJECTED, spectrum
 from tests.checker.test_sparse import drawn, same
 
-MODULI = [2, 3, 7, 31, SMALL, SMALL + 1, 2**19 - 1, 10**20 + 39]
+MODULI = [2, 3, 7, 31, 33, SMALL, SMALL + 1, 2**19 - 1, 10**20 + 39]
 
 
 def in_sparse_form(M: Matrix) -> SparseMatrix:
@@ -52,7 +52,7 @@ def test_rows_are_multiplied_as_number_by_number(ell: int, n: int) -> None:
     rng.shuffle(entries)
     step = SparseStep(entries, n, ell)
     assert sorted(step.order) == list(range(n))
-    for u in ([rng.randrange(ell) for _ in range(n)], [ell - 1] * n, [0] * n):
+    for u in ([rng.randrange(ell) for _ in range(n)], [ell - 1] * n, [1] * n, [0] * n):
         found, expected = step.start(u), u
         for _ in range(3):
             assert list(found) == [expected[j] for j in step.order]
