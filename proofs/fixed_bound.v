@@ -149,4 +149,15 @@ move=> ri simple; have low : forall s, (n <= \rank (pencil SK s lambda) + d i)%N
 split=> //; apply/eqP; rewrite eqn_leq low andbT.
 apply: (shrunk_subspace_pencil (sh i)); by rewrite -map_poly_into.
 Qed.
+
+(* No pencil loses more than the largest d_i, at no lambda. *)
+Theorem bounded_deficiency rho lambda : (forall i, d i <= rho)%N ->
+  (forall i, ~~ (('X - lambda%:P) ^+ 2 %| PK i)) -> forall s, (n <= \rank (pencil SK s lambda) + rho)%N.
+Proof.
+move=> dr simple s; have [/existsP[i ri]|] := boolP [exists i, root (PK i) lambda].
+  have [low _] := bounded_rank ri (simple i); by rewrite (leq_trans (low s))// leq_add2l dr.
+rewrite negb_exists => /forallP none; rewrite (leq_trans _ (leq_addr rho _))// -[X in (_ <= X)%N]addn0.
+apply: (fixed_polynomial_rank bounded_rule); rewrite expr1 dvdp_XsubCl /root horner_prod.
+by apply/prodf_neq0 => i _; rewrite horner_exp expf_neq0//; apply: none.
+Qed.
 End Rules.

@@ -7,7 +7,7 @@ from .markov import unseen
 from .neighbor_graph import components
 from .packed_rows import SMALL
 from .paths import without_path
-from .reading import Json, boolean, fields, integer, items, malformed, names, require
+from .reading import Json, boolean, fields, integer, items, malformed, names, require, shown
 from .statement import channel_set, denied, edge_set
 from .subspaces import zero_transfer
 from .system import System
@@ -56,10 +56,14 @@ def statement(claim: Json, system: System) -> str:
 
 def read_arcs(value: Json, where: str, system: System) -> list[tuple[int, int, int]]:
     """Read edges (j, i) with a power k each, sorted and none twice."""
-    arcs = []
+    arcs, known = [], {name: i for i, name in enumerate(system.names)}
     for place, entry in ((f"{where}[{k}]", e) for k, e in enumerate(items(value, where))):
         *ends, power = items(entry, place, 3)
-        j, i = (names([end], place, system.names)[0] for end in ends)
+        spend(40)
+        for end in ends:
+            if type(end) is not str or end not in known:
+                malformed(place, f"expected the name of a channel, found {shown(end)}")
+        j, i = (known[end] for end in ends)
         arcs.append((j, i, integer(power, place)))
     if [arc[:2] for arc in arcs] != sorted({arc[:2] for arc in arcs}):
         malformed(where, "expected them sorted, none twice")

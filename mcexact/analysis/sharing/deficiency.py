@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 from mcexact.analysis.engine import Obstruction, decide, evidence
-from mcexact.answer.deficiency import Deficiency
+from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
+from mcexact.answer.deficiency import ByBlocks, ByCompletion, Deficiency, RankLoss
+from mcexact.answer.fixed_spectrum import ByBlocks as FixedByBlocks
 from mcexact.derived.modular_system import closed_loop, generator, lifted, lifted_gains
 from mcexact.exact.modular import random_matrix
 from mcexact.model.system import MultiChannelSystem
+
+# Up to this size one completed loop is the shorter evidence, and quick to check.
+_SMALL = 128
 
 
 def deficiency(system: MultiChannelSystem) -> Deficiency:
@@ -20,7 +25,8 @@ def deficiency(system: MultiChannelSystem) -> Deficiency:
     -----
     Exact.  ρ is the largest dimension of a kernel of λI − A_F for gains F that make each of them
     least.  From above: A_F + B_0 C_0 with ρ columns and rows has no eigenvalue of A.  From below: a
-    shrunk subspace of deficiency ρ.
+    shrunk subspace of deficiency ρ.  For large systems the fixed spectrum proves both where its
+    evidence is by blocks.
 
     Examples
     --------
@@ -29,6 +35,10 @@ def deficiency(system: MultiChannelSystem) -> Deficiency:
     >>> deficiency(MultiChannelSystem(A, [b, b], [[[1, 0]], [[0, 1]]])).deficiency
     1
     """
+    if system.n > _SMALL:
+        found = _by_blocks(system)
+        if found is not None:
+            return found
     rng = generator(system, "deficiency")
     decision = decide(system, rng)
     worst: Obstruction | None = max(
@@ -46,10 +56,29 @@ def deficiency(system: MultiChannelSystem) -> Deficiency:
     return Deficiency(
         system,
         deficiency=rho,
-        modulus=ell,
-        gains=lifted_gains(modular, decision.gains),
-        B0=lifted(B0),
-        C0=lifted(C0),
-        polynomial=worst.polynomial if worst else None,
-        subspace=evidence(system, worst.subspace) if worst else None,
+        evidence=ByCompletion(
+            modulus=ell,
+            gains=lifted_gains(modular, decision.gains),
+            B0=lifted(B0),
+            C0=lifted(C0),
+            polynomial=worst.polynomial if worst else None,
+            subspace=evidence(system, worst.subspace) if worst else None,
+        ),
+    )
+
+
+def _by_blocks(system: MultiChannelSystem) -> Deficiency | None:
+    """The deficiency that the fixed spectrum proves, if its evidence is by blocks."""
+    spectrum = fixed_spectrum(system)
+    proof = spectrum.evidence
+    if not isinstance(proof, FixedByBlocks):
+        return None
+    losses = tuple(
+        RankLoss(factor.polynomial, system.n - factor.rank, space)
+        for factor, space in zip(spectrum.factors, proof.subspaces, strict=True)
+    )
+    return Deficiency(
+        system,
+        deficiency=max((loss.deficiency for loss in losses), default=0),
+        evidence=ByBlocks(proof.blocks, proof.modulus, losses),
     )

@@ -85,11 +85,29 @@ def other_deficiency(rng: random.Random, document: Document) -> Forged:
     system, witness = subject_of(document), document["witness"]
     rho = max(document["claim"]["deficiency"] + rng.choice((-2, -1, 1)), 0)
     document["claim"]["deficiency"] = rho
+    made = sequences.blocks(rng, system) if rng.random() < 0.5 else None
+    if made is not None:
+        _by_other_blocks(rng, document, made, rho)
+        return document
     n = system.n
     witness |= {"B0": drawn(rng, n, rho), "C0": drawn(rng, rho, n), "modulus": PRIME}
     if not rho:
         witness |= {"polynomial": None, "subspace": None}
     return document
+
+
+def _by_other_blocks(
+    rng: random.Random, document: Document, made: list[Document], rho: int
+) -> None:
+    """Blocks that prove too much, and the factor that loses rank with another loss, or none."""
+    witness = document["witness"]
+    losses = witness.get("losses", [])
+    if witness.get("subspace"):
+        space = {key: witness[key] for key in ("polynomial", "subspace")}
+        losses = [{**space, "deficiency": max(rho, 1)}]
+    losses = losses if rho else []
+    ell = rng.choice((2, 7, 101)) if losses else None
+    document["witness"] = {"blocks": made, "modulus": ell, "losses": losses}
 
 
 def factor_dropped(rng: random.Random, document: Document) -> Forged:
