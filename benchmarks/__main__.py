@@ -1,36 +1,138 @@
-"""Ask every question of this folder once and print a table of ratios; write them as JSON."""
+"""Measure in parts, keep what was measured, and write the table ``SPEED.md``.
+
+Run as ``python -m benchmarks [ROWS.jsonl] [PART …]``; by default all parts, whose names begin with
+the words given.  ``quick`` stands for some of a minute.  Rows are kept in ``rows/speed.jsonl``, and
+what that has is not measured again: the same command continues after an interruption, and a part
+whose row is removed is measured anew.  ``SPEED.md`` has all rows that are kept; for other rows the
+table stands beside them.
+"""
 
 from __future__ import annotations
 
-import json
-import platform
+import os
 import sys
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict
+from functools import partial
 from pathlib import Path
+from typing import Any
 
-from benchmarks import bad_inputs, fixed_spectrum, matrices, start_up
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+from benchmarks import bad_inputs, commands, fixed_spectrum, matrices, networks, start_up
+from benchmarks.fixed_spectrum import Row
+from benchmarks.kept_rows import ROWS, chosen, kept, measured
+from mcexact.crosschecks.records import libraries_here
+
+_TABLE = Path(__file__).with_name("SPEED.md")
+_HEAD = """\
+# How long things take
+
+`make bench` measures these figures, each part in one run in which peers take turns; ratios are of
+medians of 5. `make bench PARTS=quick` measures some, and `PARTS='absence checked'` the parts whose
+names begin so. All seconds are those of the processor. A line whose limit is `reported` has none.
+The load is the mean number of busy processes on the machine: where it is high, memory and caches
+are shared, and seconds are longer.
+
+The peer in `absence` is what practice does: the eigenvalues of A and of one drawn closed loop, by
+`numpy.linalg.eigvals`, which proves nothing. [TEN_MILLION.md](TEN_MILLION.md) says what these
+figures mean for larger plants.
+"""
+
+PARTS: Mapping[str, Callable[[], Iterator[Row]]] = {
+    **{
+        f"absence {n} states {digits} digits": partial(fixed_spectrum.absence_rows, n, digits)
+        for n in (200, 400, 800, 1600)
+        for digits in (1, 6)
+    },
+    **{
+        f"checked {n} states": partial(fixed_spectrum.checked_rows, n, limit)
+        for n, limit in ((500, 0.5), (1000, 2), (2000, 15))
+    },
+    "planted modes": fixed_spectrum.planted_rows,
+    "planted modes in large plants": fixed_spectrum.large_rows,
+    "planted modes of high degree": fixed_spectrum.high_degree_rows,
+    "completeness": fixed_spectrum.completeness_rows,
+    "network swing-grid 4000": partial(networks.network_rows, "swing-grid", 4000, 200, 10, 30),
+    "network swing-speed 4000": partial(networks.network_rows, "swing-speed", 4000, 200, 30, 30),
+    "network building 10000": partial(networks.network_rows, "building", 10_000, 1000, 10, 30),
+    "network building 100000": partial(
+        networks.absence_rows, "building", 100_000, 10_000, limit=300
+    ),
+    **{f"command {name}": partial(commands.command_rows, name) for name in commands.COMMANDS},
+    "matrices": matrices.rows,
+    "start-up": start_up.rows,
+    "refusals": bad_inputs.rows,
+}
+QUICK = (
+    "absence 200 states 1 digits",
+    "absence 400 states 1 digits",
+    "checked 500 states",
+    "planted modes of high degree",
+    "network swing-grid 4000",
+    "matrices",
+    "start-up",
+)
 
 
 def main(arguments: list[str]) -> int:
-    """Run; the one argument is the JSON file to write.  Ends with 1 if a limit is exceeded."""
-    found = []
-    for module in (fixed_spectrum, matrices, start_up, bad_inputs):
-        for row in module.rows():
-            found.append(row)
-            mark = "holds" if row.holds else "FALLS SHORT"
-            value = f"{row.ratio:10.2f} {row.unit}"
-            print(
-                f"{value:<20} {row.limit:<10} {mark:<12} {row.question}   [{row.detail}]",
-                flush=True,
-            )
-    if arguments:
-        document = {
-            "python": platform.python_version(),
-            "machine": platform.machine(),
-            "rows": [asdict(row) for row in found],
-        }
-        Path(arguments[0]).write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
-    return 0 if all(row.holds for row in found) else 1
+    """Measure the parts; ends with 1 if a limit is exceeded."""
+    path, words = chosen(arguments, "speed")
+    names = [name for name in PARTS if _is_asked(name, words)]
+    if not names:
+        print(f"no part of this name; expected {', '.join(PARTS)}", file=sys.stderr)
+        return 2
+    known = kept(path)
+    fell = False
+    for name in names:
+        part = measured(path, name, partial(_measured, PARTS[name]), known)
+        known[name] = part
+        for row in part["rows"]:
+            fell = fell or not row["holds"]
+            print(_line(row), flush=True)
+    table = _TABLE if path == ROWS / "speed.jsonl" else path.with_suffix(".md")
+    table.write_text(_table(known), encoding="utf-8")
+    return int(fell)
+
+
+def _is_asked(name: str, words: list[str]) -> bool:
+    """Whether a part is named by all words, by one that begins its name, or by ``quick``."""
+    quick = "quick" in words and name in QUICK
+    return not words or quick or any(name.startswith(word) for word in words)
+
+
+def _measured(part: Callable[[], Iterator[Row]]) -> dict[str, Any]:
+    """The rows of a part, with the libraries and the threads."""
+    load = os.getloadavg()[0]
+    rows = [asdict(row) for row in part()]
+    threads = os.environ["OPENBLAS_NUM_THREADS"]
+    libraries = f"{libraries_here()}, {threads} thread of OpenBLAS"
+    return {"rows": rows, "libraries": libraries, "load": round(load, 1)}
+
+
+def _line(row: Mapping[str, Any]) -> str:
+    """A row as text."""
+    mark = "holds" if row["holds"] else "FALLS SHORT"
+    value = f"{row['ratio']:10.2f} {row['unit']}"
+    return f"{value:<20} {row['limit']:<10} {mark:<12} {row['question']}   [{row['detail']}]"
+
+
+def _table(known: Mapping[str, Mapping[str, Any]]) -> str:
+    """The page of all rows that are kept, part by part, with the machines they are from."""
+    lines = [_HEAD]
+    for machine in sorted({part["machine"] for part in known.values()}):
+        libraries = sorted({p["libraries"] for p in known.values() if p["machine"] == machine})
+        lines += [f"Measured on {machine}, with {'; '.join(libraries)}.", ""]
+    for name, part in ((name, known[name]) for name in PARTS if name in known):
+        lines += [f"## {name}", "", f"Load {part['load']}.", ""]
+        lines += ["| what | | limit | |", "|---|---|---|---|"]
+        for row in part["rows"]:
+            short = "" if row["holds"] else "**falls short**"
+            value = f"{row['ratio']:.3g} {row['unit']}"
+            detail = f"{row['detail']} {short}".strip().replace("|", "\\|")
+            lines.append(f"| {row['question']} | {value} | {row['limit']} | {detail} |")
+        lines.append("")
+    return "\n".join(lines)
 
 
 if __name__ == "__main__":
