@@ -77,6 +77,12 @@ def request_for(
     return replace(made, notes=(note,))
 
 
+def slower(region: StabilityRegion) -> StabilityRegion:
+    """Halve a rate, or the distance of a radius to 1."""
+    edge = (region.edge + 1) / 2 if region.discrete else region.edge / 2
+    return StabilityRegion(region.time, edge)
+
+
 def _beyond(
     fixed: FixedSpectrum, region: StabilityRegion, told: str
 ) -> tuple[StabilityRegion, str]:
@@ -84,7 +90,6 @@ def _beyond(
     if not fixed.stabilizable:
         return region, told
     while fixed.outside(region):
-        edge = (region.edge + 1) / 2 if region.discrete else region.edge / 2
-        region = StabilityRegion(region.time, edge)
+        region = slower(region)
         told = "slow enough for the fixed modes"
     return region, told

@@ -12,7 +12,8 @@ from mcexact.synthesis.network.networks import decentralized_network
 from mcexact.synthesis.optimum.aims import Aims
 from mcexact.synthesis.optimum.proposals import searched_proposals
 from mcexact.synthesis.optimum.structures import Family
-from mcexact.synthesis.request import Arithmetic, Progress
+from mcexact.synthesis.request import Arithmetic, Progress, Request
+from mcexact.synthesis.slowing import at_a_robust_rate
 
 
 def design_decentralized(
@@ -39,7 +40,8 @@ def design_decentralized(
         A spectrum to be placed exactly by the controller of the theorem; see `network_proposals`.
     rate, radius : rational, optional
         Every eigenvalue gets real part below −rate (continuous time) or modulus below radius
-        (discrete time).  Without a spectrum, the default is half the sensible rate.
+        (discrete time).  Without a spectrum, the default is half the sensible rate, or less if that
+        leads to a fragile loop.
     arithmetic : {"exact", "float"}
         The arithmetic of the theorem's controller.  Floating point takes no spectrum.
     aims : Aims, optional
@@ -86,5 +88,9 @@ fixed by s = {1}, and it is not fast enough
     given = system, agent, spectrum, rate, radius, arithmetic, progress
     request = request_for(*given, aims=aims, avoids_fixed_modes=True)
     network = decentralized_network(system)
-    proposals = searched_proposals(Family(network), request, aims)
-    return network_design("decentralized", network, request, proposals)
+
+    def attempt(asked: Request) -> Design:
+        proposals = searched_proposals(Family(network), asked, aims)
+        return network_design("decentralized", network, asked, proposals)
+
+    return at_a_robust_rate(request, attempt)

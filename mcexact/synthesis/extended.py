@@ -18,6 +18,7 @@ from mcexact.synthesis.optimum.aims import MARGIN, Aims
 from mcexact.synthesis.optimum.proposals import searched_proposals
 from mcexact.synthesis.optimum.structures import Family
 from mcexact.synthesis.request import Arithmetic, Progress, Request
+from mcexact.synthesis.slowing import at_a_robust_rate
 
 SharedNetwork = Literal["extended", "lifted", "held"]
 _WITH_DELAYS: tuple[SharedNetwork, ...] = ("lifted", "held")
@@ -65,7 +66,8 @@ def design_extended(
     rate, radius : rational, optional
         A rate or radius to be certified, instead of a spectrum or in addition to it.  Only modes
         that violate it need to be moved; fixed modes that meet it remain, and are reported.
-        Without a spectrum, the default is half the sensible rate.
+        Without a spectrum, the default is half the sensible rate, or less if that leads to a
+        fragile loop.
     free_assignability : bool
         With ``"minimal"``, share enough that the transfer graph of the extended system is strongly
         connected, so that the spectrum does not split.
@@ -112,10 +114,15 @@ the modes that are not fast enough: agents 2 and 3 need 1 shared state of other 
 receive from nobody
     """
     request = request_for(system, agent, spectrum, rate, radius, arithmetic, progress, aims=aims)
-    asked = _Asked(system, graph, request, dimensions, share, free_assignability, aims or Aims())
-    if network is None and asked.compares:
-        return asked.cheaper()
-    return asked.designed(network)
+
+    def attempt(request: Request) -> Design:
+        given = dimensions, share, free_assignability, aims or Aims()
+        asked = _Asked(system, graph, request, *given)
+        if network is None and asked.compares:
+            return asked.cheaper()
+        return asked.designed(network)
+
+    return at_a_robust_rate(request, attempt)
 
 
 @dataclass(frozen=True)

@@ -41,6 +41,7 @@ from mcexact.synthesis.optimum.proposals import searched_proposals
 from mcexact.synthesis.optimum.structures import Family
 from mcexact.synthesis.optimum.weights import Weights
 from mcexact.synthesis.request import Arithmetic, Progress, Request
+from mcexact.synthesis.slowing import at_a_robust_rate
 
 SetpointMethod = Literal["observer", "extended"]
 
@@ -75,9 +76,9 @@ def design_setpoint(
         the key ``"closed_loop"`` as in `design_extended`.
     rate, radius : rational, optional
         A rate or radius to be certified, instead of a spectrum or in addition to it.  Without a
-        spectrum, the default is half the sensible rate.  For a controller of a theorem, in exact
-        arithmetic and continuous time, the eigenvalues are placed beyond three times the rate, if
-        no fixed mode prevents this.
+        spectrum, the default is half the sensible rate, or less if that leads to a fragile loop.
+        For a controller of a theorem, in exact arithmetic and continuous time, the eigenvalues are
+        placed beyond three times the rate, if no fixed mode prevents this.
     method : {"observer", "extended"}, optional
         A distributed observer of the plant with all integrators; or a controller of low order with
         shared sub-states, by a search as in `design_extended`.  By default such a controller, in
@@ -136,9 +137,13 @@ invariant zero of the plant
     given = system, agent, spectrum, rate, radius, arithmetic, progress
     request = request_for(*given, aims=aims, controlled=as_plant(integrated))
     _require_reachable(integrated, request.region)
-    task = _Task(system, integrated, graph, request, method, dimensions, aims or Aims())
-    moved = (_for_the_plant(system, each) for each in task.proposals())
-    made = designed("observer", request, system, system.neighbors, moved, stable=True)
+
+    def attempt(asked: Request) -> Design:
+        task = _Task(system, integrated, graph, asked, method, dimensions, aims or Aims())
+        moved = (_for_the_plant(system, each) for each in task.proposals())
+        return designed("observer", asked, system, system.neighbors, moved, stable=True)
+
+    made = at_a_robust_rate(request, attempt)
     gain = made.loop.closed.steady_gain
     if gain is None or gain != Matrix.identity(gain.nrows):
         raise InternalError("a stable loop with integrators does not attain its set-points")

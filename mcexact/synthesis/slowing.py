@@ -1,0 +1,78 @@
+"""Designs for which no rate was given become slower where the loop would be fragile."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from mcexact.errors import LimitReached
+from mcexact.synthesis.asking import slower
+from mcexact.synthesis.design import Design
+from mcexact.synthesis.optimum.aims import MARGIN
+from mcexact.synthesis.request import Request
+
+_HALVINGS = 2
+
+
+def at_a_robust_rate(request: Request, design: Callable[[Request], Design]) -> Design:
+    """Design for a request, and for half and a quarter of its rate if this was chosen.
+
+    Parameters
+    ----------
+    request : Request
+    design : callable
+        The design for a request.
+
+    Returns
+    -------
+    Design
+        The first with a margin of 0.3, or the one with the largest margin.  A rate that was given
+        stays, and so does one for which already a controller for all agents together is fragile.
+
+    Raises
+    ------
+    LimitReached
+        That of the first rate, if no controller was found for any.
+
+    Notes
+    -----
+    The sensible rate is that of one controller for all agents; agents that know less than it can be
+    too slow for half of it.
+    """
+    best, failed = None, None
+    for trial in range(_HALVINGS + 1):
+        asked = request
+        if trial:
+            request.tell("a slower rate")
+            asked = _halved(request, trial)
+        try:
+            made = design(asked)
+        except LimitReached as limit:
+            failed = failed or limit
+        else:
+            best = made if best is None or _margin(made) > _margin(best) else best
+        if not request.notes or (best is not None and _is_final(best)):
+            break
+    if best is None:
+        raise failed or LimitReached("no controller was found")
+    return best
+
+
+def _halved(request: Request, times: int) -> Request:
+    region = request.region
+    for _ in range(times):
+        region = slower(region)
+    told = f", and {region.edge} was taken, since faster loops were fragile"
+    return replace(request, region=region, notes=(*request.notes[:-1], request.notes[-1] + told))
+
+
+def _margin(made: Design) -> float:
+    """The margin of a controller that was searched, 0 for others."""
+    found = made.parts.get("optimum")
+    return 0.0 if found is None else float(found.figures.margin)
+
+
+def _is_final(made: Design) -> bool:
+    """Whether a slower rate is not tried: the loop is robust, or none is for all agents."""
+    known = made.parts.get("diagnosis")
+    return _margin(made) >= MARGIN or known is None or not known.is_sensible

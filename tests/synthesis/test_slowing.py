@@ -1,0 +1,75 @@
+"""A rate that nobody gave becomes slower where the loop would be fragile."""
+
+from dataclasses import replace
+
+import pytest
+
+from mcexact import design_decentralized
+from mcexact.errors import LimitReached
+from mcexact.model import gallery
+from mcexact.synthesis.asking import request_for
+from mcexact.synthesis.design import Design
+from mcexact.synthesis.request import Request
+from mcexact.synthesis.slowing import at_a_robust_rate
+
+PLANT = gallery.load("lexalutyi-two-double-integrators")
+
+
+MADE = design_decentralized(PLANT, rate="1/4")
+
+
+def with_margin(asked: Request, margin: float, sensible: bool = True) -> Design:
+    """A design whose loop has a margin, for a rate that is sensible or not."""
+    found, known = MADE.parts["optimum"], MADE.parts["diagnosis"]
+    found = replace(found, figures=replace(found.figures, margin=margin))
+    known = known if sensible else replace(known, central=None)
+    parts = {**MADE.parts, "optimum": found, "diagnosis": known}
+    return replace(MADE, region=asked.region, notes=asked.notes, parts=parts)
+
+
+def counted(asked: Request, tried: list[Request], fails: int) -> Design:
+    """A design the first attempts at which reach a limit."""
+    tried.append(asked)
+    if len(tried) <= fails:
+        raise LimitReached(f"limit {len(tried)}")
+    return with_margin(asked, 0.5)
+
+
+@pytest.mark.parametrize(
+    ("margins", "sensible", "kept"),
+    [
+        ([0.4], True, 0),
+        ([0.02, 0.15, 0.31], True, 2),
+        ([0.1, 0.2, 0.05], True, 1),
+        ([0.02], False, 0),
+    ],
+)
+def test_a_fragile_loop_becomes_slower(margins, sensible, kept):
+    chosen, left = request_for(PLANT), list(margins)
+    made = at_a_robust_rate(chosen, lambda asked: with_margin(asked, left.pop(0), sensible))
+    assert not left and made.region.edge == chosen.region.edge / 2**kept
+    [note] = made.notes
+    assert note.startswith(chosen.notes[0]) and ("were fragile" in note) == bool(kept)
+
+
+@pytest.mark.parametrize("fails", [0, 1, 2])
+def test_a_chosen_rate_is_halved_until_a_controller_is_found(fails):
+    chosen, tried = request_for(PLANT), list[Request]()
+    made = at_a_robust_rate(chosen, lambda asked: counted(asked, tried, fails))
+    edges = [each.region.edge for each in tried]
+    assert edges == [chosen.region.edge / 2**k for k in range(fails + 1)]
+    assert made.region == tried[-1].region
+
+
+def test_the_first_limit_is_told_if_none_is_found():
+    tried = list[Request]()
+    with pytest.raises(LimitReached, match="limit 1"):
+        at_a_robust_rate(request_for(PLANT), lambda asked: counted(asked, tried, 9))
+    assert len(tried) == 3
+
+
+def test_a_given_rate_stays():
+    given, tried = Request.of(PLANT, rate=1), list[Request]()
+    with pytest.raises(LimitReached, match="limit 1"):
+        at_a_robust_rate(given, lambda asked: counted(asked, tried, 9))
+    assert tried == [given]
