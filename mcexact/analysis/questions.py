@@ -224,7 +224,6 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
                 needs="neighbors",
                 unbidden=not option,
                 option=option,
-                most=2 * _DENSE,
                 given={"share": share},
                 kind=kind,
             )
