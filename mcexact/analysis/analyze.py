@@ -10,7 +10,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from mcexact.analysis.questions import QUESTIONS
+from mcexact.analysis.questions import QUESTIONS, Question
 from mcexact.answer.account import Account
 from mcexact.answer.rules import ANALYSIS, with_own
 from mcexact.answer.sentence import Given, Sentences
@@ -165,7 +165,7 @@ class Analysis:
         return held_system(self.plant, self._shared("states"))
 
     def _shared(self, stem: str) -> tuple[int, ...]:
-        return (self._answer(f"shared_dimension_bound_{stem}").deficiency,) * self.plant.m
+        return (self[f"shared_dimension_bound_{stem}"].deficiency,) * self.plant.m
 
     def __getitem__(self, name: str) -> Any:
         """Return the answer to a question, which is decided if it is not known yet.
@@ -194,22 +194,27 @@ class Analysis:
     def _answer(self, name: str) -> Any:
         """Return the answer, or the limit that prevented it."""
         if name not in self._found:
-            question = QUESTIONS[name]
-            arguments = [getattr(self, question.about)]
-            if question.needs not in {"", "neighbors"}:
-                arguments.append(self._arguments[question.needs])
-            reused = {key: self._answer(other) for key, other in question.reuses.items()}
-            for key, other in question.shares.items():
-                if other in self._asked and not isinstance(self._answer(other), LimitReached):
-                    reused[key] = self._answer(other)
-            began = time.perf_counter()
+            question, began = QUESTIONS[name], time.perf_counter()
             try:
+                arguments, reused = self._given(question)
+                began = time.perf_counter()
                 self._found[name] = question.decide(*arguments, **reused)
             except LimitReached as reached:
                 self._found[name] = reached
             self._seconds[name] = time.perf_counter() - began
         self._asked.add(name)
         return self._found[name]
+
+    def _given(self, question: Question) -> tuple[list[Any], dict[str, Any]]:
+        """Return what a question is asked about, and the answers to others that it uses."""
+        arguments = [getattr(self, question.about)]
+        if question.needs not in {"", "neighbors"}:
+            arguments.append(self._arguments[question.needs])
+        reused = {key: self[other] for key, other in question.reuses.items()}
+        for key, other in question.shares.items():
+            if other in self._asked and not isinstance(self._answer(other), LimitReached):
+                reused[key] = self._answer(other)
+        return arguments, reused
 
     def decided(self) -> dict[str, Any]:
         """Return the answers to all questions asked, with several answers to one numbered."""

@@ -35,6 +35,10 @@ from mcexact.model.system import MultiChannelSystem
 
 # Up to this size dense matrices are searched, which finds Jordan chains as well.
 _DENSE = 500
+# Blocks of so many states are decided densely, one after the other.
+_SMALL_BLOCK = 500
+# The subspaces of more fixed modes are not looked for by sparse products.
+_MOST_MODES = 64
 
 
 def fixed_spectrum(system: MultiChannelSystem) -> FixedSpectrum:
@@ -73,6 +77,9 @@ def fixed_spectrum(system: MultiChannelSystem) -> FixedSpectrum:
     if not modes_left(blocks):
         return _found(system, (), None, ByBlocks(blocks, None, ()))
     if _is_large_and_sparse(system):
+        blocks = _with_small_blocks_completed(system, blocks)
+        if not modes_left(blocks):
+            return _found(system, (), None, ByBlocks(blocks, None, ()))
         found = _by_sparse_search(system, blocks)
         if found is not None:
             return found
@@ -104,10 +111,22 @@ def _is_large_and_sparse(system: MultiChannelSystem) -> bool:
     )
 
 
+def _with_small_blocks_completed(
+    system: MultiChannelSystem, blocks: tuple[Block, ...]
+) -> tuple[Block, ...]:
+    """The same blocks with two polynomials where no mode is fixed, if they are small."""
+    short = [block for block in blocks if modes_left([block])]
+    if len(blocks) < 2 or max(len(block.states) for block in short) > _SMALL_BLOCK:
+        return blocks
+    return completed_blocks(system, blocks)
+
+
 def _by_sparse_search(
     system: MultiChannelSystem, blocks: tuple[Block, ...]
 ) -> FixedSpectrum | None:
     """The fixed spectrum by products with sparse matrices, without χ_A; None if it is not found."""
+    if modes_left(blocks) > _MOST_MODES:
+        return None
     try:
         found = fixed_subspaces(system)
     except LimitReached:

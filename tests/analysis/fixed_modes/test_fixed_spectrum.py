@@ -9,16 +9,19 @@ from pathlib import Path
 import pytest
 
 from mcexact.analysis.analyze import Analysis, analyze
+from mcexact.analysis.engine import bounded_blocks, modes_left
 from mcexact.analysis.engine.obstructions import CommonFactor, decide
 from mcexact.analysis.fixed_modes import fixed_spectrum as module
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.answer import codec
+from mcexact.answer.evidence import Block, CoprimePolynomials
 from mcexact.answer.fixed_spectrum import ByBlocks, FixedFactor, FixedSpectrum
 from mcexact.checker import Expectation, Limits, check_document
 from mcexact.checker.manifest import manifest_verdicts
 from mcexact.derived.drawn.choices import SeededChoices
 from mcexact.derived.drawn.systems import system_with_fixed_mode
 from mcexact.derived.dual import dual
+from mcexact.errors import LimitReached
 from mcexact.exact.linear_algebra import characteristic_polynomial, inverse
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
@@ -315,6 +318,52 @@ def test_a_mode_planted_in_a_large_sparse_system_is_certified() -> None:
     assert (str(factor.polynomial), factor.multiplicity_in_A) == ("x + 3", None)
     assert (len(factor.channels), factor.rank) == (59, 599)
     assert check_document(codec.encode(found).encode()).verdict == "VALID"
+
+
+def chain_of_pairs(count: int, size: int) -> MultiChannelSystem:
+    """Blocks of two states, each with a channel, of which one needs two polynomials."""
+    A = [(2 * k, 2 * k + 1, 1) for k in range(count)]
+    A += [(2 * k, 2 * k - 1, 1) for k in range(1, count)]
+    here = [2 * k + 1 for k in range(count)], [2 * k for k in range(count)]
+    B = [Matrix.from_entries((size, 1), [(i, 0, 1)]) for i in here[0]]
+    C = [Matrix.from_entries((1, size), [(0, j, 1)]) for j in here[1]]
+    return MultiChannelSystem(Matrix.from_entries((size, size), A), B, C)
+
+
+def test_small_blocks_without_a_sequence_are_completed_one_by_one(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    system = chain_of_pairs(60, 120)
+    blocks = bounded_blocks(system)
+    assert len(blocks) == 60
+    assert not modes_left(blocks)
+    short = (*blocks[:5], Block(blocks[5].states, None), *blocks[6:])
+    monkeypatch.setattr(module, "_is_large_and_sparse", lambda system: True)
+    monkeypatch.setattr(module, "bounded_blocks", lambda system: short)
+    monkeypatch.setattr(module, "decide", None)  # the whole is not decided
+    found = fixed_spectrum(system)
+    assert found.empty
+    assert isinstance(found.evidence, ByBlocks)
+    assert isinstance(found.evidence.blocks[5].evidence, CoprimePolynomials)
+    assert check_document(codec.encode(found).encode()).verdict == "VALID"
+    with monkeypatch.context() as patched:
+        patched.setattr(module, "_SMALL_BLOCK", 1)
+        patched.setattr(module, "_by_sparse_search", lambda system, blocks: found)
+        assert fixed_spectrum(system) is found
+
+
+def test_many_fixed_modes_are_not_looked_for_sparsely(monkeypatch: pytest.MonkeyPatch) -> None:
+    n = 6000
+    nothing = MultiChannelSystem(
+        Matrix.zeros(n, n), [Matrix.zeros(n, 1)], [Matrix.zeros(1, n)], time="discrete"
+    )
+    monkeypatch.setattr(module, "fixed_subspaces", None)
+    found = analyze(nothing)
+    with pytest.raises(LimitReached, match="a sparse 6000 × 6000 matrix has more than"):
+        found.fixed_spectrum  # noqa: B018
+    with pytest.raises(LimitReached, match="a sparse 6000 × 6000 matrix has more than"):
+        found.completeness  # noqa: B018
+    assert {"fixed_spectrum", "completeness"} <= set(found.open())
 
 
 def told(found: Analysis, place: str) -> str:
