@@ -79,3 +79,8 @@ Proof.
 apply: (only_0_at_rest (f := f)) => lambda; rewrite map_mx0 => /eigenvalueP[v].
 rewrite mulmx0 => /esym/eqP; rewrite scaler_eq0 => /orP[/eqP //|/eqP ->]; by rewrite eqxx.
 Qed.
+
+(* transfer_graph.v: agent 1 of instances_paper.v measures nothing *)
+Lemma no_path : transfer_graph.closed_states opened ord0 ord0 setT.
+Proof. by split=> [a u _|a b _ _|v b _]; rewrite ?inE //= !mxE mul0rn. Qed.
+Example no_arc_example : ~~ transfer_graph.arc opened ord0 ord0 := transfer_graph.closed_states_no_arc no_path.

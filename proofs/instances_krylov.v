@@ -109,6 +109,11 @@ Proof.
 have [_ //] := @bounded_rank l6 _ _ _ _ stuck 0 1 (fun=> X) (fun=> setT)
   (fun=> 1%N) evidence_factor (fun=> monicX _) factor_alone factor_full _ h inst_krylov_stuck ord0 0 root0' simple_zero.
 Qed.
+Lemma inst_bounded_deficiency s : (1 <= \rank (pencil (map_system h (Q stuck)) s 0) + 1)%N.
+Proof.
+by apply: (@bounded_deficiency l6 _ _ _ _ stuck 0 1 (fun=> X) (fun=> setT) (fun=> 1%N) evidence_factor
+  (fun=> monicX _) factor_alone factor_full _ h inst_krylov_stuck 1 0) => // i; exact: simple_zero.
+Qed.
 Definition inst_shrunk_divides (G : gains algC one one) :
     map_poly h 'X ^+ 1 %| char_poly (closed_loop (map_system h (Q stuck)) G) :=
   shrunk_subspace_divides E h G (negbT (polyX_eq0 _)).
@@ -121,6 +126,11 @@ Lemma ones_markov k : markov zero unit1 unit1 k = if k is 0 then 1 else 0.
 Proof.
 rewrite /markov mul1mx; case: k => [|k]; first by rewrite mxE.
 by rewrite krylovS mul0mx mxE.
+Qed.
+Lemma inst_annihilated k : recurrence (markov zero unit1 unit1) ('X - 0%:P) k = 0.
+Proof.
+apply: annihilated_recurrence; rewrite size_XsubC big_ord_recl big_ord1 /= subr0 !coefX scale0r add0r.
+by rewrite /krylov /= mul0mx mulmx0 scaler0.
 Qed.
 Lemma ones_recurrence k : recurrence (markov zero unit1 unit1) ('X - 0%:P) k = 0.
 Proof. by rewrite recurrence_linear !ones_markov mul0r subr0. Qed.
