@@ -2,7 +2,7 @@
    is; (20): every mode but 0 is controllable where the plant's is; (21): 0 is controllable iff
    [A, B; C, 0] has full row rank; and whatever the inputs are, y = r at every equilibrium. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From mcexact Require Import arithmetic evidence controllability.
+From mcexact Require Import multichannel arithmetic evidence controllability rank_one_repair.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -79,3 +79,40 @@ rewrite opp_col_mx add_col_mx => /eqP; rewrite col_mx_eq0 => /andP[_].
 by rewrite addr0 subr_eq0 => /eqP.
 Qed.
 End Integrators.
+
+(* (18) as a system with m channels: agent i has the input u_i and the outputs w_i *)
+Section Channels.
+Variables (K : fieldType) (n m : nat) (p q : 'I_m -> nat) (S : multichannel K n p q).
+Notation sum_q := (\sum_i q i)%N.
+
+Definition integrated : multichannel K (n + sum_q) p q :=
+  Multichannel (integrated_A (mcA S) (outputs S setT)) (fun i => integrated_B sum_q (mcB S i))
+               (fun i => row_mx 0 (submxcol 1%:M i)).
+
+Lemma inputs_integrated : inputs integrated setT = integrated_B sum_q (inputs S setT).
+Proof.
+have sub a b (X : 'M[K]_(a, \sum_i p i)) i :
+    submxrow (col_mx X (0 : 'M_(b, \sum_i p i))) i = col_mx (submxrow X i) 0.
+  by apply/matrixP => r c; rewrite !mxE; case: split => s; rewrite !mxE.
+by apply/mxrowP => i; rewrite mxrowK in_setT /integrated_B sub mxrowK in_setT.
+Qed.
+
+Lemma outputs_integrated : outputs integrated setT = integrated_C K n sum_q.
+Proof.
+apply/mxcolP => i; rewrite mxcolK in_setT /=; apply/matrixP => r c; rewrite /integrated_C !mxE.
+by case: split => s; rewrite !mxE.
+Qed.
+End Channels.
+
+(* Whatever the controller is that stands beside plant and integrators: where all stands still, y = r. *)
+Theorem integrators_at_rest (K : fieldType) n q l (C : 'M[K]_(q, n)) (M : 'M[K]_(n + q + l))
+    (e : 'cV_(n + q + l)) (r : 'cV_q) : dsubmx (usubmx M) = row_mx (row_mx C 0) 0 ->
+  M *m e + col_mx (col_mx 0 (- r)) 0 = 0 ->
+  C *m usubmx (usubmx e) = r.
+Proof.
+move=> rows z; have : dsubmx (usubmx (M *m e + col_mx (col_mx 0 (- r)) 0)) = 0.
+  by rewrite z !linear0.
+rewrite !linearD /= col_mxKu col_mxKd -mul_usub_mx -mul_dsub_mx rows -{1}[e]vsubmxK mul_row_col mul0mx addr0.
+rewrite -{1}[usubmx e]vsubmxK mul_row_col mul0mx addr0 => /eqP.
+by rewrite subr_eq0 => /eqP.
+Qed.

@@ -21,6 +21,7 @@ From mcexact Require Import delays delayed_transfer brasch_pearson theorem_1 dis
 From mcexact Require Import corollary_1 construction strong_components component_gains.
 From mcexact Require Import component_assignment integrators trajectories dynamic_controllers.
 From mcexact Require Import example example_hypotheses almost_all_gains two_sided_gains wang_davison.
+From mcexact Require Import convergence.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -277,6 +278,20 @@ Theorem construction_rate (x : R) : strongly_connected_neighbors ->
     forall lambda : C, eigenvalue (map_mx f (observer_loop N S F D)) lambda -> lambda = f x.
 Proof. by move=> connected; exact: (construction.construction_rate f infinitely_many connected at_o order x controllable observable). Qed.
 
+(* in continuous time, where R is complete: every trajectory goes to 0 as fast as exp(at) *)
+Theorem construction_continuous (a : R) : complete_order R -> strongly_connected_neighbors ->
+  exists (F : forall i, 'M_(p i, n)) (D : controllers R (fun=> n) (fun i => q i + nm)%N k) c,
+    forall (x : R -> 'cV_(n + (nm + \sum_i k i))) (g : R -> R),
+      (forall t i, 0 <= t -> derivative (fun s => x s i 0) t ((observer_loop N S F D *m x t) i 0)) ->
+      (forall t, 0 <= t -> derivative g t (- a * g t)) ->
+      forall t, 0 <= t -> dot (x t) (x t) * g t ^+ 2 <= c * (dot (x 0) (x 0) * g 0 ^+ 2).
+Proof.
+move=> sup connected; have [F [D low]] := construction_rate (a - 1) connected; exists F, D.
+apply: exponential_rate sup _ => lambda /low ->.
+rewrite (Creal_ReP _ _) ?ltcE /= ?eqxx /= ?gtr_addl ?oppr_lt0 ?ltr01 //.
+by apply/complex_realP; exists (a - 1).
+Qed.
+
 (* in discrete time: at rest after as many steps as there are states *)
 Theorem construction_discrete : strongly_connected_neighbors ->
   exists (F : forall i, 'M_(p i, n)) (D : controllers R (fun=> n) (fun i => q i + nm)%N k),
@@ -284,22 +299,86 @@ Theorem construction_discrete : strongly_connected_neighbors ->
 Proof. by move=> connected; exact: (construction_at_rest f infinitely_many connected at_o order controllable observable). Qed.
 End Construction.
 
-(* III.  (19), (20) and (21), mode by mode, for plant and integrators (18) *)
-Theorem equation_19 (lambda : C) :
-  ~~ uncontrollable_mode (integrated_A (map_mx f A) (map_mx f (outputs S setT)))^T (integrated_C [fieldType of C] n (\sum_i q i))^T lambda.
+(* III.  The plant with integrators, (17) and (18) *)
+Notation I := (integrated S).
+
+(* (19) *)
+Theorem equation_19 : jointly_observable I.
 Proof.
-apply: integrated_observable; rewrite !map_trmx.
-exact: ((controllable_modes f _ _).1 observable).
+have eA : map_mx f (mcA I) = integrated_A (map_mx f A) (map_mx f (outputs S setT)).
+  by rewrite /= /integrated_A map_block_mx !map_mx0.
+have eC : map_mx f (outputs I setT) = integrated_C [fieldType of C] n (\sum_i q i).
+  by rewrite outputs_integrated /integrated_C map_row_mx map_mx0 map_mx1.
+apply/(controllable_modes f) => lambda; rewrite -!map_trmx eA eC; apply: integrated_observable.
+rewrite !map_trmx; exact: ((controllable_modes f _ _).1 observable lambda).
 Qed.
 
+(* (20), for the modes other than 0 *)
 Theorem equation_20 (lambda : C) : lambda != 0 ->
-  ~~ uncontrollable_mode (integrated_A (map_mx f A) (map_mx f (outputs S setT))) (integrated_B (\sum_i q i) (map_mx f (inputs S setT))) lambda.
-Proof. by move=> l0; apply: integrated_controllable => //; exact: ((controllable_modes f _ _).1 controllable). Qed.
+  ~~ uncontrollable_mode (map_mx f (mcA I)) (map_mx f (inputs I setT)) lambda.
+Proof.
+have eA : map_mx f (mcA I) = integrated_A (map_mx f A) (map_mx f (outputs S setT)).
+  by rewrite /= /integrated_A map_block_mx !map_mx0.
+have eB : map_mx f (inputs I setT) = integrated_B (\sum_i q i) (map_mx f (inputs S setT)).
+  by rewrite inputs_integrated /integrated_B map_col_mx map_mx0.
+move=> l0; rewrite eA eB; apply: integrated_controllable => //.
+exact: ((controllable_modes f _ _).1 controllable lambda).
+Qed.
 
-Theorem equation_21 :
-  ~~ uncontrollable_mode (integrated_A A (outputs S setT)) (integrated_B (\sum_i q i) (inputs S setT)) 0 =
-  row_free (block_mx A (inputs S setT) (outputs S setT) (0 : 'M_(\sum_i q i, \sum_i p i))).
-Proof. exact: integrated_zero. Qed.
+(* (21) *)
+Definition condition_21 := row_free (block_mx A (inputs S setT) (outputs S setT) (0 : 'M_(\sum_i q i, \sum_i p i))).
+
+Theorem equation_21 : jointly_controllable I <-> condition_21.
+Proof.
+have zero : ~~ uncontrollable_mode (mcA I) (inputs I setT) 0 = condition_21.
+  by rewrite inputs_integrated; exact: integrated_zero.
+have map0 : uncontrollable_mode (map_mx f (mcA I)) (map_mx f (inputs I setT)) 0 =
+    uncontrollable_mode (mcA I) (inputs I setT) 0.
+  by rewrite /uncontrollable_mode -(rmorph0 f) -map_scalar_mx -map_mxB -map_row_mx mxrank_map.
+split=> [/(controllable_modes f)/(_ 0)|c21]; first by rewrite map0 zero.
+apply/(controllable_modes f) => lambda; have [->|/equation_20 //] := eqVneq lambda 0.
+by rewrite map0 zero.
+Qed.
+
+(* Whatever the set-points r are, every trajectory of x' = M x - (0, r, 0) goes as fast as exp(at) to one point e, where
+   y = r; the first rows of x are the plant's state and the next the integrators'. *)
+Definition attains_setpoints l (M : 'M[R]_(n + \sum_i q i + l)) (a : R) :=
+  exists c, forall r : 'cV_(\sum_i q i), let b := col_mx (col_mx 0 (- r)) 0 in
+    exists2 e, outputs S setT *m usubmx (usubmx e) = r & forall (x : R -> 'cV_(n + \sum_i q i + l)) (g : R -> R),
+      (forall t i, 0 <= t -> derivative (fun s => x s i 0) t ((M *m x t + b) i 0)) ->
+      (forall t, 0 <= t -> derivative g t (- a * g t)) ->
+      forall t, 0 <= t -> dot (x t - e) (x t - e) * g t ^+ 2 <= c * (dot (x 0 - e) (x 0 - e) * g 0 ^+ 2).
+
+(* Any linear time-invariant control beside plant and integrators, with l states: where it stabilizes, all outputs
+   settle at their set-points. *)
+Theorem setpoints_attained l (M : 'M[R]_(n + \sum_i q i + l)) (a : R) : complete_order R -> a <= 0 ->
+  dsubmx (usubmx M) = row_mx (row_mx (outputs S setT) 0) 0 ->
+  (forall lambda : C, eigenvalue (map_mx f M) lambda -> 'Re lambda < f a) -> attains_setpoints M a.
+Proof.
+move=> sup a0 rows low; have [c h] := settles sup a0 low; exists c => r.
+have [e rest settle] := h (col_mx (col_mx 0 (- r)) 0); exists e => //.
+exact: integrators_at_rest rows rest.
+Qed.
+
+(* So where (21) holds, the distributed observer of plant and integrators does. *)
+Theorem setpoints_solved o (k : 'I_m -> nat) (a : R) : (forall i, i != o -> k i = 0%N) -> k o = m.-1 ->
+  complete_order R -> a <= 0 -> strongly_connected_neighbors -> condition_21 ->
+  exists F (D : controllers R (fun=> (n + \sum_i q i)%N) (fun i => q i + \sum_(i < m) (n + \sum_i q i))%N k),
+    attains_setpoints (observer_loop N I F D) a.
+Proof.
+move=> at_o order sup a0 connected /equation_21 jc.
+have [F [D low]] := construction.construction_rate f infinitely_many connected at_o order (a - 1) jc equation_19.
+exists F, D; apply: setpoints_attained sup a0 _ _ => [|lambda /low ->]; last first.
+  rewrite (Creal_ReP _ _) ?ltcE /= ?eqxx /= ?gtr_addl ?oppr_lt0 ?ltr01 //.
+  by apply/complex_realP; exists (a - 1).
+have lower a' b' c' d' (P : 'M[R]_(a' + b', c')) (Q : 'M_(a' + b', d')) :
+    dsubmx (row_mx P Q) = row_mx (dsubmx P) (dsubmx Q).
+  by apply/matrixP => i j; rewrite !mxE; case: split => s; rewrite !mxE.
+have still : dsubmx (\mxrow_j (mcB I j *m F j)) = 0.
+  by apply/matrixP => i j; rewrite !mxE big1 // => l _; rewrite col_mxEd mxE mul0r.
+rewrite /observer_loop block_mxEv col_mxKu !lower still linear0 row_mx0.
+by rewrite /= /integrated_A block_mxEv col_mxKd.
+Qed.
 
 (* IV-A.  The fixed spectrum is that under dynamic controllers *)
 Theorem fixed_spectrum_dynamic (lambda : C) : fixed_over f S lambda <->
