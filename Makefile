@@ -102,6 +102,7 @@ look: $(STAMP)
 # The tables of the paper's statements, of what is open, and of the examinations in proofs/.
 ledger: $(STAMP)
 	$(BIN)/python proofs/ledger_table.py
+	$(BIN)/python proofs/reading_order.py
 
 # The list of all sentences that the commands print about a system, from their templates.
 sentences: $(STAMP)
