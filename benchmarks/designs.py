@@ -3,9 +3,9 @@
 Run as ``python -m benchmarks.designs FOLDER [PLANT …]`` with a folder of system files; plants are
 named by their files without ``.json``.  Prints a line for each request: the order, the largest
 gain, the margin, the cost relative to the central optimum of the same rate, the peak, the digits
-that suffice and the seconds of the processor; beside these reference figures where there
-are some, whose costs were measured without the noise that gains pass on and against the optimum
-without a rate.  Times are those of this machine: compare figures, not seconds.
+that suffice, the sensible rate and the seconds of the processor; beside these reference figures
+where there are some, whose costs were measured without the noise that gains pass on and against the
+optimum without a rate.  Times are those of this machine: compare figures, not seconds.
 """
 
 from __future__ import annotations
@@ -13,8 +13,10 @@ from __future__ import annotations
 import os
 import sys
 import time
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
@@ -24,7 +26,6 @@ from mcexact.exact.location import is_discrete
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.optimum.diagnosis import diagnosed
 from mcexact.synthesis.optimum.figures import step_peak
-from mcexact.synthesis.optimum.proposals import Optimum
 from mcexact.synthesis.request import Request
 
 
@@ -75,21 +76,23 @@ def designed(system: MultiChannelSystem, asked: Asked) -> str:
     bound = {request_of(system, asked).region.word: asked.bound}
     if asked.structure == "setpoint":
         design = design_setpoint(system, **bound)
-        told = figures(design.parts["designed"]["optimum"], design.order)
+        told = figures(design.parts["designed"], design.order)
         return f"{told}, step peak {step_peak(design.loop.closed):.3g}"
     function = design_extended if asked.structure == "extended" else design_decentralized
     design = function(system, **bound)
     if "optimum" not in design.parts:
         return f"the controller of the theorem, of order {design.order}"
-    return figures(design.parts["optimum"], design.order)
+    return figures(design.parts, design.order)
 
 
-def figures(found: Optimum, order: int) -> str:
+def figures(parts: Mapping[str, Any], order: int) -> str:
     """The figures of a controller in one line."""
+    found, known = parts["optimum"], parts["diagnosis"]
     seen = found.figures
     return (
         f"{order} / {seen.largest_gain:.3g} / {seen.margin:.2f} / {found.relative_cost:.2f}, "
-        f"peak {seen.peak:.3g}, digits {found.digits}, {found.step}"
+        f"peak {seen.peak:.3g}, digits {found.digits}, {found.step}, "
+        f"sensible {known.sensible_bound}"
     )
 
 
