@@ -10,8 +10,10 @@ from typing import Any
 from unittest import mock
 
 import mcexact
+from mcexact.analysis.fixed_modes import fixed_spectrum
+from mcexact.analysis.sharing import deficiency as deficiency_module
 from mcexact.analysis.sharing.deficiency import deficiency
-from mcexact.analysis.structure import controllability
+from mcexact.analysis.structure import controllability, transfer_graph
 from mcexact.answer import codec
 from mcexact.answer.reading import constructed
 from mcexact.errors import McexactError
@@ -102,10 +104,26 @@ def _common(rng: random.Random, system: MultiChannelSystem) -> Found:
 
 
 def _joint(rng: random.Random, system: MultiChannelSystem) -> Found:
-    """By a rank as for small systems, or by blocks as for large ones."""
-    channels = _some(rng, system.names) or None
-    with mock.patch.object(controllability, "_SMALL", rng.choice((-1, controllability._SMALL))):
-        return mcexact.joint_controllability(system, channels)
+    return mcexact.joint_controllability(system, _some(rng, system.names) or None)
+
+
+def _as_large(
+    decide: Callable[[random.Random, MultiChannelSystem], Found],
+) -> Callable[[random.Random, MultiChannelSystem], Found]:
+    """Half of the time the evidence that large sparse systems have."""
+
+    def drawn(rng: random.Random, system: MultiChannelSystem) -> Found:
+        if rng.random() < 0.5:
+            return decide(rng, system)
+        with (
+            mock.patch.object(controllability, "_SMALL", -1),
+            mock.patch.object(deficiency_module, "_SMALL", -1),
+            mock.patch.object(transfer_graph, "is_large_and_sparse", lambda system: True),
+            mock.patch.object(fixed_spectrum, "_is_large_and_sparse", lambda system: True),
+        ):
+            return decide(rng, system)
+
+    return drawn
 
 
 DECISIONS: Mapping[str, Callable[[random.Random, MultiChannelSystem], Found]] = {
@@ -117,20 +135,20 @@ DECISIONS: Mapping[str, Callable[[random.Random, MultiChannelSystem], Found]] = 
         s, s.names[: rng.randint(1, s.m - 1)] if s.m > 1 else s.names
     ),
     "completeness": lambda rng, s: mcexact.completeness(s),
-    "controllability": _joint,
+    "controllability": _as_large(_joint),
     "controllability_indices": lambda rng, s: mcexact.controllability_indices(
         s, _some(rng, s.names) or None
     ),
-    "deficiency": lambda rng, s: deficiency(s),
+    "deficiency": _as_large(lambda rng, s: deficiency(s)),
     "exceptional_gains": _exceptional,
-    "fixed_spectrum": lambda rng, s: mcexact.fixed_spectrum(s),
+    "fixed_spectrum": _as_large(lambda rng, s: mcexact.fixed_spectrum(s)),
     "neighbor_graph": lambda rng, s: mcexact.neighbor_graph(s),
     "pencil_rank": _pencil,
     "setpoint": lambda rng, s: mcexact.setpoint_solvability(s),
     "shared_dimensions": _dimensions,
     "single_channel_gains": _single,
     "stability": _stability,
-    "transfer_graph": lambda rng, s: mcexact.transfer_graph(s),
+    "transfer_graph": _as_large(lambda rng, s: mcexact.transfer_graph(s)),
 }
 ABOUT_THE_PLANT = ("common_dimension", "communication", "shared_dimensions")
 WITH_GRAPH = ("common_dimension", "neighbor_graph", "shared_dimensions")
