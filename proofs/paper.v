@@ -473,6 +473,11 @@ Theorem example_not_stabilized l (D : controllers R p3 (fun=> \sum_(i < 3) q3 i)
   eigenvalue (map_mx f (dynamic_loop (augmented_outputs N3 (plant [fieldType of R])) D)) 1.
 Proof. by rewrite -(rmorph1 f) eigenvalue_map; exact: example_dynamic. Qed.
 
+(* nor one to whom agent 3 sends no sub-state *)
+Theorem example_needs_agent_3 (k : 'I_3 -> nat) : k (inord 2) = 0%N ->
+  fixed (extended N3 k (plant [fieldType of C])) 1.
+Proof. exact: example_extended_fixed. Qed.
+
 (* IV-C and IV-D.  Shared sub-states of dimensions k i. *)
 Section Extended.
 Variable k : 'I_m -> nat.
