@@ -120,7 +120,8 @@ def sparse_powers(
     V = loop.B.toarray().astype(np.float32)
     A, seen = loop.A.astype(np.float32), _seen(loop)
     found = np.full((system.m, system.m), -1, dtype=np.int64)
-    for k in range(min(n, _MOST_PRODUCTS // (loop.A.nnz * width + n) + 1)):
+    most = _MOST_PRODUCTS // max(loop.A.nnz * width + n, 1)
+    for k in range(min(n, most + 1)):
         if k:
             V = reduced(A @ V, ell)
         new = seen(V) & (found < 0)

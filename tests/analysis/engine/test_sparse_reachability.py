@@ -80,6 +80,12 @@ def test_channels_without_inputs_or_outputs(
     assert valid(found)
 
 
+def test_no_states(by_structure: pytest.MonkeyPatch) -> None:
+    found = transfer_graph(MultiChannelSystem([], [[], []], [[[]], [[]]]))
+    assert found.arcs == ()
+    assert valid(found)
+
+
 def test_a_sparse_system_of_400_states() -> None:
     system = planted(400, 40, 1)
     found = transfer_graph(system)
