@@ -6,10 +6,9 @@ import random
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from math import prod
 
 from mcexact.exact import krylov
-from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix import Matrix, from_numerators
 from mcexact.exact.modular import (
     ModularMatrix,
     ModularPolynomial,
@@ -63,12 +62,12 @@ class ModularSystem:
     @cached_property
     def inputs(self) -> tuple[range, ...]:
         """The columns of ``B`` that belong to each channel."""
-        return _ranges([self.system.p(i) for i in range(self.system.m)])
+        return _ranges([channel.B.ncols for channel in self.system.channels])
 
     @cached_property
     def outputs(self) -> tuple[range, ...]:
         """The rows of ``C`` that belong to each channel."""
-        return _ranges([self.system.q(i) for i in range(self.system.m)])
+        return _ranges([channel.C.nrows for channel in self.system.channels])
 
 
 def _ranges(sizes: Sequence[int]) -> tuple[range, ...]:
@@ -110,12 +109,8 @@ def residue_systems(
     -----
     The systems go on without end, so a caller whose draw failed takes the next one.
     """
-    denominators = [system.A.denominator]
-    for channel in system.channels:
-        denominators += [channel.B.denominator, channel.C.denominator]
-    product = prod(set(denominators))
     for ell in primes(rng.getrandbits(64), bits):
-        if product % ell:
+        if system.denominator % ell:
             yield ModularSystem(system, ell)
 
 
@@ -123,8 +118,8 @@ def drawn_gains(modular: ModularSystem, rng: random.Random) -> Gains:
     """Draw uniform residues for every gain F_i, p_i × q_i."""
     ell, randrange = modular.modulus, rng.randrange
     return tuple(
-        tuple(tuple(randrange(ell) for _ in outputs) for _ in inputs)
-        for inputs, outputs in zip(modular.inputs, modular.outputs, strict=True)
+        tuple(tuple([randrange(ell) for _ in range(c.C.nrows)]) for _ in range(c.B.ncols))
+        for c in modular.system.channels
     )
 
 
@@ -150,9 +145,9 @@ def quick_bits(system: MultiChannelSystem) -> int:
     """The size of primes modulo which `loop_polynomials` is fastest."""
     if system.n < _KRYLOV_SIZE:
         return 30
-    outputs = (system.q(i) for i in range(system.m))
-    inputs = sum(system.p(i) for i in range(system.m))
-    return krylov.exact_bits(max(system.n, inputs, *outputs))
+    inputs = sum(channel.B.ncols for channel in system.channels)
+    outputs = max(channel.C.nrows for channel in system.channels)
+    return krylov.exact_bits(max(system.n, inputs, outputs))
 
 
 def loop_polynomials(
@@ -229,8 +224,10 @@ def lifted(M: ModularMatrix) -> Matrix:
 
 
 def lifted_gains(modular: ModularSystem, gains: Gains) -> tuple[Matrix, ...]:
-    """The gains as integer matrices with the symmetric residues."""
-    return tuple(
-        Matrix.from_integers([integers(row, modular.modulus) for row in F], ncols=len(outputs))
-        for F, outputs in zip(gains, modular.outputs, strict=True)
-    )
+    """The gains as integer matrices with the symmetric residues; equal ones are one object."""
+    sized = [(F, c.C.nrows) for F, c in zip(gains, modular.system.channels, strict=True)]
+    made = {
+        (F, width): from_numerators([integers(row, modular.modulus) for row in F], 1, width)
+        for F, width in set(sized)
+    }
+    return tuple(made[each] for each in sized)

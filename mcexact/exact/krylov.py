@@ -83,7 +83,7 @@ class FloatLoop:
         single = _largest_sum(terms, ell) <= _EXACT_IN_SINGLE
         self.kind: type[np.floating[Any]] = np.float32 if single else np.float64
         self.A = _residues([A], ell, self.kind)[0]
-        if all(M.shape[1] == M.denominator == 1 for M in B):
+        if all(M.ncols == M.denominator == 1 for M in B):
             self.B = _numbers(B, ell, self.kind).reshape(len(B), self.n).T
         else:
             self.B = np.hstack([np.zeros((self.n, 0), self.kind), *_residues(B, ell, self.kind)])
@@ -98,8 +98,8 @@ class FloatLoop:
 
         F = np.zeros((self.inputs[-1], self.outputs[-1]), self.kind)
         for i, rows in enumerate(gains):
-            part = F[self.inputs[i] : self.inputs[i + 1], self.outputs[i] : self.outputs[i + 1]]
-            part[:] = np.array(rows, dtype=np.int64).reshape(part.shape)
+            if rows:
+                F[self.inputs[i] : self.inputs[i + 1], self.outputs[i] : self.outputs[i + 1]] = rows
         heard = reduced(reduced(F, self.ell) @ self.C, self.ell)
         return reduced(self.A + reduced(self.B @ heard, self.ell), self.ell)
 
@@ -189,25 +189,19 @@ def _numbers(parts: Sequence[Matrix], ell: int, kind: type[np.floating[Any]]) ->
     """The symmetric residues of the numerators of all parts, row by row, one after the other."""
     import numpy as np
 
-    if all(M.words is not None for M in parts):
-        words = array("q")
-        for M in parts:
-            words.extend(M.words or ())
-        together = np.frombuffer(words, dtype=np.int64) if words else np.zeros(0, np.int64)
-    else:
-        together = np.concatenate([_words(M, ell) for M in parts])
+    words = b"".join(_words(M, ell) for M in parts)
+    together = np.frombuffer(words, dtype=np.int64)
     if max(int(together.max(initial=0)), -int(together.min(initial=0))) >= _EXACT_IN_SINGLE // 2:
         together = together % ell
     return reduced(together.astype(kind), ell)
 
 
-def _words(M: Matrix, ell: int) -> Any:
+def _words(M: Matrix, ell: int) -> array[int]:
     """The numerators row by row, or residues of them if some are longer than a word."""
-    import numpy as np
-
-    if M.words is None:
-        return np.array([entry % ell for row in M.numerators for entry in row], dtype=np.int64)
-    return np.frombuffer(M.words, dtype=np.int64)
+    words = M.words
+    if words is None:
+        return array("q", [entry % ell for row in M.numerators for entry in row])
+    return words
 
 
 def reduced(table: Floats, ell: int) -> Floats:
@@ -219,6 +213,7 @@ def reduced(table: Floats, ell: int) -> Floats:
     """
     import numpy as np
 
-    quotient = np.rint(table * table.dtype.type(1.0 / ell))
+    quotient = table * table.dtype.type(1.0 / ell)
+    np.rint(quotient, out=quotient)
     quotient *= ell
     return np.subtract(table, quotient, out=quotient)

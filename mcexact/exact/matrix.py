@@ -198,7 +198,7 @@ class Matrix:
     @property
     def shape(self) -> tuple[int, int]:
         """Numbers of rows and columns."""
-        return self.nrows, self.ncols
+        return self._table.nrows, self._table.ncols
 
     @property
     def is_sparse(self) -> bool:

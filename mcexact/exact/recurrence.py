@@ -29,8 +29,8 @@ def least_recurrence(sequence: Sequence[int], ell: int) -> ModularPolynomial:
     ring = flint.fmpz_mod_poly_ctx(flint.fmpz_mod_ctx(ell))
     if not any(sequence):
         return ModularPolynomial.from_coefficients([1], ell)
-    found = ring.minpoly(list(sequence))
-    return ModularPolynomial.from_coefficients(map(int, found.coeffs()), ell)
+    found = ring.minpoly(list(sequence)).coeffs()
+    return ModularPolynomial(ell, flint.nmod_poly(list(map(int, found)), ell))
 
 
 def cofactors(
@@ -52,7 +52,7 @@ def cofactors(
     ((1,), ())
     """
     ell, L = recurrence.modulus, recurrence.degree
-    reverse = flint.nmod_poly([int(s) for s in sequence[:L]][::-1], ell)
-    product = (recurrence._poly * reverse).coeffs()
-    _, a, e = flint.nmod_poly(product[L:], ell).xgcd(recurrence._poly)
+    reverse = flint.nmod_poly(list(sequence[:L])[::-1], ell)
+    numerator = (recurrence._poly * reverse).right_shift(L)
+    _, a, e = numerator.xgcd(recurrence._poly)
     return ModularPolynomial(ell, a), ModularPolynomial(ell, e)

@@ -57,20 +57,12 @@ class DenseTable:
     ----------
     integer : fmpz_mat
         Tables and functions of this stage share this object, so nothing may change it.
+    nrows, ncols : int
     """
 
     def __init__(self, table: flint.fmpz_mat) -> None:
         self.integer = table
-
-    @property
-    def nrows(self) -> int:
-        """Number of rows."""
-        return self.integer.nrows()
-
-    @property
-    def ncols(self) -> int:
-        """Number of columns."""
-        return self.integer.ncols()
+        self.nrows, self.ncols = table.nrows(), table.ncols()
 
     @cached_property
     def rows(self) -> Rows:

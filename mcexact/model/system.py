@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import cached_property
+from math import lcm
 from typing import Any, Self
 
 from mcexact.errors import InputError, UsageError
@@ -167,7 +169,7 @@ class MultiChannelSystem:
     @property
     def n(self) -> int:
         """The number of states."""
-        return self.A.shape[0]
+        return self.A.nrows
 
     @property
     def m(self) -> int:
@@ -184,6 +186,12 @@ class MultiChannelSystem:
         """The system from which this one was constructed, or this one."""
         return self if self._plant is None else self._plant
 
+    @cached_property
+    def denominator(self) -> int:
+        """The least common denominator of all entries of A, B_i and C_i."""
+        ports = [M.denominator for c in self.channels for M in (c.B, c.C)]
+        return lcm(self.A.denominator, *set(ports))
+
     def B(self, i: int) -> Matrix:
         """Return B_i, n×p_i."""
         return self.channels[i].B
@@ -194,11 +202,11 @@ class MultiChannelSystem:
 
     def p(self, i: int) -> int:
         """Return p_i, the number of inputs of channel i."""
-        return self.channels[i].B.shape[1]
+        return self.channels[i].B.ncols
 
     def q(self, i: int) -> int:
         """Return q_i, the number of outputs of channel i."""
-        return self.channels[i].C.shape[0]
+        return self.channels[i].C.nrows
 
     def input_matrix(self, channels: Iterable[int] | None = None) -> Matrix:
         """Return B_T = [B_i, i ∈ T], n × Σ p_i; T is all channels by default.

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import random
 from collections.abc import Iterator, Sequence
-from math import prod
 
 from mcexact.answer.evidence import KrylovSequence
 from mcexact.derived.modular_system import (
@@ -15,7 +14,6 @@ from mcexact.derived.modular_system import (
     lifted_gains,
 )
 from mcexact.exact.krylov import Start
-from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import ModularPolynomial
 from mcexact.exact.recurrence import cofactors, least_recurrence
 from mcexact.model.system import MultiChannelSystem
@@ -53,7 +51,7 @@ def best_sequences(
     """
     if not system.m:
         return
-    denominator *= prod({M.denominator for M in (system.A, *_ports(system))})
+    denominator *= system.denominator
     before = -1
     for ell in MODULI if system.n < LARGE else MODULI[1:]:
         if denominator % ell:
@@ -62,12 +60,6 @@ def best_sequences(
             if best.degree in (before, system.n):
                 return
             before = best.degree
-
-
-def _ports(system: MultiChannelSystem) -> Iterator[Matrix]:
-    for channel in system.channels:
-        yield channel.B
-        yield channel.C
 
 
 def _longest(modular: ModularSystem, rng: random.Random, through: str | None) -> KrylovSequence:
@@ -121,7 +113,7 @@ def _evidence(
     return KrylovSequence(
         modulus=modular.modulus,
         gains=lifted_gains(modular, gains),
-        channel=modular.system.names[q],
+        channel=modular.system.channels[q].name,
         inputs=tuple(x),
         outputs=tuple(y),
         recurrence=recurrence.coefficients,

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from math import prod
 
 from mcexact.analysis.engine.obstructions import decide
 from mcexact.analysis.engine.one_channel import best_sequences
@@ -188,15 +187,10 @@ def bounded_blocks(system: MultiChannelSystem, through: str | None = None) -> tu
     through : str, optional
         The name of a channel: only this one is tried, in the block in which it acts.
     """
-    denominator = _denominator(system)
     return tuple(
-        Block(block.states, _longest(block, denominator, through)) for block in state_blocks(system)
+        Block(block.states, _longest(block, system.denominator, through))
+        for block in state_blocks(system)
     )
-
-
-def _denominator(system: MultiChannelSystem) -> int:
-    parts = [M for channel in system.channels for M in (channel.B, channel.C)]
-    return prod({M.denominator for M in (system.A, *parts)})
 
 
 def _longest(block: StateBlock, denominator: int, through: str | None) -> KrylovSequence | None:
@@ -219,10 +213,9 @@ def _left(block: Block) -> int:
 
 def completed_blocks(system: MultiChannelSystem, blocks: Sequence[Block]) -> tuple[Block, ...]:
     """The same blocks with two polynomials where no mode is fixed and the sequence is too short."""
-    parts, denominator = state_blocks(system), _denominator(system)
     return tuple(
-        _completed(part, block, denominator) if _left(block) else block
-        for part, block in zip(parts, blocks, strict=True)
+        _completed(part, block, system.denominator) if _left(block) else block
+        for part, block in zip(state_blocks(system), blocks, strict=True)
     )
 
 
