@@ -92,11 +92,13 @@ from .model.controller_file import save_controller as save_controller
 from .model.local_controllers import local_controllers as local_controllers
 from .model.neighbor_graph import NeighborGraph as NeighborGraph
 from .model.sampled import c2d as c2d
+from .model.stacked import from_stacked as from_stacked
 from .model.statespace import from_statespace as from_statespace
 from .model.statespace import loop_from_statespace as loop_from_statespace
 from .model.system import MultiChannelSystem as MultiChannelSystem
 from .model.system_file import load_system as load_system
 from .model.system_file import save_system as save_system
+from .model.to_statespace import to_statespace as to_statespace
 from .simulation.network import SignalNotReceived as SignalNotReceived
 from .simulation.trajectory import Trajectory as Trajectory
 from .simulation.trajectory import simulate as simulate

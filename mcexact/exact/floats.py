@@ -33,8 +33,8 @@ def from_float(x: float, rounding: Rounding, *, where: str | None = None) -> Fra
     x : float
         A finite float or numpy floating-point scalar.
     rounding : {"decimal", "dyadic"}
-        "decimal" reads the shortest decimal that prints the float (0.1 is 1/10), "dyadic" the
-        binary fraction that is stored.
+        "decimal" reads the shortest decimal that prints the float in its own precision (0.1 is
+        1/10, also in single precision), "dyadic" the binary fraction that is stored.
 
     Raises
     ------
@@ -47,17 +47,21 @@ def from_float(x: float, rounding: Rounding, *, where: str | None = None) -> Fra
     Fraction(1, 10)
     >>> from_float(0.1, "dyadic")
     Fraction(3602879701896397, 36028797018963968)
+    >>> import numpy
+    >>> from_float(numpy.float32(0.1), "decimal"), from_float(numpy.float32(0.1), "dyadic")
+    (Fraction(1, 10), Fraction(13421773, 134217728))
     """
     if rounding not in ("decimal", "dyadic"):
         raise InputError(
             f'expected rounding "decimal" or "dyadic", found {rounding!r}', where=where
         )
-    value = float(x)
-    if not math.isfinite(value):
-        raise InputError(f"expected a finite number, found {value!r}", where=where)
-    if rounding == "dyadic":
-        return Fraction(value)
-    return Fraction(repr(value))
+    # A numpy scalar stays as it is: Python's floats are longer than some and shorter than others.
+    value = x if hasattr(x, "as_integer_ratio") else float(x)
+    try:
+        # Python's and numpy's floats are printed with the fewest digits that tell them apart.
+        return Fraction(*value.as_integer_ratio()) if rounding == "dyadic" else Fraction(str(value))
+    except (OverflowError, ValueError):
+        raise InputError(f"expected a finite number, found {float(x)!r}", where=where) from None
 
 
 def to_float(q: Fraction | int | str) -> float:

@@ -40,7 +40,7 @@ def rows_of(value: Any, where: str | None = None, *, floats: bool = False) -> li
         value = value.__array__()
     _require_numbers(value, where, floats)
     if hasattr(value, "tolist"):
-        value = value.tolist()
+        value = [_scalars(row) for row in value] if _is_of_other_length(value) else value.tolist()
     if not _is_sequence(value):
         found = "a string" if isinstance(value, (str, bytes)) else type(value).__name__
         raise InputError(
@@ -76,6 +76,18 @@ def _require_numbers(value: Any, where: str | None, floats: bool) -> None:
         )
 
 
+def _is_of_other_length(array: Any) -> bool:
+    """Whether it holds floats of another length than Python's, such as single precision."""
+    dtype: Any = getattr(array, "dtype", None)
+    return getattr(dtype, "kind", "") == "f" and dtype.itemsize != 8
+
+
+def _scalars(array: Any) -> list[Any]:
+    """The numbers of an array of one dimension; ``tolist`` would widen floats to Python's."""
+    found: list[Any] = list(array) if _is_of_other_length(array) else array.tolist()
+    return found
+
+
 def is_sparse_array(value: Any) -> bool:
     """Whether a value is a sparse array or matrix of scipy."""
     return hasattr(value, "tocoo") and hasattr(value, "shape")
@@ -99,7 +111,7 @@ def entries_of(
     found: dict[tuple[int, int], Any] = {}
     stored = value.tocoo()
     for i, j, entry in zip(
-        *(x.tolist() for x in (stored.row, stored.col, stored.data)), strict=True
+        stored.row.tolist(), stored.col.tolist(), _scalars(stored.data), strict=True
     ):
         found[i, j] = found[i, j] + entry if (i, j) in found else entry
     return [(i, j, entry) for (i, j), entry in found.items()]

@@ -13,16 +13,16 @@ from mcexact.model.names import nearest, quoted
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 
-Signals = Sequence[Iterable[int | str]]
+Signals = int | str | Iterable[int | str]
+"""One signal or several, each by its position or its label."""
+Channels = Mapping[str, tuple[Signals, Signals]] | Sequence[tuple[Signals, Signals]]
 
 
 def from_statespace(
     statespace: Any,
-    inputs: Signals,
-    outputs: Signals,
+    channels: Channels,
     *,
     rounding: Rounding,
-    names: Sequence[str] | None = None,
     neighbors: NeighborGraph | Mapping[str, Iterable[str]] | None = None,
 ) -> MultiChannelSystem:
     """Convert a python-control state-space system to a multi-channel system.
@@ -31,13 +31,13 @@ def from_statespace(
     ----------
     statespace : control.StateSpace
         With D = 0.
-    inputs, outputs : sequence of m iterables of int or str
-        The signals of each channel, by position or by label.  A signal belongs to at most one
-        channel.
+    channels : sequence of m pairs, or mapping from m names to pairs
+        The inputs and the outputs of each channel.  A signal is given by its position or its label,
+        and several signals by a list; a signal belongs to at most one channel.
     rounding : {"decimal", "dyadic"}
         How its floats become exact numbers, as in `MultiChannelSystem.from_float`.  There is no
         default, since python-control has already rounded fractions, and integers above 2**53.
-    names, neighbors : optional
+    neighbors : optional
         As in `MultiChannelSystem`.
 
     Returns
@@ -53,9 +53,17 @@ def from_statespace(
     Examples
     --------
     >>> import control
-    >>> plant = control.ss([[0, 1], [0, -0.1]], [[0], [1]], [[1, 0]], [[0]])
-    >>> from_statespace(plant, inputs=[[0]], outputs=[[0]], rounding="decimal").A[1, 1]
-    Fraction(-1, 10)
+    >>> plant = control.ss(
+    ...     [[0, 1], [0, -0.1]], [[0], [1]], [[1, 0]], [[0]], inputs=["force"], outputs=["place"]
+    ... )
+    >>> found = from_statespace(plant, channels={"cart": ("force", "place")}, rounding="decimal")
+    >>> found.names, found.A[1, 1]
+    (('cart',), Fraction(-1, 10))
+    >>> from_statespace(plant, channels=[("force", "speed")], rounding="decimal")
+    Traceback (most recent call last):
+        ...
+    mcexact.errors.InputError: channels[0] outputs: there is no signal 'speed'; the signals are \
+'place'
     """
     A, B, C, D = _matrices(statespace, "ABCD", rounding)
     if not D.is_zero():
@@ -64,8 +72,17 @@ def from_statespace(
             "the theory used here does not cover it",
             where="statespace.D",
         )
-    columns = _split(inputs, B.ncols, getattr(statespace, "input_labels", None), "inputs")
-    rows = _split(outputs, C.nrows, getattr(statespace, "output_labels", None), "outputs")
+    names, pairs = _listed(channels)
+    shown = [quoted(name) for name in names] if names else list(map(str, range(len(pairs))))
+    columns, rows = (
+        _split(
+            [pair[side] for pair in pairs],
+            getattr(statespace, f"{what}_labels", None),
+            count,
+            [f"channels[{label}] {what}s" for label in shown],
+        )
+        for side, what, count in ((0, "input", B.ncols), (1, "output", C.nrows))
+    )
     time, sample_time = sampling(statespace.dt, rounding)
     return MultiChannelSystem(
         A,
@@ -154,34 +171,51 @@ def sampling(dt: Any, rounding: Rounding) -> tuple[str, Fraction | None]:
     return "discrete", from_float(float(dt), rounding, where="statespace.dt")
 
 
+def _listed(channels: Channels) -> tuple[list[str] | None, list[tuple[Signals, Signals]]]:
+    """Return the names, if there are some, and the pairs of inputs and outputs."""
+    names = None
+    if isinstance(channels, Mapping):
+        names, channels = list(channels), list(channels.values())
+    pairs = list(channels)
+    if not pairs:
+        raise InputError("expected at least one channel, found none", where="channels")
+    for k, pair in enumerate(pairs):
+        if isinstance(pair, str) or not isinstance(pair, Sequence) or len(pair) != 2:
+            raise InputError(
+                f"expected a pair (inputs, outputs), found {pair!r}; "
+                'write (0, 0), ("force", "place") or ([0, 1], [2])',
+                where=f"channels[{quoted(names[k]) if names else k}]",
+            )
+    return names, pairs
+
+
 def _split(
-    signals: Signals, count: int, labels: Sequence[str] | None, where: str
+    signals: Sequence[Signals], labels: Sequence[str] | None, count: int, places: Sequence[str]
 ) -> list[list[int]]:
     """Return the positions of each channel's signals."""
     known = list(labels or ())
     used: set[int] = set()
     split = []
-    for k, chosen in enumerate(signals):
-        place = f"{where}[{k}]"
-        if isinstance(chosen, (str, int)):
-            raise InputError(
-                f"expected a list of signals, found {chosen!r}; write [{chosen!r}]", where=place
-            )
-        positions = []
-        for signal in chosen:
-            if isinstance(signal, str):
-                if signal not in known:
-                    raise InputError(
-                        f"there is no signal {quoted(signal)}{nearest(signal, known)}", where=place
-                    )
-                signal = known.index(signal)
-            if isinstance(signal, bool) or not isinstance(signal, int):
-                raise InputError(f"expected a position or a label, found {signal!r}", where=place)
-            if not 0 <= signal < count:
-                raise InputError(f"expected positions 0 … {count - 1}, found {signal}", where=place)
-            if signal in used:
-                raise InputError(f"the signal {signal} is used twice", where=place)
-            used.add(signal)
-            positions.append(signal)
+    for chosen, place in zip(signals, places, strict=True):
+        listed = [chosen] if isinstance(chosen, (str, int)) else chosen
+        positions = [_position(signal, known, count, place) for signal in listed]
+        for position in positions:
+            if position in used:
+                raise InputError(f"the signal {position} is used twice", where=place)
+            used.add(position)
         split.append(positions)
     return split
+
+
+def _position(signal: int | str, known: list[str], count: int, place: str) -> int:
+    """Return the position of a signal that is given by its position or its label."""
+    if isinstance(signal, str):
+        if signal not in known:
+            hint = nearest(signal, known) or f"; the signals are {', '.join(map(quoted, known))}"
+            raise InputError(f"there is no signal {quoted(signal)}{hint}", where=place)
+        return known.index(signal)
+    if isinstance(signal, bool) or not hasattr(signal, "__index__"):
+        raise InputError(f"expected a position or a label, found {signal!r}", where=place)
+    if not 0 <= signal < count:
+        raise InputError(f"expected positions 0 … {count - 1}, found {signal}", where=place)
+    return int(signal)
