@@ -2,15 +2,20 @@
 
 PYTHON ?= python3
 BIN := .venv/bin
+CORE := .venv/.core
 STAMP := .venv/.installed
+PIP := $(BIN)/python -m pip install --quiet --quiet --disable-pip-version-check
 GALLERY := mcexact/model/gallery
 
 .PHONY: absence corpus coverage mutants paper-mutants records reproduce look ledger sentences demo test lint types tests matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs
 
-demo: $(STAMP)
+demo: $(CORE)
 	$(BIN)/mcexact demo
 	$(BIN)/mcexact analyze $(GALLERY)/liu2020-3ch-no-communication.json
 	$(BIN)/mcexact analyze $(GALLERY)/quadruple-tank-pminus.json
+	@echo
+	@echo "The command mcexact is in .venv/bin. This line puts it on your path:"
+	@echo "    export PATH=\"$(CURDIR)/.venv/bin:\$$PATH\""
 
 test: lint types tests
 
@@ -66,7 +71,7 @@ coverage: $(STAMP)
 # Mutation testing of the checker: every small change has to make one of these tests fail: half an hour.
 # FILES='location rank' tries some files, and continues where an earlier run has ended.
 mutants: $(STAMP)
-	$(BIN)/python -m pip install --quiet --quiet --disable-pip-version-check --editable '.[mutants]'
+	$(PIP) --editable '.[mutants]'
 	HYPOTHESIS_PROFILE=ci $(BIN)/python -m tests.mutants $(FILES)
 
 # Certificates, and what each rule for sentences makes of them, as tests/checker compares: minutes.
@@ -121,7 +126,15 @@ checked-proofs: proofs
 weakened-proofs:
 	@$(MAKE) --no-print-directory -C proofs weakened
 
-$(STAMP): pyproject.toml
-	$(PYTHON) -m venv .venv
-	$(BIN)/python -m pip install --quiet --quiet --disable-pip-version-check --editable '.[dev]'
-	touch $(STAMP)
+# What a user needs, without what draws, tests or documents.
+$(CORE): pyproject.toml
+	@echo "Making an environment in .venv, and installing mcexact with the libraries of its core"
+	@echo "(numpy, scipy, sympy, networkx, python-flint and others, 390 MB): one to three minutes ..."
+	@$(PYTHON) -m venv .venv
+	@$(PIP) --editable .
+	@touch $(CORE)
+
+$(STAMP): $(CORE)
+	@echo "Installing what the tests need, too: one to three minutes ..."
+	@$(PIP) --editable '.[dev]'
+	@touch $(STAMP)

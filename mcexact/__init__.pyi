@@ -77,6 +77,7 @@ from .errors import InputError as InputError
 from .errors import InternalError as InternalError
 from .errors import LimitReached as LimitReached
 from .errors import McexactError as McexactError
+from .errors import MissingExtra as MissingExtra
 from .errors import NotWritten as NotWritten
 from .errors import OtherFormat as OtherFormat
 from .errors import OutOfReach as OutOfReach

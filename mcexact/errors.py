@@ -6,6 +6,7 @@ import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from fractions import Fraction
+from importlib.util import find_spec
 from typing import Any
 
 
@@ -145,6 +146,44 @@ class LimitReached(McexactError):
 
 class OutOfReach(LimitReached):
     """Even the optimal controller of all agents together is one that nobody would install."""
+
+
+class MissingExtra(McexactError, ModuleNotFoundError):
+    """A library is needed that an extra of this package installs.
+
+    Examples
+    --------
+    >>> with MissingExtra.named("plot"):
+    ...     import a_library_that_is_missing
+    Traceback (most recent call last):
+    mcexact.errors.MissingExtra: this needs a_library_that_is_missing, which is not installed: \
+pip install 'mcexact[plot]'
+    """
+
+    exit_status = 69
+
+    @staticmethod
+    @contextmanager
+    def named(extra: str) -> Iterator[None]:
+        """Name the extra that installs what an import in the block does not find."""
+        try:
+            yield
+        except ModuleNotFoundError as error:
+            raise MissingExtra._of(extra, error.name or "a library") from None
+
+    @staticmethod
+    def require(extra: str, library: str) -> None:
+        """Refuse to start work that would end without a library."""
+        if find_spec(library) is None:
+            raise MissingExtra._of(extra, library)
+
+    @staticmethod
+    def _of(extra: str, library: str) -> MissingExtra:
+        missing = MissingExtra(
+            f"this needs {library}, which is not installed: pip install 'mcexact[{extra}]'"
+        )
+        missing.name = library
+        return missing
 
 
 class NotWritten(McexactError):

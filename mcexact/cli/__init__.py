@@ -19,8 +19,8 @@ from mcexact.cli.failures import exit_status, one_message
     cls=Commands,
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
     epilog="Exit status: 0 done, 1 the answer is no, 2 wrong usage, 3 malformed or missing input, "
-    "4 a limit was reached, 5 the checker cannot handle a certificate, 70 a bug in mcexact, "
-    "74 the output cannot be written, 130 interrupted.",
+    "4 a limit was reached, 5 the checker cannot handle a certificate, 69 an optional library is "
+    "missing, 70 a bug in mcexact, 74 the output cannot be written, 130 interrupted.",
 )
 @click.version_option(package_name="mcexact")
 def command_line() -> None:

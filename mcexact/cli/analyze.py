@@ -100,7 +100,7 @@ def command(
     """
 
     from mcexact.cli import output
-    from mcexact.cli.files import require_other, require_writable
+    from mcexact.cli.files import require_drawable, require_other, require_writable
     from mcexact.cli.rechecking import Rechecked
     from mcexact.cli.running import Run
     from mcexact.model.atomic import write_text
@@ -108,6 +108,7 @@ def command(
     run = Run(given)
     require_other(html, file)
     require_writable(html, run.certificates)
+    require_drawable(html)
     also = [option for option in _ALSO if given[option.replace("-", "_")]]
     plant = run.read(file)
     answer = run.result(

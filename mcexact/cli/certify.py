@@ -55,7 +55,7 @@ def command(file: str, controller: str, **given: Any) -> int:
     --certificates writes a proof of that as well. A warning is given if the controller was designed
     for another plant. The first line says whether to install the controller.
     """
-    from mcexact.cli.files import place_of, require_other, require_writable
+    from mcexact.cli.files import place_of, require_drawable, require_other, require_writable
     from mcexact.cli.output import emit, emit_tables
     from mcexact.cli.rechecking import Rechecked
     from mcexact.cli.running import Run
@@ -69,6 +69,7 @@ def command(file: str, controller: str, **given: Any) -> int:
     require_other(html, file, controller, weights, None if output is None else str(output))
     require_writable(output, run.certificates)
     require_writable(html, run.certificates)
+    require_drawable(html)
     about = place_of(controller)
     programs = run.read(file), run.read(controller), None if weights is None else run.read(weights)
     answer = run.result(

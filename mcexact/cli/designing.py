@@ -69,7 +69,7 @@ def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any
     wanted : mapping
         Further keyword arguments of the function.
     """
-    from mcexact.cli.files import require_other, require_writable
+    from mcexact.cli.files import require_drawable, require_other, require_writable
     from mcexact.cli.output import emit, emit_tables
     from mcexact.cli.rechecking import Rechecked
     from mcexact.cli.running import Run
@@ -82,6 +82,7 @@ def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any
     require_other(html, file, spectrum, weights, None if output is None else str(output))
     require_writable(output, run.certificates)
     require_writable(html, run.certificates)
+    require_drawable(html)
     extra = tuple(None if each is None else run.read(each) for each in (spectrum, weights))
     keywords = {**wanted, "agent": given["agent"], **{key: given[key] for key in HOW}}
     aimed = {key: given[key] for key in aiming.AIMS if key in given}

@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mcexact.errors import InputError
+from mcexact.errors import InputError, MissingExtra
 from mcexact.errors import place_of as place_of
 
 if TYPE_CHECKING:
@@ -107,6 +107,18 @@ def require_writable(file: Path | None, folder: Path | None = None) -> None:
             to_be_made = () if folder is None else (made, *made.parents)
             parent = target.parent
             _try(_nearest(parent) if parent in to_be_made else parent)
+
+
+def require_drawable(file: Path | None) -> None:
+    """Refuse to start work for a file with pictures that cannot be drawn.
+
+    Raises
+    ------
+    MissingExtra
+        If the library that draws is not installed.
+    """
+    if file is not None:
+        MissingExtra.require("plot", "matplotlib")
 
 
 @contextlib.contextmanager

@@ -47,8 +47,10 @@ def command(
     from mcexact.cli.folders import require_replaceable, write_folder
     from mcexact.cli.output import emit, emit_json, emit_tables
     from mcexact.cli.supervision import supervised
+    from mcexact.errors import MissingExtra
     from mcexact.reproduce import pages, reproduction, terminal
 
+    MissingExtra.require("plot", "matplotlib")
     keys = reproduction.chosen(wanted)
     if output is not None:
         require_replaceable(output, "report.html")

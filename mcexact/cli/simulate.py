@@ -62,7 +62,7 @@ def command(
     **given: Any,
 ) -> None:
     """Run CONTROLLER on the system in FILE, as agents that receive messages from neighbors only."""
-    from mcexact.cli.files import require_other, require_writable
+    from mcexact.cli.files import require_drawable, require_other, require_writable
     from mcexact.cli.output import emit_json, emit_tables
     from mcexact.cli.running import Run
     from mcexact.model.atomic import write_bytes
@@ -73,6 +73,7 @@ def command(
         raise click.UsageError(f"expected a file that ends in .csv, .png or .html, found {output}")
     require_other(output, file, controller)
     require_writable(output)
+    require_drawable(output if suffix in (".png", ".html") else None)
     wanted = {
         "initial": _numbers(initial, "--initial"),
         "reference": _numbers(reference, "--reference"),

@@ -11,6 +11,7 @@ import faulthandler
 import multiprocessing
 import os
 import pickle
+import shutil
 import signal
 import sys
 import time
@@ -36,6 +37,8 @@ class _Note(str):
 
 _LIBRARIES = ("flint", "numpy", "scipy.linalg")
 _SHOW_AFTER = 1.0  # seconds
+_CLEAR = "\r\x1b[K"
+"""Move to the start of the terminal's line, and clear it."""
 
 
 def supervised(
@@ -197,22 +200,21 @@ def _terminable() -> Iterator[None]:
 def _progress(doing: str) -> Iterator[Callable[[float], None]]:
     """Show on standard error what is being done, once it has taken a second."""
     if sys.stderr is not None and sys.stderr.isatty():
-        from rich.console import Console
+        shown = ""
 
-        with contextlib.ExitStack() as stack:
-            console = Console(stderr=True)
-            status = console.status("")
-            shown = False
+        def show(elapsed: float) -> None:
+            nonlocal shown
+            line = f"{doing}, {elapsed:.0f} s"
+            if elapsed >= _SHOW_AFTER and line != shown:
+                shown = line
+                columns = shutil.get_terminal_size().columns
+                print(f"{_CLEAR}{line[: columns - 1]}", end="", file=sys.stderr, flush=True)
 
-            def show(elapsed: float) -> None:
-                nonlocal shown
-                if elapsed >= _SHOW_AFTER:
-                    status.update(f"{doing}, {elapsed:.0f} s")
-                    if not shown:
-                        stack.enter_context(status)
-                        shown = True
-
+        try:
             yield show
+        finally:
+            if shown:
+                print(_CLEAR, end="", file=sys.stderr, flush=True)
         return
     said = False
 

@@ -244,13 +244,8 @@ def _progress(total: int) -> Iterator[Any]:
     import sys
 
     if sys.stderr is not None and sys.stderr.isatty():
-        from rich.console import Console
-        from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
-
-        columns = (BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-        with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
-            task = bar.add_task("", total=total)
-            yield lambda documents: bar.update(task, completed=len(documents))
+        with click.progressbar(length=total, file=sys.stderr, show_pos=True) as bar:
+            yield lambda documents: bar.update(len(documents) - bar.pos)
         return
     last = time.monotonic()
 

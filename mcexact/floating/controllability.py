@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from mcexact.errors import MissingExtra
+
 
 def controllability_matrix(A: NDArray[np.float64], B: NDArray[np.float64]) -> NDArray[np.float64]:
     """Build [B, AB, …, A^(n−1)B], shape (n, n·p).
@@ -68,10 +70,11 @@ def ctrb_rank(A: NDArray[np.float64], B: NDArray[np.float64]) -> int:
 
     Raises
     ------
-    ImportError
+    MissingExtra
         If python-control is not installed.
     """
-    import control
+    with MissingExtra.named("control"):
+        import control
 
     return int(np.linalg.matrix_rank(control.ctrb(A, B)))
 
@@ -86,10 +89,11 @@ def obsv_rank(A: NDArray[np.float64], C: NDArray[np.float64]) -> int:
 
     Raises
     ------
-    ImportError
+    MissingExtra
         If python-control is not installed.
     """
-    import control
+    with MissingExtra.named("control"):
+        import control
 
     return int(np.linalg.matrix_rank(control.obsv(A, C)))
 

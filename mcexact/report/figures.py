@@ -8,6 +8,7 @@ from fractions import Fraction
 from typing import Any
 
 from mcexact.answer.loop_spectrum import LoopSpectrum
+from mcexact.errors import MissingExtra
 from mcexact.exact.floats import to_float
 from mcexact.exact.location import StabilityRegion, is_discrete
 from mcexact.report.trajectory import error_norms, state_norms
@@ -30,8 +31,9 @@ def simulation_png(run: Trajectory, spectrum: LoopSpectrum | None, title: str = 
     bytes
         A PNG image.
     """
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
+    with MissingExtra.named("plot"):
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+        from matplotlib.figure import Figure
 
     spectrum = _drawable(spectrum)
     errors = error_norms(run)

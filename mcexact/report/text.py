@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import shutil
 import textwrap
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -87,15 +89,17 @@ def _widths(rows: Sequence[Sequence[str]], room: int) -> list[int]:
 
 def show(tables: Sequence[Table], stream: TextIO) -> None:
     """Draw tables on a terminal, with highlighted titles and column names."""
-    from rich.console import Console
-    from rich.text import Text
+    import click
 
-    console = Console(file=stream)
+    width = shutil.get_terminal_size((WIDTH, 24)).columns
+    plain_terminal = "NO_COLOR" in os.environ or os.environ.get("TERM") == "dumb"
     for number, table in enumerate(tables):
-        lines = list(_lines(table, console.width))
-        titles = len(wrapped(table.title, console.width)) if table.title else 0
+        titles = len(wrapped(table.title, width)) if table.title else 0
         if number:
-            console.print()
-        for k, line in enumerate(lines):
-            style = "bold" if k < titles else "underline" if table.columns and k == titles else ""
-            console.print(Text(line, style=style), soft_wrap=True)
+            click.echo(file=stream)
+        for k, line in enumerate(_lines(table, width)):
+            if k < titles and not plain_terminal:
+                line = click.style(line, bold=True)
+            elif table.columns and k == titles and not plain_terminal:
+                line = click.style(line, underline=True)
+            click.echo(line, file=stream)

@@ -7,7 +7,10 @@ import pytest
 
 import mcexact
 
-HEAVY = ("sympy", "scipy", "matplotlib", "networkx", "control", "rich", "numpy", "flint", "jinja2")
+HEAVY = (
+    *("sympy", "scipy", "matplotlib", "networkx", "control", "numpy", "flint", "jinja2"),
+    *("pandas", "hypothesis", "dask", "distributed"),
+)
 LOADED = f"import sys; print([name for name in {HEAVY!r} if name in sys.modules])"
 
 

@@ -33,6 +33,23 @@ def test_a_terminal_gets_the_same_lines() -> None:
     assert stream.getvalue() == plain([LONG, LONG])
 
 
+@pytest.mark.parametrize("variable", [None, "NO_COLOR"])
+def test_titles_and_names_of_columns_are_highlighted_unless_the_user_objects(
+    variable: str | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    stream = io.StringIO()
+    monkeypatch.setattr(stream, "isatty", lambda: True, raising=False)
+    monkeypatch.setenv("TERM", "xterm")
+    monkeypatch.delenv("NO_COLOR", raising=False)
+    if variable:
+        monkeypatch.setenv(variable, "1")
+    show([LONG], stream)
+    title, names, *rows = stream.getvalue().splitlines()
+    assert (title == "a title") == (variable is not None)
+    assert title.startswith("\x1b[1m") == names.startswith("\x1b[4m") == (variable is None)
+    assert not any("\x1b" in row for row in rows)
+
+
 def test_a_long_name_is_cut_in_the_middle() -> None:
     assert shorten("short") == "short"
     assert shorten("a" * 50 + "b" * 50, 21) == "a" * 10 + "…" + "b" * 10
