@@ -25,6 +25,7 @@ class LoopCurves(Protocol):
     def edge(self) -> float: ...
     @property
     def eigenvalues(self) -> list[complex]: ...
+    def keeps(self, eigenvalue: complex) -> bool: ...
     @property
     def frequencies(self) -> list[float]: ...
     @property
@@ -99,12 +100,15 @@ def _told(curves: LoopCurves) -> str:
         else f"Bottom right: the largest norm of all inputs from the same start, at most "
         f"{max(curves.effort, default=0.0):.3g}."
     )
+    within = sum(map(curves.keeps, curves.eigenvalues))
+    inside = "inside" if within == count else f"{within} of them inside"
     return (
-        f"Top left: the {count} eigenvalues of the loop, inside {beyond} at {edge}. Top right: the "
-        f"complementary sensitivity at all inputs of the plant together, at most {largest:.3g}, so "
-        f"that the margin is {margin}; it should stay below the dashed line, which is a margin of "
-        f"0.3. Bottom left: the largest norm of the plant's state over {time} from a start of norm "
-        f"1, at most {max(curves.growth, default=0.0):.3g}. {last} Computed, not certified."
+        f"Top left: the {count} eigenvalues of the loop, {inside} {beyond} at {edge}. Top right: "
+        "the complementary sensitivity at all inputs of the plant together, at most "
+        f"{largest:.3g}, so that the margin is {margin}; it should stay below the dashed line, "
+        "which is a margin of 0.3. Bottom left: the largest norm of the plant's state over "
+        f"{time} from a start of norm 1, at most {max(curves.growth, default=0.0):.3g}. {last} "
+        "Computed, not certified."
     )
 
 

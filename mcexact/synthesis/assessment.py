@@ -36,6 +36,7 @@ from mcexact.synthesis.optimum.weights import Weights
 Install = Literal["yes", "with care", "no"]
 
 BASIS = "computed in floating point, not certified"
+_COMPUTED = " (computed)"
 _NO_MARGIN, _PEAK, _TIMES_THE_PEAK, _TIMES_THE_COST = 0.05, 100.0, 5.0, 10.0
 _DIGITS, _TIMES_THE_GAIN, _HARDLY = 4, 10.0, 1.02
 
@@ -125,8 +126,14 @@ class Assessment:
     def verdict(self) -> str:
         """One line that says whether to install the controller, and why."""
         told = {"yes": "Worth installing", "with care": "Install with care", "no": "Do not install"}
-        reasons = self.warnings or (self._strengths(),)
-        return f"{told[self.install]}: {reasons[0]}"
+        reason = (self.warnings or (self._strengths(),))[0]
+        marked = not self.certified or reason.endswith(_COMPUTED)
+        return f"{told[self.install]}: {reason}{'' if marked else _COMPUTED}"
+
+    @property
+    def _is_sensible(self) -> bool:
+        """Whether this loop, or the one for all agents, shows that the region is affordable."""
+        return self.diagnosis.is_sensible or self.diagnosis.allows(self.figures)
 
     def _strengths(self) -> str:
         digits = "1 digit suffices" if self.digits == 1 else f"{self.digits} digits suffice"
@@ -171,7 +178,7 @@ class Assessment:
                 f"the largest gain is {_shown(seen.largest_gain)}, "
                 f"{_shown(central.largest_gain)} with one controller for all agents"
             )
-        if self.region.bound is not None and not self.diagnosis.is_sensible:
+        if self.region.bound is not None and not self._is_sensible:
             told.append(f"{self.region} is beyond what is sensible: {self.diagnosis}")
         return told
 
@@ -201,7 +208,7 @@ class Assessment:
             ("linear-quadratic cost", compared("cost")),
             ("cost relative to that controller", _shown(self.relative_cost)),
             ("digits that suffice", self._digits()),
-            ("numbers sent at each step", network),
+            ("numbers sent" + " at each step" * self.region.discrete, network),
             (f"sensible {word}", self.diagnosis.sensible_bound),
         ]  # fmt: skip
         if self.step_peak is not None:

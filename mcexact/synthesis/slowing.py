@@ -26,8 +26,8 @@ def at_a_robust_rate(request: Request, design: Callable[[Request], Design]) -> D
     Returns
     -------
     Design
-        The first with a margin of 0.3, or the one with the largest margin.  A rate that was given
-        stays, and so does one for which already a controller for all agents together is fragile.
+        The first with a margin of 0.3, or the one with the largest margin; a controller that was
+        not searched is not made again.  A rate that was given stays.
 
     Raises
     ------
@@ -37,7 +37,8 @@ def at_a_robust_rate(request: Request, design: Callable[[Request], Design]) -> D
     Notes
     -----
     The sensible rate is that of one controller for all agents; agents that know less than it can be
-    too slow for half of it.
+    too slow for half of it.  Where already this controller is fragile, a search that aims at a
+    margin can find a robust one for a slower rate all the same.
     """
     best, failed = None, None
     for trial in range(_HALVINGS + 1):
@@ -73,6 +74,5 @@ def _margin(made: Design) -> float:
 
 
 def _is_final(made: Design) -> bool:
-    """Whether a slower rate is not tried: the loop is robust, or none is for all agents."""
-    known = made.parts.get("diagnosis")
-    return _margin(made) >= MARGIN or known is None or not known.is_sensible
+    """Whether a slower rate is not tried: the loop is robust, or it was not searched."""
+    return _margin(made) >= MARGIN or "diagnosis" not in made.parts

@@ -31,6 +31,15 @@ def test_continuous_time_has_a_line_and_discrete_time_a_circle():
     assert curves.growth[:3] == [1, 0.25, 0.0625] and curves.effort[:2] == [0.25, 0.0625]
 
 
+def test_eigenvalues_beyond_the_line_are_not_said_to_be_inside():
+    plant = MultiChannelSystem([[1, 0], [0, -5]], [[[1], [0]]], [[[1, 0]]])
+    _, picture = pictured(plant, -3, StabilityRegion("continuous", 4))
+    assert "the 2 eigenvalues of the loop, 1 of them inside the dashed line" in picture.alternative
+    sampled = MultiChannelSystem([["1/2"]], [[[1]]], [[[1]]], time="discrete")
+    _, picture = pictured(sampled, "1/4", StabilityRegion.of("discrete", radius="1/2"))
+    assert "the 1 eigenvalues of the loop, 0 of them inside" in picture.alternative
+
+
 def test_eigenvalues_of_different_sizes_are_all_seen():
     plant = MultiChannelSystem([[1, 0], [0, -1000]], [[[1], [1]]], [[[1, 0]]])
     _, picture = pictured(plant, -3, StabilityRegion("continuous"))

@@ -181,7 +181,36 @@ def test_digits_and_rates_are_warned_of() -> None:
     assert any("5 digits" in each for each in replace(assessed(), digits=5).warnings)
     assert any("lose" in each for each in replace(assessed(), digits=None).warnings)
     hurried = diagnosed(ONE, StabilityRegion.of("continuous", rate=10**6))
-    assert any("sensible" in each for each in replace(assessed(), diagnosis=hurried).warnings)
+    fragile = replace(assessed(margin=0.29), diagnosis=hurried)
+    assert any("sensible" in each for each in fragile.warnings)
+
+
+def test_a_robust_and_cheap_loop_shows_that_its_rate_is_sensible() -> None:
+    """The controller for all agents is fragile at this rate, and this loop is not."""
+    known = assessed().diagnosis
+    fragile = replace(known, central=replace(known.central, figures=assessed(margin=0.1).figures))
+    assert not fragile.is_sensible
+    assert replace(assessed(), diagnosis=fragile).install == "yes"
+    told = replace(assessed(margin=0.29), diagnosis=fragile).warnings
+    assert "beyond what is sensible" in told[-1]
+
+
+def test_a_verdict_that_no_certificate_proves_says_so() -> None:
+    for figures in ({}, {"margin": 0.04}, {"margin": 0.29}):
+        assert assessed(**figures).verdict.endswith(" (computed)")
+    hurried = diagnosed(ONE, StabilityRegion.of("continuous", rate=10**6))
+    dear = replace(assessed(cost=15 * hurried.unhurried.figures.cost), diagnosis=hurried)
+    assert dear.verdict.count("(computed)") == 1 and "sensible" in dear.verdict
+    refused = assessed_loop(loop_of("1"), StabilityRegion("continuous"), certified=False)
+    assert "computed" not in refused.verdict
+
+
+def test_only_in_discrete_time_numbers_are_sent_at_each_step() -> None:
+    assert dict(assessed().rows())["numbers sent"] == "none"
+    sampled = MultiChannelSystem([["1/2"]], [[[1]]], [[[1]]], time="discrete")
+    loop = closed_loop(sampled, local_controllers(sampled, [[["-1/4"]]]))
+    found = assessed_loop(loop, StabilityRegion("discrete"), certified=True)
+    assert dict(found.rows())["numbers sent at each step"] == "none"
 
 
 def test_an_unstable_loop_is_not_to_be_installed() -> None:

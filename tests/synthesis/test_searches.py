@@ -7,6 +7,7 @@ import pytest
 
 from mcexact.errors import Impossible, InputError, LimitReached, OutOfReach, UsageError
 from mcexact.exact.location import StabilityRegion
+from mcexact.model import gallery
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.asking import request_for
 from mcexact.synthesis.decentralized import design_decentralized
@@ -24,21 +25,28 @@ NEARLY_FIXED = MultiChannelSystem([[1, 0], [0, -1]], [[[1], ["1e-7"]]], [[[1, 1]
 """A stable mode that the input hardly moves."""
 
 
-@pytest.mark.parametrize("time", ["continuous", "discrete"])
-def test_without_a_rate_half_the_sensible_one_is_taken_and_said(time) -> None:
-    plant = coupled(time)
+@pytest.mark.parametrize("plant", [coupled(), gallery.load("compleib-dis5")], ids=str)
+def test_without_a_rate_half_the_sensible_one_is_taken_and_said(plant) -> None:
     request = request_for(plant)
     [note] = request.notes
     known = diagnosed(plant, request.region)
     assert known.is_sensible and known.sensible is not None
     assert f"{request.region.edge} is" in note and "sensible" in note
-    pace = np.log if time == "discrete" else float
+    pace = np.log if request.region.discrete else float
     ratio = float(pace(float(known.sensible.edge)) / pace(float(request.region.edge)))
     assert ratio == pytest.approx(2, rel=0.15)
     design = design_decentralized(plant, aims=Aims(effort=2))
     [told] = design.notes
     assert told.startswith(note) and f"{design.region.edge} " in told
     assert (design.region == request.region) == (told == note)
+
+
+def test_a_chosen_radius_is_not_nearly_zero() -> None:
+    """All agents together can bring this plant to rest within few steps."""
+    [note] = request_for(gallery.load("movable-by-periodic-gains")).notes
+    assert note == (
+        "no radius was given: 1/10 is fast enough, and slower than the root of the sensible radius"
+    )
 
 
 @pytest.mark.parametrize(("time", "mode"), [("continuous", "-1/50"), ("discrete", "0.99")])

@@ -55,6 +55,10 @@ class Curves:
     effort: list[float]
     steps: list[tuple[str, list[float]]]
 
+    def keeps(self, eigenvalue: complex) -> bool:
+        """Whether an eigenvalue lies where it should."""
+        return abs(eigenvalue) < self.edge if self.discrete else eigenvalue.real < -self.edge
+
 
 def curves_of(loop: ClosedLoop, region: StabilityRegion) -> Curves | None:
     """Compute the curves of a loop; None if it is not stable.

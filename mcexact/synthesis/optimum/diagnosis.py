@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from decimal import ROUND_FLOOR, Context
 from fractions import Fraction
 
 import numpy as np
@@ -12,7 +13,7 @@ from mcexact.exact.floats import matrix_to_float, to_float
 from mcexact.exact.location import StabilityRegion
 from mcexact.floating.fixed_mode_distance import distance_at
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.optimum.figures import CentralOptimum, central_optimum
+from mcexact.synthesis.optimum.figures import CentralOptimum, Figures, central_optimum
 from mcexact.synthesis.optimum.kernel import quiet_floats
 from mcexact.synthesis.optimum.sensitivity import norm
 from mcexact.synthesis.optimum.weights import Weights
@@ -23,6 +24,7 @@ _STEPS, _STEPS_IF_LARGE, _LARGE = 14, 4, 100
 _FEWEST_MODES, _WORK = 3, 20_000_000
 _FASTER = (2.0, 4.0, 8.0)
 _WIDTH, _FACTOR, _FASTEST = 1.02, 4.0, 64.0
+_FAST_ENOUGH = 2.3026
 
 
 @dataclass(frozen=True)
@@ -70,7 +72,11 @@ class Diagnosis:
     @property
     def is_sensible(self) -> bool:
         """Whether the region is one in which the central optimum is affordable."""
-        return _affordable(self.central, self.unhurried)
+        return self.central is not None and self.allows(self.central.figures)
+
+    def allows(self, figures: Figures) -> bool:
+        """Whether a loop has a margin of 0.3, and at most ten times the least cost."""
+        return self.unhurried is not None and _is_affordable(figures, self.unhurried)
 
     @property
     def is_out_of_reach(self) -> bool:
@@ -100,7 +106,7 @@ class Diagnosis:
             told.insert(
                 0, f"mode {_shown(each.mode)}: a relative change of {each.change:.0e} fixes it"
             )
-        return "; ".join(told)
+        return f"{'; '.join(told)} (computed)"
 
     def view(self) -> dict[str, object]:
         """Return the diagnosis as plain data."""
@@ -128,8 +134,11 @@ def _shown(mode: complex) -> str:
 def _affordable(found: CentralOptimum | None, unhurried: CentralOptimum | None) -> bool:
     if found is None or unhurried is None:
         return False
-    figures, least = found.figures, unhurried.figures.cost
-    return figures.margin >= MARGIN and figures.cost <= TIMES_THE_COST * least
+    return _is_affordable(found.figures, unhurried)
+
+
+def _is_affordable(figures: Figures, unhurried: CentralOptimum) -> bool:
+    return figures.margin >= MARGIN and figures.cost <= TIMES_THE_COST * unhurried.figures.cost
 
 
 def diagnosed(
@@ -189,10 +198,10 @@ def chosen_region(
     Returns
     -------
     (StabilityRegion, str) or None
-        The bound has two digits, in discrete time three.  The text says how it was chosen: where
-        half the sensible rate is not sensible it is the sensible one, and where none is, half the
-        rate of the optimal controller of all agents together.  None without such a controller in
-        floating point.
+        The rate has two digits, in discrete time the distance of the radius to 1.  The text says
+        how it was chosen: where half the sensible rate is not sensible it is the sensible one, and
+        where none is, half the rate of the optimal controller of all agents together; no radius is
+        below a tenth.  None without such a controller in floating point.
 
     Examples
     --------
@@ -219,8 +228,9 @@ def chosen_region(
             slower = central_optimum(system, weights, _of_pace(system.time, pace))
             if not _affordable(slower, unhurried):
                 pace, told = 2 * pace, f"the sensible {stable.word}"
-    shown = f"{np.exp(-pace):.3g}" if stable.discrete else f"{pace:.1e}"
-    return StabilityRegion(system.time, Fraction(shown)), told
+    if stable.discrete and pace > _FAST_ENOUGH:
+        pace, told = _FAST_ENOUGH, f"fast enough, and slower than {told}"
+    return _rounded_region(system.time, pace), told
 
 
 def slow_modes(system: MultiChannelSystem, region: StabilityRegion) -> tuple[SlowMode, ...]:
@@ -288,6 +298,20 @@ def _sensible(
             if _affordable(central_optimum(system, weights, faster), unhurried):
                 return faster
     return _of_pace(system.time, holds) if holds else None
+
+
+def _rounded_region(time: str, pace: float) -> StabilityRegion:
+    """A region, not faster, whose rate or distance of the radius to 1 has two digits.
+
+    Examples
+    --------
+    >>> print(_rounded_region("continuous", 0.259), _rounded_region("discrete", 0.001), sep=", ")
+    Re λ < -1/4, |λ| < 99901/100000
+    """
+    discrete = StabilityRegion(time).discrete
+    exact = float(-np.expm1(-pace)) if discrete else pace
+    edge = Fraction(Context(prec=2, rounding=ROUND_FLOOR).create_decimal_from_float(exact))
+    return StabilityRegion(time, 1 - edge if discrete else edge)
 
 
 def _own_region(time: str, unhurried: CentralOptimum) -> StabilityRegion | None:

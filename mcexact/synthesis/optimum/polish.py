@@ -32,6 +32,7 @@ _PARTS = (0.5, 0.25, 0.12, 0.06)
 _MARGIN_ROUNDS = 10
 _DRAFT, _POLISH = 60, 500
 _CHECKED = 200
+_GAIN_AIMED_AT = 0.95
 
 
 @dataclass(frozen=True)
@@ -189,7 +190,7 @@ def _objective(problem: FeedbackProblem, x: Floats, target: Target) -> Objective
     shift = shift_of(target.region, SLACK)
     if not target.reached(bound, SLACK):
         shift = (edge + (bound if problem.discrete else -bound)) / 2
-    return Objective(problem, shift, target.largest_gain, shape=target.shape)
+    return Objective(problem, shift, _GAIN_AIMED_AT * target.largest_gain, shape=target.shape)
 
 
 def polished(

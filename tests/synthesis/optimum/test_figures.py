@@ -78,6 +78,16 @@ def test_peak_and_margin_are_what_they_mean(time):
         assert figures_of(of, wrong, peak=False).margin > 0
 
 
+def test_the_peak_of_a_slow_loop_in_discrete_time_comes_late():
+    """x_1(t) = t a^(t−1) x_2(0) has its peak at t = 10,000."""
+    plant = MultiChannelSystem(
+        [["0.9999", 1], [0, "0.9999"]], [[[0], [1]]], [[[1, 0]]], time="discrete"
+    )
+    of = FeedbackProblem.of(decentralized_network(plant), (0,), Weights.unit(plant))
+    found = figures_of(of, np.zeros(of.mask.shape))
+    assert found.peak == pytest.approx(10_000 / np.e, rel=0.01)
+
+
 def test_an_unstable_loop_has_no_margin():
     plant = coupled()
     of = FeedbackProblem.of(decentralized_network(plant), (0, 0, 0), Weights.unit(plant))
@@ -126,7 +136,7 @@ def test_the_diagnosis_names_the_mode_and_the_sensible_rate():
     assert found.modes[0].mode == -1 and found.modes[0].change < 2e-5
     assert found.sensible is not None and 0.9 < found.sensible.edge < 1.1
     said = r"mode -1: a relative change of \de-0[56] fixes it; sensible rate (0\.9\d*|1|1\.0\d*)"
-    assert re.fullmatch(said, str(found))
+    assert re.fullmatch(rf"{said} \(computed\)", str(found))
 
 
 def test_a_sensible_request_is_called_so():
@@ -140,7 +150,7 @@ def test_without_any_sensible_rate_none_is_named():
     plant = MultiChannelSystem([[1, 0], [0, "1.0001"]], [[[1], [1]]], [[[1, 1]]])
     found = diagnosed(plant, StabilityRegion("continuous", 1))
     assert not found.is_sensible and found.sensible is None
-    assert str(found).endswith("sensible rate none")
+    assert str(found).endswith("sensible rate none (computed)")
 
 
 def test_modes_inside_the_region_and_conjugates_are_not_listed():
