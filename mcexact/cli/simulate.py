@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -9,6 +10,19 @@ from typing import Any
 import click
 
 from mcexact.cli import options
+
+_FILES = (".csv", ".png", ".html")
+
+
+def changes(name: str, what: str) -> Callable[[options.F], options.F]:
+    """Return an option for numbers that are added to a signal from a time on."""
+    return click.option(
+        f"--{name}",
+        name,
+        multiple=True,
+        metavar="NUMBERS[@TIME]",
+        help=f"{what} from TIME on, by default from the start. Repeatable.",
+    )
 
 
 @click.command(name="simulate", short_help="Run a controller as a network of agents.")
@@ -22,13 +36,23 @@ from mcexact.cli import options
 @click.option(
     "--horizon",
     type=options.rational,
-    help="Number of steps, or final time in continuous time; by default chosen from the spectrum.",
+    help="Number of steps, or final time in continuous time; by default chosen from the slowest "
+    "mode of the loop.",
+)
+@click.option(
+    "--points",
+    type=click.IntRange(min=1, max=10**6),
+    metavar="N",
+    help="In continuous time, the number of intervals; by default chosen from the fastest mode.",
 )
 @click.option(
     "--reference",
     metavar="NUMBERS",
     help="Set-points, one number for each output in the order of the channels; 0 by default.",
 )
+@changes("steps", "Add these numbers, such as 0,2@5, to the set-points")
+@changes("ramps", "Let the set-points grow by these numbers in each unit of time,")
+@changes("disturbances", "Add these numbers to the inputs at the plant")
 @click.option(
     "--arithmetic",
     type=click.Choice(["exact", "multiprecision", "float"]),
@@ -37,8 +61,8 @@ from mcexact.cli import options
 @click.option(
     "--fractions",
     is_flag=True,
-    help="Write the numbers of an exact run to a .csv file as fractions, which can be very long; "
-    "by default as decimals of 17 digits.",
+    help="Write the numbers of an exact run as fractions, which can be very long, to a .csv file "
+    "and with --json; by default as decimals and as numbers.",
 )
 @click.option(
     "-o",
@@ -47,51 +71,50 @@ from mcexact.cli import options
     metavar="FILE",
     help="Write the trajectory to this file, which ends in .csv, .png or .html.",
 )
-@options.as_json
-@options.work_limits
-@options.file_limits
-def command(
-    file: str,
-    controller: str,
-    initial: str | None,
-    horizon: Fraction | None,
-    reference: str | None,
-    arithmetic: str | None,
-    fractions: bool,
-    output: Path | None,
-    **given: Any,
-) -> None:
-    """Run CONTROLLER on the system in FILE, as agents that receive messages from neighbors only."""
+@options.answering
+def command(file: str, controller: str, **given: Any) -> None:
+    """Run CONTROLLER on the system in FILE, as agents that receive messages from neighbors only.
+
+    Shown are the outputs y, the inputs u, and the set-points r if there are any. If the loop is
+    stable and nothing changes after the start, bounds on the outputs are proved, too; their
+    certificate is checked, and --certificates writes it.
+    """
     from mcexact.cli.files import require_drawable, require_other, require_writable
-    from mcexact.cli.output import emit_json, emit_tables
+    from mcexact.cli.output import emit_tables
+    from mcexact.cli.rechecking import Rechecked
     from mcexact.cli.running import Run
     from mcexact.model.atomic import write_bytes
 
     run = Run(given)
+    output, fractions = given.pop("output"), given.pop("fractions")
     suffix = "" if output is None else output.suffix
-    if suffix not in ("", ".csv", ".png", ".html") or (output is not None and not suffix):
+    if output is not None and suffix not in _FILES:
         raise click.UsageError(f"expected a file that ends in .csv, .png or .html, found {output}")
     require_other(output, file, controller)
-    require_writable(output)
+    require_writable(output, run.certificates)
     require_drawable(output if suffix in (".png", ".html") else None)
-    wanted = {
-        "initial": _numbers(initial, "--initial"),
-        "reference": _numbers(reference, "--reference"),
-        "horizon": horizon,
-        "arithmetic": arithmetic,
+    wanted = given | {
+        "initial": _numbers(given["initial"], "--initial"),
+        "reference": _numbers(given["reference"], "--reference"),
+        **{name: _changes(given[name], name) for name in ("steps", "ramps", "disturbances")},
     }
     plant, program = run.read(file), run.read(controller)
     doing = f"simulating {plant[0]}"
-    how = suffix, fractions
+    how = suffix, fractions, run.system_by_digest
     answer = run.result(_simulated, plant, program, run.limits, wanted, *how, doing=doing)
     for warning in answer["warnings"]:
         click.echo(f"mcexact: warning: {warning}", err=True)
-    if output is not None:
-        write_bytes(output, answer["file"])
-    if run.as_json:
-        emit_json(answer["json"])
-    else:
+
+    def show() -> bool:
         emit_tables(answer["tables"])
+        return bool(answer["files"])
+
+    def write(_: Rechecked) -> None:
+        if output is not None:
+            write_bytes(output, answer["file"])
+
+    about = f"the simulation of {plant[0]}"
+    run.conclude(answer, show, about=about, write=write).require_complete()
 
 
 def _numbers(text: str | None, name: str) -> list[Fraction] | None:
@@ -104,6 +127,16 @@ def _numbers(text: str | None, name: str) -> list[Fraction] | None:
         raise click.BadParameter(error.message, param_hint=name) from None
 
 
+def _changes(texts: tuple[str, ...], name: str) -> list[tuple[Fraction, list[Fraction]]]:
+    """Parse numbers with the time from which they are added."""
+    found = []
+    for text in texts:
+        numbers, _, time = text.partition("@")
+        [start] = _numbers(time or "0", f"--{name}") or [Fraction(0)]
+        found.append((start, _numbers(numbers, f"--{name}") or []))
+    return found
+
+
 def _simulated(
     plant: tuple[str, bytes],
     program: tuple[str, bytes],
@@ -111,23 +144,32 @@ def _simulated(
     wanted: dict[str, Any],
     suffix: str,
     fractions: bool,
+    system_by_digest: bool,
 ) -> dict[str, Any]:
     """Simulate and format the results, in the child process."""
+    from mcexact.answer.account import Account
+    from mcexact.answer.sentence import Given, Sentences
     from mcexact.cli.files import system_in
+    from mcexact.cli.running import told
     from mcexact.errors import InputError
     from mcexact.exact.rational import Limits
     from mcexact.model.controller_file import read_controller
     from mcexact.report.simulation import SimulationReport
     from mcexact.simulation.run import simulated_loop
+    from mcexact.synthesis.certify import account_of_verdict
 
     system = system_in(*plant, limits)
     with InputError.inside(program[0]):
         controller = read_controller(program[1], Limits(**limits))
     done = simulated_loop(system, controller, **wanted)
     report = SimulationReport(done, fractions)
-    return {
+    account, proved = Account({}, Given(system), Sentences([])), dict[str, Any]()
+    if done.envelope is not None:
+        account = account_of_verdict(done.envelope.proof, largest=False)
+        proved = told(account, system_by_digest)
+    return {"files": {}, "plant": "", **proved} | {
         "warnings": done.warnings,
-        "json": report.as_json(),
+        "json": account.as_json(**report.as_json()),
         "tables": report.tables(),
         "file": report.file(suffix),
     }

@@ -184,7 +184,7 @@ MultiChannelSystem.from_float(..., rounding="decimal" | "dyadic")
     kind = type(entry)
     if isinstance(entry, bool) or kind.__name__ in ("bool_", "bool"):
         raise InputError(f"expected a number, found the Boolean {entry!r}", where=where)
-    if isinstance(entry, (float, complex)) or _is_inexact(entry):
+    if isinstance(entry, complex) or is_inexact(entry):
         raise FloatRefused(TWO_WAYS_IN, where=where)
     if isinstance(entry, Decimal):
         return _from_decimal(entry, where)
@@ -201,10 +201,12 @@ MultiChannelSystem.from_float(..., rounding="decimal" | "dyadic")
     )
 
 
-def _is_inexact(entry: Any) -> bool:
-    """Whether an entry is a numpy or sympy floating-point number."""
-    return getattr(getattr(entry, "dtype", None), "kind", "") in ("f", "c") or (
-        getattr(entry, "is_Float", False) is True
+def is_inexact(entry: Any) -> bool:
+    """Whether an entry is a float of Python, numpy or sympy."""
+    return (
+        isinstance(entry, float)
+        or getattr(getattr(entry, "dtype", None), "kind", "") in ("f", "c")
+        or (getattr(entry, "is_Float", False) is True)
     )
 
 

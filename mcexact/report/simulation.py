@@ -1,16 +1,29 @@
-"""The display of a simulation: facts, warnings, table, figure and page."""
+"""The display of a simulation: facts, warnings, tables, figures and page."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import Any
 
+from mcexact.exact.floats import finite, to_float
 from mcexact.exact.location import is_discrete
+from mcexact.exact.rational import rational_text
 from mcexact.report.figures import simulation_png
 from mcexact.report.simulation_page import simulation_page
 from mcexact.report.text import Table
-from mcexact.report.trajectory import error_norms, trajectory_csv, trajectory_rows
+from mcexact.report.trajectory import (
+    SIGNALS,
+    as_float,
+    error_norms,
+    shown_times,
+    signal_values,
+    state_norms,
+    trajectory_csv,
+)
 from mcexact.simulation.run import SimulatedLoop
+
+_COLUMNS = 8
+"""The largest number of signals with a column of their own."""
 
 
 @dataclass(frozen=True)
@@ -27,42 +40,131 @@ class SimulationReport:
     done: SimulatedLoop
     fractions: bool = False
 
-    @property
-    def columns(self) -> tuple[str, ...]:
-        """The heads of the table."""
-        return ("t", "state", *(f"error of {name}" for name in error_norms(self.done.run)))
-
     def facts(self) -> list[str]:
-        """Return exact statements about the loop."""
-        lines = [f"{self.done.run.time} time, {self.done.run.arithmetic} arithmetic"]
-        if self.done.spectrum is not None and self.done.spectrum.rate is not None:
-            rate, stable = self.done.spectrum.rate, "" if self.done.spectrum.stable else "not "
-            what = "spectral radius" if is_discrete(self.done.run.time) else "decay rate"
-            between = f"between {rate.lower} and {rate.upper}"
-            size = rate.lower if rate.lower == rate.upper else between
+        """Return exact statements about the loop, and what was simulated."""
+        run, found = self.done.run, self.done.spectrum
+        unit = "steps" if is_discrete(run.time) else "units of time"
+        lines = [
+            f"{run.time} time, {run.arithmetic} arithmetic, {to_float(run.times[-1]):g} {unit}"
+        ]
+        if found is not None and found.rate is not None:
+            stable = "" if found.stable else "not "
+            what = "spectral radius" if is_discrete(run.time) else "decay rate"
+            between = f"between {found.rate.lower} and {found.rate.upper}"
+            size = found.rate.lower if found.rate.lower == found.rate.upper else between
             lines.append(f"the closed loop is {stable}stable; its {what} is {size}")
         return lines
 
-    def tables(self) -> tuple[Table, ...]:
-        """Return the table of norms at some times."""
-        note = "largest absolute entries; the error of an agent is its estimate minus the state"
-        rows = trajectory_rows(self.done.run)
+    def tables(self, lines: int = 12) -> tuple[Table, ...]:
+        """Return the signals and the norms at some times, and the proved bounds."""
         title = f"{self.done.title}: {'; '.join(self.facts())}"
-        return (Table(title, self.columns, rows, note=note),)
+        columns, note = self._shown()
+        chosen = shown_times(self.done.run, lines)
+        rows = tuple(
+            (
+                f"{to_float(self.done.run.times[k]):g}",
+                *(f"{values[k]:.4g}" for values in columns.values()),
+            )
+            for k in chosen
+        )
+        moved = Table(title, ("t", *columns), rows, note=note)
+        return (moved, *self._bounds())
+
+    def _shown(self) -> tuple[dict[str, list[float]], str]:
+        """Every output and input if there are few, otherwise the largest ones; then the norms."""
+        run = self.done.run
+        signals = {kind: signal_values(run, kind) for kind in SIGNALS}
+        if not any(map(any, signals["reference"].values())):
+            del signals["reference"]
+        few = sum(map(len, signals.values())) <= _COLUMNS
+        columns: dict[str, list[float]] = {}
+        for kind, values in signals.items():
+            if few:
+                columns |= values
+            elif values:
+                each_time = zip(*values.values(), strict=True)
+                columns[f"|{SIGNALS[kind]}|"] = [max(map(abs, row)) for row in each_time]
+        columns["|x|"] = state_norms(run)
+        errors = error_norms(run)
+        if len(errors) <= _COLUMNS:
+            columns |= {f"|e {name}|": values for name, values in errors.items()}
+        elif errors:
+            columns["|e|"] = [max(row) for row in zip(*errors.values(), strict=True)]
+        note = "y: outputs, u: inputs, |…|: the largest absolute entry"
+        note += "; e: an agent's estimate minus the state" if errors else ""
+        return columns, note
+
+    def _bounds(self) -> tuple[Table, ...]:
+        """The proved envelope of every output."""
+        envelope = self.done.envelope
+        if envelope is None or not envelope.outputs:
+            return ()
+        names = signal_values(self.done.run, "outputs")
+        decay = f"d(t) = {to_float(envelope.bound):.4g}^t"
+        if not is_discrete(envelope.time):
+            decay = f"d(t) = exp(-{to_float(envelope.bound):.4g} t)"
+        rows = [
+            (name, f"{rest:.4g}", f"{size:.4g}")
+            for name, (rest, size) in zip(names, envelope.outputs, strict=True)
+        ]
+        more = len(rows) - 2 * _COLUMNS
+        note = f"{decay}; of the exact trajectory, by a certificate of stability"
+        if more > 0:
+            rows, note = rows[: 2 * _COLUMNS], f"{note}; {more} more in the JSON document"
+        title = "Proved bounds: |y(t) - rest| is at most size d(t)"
+        return (Table(title, ("output", "rest", "size"), tuple(rows), note=note),)
 
     def as_json(self) -> dict[str, Any]:
-        """Return the data with the whole trajectory of the norms, as plain data."""
-        rows = trajectory_rows(self.done.run, lines=len(self.done.run.times))
-        found = self.done.spectrum
+        """Return the whole trajectory as plain data; numbers are floats unless fractions are asked.
+
+        A number that exceeds floats is None.
+        """
+        run, found, envelope = self.done.run, self.done.spectrum, self.done.envelope
+        snapshots = run.snapshots
         return {
-            "time": self.done.run.time,
-            "arithmetic": self.done.run.arithmetic,
+            "time": run.time,
+            "arithmetic": run.arithmetic,
             "stable": None if found is None else found.stable,
             "rate": None if found is None or found.rate is None else found.rate.document(),
-            "columns": list(self.columns),
-            "rows": [list(row) for row in rows],
             "warnings": list(self.done.warnings),
+            "times": [self._number(t) for t in run.times],
+            "state": [self._numbers(each.plant) for each in snapshots],
+            "agents": [
+                {
+                    "name": name,
+                    **{
+                        kind: [self._numbers(getattr(each, kind)[i]) for each in snapshots]
+                        for kind in (*SIGNALS, "shared", "private")
+                    },
+                }
+                for i, name in enumerate(run.agents)
+            ],
+            "state_norm": [finite(value) for value in state_norms(run)],
+            "error_norms": {
+                name: [finite(value) for value in values]
+                for name, values in error_norms(run).items()
+            },
+            "proved_bounds": None
+            if envelope is None
+            else {
+                "bound": str(envelope.bound),
+                "outputs": [
+                    {"name": name, "rest": finite(rest), "size": finite(size)}
+                    for name, (rest, size) in zip(
+                        signal_values(run, "outputs"), envelope.outputs, strict=True
+                    )
+                ],
+            },
         }
+
+    def _numbers(self, values: list[Any]) -> list[Any]:
+        return [self._number(value) for value in values]
+
+    def _number(self, value: Any) -> float | str | None:
+        """A number for JSON; a fraction as a text where fractions are asked for."""
+        if self.fractions and self.done.run.arithmetic == "exact":
+            return rational_text(value)
+        return finite(as_float(value))
 
     def file(self, suffix: str) -> bytes:
         """Return the content of a file with suffix .csv, .png or .html; empty without a suffix."""
@@ -72,12 +174,13 @@ class SimulationReport:
             return simulation_png(self.done.run, self.done.spectrum, self.done.title)
         if suffix == ".html":
             png = simulation_png(self.done.run, self.done.spectrum, self.done.title)
+            table, *_ = self.tables()
             page = simulation_page(
                 self.done.title,
                 self.facts(),
                 list(self.done.warnings),
-                self.columns,
-                trajectory_rows(self.done.run),
+                table.columns,
+                table.rows,
                 png,
             )
             return page.encode("utf-8")

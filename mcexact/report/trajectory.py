@@ -6,6 +6,7 @@ import csv
 import io
 from decimal import MAX_EMAX, MIN_EMIN, Decimal, localcontext
 from fractions import Fraction
+from itertools import chain
 from typing import Any
 
 from mcexact.exact.floats import to_float
@@ -13,10 +14,12 @@ from mcexact.exact.rational import rational_text
 from mcexact.simulation.trajectory import Trajectory
 
 _DIGITS = 17
+SIGNALS = {"outputs": "y", "inputs": "u", "reference": "r"}
+"""The letters of the signals of all agents, keyed by their names in a `Snapshot`."""
 
 
 def trajectory_csv(run: Trajectory, *, fractions: bool = False) -> str:
-    """Write one line for each time: t, x, then x_i and z_i of every agent.
+    """Write one line for each time: t, x, x_i and z_i of every agent, then all y_i, u_i and r_i.
 
     Parameters
     ----------
@@ -30,11 +33,13 @@ def trajectory_csv(run: Trajectory, *, fractions: bool = False) -> str:
     for name, x_i, z_i in zip(run.agents, first.shared, first.private, strict=True):
         header += [f"shared {name}[{k + 1}]" for k in range(len(x_i))]
         header += [f"private {name}[{k + 1}]" for k in range(len(z_i))]
+    header += [name for kind in SIGNALS for name in signal_names(run, kind)]
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
     writer.writerow(header)
     for time, snapshot in zip(run.times, run.snapshots, strict=True):
-        numbers = (time, *snapshot.flat())
+        signals = [each for kind in SIGNALS for each in chain(*getattr(snapshot, kind))]
+        numbers = (time, *snapshot.flat(), *signals)
         writer.writerow([_written(value, run, fractions=fractions) for value in numbers])
     return stream.getvalue()
 
@@ -65,6 +70,28 @@ def decimal_text(x: Fraction, digits: int = _DIGITS) -> str:
     return f"{found:f}" if short else str(found)
 
 
+def signal_names(run: Trajectory, kind: str) -> list[str]:
+    """Return the names of all entries of a signal, such as "y pump" or "u 2[1]"."""
+    letter, first = SIGNALS[kind], getattr(run.snapshots[0], kind)
+    return [
+        f"{letter} {name}" if len(values) == 1 else f"{letter} {name}[{k + 1}]"
+        for name, values in zip(run.agents, first, strict=True)
+        for k in range(len(values))
+    ]
+
+
+def signal_values(run: Trajectory, kind: str) -> dict[str, list[float]]:
+    """Return the values of all entries of a signal at all times as floats, keyed by their names."""
+    rows = [list(map(as_float, chain(*getattr(each, kind)))) for each in run.snapshots]
+    columns = zip(*rows, strict=True)
+    return dict(zip(signal_names(run, kind), map(list, columns), strict=True))
+
+
+def as_float(value: Any) -> float:
+    """A native number as the nearest float; infinity beyond floats."""
+    return to_float(value) if isinstance(value, (int, Fraction)) else float(value)
+
+
 def state_norms(run: Trajectory) -> list[float]:
     """Return the largest absolute value of an entry of x at every time."""
     return [_largest(snapshot.plant) for snapshot in run.snapshots]
@@ -83,27 +110,10 @@ def error_norms(run: Trajectory) -> dict[str, list[float]]:
 
 def _largest(values: list[Any]) -> float:
     """Return the largest absolute value as a float: infinity beyond floats, 0 without entries."""
-    top = max((abs(value) for value in values), default=0)
-    return to_float(top) if isinstance(top, (int, Fraction)) else float(top)
+    return as_float(max((abs(value) for value in values), default=0))
 
 
-def trajectory_rows(run: Trajectory, lines: int = 12) -> tuple[tuple[str, ...], ...]:
-    """Return a limited number of lines: t, the norm of x, and those of the estimation errors.
-
-    Parameters
-    ----------
-    run : Trajectory
-    lines : int
-        The first and the last time are shown, the others at nearly equal distances between these.
-    """
-    states, errors = state_norms(run), error_norms(run)
+def shown_times(run: Trajectory, lines: int) -> list[int]:
+    """Positions of the first and the last time, and of others at nearly equal distances."""
     count = len(run.times)
-    chosen = sorted({round(k * (count - 1) / max(lines - 1, 1)) for k in range(lines)})
-    return tuple(
-        (
-            f"{to_float(run.times[k]):g}",
-            f"{states[k]:.3e}",
-            *(f"{errors[name][k]:.3e}" for name in errors),
-        )
-        for k in chosen
-    )
+    return sorted({round(k * (count - 1) / max(lines - 1, 1)) for k in range(lines)})

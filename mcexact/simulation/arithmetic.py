@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Protocol
 
+from mcexact.errors import LimitReached, UsageError
 from mcexact.exact.floats import matrix_to_float, to_float
 from mcexact.exact.matrix import Matrix
 
@@ -112,8 +113,14 @@ class DoubleArithmetic:
     name: str = "float"
 
     def convert(self, M: Matrix) -> Native:
-        """An array of floats, every entry rounded once."""
-        return matrix_to_float(M)
+        """An array of floats, every entry rounded once.
+
+        Raises
+        ------
+        LimitReached
+            If an entry exceeds the range of floats.
+        """
+        return representable(matrix_to_float(M))
 
     def scalar(self, value: Fraction) -> float:
         """A float."""
@@ -128,6 +135,24 @@ class DoubleArithmetic:
         return float(abs(column).max()) if column.size else 0.0
 
 
+def representable(numbers: Any) -> Any:
+    """Return an array of floats, which has no infinity and no NaN.
+
+    Raises
+    ------
+    LimitReached
+        If it has one.
+    """
+    import numpy as np
+
+    if not np.all(np.isfinite(numbers)):
+        raise LimitReached(
+            "the trajectory has numbers beyond the range of double precision; "
+            "use multiprecision arithmetic or a shorter horizon"
+        )
+    return numbers
+
+
 def arithmetic_named(name: str, digits: int = 60) -> Arithmetic:
     """Return the arithmetic with a name: "exact", "multiprecision" or "float".
 
@@ -136,8 +161,6 @@ def arithmetic_named(name: str, digits: int = 60) -> Arithmetic:
     UsageError
         If the name is none of these.
     """
-    from mcexact.errors import UsageError
-
     if name == "exact":
         return ExactArithmetic()
     if name == "multiprecision":

@@ -30,11 +30,24 @@ class Message:
 
 @dataclass(frozen=True)
 class Snapshot:
-    """The state of the plant and of all agents at one time, in native numbers."""
+    """The state of the plant and of all agents at one time, and their signals, in native numbers.
+
+    Attributes
+    ----------
+    plant : list
+        x.
+    shared, private : list of lists
+        x_i and z_i of each agent.
+    outputs, inputs, reference : list of lists
+        y_i, u_i and r_i of each agent.
+    """
 
     plant: list[Any]
     shared: list[list[Any]]
     private: list[list[Any]]
+    outputs: list[list[Any]]
+    inputs: list[list[Any]]
+    reference: list[list[Any]]
 
     def flat(self) -> list[Any]:
         """The entries of (x, x_1, z_1, …, x_m, z_m), the order of the closed loop's state."""
@@ -88,20 +101,20 @@ class Agent:
         self._hold = dict(program.hold)
         self.shared, self.private = zero(program.shared), zero(program.private)
         self.reference = zero(outputs)
-        self._output = zero(outputs)
+        self.output, self.disturbance = zero(outputs), zero(inputs)
         longest = max(self._hold.values(), default=0)
         self._past: deque[Native] = deque([zero(program.shared)] * (longest + 1), longest + 1)
         self._inbox: dict[int, Message] = {}
 
     def measure(self, output: Native) -> None:
         """Take the measurement y_i, and record x_i for messages that are held."""
-        self._output = output
+        self.output = output
         self._past.appendleft(self.shared)
         self._inbox = {}
 
     def message_for(self, receiver: int) -> Message:
         """The message to a follower now: y_i, and x_i from as many steps ago as it is held."""
-        return Message(self._output, self._past[self._hold.get(receiver, 0)])
+        return Message(self.output, self._past[self._hold.get(receiver, 0)])
 
     def receive(self, sender: int, message: Message) -> None:
         """Put a message that arrives into the inbox."""
@@ -207,7 +220,7 @@ class Network:
         for j, i in graph.edges():
             if i != j:
                 agent = self.agents[j]
-                silence = Message(agent.reference, agent.shared)
+                silence = Message(agent.output, agent.shared)
                 self._links.append(Link(j, i, graph.delay(i, j), silence))
 
     def set_state(self, state: Native, parts: Sequence[tuple[Native, Native]]) -> None:
@@ -216,35 +229,49 @@ class Network:
         for agent, (shared, private) in zip(self.agents, parts, strict=True):
             agent.shared, agent.private = shared, private
 
-    def snapshot(self) -> Snapshot:
-        """The state of the plant and of every agent."""
-        entries = self.arithmetic.entries
-        return Snapshot(
-            entries(self.state),
-            [entries(agent.shared) for agent in self.agents],
-            [entries(agent.private) for agent in self.agents],
-        )
+    def set_signals(self, references: Sequence[Native], disturbances: Sequence[Native]) -> None:
+        """Set the set-point r_i of each agent, and what is added to its input at the plant."""
+        for agent, r, w in zip(self.agents, references, disturbances, strict=True):
+            agent.reference, agent.disturbance = r, w
 
-    def evolution(self) -> tuple[Native, list[tuple[Native, Native]]]:
+    def round(self) -> tuple[Snapshot, Native, list[tuple[Native, Native]]]:
         """Run one round of measuring, sending, receiving and computing.
 
         Returns
         -------
+        snapshot : Snapshot
+            The state and the signals of this round.
         state : column
-            A x + Σ B_i u_i, the plant's next state, or in continuous time its derivative.
+            A x + Σ B_i (u_i + w_i), the plant's next state, or in continuous time its derivative.
         parts : list of (column, column)
             The same for x_i and z_i of each agent.
         """
+        entries = self.arithmetic.entries
+        inputs, state, parts = self._computed()
+        snapshot = Snapshot(
+            entries(self.state),
+            [entries(agent.shared) for agent in self.agents],
+            [entries(agent.private) for agent in self.agents],
+            [entries(agent.output) for agent in self.agents],
+            [entries(u) for u in inputs],
+            [entries(agent.reference) for agent in self.agents],
+        )
+        return snapshot, state, parts
+
+    def evolution(self) -> tuple[Native, list[tuple[Native, Native]]]:
+        """Run one round, and return the evolution of the state alone; see `round`."""
+        _, state, parts = self._computed()
+        return state, parts
+
+    def _computed(self) -> tuple[list[Native], Native, list[tuple[Native, Native]]]:
+        """Run one round, and return the inputs of the agents and the evolution."""
         for agent, C in zip(self.agents, self._C, strict=True):
             agent.measure(C @ self.state)
         for link in self._links:
             message = self.agents[link.sender].message_for(link.receiver)
             self.agents[link.receiver].receive(link.sender, link.carry(message))
+        inputs = [agent.input() for agent in self.agents]
         state = self._A @ self.state
-        for agent, B in zip(self.agents, self._B, strict=True):
-            state = state + B @ agent.input()
-        return state, [agent.update() for agent in self.agents]
-
-    def step(self) -> None:
-        """Advance by one step of discrete time."""
-        self.set_state(*self.evolution())
+        for agent, B, u in zip(self.agents, self._B, inputs, strict=True):
+            state = state + B @ (u + agent.disturbance)
+        return inputs, state, [agent.update() for agent in self.agents]

@@ -5,24 +5,13 @@ from __future__ import annotations
 from fractions import Fraction
 
 from mcexact.exact.size import largest_entry
-from mcexact.model.controller import Controller
-from mcexact.model.loop import closed_loop
-from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.system import MultiChannelSystem
+from mcexact.model.loop import ClosedLoop
 
 LARGEST_FOR_DOUBLES = 10**5
 
 
-def double_precision_warning(
-    system: MultiChannelSystem, controller: Controller, graph: NeighborGraph | None = None
-) -> str | None:
-    """Return a warning if the closed loop has an entry of 10⁵ or more, else None.
-
-    Parameters
-    ----------
-    system : MultiChannelSystem
-    controller : Controller
-    graph : NeighborGraph, optional
+def double_precision_warning(loop: ClosedLoop) -> str | None:
+    """Return a warning if the matrix of a closed loop has an entry of 10⁵ or more, else None.
 
     Notes
     -----
@@ -30,7 +19,7 @@ def double_precision_warning(
     moves its eigenvalues far.  In one example with n = 6 and m = 5 the spectral abscissa is −1, but
     +9 once the entries are rounded to double precision.
     """
-    largest = largest_entry([closed_loop(system, controller, graph).matrix])
+    largest = largest_entry([loop.matrix])
     if largest < LARGEST_FOR_DOUBLES:
         return None
     return (

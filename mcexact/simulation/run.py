@@ -1,21 +1,18 @@
-"""A simulation together with the spectrum of the closed loop, which the simulation does not use."""
+"""A simulation together with what is proved about its loop, which the simulation does not use."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
 
 from mcexact.analysis.stability.closed_loop_spectrum import closed_loop_spectrum
 from mcexact.answer.loop_spectrum import LoopSpectrum
-from mcexact.errors import InputError
-from mcexact.exact.floats import to_float
 from mcexact.exact.location import is_discrete
 from mcexact.model.controller import Controller
-from mcexact.model.loop import closed_loop
 from mcexact.model.system import MultiChannelSystem
-from mcexact.simulation.trajectory import InitialState, Trajectory, default_initial, simulate
+from mcexact.simulation.envelope import Envelope, proved_envelope
+from mcexact.simulation.trajectory import Trajectory, simulate
 
 # Beyond this size the exact characteristic polynomial takes too long.
 _LARGEST_SPECTRUM = 60
@@ -30,84 +27,51 @@ class SimulatedLoop:
     title : str
     run : Trajectory
     spectrum : LoopSpectrum or None
+    envelope : Envelope or None
+        Proved bounds on the trajectory.
     warnings : tuple of str
     """
 
     title: str
     run: Trajectory
     spectrum: LoopSpectrum | None
+    envelope: Envelope | None
     warnings: tuple[str, ...]
 
 
 def simulated_loop(
-    system: MultiChannelSystem,
-    controller: Controller,
-    *,
-    initial: Sequence[Fraction] | None = None,
-    horizon: Fraction | None = None,
-    reference: Sequence[Fraction] | None = None,
-    arithmetic: str | None = None,
+    system: MultiChannelSystem, controller: Controller, **options: Any
 ) -> SimulatedLoop:
-    """Simulate a controller, and compute the spectrum of its loop and warnings.
+    """Simulate a controller, and compute the spectrum of its loop, proved bounds and warnings.
 
     Parameters
     ----------
     system : MultiChannelSystem
     controller : Controller
-    initial : sequence of Fraction, optional
-        The plant's initial state.
-    horizon : Fraction, optional
-        By default chosen from the spectrum, long enough to show the decay.
-    reference : sequence of Fraction, optional
-        The set-points of all outputs, in the order of the channels.
-    arithmetic : str, optional
+    **options
         As in `simulate`.
     """
-    M = closed_loop(system, controller).matrix
+    run = simulate(system, controller, **options)
     spectrum = None
-    if M.nrows <= _LARGEST_SPECTRUM:
-        spectrum = closed_loop_spectrum(M, system.time)
-    start = default_initial(system, controller)
-    if initial is not None:
-        if len(initial) != system.n:
-            raise InputError(f"expected {system.n} numbers, found {len(initial)}", where="initial")
-        start = InitialState(tuple(initial), start.shared, start.private)
-    run = simulate(
-        system,
-        controller,
-        initial=start,
-        horizon=_horizon(system.time, spectrum, M.nrows) if horizon is None else horizon,
-        reference=_by_channel(system, reference),
-        arithmetic=arithmetic,
+    if run.loop.dimension <= _LARGEST_SPECTRUM:
+        spectrum = closed_loop_spectrum(run.loop.matrix, system.time)
+    return SimulatedLoop(
+        system.name or "simulation",
+        run,
+        spectrum,
+        _enveloped(run, spectrum),
+        controller.warnings_for(system) + _warnings(run),
     )
-    warnings = controller.warnings_for(system) + (() if run.warning is None else (run.warning,))
-    return SimulatedLoop(system.name or "simulation", run, spectrum, warnings)
 
 
-def _horizon(time: str, spectrum: LoopSpectrum | None, states: int) -> Fraction:
-    """Return a horizon of some time constants, within limits."""
-    rate = None if spectrum is None else spectrum.rate
-    if is_discrete(time):
-        radius = 0.9 if rate is None else min(0.95, to_float(rate.upper))
-        steps = states if radius <= 0 else max(states, math.ceil(-10 / math.log(radius)))
-        return Fraction(min(steps + 3, 200))
-    lower = Fraction(1) if rate is None else Fraction(rate.lower)
-    if lower <= 0:
-        return Fraction(5)
-    return min(Fraction(100), max(Fraction(1, 100), Fraction(math.ceil(2000 / lower), 100)))
-
-
-def _by_channel(
-    system: MultiChannelSystem, reference: Sequence[Fraction] | None
-) -> list[list[Fraction]] | None:
-    """Split set-points by channels."""
-    if reference is None:
+def _enveloped(run: Trajectory, spectrum: LoopSpectrum | None) -> Envelope | None:
+    """Proved bounds on a run of a stable loop."""
+    if spectrum is None or not spectrum.stable or spectrum.rate is None:
         return None
-    total = sum(system.q(i) for i in range(system.m))
-    if len(reference) != total:
-        raise InputError(f"expected {total} numbers, found {len(reference)}", where="reference")
-    rest, result = list(reference), []
-    for i in range(system.m):
-        result.append(rest[: system.q(i)])
-        rest = rest[system.q(i) :]
-    return result
+    rate = spectrum.rate
+    return proved_envelope(run, Fraction(rate.upper if is_discrete(run.time) else rate.lower))
+
+
+def _warnings(run: Trajectory) -> tuple[str, ...]:
+    """What to know about the numbers of a run."""
+    return tuple(each for each in (run.warning, run.note) if each is not None)

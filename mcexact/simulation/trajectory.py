@@ -3,21 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
 from mcexact.errors import InputError, UsageError
+from mcexact.exact.floats import Rounding
 from mcexact.exact.location import is_discrete
 from mcexact.exact.matrix import Matrix
-from mcexact.exact.rational import as_fraction
 from mcexact.model.controller import Controller
+from mcexact.model.loop import ClosedLoop, closed_loop
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_links
-from mcexact.simulation.arithmetic import Native, arithmetic_named
+from mcexact.simulation.arithmetic import Native, arithmetic_named, representable
 from mcexact.simulation.continuous import integrated, taylor
+from mcexact.simulation.horizon import Grid, chosen_grid
 from mcexact.simulation.network import Network, Snapshot
 from mcexact.simulation.precision import double_precision_warning
+from mcexact.simulation.signals import Drive, numbers_of, signal_of
 
 
 @dataclass(frozen=True)
@@ -52,6 +55,13 @@ class Trajectory:
     warning : str or None
         A warning if the closed loop has entries too large for double precision, where that was
         used.
+    note : str or None
+        What the times do not show.
+    loop : ClosedLoop
+        The plant, the controller and the links.
+    drive : Drive
+        The set-points and disturbances.
+    start : InitialState
     """
 
     time: str
@@ -59,7 +69,11 @@ class Trajectory:
     agents: tuple[str, ...]
     times: tuple[Fraction, ...]
     snapshots: tuple[Snapshot, ...]
-    warning: str | None = None
+    warning: str | None
+    note: str | None
+    loop: ClosedLoop = field(compare=False)
+    drive: Drive = field(compare=False)
+    start: InitialState = field(compare=False)
 
     def __repr__(self) -> str:
         start, end = self.times[0], self.times[-1]
@@ -97,12 +111,16 @@ def simulate(
     controller: Controller,
     graph: NeighborGraph | None = None,
     *,
-    initial: InitialState | None = None,
+    initial: InitialState | Sequence[Any] | None = None,
     horizon: Any = None,
-    points: int = 200,
-    reference: Sequence[Sequence[Any]] | None = None,
+    points: int | None = None,
+    reference: Sequence[Any] | None = None,
+    steps: Sequence[tuple[Any, Sequence[Any]]] = (),
+    ramps: Sequence[tuple[Any, Sequence[Any]]] = (),
+    disturbances: Sequence[tuple[Any, Sequence[Any]]] = (),
     arithmetic: str | None = None,
     digits: int = 60,
+    rounding: Rounding | None = None,
 ) -> Trajectory:
     """Run a controller as a network of agents that exchange messages, with their delays.
 
@@ -113,25 +131,41 @@ def simulate(
     controller : Controller
     graph : NeighborGraph, optional
         Overrides ``system.neighbors``.
-    initial : InitialState, optional
-        By default every entry of x(0) is 1, and the agents start at 0.
+    initial : sequence of numbers or InitialState, optional
+        x(0), or the states of the agents as well, which start at 0 otherwise.  By default every
+        entry of x(0) is 1.
     horizon : int or rational, optional
-        Steps in discrete time (40 by default), the final time in continuous time (10 by default).
-    points : int
-        The number of equal intervals into which the horizon is divided, in continuous time.
-    reference : sequence of sequences, optional
-        The set-points r_i, one number for each output of each channel; 0 by default.
+        Steps in discrete time, the final time in continuous time.  By default chosen from the
+        slowest mode of the loop; see `chosen_grid`.
+    points : int, optional
+        The number of equal intervals into which the horizon is divided, in continuous time.  By
+        default chosen from the fastest mode.
+    reference : sequence, optional
+        The set-points r_i from the start on: one sequence of numbers for each channel, or all
+        numbers in the order of the channels; 0 by default.
+    steps, ramps : sequences of (time, numbers), optional
+        What is added to the set-points from a time on: the numbers, or the numbers times the time
+        that has passed since.
+    disturbances : sequence of (time, numbers), optional
+        What is added at the plant to the inputs of all channels from a time on.
     arithmetic : {"exact", "multiprecision", "float"}, optional
         By default exact in discrete time, and in continuous time float, which is an adaptive
-        Runge–Kutta method of order 8 from scipy.  Continuous time also has multiprecision, which
-        sums Taylor series of the linear equations.
+        Runge–Kutta method of order 8 from scipy (an implicit one of order 5, if fast modes need
+        it).  Continuous time also has multiprecision, which sums Taylor series of the linear
+        equations.
     digits : int
         The number of decimal digits in multiple precision.
+    rounding : {"decimal", "dyadic"}, optional
+        How floats among the numbers become exact, as in `MultiChannelSystem.from_float`.  By
+        default "dyadic" in the arithmetic float, which changes no float; otherwise floats are
+        refused.
 
     Raises
     ------
     SignalNotReceived
         If a program uses a signal that its agent does not receive.
+    FloatRefused
+        If a number is a float in a run that is not in floating point, and no rounding is given.
     UsageError
         If the time domain does not have this arithmetic, or the horizon is not as expected.
 
@@ -143,53 +177,89 @@ def simulate(
     >>> run = simulate(plant, Controller("discrete", "", (agent,)), horizon=2)
     >>> [snapshot.plant for snapshot in run.snapshots]
     [[Fraction(1, 1)], [Fraction(1, 2)], [Fraction(1, 4)]]
+    >>> [snapshot.inputs for snapshot in run.snapshots]
+    [[[Fraction(-3, 2)]], [[Fraction(-3, 4)]], [[Fraction(-3, 8)]]]
     """
+    given = system
     system, found = with_links(system, graph)
     discrete = is_discrete(system.time)
     numbers = arithmetic_named(arithmetic or ("exact" if discrete else "float"), digits)
+    if rounding is None and numbers.name == "float":
+        rounding = "dyadic"
     network = Network(system, controller, found, numbers)
-    start = default_initial(system, controller) if initial is None else initial
+    if found.delays and not discrete:
+        raise UsageError("delays are for discrete time; remove them from the graph")
+    if not discrete and numbers.name == "exact":
+        raise UsageError("in continuous time the solution is not rational; use multiprecision")
+    # A round at rest changes nothing, and shows whether an agent uses a signal that it lacks.
+    network.evolution()
+    start = initial_state(initial, system, controller, rounding)
     _set_initial(network, start, system, controller)
-    _set_reference(network, reference, system)
+    outputs = [system.q(i) for i in range(system.m)]
+    inputs = [system.p(i) for i in range(system.m)]
+    drive = Drive(
+        signal_of(outputs, reference, steps, ramps, rounding, ("reference", "steps", "ramps")),
+        signal_of(inputs, None, disturbances, (), rounding, ("", "disturbances", "")),
+    )
+    loop = closed_loop(given, controller, graph)
+    grid = _grid(loop, drive, horizon, points, rounding)
     if discrete:
-        times, snapshots = _stepped(network, _steps(horizon))
+        snapshots = _stepped(network, grid.times, drive)
+    elif numbers.name == "float":
+        snapshots = integrated(network, grid.times, drive, grid.fastest)
     else:
-        end = Fraction(10) if horizon is None else as_fraction(horizon, where="horizon")
-        if end <= 0 or points < 1:
-            raise UsageError("expected a horizon above 0 and at least one interval")
-        times = [end * k / points for k in range(points + 1)]
-        if found.delays:
-            raise UsageError("delays are for discrete time; remove them from the graph")
-        if numbers.name == "exact":
-            raise UsageError("in continuous time the solution is not rational; use multiprecision")
-        if numbers.name == "float":
-            snapshots = integrated(network, times)
-        else:
-            snapshots = taylor(network, times, digits)
+        snapshots = taylor(network, grid.times, drive, digits)
     warning = None
     if numbers.name == "float":
-        warning = double_precision_warning(system, controller, found)
+        warning = double_precision_warning(loop)
     return Trajectory(
-        system.time, numbers.name, system.names, tuple(times), tuple(snapshots), warning
+        system.time,
+        numbers.name,
+        system.names,
+        grid.times,
+        tuple(snapshots),
+        warning,
+        grid.note,
+        loop,
+        drive,
+        start,
     )
 
 
-def default_initial(system: MultiChannelSystem, controller: Controller) -> InitialState:
-    """Return the initial state in which x(0) = (1, …, 1) and all agents are at 0."""
+def _grid(
+    loop: ClosedLoop, drive: Drive, horizon: Any, points: int | None, rounding: Rounding | None
+) -> Grid:
+    """The times of a run, and the fastest mode."""
+    discrete = is_discrete(loop.given.time)
+    end = None
+    if horizon is not None:
+        [end] = numbers_of([horizon], rounding, "horizon")
+    if discrete and end is not None and (end != int(end) or end < 0):
+        raise UsageError(f"expected a number of steps, found {end}", where="horizon")
+    if not discrete and ((end is not None and end <= 0) or (points is not None and points < 1)):
+        raise UsageError("expected a horizon above 0 and at least one interval")
+    last = max((change.time for change in drive.changes), default=Fraction(0))
+    return chosen_grid(loop, last, end, points)
+
+
+def initial_state(
+    initial: InitialState | Sequence[Any] | None,
+    system: MultiChannelSystem,
+    controller: Controller,
+    rounding: Rounding | None,
+) -> InitialState:
+    """Return the initial state; by default x(0) = (1, …, 1), and all agents are at 0."""
+    if isinstance(initial, InitialState):
+        return initial
     zero, one = Fraction(0), Fraction(1)
+    x = (one,) * system.n if initial is None else numbers_of(initial, rounding, "initial")
+    if len(x) != system.n:
+        raise InputError(f"expected {system.n} numbers, found {len(x)}", where="initial")
     return InitialState(
-        (one,) * system.n,
+        x,
         tuple((zero,) * agent.shared for agent in controller.agents),
         tuple((zero,) * agent.private for agent in controller.agents),
     )
-
-
-def _steps(horizon: Any) -> int:
-    """The number of steps that a horizon gives in discrete time."""
-    steps = 40 if horizon is None else as_fraction(horizon, where="horizon")
-    if steps != int(steps) or steps < 0:
-        raise UsageError(f"expected a number of steps, found {steps}", where="horizon")
-    return int(steps)
 
 
 def _set_initial(
@@ -223,26 +293,23 @@ def _set_initial(
     network.set_state(column(start.plant), parts)
 
 
-def _set_reference(
-    network: Network, reference: Sequence[Sequence[Any]] | None, system: MultiChannelSystem
-) -> None:
-    """Give every agent its own set-point."""
-    if reference is None:
-        return
-    if len(reference) != system.m:
-        raise InputError(f"expected {system.m} set-points, found {len(reference)}")
-    for i, (agent, values) in enumerate(zip(network.agents, reference, strict=True)):
-        if len(values) != system.q(i):
-            raise InputError(
-                f"expected {system.q(i)} numbers, found {len(values)}", where=f"reference[{i}]"
-            )
-        agent.reference = network.arithmetic.convert(Matrix.column(values))
+def _stepped(network: Network, times: Sequence[Fraction], drive: Drive) -> list[Snapshot]:
+    """Run the steps of discrete time.
 
+    Raises
+    ------
+    LimitReached
+        If a number exceeds the range of double precision, where that is used.
+    """
+    import numpy as np
 
-def _stepped(network: Network, steps: int) -> tuple[list[Fraction], list[Snapshot]]:
-    """Run a number of steps in discrete time."""
-    snapshots = [network.snapshot()]
-    for _ in range(steps):
-        network.step()
-        snapshots.append(network.snapshot())
-    return [Fraction(k) for k in range(steps + 1)], snapshots
+    snapshots = []
+    for time in times:
+        drive.apply(network, time)
+        with np.errstate(over="ignore", invalid="ignore"):
+            snapshot, state, parts = network.round()
+        if network.arithmetic.name == "float":
+            representable(network.state)
+        snapshots.append(snapshot)
+        network.set_state(state, parts)
+    return snapshots

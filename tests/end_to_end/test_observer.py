@@ -134,7 +134,8 @@ def test_a_picture_and_a_page_are_written(folder, tmp_path, time, suffix, magic)
     assert out.read_bytes().startswith(magic)
     answer = json.loads(done.stdout)
     assert answer["stable"] is True and answer["time"] == time
-    assert len(answer["columns"]) == 5
+    assert [each["name"] for each in answer["agents"]] == ["1", "2", "3"]
+    assert len(answer["error_norms"]) == 3 and len(answer["state"]) == len(answer["times"])
 
 
 def test_an_arc_that_is_missing_in_the_plant_stops_the_run(folder, tmp_path):
@@ -152,6 +153,9 @@ def test_an_arc_that_is_missing_in_the_plant_stops_the_run(folder, tmp_path):
         (("--initial=1,2",), 3, "expected 3 numbers, found 2"),
         (("--initial=1,x,2",), 2, "expected an integer"),
         (("--reference=1",), 3, "expected 4 numbers, found 1"),
+        (("--steps=1,2,3,4@-1",), 3, "steps[0]: expected a time of at least 0"),
+        (("--ramps=1@x",), 2, "expected an integer"),
+        (("--disturbances=1",), 3, "disturbances[0]: expected 3 numbers"),
         (("--horizon=1/2",), 2, "expected a number of steps"),
         (("-o", "run.txt"), 2, ".csv, .png or .html"),
         (("--arithmetic=decimal",), 2, "is not one of"),

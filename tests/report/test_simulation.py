@@ -12,7 +12,7 @@ from mcexact.model.system import MultiChannelSystem
 from mcexact.report.figures import simulation_png
 from mcexact.report.simulation import SimulationReport
 from mcexact.report.simulation_page import simulation_page
-from mcexact.report.trajectory import error_norms, state_norms, trajectory_csv, trajectory_rows
+from mcexact.report.trajectory import error_norms, shown_times, state_norms, trajectory_csv
 from mcexact.simulation.run import simulated_loop
 from mcexact.simulation.trajectory import simulate
 
@@ -27,13 +27,22 @@ def halving(time="discrete", gain="-1/2"):
 def test_exact_values_are_written_exactly():
     run = simulate(*halving(), horizon=2)
     rows = list(csv.reader(io.StringIO(trajectory_csv(run, fractions=True))))
-    assert rows == [["t", "x[1]"], ["0", "1"], ["1", "1/2"], ["2", "1/4"]]
+    assert rows == [
+        ["t", "x[1]", "y 1", "u 1", "r 1"],
+        ["0", "1", "1", "-1/2", "0"],
+        ["1", "1/2", "1/2", "-1/4", "0"],
+        ["2", "1/4", "1/4", "-1/8", "0"],
+    ]
 
 
 def test_exact_values_are_decimals_unless_fractions_are_asked_for():
     run = simulate(*halving(gain="-1/3"), horizon=2)
     rows = list(csv.reader(io.StringIO(trajectory_csv(run))))
-    assert rows[1:] == [["0", "1"], ["1", "0.66666666666666667"], ["2", "0.44444444444444444"]]
+    assert [row[:2] for row in rows[1:]] == [
+        ["0", "1"],
+        ["1", "0.66666666666666667"],
+        ["2", "0.44444444444444444"],
+    ]
 
 
 def test_numbers_of_any_length_are_written():
@@ -54,8 +63,36 @@ def test_norms_and_rows():
     run = simulate(*halving(), horizon=30)
     assert state_norms(run)[:3] == [1.0, 0.5, 0.25]
     assert error_norms(run) == {}
-    rows = trajectory_rows(run, lines=5)
-    assert len(rows) == 5 and rows[0] == ("0", "1.000e+00") and rows[-1][0] == "30"
+    assert shown_times(run, 5) == [0, 8, 15, 22, 30] and shown_times(run, 1) == [0]
+
+
+def test_few_signals_have_a_column_each() -> None:
+    run = simulated_loop(*halving(), horizon=4, reference=[1])
+    [table, bounds] = SimulationReport(run).tables(lines=3)
+    assert table.columns == ("t", "y 1", "u 1", "r 1", "|x|")
+    assert [row[:3] for row in table.rows] == [
+        ("0", "1", "-0.5"), ("2", "0.25", "-0.125"), ("4", "0.0625", "-0.03125")
+    ]  # fmt: skip
+    assert bounds.rows == (("y 1", "0", "1"),) and "d(t) = 0.55^t" in bounds.note
+
+
+def test_many_signals_are_summed_up_by_the_largest() -> None:
+    plant = MultiChannelSystem([[1]], [[[1]]] * 9, [[[k]] for k in range(-8, 1)], time="discrete")
+    agents = tuple(AgentProgram(str(k + 1), 0, 0) for k in range(9))
+    table, *_ = SimulationReport(
+        simulated_loop(plant, Controller("discrete", "", agents), horizon=3)
+    ).tables()
+    assert table.columns == ("t", "|y|", "|u|", "|x|") and table.rows[0][1] == "8"
+
+
+def test_numbers_of_the_document_are_numbers_unless_fractions_are_asked_for() -> None:
+    done = simulated_loop(*halving(), horizon=2)
+    shown, exact = (SimulationReport(done, fractions).as_json() for fractions in (False, True))
+    assert shown["state"] == [[1.0], [0.5], [0.25]] and shown["times"] == [0.0, 1.0, 2.0]
+    assert exact["state"] == [["1"], ["1/2"], ["1/4"]]
+    [agent] = exact["agents"]
+    assert (agent["outputs"][1], agent["inputs"][1]) == (["1/2"], ["-1/4"])
+    assert shown["proved_bounds"]["outputs"][0]["size"] == pytest.approx(1)
 
 
 def test_errors_are_those_of_agents_that_share_estimates():

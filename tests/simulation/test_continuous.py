@@ -7,6 +7,7 @@ import pytest
 from mcexact.errors import LimitReached, UsageError
 from mcexact.exact.matrix import Matrix
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
+from mcexact.model.loop import closed_loop
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.simulation.precision import double_precision_warning
@@ -96,10 +97,10 @@ def test_links_have_no_delay_in_continuous_time():
 
 
 def test_large_entries_are_warned_of(design):
-    assert double_precision_warning(three_channels(), design.controller) is None
+    assert double_precision_warning(closed_loop(three_channels(), design.controller)) is None
     plant = MultiChannelSystem([[0, 10**6], [0, 0]], [[[1], [0]]], [[[1, 0]]])
     controller = Controller("continuous", "", (AgentProgram("1", 0, 0),))
-    warning = double_precision_warning(plant, controller)
+    warning = double_precision_warning(closed_loop(plant, controller))
     assert warning is not None and "up to 1e+06" in warning
     run = simulate(plant, controller, horizon="1/100", points=1)
     assert run.warning == warning

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mcexact import testing
-from mcexact.errors import InputError, UsageError
+from mcexact.errors import FloatRefused, InputError, UsageError
 from mcexact.exact.matrix import Matrix
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.controller_file import controller_text
@@ -180,8 +180,13 @@ def test_shapes_are_checked_before_anything_runs():
         ({"horizon": "1/2"}, UsageError, "number of steps"),
         ({"horizon": -1}, UsageError, "number of steps"),
         ({"arithmetic": "decimal"}, UsageError, "exact, multiprecision or float"),
-        ({"reference": [[1]]}, InputError, "expected 2 set-points"),
-        ({"reference": [[1], [1, 2]]}, InputError, "expected 1 numbers"),
+        ({"reference": [[1]]}, InputError, "reference: expected 2 channels, found 1"),
+        ({"reference": [[1], [1, 2]]}, InputError, r"reference\[1\]: expected 1 numbers"),
+        ({"reference": [1, 2, 3]}, InputError, "reference: expected 2 numbers, found 3"),
+        ({"steps": [(-1, [1, 1])]}, InputError, r"steps\[0\]: expected a time of at least 0"),
+        ({"ramps": [(1, [1])]}, InputError, r"ramps\[0\]: expected 2 numbers"),
+        ({"initial": [1, 2]}, InputError, "initial: expected 1 numbers"),
+        ({"initial": [0.5]}, FloatRefused, r"initial\[0\]: a float is not exact"),
         ({"initial": InitialState((), ((), ()), ((), ()))}, InputError, "expected 1 numbers"),
     ],
 )

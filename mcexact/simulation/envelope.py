@@ -1,0 +1,166 @@
+"""Proved bounds on a trajectory, which follow from a certificate of its loop."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from mcexact.analysis.stability.stability import certify_stability
+from mcexact.answer.stability import LyapunovMethod, StabilityVerdict
+from mcexact.errors import McexactError
+from mcexact.exact.blocks import hstack, vstack
+from mcexact.exact.floats import to_float
+from mcexact.exact.linear_algebra import solve_nonsingular
+from mcexact.exact.location import StabilityRegion, is_discrete, steady_point
+from mcexact.exact.matrix import Matrix
+from mcexact.simulation.trajectory import Trajectory
+
+LARGEST = 40
+"""The largest number of states of a loop for which an envelope is computed."""
+
+
+@dataclass(frozen=True)
+class Envelope:
+    """Proved bounds |y_k(t) − ȳ_k| ≤ c_k d(t), and the same for the entries of x.
+
+    Attributes
+    ----------
+    proof : StabilityVerdict
+        The certificate, whose Lyapunov matrix P and bound these follow from: with the rate r,
+        V = ξᵀPξ falls at least as fast as e^(−2rt), where ξ is the distance of the loop's state
+        from its point of rest (with the radius ρ, as ρ^(2t)).
+    time : {"continuous", "discrete"}
+    bound : Fraction
+        The rate r, so that d(t) = e^(−rt), or the radius ρ, so that d(t) = ρ^t.
+    outputs, state : tuple of (float, float)
+        For every output, and for every entry of x, its value at rest and c_k = √(c P⁻¹ cᵀ V(0)),
+        rounded up.
+
+    Notes
+    -----
+    The certificate is exact, and so are V(0) and c P⁻¹ cᵀ; the square root is rounded up, and the
+    drawn curve is rounded.  The bound is about the exact solution.
+    """
+
+    proof: StabilityVerdict
+    time: str
+    bound: Fraction
+    outputs: tuple[tuple[float, float], ...]
+    state: tuple[tuple[float, float], ...]
+
+    def decay(self, times: Sequence[Fraction]) -> list[float]:
+        """d(t) at these times."""
+        speed = to_float(self.bound)
+        if is_discrete(self.time):
+            return [speed ** to_float(t) for t in times]
+        return [math.exp(-speed * to_float(t)) for t in times]
+
+    def __str__(self) -> str:
+        return f"proved: {StabilityRegion(self.time, self.bound)}"
+
+
+def proved_envelope(run: Trajectory, decay: Fraction) -> Envelope | None:
+    """Compute bounds on a trajectory from a certificate of stability.
+
+    Parameters
+    ----------
+    run : Trajectory
+        Its set-points and disturbances are constant.
+    decay : Fraction
+        A rate below that of the loop, or a radius above its own; the bounds are proved for one of a
+        few slower ones.
+
+    Returns
+    -------
+    Envelope or None
+        None if a signal changes, if the loop is too large, or if no Lyapunov matrix was found.
+
+    Examples
+    --------
+    >>> from mcexact.model.local_controllers import local_controllers
+    >>> from mcexact.model.system import MultiChannelSystem
+    >>> from mcexact.simulation.trajectory import simulate
+    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    >>> run = simulate(plant, local_controllers(plant, [[[-3]]]), initial=[4])
+    >>> found = proved_envelope(run, Fraction(2))
+    >>> found.bound, [round(size, 9) for _, size in found.outputs]
+    (Fraction(9, 5), [4.0])
+    """
+    loop = run.loop
+    if not run.drive.is_constant or not 0 < loop.dimension <= LARGEST:
+        return None
+    distance = _distance_from_rest(run)
+    for region in _regions(run.time, decay):
+        try:
+            proof = certify_stability(loop.system, region, method="lyapunov")
+        except McexactError:
+            continue
+        evidence = proof.evidence
+        if isinstance(evidence, LyapunovMethod) and distance is not None:
+            [block] = evidence.blocks
+            return _envelope(run, proof, block.P, distance)
+    return None
+
+
+def _regions(time: str, decay: Fraction) -> list[StabilityRegion]:
+    """Regions a little larger than the one that the loop has."""
+    if is_discrete(time):
+        slower = [decay + (1 - decay) * share for share in (Fraction(1, 10), Fraction(1, 2))]
+        return [StabilityRegion(time, radius) for radius in slower if 0 < radius < 1]
+    return [StabilityRegion(time, decay * share) for share in (Fraction(9, 10), Fraction(1, 2))]
+
+
+def _distance_from_rest(run: Trajectory) -> Matrix | None:
+    """ξ(0), the state of the loop minus the one at which it rests; None if there is none.
+
+    Messages under way are zeros at the start.
+    """
+    loop, zero = run.loop, Fraction(0)
+    N = loop.dimension
+    state: list[Fraction] = list(run.start.plant)
+    for shared, private in zip(run.start.shared, run.start.private, strict=True):
+        state += [*shared, *private]
+    start = Matrix.column([*state, *[zero] * (N - len(state))])
+    given = loop.given
+    inputs = hstack([given.B(i) for i in range(given.m)], nrows=given.n)
+    pushed = vstack([inputs, Matrix.zeros(N - given.n, inputs.ncols)], ncols=inputs.ncols)
+    constant = loop.reference @ vstack(run.drive.references.at(zero), ncols=1)
+    constant = constant + pushed @ vstack(run.drive.disturbances.at(zero), ncols=1)
+    place = Matrix.identity(N) * Fraction(steady_point(run.time))
+    rest = solve_nonsingular(place - loop.matrix, constant)
+    return None if rest is None else start - rest
+
+
+def _envelope(run: Trajectory, proof: StabilityVerdict, P: Matrix, distance: Matrix) -> Envelope:
+    """The bounds that one Lyapunov matrix proves."""
+    loop = run.loop
+    V = (distance.T @ P @ distance)[0, 0]
+    x = loop.pick("x")
+
+    def bounds(rows: Matrix) -> tuple[tuple[float, float], ...]:
+        spread = solve_nonsingular(P, rows.T)
+        if spread is None:
+            return ()
+        at_start = rows @ distance
+        found = []
+        for k in range(rows.nrows):
+            size = sum((rows[k, j] * spread[j, k] for j in range(rows.ncols)), Fraction(0))
+            first = _first(run, rows, k)
+            found.append((to_float(first - at_start[k, 0]), _root_above(size * V)))
+        return tuple(found)
+
+    bound = proof.region.edge
+    return Envelope(proof, run.time, bound, bounds(loop.given.output_matrix() @ x), bounds(x))
+
+
+def _first(run: Trajectory, rows: Matrix, k: int) -> Fraction:
+    """The value of a row of the state at the start; all rows are about x alone."""
+    return sum((rows[k, j] * entry for j, entry in enumerate(run.start.plant)), Fraction(0))
+
+
+def _root_above(value: Fraction) -> float:
+    """A float that is at least the square root of a number."""
+    root = math.sqrt(max(to_float(value), 0.0))
+    return math.nextafter(math.nextafter(root, math.inf), math.inf)

@@ -1,0 +1,62 @@
+"""Times that follow the slowest and the fastest mode."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any
+
+import pytest
+
+from mcexact.model.local_controllers import local_controllers
+from mcexact.model.loop import ClosedLoop, closed_loop
+from mcexact.model.system import MultiChannelSystem
+from mcexact.simulation.horizon import FEWEST, MOST, STEPS, Grid, chosen_grid
+
+
+def loop_of(A: list[list[Any]], time: str = "continuous") -> ClosedLoop:
+    """A loop without inputs."""
+    n = len(A)
+    plant = MultiChannelSystem(A, [[[0]] * n], [[[1] + [0] * (n - 1)]], time=time)
+    return closed_loop(plant, local_controllers(plant, [[[0]]]))
+
+
+def times(A: list[list[Any]], time: str = "continuous", last: int = 0) -> Grid:
+    return chosen_grid(loop_of(A, time), Fraction(last))
+
+
+@pytest.mark.parametrize("scale", ["1e-6", "1/100", "1", "1e5"])
+def test_eight_time_constants_of_the_slowest_mode_are_shown(scale: str) -> None:
+    rate = Fraction(scale)
+    end = times([[-rate, 0], [0, -3 * rate]]).times[-1]
+    assert 8 <= end * rate <= 10
+
+
+def test_the_fastest_mode_says_how_many_times_there_are() -> None:
+    assert len(times([[-1]]).times) == FEWEST + 1
+    assert FEWEST < len(times([[-1, 0], [0, -10]]).times) - 1 < MOST
+    many = times([[-1, 0], [0, -10000]])
+    assert len(many.times) == MOST + 1 and many.fastest == pytest.approx(10000)
+    assert many.note is not None and "1e+04" in many.note and times([[-1]]).note is None
+
+
+def test_what_is_given_is_kept() -> None:
+    grid = chosen_grid(loop_of([[-1]]), Fraction(0), Fraction(3), 4)
+    assert grid.times == (0, Fraction(3, 4), Fraction(3, 2), Fraction(9, 4), 3)
+
+
+def test_the_loop_is_shown_after_the_last_change() -> None:
+    assert times([[-1]], last=100).times[-1] >= 108
+
+
+def test_unstable_and_undamped_loops_have_times_too() -> None:
+    assert 2 <= times([[2]]).times[-1] <= 3
+    assert 20 <= times([[0, 1], [-1, 0]]).times[-1] <= 60
+    assert times([[0]]).times[-1] == 10
+    assert times([["1e400"]]).times[-1] == 10
+
+
+def test_steps_follow_the_radius_and_modes_zero_end() -> None:
+    assert len(times([["1/2"]], "discrete").times) == 13
+    nilpotent = [[int(j == i + 1) for j in range(8)] for i in range(8)]
+    assert len(times(nilpotent, "discrete").times) == 12
+    assert len(times([[1]], "discrete").times) == STEPS + 1
