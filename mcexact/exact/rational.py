@@ -194,6 +194,12 @@ MultiChannelSystem.from_float(..., rounding="decimal" | "dyadic")
         return Fraction(entry.__index__())
     if getattr(entry, "is_Rational", False) is True:
         return Fraction(int(entry.p), int(entry.q))
+    if getattr(entry, "free_symbols", None):
+        raise InputError(
+            f"expected a rational number, found the expression {_shown(str(entry))} with symbols; "
+            "a system with parameters is a ParametricSystem(A, B, C, parameters=[…])",
+            where=where,
+        )
     raise InputError(
         f"expected a rational number ({_GRAMMAR}), found {_shown(repr(entry))} "
         f"of type {kind.__name__}",

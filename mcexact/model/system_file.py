@@ -37,6 +37,7 @@ from mcexact.model.matrix_json import (
 )
 from mcexact.model.names import checked_names, checked_text, quoted
 from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 
 FORMAT = "mcexact-system/1"
@@ -88,6 +89,8 @@ def read_system(data: bytes | str, *, limits: Limits = DEFAULT_LIMITS) -> MultiC
     mcexact.errors.InputError: unknown key 'chanels' (did you mean 'channels'?)
     """
     document = expect_format(parse(data, limits), FORMAT)
+    if "parameters" in document:
+        raise InputError("a system with parameters is read by load_parametric_system")
     expect_object(document, None, _REQUIRED, _OPTIONAL)
     time = document["time"]
     require_time(time)
@@ -176,12 +179,12 @@ def _mapping(value: Any, where: str) -> dict[str, Any]:
     return value
 
 
-def canonical_text(system: MultiChannelSystem) -> str:
+def canonical_text(system: MultiChannelSystem | ParametricSystem) -> str:
     """The plant of a system as the text of the ``system`` object of a certificate.
 
     Parameters
     ----------
-    system : MultiChannelSystem
+    system : MultiChannelSystem or ParametricSystem
         For a derived system, its plant is written.
 
     Notes
@@ -189,6 +192,8 @@ def canonical_text(system: MultiChannelSystem) -> str:
     Keys are sorted; matrices are rows of reduced rationals, or list their entries if they are
     large and sparse; name and source are left out.
     """
+    if isinstance(system, ParametricSystem):
+        return canonical(system.document())
     plant = system.plant
     known: str | None = plant.__dict__.get("_canonical_text")
     if known is not None:
@@ -207,7 +212,7 @@ def canonical_text(system: MultiChannelSystem) -> str:
     return text
 
 
-def canonical_document(system: MultiChannelSystem) -> dict[str, Any]:
+def canonical_document(system: MultiChannelSystem | ParametricSystem) -> dict[str, Any]:
     """The plant of a system as the ``system`` object of a certificate, as plain data."""
     with numbers_of_any_length():
         document: dict[str, Any] = json.loads(canonical_text(system))
@@ -230,7 +235,7 @@ def _graph_json(graph: NeighborGraph) -> dict[str, Any]:
     return document
 
 
-def digest(system: MultiChannelSystem) -> str:
+def digest(system: MultiChannelSystem | ParametricSystem) -> str:
     """Return the SHA-256 of the plant's canonical JSON, in lower-case hexadecimal.
 
     Examples

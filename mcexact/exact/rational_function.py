@@ -1,0 +1,249 @@
+"""Rational functions of named parameters over the rational numbers, in lowest terms."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cache, cached_property
+from typing import Any
+
+import flint
+
+from mcexact.errors import InputError, LimitReached
+from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.rational import rational_text
+
+MOST_DEGREE = 1000
+"""The largest total degree of a numerator or a denominator."""
+
+
+@cache
+def _ring(parameters: tuple[str, ...]) -> Any:
+    """The ring of polynomials in these parameters; flint needs at least one."""
+    return flint.fmpq_mpoly_ctx.get(parameters or ("t",), flint.Ordering.lex)
+
+
+@dataclass(frozen=True, eq=False)
+class RationalFunction:
+    """N/D in named parameters, without a common factor, the leading coefficient of D being 1.
+
+    Made by `constant`, `parameter` and arithmetic; two are equal if they are the same function of
+    the same parameters.
+
+    Attributes
+    ----------
+    parameters : tuple of str
+    numerator, denominator : flint.fmpq_mpoly
+        Never changed.
+
+    Examples
+    --------
+    >>> t = RationalFunction.parameter("t", ("t",))
+    >>> str((t * t - 1) / (t - 1)), str(Fraction(1, 2) / (2 * t + 1))
+    ('t + 1', '(1/4)/(t + 1/2)')
+    """
+
+    parameters: tuple[str, ...]
+    numerator: Any
+    denominator: Any
+
+    @classmethod
+    def constant(cls, value: Fraction | int, parameters: tuple[str, ...]) -> RationalFunction:
+        """A rational number."""
+        ring = _ring(parameters)
+        number = flint.fmpq(value.numerator, value.denominator)
+        return cls(parameters, ring.constant(number), ring.constant(1))
+
+    @classmethod
+    def parameter(cls, name: str, parameters: tuple[str, ...]) -> RationalFunction:
+        """One of the parameters."""
+        ring = _ring(parameters)
+        return cls(parameters, ring.gens()[parameters.index(name)], ring.constant(1))
+
+    @classmethod
+    def from_terms(
+        cls, terms: Mapping[tuple[int, ...], Fraction], parameters: tuple[str, ...]
+    ) -> RationalFunction:
+        """The polynomial with these coefficients, by the exponents of the parameters."""
+        ring = _ring(parameters)
+        known = {
+            tuple(exponents) or (0,): flint.fmpq(c.numerator, c.denominator)
+            for exponents, c in terms.items()
+        }
+        return _checked(parameters, ring.from_dict(known), ring.constant(1))
+
+    @property
+    def is_constant(self) -> bool:
+        """Whether it is a rational number."""
+        return bool(self.numerator.is_constant() and self.denominator.is_constant())
+
+    @cached_property
+    def value(self) -> Fraction:
+        """The rational number that it is; 0 if it is none."""
+        return _number(self.numerator) if self.is_constant else Fraction(0)
+
+    def _coerced(self, other: Any) -> RationalFunction | None:
+        if isinstance(other, (int, Fraction)) and not isinstance(other, bool):
+            return RationalFunction.constant(other, self.parameters)
+        if isinstance(other, RationalFunction) and other.parameters == self.parameters:
+            return other
+        return None
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, RationalFunction):
+            return NotImplemented
+        return str(self) == str(other) and self.parameters == other.parameters
+
+    def __hash__(self) -> int:
+        return hash((self.parameters, str(self)))
+
+    def __bool__(self) -> bool:
+        return bool(self.numerator != 0)
+
+    def __add__(self, other: RationalFunction | int | Fraction) -> RationalFunction:
+        addend = self._coerced(other)
+        if addend is None:
+            return NotImplemented
+        a, b, c, d = self.numerator, self.denominator, addend.numerator, addend.denominator
+        return _checked(self.parameters, a + c, b) if b == d else self._over(a * d + c * b, b * d)
+
+    __radd__ = __add__
+
+    def __neg__(self) -> RationalFunction:
+        return RationalFunction(self.parameters, -self.numerator, self.denominator)
+
+    def __sub__(self, other: RationalFunction | int | Fraction) -> RationalFunction:
+        addend = self._coerced(other)
+        return NotImplemented if addend is None else self + -addend
+
+    def __rsub__(self, other: int | Fraction) -> RationalFunction:
+        return -self + other
+
+    def __mul__(self, other: RationalFunction | int | Fraction) -> RationalFunction:
+        factor = self._coerced(other)
+        if factor is None:
+            return NotImplemented
+        _require_degree(_degree(self.numerator) + _degree(factor.numerator))
+        _require_degree(_degree(self.denominator) + _degree(factor.denominator))
+        return self._over(self.numerator * factor.numerator, self.denominator * factor.denominator)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other: RationalFunction | int | Fraction) -> RationalFunction:
+        divisor = self._coerced(other)
+        if divisor is None:
+            return NotImplemented
+        if not divisor:
+            raise ZeroDivisionError("division by the zero function")
+        turned = self._over(divisor.denominator, divisor.numerator)
+        return self * turned
+
+    def __rtruediv__(self, other: int | Fraction) -> RationalFunction:
+        return RationalFunction.constant(other, self.parameters) / self
+
+    def __pow__(self, exponent: int) -> RationalFunction:
+        degree = max(_degree(self.numerator), _degree(self.denominator))
+        _require_degree(exponent * max(degree, 1))
+        return RationalFunction(
+            self.parameters, self.numerator**exponent, self.denominator**exponent
+        )
+
+    def _over(self, numerator: Any, denominator: Any) -> RationalFunction:
+        """The quotient in lowest terms."""
+        common = numerator.gcd(denominator)
+        numerator, denominator = numerator / common, denominator / common
+        lead = denominator.leading_coefficient()
+        return _checked(self.parameters, numerator / lead, denominator / lead)
+
+    def substituted(
+        self, values: Sequence[RationalFunction | Fraction | int], zero: RationalFunction
+    ) -> RationalFunction:
+        """The function with one value for each parameter.
+
+        Parameters
+        ----------
+        values : sequence of RationalFunction, Fraction or int
+        zero : RationalFunction
+            The constant 0, as a function of the parameters of the values.
+
+        Raises
+        ------
+        InputError
+            If the denominator becomes 0.
+        """
+        bottom = _evaluated(self.denominator, values, zero)
+        if not bottom:
+            raise InputError(f"{self} is undefined there: its denominator is 0")
+        return _evaluated(self.numerator, values, zero) / bottom
+
+    def polynomials(self) -> tuple[Polynomial, Polynomial]:
+        """Numerator and denominator as polynomials in the only parameter."""
+        return _univariate(self.numerator), _univariate(self.denominator)
+
+    def __str__(self) -> str:
+        top = _text(self.numerator, self.parameters)
+        if self.denominator == 1:
+            return top
+        return f"({top})/({_text(self.denominator, self.parameters)})"
+
+    def __repr__(self) -> str:
+        return f"RationalFunction({str(self)!r})"
+
+
+def _checked(parameters: tuple[str, ...], numerator: Any, denominator: Any) -> RationalFunction:
+    _require_degree(max(_degree(numerator), _degree(denominator)))
+    return RationalFunction(parameters, numerator, denominator)
+
+
+def _require_degree(degree: int) -> None:
+    if degree > MOST_DEGREE:
+        raise LimitReached(f"a numerator or denominator of degree {degree} exceeds {MOST_DEGREE}")
+
+
+def _degree(p: Any) -> int:
+    return max(int(p.total_degree()), 0)
+
+
+def _number(c: Any) -> Fraction:
+    """The rational number that a constant polynomial is."""
+    for value in c.to_dict().values():
+        return Fraction(int(value.p), int(value.q))
+    return Fraction(0)
+
+
+def _univariate(p: Any) -> Polynomial:
+    found = {int(e[0]): Fraction(int(c.p), int(c.q)) for e, c in p.to_dict().items()}
+    degree = max(found, default=-1)
+    return Polynomial(tuple(found.get(k, Fraction(0)) for k in range(degree + 1)))
+
+
+def _evaluated(
+    p: Any, values: Sequence[RationalFunction | Fraction | int], zero: RationalFunction
+) -> RationalFunction:
+    """Σ c_e v^e."""
+    total = zero
+    for exponents, c in p.to_dict().items():
+        term = zero + Fraction(int(c.p), int(c.q))
+        for value, exponent in zip(values, exponents, strict=False):
+            if exponent:
+                term = term * value ** int(exponent)
+        total = total + term
+    return total
+
+
+def _text(p: Any, parameters: tuple[str, ...]) -> str:
+    """The terms from the lexicographically highest power down, as `Polynomial` writes its own."""
+    text = ""
+    for exponents, c in sorted(p.to_dict().items(), reverse=True):
+        coefficient = Fraction(int(c.p), int(c.q))
+        powers = [
+            name if e == 1 else f"{name}^{e}"
+            for name, e in zip(parameters, map(int, exponents), strict=False)
+            if e
+        ]
+        size = abs(coefficient)
+        factors = ([rational_text(size)] if size != 1 or not powers else []) + powers
+        sign = "-" if coefficient < 0 else "+"
+        text += (f" {sign} " if text else "-" if coefficient < 0 else "") + "*".join(factors)
+    return text or "0"

@@ -1,0 +1,424 @@
+"""Multi-channel systems whose entries depend on parameters."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Any, NoReturn
+
+from mcexact.errors import FloatRefused, InputError, LimitReached
+from mcexact.exact.function_matrix import FunctionMatrix
+from mcexact.exact.location import require_time
+from mcexact.exact.rational import TWO_WAYS_IN, as_fraction, written
+from mcexact.exact.rational_function import RationalFunction
+from mcexact.exact.rows import common_width, rows_of
+from mcexact.model.expression import checked_parameter, parse_expression
+from mcexact.model.matrix_entry import require_shape, require_square
+from mcexact.model.names import checked_names, checked_text, quoted
+from mcexact.model.system import Construction, MultiChannelSystem
+
+Range = tuple[Fraction | None, Fraction | None]
+"""The least and the largest value of a parameter; None where there is none."""
+
+_TRIES = 200
+
+
+@dataclass(frozen=True)
+class ParametricChannel:
+    """One channel: the agent's name, B_i (n×p_i) and C_i (q_i×n)."""
+
+    name: str
+    B: FunctionMatrix
+    C: FunctionMatrix
+
+
+@dataclass(frozen=True, init=False, repr=False)
+class ParametricSystem:
+    """A multi-channel system whose entries are rational functions of parameters.
+
+    Parameters
+    ----------
+    A : matrix, n×n
+        A list of rows, a numpy array of objects or a sympy matrix.  Entries are numbers as
+        `MultiChannelSystem` takes them, rational functions of sympy symbols, or strings such as
+        "1/2 + 3*t^2".
+    B : sequence of m matrices
+        B_i is n×p_i.
+    C : sequence of m matrices
+        C_i is q_i×n.
+    parameters : sequence of symbols or str
+        The parameters, at least one; they are kept in alphabetical order.
+    assume : mapping, optional
+        For some parameters the least and the largest value; None where there is none.
+    time : {"continuous", "discrete"}
+    names : sequence of str, optional
+        The channels, by default "1" … "m".
+    name, source : str, optional
+        A name and a source, which no decision uses.
+
+    Attributes
+    ----------
+    ranges : tuple of (Fraction or None, Fraction or None)
+        What is assumed of each parameter.
+
+    Raises
+    ------
+    FloatRefused
+        If an entry is a float, or an expression holds one.
+    InputError
+        If a shape, an entry, a name, a parameter or a range is not as expected.
+
+    Notes
+    -----
+    Entries are functions: (t² − 1)/(t − 1) is t + 1, which is defined at 1 as well.
+
+    Examples
+    --------
+    >>> from sympy import symbols
+    >>> t = symbols("t")
+    >>> plant = ParametricSystem(
+    ...     [[1, t], [0, 2]], [[[0], [1]]], [[["1/(t - 2)", 0]]], parameters=[t], assume={t: (0, 1)}
+    ... )
+    >>> plant
+    ParametricSystem(n=2, m=1, continuous time, parameters: t in [0, 1], channels: '1')
+    >>> plant.at({t: "1/2"}).A[0, 1]
+    Fraction(1, 2)
+    >>> plant.at({t: 2})
+    Traceback (most recent call last):
+        ...
+    mcexact.errors.InputError: channels[0].C: (1)/(t - 2) is undefined there: its denominator is 0
+    >>> ParametricSystem([[0.5 * t]], [[[1]]], [[[1]]], parameters=[t])  # doctest: +ELLIPSIS
+    Traceback (most recent call last):
+        ...
+    mcexact.errors.FloatRefused: A[0][0]: a float is not exact: ...
+    """
+
+    parameters: tuple[str, ...]
+    ranges: tuple[Range, ...]
+    A: FunctionMatrix
+    channels: tuple[ParametricChannel, ...]
+    time: str
+    name: str | None = field(compare=False)
+    source: str | None = field(compare=False)
+
+    def __init__(
+        self,
+        A: Any,
+        B: Sequence[Any],
+        C: Sequence[Any],
+        *,
+        parameters: Sequence[Any],
+        assume: Mapping[Any, tuple[Any, Any]] | None = None,
+        time: str = "continuous",
+        names: Sequence[str] | None = None,
+        name: str | None = None,
+        source: str | None = None,
+    ) -> None:
+        known = _checked_parameters(parameters)
+        require_time(time)
+        square = require_square(_functions(A, "A", known), "A")
+        if len(B) != len(C) or not len(B):
+            raise InputError(
+                f"expected one matrix for each of at least one channel, found {len(B)} in B and "
+                f"{len(C)} in C",
+                where="B",
+            )
+        labels = [str(i + 1) for i in range(len(B))] if names is None else list(names)
+        if len(labels) != len(B):
+            raise InputError(f"expected {len(B)} names, found {len(labels)}", where="names")
+        checked = checked_names(labels, [f"names[{i}]" for i in range(len(labels))])
+        n = square.nrows
+        channels = tuple(
+            ParametricChannel(
+                label,
+                require_shape(_functions(B_i, f"B[{i}]", known), f"B[{i}]", n, None),
+                require_shape(_functions(C_i, f"C[{i}]", known, n), f"C[{i}]", None, n),
+            )
+            for i, (label, B_i, C_i) in enumerate(zip(checked, B, C, strict=True))
+        )
+        fields = {
+            "parameters": known,
+            "ranges": _checked_ranges(assume or {}, known),
+            "A": square,
+            "channels": channels,
+            "time": time,
+            "name": None if name is None else checked_text(name, "name"),
+            "source": None if source is None else checked_text(source, "source"),
+        }
+        for key, value in fields.items():
+            object.__setattr__(self, key, value)
+
+    @property
+    def n(self) -> int:
+        """The number of states."""
+        return self.A.nrows
+
+    @property
+    def m(self) -> int:
+        """The number of channels."""
+        return len(self.channels)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names of the channels, in order."""
+        return tuple(channel.name for channel in self.channels)
+
+    @property
+    def plant(self) -> ParametricSystem:
+        """This system; no construction is applied to systems with parameters."""
+        return self
+
+    @property
+    def subject(self) -> tuple[Construction, ...]:
+        """The constructions that lead to this system, of which there is none."""
+        return ()
+
+    def at(self, values: Mapping[Any, Any]) -> MultiChannelSystem:
+        """The system at a value of every parameter.
+
+        Parameters
+        ----------
+        values : mapping
+            An exact number for each parameter, by symbol or name.
+
+        Raises
+        ------
+        InputError
+            If a value is missing or unknown, or an entry is undefined there.
+        """
+        given = _by_name(values, self.parameters, "values")
+        missing = [name for name in self.parameters if name not in given]
+        if missing:
+            raise InputError(f"expected a value of the parameter {missing[0]!r}", where="values")
+        numbers = [as_fraction(given[name], where=f"values[{name}]") for name in self.parameters]
+        zero = RationalFunction.constant(0, ())
+        parts = self._mapped(lambda entry: entry.substituted(numbers, zero))
+        return MultiChannelSystem(
+            parts[0].constants(),
+            [B.constants() for B in parts[1 : self.m + 1]],
+            [C.constants() for C in parts[self.m + 1 :]],
+            time=self.time,
+            names=self.names,
+        )
+
+    def along(
+        self,
+        line: Mapping[Any, Any],
+        parameters: Sequence[Any] = ("s",),
+        assume: Mapping[Any, tuple[Any, Any]] | None = None,
+    ) -> ParametricSystem:
+        """The system along a line or another curve, as a function of other parameters.
+
+        Parameters
+        ----------
+        line : mapping
+            For each parameter a number or an expression in the new parameters; a parameter that is
+            left out stands for itself, and has to be among the new ones.
+        parameters : sequence of symbols or str
+            The new parameters.
+        assume : mapping, optional
+            The ranges of the new parameters.
+
+        Raises
+        ------
+        InputError
+            If a parameter is unknown, or an entry is undefined everywhere.
+
+        Examples
+        --------
+        >>> plant = ParametricSystem([["a + b"]], [[[1]]], [[["a*b"]]], parameters=["a", "b"])
+        >>> line = plant.along({"a": "s", "b": "1 - s"})
+        >>> print(line.A[0, 0], "|", line.channels[0].C[0, 0])
+        1 | -s^2 + s
+        """
+        given, new = _by_name(line, self.parameters, "line"), _checked_parameters(parameters)
+        values = [
+            _function(given.get(name, name), f"line[{name}]", new) for name in self.parameters
+        ]
+        zero = RationalFunction.constant(0, new)
+        parts = self._mapped(lambda entry: entry.substituted(values, zero))
+        return ParametricSystem(
+            parts[0],
+            parts[1 : self.m + 1],
+            parts[self.m + 1 :],
+            parameters=new,
+            assume=assume,
+            time=self.time,
+            names=self.names,
+        )
+
+    def generic(self, seed: int = 0) -> MultiChannelSystem:
+        """The system at drawn integers, whose structure is nearly always that of almost all values.
+
+        Parameters
+        ----------
+        seed : int
+
+        Raises
+        ------
+        LimitReached
+            If no draw gives a point at which every entry is defined.
+        """
+        rng = random.Random(seed)
+        for _ in range(_TRIES):
+            try:
+                return self.at({name: rng.randrange(10**3, 10**6) for name in self.parameters})
+            except InputError:
+                continue
+        raise LimitReached("no drawn point has all entries defined")
+
+    def _mapped(self, function: Any) -> list[FunctionMatrix]:
+        """A, all B_i and all C_i with a function applied to each entry."""
+        places = ["A", *(f"channels[{i}].{part}" for part in "BC" for i in range(self.m))]
+        parts = [self.A, *(c.B for c in self.channels), *(c.C for c in self.channels)]
+        found = []
+        for place, part in zip(places, parts, strict=True):
+            with InputError.inside(place):
+                found.append(part.mapped(function))
+        return found
+
+    def document(self) -> dict[str, Any]:
+        """The ``system`` object of a certificate, as plain data."""
+        return {
+            "time": self.time,
+            "parameters": {
+                name: {} if bounds == (None, None) else {"range": [*map(_end, bounds)]}
+                for name, bounds in zip(self.parameters, self.ranges, strict=True)
+            },
+            "A": _entries(self.A),
+            "channels": [
+                {"name": channel.name, "B": _entries(channel.B), "C": _entries(channel.C)}
+                for channel in self.channels
+            ],
+        }
+
+    def __repr__(self) -> str:
+        told = ", ".join(map(_with_range, self.parameters, self.ranges))
+        shown = ", ".join(quoted(name) for name in self.names[:8]) + (", …" if self.m > 8 else "")
+        return (
+            f"ParametricSystem(n={self.n}, m={self.m}, {self.time} time, parameters: {told}, "
+            f"channels: {shown})"
+        )
+
+
+def _end(bound: Fraction | None) -> int | str | None:
+    return None if bound is None else written(bound)
+
+
+def _with_range(name: str, bounds: Range) -> str:
+    low, high = bounds
+    if low is None and high is None:
+        return name
+    left = "(-∞" if low is None else f"[{low}"
+    return f"{name} in {left}, {'∞)' if high is None else f'{high}]'}"
+
+
+def _entries(M: FunctionMatrix) -> Any:
+    """The rows of a matrix; one with columns but no rows says its shape."""
+    if not M.nrows and M.ncols:
+        return {"shape": [0, M.ncols], "entries": []}
+    return [[written(e.value) if e.is_constant else str(e) for e in row] for row in M.rows]
+
+
+def _checked_parameters(parameters: Sequence[Any]) -> tuple[str, ...]:
+    if isinstance(parameters, str) or not hasattr(parameters, "__iter__"):
+        raise InputError("expected a list of parameters, such as [t]", where="parameters")
+    known = tuple(checked_parameter(name, "parameters") for name in parameters)
+    if not known or len(set(known)) < len(known):
+        raise InputError(
+            f"expected at least one parameter and none twice, found {known}", where="parameters"
+        )
+    return tuple(sorted(known))
+
+
+def _by_name(given: Mapping[Any, Any], known: tuple[str, ...], where: str) -> dict[str, Any]:
+    """The values of a mapping whose keys are symbols or names of parameters."""
+    found = {str(key): value for key, value in given.items()}
+    for name in found:
+        if name not in known:
+            raise InputError(f"unknown parameter {quoted(name)}", where=where)
+    return found
+
+
+def _checked_ranges(
+    assume: Mapping[Any, tuple[Any, Any]], known: tuple[str, ...]
+) -> tuple[Range, ...]:
+    given = _by_name(assume, known, "assume")
+    ranges: list[Range] = []
+    for name in known:
+        where = f"assume[{name}]"
+        bounds = list(given.get(name, (None, None)))
+        if len(bounds) != 2:
+            raise InputError(f"expected two ends, found {len(bounds)}", where=where)
+        low, high = (None if end is None else as_fraction(end, where=where) for end in bounds)
+        if low is not None and high is not None and low > high:
+            raise InputError(f"expected an interval, found {low} above {high}", where=where)
+        ranges.append((low, high))
+    return tuple(ranges)
+
+
+def _functions(
+    value: Any, where: str, parameters: tuple[str, ...], ncols: int = 0
+) -> FunctionMatrix:
+    """Convert a matrix-like value."""
+    if isinstance(value, FunctionMatrix):
+        return value
+    rows = rows_of(value, where)
+    width = common_width(rows, where)
+    if width is None:
+        width = int(getattr(value, "shape", (0, ncols))[1])
+    return FunctionMatrix(
+        tuple(
+            tuple(_function(entry, f"{where}[{i}][{j}]", parameters) for j, entry in enumerate(row))
+            for i, row in enumerate(rows)
+        ),
+        width,
+    )
+
+
+def _function(entry: Any, where: str, parameters: tuple[str, ...]) -> RationalFunction:
+    """Convert an entry: a number, a text, or an expression of sympy."""
+    if isinstance(entry, RationalFunction):
+        return entry
+    if isinstance(entry, str):
+        return parse_expression(entry, parameters, where=where)
+    if getattr(entry, "free_symbols", None) and hasattr(entry, "as_numer_denom"):
+        return _from_sympy(entry, where, parameters)
+    return RationalFunction.constant(as_fraction(entry, where=where), parameters)
+
+
+def _from_sympy(entry: Any, where: str, parameters: tuple[str, ...]) -> RationalFunction:
+    """Convert an expression of sympy, which is a rational function of the parameters."""
+    import sympy
+
+    def refused() -> NoReturn:
+        raise InputError(
+            f"expected a rational function of {', '.join(parameters)} with rational coefficients, "
+            f"found {quoted(str(entry))}",
+            where=where,
+        )
+
+    if entry.has(sympy.Float):
+        raise FloatRefused(TWO_WAYS_IN, where=where)
+    symbols = {str(symbol): symbol for symbol in entry.free_symbols}
+    unknown = sorted(set(symbols) - set(parameters))
+    if unknown:
+        raise InputError(f"{unknown[0]!r} is not among the parameters", where=where)
+    generators = [symbols.get(name, sympy.Symbol(name)) for name in parameters]
+    try:
+        both = [
+            sympy.Poly(part, *generators, domain="QQ")
+            for part in sympy.fraction(sympy.together(entry))
+        ]
+    except (sympy.PolynomialError, sympy.CoercionFailed):
+        refused()
+    top, bottom = (
+        RationalFunction.from_terms(
+            {tuple(map(int, e)): Fraction(int(c.p), int(c.q)) for e, c in part.terms()},
+            parameters,
+        )
+        for part in both
+    )
+    return top / bottom
