@@ -78,10 +78,13 @@ class InputError(McexactError, ValueError):
 
     @staticmethod
     def require(value: object, kind: type, where: str) -> None:
-        """Refuse an argument of another type than the one expected."""
+        """Refuse an argument of another type than the one expected, and say how to make one."""
         if not isinstance(value, kind):
+            advice = getattr(kind, "made_by", "")
             raise InputError(
-                f"expected a {kind.__name__}, found {type(value).__name__}", where=where
+                f"expected a {kind.__name__}, found {type(value).__name__}"
+                f"{advice and f'; make one with {advice}'}",
+                where=where,
             )
 
     exit_status = 3

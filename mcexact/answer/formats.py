@@ -1,84 +1,11 @@
-"""Numbers, polynomials and names as text, shortened between terms and never inside a number."""
+"""Modes, channels and names as text, shortened where they are many."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Sequence
-from decimal import MAX_EMAX, MIN_EMIN, Decimal, localcontext
-from fractions import Fraction
 
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.rational import rational_text
-
-
-def number(x: Fraction, limit: int = 24) -> str:
-    """Format a rational number: exactly if that is short, otherwise rounded.
-
-    Examples
-    --------
-    >>> number(Fraction(-1, 3)), number(Fraction(10**50 + 1, 3))
-    ('-1/3', 'about 3.33333e+49')
-    """
-    exact = rational_text(x)
-    return exact if len(exact) <= limit else f"about {rounded(x)}"
-
-
-def decimal_number(text: str, limit: int = 24) -> str:
-    """Format a decimal string: exactly if that is short, otherwise rounded.
-
-    Examples
-    --------
-    >>> decimal_number("0.25"), decimal_number("0." + "3" * 40)
-    ('0.25', 'about 0.333333')
-    """
-    return text if len(text) <= limit else f"about {rounded(Fraction(Decimal(text)))}"
-
-
-def rounded(x: Fraction) -> str:
-    """Format a rational number of any size with six significant digits.
-
-    Examples
-    --------
-    >>> rounded(Fraction(2, 3)), rounded(Fraction(-1, 10**400))
-    ('0.666667', '-1e-400')
-    """
-    with localcontext(prec=6, Emax=MAX_EMAX, Emin=MIN_EMIN):
-        return f"{(Decimal(x.numerator) / Decimal(x.denominator)).normalize():g}"
-
-
-def polynomial(p: Polynomial, limit: int = 60) -> str:
-    """Format a polynomial: completely if that is short, otherwise its first and last terms.
-
-    Examples
-    --------
-    >>> polynomial(Polynomial.of(-1, 1))
-    'x - 1'
-    >>> polynomial(Polynomial.of(*range(1, 20)), 40)
-    '19*x^18 + 18*x^17 + … + 1 (degree 18)'
-    """
-    exact = str(p)
-    if len(exact) <= limit:
-        return exact
-    terms = _terms(p)
-    tail = f" (degree {p.degree})"
-    # The term of least degree is kept if it is short; the leading term always is.
-    last = f" {terms[-1]}" if len(terms) > 1 and len(terms[-1]) <= limit // 3 else ""
-    shown = terms[0]
-    for term in terms[1:-1]:
-        if len(f"{shown} {term} + …{last}{tail}") > limit:
-            break
-        shown = f"{shown} {term}"
-    return f"{shown} + …{last}{tail}" if len(terms) > 2 else f"{shown} {terms[-1]}"
-
-
-def _terms(p: Polynomial) -> list[str]:
-    """The terms, highest power first, each except the first with its sign."""
-
-    def coefficient(c: Fraction) -> str:
-        text = number(c)
-        return f"({text})" if text.startswith("about") else text
-
-    return re.split(r" (?=[+-] )", p.text(coefficient))
+from mcexact.exact.shortened import number, polynomial
 
 
 def modes(p: Polynomial, limit: int = 30) -> str:

@@ -10,20 +10,17 @@ from mcexact.answer.formats import (
     channels,
     count,
     cut,
-    decimal_number,
     edges,
     listed,
     modes,
     name_set,
     name_text,
-    number,
-    polynomial,
-    rounded,
 )
 from mcexact.answer.latex import escaped
 from mcexact.exact.enclosures import exact_decimal
 from mcexact.exact.location import TIMES, StabilityRegion, is_discrete
 from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.shortened import decimal_number, number, polynomial, rounded
 
 Write = Callable[[Any], str]
 

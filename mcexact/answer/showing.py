@@ -8,18 +8,17 @@ from fractions import Fraction
 from html import escape
 from typing import TYPE_CHECKING, Any
 
-from mcexact.answer.formats import polynomial
 from mcexact.answer.latex import escaped
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import rational_text
+from mcexact.exact.shortened import polynomial
 from mcexact.model.canonical import plain
+from mcexact.shown import LINE
 
 if TYPE_CHECKING:
     from mcexact.answer.protocol import Answer
 
-LINE = 200
-"""The largest number of characters in the ``repr`` of an answer."""
 _CELL = 300
 
 

@@ -18,6 +18,7 @@ from mcexact.analysis.structure.controllability_indices import (
 from mcexact.analysis.structure.transfer_graph import transfer_graph
 from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.crosschecks.records import Libraries, libraries_here
+from mcexact.errors import InputError
 from mcexact.exact.floats import matrix_to_float
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.location import StabilityRegion
@@ -133,6 +134,7 @@ def crosscheck(system: MultiChannelSystem) -> CrossChecks:
     >>> row.question, row.floating, row.exact
     ('joint controllability', 'no, rank 1 of 2', 'yes, rank 2 of 2')
     """
+    InputError.require(system, MultiChannelSystem, "system")
     floats = _Floats(
         matrix_to_float(system.A),
         tuple(matrix_to_float(system.B(i)) for i in range(system.m)),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from mcexact.errors import InputError
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_graph
 
@@ -42,6 +43,7 @@ def augmented_outputs(
     mcexact.errors.UsageError: a neighbor graph is needed, and the system has none: add 'neighbors'
         to it
     """
+    InputError.require(system, MultiChannelSystem, "system")
     system, found = with_graph(system, graph)
     return system.derived(
         system.A,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from mcexact.derived.extended import Share, exchanged
+from mcexact.errors import InputError
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, require_discrete, with_graph
 
@@ -78,6 +79,7 @@ def lifted_system(
     >>> lifted.C(0).numerators  # agent 1 sees y_1(t), y_2(t-2), x_2(t-2)
     ((3, 0, 0, 0, 0, 0), (0, 0, 0, 0, 0, 1), (0, 0, 0, 1, 0, 0))
     """
+    InputError.require(system, MultiChannelSystem, "system")
     system, found = with_graph(system, graph)
     require_discrete(system)
     construction = {"construction": "lifted", "share": share, "dimensions": dimensions}
@@ -140,6 +142,7 @@ def held_system(
     >>> held.C(1).numerators  # agent 2 sees y_2(t) and its own x_2(t-2)
     ((5, 0, 0, 0), (0, 0, 0, 1))
     """
+    InputError.require(system, MultiChannelSystem, "system")
     system, found = with_graph(system, graph)
     require_discrete(system)
     late = [found.longest_delay(j) for j in range(system.m)]

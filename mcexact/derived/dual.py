@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from mcexact.errors import InputError
 from mcexact.model.system import MultiChannelSystem
 
 
@@ -25,6 +26,7 @@ def dual(system: MultiChannelSystem) -> MultiChannelSystem:
     >>> dual(dual(system)).A == system.A
     True
     """
+    InputError.require(system, MultiChannelSystem, "system")
     return system.derived(
         system.A.T,
         [channel.C.T for channel in system.channels],

@@ -7,6 +7,7 @@ from typing import Any
 
 from mcexact.derived.extended import selector
 from mcexact.derived.feedback import checked_gains
+from mcexact.errors import InputError
 from mcexact.exact.blocks import block, block_diagonal, vstack
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_graph
@@ -58,6 +59,7 @@ def error_system(
     >>> errors.C(0).numerators, errors.C(1).numerators
     (((3, 0), (1, -1)), ((0, 5),))
     """
+    InputError.require(system, MultiChannelSystem, "system")
     system, found = with_graph(system, graph)
     n, m = system.n, system.m
     exact = checked_gains(system, gains, [n] * m)

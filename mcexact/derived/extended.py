@@ -144,6 +144,7 @@ def extended_system(
     >>> extended.n, extended.C(1).numerators
     (4, ((0, 1, 0, 0), (0, 1, 0, 0), (0, 0, 0, 1)))
     """
+    InputError.require(system, MultiChannelSystem, "system")
     system, found = with_graph(system, graph)
     construction = {"construction": "extended", "share": share, "dimensions": dimensions}
     return exchanged(system, found, construction, lambda i, j: 0)

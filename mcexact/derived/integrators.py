@@ -5,6 +5,7 @@ from __future__ import annotations
 from itertools import accumulate
 
 from mcexact.derived.extended import selector
+from mcexact.errors import InputError
 from mcexact.exact.blocks import block, vstack
 from mcexact.exact.location import steady_point
 from mcexact.exact.matrix import Matrix
@@ -40,6 +41,7 @@ def setpoint_system(system: MultiChannelSystem) -> MultiChannelSystem:
     >>> setpoint_system(plant).A.numerators
     ((2, 0), (3, 1))
     """
+    InputError.require(system, MultiChannelSystem, "system")
     n, m = system.n, system.m
     counts = [system.q(i) for i in range(m)]
     total = sum(counts)

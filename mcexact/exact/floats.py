@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from mcexact.errors import InputError
 from mcexact.exact.matrix import Matrix
+from mcexact.exact.rational import as_fraction
 from mcexact.exact.rows import entries_of, is_sparse_array, rows_of
 
 if TYPE_CHECKING:
@@ -64,6 +65,32 @@ def from_float(x: float, rounding: Rounding, *, where: str | None = None) -> Fra
         raise InputError(f"expected a finite number, found {float(x)!r}", where=where) from None
 
 
+def as_requested(number: Any, *, where: str | None = None) -> Fraction:
+    """Convert a number by which a caller asks for something, such as a rate.
+
+    Parameters
+    ----------
+    number : int, Fraction, Decimal, str, float or scalar of numpy or sympy
+        A float stands for the shortest decimal that prints it, 0.1 for 1/10: it is a wish and not a
+        measurement, and what is certified in the end states the exact number.
+    where : str, optional
+        The place to name in an error.
+
+    Raises
+    ------
+    InputError
+        If it is not a finite rational number.
+
+    Examples
+    --------
+    >>> as_requested(0.1), as_requested("1/3"), as_requested(2)
+    (Fraction(1, 10), Fraction(1, 3), Fraction(2, 1))
+    """
+    if isinstance(number, float) or getattr(getattr(number, "dtype", None), "kind", "") == "f":
+        return from_float(number, "decimal", where=where)
+    return as_fraction(number, where=where)
+
+
 def to_float(q: Fraction | int | str) -> float:
     """Convert a rational number, or the text of a decimal, to the nearest float.
 
@@ -93,7 +120,7 @@ def matrix_from_float(
     ----------
     M : array_like, r × c
         A real two-dimensional array, a sparse array of scipy, or a list of rows of numbers.
-        Integers do not change.
+        Integers and matrices of this package do not change.
     rounding : {"decimal", "dyadic"}
         See `from_float`.
     where : str, optional
@@ -109,6 +136,8 @@ def matrix_from_float(
     >>> matrix_from_float([[0.1, 2.0]]).rows()
     ((Fraction(1, 10), Fraction(2, 1)),)
     """
+    if isinstance(M, Matrix):
+        return M
     if is_sparse_array(M):
         entries = entries_of(M, where, floats=True)
         return Matrix.from_entries(

@@ -9,8 +9,9 @@ from typing import Any, Literal, get_args
 import flint
 
 from mcexact.errors import InputError, UsageError
+from mcexact.exact.floats import as_requested
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.rational import as_fraction, written
+from mcexact.exact.rational import written
 
 Time = Literal["continuous", "discrete"]
 
@@ -114,7 +115,7 @@ class StabilityRegion:
     ----------
     time : {"continuous", "discrete"}
         The left half-plane Re λ < 0, or the disc |λ| < 1.
-    bound : int or Fraction, optional
+    bound : rational or float, optional
         A rate R > 0 in continuous time: Re λ < −R.  A radius R, 0 < R ≤ 1, in discrete time:
         |λ| < R.
 
@@ -141,14 +142,12 @@ class StabilityRegion:
         discrete = is_discrete(self.time)
         if self.bound is None:
             return
-        bound = self.bound
-        if type(bound) not in (int, Fraction):
-            raise UsageError(f"expected an exact rate or radius, found {bound!r}")
+        bound = as_requested(self.bound, where=self.word)
         if not discrete and bound <= 0:
             raise UsageError(f"expected a rate above 0, found {bound}")
         if discrete and not 0 < bound <= 1:
             raise UsageError(f"expected a radius above 0 and at most 1, found {bound}")
-        object.__setattr__(self, "bound", Fraction(bound))
+        object.__setattr__(self, "bound", bound)
 
     @classmethod
     def of(
@@ -159,8 +158,8 @@ class StabilityRegion:
         Parameters
         ----------
         time : {"continuous", "discrete"}
-        rate, radius : rational, optional
-            A rate in continuous time, a radius in discrete time.
+        rate, radius : rational or float, optional
+            A rate in continuous time, a radius in discrete time; 0.1 stands for 1/10.
         bound : rational, optional
             The rate or the radius as in a certificate, instead of the other two; a rate of 0 means
             stability.
@@ -192,7 +191,7 @@ class StabilityRegion:
         if len(given) > 1:
             raise UsageError(f"give a bound or a {own}, not both")
         for name, entry in given.items():
-            found = as_fraction(entry, where=name)
+            found = as_requested(entry, where=name)
             return cls(time, None if name == "bound" and not discrete and found == 0 else found)
         return cls(time)
 

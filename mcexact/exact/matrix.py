@@ -7,13 +7,14 @@ from array import array
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
+from typing import Any, overload
 
 import flint
 
 from mcexact.errors import InputError, LimitReached
 from mcexact.exact import tables
-from mcexact.exact.rational import Entry, as_fraction, rational_text, require_power
+from mcexact.exact.matrix_forms import MatrixForms, pasted, row_of
+from mcexact.exact.rational import Entry, as_fraction, require_power
 from mcexact.exact.rows import common_width, rows_of
 from mcexact.exact.tables import DenseTable, SparseTable, Table
 from mcexact.exact.tables import Rows as Rows
@@ -23,7 +24,7 @@ _MOST_ENTRIES = 2**28
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Matrix:
+class Matrix(MatrixForms):
     """A rational matrix, M = N / d with integer N and d ≥ 1 in lowest terms.
 
     Attributes
@@ -34,7 +35,9 @@ class Matrix:
     Notes
     -----
     Exact, immutable, hashable; equal matrices are equal objects in the sense of ``==``.  Build one
-    with `from_rows` (any exact entries), `from_entries` or `from_integers`.  The numerators stay in
+    with `from_rows` (any exact entries), `from_entries` or `from_integers`.  In operations with
+    arrays of numpy, and in its functions, a matrix is an array of floats: each entry is rounded to
+    the nearest one.  sympy gets the exact entries.  The numerators stay in
     flint's form from one operation to the next; `numerators` converts them to integers when it is
     first read.  A matrix of at least 2**11 cells of which at most an eighth are not 0 keeps these
     alone, and so do its submatrices, transposes, sums, and products with others of this sort; only
@@ -249,12 +252,26 @@ class Matrix:
         """The transpose."""
         return Matrix(self._table.T, self.denominator)
 
-    def __getitem__(self, position: tuple[int, int]) -> Fraction:
-        """The entry in a row and a column, counted from 0; negative positions are refused."""
-        i, j = position
-        if not (0 <= i < self.nrows and 0 <= j < self.ncols):
+    @overload
+    def __getitem__(self, position: tuple[int, int]) -> Fraction: ...
+
+    @overload
+    def __getitem__(self, position: int) -> tuple[Fraction, ...]: ...
+
+    def __getitem__(self, position: tuple[int, int] | int) -> Fraction | tuple[Fraction, ...]:
+        """The entry in a row and a column, or a row; positions from 0, and none negative."""
+        try:
+            i, j = position  # type: ignore[misc]
+            inside = 0 <= i < self.nrows and 0 <= j < self.ncols
+        except TypeError:
+            return row_of(self, position)
+        if not inside:
             raise IndexError(f"no entry ({i}, {j}) in a {self.nrows} × {self.ncols} matrix")
         return Fraction(self._table.entry(i, j), self.denominator)
+
+    def __iter__(self) -> Iterator[tuple[Fraction, ...]]:
+        """The rows."""
+        return iter(self.rows())
 
     def rows(self) -> tuple[tuple[Fraction, ...], ...]:
         """The entries as Fractions; slower than `numerators` for large matrices."""
@@ -324,6 +341,11 @@ class Matrix:
 
     __rmul__ = __mul__
 
+    def __truediv__(self, divisor: int | Fraction) -> Matrix:
+        if isinstance(divisor, bool) or not isinstance(divisor, (int, Fraction)):
+            return NotImplemented
+        return self * (1 / Fraction(divisor))
+
     def power(self, k: int) -> Matrix:
         """The k-th power of a square matrix, k ≥ 0."""
         if not self.is_square():
@@ -339,11 +361,7 @@ class Matrix:
         return Matrix.from_integers, (self.numerators, self.denominator, self.ncols)
 
     def __repr__(self) -> str:
-        if isinstance(self._table, SparseTable):
-            return f"Matrix(shape={self.shape}, {len(self._table.values)} entries that are not 0)"
-        rows = ", ".join("[" + ", ".join(map(rational_text, row)) + "]" for row in self.rows())
-        shape = "" if self.nrows and self.ncols else f", shape={self.shape}"
-        return f"Matrix([{rows}]{shape})"
+        return pasted(self)
 
 
 def require_sides(nrows: int, ncols: int) -> None:

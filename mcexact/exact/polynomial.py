@@ -12,10 +12,10 @@ from typing import Any
 import flint
 
 from mcexact.errors import InputError
+from mcexact.exact.polynomial_forms import PolynomialForms, pasted
 from mcexact.exact.rational import (
     Entry,
     as_fraction,
-    digits_of,
     rational_latex,
     rational_text,
     require_power,
@@ -23,8 +23,8 @@ from mcexact.exact.rational import (
 )
 
 
-@dataclass(frozen=True)
-class Polynomial:
+@dataclass(frozen=True, repr=False)
+class Polynomial(PolynomialForms):
     """A polynomial c_0 + c_1 x + … + c_d x^d with rational coefficients.
 
     Parameters
@@ -341,8 +341,7 @@ class Polynomial:
         return _rendered(self, "x^{{{}}}", lambda c: rational_latex(abs(c)), " ")
 
     def __repr__(self) -> str:
-        shown = (repr(c) if isinstance(c, str) else digits_of(c) for c in self.as_json())
-        return f"Polynomial.of({', '.join(shown)})"
+        return pasted(self)
 
 
 def product(polynomials: Iterable[Polynomial]) -> Polynomial:

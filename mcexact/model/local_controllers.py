@@ -48,6 +48,7 @@ def local_controllers(
     >>> closed_loop(plant, controller).matrix.numerators
     ((0, -6), (1, -5))
     """
+    InputError.require(system, MultiChannelSystem, "system")
     if len(parts) != system.m:
         raise InputError(f"expected {system.m} controllers, found {len(parts)}", where="parts")
     agents = tuple(

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from mcexact.errors import UsageError
+from mcexact.errors import InputError, UsageError
 from mcexact.exact.blocks import hstack, vstack
 from mcexact.exact.exponential import exponential
+from mcexact.exact.floats import as_requested
 from mcexact.exact.location import is_discrete
 from mcexact.exact.matrix import Matrix
-from mcexact.exact.rational import Entry, as_fraction, rational_text
+from mcexact.exact.rational import Entry, rational_text
 from mcexact.model.system import MultiChannelSystem
 
 DECIMALS = 12
@@ -20,8 +21,8 @@ def c2d(system: MultiChannelSystem, step: Entry, *, decimals: int = DECIMALS) ->
     ----------
     system : MultiChannelSystem
         A plant in continuous time.
-    step : rational
-        The time h between samples.
+    step : rational or float
+        The time h between samples; 0.1 stands for 1/10.
     decimals : int
         To which the matrix exponential is rounded.
 
@@ -52,11 +53,12 @@ def c2d(system: MultiChannelSystem, step: Entry, *, decimals: int = DECIMALS) ->
     sampled every 1/10 with inputs held; every entry of A and B differs from the exact one by at \
 most 0.51e-12
     """
+    InputError.require(system, MultiChannelSystem, "system")
     if is_discrete(system.time):
         raise UsageError("the system is in discrete time already", where="system")
     if system.subject:
         raise UsageError("expected a plant, found a derived system", where="system")
-    h = as_fraction(step, where="step")
+    h = as_requested(step, where="step")
     if h <= 0:
         raise UsageError(f"expected a time above 0, found {rational_text(h)}", where="step")
     if type(decimals) is not int or not 0 <= decimals <= 1000:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 from math import lcm
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.blocks import hstack, vstack
@@ -15,8 +15,9 @@ from mcexact.exact.floats import Rounding, matrix_from_float
 from mcexact.exact.location import is_discrete, require_time
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.rational import as_fraction
+from mcexact.model.channel_matrices import ChannelMatrices, position
 from mcexact.model.matrix_entry import as_table, require_shape, require_square
-from mcexact.model.names import checked_names, checked_text, nearest, quoted
+from mcexact.model.names import checked_names, checked_text, quoted
 from mcexact.model.neighbor_graph import NeighborGraph, graph_for
 
 Construction = Mapping[str, Any]
@@ -64,6 +65,9 @@ class MultiChannelSystem:
 
     Attributes
     ----------
+    A : Matrix, n×n
+    B, C : ChannelMatrices
+        B_i and C_i by position or name: ``B[0]``, ``B["1"]``; ``channels[0].B`` is the same.
     plant : MultiChannelSystem
         The system from which this one was constructed, or this one.
     subject : tuple of mappings
@@ -87,6 +91,12 @@ class MultiChannelSystem:
         ...
     mcexact.errors.InputError: B[0]: expected 1 row, found 2
     """
+
+    made_by: ClassVar[str] = (
+        "MultiChannelSystem(A, B, C), where B and C list a matrix for each channel, "
+        "or with load_system(file) or from_statespace(model, …)"
+    )
+    """What an error says to a caller who gives something else."""
 
     A: Matrix
     channels: tuple[Channel, ...]
@@ -192,13 +202,15 @@ class MultiChannelSystem:
         ports = [M.denominator for c in self.channels for M in (c.B, c.C)]
         return lcm(self.A.denominator, *set(ports))
 
-    def B(self, i: int) -> Matrix:
-        """Return B_i, n×p_i."""
-        return self.channels[i].B
+    @cached_property
+    def B(self) -> ChannelMatrices:
+        """The B_i, n×p_i: ``B[0]`` or ``B["1"]`` is that of the first channel."""
+        return ChannelMatrices((channel.B for channel in self.channels), self.names)
 
-    def C(self, i: int) -> Matrix:
-        """Return C_i, q_i×n."""
-        return self.channels[i].C
+    @cached_property
+    def C(self) -> ChannelMatrices:
+        """The C_i, q_i×n: ``C[0]`` or ``C["1"]`` is that of the first channel."""
+        return ChannelMatrices((channel.C for channel in self.channels), self.names)
 
     def p(self, i: int) -> int:
         """Return p_i, the number of inputs of channel i."""
@@ -238,12 +250,7 @@ class MultiChannelSystem:
         UsageError
             If no channel has this name.
         """
-        if name not in self.names:
-            raise UsageError(
-                f"there is no channel {quoted(name)}{nearest(str(name), self.names)}; "
-                f"the channels are {', '.join(map(quoted, self.names))}"
-            )
-        return self.names.index(name)
+        return position(name, self.names)
 
     def indices(self, names: Iterable[str]) -> tuple[int, ...]:
         """Return the positions of some channels, in the order of the system.
@@ -415,7 +422,8 @@ def with_links(
 
 def _listed(value: Any, where: str) -> list[Any]:
     """Return the matrices of all channels as a list."""
-    if isinstance(value, (str, bytes, Mapping)) or not hasattr(value, "__iter__"):
+    one = isinstance(value, (str, bytes, Mapping, Matrix))
+    if one or not hasattr(value, "__iter__"):
         raise InputError(
             f"expected a list of matrices, one for each channel, found {type(value).__name__}",
             where=where,

@@ -270,6 +270,7 @@ def save_system(system: MultiChannelSystem, path: str | os.PathLike[str]) -> Non
     InputError
         If the file cannot be written.
     """
+    InputError.require(system, MultiChannelSystem, "system")
     write_text(path, system_text(system))
 
 

@@ -7,8 +7,9 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-from mcexact.answer.formats import count, cut, polynomial
+from mcexact.answer.formats import count, cut
 from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.shortened import polynomial
 from mcexact.report.text import Table, shorten
 
 _MOST_ROWS = 60

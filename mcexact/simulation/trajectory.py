@@ -180,6 +180,7 @@ def simulate(
     >>> [snapshot.inputs for snapshot in run.snapshots]
     [[[Fraction(-3, 2)]], [[Fraction(-3, 4)]], [[Fraction(-3, 8)]]]
     """
+    InputError.require(system, MultiChannelSystem, "system")
     given = system
     system, found = with_links(system, graph)
     discrete = is_discrete(system.time)

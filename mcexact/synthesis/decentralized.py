@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from mcexact.errors import InputError
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.asking import request_for
 from mcexact.synthesis.design import Design
@@ -85,6 +86,7 @@ def design_decentralized(
     mcexact.errors.Impossible: no linear time-invariant decentralized control moves the mode 1, \
 fixed by s = {1}, and it is not fast enough
     """
+    InputError.require(system, MultiChannelSystem, "system")
     given = system, agent, spectrum, rate, radius, arithmetic, progress
     request = request_for(*given, aims=aims, avoids_fixed_modes=True)
     network = decentralized_network(system)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any, Literal
 
+from mcexact.errors import InputError
 from mcexact.exact.floats import Rounding
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_graph
@@ -99,6 +100,7 @@ def design_observer(
     mcexact.errors.Impossible: the error system for these F_i is not complete: no constant K_i, \
 H_ij let one agent control and observe all estimation errors
     """
+    InputError.require(system, MultiChannelSystem, "system")
     system, graph = with_graph(system, graph)
     request = request_for(system, agent, spectrum, rate, radius, arithmetic, progress)
     proposals = observers(system, graph, request, gains=gains, order=order, rounding=rounding)

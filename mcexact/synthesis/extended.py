@@ -7,7 +7,7 @@ from math import inf
 from typing import Any, Literal
 
 from mcexact.derived.extended import Share
-from mcexact.errors import Impossible, LimitReached, McexactError
+from mcexact.errors import Impossible, InputError, LimitReached, McexactError
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_graph
 from mcexact.synthesis.asking import request_for
@@ -113,6 +113,7 @@ def design_extended(
 the modes that are not fast enough: agents 2 and 3 need 1 shared state of other agents, and can \
 receive from nobody
     """
+    InputError.require(system, MultiChannelSystem, "system")
     request = request_for(system, agent, spectrum, rate, radius, arithmetic, progress, aims=aims)
 
     def attempt(request: Request) -> Design:

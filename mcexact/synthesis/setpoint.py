@@ -129,6 +129,7 @@ def design_setpoint(
     mcexact.errors.Impossible: no equilibrium holds set-points r with (1) r ≠ 0: 0 is an \
 invariant zero of the plant
     """
+    InputError.require(system, MultiChannelSystem, "system")
     system, graph = with_links(system, graph)
     if method not in (None, "observer", "extended"):
         raise UsageError(f'expected "observer" or "extended", found {method!r}', where="method")

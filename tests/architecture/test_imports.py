@@ -25,9 +25,9 @@ STAGE = {
     "sweeps": 8,
     "reproduce": 9,
 }
-BESIDE = {"checker", "testing", "cli", "errors"}
+BESIDE = {"checker", "testing", "cli", "errors", "shown"}
 EXACT_STAGES = {"exact", "model", "derived", "answer", "analysis", "checker"}
-SHOWN = {"answer", "model", "exact", "simulation", "errors"}
+SHOWN = {"answer", "model", "exact", "simulation", "errors", "shown"}
 """What a report may import: it shows answers, accounts and trajectories, and decides nothing."""
 MODULES = sorted(PACKAGE.rglob("*.py"))
 
@@ -69,7 +69,7 @@ def may_import(importer: str, imported: str) -> bool:
         return True
     if importer == "__init__":  # only names, loaded when they are used
         return True
-    if imported == "errors":
+    if imported in {"errors", "shown"}:
         return importer != "checker"
     if imported == "checker":
         # The independent checker is called, never built upon.

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from mcexact.errors import FloatRefused, InputError, UsageError
+from mcexact.errors import InputError, UsageError
 from mcexact.exact.location import StabilityRegion, is_hurwitz, is_schur
 from mcexact.exact.polynomial import Polynomial, product
 from tests.exact.draws import polynomials
@@ -101,8 +101,7 @@ def test_a_region_of_an_unknown_time_is_refused():
         ("continuous", Fraction(-1), "expected a rate above 0"),
         ("discrete", 0, "expected a radius above 0 and at most 1"),
         ("discrete", Fraction(3, 2), "expected a radius above 0 and at most 1, found 3/2"),
-        ("discrete", 0.5, "expected an exact rate or radius, found 0.5"),
-        ("continuous", True, "expected an exact rate or radius, found True"),
+        ("discrete", 1.5, "expected a radius above 0 and at most 1, found 3/2"),
     ],
 )
 def test_a_bound_out_of_range_is_wrong_usage(time, bound, message):
@@ -117,8 +116,20 @@ def test_the_bound_of_the_other_time_is_wrong_usage():
         StabilityRegion.of("discrete", rate=1)
     with pytest.raises(UsageError, match="give a bound or a radius, not both"):
         StabilityRegion.of("discrete", radius=1, bound=1)
-    with pytest.raises(FloatRefused, match="rate"):
-        StabilityRegion.of("continuous", rate=0.5)
+
+
+@pytest.mark.parametrize("tenth", [0.1, np.float64(0.1), np.float32(0.1), "0.1", "1/10"])
+def test_a_float_asks_for_the_decimal_that_prints_it(tenth):
+    assert StabilityRegion.of("continuous", rate=tenth).bound == Fraction(1, 10)
+    assert StabilityRegion("discrete", tenth) == StabilityRegion.of("discrete", radius="1/10")
+
+
+@pytest.mark.parametrize("rate", [True, float("nan"), float("inf"), 1j, "fast"])
+def test_what_is_not_a_finite_rational_number_is_no_rate(rate):
+    with pytest.raises(InputError, match=r"^rate: "):
+        StabilityRegion("continuous", rate)
+    with pytest.raises(InputError, match=r"^rate: "):
+        StabilityRegion.of("continuous", rate=rate)
 
 
 def test_a_bound_as_certificates_write_it_may_be_the_rate_0():

@@ -6,7 +6,7 @@ from mcexact.analysis.structure.transfer_graph import transfer_graph
 from mcexact.answer.assignability import Assignability, MinimalRealization, SpectrumBlock
 from mcexact.answer.transfer_graph import TransferGraph
 from mcexact.derived.modular_system import generator, residue_systems
-from mcexact.errors import InternalError
+from mcexact.errors import InputError, InternalError
 from mcexact.exact.invariant_subspace import controllable_subspace, krylov_rows
 from mcexact.exact.matrix import Matrix
 from mcexact.model.system import MultiChannelSystem
@@ -39,6 +39,7 @@ def assignability(
     >>> found.undivided, [(block.channels, block.dimension) for block in found.blocks]
     (False, [(('1',), 1), (('2',), 1)])
     """
+    InputError.require(system, MultiChannelSystem, "system")
     graph = transfer_graph(system) if graph is None else graph
     rng = generator(system, "assignability")
     realizations, degrees = [], []

@@ -27,7 +27,7 @@ from mcexact.answer.completeness import (
 )
 from mcexact.answer.fixed_spectrum import ByBlocks, FixedSpectrum
 from mcexact.derived.modular_system import ModularSystem, generator, lifted_gains, residue_systems
-from mcexact.errors import InternalError
+from mcexact.errors import InputError, InternalError
 from mcexact.exact.invariant_subspace import controllable_subspace
 from mcexact.exact.matrix import Matrix
 from mcexact.model.system import MultiChannelSystem
@@ -66,6 +66,7 @@ def completeness(
     >>> completeness(MultiChannelSystem([], [[], []], [[], []])).complete
     False
     """
+    InputError.require(system, MultiChannelSystem, "system")
     if spectrum is None:
         spectrum = fixed_spectrum(system)
     rng = generator(system, "completeness")

@@ -12,6 +12,7 @@ from mcexact.analysis.fixed_modes.single_channel_gains import single_channel_gai
 from mcexact.answer.single_channel_gains import SingleChannelGains
 from mcexact.derived.error_system import error_system
 from mcexact.derived.feedback import checked_gains
+from mcexact.errors import InputError
 from mcexact.exact.matrix import Matrix
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_graph
@@ -92,6 +93,7 @@ def error_gains(
     >>> error_gains(alone, [[[0]], [[0]]]).exists
     False
     """
+    InputError.require(system, MultiChannelSystem, "system")
     system, graph = with_graph(system, graph)
     exact = checked_gains(system, feedback, [system.n] * system.m)
     error = error_system(system, exact)

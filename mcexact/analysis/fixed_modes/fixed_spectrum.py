@@ -26,7 +26,7 @@ from mcexact.answer.fixed_spectrum import (
     TwoPolynomials,
 )
 from mcexact.derived.modular_system import closed_loop, generator, lifted, lifted_gains
-from mcexact.errors import LimitReached
+from mcexact.errors import InputError, LimitReached
 from mcexact.exact.location import StabilityRegion, Time
 from mcexact.exact.modular import polynomial_residues, random_matrix
 from mcexact.exact.polynomial import Polynomial, product
@@ -73,6 +73,7 @@ def fixed_spectrum(system: MultiChannelSystem) -> FixedSpectrum:
     >>> fixed_spectrum(MultiChannelSystem([[1]], [[[1]]], [[[1]]])).empty
     True
     """
+    InputError.require(system, MultiChannelSystem, "system")
     blocks = bounded_blocks(system)
     if not modes_left(blocks):
         return _found(system, (), None, ByBlocks(blocks, None, ()))

@@ -83,6 +83,7 @@ def pencil_rank(system: MultiChannelSystem, subset: Iterable[str], mode: Any) ->
     >>> pencil_rank(system, [], 3).rank
     2
     """
+    InputError.require(system, MultiChannelSystem, "system")
     p = _irreducible(mode)
     inside = system.indices(subset)
     M0, M1 = pencil(system, inside)
@@ -115,6 +116,7 @@ def pencil_ranks(
     spectrum : ClosedLoopSpectrum, optional
         ``open_loop_spectrum(system)``, if it is known already.
     """
+    InputError.require(system, MultiChannelSystem, "system")
     names = system.named(system.indices(subset))
     found = open_loop_spectrum(system) if spectrum is None else spectrum
     return tuple(pencil_rank(system, names, mode) for mode, _ in found.polynomial.factor())

@@ -24,7 +24,7 @@ from mcexact.derived.modular_system import (
     generator,
     residue_systems,
 )
-from mcexact.errors import InternalError, UsageError
+from mcexact.errors import InputError, InternalError, UsageError
 from mcexact.exact.blocks import hstack
 from mcexact.exact.invariant_subspace import controllable_subspace
 from mcexact.exact.linear_algebra import solve_nonsingular
@@ -102,6 +102,7 @@ def single_channel_gains(
     >>> single_channel_gains(apart, "1", want="controllable").exists
     False
     """
+    InputError.require(system, MultiChannelSystem, "system")
     if want not in SIDES:
         raise UsageError(f"expected one of {', '.join(SIDES)}, found {want!r}")
     if cyclic and want != "both":

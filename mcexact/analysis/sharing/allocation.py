@@ -20,7 +20,7 @@ from mcexact.answer.shared_dimensions import SharedDimensions
 from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.derived.extended import Share, checked_share, extended_system
 from mcexact.derived.modular_system import generator
-from mcexact.errors import UsageError
+from mcexact.errors import InputError, UsageError
 from mcexact.exact.invariant_subspace import controllable_subspace
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.rational import Entry, as_fraction
@@ -64,6 +64,7 @@ def shared_dimension_bound(
     >>> shared_dimension_bound(plant, NeighborGraph.ring(plant.names)).deficiency
     1
     """
+    InputError.require(system, MultiChannelSystem, "system")
     system, _ = with_graph(system, graph)
     return deficiency(base_system(system, checked_share(share)))
 
@@ -134,6 +135,7 @@ def minimal_shared_dimensions(
     >>> minimal_shared_dimensions(plant, NeighborGraph.empty(plant.names)).feasible
     False
     """
+    InputError.require(system, MultiChannelSystem, "system")
     system, found = plant_with_graph(system, graph, share)
     program = _program(system.m, costs, upper)
     region = StabilityRegion.asked(system.time, region, rate, radius)

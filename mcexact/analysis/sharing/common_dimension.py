@@ -8,6 +8,7 @@ from mcexact.analysis.sharing.separation import absence, violated_subsets
 from mcexact.answer.common_dimension import CommonDimension
 from mcexact.derived.extended import Share, extended_system
 from mcexact.derived.modular_system import generator
+from mcexact.errors import InputError
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 
@@ -48,6 +49,7 @@ def common_dimension(
     >>> common_dimension(plant, NeighborGraph.empty(plant.names)).feasible
     False
     """
+    InputError.require(system, MultiChannelSystem, "system")
     system, found = plant_with_graph(system, graph, share)
     base = base_system(system, share)
     rng = generator(base, CommonDimension.kind)

@@ -136,6 +136,7 @@ def minimal_communication(
     >>> minimal_communication(plant, NeighborGraph.empty(plant.names)).added
     (('1', '2'),)
     """
+    InputError.require(system, MultiChannelSystem, "system")
     given, found = with_links(system, graph)
     links = _checked(given.with_neighbors(found), found, dimensions, share, forbidden)
     plant, names = links.plant, links.plant.names

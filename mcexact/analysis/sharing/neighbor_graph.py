@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from mcexact.answer.neighbor_graph import NeighborGraphVerdict
+from mcexact.errors import InputError
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_graph
 
@@ -23,5 +24,6 @@ def neighbor_graph(
     UsageError
         If there is no neighbor graph.
     """
+    InputError.require(system, MultiChannelSystem, "system")
     system, graph = with_graph(system, graph)
     return NeighborGraphVerdict(system, strongly_connected=graph.is_strongly_connected())

@@ -8,7 +8,7 @@ from mcexact.analysis.engine import located
 from mcexact.answer.closed_loop_spectrum import ClosedLoopSpectrum
 from mcexact.answer.loop_spectrum import LoopSpectrum
 from mcexact.derived.modular_system import generator
-from mcexact.errors import InternalError
+from mcexact.errors import InputError, InternalError
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
@@ -62,6 +62,7 @@ def open_loop_spectrum(system: MultiChannelSystem) -> ClosedLoopSpectrum:
     >>> str(open_loop_spectrum(plant).polynomial)
     'x^2 + 3*x + 2'
     """
+    InputError.require(system, MultiChannelSystem, "system")
     polynomial = characteristic_polynomial(system.A)
     seed = generator(system, ClosedLoopSpectrum.kind).getrandbits(64)
     moduli = agreeing_moduli([(system.A, polynomial)], seed)

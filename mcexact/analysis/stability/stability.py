@@ -18,7 +18,7 @@ from mcexact.answer.stability import (
     Transformation,
 )
 from mcexact.derived.modular_system import generator
-from mcexact.errors import UsageError
+from mcexact.errors import InputError, UsageError
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
@@ -126,6 +126,7 @@ def certify_stability(
     >>> certify_stability(matrix_system(M), rate=1).stable
     False
     """
+    InputError.require(loop, MultiChannelSystem, "loop")
     region = StabilityRegion.asked(loop.time, region, rate, radius) or StabilityRegion(loop.time)
     if method not in {None, *get_args(Method)}:
         raise UsageError(f'expected "polynomial" or "lyapunov", found {method!r}', where="method")

@@ -8,7 +8,7 @@ from random import Random
 
 from mcexact.answer.complementary_subsystem import ComplementarySubsystem
 from mcexact.derived.modular_system import generator, residue_systems
-from mcexact.errors import InternalError, UsageError
+from mcexact.errors import InputError, InternalError, UsageError
 from mcexact.exact.blocks import hstack, vstack
 from mcexact.exact.invariant_form import companions, invariant_form
 from mcexact.exact.invariant_subspace import controllable_subspace
@@ -74,6 +74,7 @@ def complementary_subsystem(
     >>> found.transfer_zero, [(str(zeros.polynomial), zeros.rank) for zeros in found.zeros]
     (True, [('x - 1', 2)])
     """
+    InputError.require(system, MultiChannelSystem, "system")
     inside = system.indices(subset)
     if not 0 < len(inside) < system.m:
         raise UsageError("expected a nonempty proper subset of the channels")

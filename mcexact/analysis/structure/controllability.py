@@ -18,6 +18,7 @@ from mcexact.answer.fixed_spectrum import ByBlocks as FixedByBlocks
 from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.derived.dual import dual
 from mcexact.derived.modular_system import generator
+from mcexact.errors import InputError
 from mcexact.exact.invariant_subspace import controllable_subspace
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.matrix import Matrix
@@ -62,6 +63,7 @@ def joint_controllability(
     >>> alone.controllable, str(alone.uncontrollable_polynomial)
     (False, 'x - 2')
     """
+    InputError.require(system, MultiChannelSystem, "system")
     return _decided(system, channels, lambda: _own(system, spectrum))
 
 
@@ -171,4 +173,5 @@ def joint_observability(
         The answer about ``dual(system)``: ``observable`` says whether (C_T, A) is, ``dimension`` is
         the rank of [C_T; C_T A; …], and ``uncontrollable_polynomial`` has the unobservable modes.
     """
+    InputError.require(system, MultiChannelSystem, "system")
     return _decided(dual(system), channels, lambda: transposed_blocks(_own(system, spectrum)))

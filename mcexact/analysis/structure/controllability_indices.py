@@ -10,7 +10,7 @@ from itertools import pairwise
 from mcexact.answer.controllability_indices import ControllabilityIndices
 from mcexact.derived.dual import dual
 from mcexact.derived.modular_system import generator, residue_systems
-from mcexact.errors import InternalError
+from mcexact.errors import InputError, InternalError
 from mcexact.exact.blocks import hstack, vstack
 from mcexact.exact.linear_algebra import solve_nonsingular
 from mcexact.exact.matrix import Matrix
@@ -59,6 +59,7 @@ def controllability_indices(
     >>> controllability_indices(MultiChannelSystem(A, B, [[[1, 0, 0]]] * 2), ["2"]).index is None
     True
     """
+    InputError.require(system, MultiChannelSystem, "system")
     T = range(system.m) if channels is None else system.indices(channels)
     B = system.input_matrix(T)
     rng = generator(system, "controllability_indices")
@@ -81,6 +82,7 @@ def observability_indices(
     channels : iterable of str, optional
         T, names of channels, by default all.
     """
+    InputError.require(system, MultiChannelSystem, "system")
     return controllability_indices(dual(system), channels)
 
 

@@ -7,7 +7,7 @@ from functools import reduce
 
 from mcexact.answer.setpoint import SetpointSolvability
 from mcexact.derived.modular_system import generator
-from mcexact.errors import InternalError
+from mcexact.errors import InputError, InternalError
 from mcexact.exact.blocks import block, hstack, vstack
 from mcexact.exact.linear_algebra import (
     characteristic_polynomial,
@@ -52,6 +52,7 @@ def setpoint_solvability(system: MultiChannelSystem) -> SetpointSolvability:
     >>> setpoint_solvability(wash).invariant_zero
     True
     """
+    InputError.require(system, MultiChannelSystem, "system")
     n, B, C = system.n, system.input_matrix(), system.output_matrix()
     place, unit, none = steady_point(system.time), Matrix.identity(n), Matrix.zeros
     lower = none(C.nrows, B.ncols)

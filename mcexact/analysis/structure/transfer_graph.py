@@ -17,7 +17,7 @@ from mcexact.analysis.engine import (
 )
 from mcexact.answer.transfer_graph import TransferGraph
 from mcexact.derived.modular_system import generator, residue_systems
-from mcexact.errors import InternalError
+from mcexact.errors import InputError, InternalError
 from mcexact.exact.invariant_subspace import InvariantSubspace, controllable_subspace
 from mcexact.model.system import MultiChannelSystem
 
@@ -48,6 +48,7 @@ def transfer_graph(system: MultiChannelSystem) -> TransferGraph:
     >>> graph.strongly_connected
     False
     """
+    InputError.require(system, MultiChannelSystem, "system")
     if is_large_and_sparse(system):
         found = _by_structure(system)
         if found is not None:
