@@ -4,10 +4,11 @@ PYTHON ?= python3
 BIN := .venv/bin
 CORE := .venv/.core
 STAMP := .venv/.installed
+DOCS := build/docs/environment
 PIP := $(BIN)/python -m pip install --quiet --quiet --disable-pip-version-check
 GALLERY := mcexact/model/gallery
 
-.PHONY: absence corpus coverage mutants paper-mutants records reproduce look ledger sentences demo test lint types tests matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs
+.PHONY: absence corpus coverage docs mutants paper-mutants records reproduce look ledger sentences demo test lint types tests matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs
 
 demo: $(CORE)
 	$(BIN)/mcexact demo
@@ -96,6 +97,12 @@ paper-mutants: $(STAMP)
 records: $(STAMP)
 	$(BIN)/python -m mcexact.crosschecks.recording
 
+# The documentation in build/docs/html, in an environment of its own; every warning is an error, and
+# the notebooks are executed: minutes.
+docs: $(DOCS)/.installed
+	$(DOCS)/bin/sphinx-build --quiet --fail-on-warning --keep-going -b html docs build/docs/html
+	@echo "The documentation is in build/docs/html/index.html"
+
 # The reports in a browser, at two widths, light and dark; screenshots in look/.
 look: $(STAMP)
 	@command -v chromium >/dev/null || command -v google-chrome >/dev/null || \
@@ -138,3 +145,9 @@ $(STAMP): $(CORE)
 	@echo "Installing what the tests need, too: one to three minutes ..."
 	@$(PIP) --editable '.[dev]'
 	@touch $(STAMP)
+
+$(DOCS)/.installed: pyproject.toml
+	@echo "Installing what the documentation needs into $(DOCS): one to three minutes ..."
+	@$(PYTHON) -m venv $(DOCS)
+	@$(DOCS)/bin/python -m pip install --quiet --quiet --disable-pip-version-check --editable '.[docs]'
+	@touch $@

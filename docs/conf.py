@@ -1,0 +1,79 @@
+"""How Sphinx builds the documentation: `make docs`, in which every warning is an error."""
+
+from __future__ import annotations
+
+import re
+import sys
+from pathlib import Path
+
+from sphinx.application import Sphinx
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+from generated_pages import write_pages
+
+import mcexact
+
+project = "mcexact"
+author = "the mcexact authors"
+copyright = "the mcexact authors"
+release = version = mcexact.__version__
+
+extensions = [
+    "sphinx.ext.autodoc",
+    "sphinx.ext.autosummary",
+    "sphinx.ext.mathjax",
+    "numpydoc",
+    "myst_nb",
+    "sphinx_copybutton",
+]
+exclude_patterns = [f"generated/{name}.md" for name in ("exhibits", "designs", "speed")]
+templates_path = ["_templates"]
+default_role = "py:obj"
+nitpicky = False
+
+# The three notebooks are executed whenever the documentation is built.
+nb_execution_mode = "force"
+nb_execution_raise_on_error = True
+nb_execution_timeout = 300
+myst_enable_extensions = ["dollarmath", "colon_fence", "deflist", "fieldlist"]
+myst_heading_anchors = 3
+
+autosummary_generate = True
+autosummary_imported_members = True
+autodoc_typehints = "none"
+numpydoc_show_class_members = False
+numpydoc_class_members_toctree = False
+copybutton_prompt_text = r">>> |\.\.\. |\$ "
+copybutton_prompt_is_regexp = True
+
+html_theme = "pydata_sphinx_theme"
+html_title = "mcexact"
+html_static_path = ["_static"]
+html_css_files = ["mcexact.css"]
+html_show_sourcelink = False
+html_theme_options = {
+    "show_toc_level": 2,
+    "navbar_align": "left",
+    "secondary_sidebar_items": ["page-toc"],
+    "footer_start": ["copyright"],
+    "footer_end": [],
+    "pygments_light_style": "a11y-high-contrast-light",
+    "pygments_dark_style": "a11y-high-contrast-dark",
+}
+
+write_pages(Path(__file__).parent)
+
+
+def plain_bars(
+    app: Sphinx, what: str, name: str, obj: object, options: object, lines: list[str]
+) -> None:
+    """Keep |λ| and K* from being read as markup: docstrings here are plain text."""
+    for k, line in enumerate(lines):
+        if "``" not in line and ">>>" not in line:
+            lines[k] = re.sub(r"(?<!\\)([|*])", r"\\\1", line)
+
+
+def setup(app: Sphinx) -> None:
+    """Let docstrings pass through before numpydoc reads them."""
+    app.connect("autodoc-process-docstring", plain_bars, priority=400)

@@ -1,0 +1,264 @@
+"""Pages that are made from the package itself, so that they are as it is."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import click
+
+import mcexact
+from mcexact.cli import command_line
+from mcexact.crosschecks.gallery import exhibits, shown
+from mcexact.model import gallery
+
+ROOT = Path(__file__).parents[1]
+ROWS = ROOT / "benchmarks" / "rows"
+
+
+def write_pages(folder: Path) -> None:
+    """Write all generated pages and copy the notebooks, both below ``generated/``."""
+    made = folder / "generated"
+    shutil.rmtree(made, ignore_errors=True)
+    (made / "notebooks").mkdir(parents=True)
+    for notebook in sorted((ROOT / "notebooks").glob("*.ipynb")):
+        shutil.copy(notebook, made / "notebooks")
+    pages = {
+        "api.md": api_page(),
+        "gallery.md": gallery_page(),
+        "commands.md": commands_page(),
+        "certificates.md": certificates_page(),
+        "exhibits.md": _table(_exhibits()),
+        "designs.md": _table(_by_hand()),
+        "speed.md": _table(_speed()),
+        "formats.md": formats_page(folder),
+        "glossary.md": glossary_page(),
+    }
+    for name, text in pages.items():
+        (made / name).write_text(text, encoding="utf-8")
+
+
+# The names of `mcexact.__init__.pyi`, by the folder that each comes from.
+TOPICS = {
+    "model": "Systems, controllers and their files",
+    "exact": "Exact numbers",
+    "derived": "Systems made from systems",
+    "analysis": "Questions",
+    "synthesis": "Design and certification",
+    "simulation": "Simulation",
+    "sweeps": "Many systems",
+    "crosschecks": "Comparison with floating point",
+    "answer": "Answers and certificates",
+    "checker": "The checker's verdict",
+    "errors": "Errors",
+}
+
+
+def api_page() -> str:
+    """Every public name under the topic of its folder; numpydoc sets the docstrings."""
+    stub = (ROOT / "mcexact" / "__init__.pyi").read_text(encoding="utf-8")
+    origins = dict(
+        reversed(pair) for pair in re.findall(r"^from \.(\w+)[\w.]* import \(?\s*(\w+)", stub, re.M)
+    )
+    lines = [
+        "# The Python interface",
+        "",
+        "These are all public names. Other names may change without notice. Every example on these",
+        "pages runs as a test.",
+        "",
+    ]
+    topics = {**TOPICS, **{each: each for each in sorted({*origins.values()} - TOPICS.keys())}}
+    for folder, title in topics.items():
+        chosen = [name for name in mcexact.__all__ if origins.get(name) == folder]
+        if chosen:
+            lines += [f"## {title}", "", "```{eval-rst}", ".. currentmodule:: mcexact", ""]
+            lines += [".. autosummary::", "   :toctree: api", ""]
+            lines += [*(f"   {name}" for name in chosen), "```", ""]
+    lines += [
+        "## Drawn systems for tests",
+        "",
+        "```{eval-rst}",
+        ".. currentmodule:: mcexact.testing",
+        "",
+        ".. autosummary::",
+        "   :toctree: api",
+        "",
+        *(f"   {name}" for name in _strategies()),
+        "```",
+        "",
+    ]
+    return "\n".join(lines)
+
+
+def _strategies() -> list[str]:
+    """What `mcexact.testing` exports."""
+    import mcexact.testing
+
+    return sorted(name for name in mcexact.testing.__all__ if name[0] != "_")
+
+
+def gallery_page() -> str:
+    """One row for each plant of the gallery: its size, its fixed modes, and its source."""
+    lines = [
+        "# Gallery",
+        "",
+        "These plants ship with the package, as system files and by name. Decimals are exact as",
+        "typed. The fixed factors are what two independent programs computed exactly.",
+        "",
+        "| plant | n | m | time | fixed modes are the roots of | source |",
+        "|---|---|---|---|---|---|",
+    ]
+    for name in gallery.names():
+        plant, known = gallery.load(name), _expected(name)
+        factors = known.get("fixed_factors")
+        fixed = (
+            "not recorded"
+            if factors is None
+            else " and ".join(f"`{_tidy(each['factor'])}`" for each in factors) or "none"
+        )
+        source = str(plant.source or known.get("source") or "").replace("|", "\\|")
+        lines.append(f"| `{name}` | {plant.n} | {plant.m} | {plant.time} | {fixed} | {source} |")
+    return "\n".join([*lines, ""])
+
+
+def _expected(name: str) -> dict[str, Any]:
+    try:
+        return gallery.expected(name)
+    except KeyError:
+        return {}
+
+
+def _tidy(factor: str) -> str:
+    """A factor without signs in brackets."""
+    return re.sub(r"\+ \(-([^()]*)\)", r"- \1", factor)
+
+
+def commands_page() -> str:
+    """The help of every command, as it is printed."""
+    lines = ["# The command line", ""]
+    context = click.Context(command_line, info_name="mcexact", max_content_width=88)
+    for path, command in _commands(command_line, context, ("mcexact",)):
+        title = " ".join(path)
+        lines += [f"{'##' if len(path) < 3 else '###'} `{title}`", "", "```text"]
+        with click.Context(command, info_name=title, max_content_width=88) as own:
+            lines += [command.get_help(own), "```", ""]
+    return "\n".join(lines)
+
+
+def _commands(
+    group: click.Group, context: click.Context, path: tuple[str, ...]
+) -> Iterator[tuple[tuple[str, ...], click.Command]]:
+    """Every command of a group, and of the groups in it."""
+    for name in group.list_commands(context):
+        command = group.get_command(context, name)
+        if command is not None:
+            yield (*path, name), command
+            if isinstance(command, click.Group):
+                yield from _commands(command, context, (*path, name))
+
+
+def certificates_page() -> str:
+    """FORMAT.md, with the paths of files in the repository in the place of links to them."""
+    text = (ROOT / "mcexact" / "answer" / "FORMAT.md").read_text(encoding="utf-8")
+    return re.sub(r"\[([^\]]+)\]\((?!#|http)([^)]+)\)", r"\1 (`\2`)", text)
+
+
+def formats_page(folder: Path) -> str:
+    """The list of the pages about formats."""
+    pages = sorted(path.stem for path in (folder / "formats").glob("*.md"))
+    return "\n".join(
+        [
+            "# Formats",
+            "",
+            "Every file that mcexact reads or writes has a format with a name and a version.",
+            "",
+            "```{toctree}",
+            ":maxdepth: 1",
+            "",
+            *(f"../formats/{stem}" for stem in pages),
+            "certificates",
+            "```",
+            "",
+        ]
+    )
+
+
+def glossary_page() -> str:
+    """The glossary of ARCHITECTURE.md, without the words that are not used."""
+    text = (ROOT / "ARCHITECTURE.md").read_text(encoding="utf-8")
+    table = text.partition("## Glossary")[2].partition("| term |")[2]
+    rows = [line.split("|")[1:3] for line in table.splitlines()[2:] if line.startswith("|")]
+    lines = [
+        "# Glossary",
+        "",
+        "One concept has one word, in this documentation and in the code.",
+        "",
+    ]
+    for term, meaning in rows:
+        lines += [term.strip(), f": {meaning.strip()}", ""]
+    return "\n".join(lines)
+
+
+def _table(lines: list[str]) -> str:
+    return "\n".join([*lines, ""])
+
+
+def _exhibits() -> list[str]:
+    """What was recorded in floating point beside what is true."""
+    lines = ["| system | question | recorded | exact |", "|---|---|---|---|"]
+    for found in map(shown, exhibits()):
+        cells = (
+            found.exhibit.name,
+            found.exhibit.question,
+            found.exhibit.record.floating,
+            found.here.exact,
+        )
+        lines.append("| " + " | ".join(str(cell).replace("|", "\\|") for cell in cells) + " |")
+    return lines
+
+
+def _rows(stem: str) -> list[dict[str, Any]]:
+    lines = (ROWS / f"{stem}.jsonl").read_text(encoding="utf-8").splitlines()
+    return [json.loads(line) for line in lines]
+
+
+def _by_hand() -> list[str]:
+    """Designs beside those that an engineer makes by hand from the usual functions."""
+    methods = ("local LQR", "local LQG", "python-control")
+    lines = [
+        "| plant and task | mcexact | " + " | ".join(methods) + " |",
+        "|---|---|" + "---|" * len(methods),
+    ]
+    for row in _rows("families"):
+        if row["answer"] != "designed" or not row.get("by hand"):
+            continue
+        cells = [_figures(row), *(_figures(row["by hand"].get(each)) for each in methods)]
+        lines.append(f"| {row['name']} | " + " | ".join(cells) + " |")
+    return lines
+
+
+def _figures(found: dict[str, Any] | None) -> str:
+    """The margin and the number of states of a controller, or that there is none."""
+    if found is None or found.get("margin") is None:
+        return "none"
+    return f"margin {found['margin']:.2f}, order {found['order']}"
+
+
+def _speed() -> list[str]:
+    """The kept times, beside those of numpy where it is the peer."""
+    lines = ["| question | measured | | |", "|---|---|---|---|"]
+    for part in _rows("speed"):
+        for row in part["rows"]:
+            if row.get("unit") != "x":
+                continue
+            value = f"{row['ratio']:.3g} {row.get('unit', '')}".strip()
+            short = "" if row.get("holds") is not False else "**falls short**"
+            detail = str(row.get("detail", "")).replace("|", "\\|")
+            lines.append(
+                f"| {row['question']} | {value} | {row.get('limit', '')} | {detail} {short} |"
+            )
+    return lines
