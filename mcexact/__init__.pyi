@@ -90,6 +90,8 @@ from .model.controller import Controller as Controller
 from .model.controller import LinearMap as LinearMap
 from .model.controller_file import load_controller as load_controller
 from .model.controller_file import save_controller as save_controller
+from .model.formats.files import load_system as load_system
+from .model.formats.files import save_system as save_system
 from .model.local_controllers import local_controllers as local_controllers
 from .model.neighbor_graph import NeighborGraph as NeighborGraph
 from .model.parametric import ParametricSystem as ParametricSystem
@@ -100,8 +102,6 @@ from .model.stacked import from_stacked as from_stacked
 from .model.statespace import from_statespace as from_statespace
 from .model.statespace import loop_from_statespace as loop_from_statespace
 from .model.system import MultiChannelSystem as MultiChannelSystem
-from .model.system_file import load_system as load_system
-from .model.system_file import save_system as save_system
 from .model.to_statespace import to_statespace as to_statespace
 from .simulation.network import SignalNotReceived as SignalNotReceived
 from .simulation.trajectory import Trajectory as Trajectory

@@ -101,7 +101,7 @@ def command(
             raise click.UsageError("--export checks nothing: give it alone")
         _export(export)
         return 0
-    asking = system, controller, expect
+    asking = None if system is None else _plant_file(system), controller, expect
     if wrong := misuse(certificates, manifest, asking, bool(timeout or max_memory)):
         raise click.UsageError(wrong)
     found, clock = [], Clock(timeout)
@@ -127,6 +127,32 @@ def command(
             raise
         return UNWRITTEN
     return status_of(found)
+
+
+def _plant_file(system: str) -> str:
+    """The JSON file of a plant, which is what the checker reads.
+
+    Raises
+    ------
+    InputError
+        If it is a file of another kind.
+    """
+    from importlib import resources
+
+    from mcexact.errors import InputError
+    from mcexact.model import gallery
+    from mcexact.model.formats.recognize import GALLERY, is_foreign
+
+    if system.startswith(GALLERY):
+        name = gallery.require_name(system.removeprefix(GALLERY))
+        return str(resources.files(gallery).joinpath(f"{name}.json"))
+    if is_foreign(system):
+        raise InputError(
+            "the checker reads JSON alone: convert the plant by 'mcexact convert', "
+            "with the rounding it was analyzed with",
+            where=system,
+        )
+    return system
 
 
 def _export(file: Path) -> None:

@@ -20,6 +20,7 @@ COMMANDS = (
     "reproduce",
     "demo",
     "sample",
+    "convert",
     "c2d",
     "sweep",
 )

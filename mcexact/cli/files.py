@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def read(file: str, limits: Mapping[str, int], deadline: Deadline) -> bytes:
-    """Read the bytes of a file, or of standard input for ``-``.
+    """Read the bytes of a file, of standard input for ``-``, or what `read_input` takes besides.
 
     The parent process reads, since the child process has no standard input.  An idle pipe is waited
     for until the deadline.
@@ -31,11 +31,11 @@ def read(file: str, limits: Mapping[str, int], deadline: Deadline) -> bytes:
         If the deadline passes.
     """
     from mcexact.exact.rational import Limits
-    from mcexact.model.json_text import read_bytes
+    from mcexact.model.formats.recognize import read_input
 
     place = place_of(file)
     with InputError.inside(place), deadline.interrupting(f"reading {place}"):
-        return read_bytes(file, Limits(**limits))
+        return read_input(file, Limits(**limits))
 
 
 def system_in(place: str, data: bytes, limits: Mapping[str, int]) -> MultiChannelSystem:
@@ -47,10 +47,10 @@ def system_in(place: str, data: bytes, limits: Mapping[str, int]) -> MultiChanne
         If it is malformed.
     """
     from mcexact.exact.rational import Limits
-    from mcexact.model.system_file import read_system
+    from mcexact.model.formats.recognize import read_any
 
     with InputError.inside(place):
-        return read_system(data, limits=Limits(**limits))
+        return read_any(data, place, limits=Limits(**limits))
 
 
 def require_other(output: Path | None, *inputs: str | None) -> None:

@@ -150,12 +150,13 @@ class _Listed:
 
     def __init__(self, files: tuple[str, ...]) -> None:
         from mcexact.errors import InputError
+        from mcexact.model.formats.csv_folder import MARK
 
         self.paths: list[str] = []
         self._found: set[int] = set()
         self._skipped: list[tuple[str, str]] = []
         for file in files:
-            if not os.path.isdir(file):
+            if not os.path.isdir(file) or os.path.isfile(os.path.join(file, MARK)):
                 self.paths.append(file)
                 continue
             before = len(self.paths)
@@ -220,12 +221,12 @@ def _limited(job: Job, timeout: float | None, max_memory: int | None) -> dict[st
 def _read(path: str | os.PathLike[str], limits: Limits, timeout: float | None) -> bytes:
     """Read a file; waiting for a pipe is limited to the time allowed for a system."""
     from mcexact.cli.deadline import Deadline
-    from mcexact.model.json_text import read_bytes
+    from mcexact.model.formats.recognize import read_input
 
     if os.path.isfile(path):
-        return read_bytes(path, limits)
+        return read_input(path, limits)
     with Deadline(timeout).interrupting(f"reading {os.fspath(path)}"):
-        return read_bytes(path, limits)
+        return read_input(path, limits)
 
 
 def _write(folder: Path, record: Record, total: int) -> None:

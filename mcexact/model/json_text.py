@@ -119,9 +119,8 @@ def parse(data: bytes | str, limits: Limits = DEFAULT_LIMITS) -> Any:
     except RecursionError:
         raise _too_deep(limits) from None
     except json.JSONDecodeError as error:
-        raise InputError(
-            f"not JSON: {error.msg} at line {error.lineno}, column {error.colno}"
-        ) from None
+        said = "expected a value" if error.msg == "Expecting value" else error.msg
+        raise InputError(f"not JSON: {said} at line {error.lineno}, column {error.colno}") from None
     for depth, level in enumerate(_levels(document), start=1):
         if depth > limits.depth:
             raise _too_deep(limits)

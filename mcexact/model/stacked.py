@@ -66,20 +66,30 @@ def from_stacked(
     state = exact(A, "A")
     stacked_B = require_shape(exact(B, "B"), "B", state.nrows, None)
     stacked_C = require_shape(exact(C, "C"), "C", None, state.nrows)
-    columns = _parts(inputs, stacked_B.ncols, "inputs", "columns of B")
-    rows = _parts(outputs, stacked_C.nrows, "outputs", "rows of C")
+    return MultiChannelSystem(
+        state, *split_by_sizes(stacked_B, stacked_C, inputs, outputs), **options
+    )
+
+
+def split_by_sizes(
+    B: Matrix, C: Matrix, inputs: Iterable[int], outputs: Iterable[int]
+) -> tuple[list[Matrix], list[Matrix]]:
+    """Split stacked matrices into B_1 … B_m and C_1 … C_m.
+
+    Raises
+    ------
+    InputError
+        If the sizes do not add up to the columns of B and the rows of C.
+    """
+    columns = _parts(inputs, B.ncols, "inputs", "columns of B")
+    rows = _parts(outputs, C.nrows, "outputs", "rows of C")
     if len(columns) != len(rows):
         raise InputError(
             f"expected a number of outputs for each of the {len(columns)} channels, "
             f"found {len(rows)}",
             where="outputs",
         )
-    return MultiChannelSystem(
-        state,
-        [stacked_B.take(cols=part) for part in columns],
-        [stacked_C.take(rows=part) for part in rows],
-        **options,
-    )
+    return [B.take(cols=part) for part in columns], [C.take(rows=part) for part in rows]
 
 
 def _parts(sizes: Iterable[int], count: int, where: str, what: str) -> list[Sequence[int]]:

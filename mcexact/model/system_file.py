@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import json
-import os
 from typing import Any
 
-from mcexact.errors import InputError, place_of
+from mcexact.errors import InputError
 from mcexact.exact.location import require_time
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.rational import DEFAULT_LIMITS, Limits
-from mcexact.model.atomic import write_text
 from mcexact.model.canonical import canonical, numbers_of_any_length, sha256
 from mcexact.model.json_text import (
     expect_format,
@@ -21,7 +19,6 @@ from mcexact.model.json_text import (
     expect_string,
     kind_of,
     parse,
-    read_bytes,
     require_short_numbers,
 )
 from mcexact.model.matrix_entry import Table, require_square
@@ -43,26 +40,6 @@ from mcexact.model.system import MultiChannelSystem
 FORMAT = "mcexact-system/1"
 _REQUIRED = ("format", "time", "A", "channels")
 _OPTIONAL = ("name", "source", "sample_time", "neighbors", "delays", "D")
-
-
-def load_system(
-    path: str | os.PathLike[str], *, limits: Limits = DEFAULT_LIMITS
-) -> MultiChannelSystem:
-    """Read a system from a file.
-
-    Parameters
-    ----------
-    path : path
-        ``-`` is the standard input.
-    limits : Limits, optional
-
-    Raises
-    ------
-    InputError
-        If the file is missing, unreadable, too large or malformed; the message says where.
-    """
-    with InputError.inside(place_of(path)):
-        return read_system(read_bytes(path, limits), limits=limits)
 
 
 def read_system(data: bytes | str, *, limits: Limits = DEFAULT_LIMITS) -> MultiChannelSystem:
@@ -88,7 +65,20 @@ def read_system(data: bytes | str, *, limits: Limits = DEFAULT_LIMITS) -> MultiC
         ...
     mcexact.errors.InputError: unknown key 'chanels' (did you mean 'channels'?)
     """
-    document = expect_format(parse(data, limits), FORMAT)
+    system = read_document(parse(data, limits), limits)
+    require_short_numbers(data, limits)
+    return system
+
+
+def read_document(parsed: Any, limits: Limits = DEFAULT_LIMITS) -> MultiChannelSystem:
+    """Read a system from the parsed document of a system file.
+
+    Raises
+    ------
+    InputError
+        If it is malformed; the message says where.
+    """
+    document = expect_format(parsed, FORMAT)
     if "parameters" in document:
         raise InputError("a system with parameters is read by load_parametric_system")
     expect_object(document, None, _REQUIRED, _OPTIONAL)
@@ -105,7 +95,7 @@ def read_system(data: bytes | str, *, limits: Limits = DEFAULT_LIMITS) -> MultiC
     sample_time = None
     if "sample_time" in document:
         sample_time = read_number(document["sample_time"], "sample_time", limits)
-    system = MultiChannelSystem(
+    return MultiChannelSystem(
         A.matrix(),
         [B_i.matrix() for B_i in B],
         [C_i.matrix() for C_i in C],
@@ -116,8 +106,6 @@ def read_system(data: bytes | str, *, limits: Limits = DEFAULT_LIMITS) -> MultiC
         name=_optional_text(document, "name"),
         source=_optional_text(document, "source"),
     )
-    require_short_numbers(data, limits)
-    return system
 
 
 def _optional_text(document: dict[str, Any], key: str) -> str | None:
@@ -254,24 +242,6 @@ def digest(system: MultiChannelSystem | ParametricSystem) -> str:
         known = sha256(canonical_text(plant))
         object.__setattr__(plant, "_digest", known)
     return known
-
-
-def save_system(system: MultiChannelSystem, path: str | os.PathLike[str]) -> None:
-    """Write a system as a system file, completely or not at all.
-
-    Parameters
-    ----------
-    system : MultiChannelSystem
-        A derived system is written with its own matrices, as a plant.
-    path : path
-
-    Raises
-    ------
-    InputError
-        If the file cannot be written.
-    """
-    InputError.require(system, MultiChannelSystem, "system")
-    write_text(path, system_text(system))
 
 
 def system_text(system: MultiChannelSystem) -> str:

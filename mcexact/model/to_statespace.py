@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from mcexact.errors import UsageError
+from mcexact.errors import MissingExtra, UsageError
 from mcexact.exact.blocks import hstack, vstack
 from mcexact.exact.floats import matrix_to_float, to_float
 from mcexact.exact.location import is_discrete
@@ -42,7 +42,7 @@ def to_statespace(subject: Any, plant: MultiChannelSystem | None = None) -> Any:
     ------
     UsageError
         If it is something else, or a controller without its plant.
-    ImportError
+    MissingExtra
         If python-control is not installed.
 
     Notes
@@ -145,7 +145,8 @@ def _statespace(
     plant: MultiChannelSystem, parts: Parts, inputs: Sequence[str], outputs: Sequence[str]
 ) -> Any:
     """Make the system of python-control, with labels and the time domain of the plant."""
-    import control
+    with MissingExtra.named("control"):
+        import control
 
     dt: Any = 0
     if is_discrete(plant.time):

@@ -13,8 +13,9 @@ from mcexact.derived.drawn.draw import Draw, drawn_system
 from mcexact.errors import InputError, LimitReached, McexactError, OtherFormat, UsageError
 from mcexact.exact.rational import DEFAULT_LIMITS, Limits
 from mcexact.model.canonical import canonical, sha256
+from mcexact.model.formats.recognize import read_any
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import digest, read_system, system_text
+from mcexact.model.system_file import digest, system_text
 from mcexact.sweeps.questions import QUESTIONS
 
 Source = str | os.PathLike[str] | MultiChannelSystem | Draw
@@ -32,7 +33,7 @@ class Job:
     name : str
         The name in the record: the path, the system's name, or the seed.
     source : bytes or Draw
-        The text of a system file, or the description of a draw.
+        The contents of a system file, or the description of a draw.
     questions : tuple of str
     limits : Limits
         The limits on the system file.
@@ -58,7 +59,7 @@ class Job:
         """
         if isinstance(self.source, Draw):
             return drawn_system(self.source)
-        return read_system(self.source, limits=self.limits)
+        return read_any(self.source, self.name, limits=self.limits)
 
 
 def job(

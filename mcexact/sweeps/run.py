@@ -12,7 +12,7 @@ from typing import Any
 from mcexact.answer.check import checked
 from mcexact.errors import InternalError, McexactError
 from mcexact.exact.rational import DEFAULT_LIMITS, Limits
-from mcexact.model.json_text import read_bytes
+from mcexact.model.formats.recognize import read_input
 from mcexact.model.system_file import digest
 from mcexact.sweeps.jobs import Job, Outcome, Reader, Source, decide, entries, failure
 from mcexact.sweeps.questions import answered, chosen
@@ -30,7 +30,7 @@ def sweep(
     executor: Executor | None = None,
     workers: int = 1,
     limits: Limits = DEFAULT_LIMITS,
-    read: Reader = read_bytes,
+    read: Reader = read_input,
     work: Callable[[Job], Outcome] = decide,
 ) -> Iterator[Record]:
     """Ask the same questions about many systems.
@@ -38,7 +38,8 @@ def sweep(
     Parameters
     ----------
     sources : iterable
-        Paths of system files, `MultiChannelSystem`, `Draw`; consumed as processes become free.
+        Paths as `load_system` takes them, `MultiChannelSystem`, `Draw`; consumed as processes
+        become free.
     questions : iterable of str
         Names of questions that `analyze` asks by default and that need the plant alone.
     results : path, optional
@@ -51,7 +52,7 @@ def sweep(
     limits : Limits, optional
         The limits on the system files.
     read : callable, optional
-        A replacement for `read_bytes`, for example with a time limit.
+        A replacement for `read_input`, for example with a time limit.
     work : callable, optional
         A replacement for `decide`, for example with limits.
 

@@ -13,9 +13,9 @@ from mcexact.answer.codec import save_certificate
 from mcexact.cli import main
 from mcexact.exact.matrix import Matrix
 from mcexact.model import gallery
+from mcexact.model.formats.files import save_system
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import save_system
 
 PLANTS = ("liu2020-3ch-extended-n1", "lexalutyi-two-double-integrators")
 DESIGNS = ("observer", "decentralized", "extended", "setpoint")

@@ -17,7 +17,9 @@ def test_every_library_that_runs_in_the_tests_is_pinned_at_its_declared_minimum(
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     extras = project["optional-dependencies"]
     optional = [
-        each for name in ("plot", "control", "cluster", "pandas", "test") for each in extras[name]
+        each
+        for name in ("plot", "control", "cluster", "pandas", "yaml", "test")
+        for each in extras[name]
     ]
     declared = pairs(project["dependencies"] + optional, ">=")
     pinned = pairs((ROOT / "tests/oldest.txt").read_text(encoding="utf-8").splitlines(), "==")

@@ -24,8 +24,8 @@ from mcexact.cli import main
 from mcexact.errors import Impossible
 from mcexact.exact.matrix import Matrix
 from mcexact.model import gallery
+from mcexact.model.formats.files import save_system
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import save_system
 from tests.answer.written import with_graph
 
 OF_A_PAIR = "exceptional_gains.json"

@@ -11,8 +11,9 @@ import pytest
 
 from mcexact.cli.deadline import Deadline
 from mcexact.errors import LimitReached
+from mcexact.model.formats.files import save_system
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import save_system, system_text
+from mcexact.model.system_file import system_text
 from tests.end_to_end.command_line import MCEXACT, interruptible, run
 
 PLANT = MultiChannelSystem([[1]], [[[1]]], [[[1]]])

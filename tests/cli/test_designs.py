@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from mcexact.model import gallery
+from mcexact.model.formats.files import save_system
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import save_system
 from tests.answer.written import with_graph
 from tests.end_to_end.command_line import run
 from tests.report.strict_html import Page, external_addresses

@@ -7,8 +7,9 @@ from pathlib import Path
 import pytest
 
 from mcexact.model.controller_file import load_controller, save_controller
+from mcexact.model.formats.files import save_system
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import digest, save_system
+from mcexact.model.system_file import digest
 from tests.end_to_end.command_line import run
 
 WARNING = "mcexact: warning: the controller was made for another plant, of digest "

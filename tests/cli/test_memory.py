@@ -11,8 +11,8 @@ import pytest
 
 from mcexact.cli.supervision import supervised
 from mcexact.errors import InternalError, LimitReached
+from mcexact.model.formats.files import save_system
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import save_system
 from tests.end_to_end.command_line import run
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="there the limit is defined")

@@ -16,8 +16,8 @@ from mcexact.answer import codec
 from mcexact.cli import main
 from mcexact.model import gallery
 from mcexact.model.controller_file import save_controller
+from mcexact.model.formats.files import save_system
 from mcexact.model.local_controllers import local_controllers
-from mcexact.model.system_file import save_system
 from mcexact.report.sweep_view import sweep_tables
 from mcexact.sweeps.questions import QUESTIONS
 from tests.effort import PATIENCE

@@ -11,8 +11,8 @@ import pytest
 from mcexact.cli import main
 from mcexact.cli.files import require_writable
 from mcexact.errors import InputError, LimitReached
+from mcexact.model.formats.files import save_system
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import save_system
 
 WRITING = {
     "analyze --html": ("analyze", "PLANT", "--html", "FILE"),

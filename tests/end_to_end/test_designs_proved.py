@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
+from mcexact.model.formats.files import save_system
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import save_system
 from tests.end_to_end.command_line import run
 
 GRAPHS = {"without neighbors": None, "with neighbors": {"1": ["2"], "2": ["1"]}}

@@ -12,7 +12,7 @@ import pytest
 
 from mcexact import checker
 from mcexact.model.controller_file import load_controller
-from mcexact.model.system_file import save_system
+from mcexact.model.formats.files import save_system
 from tests.end_to_end.command_line import run
 from tests.synthesis.three_channels import three_channels
 

@@ -7,8 +7,8 @@ import pytest
 
 from mcexact import c2d
 from mcexact.errors import UsageError
+from mcexact.model.formats.files import load_system, save_system
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import load_system, save_system
 from tests.end_to_end.command_line import run
 
 

@@ -27,6 +27,7 @@ from mcexact.exact.rational import Limits
 from mcexact.model import gallery
 from mcexact.model.atomic import write_text
 from mcexact.model.canonical import canonical, numbers_of_any_length
+from mcexact.model.formats.files import load_system, save_system
 from mcexact.model.matrix_json import (
     canonical_matrix_text,
     matrix_json,
@@ -39,9 +40,7 @@ from mcexact.model.system_file import (
     canonical_document,
     canonical_text,
     digest,
-    load_system,
     read_system,
-    save_system,
     system_text,
 )
 

@@ -19,7 +19,8 @@ from mcexact.errors import InputError, UsageError
 from mcexact.exact.rational import Limits
 from mcexact.model import gallery
 from mcexact.model.canonical import canonical
-from mcexact.model.system_file import digest, save_system
+from mcexact.model.formats.files import save_system
+from mcexact.model.system_file import digest
 from mcexact.sweeps.jobs import Job, Outcome, decide
 from mcexact.sweeps.questions import QUESTIONS
 from mcexact.sweeps.records import Record, read_records

@@ -46,11 +46,21 @@ def load(name: str) -> MultiChannelSystem:
     >>> load("liu2020-3ch-no-communication")
     MultiChannelSystem(n=3, m=3, continuous time, channels: '1', '2', '3')
     """
+    return read_system(text(require_name(name)))
+
+
+def require_name(name: str) -> str:
+    """Return the name of a system of the gallery.
+
+    Raises
+    ------
+    UsageError
+        If no system has this name.
+    """
     if name not in names():
-        raise UsageError(
-            f"there is no system {quoted(name)} in the gallery{nearest(name, names())}"
-        )
-    return read_system(text(name))
+        hint = nearest(name, names()) or "; 'mcexact gallery' lists them"
+        raise UsageError(f"there is no system {quoted(name)} in the gallery{hint}")
+    return name
 
 
 def text(name: str) -> str:

@@ -1,0 +1,171 @@
+"""Arrays in files to exact matrices, and exact matrices to arrays without loss."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from mcexact.errors import InputError
+from mcexact.exact.floats import Rounding, matrix_from_float, matrix_to_float
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.rational import DEFAULT_LIMITS, Limits, decimal_or_quotient
+from mcexact.exact.rows import common_width, is_sparse_array
+from mcexact.model.matrix_entry import as_matrix, require_shape
+from mcexact.model.matrix_json import LONGEST_SIDE, read_number
+
+HOW = (
+    "a float is not exact: choose how it is rounded, such as by "
+    "'mcexact convert FILE --rounding decimal -o plant.json'"
+)
+_WHOLE = 2**53
+
+
+@dataclass(frozen=True)
+class Rounded:
+    """How floats in a file become exact numbers, and how much is read.
+
+    Attributes
+    ----------
+    rounding : {"decimal", "dyadic"}, optional
+        Without it, a float is accepted only if it is an integer.
+    limits : Limits
+    """
+
+    rounding: Rounding | None = None
+    limits: Limits = DEFAULT_LIMITS
+
+
+def require_sides(sides: Any, where: str) -> None:
+    """Refuse a shape that is not one of a matrix, before anything of that size is made.
+
+    Raises
+    ------
+    InputError
+        If there are more or fewer than two sides, or one is negative or longer than 2**20.
+    """
+    shape = " × ".join(map(str, sides))
+    if len(sides) != 2:
+        raise InputError(
+            f"expected a matrix, found {len(sides)} dimensions" + (f", {shape}" if sides else ""),
+            where=where,
+        )
+    if min(sides) < 0 or max(sides) > LONGEST_SIDE:
+        raise InputError(
+            f"expected 0 to {LONGEST_SIDE} rows and columns, found {shape}", where=where
+        )
+
+
+def exact_matrix(
+    value: Any, where: str, rounded: Rounded, nrows: int | None = None, ncols: int | None = None
+) -> Matrix:
+    """Convert a table of a file to an exact matrix of an expected shape.
+
+    Parameters
+    ----------
+    value : array, sparse array, or list of rows of texts
+        An array of texts has numbers in the grammar of system files.
+    where : str
+    rounded : Rounded
+    nrows, ncols : int, optional
+        The expected shape, which a table without rows and columns takes if it can be empty.
+
+    Raises
+    ------
+    InputError
+        If it is something else, or has a float that is not exact without a rounding.
+    """
+    if isinstance(value, Matrix):
+        M = value
+    elif isinstance(value, list) or value.dtype.kind == "U":
+        M = _of_texts(value if isinstance(value, list) else value.tolist(), where, rounded.limits)
+        if not isinstance(value, list) and value.size == 0:
+            M = Matrix.zeros(*value.shape)
+    else:
+        require_sides(value.shape, where)
+        M = _of_numbers(value, where, rounded)
+    if M.shape == (0, 0) and (not nrows or not ncols):
+        return Matrix.zeros(nrows or 0, ncols or 0)
+    return require_shape(M, where, nrows, ncols)
+
+
+def _of_texts(rows: list[list[str]], where: str, limits: Limits) -> Matrix:
+    """Read numbers in the grammar of system files."""
+    width = common_width(rows, where)
+    return Matrix.from_rows(
+        [
+            [read_number(entry, f"{where}[{i}][{j}]", limits) for j, entry in enumerate(row)]
+            for i, row in enumerate(rows)
+        ],
+        width or 0,
+        where=where,
+    )
+
+
+def _of_numbers(value: Any, where: str, rounded: Rounded) -> Matrix:
+    """Convert an array of numbers; integers are exact in every form."""
+    kind = value.dtype.kind
+    if kind == "b":
+        value = value.astype(int)
+    elif kind == "f" and rounded.rounding is not None:
+        return matrix_from_float(value, rounded.rounding, where=where)
+    elif kind == "f":
+        _require_integers(value, where)
+        return matrix_from_float(value, "dyadic", where=where)
+    elif kind not in "iu":
+        found = {"c": "complex numbers", "O": "objects"}.get(kind, f"entries of type {value.dtype}")
+        raise InputError(f"expected real numbers, found {found}", where=where)
+    return as_matrix(value, where)
+
+
+def _require_integers(value: Any, where: str) -> None:
+    """Refuse floats that are not integers, and those of which not every integer is one."""
+    import numpy as np
+
+    entries = value.data if is_sparse_array(value) else value.ravel()
+    wrong = entries[~(np.abs(entries) <= _WHOLE) | (entries != np.round(entries))]
+    if not wrong.size:
+        return
+    if not np.all(np.isfinite(wrong)):
+        found = wrong[~np.isfinite(wrong)][0]
+        raise InputError(f"expected finite numbers, found {found}", where=where)
+    raise InputError(f"found {wrong[0]!s}: {HOW}", where=where)
+
+
+def integers_or_none(M: Matrix) -> Any:
+    """The matrix as an array of integers of 64 bits, or None if it is none."""
+    import numpy as np
+
+    if M.denominator != 1 or any(abs(x) >= 2**63 for row in M.numerators for x in row):
+        return None
+    rows = [list(row) for row in M.numerators]
+    return np.array(rows, dtype=np.int64).reshape(M.shape)
+
+
+def floats_of(M: Matrix, where: str, rounding: Rounding | None, *, nearest: bool) -> Any:
+    """The matrix as an array of floats from which the rounding makes it again.
+
+    Raises
+    ------
+    InputError
+        If there is none, and the nearest floats are not asked for.
+    """
+    import numpy as np
+
+    floats = matrix_to_float(M)
+    if not np.all(np.isfinite(floats)):
+        raise InputError("a number is beyond the range of floats", where=where)
+    if nearest:
+        return floats
+    again = matrix_from_float(floats, rounding or "dyadic", where=where)
+    if again != M:
+        i, j = next(
+            (i, j) for i in range(M.nrows) for j in range(M.ncols) if again[i, j] != M[i, j]
+        )
+        by = f" that the rounding '{rounding}' reads as it" if rounding else " equal to it"
+        hint = "" if rounding else "--rounding decimal, or "
+        raise InputError(
+            f"no float is {decimal_or_quotient(M[i, j])}{by}: write .json or .csv files, "
+            f"or add {hint}--nearest for the nearest floats",
+            where=f"{where}[{i}][{j}]",
+        )
+    return floats

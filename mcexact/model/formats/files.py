@@ -1,0 +1,137 @@
+"""`load_system` and `save_system`, for files of every known kind."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+
+from mcexact.errors import InputError, UsageError, place_of
+from mcexact.exact.floats import Rounding
+from mcexact.exact.rational import DEFAULT_LIMITS, Limits
+from mcexact.model.atomic import write_bytes, write_text
+from mcexact.model.formats.csv_folder import csv_texts
+from mcexact.model.formats.mat import mat_bytes
+from mcexact.model.formats.npz import npz_bytes
+from mcexact.model.formats.parts import parts_of
+from mcexact.model.formats.recognize import read_any, read_input
+from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system_file import system_text
+
+
+def load_system(
+    path: str | os.PathLike[str],
+    *,
+    limits: Limits = DEFAULT_LIMITS,
+    rounding: Rounding | None = None,
+    inputs: Sequence[int] | None = None,
+    outputs: Sequence[int] | None = None,
+) -> MultiChannelSystem:
+    """Read a system from a file.
+
+    Parameters
+    ----------
+    path : path
+        A JSON file, or one that ends in .mat, .npz, .yaml or .yml; a folder of .csv files; ``-``
+        for the standard input; or ``gallery:NAME`` for a published plant.
+    limits : Limits, optional
+    rounding : {"decimal", "dyadic"}, optional
+        How the floats of .mat and .npz files become exact, as in `MultiChannelSystem.from_float`;
+        without it, only integers are accepted among floats.
+    inputs, outputs : sequences of int, optional
+        The numbers of inputs and outputs of the channels, where the file has stacked B and C and
+        does not say.
+
+    Raises
+    ------
+    InputError
+        If the file is missing, unreadable, too large or malformed; the message says where.
+
+    Examples
+    --------
+    >>> load_system("gallery:quadruple-tank-pminus").n
+    4
+    """
+    with InputError.inside(place_of(path)):
+        return read_any(
+            read_input(path, limits),
+            os.fspath(path),
+            limits=limits,
+            rounding=rounding,
+            inputs=inputs,
+            outputs=outputs,
+        )
+
+
+def save_system(
+    system: MultiChannelSystem,
+    path: str | os.PathLike[str],
+    *,
+    rounding: Rounding | None = None,
+    nearest: bool = False,
+) -> None:
+    """Write a system to a file, completely or not at all.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        A derived system is written with its own matrices, as a plant.
+    path : path
+        Its end says the kind: .json, .mat, .npz, .yaml or .yml; a name without one is a folder for
+        .csv files.  Other ends are JSON.
+    rounding : {"decimal", "dyadic"}, optional
+        For .mat and .npz: numbers are written as floats from which `load_system` with the same
+        rounding makes them again.
+    nearest : bool
+        Whether other numbers are written as the nearest floats.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be written, or would not hold the numbers of the system.
+    """
+    made = system_files(system, path, rounding=rounding, nearest=nearest)
+    if isinstance(made, bytes):
+        write_bytes(path, made)
+        return
+    try:
+        os.makedirs(path, exist_ok=True)
+    except OSError as error:
+        raise InputError(f"cannot write: {error.strerror}", where=os.fspath(path)) from None
+    for name, text in made.items():
+        write_text(Path(path) / name, text)
+
+
+def system_files(
+    system: MultiChannelSystem,
+    path: str | os.PathLike[str],
+    *,
+    rounding: Rounding | None = None,
+    nearest: bool = False,
+) -> bytes | dict[str, str]:
+    """The contents of the file that `save_system` writes, or of the files in its folder.
+
+    Raises
+    ------
+    InputError
+        If it would not hold the numbers of the system.
+    """
+    InputError.require(system, MultiChannelSystem, "system")
+    suffix = os.path.splitext(path)[1].lower()
+    if (rounding is not None or nearest) and suffix not in (".mat", ".npz"):
+        raise UsageError("numbers are rounded in .mat and .npz files only: leave it out")
+    made: bytes | dict[str, str]
+    if suffix == ".mat":
+        made = mat_bytes(parts_of(system), rounding, nearest=nearest)
+    elif suffix == ".npz":
+        made = npz_bytes(parts_of(system), rounding, nearest=nearest)
+    elif is_folder(path):
+        made = csv_texts(parts_of(system))
+    else:
+        return system_text(system).encode("ascii")
+    return made
+
+
+def is_folder(path: str | os.PathLike[str]) -> bool:
+    """Whether a system is written to a folder of this name, and not to a file."""
+    return not os.path.splitext(path)[1]

@@ -1,0 +1,127 @@
+"""Which kind of file some bytes are, and the system in them."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+
+from mcexact.errors import InputError
+from mcexact.exact.floats import Rounding
+from mcexact.exact.rational import DEFAULT_LIMITS, Limits
+from mcexact.model import gallery
+from mcexact.model.formats import csv_folder, mat, npz
+from mcexact.model.formats.archive import members
+from mcexact.model.formats.arrays import Rounded
+from mcexact.model.formats.parts import Parts, system_of
+from mcexact.model.formats.yaml_text import read_yaml
+from mcexact.model.json_text import read_bytes, require_short_numbers
+from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system_file import read_document, read_system
+
+GALLERY = "gallery:"
+_SUFFIXES = (".mat", ".npz", ".yaml", ".yml", ".csv")
+_READ = (
+    "a system file is JSON ('mcexact sample --template' prints one), .yaml, .mat, .npz, "
+    "or a folder with A.csv, B_1.csv, C_1.csv and so on"
+)
+_FOREIGN = {
+    b"MATLAB 7.3": "an HDF5 file of MATLAB: save it with 'save plant.mat A B C inputs outputs -v7'",
+    b"\x89HDF": "an HDF5 file: write its matrices with numpy.savez or as .csv files",
+    b"\x93NUMPY": "a single array: put A, B_1, C_1, … into one archive with numpy.savez",
+    b"\x80\x04": "a pickle, which could run any program: write the matrices with numpy.savez",
+    b"\x80\x05": "a pickle, which could run any program: write the matrices with numpy.savez",
+}
+
+
+def is_foreign(path: str) -> bool:
+    """Whether the name of a file says that it is no JSON, or it is a folder of .csv files."""
+    suffix = os.path.splitext(path)[1].lower()
+    return suffix in _SUFFIXES or os.path.isfile(os.path.join(path, csv_folder.MARK))
+
+
+def read_input(path: str | os.PathLike[str], limits: Limits = DEFAULT_LIMITS) -> bytes:
+    """Read a file, a folder of .csv files as an archive, or for ``gallery:NAME`` a published plant.
+
+    Raises
+    ------
+    InputError
+        If it is missing, unreadable or too large.
+    UsageError
+        If the gallery has no plant of this name.
+    """
+    name = os.fspath(path)
+    if name.startswith(GALLERY):
+        return gallery.text(gallery.require_name(name.removeprefix(GALLERY))).encode()
+    if os.path.isfile(os.path.join(name, csv_folder.MARK)):
+        return csv_folder.packed(name, limits)
+    return read_bytes(path, limits)
+
+
+def read_any(
+    data: bytes,
+    place: str,
+    *,
+    limits: Limits = DEFAULT_LIMITS,
+    rounding: Rounding | None = None,
+    inputs: Sequence[int] | None = None,
+    outputs: Sequence[int] | None = None,
+) -> MultiChannelSystem:
+    """Read the system in a file of any known kind.
+
+    Parameters
+    ----------
+    data : bytes
+        As `read_input` returns them.
+    place : str
+        The name of the file, of which the end counts for texts.
+    limits : Limits, optional
+    rounding : {"decimal", "dyadic"}, optional
+        How floats become exact; without it, only integers are accepted among floats.
+    inputs, outputs : sequences of int, optional
+        The sizes of the channels, where B and C are stacked and the file does not say.
+
+    Raises
+    ------
+    InputError
+        If it is malformed, or of another kind; the message says what to do.
+    """
+    suffix = os.path.splitext(place)[1].lower()
+    parts = _parts(data, suffix, limits)
+    if parts is not None:
+        return system_of(parts, Rounded(rounding, limits), (inputs, outputs))
+    if suffix in (".yaml", ".yml"):
+        system = read_document(read_yaml(data, limits), limits)
+        require_short_numbers(data, limits)
+        return system
+    start = data.lstrip(b" \t\r\n")[:1]
+    if start not in (b"", b"{", b"[", b"\xef") and len(data) <= limits.bytes:
+        raise InputError(f"not JSON: found {_shown(start)} at the beginning; {_READ}")
+    return read_system(data, limits=limits)
+
+
+def _parts(data: bytes, suffix: str, limits: Limits) -> Parts | None:
+    """The parts of a file of arrays; None for a text."""
+    for magic, said in _FOREIGN.items():
+        if data.startswith(magic):
+            raise InputError(f"found {said}")
+    if data.startswith(b"{"):
+        return None
+    if data.startswith(mat.MAGIC):
+        return mat.read_mat(data, limits)
+    if suffix == ".mat":
+        raise InputError("expected a file of MATLAB, version 5: save it with '-v7' or '-v6'")
+    if suffix == ".csv":
+        raise InputError(f"found a single table; {_READ}")
+    if not data.startswith(b"PK"):
+        return None
+    files = members(data, limits)
+    kinds = {os.path.splitext(name)[1] for name in files}
+    if kinds == {".npy"}:
+        return npz.read_npz(files, limits)
+    if kinds == {".csv"}:
+        return csv_folder.read_csv_files(files)
+    raise InputError(f"found an archive, but not one of .npy or .csv files; {_READ}")
+
+
+def _shown(start: bytes) -> str:
+    return ascii(start.decode("ascii")) if start.isascii() else f"the byte 0x{start.hex()}"

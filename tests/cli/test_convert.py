@@ -1,0 +1,87 @@
+"""`mcexact convert` loses nothing, and other commands name it where they cannot read a file."""
+
+import itertools
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mcexact.model import gallery
+from mcexact.model.formats.files import load_system, save_system
+from tests.cli.calling import call
+from tests.model.formats.hostile import mat
+
+TANKS = "gallery:quadruple-tank-pminus"
+
+
+def test_a_plant_goes_through_all_kinds_and_comes_back(tmp_path: Path) -> None:
+    way = [TANKS, *(str(tmp_path / name) for name in ("a.yaml", "b", "c.npz", "d.json"))]
+    for source, target in itertools.pairwise(way):
+        assert call("convert", source, "-o", target) == (0, "", "")
+    assert load_system(way[-1]) == gallery.load("quadruple-tank-pminus")
+    status, out, _ = call("convert", str(tmp_path / "b"))
+    assert status == 0 and out == (tmp_path / "d.json").read_text()
+
+
+def test_floats_are_converted_by_a_rounding_only(tmp_path: Path) -> None:
+    source, target = tmp_path / "p.mat", tmp_path / "p.json"
+    source.write_bytes(mat(A=np.array([[0.1, 0], [0, 1]]), inputs=None, outputs=None))
+    sizes = ("--inputs", "1", "--outputs", "1")
+    status, _, said = call("convert", str(source), *sizes, "-o", str(target))
+    assert status == 3 and "A: found 0.1: a float is not exact" in said and not target.exists()
+    assert call("analyze", str(source))[0] == 3
+    done = call("convert", str(source), *sizes, "--rounding", "decimal", "-o", str(target))
+    assert done == (0, "", "")
+    assert json.loads(target.read_text())["A"] == [["1/10", 0], [0, 1]]
+
+
+def test_an_output_that_cannot_hold_the_numbers_is_not_written(tmp_path: Path) -> None:
+    target = tmp_path / "p.mat"
+    status, _, said = call("convert", TANKS, "-o", str(target), "--rounding", "decimal")
+    assert status == 3 and not target.exists()
+    assert f"{target}: A[0][0]: no float is -1/62 that the rounding 'decimal' reads as it" in said
+    assert call("convert", TANKS, "-o", str(target), "--nearest") == (0, "", "")
+
+
+def test_a_folder_of_other_files_is_not_replaced(tmp_path: Path) -> None:
+    (tmp_path / "notes").mkdir()
+    (tmp_path / "notes" / "a.txt").write_text("keep")
+    status, _, said = call("convert", TANKS, "-o", str(tmp_path / "notes"))
+    assert status == 3 and "holds other files and no A.csv" in said
+    assert (tmp_path / "notes" / "a.txt").read_text() == "keep"
+
+
+@pytest.mark.parametrize("sizes", ["1,x", "-1", "", "1;2"])
+def test_sizes_are_integers(sizes: str) -> None:
+    status, _, said = call("convert", TANKS, "--inputs", sizes)
+    assert status == 2 and f"expected integers such as 1,2, found '{sizes}'" in said
+
+
+@pytest.mark.parametrize("file", ["tanks", "tanks.npz", "tanks.yaml"])
+def test_every_command_takes_every_kind(file: str, tmp_path: Path) -> None:
+    path = str(tmp_path / file)
+    save_system(gallery.load("quadruple-tank-pminus"), path)
+    status, out, _ = call("sweep", path, TANKS, "--workers", "1")
+    assert status == 0 and "systems           2" in out
+    assert call("c2d", path, "--step", "1")[0] == 0
+
+
+def test_the_checker_reads_json_and_the_gallery(tmp_path: Path) -> None:
+    made = tmp_path / "made"
+    call("analyze", "gallery:hidden-triple-mode", "--certificates", str(made))
+    certificate = str(made / "fixed_spectrum.json")
+    status, out, _ = call("check", certificate, "--system", "gallery:hidden-triple-mode")
+    assert status == 0 and out.startswith("VALID")
+    status, _, said = call("check", certificate, "--system", str(tmp_path / "p.mat"))
+    assert status == 3 and "the checker reads JSON alone: convert the plant by" in said
+    assert call("check", certificate, "--system", "gallery:x")[0] == 2
+
+
+@pytest.mark.parametrize("text", ["A = [1 2; 3 4]", "# a comment\n", "x", "\x89PNG"])
+def test_a_file_of_another_program_gets_a_hint(text: str, tmp_path: Path) -> None:
+    path = tmp_path / "plant.m"
+    path.write_text(text)
+    status, _, said = call("analyze", str(path))
+    assert status == 3 and "Expecting value" not in said
+    assert "a system file is JSON ('mcexact sample --template' prints one), .yaml, .mat" in said
