@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import cmath
+import math
 from collections.abc import Sequence
 from typing import Any, Protocol
 
@@ -13,7 +14,7 @@ from mcexact.report.text import Table
 
 _FRAGILE = 1 / 0.3
 _BLUE, _RED, _GRAY = "#1f4e79", "#b03a2e", "#888888"
-_TURN, _WIDE, _NAMED = 2 * cmath.pi, 100.0, 8
+_TURN, _WIDE, _POWERS, _NAMED = 2 * cmath.pi, 100.0, 3, 8
 
 
 class LoopCurves(Protocol):
@@ -60,7 +61,7 @@ def loop_page(
         None if the loop is not stable, which leaves out the picture.
     """
     system = account.given.system
-    pictures = [] if curves is None else [loop_picture(curves)]
+    pictures = [] if curves is None else loop_pictures(curves)
     return AccountPage(
         title=system.name or "A closed loop",
         heading="A controller and its closed loop. Its figures are computed, not certified; the "
@@ -72,44 +73,79 @@ def loop_page(
     )
 
 
-def loop_picture(curves: LoopCurves) -> Picture:
+def loop_pictures(curves: LoopCurves) -> list[Picture]:
     """Draw the eigenvalues, the sensitivity, the decay, and the effort or the step responses."""
-    figure = empty_figure(9.2, 7.4)
-    (poles, sensitivity), (decay, last) = figure.subplots(2, 2)
-    _draw_eigenvalues(poles, curves)
-    _draw_sensitivity(sensitivity, curves)
-    _draw_over_time(decay, curves, curves.growth, "largest norm of the state")
-    if curves.steps:
-        _draw_steps(last, curves)
-    else:
-        _draw_over_time(last, curves, curves.effort, "largest norm of the inputs")
-    return Picture(figure, "Eigenvalues, robustness and decay", _told(curves))
+    drawn = [_eigenvalues(curves), _sensitivity(curves), _decay(curves)]
+    return [*drawn, _steps(curves) if curves.steps else _effort(curves)]
 
 
-def _told(curves: LoopCurves) -> str:
-    """What the pictures show, in words."""
-    largest, count = max(curves.sensitivity, default=0.0), len(curves.eigenvalues)
+def _panel(title: str) -> tuple[Any, Any]:
+    """A figure that two of fit beside each other, and its axis."""
+    figure = empty_figure(4.4, 3.5)
+    axis = figure.subplots()
+    axis.set_title(title, fontsize="medium")
+    axis.grid(visible=True, which="major", alpha=0.3)
+    return figure, axis
+
+
+def _picture(figure: Any, title: str, told: str) -> Picture:
+    return Picture(figure, title, f"{told} Computed, not certified.")
+
+
+def _eigenvalues(curves: LoopCurves) -> Picture:
+    figure, axis = _panel("Eigenvalues")
+    _draw_eigenvalues(axis, curves)
+    count, within = len(curves.eigenvalues), sum(map(curves.keeps, curves.eigenvalues))
+    many = f"The {count} eigenvalues" if count != 1 else "The eigenvalue"
+    inside = "inside" if within == count else f"{within} of them inside"
+    edge = f"{curves.edge:.4g}" if curves.discrete else f"{0.0 - curves.edge:.3g}"
+    beyond = "the dashed circle of radius" if curves.discrete else "the dashed line at"
+    return _picture(figure, "Eigenvalues", f"{many} of the loop, {inside} {beyond} {edge}.")
+
+
+def _sensitivity(curves: LoopCurves) -> Picture:
+    figure, axis = _panel("Robustness at the inputs")
+    _draw_sensitivity(axis, curves)
+    largest = max(curves.sensitivity, default=0.0)
     margin = "infinite" if not largest else f"{1 / largest:.3g}"
-    beyond = "the dashed circle" if curves.discrete else "the dashed line"
-    edge = f"{curves.edge:.4g}" if curves.discrete else f"{-curves.edge:.3g}"
-    time = "steps" if curves.discrete else "time"
-    last = (
-        f"Bottom right: each output after a unit step of its own set-point, at most "
-        f"{max(max(each) for _, each in curves.steps):.3g}."
-        if curves.steps
-        else f"Bottom right: the largest norm of all inputs from the same start, at most "
+    told = (
+        "The complementary sensitivity T at all inputs of the plant together, at most "
+        f"{largest:.3g}, so that the margin is {margin}. It should stay below the dashed line, "
+        "which is a margin of 0.3."
+    )
+    return _picture(figure, "Robustness", told)
+
+
+def _decay(curves: LoopCurves) -> Picture:
+    figure, axis = _panel("State, from a start of norm 1")
+    _draw_over_time(axis, curves, curves.growth, "largest norm of the state")
+    told = (
+        "The largest norm of the plant's state from a start of norm 1, at most "
+        f"{max(curves.growth, default=0.0):.3g}."
+    )
+    return _picture(figure, "Decay", told)
+
+
+def _effort(curves: LoopCurves) -> Picture:
+    figure, axis = _panel("Inputs, from a start of norm 1")
+    _draw_over_time(axis, curves, curves.effort, "largest norm of the inputs")
+    told = (
+        "The largest norm of all inputs from the same start, at most "
         f"{max(curves.effort, default=0.0):.3g}."
     )
-    within = sum(map(curves.keeps, curves.eigenvalues))
-    inside = "inside" if within == count else f"{within} of them inside"
-    return (
-        f"Top left: the {count} eigenvalues of the loop, {inside} {beyond} at {edge}. Top right: "
-        "the complementary sensitivity at all inputs of the plant together, at most "
-        f"{largest:.3g}, so that the margin is {margin}; it should stay below the dashed line, "
-        "which is a margin of 0.3. Bottom left: the largest norm of the plant's state over "
-        f"{time} from a start of norm 1, at most {max(curves.growth, default=0.0):.3g}. {last} "
-        "Computed, not certified."
+    return _picture(figure, "Effort", told)
+
+
+def _steps(curves: LoopCurves) -> Picture:
+    figure, axis = _panel("Step responses")
+    _draw_steps(axis, curves)
+    told = (
+        "Each output after a unit step of its own set-point, at most "
+        f"{max(max(each) for _, each in curves.steps):.3g}."
     )
+    if len(curves.steps) > _NAMED:
+        told += f" Of {len(curves.steps)} outputs the first {_NAMED} are named."
+    return _picture(figure, "Step responses", told)
 
 
 def _draw_eigenvalues(axis: Any, curves: LoopCurves) -> None:
@@ -127,40 +163,59 @@ def _draw_eigenvalues(axis: Any, curves: LoopCurves) -> None:
     else:
         axis.axvline(0.0, color=_GRAY, linewidth=0.8)
         axis.axvline(-curves.edge, color=_RED, linestyle="--", linewidth=1)
-        widest = max(map(abs, [*re, *im]), default=1.0)
-        if widest > _WIDE * max(min(map(abs, curves.eigenvalues), default=1.0), 1e-300):
+        sizes = [abs(each) for each in curves.eigenvalues if each]
+        if sizes and max(sizes) > _WIDE * min(sizes):
             # Slow eigenvalues would lie on one spot.
-            threshold = min(abs(each) for each in curves.eigenvalues if each)
-            axis.set_xscale("symlog", linthresh=threshold)
-            axis.set_yscale("symlog", linthresh=threshold)
-            axis.set_xlim(right=threshold / 2)
-    axis.set_title("Eigenvalues", fontsize="medium")
+            _both_ways_logarithmic(axis, min(sizes), max(sizes))
     axis.set_xlabel("real part")
     axis.set_ylabel("imaginary part")
-    axis.grid(visible=True, which="major", alpha=0.3)
+
+
+def _both_ways_logarithmic(axis: Any, least: float, most: float) -> None:
+    """Make both axes logarithmic on both sides of 0, linear up to the least modulus."""
+    powers = range(math.ceil(math.log10(least)), math.floor(math.log10(most)) + 1)
+    shown = [10.0**k for k in powers[:: -(-len(powers) // _POWERS) or 1]]
+    ticks = [*(-each for each in reversed(shown)), 0.0, *shown]
+    for scale in (axis.set_xscale, axis.set_yscale):
+        scale("symlog", linthresh=least, linscale=0.6)
+    for ticked in (axis.xaxis, axis.yaxis):
+        ticked.set_ticks(ticks, [f"{each:g}" for each in ticks])
+    axis.set_xlim(-2 * most, least)
+    axis.set_ylim(-2 * most, 2 * most)
 
 
 def _draw_sensitivity(axis: Any, curves: LoopCurves) -> None:
     unit = "radians per step" if curves.discrete else "radians per unit of time"
     axis.plot(curves.frequencies, curves.sensitivity, color=_BLUE)
     axis.axhline(_FRAGILE, color=_RED, linestyle="--", linewidth=1)
-    axis.set_yscale("log")
+    axis.annotate(
+        "margin 0.3", (0.02, _FRAGILE), (0, 2), xycoords=("axes fraction", "data"),
+        textcoords="offset points", color=_RED, fontsize="small",
+    )  # fmt: skip
+    seen = [*curves.sensitivity, _FRAGILE]
+    axis.set_ylim(max(min(seen), 1e-4 * max(seen)) / 1.3, 1.6 * max(seen))
+    _logarithmic(axis.yaxis)
     if not curves.discrete:
-        axis.set_xscale("log")
-    axis.set_title("Robustness at the inputs", fontsize="medium")
+        _logarithmic(axis.xaxis)
     axis.set_xlabel(f"frequency, {unit}")
     axis.set_ylabel("largest singular value of T")
-    axis.grid(visible=True, which="major", alpha=0.3)
+
+
+def _logarithmic(axis: Any) -> None:
+    """Make one axis logarithmic, with numbers and not with powers of ten where these are short."""
+    from matplotlib.ticker import FuncFormatter, NullFormatter
+
+    axis.axes.set(**{f"{axis.axis_name}scale": "log"})
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.set_minor_formatter(NullFormatter())
 
 
 def _draw_over_time(axis: Any, curves: LoopCurves, values: list[float], label: str) -> None:
     axis.plot(curves.times, values, color=_BLUE, drawstyle=_style(curves))
-    axis.set_title("From a start of norm 1", fontsize="medium")
     axis.set_ylim(bottom=0)
     axis.set_xlim(left=0)
     axis.set_xlabel("steps" if curves.discrete else "time")
     axis.set_ylabel(label)
-    axis.grid(visible=True, which="major", alpha=0.3)
 
 
 def _draw_steps(axis: Any, curves: LoopCurves) -> None:
@@ -171,10 +226,8 @@ def _draw_steps(axis: Any, curves: LoopCurves) -> None:
     axis.axhline(1.0, color=_GRAY, linewidth=0.8)
     axis.set_xlim(left=0)
     axis.set_xlabel("steps" if curves.discrete else "time")
-    axis.set_title("Step responses", fontsize="medium")
     axis.set_ylabel("output after a step of its set-point")
-    axis.legend(fontsize="small")
-    axis.grid(visible=True, which="major", alpha=0.3)
+    axis.legend(fontsize="small", title="output", title_fontsize="small")
 
 
 def _style(curves: LoopCurves) -> str:

@@ -38,7 +38,7 @@ Install = Literal["yes", "with care", "no"]
 BASIS = "computed in floating point, not certified"
 _COMPUTED = " (computed)"
 _NO_MARGIN, _PEAK, _TIMES_THE_PEAK, _TIMES_THE_COST = 0.05, 100.0, 5.0, 10.0
-_DIGITS, _TIMES_THE_GAIN, _HARDLY = 4, 10.0, 1.02
+_STEP_PEAK, _DIGITS, _TIMES_THE_GAIN, _HARDLY, _NEARLY = 2.0, 4, 10.0, 1.02, 0.9
 
 
 @dataclass(frozen=True)
@@ -72,7 +72,7 @@ class Assessment:
     diagnosis : Diagnosis
         Of the plant, for the region; with integrators if the controller has them.
     digits : int or None
-        See `digits_that_suffice`.
+        See `digits_that_suffice`: for the region, and for a margin of 0.3 or nine tenths of it.
     links : tuple of Link
     step_peak : float or None
         The largest output while one set-point steps from 0 to 1; None without integrators.
@@ -165,12 +165,18 @@ class Assessment:
                 f"eigenvalue {_shown(seen.fastest)}, not as aimed at"
             )
         if self.digits is None and self.certified:
-            told.append(f"rounded to {MOST_DIGITS} digits, the programs lose {self.region}")
+            told.append(
+                f"rounded to {MOST_DIGITS} digits, the programs lose {self.region} or the margin"
+            )
         elif self.digits is not None and self.digits > _DIGITS:
-            told.append(f"the programs need {self.digits} digits to keep {self.region}")
+            told.append(
+                f"the programs need {self.digits} digits to keep {self.region} and the margin"
+            )
         if seen.peak > _PEAK or (central and seen.peak > _TIMES_THE_PEAK * central.peak):
             beside = f", {_shown(central.peak)} with one controller for all" if central else ""
             told.append(f"the state can reach {_shown(seen.peak)} from a start of size 1{beside}")
+        if self.step_peak is not None and self.step_peak > _STEP_PEAK:
+            told.append(f"an output reaches {_shown(self.step_peak)} after a unit step")
         if self.relative_cost > _TIMES_THE_COST:
             told.append(f"its cost is {_shown(self.relative_cost)} times the one for all agents")
         if central and seen.largest_gain > _TIMES_THE_GAIN * max(central.largest_gain, 1.0):
@@ -185,6 +191,7 @@ class Assessment:
     def rows(self) -> list[tuple[str, str]]:
         """Return the figures as labels and texts."""
         seen, central, word = self.figures, self.central, self.region.word
+        state = "the state" if self.uncontrolled else "state and integrals"
 
         def compared(name: str) -> str:
             told = _shown(getattr(seen, name))
@@ -193,10 +200,12 @@ class Assessment:
             return f"{told} (one controller for all agents: {_shown(getattr(central, name))})"
 
         per_agent = ", ".join(f"{name}: {order}" for name, order in self.orders.items())
+        if len(self.orders) > 1 and len(set(self.orders.values())) == 1:
+            per_agent = f"{min(self.orders.values())}, alike for all {len(self.orders)}"
         sent = sum(link.numbers for link in self.links)
         most = max((link.numbers for link in self.links), default=0)
         network = f"{sent} over {len(self.links)} links, at most {most} on one" if sent else "none"
-        rows = [
+        return [
             ("states of each agent", per_agent),
             ("largest gain", compared("largest_gain")),
             ("slowest eigenvalue", f"{self.region.measure} = {_shown(seen.bound)}"),
@@ -204,16 +213,19 @@ class Assessment:
             ("fastest eigenvalue", f"|λ| = {_shown(seen.fastest)}"),
             ("least damping ratio", _shown(seen.damping)),
             ("margin at the plant's inputs", compared("margin")),
-            ("peak of the state", compared("peak")),
+            (f"peak of {state}", compared("peak")),
+            *self._stepped(),
             ("linear-quadratic cost", compared("cost")),
-            ("cost relative to that controller", _shown(self.relative_cost)),
-            ("digits that suffice", self._digits()),
+            ("cost relative to that controller", self._relative()),
+            *self._digits(),
             ("numbers sent" + " at each step" * self.region.discrete, network),
             (f"sensible {word}", self.diagnosis.sensible_bound),
         ]  # fmt: skip
-        if self.step_peak is not None:
-            rows.insert(-5, ("peak of an output after a unit step", _shown(self.step_peak)))
-        return rows
+
+    def _stepped(self) -> list[tuple[str, str]]:
+        if self.step_peak is None:
+            return []
+        return [("peak of an output after a unit step", _shown(self.step_peak))]
 
     def _alone(self) -> list[tuple[str, str]]:
         """What the plant does without a controller."""
@@ -223,10 +235,18 @@ class Assessment:
         cost = f"cost {_shown(alone.cost)}" if isfinite(alone.cost) else "not stable"
         return [("without a controller", f"{self.region.measure} = {_shown(alone.bound)}, {cost}")]
 
-    def _digits(self) -> str:
+    def _relative(self) -> str:
+        told = _shown(self.relative_cost)
+        if not self.relative_cost < 1:
+            return told
+        return f"{told} (that one is not the cheapest with this {self.region.word})"
+
+    def _digits(self) -> list[tuple[str, str]]:
+        """What rounding leaves of the rate, if there is anything to lose."""
         if not self.certified:
-            return "none"
-        return f"more than {MOST_DIGITS}" if self.digits is None else str(self.digits)
+            return []
+        told = f"more than {MOST_DIGITS}" if self.digits is None else str(self.digits)
+        return [("digits that suffice", told)]
 
     def view(self) -> dict[str, Any]:
         """Return the assessment as plain data."""
@@ -356,13 +376,18 @@ def assessed_loop(
             certified,
             figures,
             known,
-            digits_that_suffice(loop, region) if certified else None,
+            digits_that_suffice(loop, region, _kept(figures.margin)) if certified else None,
             _links(loop.controller, given),
             step_peak(loop) if places and certified else None,
             notes,
             shape,
             alone,
         )
+
+
+def _kept(margin: float) -> float:
+    """What rounding has to leave of a margin: enough not to be fragile, or else nearly all."""
+    return MARGIN if margin >= MARGIN else _NEARLY * margin
 
 
 def _uncontrolled(system: MultiChannelSystem, weights: Weights) -> Figures:

@@ -4,7 +4,7 @@ from mcexact.exact.location import StabilityRegion
 from mcexact.model.local_controllers import local_controllers
 from mcexact.model.loop import closed_loop
 from mcexact.model.system import MultiChannelSystem
-from mcexact.report.loop_page import loop_picture
+from mcexact.report.loop_page import loop_pictures
 from mcexact.synthesis.optimum.curves import curves_of
 from mcexact.synthesis.setpoint import design_setpoint
 
@@ -15,34 +15,34 @@ def lines(axis):
 
 def pictured(plant, gain, region):
     curves = curves_of(closed_loop(plant, local_controllers(plant, [[[gain]]])), region)
-    return curves, loop_picture(curves)
+    return curves, loop_pictures(curves)
 
 
 def test_continuous_time_has_a_line_and_discrete_time_a_circle():
     moving = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
-    curves, picture = pictured(moving, -3, StabilityRegion("continuous", 1))
+    curves, [picture, *_] = pictured(moving, -3, StabilityRegion("continuous", 1))
     assert curves.eigenvalues == [-2] and curves.edge == 1
-    poles, *_ = picture.figure.axes
+    [poles] = picture.figure.axes
     assert [list(x) for x, _ in lines(poles)] == [[-2], [0, 0], [-1, -1]]
     assert "inside the dashed line at -1." in picture.alternative
     sampled = MultiChannelSystem([["1/2"]], [[[1]]], [[[1]]], time="discrete")
-    curves, picture = pictured(sampled, "-1/4", StabilityRegion.of("discrete", radius="1/2"))
-    assert "inside the dashed circle at 0.5." in picture.alternative
+    curves, [picture, *_] = pictured(sampled, "-1/4", StabilityRegion.of("discrete", radius="1/2"))
+    assert "inside the dashed circle of radius 0.5." in picture.alternative
     assert curves.growth[:3] == [1, 0.25, 0.0625] and curves.effort[:2] == [0.25, 0.0625]
 
 
 def test_eigenvalues_beyond_the_line_are_not_said_to_be_inside():
     plant = MultiChannelSystem([[1, 0], [0, -5]], [[[1], [0]]], [[[1, 0]]])
-    _, picture = pictured(plant, -3, StabilityRegion("continuous", 4))
-    assert "the 2 eigenvalues of the loop, 1 of them inside the dashed line" in picture.alternative
+    _, [picture, *_] = pictured(plant, -3, StabilityRegion("continuous", 4))
+    assert "The 2 eigenvalues of the loop, 1 of them inside the dashed line" in picture.alternative
     sampled = MultiChannelSystem([["1/2"]], [[[1]]], [[[1]]], time="discrete")
-    _, picture = pictured(sampled, "1/4", StabilityRegion.of("discrete", radius="1/2"))
-    assert "the 1 eigenvalues of the loop, 0 of them inside" in picture.alternative
+    _, [picture, *_] = pictured(sampled, "1/4", StabilityRegion.of("discrete", radius="1/2"))
+    assert "The eigenvalue of the loop, 0 of them inside" in picture.alternative
 
 
 def test_eigenvalues_of_different_sizes_are_all_seen():
     plant = MultiChannelSystem([[1, 0], [0, -1000]], [[[1], [1]]], [[[1, 0]]])
-    _, picture = pictured(plant, -3, StabilityRegion("continuous"))
+    _, [picture, *_] = pictured(plant, -3, StabilityRegion("continuous"))
     assert picture.figure.axes[0].get_xscale() == "symlog"
 
 
@@ -52,9 +52,9 @@ def test_a_loop_with_integrators_shows_its_step_responses():
     curves = curves_of(made.loop.closed, made.region)
     [(name, values)] = curves.steps
     assert name == "pump" and values[0] == 0 and abs(values[-1] - 1) < 0.1
-    picture = loop_picture(curves)
-    assert "each output after a unit step" in picture.alternative
-    assert picture.figure.axes[3].get_legend().get_texts()[0].get_text() == "pump"
+    *_, picture = loop_pictures(curves)
+    assert picture.alternative.startswith("Each output after a unit step")
+    assert picture.figure.axes[0].get_legend().get_texts()[0].get_text() == "pump"
 
 
 def test_an_output_of_several_is_numbered():

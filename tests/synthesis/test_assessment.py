@@ -126,6 +126,16 @@ def test_the_digits_that_suffice_keep_the_region_and_one_less_does_not(gain, rat
     assert made.matrix[0, 0] < region.limit
 
 
+def test_the_digits_that_suffice_leave_a_robust_loop_robust() -> None:
+    """The gain −1.44 has the margin 0.306, and −1.4 the margin 0.286."""
+    region, loop = StabilityRegion("continuous"), loop_of("-1.44")
+    assert digits_that_suffice(loop, region) == 2
+    assert digits_that_suffice(loop, region, 0.3) == 3
+    assert assessed_loop(loop, region, certified=True).digits == 3
+    # A fragile loop keeps most of what it has: −1.3 is enough for −1.31.
+    assert assessed_loop(loop_of("-1.31"), region, certified=True).digits == 2
+
+
 def test_a_loop_that_no_rounding_keeps_has_no_digits() -> None:
     region = StabilityRegion.of("continuous", rate="1/3")
     loop = closed_loop(ONE, local_controllers(ONE, [[["-4/3"]]]))
@@ -142,6 +152,13 @@ def test_integrators_are_recognized_and_assessed_with_the_plant() -> None:
     assert found.figures.cost == pytest.approx(
         made.parts["designed"]["optimum"].figures.cost, rel=1e-6
     )
+    # The state and the integrals, as for one controller for all agents.
+    assert found.figures.peak == pytest.approx(
+        made.parts["designed"]["optimum"].figures.peak, rel=1e-6
+    )
+    assert "peak of state and integrals" in dict(found.rows())
+    overshot = replace(found, step_peak=2.5)
+    assert overshot.install == "with care" and "reaches 2.5 after a unit step" in overshot.verdict
     assert integrators_of(loop_of("-3")) == ()
 
 
@@ -203,6 +220,29 @@ def test_a_verdict_that_no_certificate_proves_says_so() -> None:
     assert dear.verdict.count("(computed)") == 1 and "sensible" in dear.verdict
     refused = assessed_loop(loop_of("1"), StabilityRegion("continuous"), certified=False)
     assert "computed" not in refused.verdict
+
+
+def test_agents_with_as_many_states_are_told_together() -> None:
+    found = replace(assessed(), orders={"a": 2, "b": 2, "c": 2})
+    assert dict(found.rows())["states of each agent"] == "2, alike for all 3"
+    found = replace(found, orders={"a": 2, "b": 0})
+    assert dict(found.rows())["states of each agent"] == "a: 2, b: 0"
+
+
+def test_a_cost_below_that_of_one_controller_for_all_is_explained() -> None:
+    found = assessed()
+    cheap = assessed(cost=found.central.cost / 2)
+    told = dict(cheap.rows())["cost relative to that controller"]
+    assert told == "0.5 (that one is not the cheapest with this rate)"
+    dear = assessed(cost=found.central.cost * 2)
+    assert dict(dear.rows())["cost relative to that controller"] == "2"
+
+
+def test_digits_are_told_of_rates_that_hold_alone() -> None:
+    assert "digits that suffice" in dict(assessed().rows())
+    region = StabilityRegion.of("continuous", rate=10)
+    found = assessed_loop(loop_of("-3"), region, certified=False)
+    assert "digits that suffice" not in dict(found.rows())
 
 
 def test_only_in_discrete_time_numbers_are_sent_at_each_step() -> None:

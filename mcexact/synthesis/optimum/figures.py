@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -44,7 +44,8 @@ class Figures:
         1/max σ_max(T), T the complementary sensitivity at all inputs of the plant together; 0 if
         the loop is not stable.  A relative error of every input below this keeps the loop stable.
     peak : float
-        The largest ‖x(t)‖ from a unit state of the plant, the agents' states being 0.
+        The largest ‖x(t)‖ from a unit state of the plant, the agents' states being 0; integrators
+        count as states of the plant.
     cost : float
         E[x'Qx + u'Ru], with tr(R K_y V K_y') also in continuous time.
     damping : float
@@ -81,15 +82,15 @@ def figures_of(problem: FeedbackProblem, K: Floats, *, peak: bool = True) -> Fig
         gain,
         bound,
         1 / largest if largest else np.inf,
-        peak_of_state(M, problem.n, form) if peak else np.nan,
+        peak_of_state(M, range(problem.n), form) if peak else np.nan,
         cost,
         least_damping(form.eigenvalues, discrete=problem.discrete),
         float(np.max(np.abs(form.eigenvalues), initial=0.0)),
     )
 
 
-def peak_of_state(M: Floats, n: int, form: SchurForm) -> float:
-    """Compute max ‖E‖ over time, E the block of n plant states of exp(Mt) or M^t.
+def peak_of_state(M: Floats, places: Sequence[int], form: SchurForm) -> float:
+    """Compute max ‖E‖ over time, E the block of some states of exp(Mt) or M^t.
 
     Notes
     -----
@@ -97,7 +98,8 @@ def peak_of_state(M: Floats, n: int, form: SchurForm) -> float:
     fastest time constant to eight times the slowest; in discrete time at the first 400 steps, and
     then alike.  A lower estimate.
     """
-    return max(1.0, max((norm(E[:n, :n]) for E in _powers(M, form)), default=1.0))
+    block = np.ix_(places, places)
+    return max(1.0, max((norm(E[block]) for E in _powers(M, form)), default=1.0))
 
 
 def step_peak(loop: ClosedLoop) -> float:

@@ -63,14 +63,13 @@ def figures_of_loop(loop: ClosedLoop, weights: Weights, integrators: Sequence[in
     bound = np.inf if form is None else form.bound
     if form is None or not bound < (1.0 if discrete else 0.0):
         return Figures(order, gain, bound, 0.0, np.inf, np.inf)
-    U, response = input_rows(loop), input_response(loop)
-    largest = response.peak(boundary_points(response, discrete=discrete))
+    U = input_rows(loop)
     return Figures(
         order,
         gain,
         bound,
-        1 / largest if largest else np.inf,
-        peak_of_state(M, loop.given.n, form),
+        margin_of(loop),
+        peak_of_state(M, [*range(loop.given.n), *integrators], form),
         _cost(loop, form, U, weights, integrators),
         least_damping(form.eigenvalues, discrete=discrete),
         float(np.max(np.abs(form.eigenvalues), initial=0.0)),
@@ -88,6 +87,13 @@ def input_response(loop: ClosedLoop) -> Response:
     M, B = matrix_to_float(loop.matrix), matrix_to_float(loop.given.input_matrix())
     entering = np.vstack([B, np.zeros((len(M) - len(B), B.shape[1]))])
     return Response(M, entering, input_rows(loop), discrete=is_discrete(loop.given.time))
+
+
+def margin_of(loop: ClosedLoop) -> float:
+    """Compute the margin of a stable loop at the inputs of the plant."""
+    response = input_response(loop)
+    largest = response.peak(boundary_points(response, discrete=is_discrete(loop.given.time)))
+    return 1 / largest if largest else np.inf
 
 
 def boundary_points(response: Response, *, discrete: bool) -> Complexes:
@@ -186,7 +192,9 @@ def integrators_of(loop: ClosedLoop) -> tuple[int, ...]:
     return tuple(found)
 
 
-def digits_that_suffice(loop: ClosedLoop, region: StabilityRegion) -> int | None:
+def digits_that_suffice(
+    loop: ClosedLoop, region: StabilityRegion, margin: float = 0.0
+) -> int | None:
     """Return a number of significant decimal digits to which all programs may be rounded.
 
     Parameters
@@ -194,6 +202,8 @@ def digits_that_suffice(loop: ClosedLoop, region: StabilityRegion) -> int | None
     loop : ClosedLoop
     region : StabilityRegion
         Where the computed eigenvalues of the rounded loop lie.
+    margin : float
+        A margin that the rounded loop has, too.
 
     Returns
     -------
@@ -204,7 +214,9 @@ def digits_that_suffice(loop: ClosedLoop, region: StabilityRegion) -> int | None
     def holds(digits: int) -> bool:
         made = closed_loop(loop.given, rounded_controller(loop.controller, digits), loop.graph)
         M = matrix_to_float(made.matrix)
-        return bool(np.all(np.isfinite(M))) and is_within(M, region)
+        if not np.all(np.isfinite(M)) or not is_within(M, region):
+            return False
+        return margin <= 0 or margin_of(made) >= margin
 
     fails, found = 0, MOST_DIGITS
     if not holds(found):
