@@ -97,6 +97,7 @@ from .model.neighbor_graph import NeighborGraph as NeighborGraph
 from .model.parametric import ParametricSystem as ParametricSystem
 from .model.parametric_file import load_parametric_system as load_parametric_system
 from .model.parametric_file import save_parametric_system as save_parametric_system
+from .model.published import gallery as gallery
 from .model.sampled import c2d as c2d
 from .model.stacked import from_stacked as from_stacked
 from .model.statespace import from_statespace as from_statespace

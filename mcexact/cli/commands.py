@@ -19,6 +19,7 @@ COMMANDS = (
     "simulate",
     "reproduce",
     "demo",
+    "gallery",
     "sample",
     "convert",
     "c2d",

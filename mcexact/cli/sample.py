@@ -33,12 +33,21 @@ if TYPE_CHECKING:
 @click.option(
     "-o", "--output", type=FOLDER, metavar="DIR", help="Write system files into this directory."
 )
+@click.option(
+    "--template",
+    type=click.Choice(["json", "yaml"]),
+    is_flag=False,
+    flag_value="json",
+    help="Print a small system file to start from, in which every key is explained, instead of a "
+    "drawn one: as JSON, or with `--template yaml` with comments.",
+)
 @as_json
 @options.work_limits
 def command(
     seed: int,
     count: int,
     output: Path | None,
+    template: str | None,
     as_json: bool,
     timeout: float | None,
     max_memory: int | None,
@@ -55,6 +64,13 @@ def command(
     from mcexact.derived.drawn.draw import Draw
     from mcexact.model.atomic import write_text
 
+    if template is not None:
+        from mcexact.model.template import template as starting_file
+
+        if output is not None or count > 1:
+            raise click.UsageError("--template prints one file: leave out --output and --count")
+        emit(starting_file(template))
+        return
     if count > 1 and output is None:
         raise click.UsageError("--count needs --output, the directory for the files")
     require_writable(None, output)
