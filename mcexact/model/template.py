@@ -7,7 +7,7 @@ import json
 _EXPLAINED = (
     "Replace this text by the source of the numbers. time: continuous or discrete. "
     'A: n rows of n numbers, such as 2, -0.5, 1e-3 or "1/3", read exactly as typed. '
-    "channels: the name of each, B (n rows, a column for each input) and C (a row for each output). "
+    "channels: the name of each, B (n rows, a column per input) and C (a row per output). "
     "neighbors: for each agent those that it receives messages from; it may be left out. "
     'In discrete time, sample_time is a number, and delays {"valve": {"pump": 2}} says that '
     "messages from pump reach valve after 2 steps. A large matrix can be an object: "
