@@ -89,7 +89,7 @@ def test_the_report_parses_strictly_and_links_its_certificates_alone(whole: Repr
     ):
         assert drawn in text
     outside = re.sub(r"<details.*?</details>", "", text, flags=re.DOTALL)
-    assert "<figure>" in text and "<figure>" not in outside
+    assert "<figure" in text and "<figure" not in outside
     assert text.count("<summary>") == len(whole.rows)
     assert '<div class="inside" id="theorem-2">' in text and "<b>Theorem 2</b> (26):" in text
 
