@@ -32,6 +32,15 @@ def test_every_file_named_is_there(path: str) -> None:
     assert (ROOT / path).exists()
 
 
+def test_the_tree_has_every_folder() -> None:
+    """At the top those that are tracked, which have no dot, and in the package every stage."""
+    tree = PAGE.partition("## Folders")[2].partition("\n\n`tests/architecture/`")[0]
+    stages = {path.parent.name for path in (ROOT / "mcexact").glob("*/__init__.py")}
+    assert set(re.findall(r"^      (\w+)/ +\w", tree, re.MULTILINE)) == stages
+    for folder in re.findall(r"^    (\w+)/ *", tree, re.MULTILINE):
+        assert (ROOT / folder).is_dir(), folder
+
+
 def test_the_rooms_are_those_on_the_page() -> None:
     rooms = {
         f"{stage}/{path.parent.name}"

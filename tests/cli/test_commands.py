@@ -22,7 +22,7 @@ from tests.end_to_end.command_line import without_progress
 
 GALLERY = Path(gallery.__file__).parent
 TRIPLE = str(GALLERY / "hidden-triple-mode.json")
-README = Path(mcexact.__file__).parents[1] / "README.md"
+QUOTING = Path(mcexact.__file__).parents[1] / "docs" / "why-exactly.md"
 
 Call = Callable[..., tuple[int, str, str]]
 
@@ -97,12 +97,11 @@ def test_an_interruption_is_status_130(call: Call, monkeypatch: pytest.MonkeyPat
     assert call("demo")[0] == 130
 
 
-def test_demo_prints_what_the_readme_says_was_recorded(call: Call) -> None:
+def test_demo_prints_what_the_documentation_says_was_recorded(call: Call) -> None:
     status, out, _ = call("demo")
     assert status == 0
     recorded, _, here = out.partition("\nOn this machine ")
-    quoted = README.read_text(encoding="utf-8").replace("\n    ", "\n")
-    assert recorded in quoted
+    assert recorded in QUOTING.read_text(encoding="utf-8")
     assert f"{libraries_here()}" in here
 
 

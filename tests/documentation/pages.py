@@ -1,6 +1,7 @@
 """Runs a page: files are written, commands and Python examples are executed, outputs compared.
 
-- A block ``{code-block}`` with a caption is a file of that name.
+- A block ``{code-block}`` with a caption is a file of that name, and so is one of ``json`` below a
+  line that ends with the name in backquotes and a colon.
 - In a block ``console`` a line that begins with ``$`` is a command, mcexact or python, and the
   lines below it are what it prints; ``...`` stands for any text.  ``# status 1`` after a command
   is its status.  A block of the class ``processor`` is run and not compared: its numbers depend on
@@ -31,6 +32,7 @@ _BLOCK = re.compile(
     r"(?P<options>(?::[\w-]+:[^\n]*\n)*)(?P<text>.*?)^(?P=fence)$",
     re.MULTILINE | re.DOTALL,
 )
+_NAMED = re.compile(r"`([\w-]+\.json)`:\n\n`{3,}$")
 _STATUS = re.compile(r" +# status (\d+)$")
 
 
@@ -48,6 +50,8 @@ def blocks(page: str) -> Iterator[Block]:
     """Yield the blocks of code of a page in their order."""
     for found in _BLOCK.finditer(page):
         options = dict(re.findall(r"^:([\w-]+): *(.*)$", found["options"], re.MULTILINE))
+        if named := _NAMED.search(page, 0, found.end("fence")):
+            options.setdefault("caption", named[1])
         line = page.count("\n", 0, found.start("text"))
         yield Block(found["language"], options, found["text"], line)
 

@@ -11,13 +11,13 @@ from tests.documentation.pages import blocks, run
 DOCS = Path(__file__).parents[2] / "docs"
 PAGES = sorted(
     path
-    for path in DOCS.rglob("*.md")
+    for path in (DOCS.parent / "README.md", *DOCS.rglob("*.md"))
     if "generated" not in path.parts
     and any(each.language in {"console", "pycon"} for each in blocks(path.read_text("utf-8")))
 )
 
 
-@pytest.mark.parametrize("path", PAGES, ids=lambda path: str(path.relative_to(DOCS)))
+@pytest.mark.parametrize("path", PAGES, ids=lambda path: str(path.relative_to(DOCS.parent)))
 def test_a_page_says_what_happens(path: Path, tmp_path: Path) -> None:
     assert run(path, tmp_path) > 0
 
