@@ -8,7 +8,7 @@ DOCS := build/docs/environment
 PIP := $(BIN)/python -m pip install --quiet --quiet --disable-pip-version-check
 GALLERY := mcexact/model/gallery
 
-.PHONY: absence corpus coverage docs mutants paper-mutants records reproduce look ledger sentences demo test lint types tests matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs
+.PHONY: absence corpus coverage package-coverage docs mutants paper-mutants records reproduce look ledger sentences demo test lint types tests slow-tests matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs
 
 demo: $(CORE)
 	$(BIN)/mcexact demo
@@ -28,7 +28,11 @@ types: $(STAMP)
 	$(BIN)/mypy --strict mcexact
 
 tests: $(STAMP)
-	HYPOTHESIS_PROFILE=ci $(BIN)/python -m pytest --quiet --numprocesses 2 --dist worksteal
+	HYPOTHESIS_PROFILE=ci $(BIN)/python -m pytest --quiet --numprocesses 2 --dist worksteal -m 'not slow'
+
+# The tests that `make tests` leaves out, because each of them takes seconds: together they are all.
+slow-tests: $(STAMP)
+	HYPOTHESIS_PROFILE=ci $(BIN)/python -m pytest --quiet --numprocesses 2 --dist worksteal -m slow
 
 # The full tests under every kernel, Python and library version that they have to pass with: an hour
 # or more. CELLS='oldest python3.*' runs some; PYTHONS holds interpreters that are not on PATH.
@@ -68,6 +72,14 @@ readers: $(STAMP)
 coverage: $(STAMP)
 	$(BIN)/coverage run --rcfile=pyproject.toml -m pytest --quiet tests/checker
 	$(BIN)/coverage report --rcfile=pyproject.toml
+
+# Which lines and branches of the whole package the tests run, reported and not demanded, with pages in
+# build/package-coverage: an hour.  TESTS='tests/exact tests/model' runs some.
+package-coverage: $(STAMP)
+	$(BIN)/coverage run --rcfile= --branch --source=mcexact --data-file=build/package-coverage.data \
+	  -m pytest --quiet $(TESTS)
+	$(BIN)/coverage html --rcfile= --quiet --data-file=build/package-coverage.data --directory=build/package-coverage
+	$(BIN)/coverage report --rcfile= --skip-covered --sort=cover --data-file=build/package-coverage.data
 
 # Mutation testing of the checker: every small change has to make one of these tests fail: half an hour.
 # FILES='location rank' tries some files, and continues where an earlier run has ended.

@@ -9,7 +9,7 @@ import re
 import signal
 from collections.abc import Iterator, Sequence
 
-from mcexact.errors import InternalError, LimitReached, McexactError
+from mcexact.errors import InternalError, LimitReached, McexactError, UsageError
 
 _MEBIBYTE = 1 << 20
 # An unexpected error this close to the limit is attributed to the limit.
@@ -33,15 +33,20 @@ class MemoryLimit:
 
     Raises
     ------
-    McexactError
-        If the platform cannot limit memory.
+    UsageError
+        If the platform does not limit memory.
     """
 
     def __init__(self, mebibytes: int, libraries: Sequence[str]) -> None:
+        occupied = _kibibytes("VmSize") * 1024
         try:
             import resource
-        except ImportError:
-            raise McexactError("this platform has no limit on memory") from None
+
+            resource.RLIMIT_AS  # noqa: B018 - not every platform has it
+        except (ImportError, AttributeError):
+            occupied = 0
+        if not occupied:  # macOS has the limit and does not enforce it
+            raise UsageError("this platform does not limit memory: leave out --max-memory")
         for name in libraries:
             importlib.import_module(name)
         if "numpy" in libraries:
@@ -49,7 +54,7 @@ class MemoryLimit:
         self._resource = resource
         self._before = resource.getrlimit(resource.RLIMIT_AS)
         hard = self._before[1]
-        limit = _kibibytes("VmSize") * 1024 + mebibytes * _MEBIBYTE
+        limit = _kibibytes("VmSize") * 1024 + mebibytes * _MEBIBYTE  # with the libraries
         self._bytes = limit if hard == resource.RLIM_INFINITY else min(limit, hard)
         resource.setrlimit(resource.RLIMIT_AS, (self._bytes, hard))
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import contextlib
 import faulthandler
-import multiprocessing
 import os
 import pickle
 import shutil
@@ -23,7 +22,7 @@ from typing import Any, TypeVar
 from mcexact.cli.deadline import Deadline
 from mcexact.cli.memory import MemoryLimit, died_of_memory, out_of_memory, ran_out
 from mcexact.errors import InternalError, McexactError
-from mcexact.sweeps.workers import end_with_parent
+from mcexact.sweeps.workers import end_with_parent, process_context
 
 T = TypeVar("T")
 Tell = Callable[[str], None]
@@ -86,8 +85,7 @@ def supervised(
     InternalError
         If the work failed unexpectedly.
     """
-    methods = multiprocessing.get_all_start_methods()
-    context: Any = multiprocessing.get_context("fork" if "fork" in methods else "spawn")
+    context = process_context()
     receiver, sender = context.Pipe(duplex=False)
     deadline = timeout if isinstance(timeout, Deadline) else Deadline(timeout)
     limits = (max_memory, tuple(libraries))
@@ -145,6 +143,7 @@ def _child(
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     end_with_parent()
+    sys.set_int_max_str_digits(0)  # as `main` does, for a process that is no fork
     # The user gets one message, without what compiled code prints before it aborts.
     faulthandler.disable()
     silence = os.open(os.devnull, os.O_WRONLY)

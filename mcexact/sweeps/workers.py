@@ -90,14 +90,24 @@ def alone(work: Callable[..., Any], *arguments: Any) -> Any:
         workers.end()
 
 
+def process_context() -> Any:
+    """How processes are started: by a fork on Linux, and anew elsewhere.
+
+    A fork has loaded everything already.  Libraries of macOS do not survive it.
+    """
+    return multiprocessing.get_context("fork" if sys.platform == "linux" else "spawn")
+
+
 def _pool(count: int) -> ProcessPoolExecutor:
-    methods = multiprocessing.get_all_start_methods()
-    context = multiprocessing.get_context("fork" if "fork" in methods else "spawn")
-    return ProcessPoolExecutor(count, mp_context=context, initializer=_prepare)
+    longest = sys.get_int_max_str_digits()
+    return ProcessPoolExecutor(
+        count, mp_context=process_context(), initializer=_prepare, initargs=(longest,)
+    )
 
 
-def _prepare() -> None:
+def _prepare(longest: int) -> None:
     """Set up a worker: only the parent handles interrupts, and each worker uses one thread."""
+    sys.set_int_max_str_digits(longest)  # a process that is no fork has a limit of its own
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     end_with_parent()

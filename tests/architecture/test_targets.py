@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+import mcexact
+
 ROOT = Path(__file__).parents[2]
 MAKEFILE = (ROOT / "Makefile").read_text(encoding="utf-8")
 RULES = set(re.findall(r"^([a-z][a-z-]*):", MAKEFILE, re.MULTILINE))
@@ -24,3 +26,20 @@ def test_the_targets_that_a_page_names_have_rules(page: str) -> None:
         re.findall(r"^ +make ([a-z][a-z-]*)", text, re.MULTILINE)
     )
     assert named <= RULES
+
+
+@pytest.mark.parametrize("page", [".github/workflows/tests.yml", ".pre-commit-config.yaml"])
+def test_the_targets_that_a_service_would_run_have_rules(page: str) -> None:
+    text = (ROOT / page).read_text(encoding="utf-8")
+    assert set(re.findall(r"(?:run: |`)make ([a-z][a-z-]*)", text)) <= RULES
+
+
+def test_the_workflow_says_in_its_first_line_that_it_is_untested() -> None:
+    first = (ROOT / ".github/workflows/tests.yml").read_text(encoding="utf-8").splitlines()[0]
+    assert first.startswith("# Untested")
+
+
+def test_the_citation_names_the_version_of_the_package() -> None:
+    text = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
+    assert f"\nversion: {mcexact.__version__}\n" in text
+    assert "the mcexact authors" in text

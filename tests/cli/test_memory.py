@@ -9,8 +9,9 @@ from pathlib import Path
 
 import pytest
 
+from mcexact.cli import memory
 from mcexact.cli.supervision import supervised
-from mcexact.errors import InternalError, LimitReached
+from mcexact.errors import InternalError, LimitReached, UsageError
 from mcexact.model.formats.files import save_system
 from mcexact.model.system import MultiChannelSystem
 from tests.end_to_end.command_line import run
@@ -138,3 +139,19 @@ def test_a_command_with_too_little_memory_ends_with_status_4_and_says_so(
         assert f"memory limit of {mebibytes} MiB was exhausted" in done.messages[-1]
     if mebibytes == "1":
         assert done.status == 4
+
+
+@pytest.mark.parametrize("missing", ["resource", "the limit", "the size of the process"])
+def test_a_platform_that_does_not_limit_memory_is_named(
+    missing: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    import resource
+
+    if missing == "resource":
+        monkeypatch.setitem(sys.modules, "resource", None)
+    elif missing == "the limit":
+        monkeypatch.delattr(resource, "RLIMIT_AS")
+    else:
+        monkeypatch.setattr(memory, "_kibibytes", lambda name: 0)
+    with pytest.raises(UsageError, match="does not limit memory: leave out --max-memory"):
+        supervised(os.getpid, doing="working", max_memory=_PLENTY)

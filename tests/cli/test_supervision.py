@@ -12,6 +12,7 @@ import pytest
 from mcexact.cli import supervision
 from mcexact.cli.supervision import supervised
 from mcexact.errors import Impossible, InputError, InternalError, LimitReached
+from mcexact.sweeps.workers import alone, process_context
 from tests.end_to_end.command_line import interruptible
 
 
@@ -115,3 +116,16 @@ def test_an_interrupt_ends_compiled_code_and_leaves_no_process() -> None:
                 process.wait(timeout=1)
         assert process.returncode == -signal.SIGINT
         assert told.read() == b"", "it ends when no process holds the other end"
+
+
+def test_where_a_fork_is_unsafe_processes_start_anew(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert process_context().get_start_method() == "fork"
+    monkeypatch.setattr(sys, "platform", "darwin")
+    assert process_context().get_start_method() == "spawn"
+    assert supervised(os.getppid, doing="asking") == os.getpid()
+    assert supervised(str, 10**5000, doing="writing") == "1" + "0" * 5000
+
+
+def test_a_pool_of_processes_starts_anew_there_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "platform", "darwin")
+    assert alone(os.getppid) == os.getpid()
