@@ -31,8 +31,9 @@ from mcexact.cli.commands import GroupedCommand
 def command(file: str, order: str | None, **given: Any) -> None:
     """Design a distributed observer-based controller for the system in FILE (- for standard input).
 
-    FILE needs a neighbor graph. Give a rate or radius, or prescribe the whole spectrum: n numbers
-    for the feedback and nm + m - 1 for the estimation errors. If no linear time-invariant
-    controller of this form exists, the status is 1 and a certificate proves this.
+    FILE needs a neighbor graph. Without a rate, a radius or a spectrum, half the sensible rate is
+    taken. A spectrum has n numbers for the feedback and nm + m - 1 for the estimation errors. If no
+    linear time-invariant controller of this form exists, the status is 1 and a certificate proves
+    this.
     """
     designing.answer("observer", file, given, {"order": order})

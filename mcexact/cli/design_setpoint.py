@@ -29,7 +29,8 @@ from mcexact.cli.commands import GroupedCommand
 def command(file: str, method: str | None, **given: Any) -> None:
     """Design a distributed controller that holds every output of FILE at its agent's set-point.
 
-    FILE needs a neighbor graph. `mcexact simulate --reference` runs the controller with given
+    Without a neighbor graph in FILE agents receive nothing. Without a rate, a radius or a spectrum,
+    half the sensible rate is taken. `mcexact simulate --reference` runs the controller with given
     set-points. If some set-points have no equilibrium, the status is 1 and a certificate gives
     their linear combinations.
     """

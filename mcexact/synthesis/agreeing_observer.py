@@ -9,13 +9,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import chain
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 
 from mcexact.derived.error_system import error_system
-from mcexact.derived.feedback import checked_gains, closed_by
-from mcexact.exact.floats import Rounding, matrix_from_float, matrix_to_float
+from mcexact.derived.feedback import closed_by
+from mcexact.exact.floats import matrix_from_float, matrix_to_float
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.floating.margins import is_within
@@ -51,15 +51,14 @@ def observers(
     graph: NeighborGraph,
     request: Request,
     *,
-    gains: Sequence[Any] | None = None,
+    gains: Sequence[Matrix] | None = None,
     order: Literal["least"] | None = None,
-    rounding: Rounding | None = None,
 ) -> Iterator[Proposal]:
     """Yield distributed observers, where `best_agreeing` has one first that one.
 
     Parameters
     ----------
-    system, graph, gains, order, rounding
+    system, graph, gains, order
         As in `observer_proposals`.
     request : Request
         With an agent, every observer has a channel controller.
@@ -68,16 +67,11 @@ def observers(
     -----
     If an observer without a channel controller is fragile, it is compared with some others.
     """
-    others = observer_proposals(system, graph, request, gains=gains, order=order, rounding=rounding)
+    others = observer_proposals(system, graph, request, gains=gains, order=order)
     first = None
     if request.arithmetic == "float" and request.agent is None and not graph.delays:
         request.tell("estimates that agree")
-        exact = (
-            None
-            if gains is None
-            else checked_gains(system, gains, [system.n] * system.m, rounding=rounding)
-        )
-        first = best_agreeing(system, graph, request.region, exact)
+        first = best_agreeing(system, graph, request.region, gains)
     if first is not None and first.is_fragile:
         both = chain([first.proposal], others)
         yield from most_promising(system, graph, request.region, both, by_order=False)

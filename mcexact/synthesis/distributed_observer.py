@@ -5,13 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any, Literal
 
-from mcexact.errors import InputError
+from mcexact.derived.feedback import checked_gains
+from mcexact.errors import InputError, LimitReached
 from mcexact.exact.floats import Rounding
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_graph
 from mcexact.synthesis.agreeing_observer import observers
 from mcexact.synthesis.asking import request_for
 from mcexact.synthesis.design import Design, designed
+from mcexact.synthesis.optimum.diagnosis import with_diagnosis
 from mcexact.synthesis.request import Arithmetic, Progress
 
 
@@ -73,10 +75,13 @@ def design_observer(
         If all channels together do not control or do not observe a mode, or the error system for
         these F_i has a fixed mode or a cut; the certificate proves this.
     InputError
-        If a spectrum has the wrong length; the message states the right one.
+        If a spectrum has the wrong length; the message states the right one; or if gains are given
+        that are not m matrices of p_i rows and n columns.
+    LimitReached
+        If no observer was found, or none could be certified; the message tells the mode that is
+        nearest to being fixed, and the sensible rate.
     UsageError
-        If a spectrum, rate and radius contradict each other, none is given and no rate is
-        sensible, or the graph has delays.
+        If a spectrum, rate and radius contradict each other, or the graph has delays.
 
     Notes
     -----
@@ -103,5 +108,10 @@ H_ij let one agent control and observe all estimation errors
     InputError.require(system, MultiChannelSystem, "system")
     system, graph = with_graph(system, graph)
     request = request_for(system, agent, spectrum, rate, radius, arithmetic, progress)
-    proposals = observers(system, graph, request, gains=gains, order=order, rounding=rounding)
-    return designed("observer", request, system, graph, proposals)
+    sizes = [system.n] * system.m
+    exact = None if gains is None else checked_gains(system, gains, sizes, rounding=rounding)
+    proposals = observers(system, graph, request, gains=exact, order=order)
+    try:
+        return designed("observer", request, system, graph, proposals)
+    except LimitReached as limit:
+        raise with_diagnosis(limit, system, request.region) from None

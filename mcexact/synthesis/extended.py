@@ -190,7 +190,7 @@ class _Asked:
             raise failed[0]
         best = min(found.values(), key=_price)
         note = f"of the networks with delays, the {best.parts['network']} one was kept"
-        return replace(best, notes=(*best.notes, f"{note} ({'; '.join(told)})"))
+        return replace(best, notes=(*best.notes, f"{note} ({'; '.join(told)}; computed)"))
 
 
 def _price(made: Design) -> tuple[bool, float]:

@@ -37,6 +37,7 @@ from mcexact.synthesis.network.network_design import network_proposals
 from mcexact.synthesis.network.networks import DerivedNetwork, decentralized_network
 from mcexact.synthesis.network.sharing import Dimensions, sharing_network
 from mcexact.synthesis.optimum.aims import Aims
+from mcexact.synthesis.optimum.diagnosis import with_diagnosis
 from mcexact.synthesis.optimum.proposals import searched_proposals
 from mcexact.synthesis.optimum.structures import Family
 from mcexact.synthesis.optimum.weights import Weights
@@ -190,10 +191,14 @@ class _Task:
                 limit = reached
         try:
             yield from self._of_theorems()
-        except LimitReached:
-            if limit is None:
-                raise
-            raise limit from None
+        except LimitReached as reached:
+            raise limit or with_diagnosis(reached, *self._weighed()) from None
+
+    def _weighed(self) -> tuple[MultiChannelSystem, StabilityRegion, Weights]:
+        """The plant with its integrators, the region, and the weights."""
+        plant = as_plant(self.integrated)
+        weights = Weights.of(self.system, self.aims.weights)
+        return plant, self.request.region, weights.with_integrators(plant.n - self.system.n)
 
     def _network(self, to: MultiChannelSystem, asked: Request) -> DerivedNetwork:
         """The network over which agents share sub-states."""
@@ -205,9 +210,7 @@ class _Task:
 
     def _searched(self) -> Iterator[Proposal]:
         """Search without communication if that suffices, else with shared sub-states."""
-        plant, asked = as_plant(self.integrated), self.request
-        weights = Weights.of(self.system, self.aims.weights)
-        weights = weights.with_integrators(plant.n - self.system.n)
+        (plant, _, weights), asked = self._weighed(), self.request
         network = self._network(plant, asked)
         family = Family(network, "states")
         if self.method is None and not any(network.dimensions):

@@ -63,7 +63,7 @@ def _halved(request: Request, times: int) -> Request:
     region = request.region
     for _ in range(times):
         region = slower(region)
-    told = f", and {region.edge} was taken, since faster loops were fragile"
+    told = f", and {region.edge} was taken, since no faster loop that was found is robust"
     return replace(request, region=region, notes=(*request.notes[:-1], request.notes[-1] + told))
 
 

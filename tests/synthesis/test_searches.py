@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from functools import partial
+
 import numpy as np
 import pytest
 
@@ -9,9 +12,13 @@ from mcexact.errors import Impossible, InputError, LimitReached, OutOfReach, Usa
 from mcexact.exact.location import StabilityRegion
 from mcexact.model import gallery
 from mcexact.model.system import MultiChannelSystem
+from mcexact.synthesis import distributed_observer, setpoint
 from mcexact.synthesis.asking import request_for
 from mcexact.synthesis.decentralized import design_decentralized
+from mcexact.synthesis.distributed_observer import design_observer
 from mcexact.synthesis.extended import design_extended
+from mcexact.synthesis.gate import Proposal
+from mcexact.synthesis.optimum import proposals
 from mcexact.synthesis.optimum.aims import THEOREM, Aims
 from mcexact.synthesis.optimum.diagnosis import diagnosed
 from mcexact.synthesis.optimum.weights import Weights
@@ -108,6 +115,28 @@ def test_a_search_that_finds_nothing_ends_with_the_controller_of_the_theorem() -
     assert "blocks" in shared.parts
     with pytest.raises(LimitReached, match="sensible rate"):
         design_decentralized(coupled(), rate="1/2", aims=Aims(effort=1e-6, digits=3))
+
+
+def nothing(*_: object, **__: object) -> Iterator[Proposal]:
+    """Proposals of a method that finds none."""
+    raise LimitReached("nothing was drawn")
+    yield
+
+
+@pytest.mark.parametrize(
+    ("module", "name", "design"),
+    [
+        (proposals, "network_proposals", partial(design_decentralized, POSITION, aims=THEOREM)),
+        (setpoint, "observers", partial(design_setpoint, two_tanks(), method="observer")),
+        (distributed_observer, "observers", partial(design_observer, two_tanks())),
+    ],
+    ids=["decentralized", "setpoint", "observer"],
+)
+def test_a_limit_of_a_theorem_tells_the_diagnosis_too(module, name, design, monkeypatch) -> None:
+    monkeypatch.setattr(module, name, nothing)
+    told = r"nothing was drawn; (mode .*: a relative change of .*; )?sensible rate .*\(computed\)"
+    with pytest.raises(LimitReached, match=told):
+        design(rate="1/2")
 
 
 @pytest.mark.parametrize("digits", [1, 2])

@@ -8,9 +8,7 @@ from typing import Any, Literal
 
 from mcexact.analysis.structure.controllability import joint_observability
 from mcexact.derived.error_system import error_system
-from mcexact.derived.feedback import checked_gains
 from mcexact.errors import Impossible, InputError, LimitReached, UsageError
-from mcexact.exact.floats import Rounding
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.model.neighbor_graph import NeighborGraph
@@ -36,9 +34,8 @@ def observer_proposals(
     graph: NeighborGraph,
     request: Request,
     *,
-    gains: Sequence[Any] | None = None,
+    gains: Sequence[Matrix] | None = None,
     order: Literal["least"] | None = None,
-    rounding: Rounding | None = None,
 ) -> Iterator[Proposal]:
     """Yield the proposals of `design_observer` for the gate; exact arithmetic yields one.
 
@@ -48,18 +45,15 @@ def observer_proposals(
     graph : NeighborGraph
         Without delays.
     request : Request
-    gains : sequence of m matrices, optional
+    gains : sequence of m Matrix, optional
         Given F_i (p_i×n).
     order : {"least"}, optional
-    rounding : {"decimal", "dyadic"}, optional
         See `design_observer`.
 
     Raises
     ------
     UsageError
         If links have delays, or there is no such order.
-    InputError
-        If gains are given that are not m matrices of p_i rows and n columns.
     """
     if graph.delays:
         raise UsageError(
@@ -69,16 +63,11 @@ def observer_proposals(
     if order not in (None, "least"):
         raise UsageError(f'expected order "least" or none, found {order!r}', where="order")
     carrier, region = request.agent or 0, request.region
-    exact = (
-        None
-        if gains is None
-        else checked_gains(system, gains, [system.n] * system.m, rounding=rounding)
-    )
     if request.arithmetic == "float":
         from mcexact.synthesis.observer.in_floating_point import float_proposals
 
         yield from float_proposals(
-            system, graph, carrier, request, gains=exact, reduced=order == "least"
+            system, graph, carrier, request, gains=gains, reduced=order == "least"
         )
         return
     wanted = _checked_spectrum(request.spectrum, gains)
@@ -88,7 +77,7 @@ def observer_proposals(
             yield _of_the_observable_part(system, graph, carrier, request, order == "least")
             return
     request.tell("state feedback")
-    feedback = _feedback(system, wanted.get("feedback"), region, exact)
+    feedback = _feedback(system, wanted.get("feedback"), region, gains)
     request.tell("observer gains for the error system")
     error = error_system(system, feedback.gains, graph)
     task = ObserverTask(system, graph, carrier, feedback, error, wanted, request, order == "least")

@@ -9,6 +9,7 @@ from fractions import Fraction
 import numpy as np
 from scipy.linalg import eig
 
+from mcexact.errors import LimitReached
 from mcexact.exact.floats import matrix_to_float, to_float
 from mcexact.exact.location import StabilityRegion
 from mcexact.floating.fixed_mode_distance import distance_at
@@ -183,6 +184,30 @@ def diagnosed(
         sensible = _sensible(system, weights, start, found, unhurried)
         modes = slow_modes(controlled or system, region)
     return Diagnosis(region, central, unhurried, sensible, modes)
+
+
+def with_diagnosis(
+    limit: LimitReached,
+    system: MultiChannelSystem,
+    region: StabilityRegion,
+    weights: Weights | None = None,
+    controlled: MultiChannelSystem | None = None,
+) -> LimitReached:
+    """Return a limit that also tells the diagnosis; the other arguments are those of `diagnosed`.
+
+    Without a diagnosis the limit is the same, for plants whose numbers exceed floats.
+
+    Examples
+    --------
+    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    >>> limit = LimitReached("2000 draws found nothing")
+    >>> str(with_diagnosis(limit, plant, StabilityRegion("continuous"))).split("; ")[:2]
+    ['2000 draws found nothing', 'mode 1: a relative change of 1e+00 fixes it']
+    """
+    matrices = (system.A, system.input_matrix(), system.output_matrix())
+    if not all(np.all(np.isfinite(matrix_to_float(each))) for each in matrices):
+        return limit
+    return LimitReached(f"{limit}; {diagnosed(system, region, weights, controlled)}")
 
 
 def chosen_region(

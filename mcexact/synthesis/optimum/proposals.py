@@ -14,7 +14,7 @@ from mcexact.model.controller import Controller
 from mcexact.synthesis.gate import Proposal, certify
 from mcexact.synthesis.network.network_design import network_proposals, require_fast
 from mcexact.synthesis.optimum.aims import Aims
-from mcexact.synthesis.optimum.diagnosis import Diagnosis, diagnosed
+from mcexact.synthesis.optimum.diagnosis import Diagnosis, diagnosed, with_diagnosis
 from mcexact.synthesis.optimum.effort import PER_SECOND, Effort
 from mcexact.synthesis.optimum.figures import Figures, figures_of
 from mcexact.synthesis.optimum.kernel import quiet_floats
@@ -280,22 +280,26 @@ def searched_proposals(
         If even the optimal controller of all agents together is one that nobody would install, and
         the aims name no effort.
     LimitReached
-        If no controller was found.  Both tell the diagnosis.
+        If no controller was found, by a search or without one.  Both tell the diagnosis.
 
     Notes
     -----
     What is hard for all agents together is told as soon as it is known, by a step `Warned`.
     """
     network, aims = family.network, aims or Aims()
+    weights = weights or Weights.of(network.given, aims.weights)
+    about = network.given, request.region, weights, network.system
     if not aims.searched_for(request):
-        yield from network_proposals(network, request)
+        try:
+            yield from network_proposals(network, request)
+        except LimitReached as limit:
+            raise with_diagnosis(limit, *about) from None
         return
     request.tell("fixed modes")
     fixed = fixed_spectrum(network.system)
     require_fast(network, fixed, request.region)
     request.tell("diagnosis")
-    weights = weights or Weights.of(network.given, aims.weights)
-    known = diagnosed(network.given, request.region, weights, network.system)
+    known = diagnosed(*about)
     if known.is_out_of_reach and aims.effort is None:
         raise OutOfReach(
             f"{request.region} is out of reach, even for all agents together: {known}; ask for "
