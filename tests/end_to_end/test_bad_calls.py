@@ -92,7 +92,7 @@ CALLS: dict[str, tuple[Callable[[], Any], type[McexactError], tuple[str, ...]]] 
     "B173 a symbol": (
         lambda: system(sympy.Matrix([[sympy.Symbol("k")]])),
         InputError,
-        ("A[0][0]", "'k'", "Symbol"),
+        ("A[0][0]", "'k'", "ParametricSystem"),
     ),
     "B173 a symbolic float": (
         lambda: system(sympy.Matrix([[sympy.Float(0.5)]])),

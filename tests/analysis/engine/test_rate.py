@@ -44,7 +44,7 @@ def test_a_plant_with_longer_numbers_than_python_prints_by_default_has_its_rate(
     found = fixed_spectrum(plant)
     (factor,) = found.factors
     assert str(factor.polynomial) == "x + 1" + "0" * 4999 + "1"
-    assert repr(factor.polynomial) == "Polynomial.of(1" + "0" * 4999 + "1, 1)"
+    assert len(repr(factor.polynomial)) < 200
     assert found.best_rate is not None and found.best_rate.lower == "1" + "0" * 4999 + "1"
 
 
