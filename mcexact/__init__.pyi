@@ -1,5 +1,6 @@
 """The public names; all other names may change without notice."""
 
+from . import plot as plot
 from .analysis.analyze import Analysis as Analysis
 from .analysis.analyze import analyze as analyze
 from .analysis.fixed_modes.assignability import assignability as assignability

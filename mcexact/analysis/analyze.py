@@ -17,6 +17,7 @@ from mcexact.answer.sentence import Given, Sentences
 from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.exact.rational import written
 from mcexact.model.system import MultiChannelSystem
+from mcexact.plot.graphs import structure
 
 
 @dataclass(frozen=True)
@@ -287,6 +288,20 @@ class Analysis:
             if name not in self._asked
         ]
         return (*asked, *left)
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draw the neighbor graph and the transfer graph, with what makes a mode fixed in orange.
+
+        Parameters
+        ----------
+        ax : axes of matplotlib, optional
+            One for each graph.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+        """
+        return structure(self.system, self["fixed_spectrum"], self["transfer_graph"], ax)
 
     def __repr__(self) -> str:
         plant = self.plant

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from mcexact.answer.protocol import Answer, answer, claim, witness
 from mcexact.exact.polynomial import Polynomial
+from mcexact.plot.eigenvalues import eigenvalues
 
 
 @answer("closed_loop_spectrum")
@@ -21,3 +24,7 @@ class ClosedLoopSpectrum(Answer):
 
     polynomial: Polynomial = claim()
     moduli: tuple[int, ...] = witness()
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draw the eigenvalues with their multiplicities; see `mcexact.plot.eigenvalues`."""
+        return eigenvalues(self, ax, time=self.about.time)

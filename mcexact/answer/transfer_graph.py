@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from functools import cached_property
+from typing import Any
 
 from mcexact.answer.evidence import ZeroTransfer
 from mcexact.answer.protocol import Answer, answer, claim, shown, witness
+from mcexact.plot.graphs import graph
 
 
 @answer("transfer_graph")
@@ -48,3 +50,7 @@ class TransferGraph(Answer):
         for j, i in self.arcs:
             found.setdefault(j, []).append(i)
         return {j: tuple(reached) for j, reached in found.items()}
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draw the graph; see `mcexact.plot.graph`."""
+        return graph(self, ax, title="transfer graph")

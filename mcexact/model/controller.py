@@ -210,6 +210,12 @@ class Controller:
             if each.reference is not None:
                 _require(each.reference, nrows, system.q(i), f"{where}.reference")
 
+    def plot(self, ax: Any = None) -> Any:
+        """Draw the gains as a colored matrix; see `mcexact.plot.gains`."""
+        from mcexact.plot.gains import gains
+
+        return gains(self, ax)
+
     def document(self) -> dict[str, Any]:
         """The object of a controller file without ``format`` and ``system``, as plain data."""
         names = [agent.name for agent in self.agents]

@@ -190,6 +190,12 @@ class NeighborGraph:
         """Return N_i, which contains i, in the order of the channels."""
         return self.neighbors[i]
 
+    def plot(self, ax: Any = None) -> Any:
+        """Draw the graph; see `mcexact.plot.graph`."""
+        from mcexact.plot.graphs import graph
+
+        return graph(self, ax, title="neighbor graph")
+
     def union(self, channels: Iterable[int]) -> tuple[int, ...]:
         """Return N_s, the union of the N_i over i in s, in the order of the channels.
 

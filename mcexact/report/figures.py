@@ -1,62 +1,61 @@
-"""Figures of a trajectory with the certified rate, and of the eigenvalues of a closed loop."""
+"""Pictures of trajectories with what is proved of them, and of the eigenvalues of a closed loop."""
 
 from __future__ import annotations
 
 import io
 import math
-from fractions import Fraction
-from typing import Any
 
 from mcexact.answer.loop_spectrum import LoopSpectrum
-from mcexact.errors import MissingExtra
 from mcexact.exact.floats import to_float
-from mcexact.exact.location import StabilityRegion, is_discrete
-from mcexact.report.trajectory import error_norms, state_norms
+from mcexact.plot.canvas import empty_figure
+from mcexact.plot.eigenvalues import eigenvalues
+from mcexact.plot.responses import decay, has_bounds, rate_text, responses
+from mcexact.report.picture import Picture
+from mcexact.simulation.envelope import Envelope
+from mcexact.simulation.run import SimulatedLoop
 from mcexact.simulation.trajectory import Trajectory
 
 
-def simulation_png(run: Trajectory, spectrum: LoopSpectrum | None, title: str = "") -> bytes:
-    """Draw three panels: the state with the certified rate, the estimation errors, the spectrum.
-
-    Parameters
-    ----------
-    run : Trajectory
-    spectrum : LoopSpectrum, optional
-        The spectrum of the whole loop.  Without it, or if it exceeds floats, the line of the rate
-        and the third panel are left out.
-    title : str
-
-    Returns
-    -------
-    bytes
-        A PNG image.
-    """
-    with MissingExtra.named("plot"):
-        from matplotlib.backends.backend_agg import FigureCanvasAgg
-        from matplotlib.figure import Figure
-
-    spectrum = _drawable(spectrum)
-    errors = error_norms(run)
-    panels = 1 + bool(errors) + (spectrum is not None)
-    figure = Figure(figsize=(4.6 * panels, 4.0), layout="constrained")
-    FigureCanvasAgg(figure)
-    axes = list(figure.subplots(1, panels, squeeze=False)[0])
-    if title:
-        figure.suptitle(title)
-    draw_decay(
-        axes.pop(0), run, {"state": state_norms(run)}, spectrum, "largest entry of the state"
-    )
-    if errors:
-        named = {f"agent {name}": values for name, values in errors.items()}
-        draw_decay(axes.pop(0), run, named, spectrum, "largest entry of the estimation errors")
+def simulation_pictures(done: SimulatedLoop) -> list[Picture]:
+    """Draw the responses, the decay, and the eigenvalues if they are known."""
+    spectrum, run, envelope = drawable(done.spectrum), done.run, done.envelope
+    drawn = [
+        response_picture(run, "Outputs and inputs", envelope),
+        decay_picture(run, _at_rest(done, spectrum), "Decay", envelope),
+    ]
     if spectrum is not None:
-        draw_eigenvalues(axes.pop(0), run.time, spectrum)
+        drawn.append(spectrum_picture(spectrum, done.run.time, "Eigenvalues of the closed loop"))
+    return drawn
+
+
+def simulation_png(done: SimulatedLoop) -> bytes:
+    """Draw the same in one PNG image, always with the same bytes."""
+    spectrum = drawable(done.spectrum)
+    errors = bool(done.run.error_norms())
+    panels = 3 + errors + (spectrum is not None)
+    rows = 1 if panels <= 3 else 2
+    figure = empty_figure(4.6 * math.ceil(panels / rows), 3.8 * rows)
+    axes = list(figure.subplots(rows, math.ceil(panels / rows)).flat)
+    figure.suptitle(done.title, parse_math=False)
+    responses(done.run, axes[:2], envelope=done.envelope)
+    decay(done.run, axes[2], spectrum=_at_rest(done, spectrum), envelope=done.envelope)
+    if errors:
+        decay(done.run, axes[3], spectrum=spectrum, errors=True)
+    if spectrum is not None:
+        eigenvalues(spectrum, axes[panels - 1], time=done.run.time)
+    for axis in axes[panels:]:
+        axis.remove()
     image = io.BytesIO()
     figure.savefig(image, format="png", dpi=120, metadata={"Software": None})
     return image.getvalue()
 
 
-def _drawable(spectrum: LoopSpectrum | None) -> LoopSpectrum | None:
+def _at_rest(done: SimulatedLoop, spectrum: LoopSpectrum | None) -> LoopSpectrum | None:
+    """Return the spectrum if it says how the state decays: to 0, or to a point that is known."""
+    return spectrum if done.envelope is not None or not done.run.drive.changes else None
+
+
+def drawable(spectrum: LoopSpectrum | None) -> LoopSpectrum | None:
     """Return the spectrum, or None if an eigenvalue exceeds the range of floats."""
     if spectrum is None:
         return None
@@ -64,122 +63,89 @@ def _drawable(spectrum: LoopSpectrum | None) -> LoopSpectrum | None:
     return spectrum if all(map(math.isfinite, parts)) else None
 
 
-def draw_decay(
-    axis: Any,
-    run: Trajectory,
-    curves: dict[str, list[float]],
-    spectrum: LoopSpectrum | None,
-    label: str,
-) -> None:
-    """Draw norms on a logarithmic axis, with a line of the certified rate.
+def response_picture(run: Trajectory, title: str, envelope: Envelope | None = None) -> Picture:
+    """Draw the outputs with set-points and proved bounds, and the inputs.
 
     Parameters
     ----------
-    axis : matplotlib.axes.Axes
     run : Trajectory
-    curves : dict of str to list of float
-        Norms at the times of the run, keyed by the label in the legend.  Zeros, infinities and NaN
-        leave gaps.
-    spectrum : LoopSpectrum or None
-        Its rate is drawn as a dashed line; None draws no line.
-    label : str
-        The title of the panel.
+    title : str
+    envelope : Envelope, optional
+        Proved bounds.
     """
-    times = [to_float(t) for t in run.times]
-    marker = "." if is_discrete(run.time) else ""
-    shown = [value for values in curves.values() for value in values if 0 < value < float("inf")]
-    for name, values in curves.items():
-        visible = [value if 0 < value < float("inf") else float("nan") for value in values]
-        axis.plot(times, visible, marker=marker, label=name)
-    if spectrum is not None and shown:
-        line = _slope(run.time, spectrum, times, list(curves.values()))
-        floor = min(shown) / 10
-        visible = [value if value >= floor else float("nan") for value in line]
-        if line:
-            label_of_line = f"slope of the certified {rate_text(run.time, spectrum)}"
-            axis.plot(times, visible, "k--", linewidth=1, label=label_of_line)
-    if shown:
-        axis.set_yscale("log")
-    axis.set_xlabel(elapsed_label(run.time))
-    axis.set_title(label, fontsize="medium")
-    axis.legend(fontsize="small")
+    figure = responses(run, envelope=envelope)
+    outputs, inputs = run.values("outputs"), run.values("inputs")
+    words = []
+    for what, curves in (("outputs", outputs), ("inputs", inputs)):
+        values = [v for each in curves.values() for v in each if math.isfinite(v)]
+        if values:
+            least, largest = min(values), max(values)
+            words.append(f"The {len(curves)} {what} lie between {least:.3g} and {largest:.3g}")
+    if any(map(any, run.values("reference").values())):
+        words.append("Dashed: set-points")
+    if has_bounds(run, envelope):
+        words.append("Dotted: proved bounds on the exact outputs; the other curves are computed")
+    return Picture(figure, title, ". ".join(words) + ".")
 
 
-def elapsed_label(time: str) -> str:
-    """The label of the axis of times."""
-    return "step" if is_discrete(time) else "time"
+def spectrum_picture(spectrum: LoopSpectrum, time: str, title: str) -> Picture:
+    """Draw the certified discs around all eigenvalues, and the stability region.
+
+    Parameters
+    ----------
+    spectrum : LoopSpectrum
+    time : {"continuous", "discrete"}
+    title : str
+    """
+    figure = empty_figure(5.0, 3.8)
+    axis = figure.subplots()
+    eigenvalues(spectrum, axis, time=time, title=title)
+    told = ", ".join(_point(disc.re, disc.im) for disc in spectrum.discs[:20])
+    told += ", …" if len(spectrum.discs) > 20 else ""
+    largest = max((to_float(disc.radius) for disc in spectrum.discs), default=0.0)
+    verdict = "all in the stability region" if spectrum.stable else "not all stable"
+    sure = f"in a certified disc of radius at most {largest:.1e}" if largest else "known exactly"
+    words = f"{len(spectrum.discs)} distinct eigenvalues, {verdict} (gray): {told}; each is {sure}."
+    return Picture(figure, title, words)
 
 
-def _slope(
-    time: str, spectrum: LoopSpectrum, times: list[float], curves: list[list[float]]
-) -> list[float]:
-    """Draw the certified rate as a line from the highest point, except for a radius of 0."""
-    rate = spectrum.rate
-    if rate is None:
-        return []
-    tops = [
-        max((v for v in values if v < math.inf), default=0.0)
-        for values in zip(*curves, strict=True)
-    ]
-    top = max(tops)
-    start = tops.index(top)
-    decay = to_float(rate.lower)
-    if is_discrete(time):
-        radius = to_float(rate.upper)
-        if radius <= 0:
-            return []
-        decay = -math.log(radius)
-    elapsed = [t - times[start] for t in times]
-    return [
-        top * math.exp(-decay * t) if t >= 0 and abs(decay * t) < 600 else math.nan for t in elapsed
-    ]
+def _point(re: str, im: str) -> str:
+    """A complex number in four digits."""
+    real, imaginary = to_float(re), to_float(im)
+    return f"{real:.4g}" if imaginary == 0 else f"{real:.4g}{imaginary:+.4g}i"
 
 
-def rate_text(time: str, spectrum: LoopSpectrum) -> str:
-    """The certified end of the enclosure of the rate."""
-    if spectrum.rate is None:
-        return ""
-    end = spectrum.rate.upper if is_discrete(time) else spectrum.rate.lower
-    return f"{StabilityRegion(time).word} {to_float(end):.4g}"
+def decay_picture(
+    run: Trajectory,
+    spectrum: LoopSpectrum | None,
+    title: str,
+    envelope: Envelope | None = None,
+) -> Picture:
+    """Draw the state and the agents' errors on a log axis against the certified rate.
 
-
-def draw_eigenvalues(axis: Any, time: str, spectrum: LoopSpectrum) -> None:
-    """Draw the eigenvalues, with the stability region in gray."""
-    from matplotlib.patches import Circle
-
-    re = [to_float(disc.re) for disc in spectrum.discs]
-    im = [to_float(disc.im) for disc in spectrum.discs]
-    if is_discrete(time):
-        axis.add_patch(Circle((0, 0), 1, color="0.92", zorder=0))
-        axis.set_aspect("equal")
-        reach = 1.1 * max([1.0, *map(abs, re), *map(abs, im)])
-        axis.set_xlim(-reach, reach)
-        axis.set_ylim(-reach, reach)
-    else:
-        left = min([*re, -1.0]) * 1.2 - 0.5
-        axis.axvspan(left, 0, color="0.92", zorder=0)
-        axis.set_xlim(left, max([*re, 0.0]) + 0.1 * abs(left))
-        axis.axvline(0, color="0.6", linewidth=0.8)
-    reach = max([1.0, *map(abs, im)]) * 1.15
-    axis.set_ylim(-reach, reach)
-    for x, y, disc in zip(re, im, spectrum.discs, strict=True):
-        axis.add_patch(Circle((x, y), to_float(disc.radius), color="C3", alpha=0.4))
-    axis.plot(re, im, "x", color="C3", label="eigenvalue")
-    enclosed = [
-        (x, y) for x, y, disc in zip(re, im, spectrum.discs, strict=True) if Fraction(disc.radius)
-    ]
-    if enclosed:
-        largest = max(to_float(disc.radius) for disc in spectrum.discs)
-        axis.plot(
-            *zip(*enclosed, strict=True),
-            "o",
-            markersize=11,
-            markerfacecolor="none",
-            color="C0",
-            label=f"certified disc, radius below {largest:.0e}, enlarged",
-        )
-        axis.legend(fontsize="small", loc="best")
-    axis.axhline(0, color="0.6", linewidth=0.8)
-    axis.set_title("eigenvalues of the closed loop", fontsize="medium")
-    axis.set_xlabel("real part")
-    axis.set_ylabel("imaginary part")
+    Parameters
+    ----------
+    run : Trajectory
+    spectrum : LoopSpectrum, optional
+        Whose rate is drawn as a line.
+    title : str
+    envelope : Envelope, optional
+        Proved bounds.
+    """
+    errors = run.error_norms()
+    panels = 1 + bool(errors)
+    figure = empty_figure(4.6 * panels, 3.7)
+    axes = list(figure.subplots(1, panels, squeeze=False)[0])
+    norms = run.state_norms()
+    decay(run, axes[0], spectrum=spectrum, envelope=envelope)
+    if errors:
+        decay(run, axes[1], spectrum=spectrum, errors=True)
+    words = f"The state goes from {norms[0]:.2e} to {norms[-1]:.2e}"
+    if errors:
+        last = max(values[-1] for values in errors.values())
+        words += f", the largest estimation error ends at {last:.2e}"
+    if spectrum is not None and spectrum.rate is not None:
+        words += f"; the dashed line has the certified {rate_text(run.time, spectrum)}"
+    if envelope is not None:
+        words += "; the gray curve is a proved bound on every entry of the exact state"
+    return Picture(figure, title, words + ".")

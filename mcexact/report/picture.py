@@ -7,8 +7,6 @@ import io
 from dataclasses import dataclass
 from typing import Any
 
-from mcexact.errors import MissingExtra
-
 
 @dataclass(frozen=True, eq=False)
 class Picture:
@@ -57,14 +55,3 @@ class EmbeddedPicture:
     alternative: str
     uri: str
     width: float
-
-
-def empty_figure(width: float, height: float) -> Any:
-    """Make a figure of a size in inches, with a white background and without global state."""
-    with MissingExtra.named("plot"):
-        from matplotlib.backends.backend_agg import FigureCanvasAgg
-        from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(width, height), layout="constrained", facecolor="white")
-    FigureCanvasAgg(figure)
-    return figure

@@ -2,28 +2,23 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from mcexact.exact.floats import finite, to_float
 from mcexact.exact.location import is_discrete
 from mcexact.exact.rational import rational_text
-from mcexact.report.figures import simulation_png
-from mcexact.report.simulation_page import simulation_page
+from mcexact.report.figures import simulation_pictures, simulation_png
+from mcexact.report.page import page
 from mcexact.report.text import Table
-from mcexact.report.trajectory import (
-    SIGNALS,
-    as_float,
-    error_norms,
-    shown_times,
-    signal_values,
-    state_norms,
-    trajectory_csv,
-)
+from mcexact.report.trajectory import shown_times, trajectory_csv
 from mcexact.simulation.run import SimulatedLoop
+from mcexact.simulation.trajectory import SIGNALS, as_float
 
 _COLUMNS = 8
 """The largest number of signals with a column of their own."""
+_TITLES = ("At some times", "Proved bounds: |y(t) − rest| is at most size d(t)")
+"""The titles of the tables on the page."""
 
 
 @dataclass(frozen=True)
@@ -73,7 +68,7 @@ class SimulationReport:
     def _shown(self) -> tuple[dict[str, list[float]], str]:
         """Every output and input if there are few, otherwise the largest ones; then the norms."""
         run = self.done.run
-        signals = {kind: signal_values(run, kind) for kind in SIGNALS}
+        signals = {kind: run.values(kind) for kind in SIGNALS}
         if not any(map(any, signals["reference"].values())):
             del signals["reference"]
         few = sum(map(len, signals.values())) <= _COLUMNS
@@ -84,8 +79,8 @@ class SimulationReport:
             elif values:
                 each_time = zip(*values.values(), strict=True)
                 columns[f"|{SIGNALS[kind]}|"] = [max(map(abs, row)) for row in each_time]
-        columns["|x|"] = state_norms(run)
-        errors = error_norms(run)
+        columns["|x|"] = run.state_norms()
+        errors = run.error_norms()
         if len(errors) <= _COLUMNS:
             columns |= {f"|e {name}|": values for name, values in errors.items()}
         elif errors:
@@ -99,7 +94,7 @@ class SimulationReport:
         envelope = self.done.envelope
         if envelope is None or not envelope.outputs:
             return ()
-        names = signal_values(self.done.run, "outputs")
+        names = self.done.run.values("outputs")
         decay = f"d(t) = {to_float(envelope.bound):.4g}^t"
         if not is_discrete(envelope.time):
             decay = f"d(t) = exp(-{to_float(envelope.bound):.4g} t)"
@@ -139,10 +134,10 @@ class SimulationReport:
                 }
                 for i, name in enumerate(run.agents)
             ],
-            "state_norm": [finite(value) for value in state_norms(run)],
+            "state_norm": [finite(value) for value in run.state_norms()],
             "error_norms": {
                 name: [finite(value) for value in values]
-                for name, values in error_norms(run).items()
+                for name, values in run.error_norms().items()
             },
             "proved_bounds": None
             if envelope is None
@@ -151,7 +146,7 @@ class SimulationReport:
                 "outputs": [
                     {"name": name, "rest": finite(rest), "size": finite(size)}
                     for name, (rest, size) in zip(
-                        signal_values(run, "outputs"), envelope.outputs, strict=True
+                        run.values("outputs"), envelope.outputs, strict=True
                     )
                 ],
             },
@@ -171,17 +166,27 @@ class SimulationReport:
         if suffix == ".csv":
             return trajectory_csv(self.done.run, fractions=self.fractions).encode("utf-8")
         if suffix == ".png":
-            return simulation_png(self.done.run, self.done.spectrum, self.done.title)
+            return simulation_png(self.done)
         if suffix == ".html":
-            png = simulation_png(self.done.run, self.done.spectrum, self.done.title)
-            table, *_ = self.tables()
-            page = simulation_page(
-                self.done.title,
-                self.facts(),
-                list(self.done.warnings),
-                table.columns,
-                table.rows,
-                png,
-            )
-            return page.encode("utf-8")
+            return self.page().encode("utf-8")
         return b""
+
+    def page(self) -> str:
+        """Return the page of the simulation."""
+        done = self.done
+        verdict = done.spectrum
+        return page(
+            "simulation",
+            title=done.title,
+            heading="A controller, run as a network of agents that receive messages from neighbors "
+            "only. Trajectories are computed; what is proved is said to be proved.",
+            good=verdict is not None and verdict.stable,
+            bad=verdict is not None and not verdict.stable,
+            facts=self.facts(),
+            warnings=list(done.warnings),
+            pictures=[each.embedded() for each in simulation_pictures(done)],
+            tables=[
+                replace(each, title=title)
+                for each, title in zip(self.tables(), _TITLES, strict=False)
+            ],
+        )

@@ -22,8 +22,8 @@ from mcexact.exact.polynomial import Polynomial
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import digest
+from mcexact.report.figures import spectrum_picture
 from mcexact.reproduce.equations import positions, union_of_graphs
-from mcexact.reproduce.figures import spectrum_picture
 from mcexact.reproduce.material import (
     PAPER,
     Numbers,

@@ -21,7 +21,7 @@ from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.reproduce.figures import spectrum_picture
+from mcexact.report.figures import spectrum_picture
 from mcexact.reproduce.material import (
     PAPER,
     Numbers,

@@ -18,8 +18,8 @@ from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.system import MultiChannelSystem
+from mcexact.report.figures import decay_picture, spectrum_picture
 from mcexact.reproduce.equations import errors_agree
-from mcexact.reproduce.figures import decay_picture, spectrum_picture
 from mcexact.reproduce.material import (
     PAPER,
     Instance,

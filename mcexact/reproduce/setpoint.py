@@ -5,22 +5,20 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
-import numpy as np
-
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
 from mcexact.analysis.structure.setpoint import setpoint_solvability
 from mcexact.derived.integrators import setpoint_system
 from mcexact.errors import Impossible
 from mcexact.exact.blocks import block, vstack
-from mcexact.exact.floats import matrix_to_float, to_float
+from mcexact.exact.floats import to_float
 from mcexact.exact.linear_algebra import characteristic_polynomial, determinant, rank, solve
 from mcexact.exact.location import TIMES, StabilityRegion, is_discrete, steady_point
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.system import MultiChannelSystem
+from mcexact.report.figures import response_picture
 from mcexact.reproduce.equations import integrators_agree, stacked
-from mcexact.reproduce.figures import setpoint_picture
 from mcexact.reproduce.material import (
     PAPER,
     Instance,
@@ -207,16 +205,14 @@ def distributed_setpoints(note: Notebook) -> None:
     wanted = [Fraction(1), Fraction(-2)]
     design = design_setpoint(plant, rate=1, aims=THEOREM)
     run = simulate(plant, design.controller, horizon=16, reference=[[r] for r in wanted])
-    outputs = (
-        matrix_to_float(plant.output_matrix()) @ np.array([shot.plant for shot in run.snapshots]).T
-    ).tolist()
+    outputs = list(run.values("outputs").values())
     goals = [to_float(r) for r in wanted]
     gain = design.loop.closed.steady_gain
     note.check("exactly, every output rests at its set-point", gain == Matrix.identity(2))
     note.refute("other-agent", gain != Matrix.from_integers([[0, 1], [1, 0]]))
     near = all(abs(y[-1] - r) < 1e-3 for y, r in zip(outputs, goals, strict=True))
     note.check("the run ends at the set-points 1 and −2", near)
-    note.show(setpoint_picture(run, outputs, goals, ["y of agent 1", "y of agent 2"]))
+    note.show(response_picture(run, "Set-point responses"))
     _exactly_in_time(note, wanted)
     plant = note.at(washed_out())
     try:

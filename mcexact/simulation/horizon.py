@@ -11,8 +11,8 @@ from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.location import is_discrete
 from mcexact.model.loop import ClosedLoop
 
-CONSTANTS = 8
-"""How many time constants of the slowest mode are shown; e⁻⁸ is 0.0003."""
+CONSTANTS = 6
+"""How many time constants of the slowest mode are shown; e⁻⁶ is 0.0025."""
 FEWEST, MOST = 200, 1000
 """The least and the largest number of intervals in continuous time."""
 STEPS = 300
@@ -97,7 +97,7 @@ def _duration(modes: list[complex]) -> Fraction:
     scale = max(map(abs, modes))
     rate = -max(each.real for each in modes)
     if rate < -_SLOW * scale:
-        # An unstable loop is shown until it has grown e⁴ times.
+        # An unstable loop is shown until it has grown e³ times.
         return Fraction(CONSTANTS / -rate / 2)
     if rate <= _SLOW * scale:
         moving = [abs(each) for each in modes if abs(each) > _SLOW * scale]

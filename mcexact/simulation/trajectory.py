@@ -5,22 +5,27 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from itertools import chain
 from typing import Any
 
 from mcexact.errors import InputError, UsageError
-from mcexact.exact.floats import Rounding
+from mcexact.exact.floats import Rounding, to_float
 from mcexact.exact.location import is_discrete
 from mcexact.exact.matrix import Matrix
 from mcexact.model.controller import Controller
 from mcexact.model.loop import ClosedLoop, closed_loop
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_links
+from mcexact.plot.responses import responses
 from mcexact.simulation.arithmetic import Native, arithmetic_named, representable
 from mcexact.simulation.continuous import integrated, taylor
 from mcexact.simulation.horizon import Grid, chosen_grid
 from mcexact.simulation.network import Network, Snapshot
 from mcexact.simulation.precision import double_precision_warning
 from mcexact.simulation.signals import Drive, numbers_of, signal_of
+
+SIGNALS = {"outputs": "y", "inputs": "u", "reference": "r"}
+"""The letters of the signals of all agents, keyed by their names in a `Snapshot`."""
 
 
 @dataclass(frozen=True)
@@ -87,6 +92,70 @@ class Trajectory:
         first = self.snapshots[0]
         return all(len(x_i) == len(first.plant) for x_i in first.shared)
 
+    def names(self, kind: str) -> list[str]:
+        """Return the names of all entries of a signal, such as "y pump" or "u 2[1]".
+
+        Parameters
+        ----------
+        kind : {"outputs", "inputs", "reference"}
+        """
+        letter, first = SIGNALS[kind], getattr(self.snapshots[0], kind)
+        return [
+            f"{letter} {name}" if len(values) == 1 else f"{letter} {name}[{k + 1}]"
+            for name, values in zip(self.agents, first, strict=True)
+            for k in range(len(values))
+        ]
+
+    def values(self, kind: str) -> dict[str, list[float]]:
+        """Return all entries of a signal at all times as floats, keyed by their names.
+
+        Parameters
+        ----------
+        kind : {"outputs", "inputs", "reference"}
+        """
+        rows = [list(map(as_float, chain(*getattr(each, kind)))) for each in self.snapshots]
+        columns = zip(*rows, strict=True)
+        return dict(zip(self.names(kind), map(list, columns), strict=True))
+
+    def state_norms(self, rest: Sequence[float] | None = None) -> list[float]:
+        """Return the largest absolute value of an entry of x, or of x minus a state, at every time.
+
+        Parameters
+        ----------
+        rest : sequence of float, optional
+        """
+        if rest is None or not any(rest):
+            return [_largest(snapshot.plant) for snapshot in self.snapshots]
+        return [
+            max(abs(as_float(x) - r) for x, r in zip(snapshot.plant, rest, strict=True))
+            for snapshot in self.snapshots
+        ]
+
+    def error_norms(self) -> dict[str, list[float]]:
+        """Return the largest absolute entry of e_i = x_i − x for every agent with an estimate.
+
+        The result is empty if the agents share no estimates of the plant's state.
+        """
+        if not self.has_estimates():
+            return {}
+        rows = [[_largest(e) for e in self.errors(k)] for k in range(len(self.times))]
+        return {name: [row[i] for row in rows] for i, name in enumerate(self.agents)}
+
+    def plot(self, ax: Any = None, *, envelope: Any = None) -> Any:
+        """Draw the outputs with their set-points, and the inputs; see `mcexact.plot.responses`.
+
+        Parameters
+        ----------
+        ax : two axes of matplotlib, optional
+        envelope : Envelope, optional
+            Proved bounds, from `proved_envelope`.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+        """
+        return responses(self, ax, envelope=envelope)
+
     def errors(self, k: int) -> list[list[Any]]:
         """The errors e_i = x_i − x at the k-th time, where agents share state estimates.
 
@@ -104,6 +173,16 @@ class Trajectory:
         return [
             [a - b for a, b in zip(x_i, snapshot.plant, strict=True)] for x_i in snapshot.shared
         ]
+
+
+def as_float(value: Any) -> float:
+    """A native number as the nearest float; infinity beyond floats."""
+    return to_float(value) if isinstance(value, (int, Fraction)) else float(value)
+
+
+def _largest(values: list[Any]) -> float:
+    """Return the largest absolute value as a float: infinity beyond floats, 0 without entries."""
+    return as_float(max((abs(value) for value in values), default=0))
 
 
 def simulate(

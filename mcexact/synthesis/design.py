@@ -11,6 +11,7 @@ from mcexact.answer.account import Account
 from mcexact.answer.protocol import Answer
 from mcexact.answer.rules import DESIGN
 from mcexact.answer.sentence import Given
+from mcexact.errors import UsageError
 from mcexact.exact.floats import finite, matrix_to_float, to_float
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial
@@ -105,6 +106,35 @@ class Design:
         closed, found = self.loop.closed.system, self.certificates
         given = Given(closed.plant, {**facts, **self.parts})
         return Account(found, given, DESIGN.sentences(found, given), closed.subject[:-1])
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draw the loop's eigenvalues, robustness, decay, and effort or step responses.
+
+        Parameters
+        ----------
+        ax : four axes of matplotlib, optional
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+
+        Raises
+        ------
+        UsageError
+            If the loop is not stable in floating point, so that it has no such curves.
+
+        Notes
+        -----
+        Computed in floating point, not certified; the page of ``mcexact design --html`` shows the
+        same.  `Controller.plot` draws the gains, and `Trajectory.plot` what `simulate` returns.
+        """
+        from mcexact.plot.loops import loop
+        from mcexact.synthesis.optimum.curves import curves_of
+
+        curves = curves_of(self.loop.closed, self.region)
+        if curves is None:
+            raise UsageError("the loop is not stable: there are no curves of its return to rest")
+        return loop(curves, ax)
 
     def view(self) -> dict[str, Any]:
         """Return the design as plain data; a polynomial is a list of coefficients as strings."""

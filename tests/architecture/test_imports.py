@@ -13,21 +13,22 @@ PACKAGE = ROOT / "mcexact"
 
 STAGE = {
     "exact": 0,
-    "model": 1,
-    "derived": 2,
-    "answer": 3,
-    "analysis": 4,
-    "floating": 4,
-    "synthesis": 5,
-    "simulation": 6,
-    "report": 7,
-    "crosschecks": 8,
-    "sweeps": 8,
-    "reproduce": 9,
+    "plot": 1,
+    "model": 2,
+    "derived": 3,
+    "answer": 4,
+    "analysis": 5,
+    "floating": 5,
+    "synthesis": 6,
+    "simulation": 7,
+    "report": 8,
+    "crosschecks": 9,
+    "sweeps": 9,
+    "reproduce": 10,
 }
 BESIDE = {"checker", "testing", "cli", "errors", "shown"}
 EXACT_STAGES = {"exact", "model", "derived", "answer", "analysis", "checker"}
-SHOWN = {"answer", "model", "exact", "simulation", "errors", "shown"}
+SHOWN = {"answer", "model", "exact", "plot", "simulation", "errors", "shown"}
 """What a report may import: it shows answers, accounts and trajectories, and decides nothing."""
 MODULES = sorted(PACKAGE.rglob("*.py"))
 

@@ -12,7 +12,7 @@ from mcexact import MissingExtra
 from mcexact.cli import main
 from mcexact.floating.controllability import ctrb_rank
 from mcexact.model import gallery
-from mcexact.report.picture import empty_figure
+from mcexact.plot.canvas import _figure_class, empty_figure
 
 PLANT = str(Path(gallery.__file__).with_name("hidden-triple-mode.json"))
 DRAWING = {
@@ -53,6 +53,7 @@ def test_a_table_is_written_without_the_library_that_draws(
 
 
 def test_python_gets_an_import_error_that_names_the_extra(monkeypatch: pytest.MonkeyPatch) -> None:
+    _figure_class.cache_clear()
     monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
     with pytest.raises(MissingExtra, match=r"pip install 'mcexact\[plot\]'") as raised:
         empty_figure(1, 1)

@@ -4,7 +4,8 @@ from matplotlib.colors import to_hex
 
 from mcexact.analysis.analyze import analyze
 from mcexact.derived.drawn.draw import Draw, drawn_system
-from mcexact.report.graph_figures import LARGEST, MARKED, SENDERS, graph_picture
+from mcexact.plot.graphs import LARGEST, MARKED, SENDERS
+from mcexact.report.graph_figures import graph_picture
 
 
 def test_a_large_graph_is_a_matrix_with_the_obstruction_first() -> None:
@@ -18,11 +19,11 @@ def test_a_large_graph_is_a_matrix_with_the_obstruction_first() -> None:
     colors = [[to_hex(cell) for cell in row] for row in image.get_array()]
     assert len(colors) == m and system.neighbors is not None
     arcs = len(system.neighbors.edges())
-    empty = {"#fbe3cf", "#f4f4f4"}
+    empty = {"#fbe3cf", "#f4f4f4", "#d8d8d8"}
     assert sum(cell not in empty for row in colors for cell in row) == arcs
     k = len(subset)
-    assert {cell for row in colors[k:] for cell in row} <= {"#f4f4f4", "#555555"}
-    assert {cell for row in colors[:k] for cell in row[:k]} <= {"#fbe3cf", MARKED}
+    assert {cell for row in colors[k:] for cell in row} <= {"#f4f4f4", "#d8d8d8", "#555555"}
+    assert {cell for row in colors[:k] for cell in row[:k]} <= {"#fbe3cf", "#d8d8d8", MARKED}
     heard = {cell for row in colors[:k] for cell in row[k:]}
     assert SENDERS in heard and MARKED not in heard
     assert transfer.get_title() == "transfer graph" and len(transfer.images) == 1

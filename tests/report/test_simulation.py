@@ -11,10 +11,10 @@ from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.system import MultiChannelSystem
 from mcexact.report.figures import simulation_png
 from mcexact.report.simulation import SimulationReport
-from mcexact.report.simulation_page import simulation_page
-from mcexact.report.trajectory import error_norms, shown_times, state_norms, trajectory_csv
+from mcexact.report.trajectory import shown_times, trajectory_csv
 from mcexact.simulation.run import simulated_loop
 from mcexact.simulation.trajectory import simulate
+from tests.report.strict_html import external_addresses
 
 
 def halving(time="discrete", gain="-1/2"):
@@ -61,8 +61,8 @@ def test_floats_are_written_with_all_their_digits():
 
 def test_norms_and_rows():
     run = simulate(*halving(), horizon=30)
-    assert state_norms(run)[:3] == [1.0, 0.5, 0.25]
-    assert error_norms(run) == {}
+    assert run.state_norms()[:3] == [1.0, 0.5, 0.25]
+    assert run.error_norms() == {}
     assert shown_times(run, 5) == [0, 8, 15, 22, 30] and shown_times(run, 1) == [0]
 
 
@@ -99,13 +99,13 @@ def test_errors_are_those_of_agents_that_share_estimates():
     estimate = AgentProgram("1", 1, 0, LinearMap(shared={0: Matrix.identity(1)}))
     plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]], time="discrete")
     run = simulate(plant, Controller("discrete", "", (estimate,)), horizon=1)
-    assert error_norms(run) == {"1": [1.0, 1.0]}
+    assert run.error_norms() == {"1": [1.0, 1.0]}
 
 
 @pytest.mark.parametrize("time", ["continuous", "discrete"])
 def test_a_picture_has_the_same_bytes_again(time):
     done = simulated_loop(*halving(time, "-3/2"), horizon=Fraction(4))
-    first, second = (simulation_png(done.run, done.spectrum, done.title) for _ in range(2))
+    first, second = (simulation_png(done) for _ in range(2))
     assert first == second and first.startswith(b"\x89PNG")
 
 
@@ -136,5 +136,10 @@ def test_the_default_horizon_follows_the_spectrum():
 
 
 def test_what_comes_from_outside_is_escaped():
-    page = simulation_page("<script>", ["a & b"], [], ("t",), (("0",),), b"")
-    assert "<script>" not in page and "&lt;script&gt;" in page and "a &amp; b" in page
+    plant, controller = halving()
+    named = MultiChannelSystem(
+        plant.A, [plant.B(0)], [plant.C(0)], time=plant.time, name="<script> & $x^$"
+    )
+    text = SimulationReport(simulated_loop(named, controller, horizon=3)).page()
+    assert "<script>" not in text and "&lt;script&gt; &amp; $x^$" in text
+    assert external_addresses(text) == []

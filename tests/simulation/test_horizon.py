@@ -25,10 +25,10 @@ def times(A: list[list[Any]], time: str = "continuous", last: int = 0) -> Grid:
 
 
 @pytest.mark.parametrize("scale", ["1e-6", "1/100", "1", "1e5"])
-def test_eight_time_constants_of_the_slowest_mode_are_shown(scale: str) -> None:
+def test_six_time_constants_of_the_slowest_mode_are_shown(scale: str) -> None:
     rate = Fraction(scale)
     end = times([[-rate, 0], [0, -3 * rate]]).times[-1]
-    assert 8 <= end * rate <= 10
+    assert 6 <= end * rate <= 8
 
 
 def test_the_fastest_mode_says_how_many_times_there_are() -> None:
@@ -45,18 +45,18 @@ def test_what_is_given_is_kept() -> None:
 
 
 def test_the_loop_is_shown_after_the_last_change() -> None:
-    assert times([[-1]], last=100).times[-1] >= 108
+    assert times([[-1]], last=100).times[-1] >= 106
 
 
 def test_unstable_and_undamped_loops_have_times_too() -> None:
-    assert 2 <= times([[2]]).times[-1] <= 3
-    assert 20 <= times([[0, 1], [-1, 0]]).times[-1] <= 60
+    assert 1 <= times([[2]]).times[-1] <= 2
+    assert 15 <= times([[0, 1], [-1, 0]]).times[-1] <= 60
     assert times([[0]]).times[-1] == 10
     assert times([["1e400"]]).times[-1] == 10
 
 
 def test_steps_follow_the_radius_and_modes_zero_end() -> None:
-    assert len(times([["1/2"]], "discrete").times) == 13
+    assert len(times([["1/2"]], "discrete").times) == 11
     nilpotent = [[int(j == i + 1) for j in range(8)] for i in range(8)]
     assert len(times(nilpotent, "discrete").times) == 12
     assert len(times([[1]], "discrete").times) == STEPS + 1

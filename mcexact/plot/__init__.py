@@ -1,0 +1,15 @@
+"""Plots of answers, controllers and trajectories, drawn with matplotlib.
+
+Every function takes ``ax`` (by default it draws on a new figure) and returns the figure.  None uses
+pyplot, changes a global setting or shows a window: a figure is shown by a notebook, or saved with
+``savefig``.  Pages and ``.plot()`` methods draw with the same functions.  This stage takes plain
+numbers and objects with the named attributes, and needs the extra ``plot``.
+"""
+
+from mcexact.plot.eigenvalues import eigenvalues as eigenvalues
+from mcexact.plot.gains import gains as gains
+from mcexact.plot.graphs import graph as graph
+from mcexact.plot.graphs import structure as structure
+from mcexact.plot.loops import loop as loop
+from mcexact.plot.responses import decay as decay
+from mcexact.plot.responses import responses as responses

@@ -1,0 +1,104 @@
+"""New figures without global state, and the axes to draw on."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterable
+from functools import cache
+from typing import Any
+
+from mcexact.errors import MissingExtra, UsageError
+
+BLUE, RED, GRAY, LIGHT = "#1f4e79", "#b03a2e", "#888888", "#ebebeb"
+PANEL = 4.4, 3.5
+"""The size in inches of a picture that two of fit beside each other on a page."""
+NAMED = 8
+"""The largest number of curves that are named in a legend."""
+
+
+@cache
+def _figure_class() -> Any:
+    """A figure that a notebook shows without pyplot."""
+    with MissingExtra.named("plot"):
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+        from matplotlib.figure import Figure
+
+    class ShownFigure(Figure):
+        """A matplotlib figure with a picture for notebooks."""
+
+        def __init__(self, *arguments: Any, **options: Any) -> None:
+            super().__init__(*arguments, **options)
+            FigureCanvasAgg(self)
+
+        def _repr_png_(self) -> bytes:
+            image = io.BytesIO()
+            self.savefig(image, format="png", dpi=96, metadata={"Software": None})
+            return image.getvalue()
+
+    return ShownFigure
+
+
+def empty_figure(width: float, height: float) -> Any:
+    """Make a figure of a size in inches, with a white background and without global state.
+
+    Raises
+    ------
+    MissingExtra
+        If matplotlib is not installed.
+    """
+    return _figure_class()(figsize=(width, height), layout="constrained", facecolor="white")
+
+
+def one_axis(ax: Any, width: float = 5.0, height: float = 3.8) -> Any:
+    """The given axes, or those of a new figure."""
+    return empty_figure(width, height).subplots() if ax is None else ax
+
+
+def several_axes(ax: Any, count: int, width: float = 4.6, height: float = 3.6) -> list[Any]:
+    """The given axes, or those of a new figure, which lie side by side.
+
+    Raises
+    ------
+    UsageError
+        If the number of given axes is another.
+    """
+    if ax is None:
+        return list(empty_figure(width * count, height).subplots(1, count, squeeze=False)[0])
+    found = list(getattr(ax, "flat", ax) if isinstance(ax, Iterable) else [ax])
+    if len(found) != count:
+        raise UsageError(f"expected {count} axes, found {len(found)}", where="ax")
+    return found
+
+
+def legend_below(axis: Any, columns: int = 2) -> None:
+    """Put the legend of an axis below it, where it hides no data."""
+    handles, labels = axis.get_legend_handles_labels()
+    if handles:
+        axis.legend(
+            handles,
+            labels,
+            fontsize="small",
+            frameon=False,
+            ncols=min(columns, len(handles)),
+            loc="upper center",
+            bbox_to_anchor=(0.5, -0.16),
+        )
+
+
+def cut(text: str, longest: int) -> str:
+    """A name, without its middle if it is long: ends of names differ more often.
+
+    Examples
+    --------
+    >>> cut("subsystem 1 of the grid", 12), cut("pump", 12)
+    ('subsys… grid', 'pump')
+    """
+    if len(text) <= longest:
+        return text
+    half = (longest - 1) // 2
+    return f"{text[: longest - 1 - half]}…{text[-half:]}"
+
+
+def plain_label(text: str, longest: int = 24) -> str:
+    """A name that is not too long, in which a dollar sign does not start a formula."""
+    return cut(text, longest).replace("$", r"\$")

@@ -1,0 +1,232 @@
+"""Eigenvalues in the complex plane, with their region, multiplicities and certified discs."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from mcexact.errors import UsageError
+from mcexact.exact.enclosures import root_discs
+from mcexact.exact.floats import to_float
+from mcexact.exact.location import StabilityRegion, is_discrete
+from mcexact.exact.polynomial import Polynomial
+from mcexact.plot.canvas import BLUE, GRAY, LIGHT, RED, legend_below, one_axis
+
+_WIDE, _POWERS = 100.0, 3
+_SEEN = 1 / 200
+"""The part of the picture's width from which on a disc is seen."""
+
+
+@dataclass(frozen=True)
+class Point:
+    """An eigenvalue in the picture.
+
+    Attributes
+    ----------
+    place : complex
+    radius : float
+        Of the disc that is proved to contain it; 0 if it is exact or nothing is proved.
+    multiplicity : int or None
+        The number of times it is a root, if that is proved.
+    """
+
+    place: complex
+    radius: float = 0.0
+    multiplicity: int | None = None
+
+
+def points_of(found: Any) -> tuple[Point, ...]:
+    """Return the eigenvalues that an object has.
+
+    Parameters
+    ----------
+    found : Polynomial, object with ``polynomial``, or sequence of complex
+        For a polynomial each root has a verified disc, and its multiplicity is exact.
+
+    Raises
+    ------
+    UsageError
+        If it is something else.
+
+    Examples
+    --------
+    >>> points_of(Polynomial.from_roots([-1, -1, 2]))
+    (Point(place=(-1+0j), radius=0.0, multiplicity=2), Point(place=(2+0j), radius=0.0, \
+multiplicity=1))
+    >>> points_of([1j])
+    (Point(place=1j, radius=0.0, multiplicity=None),)
+    """
+    polynomial = found if isinstance(found, Polynomial) else getattr(found, "polynomial", None)
+    if isinstance(polynomial, Polynomial):
+        known = getattr(found, "discs", ())
+        parts = [(known, 1)]
+        if len(known) != polynomial.degree:
+            factors = polynomial.factor()
+            parts = [(root_discs(each), count) for each, count in factors if each.degree]
+        points = [
+            Point(complex(to_float(disc.re), to_float(disc.im)), to_float(disc.radius), count)
+            for discs, count in parts
+            for disc in discs
+        ]
+        return tuple(sorted(points, key=lambda each: (each.place.real, each.place.imag)))
+    if isinstance(found, Iterable):
+        return tuple(Point(complex(each)) for each in found)
+    raise UsageError(
+        f"expected a polynomial, something that has one, or numbers; found {type(found).__name__}"
+    )
+
+
+def eigenvalues(
+    found: Any,
+    ax: Any = None,
+    *,
+    time: str = "continuous",
+    region: StabilityRegion | None = None,
+    title: str = "eigenvalues",
+) -> Any:
+    """Draw eigenvalues, the stability region in gray and the edge of the region as a dashed line.
+
+    Parameters
+    ----------
+    found : Polynomial, object with ``polynomial``, or sequence of complex
+        A characteristic polynomial, an answer that states one, or numbers.  Roots of a polynomial
+        have exact multiplicities, which are written beside them, and verified discs, which are
+        drawn where they can be seen.
+    ax : matplotlib.axes.Axes, optional
+        By default those of a new figure.
+    time : {"continuous", "discrete"}
+        The time domain; that of the region, if there is one.
+    region : StabilityRegion, optional
+        The region in which the eigenvalues should lie.
+    title : str
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Examples
+    --------
+    >>> figure = eigenvalues(Polynomial.from_roots([-1, -1, -2]))
+    >>> [text.get_text() for text in figure.axes[0].texts]
+    ['×2']
+    """
+    axis = one_axis(ax)
+    points = points_of(found)
+    discrete = is_discrete(time if region is None else region.time)
+    edge = None if region is None or region.bound is None else to_float(region.edge)
+    draw_places(axis, [each.place for each in points], discrete=discrete, edge=edge)
+    axis.set_title(title, fontsize="medium")
+    _draw_discs(axis, points)
+    for each in points:
+        if each.multiplicity is not None and each.multiplicity > 1:
+            axis.annotate(
+                f"×{each.multiplicity}",
+                (each.place.real, each.place.imag),
+                xytext=(4, 4),
+                textcoords="offset points",
+                fontsize="small",
+            )
+    return axis.figure
+
+
+def draw_places(
+    axis: Any, places: Sequence[complex], *, discrete: bool, edge: float | None
+) -> None:
+    """Draw crosses, the stability region in gray, and the edge of a region as a dashed line.
+
+    Parameters
+    ----------
+    axis : matplotlib.axes.Axes
+    places : sequence of complex
+        Infinities and NaN are left out.
+    discrete : bool
+    edge : float or None
+        The radius of the region, or minus the real part of its edge; None draws none.
+    """
+    finite = [each for each in places if cmath.isfinite(each)]
+    if discrete:
+        _draw_disc(axis, edge, finite)
+    else:
+        _draw_half_plane(axis, edge, finite)
+    axis.plot(
+        [each.real for each in finite],
+        [each.imag for each in finite],
+        linestyle="none",
+        marker="x",
+        color=BLUE,
+    )
+    axis.axhline(0, color=GRAY, linewidth=0.6, zorder=0.5)
+    axis.set_xlabel("real part")
+    axis.set_ylabel("imaginary part")
+
+
+def _draw_disc(axis: Any, edge: float | None, places: Sequence[complex]) -> None:
+    """The unit disc in gray, and the circle of the radius."""
+    from matplotlib.patches import Circle
+
+    axis.add_patch(Circle((0, 0), 1, color=LIGHT, zorder=0))
+    if edge is not None:
+        axis.add_patch(Circle((0, 0), edge, fill=False, edgecolor=RED, linestyle="--", linewidth=1))
+    reach = 1.1 * max([1.0, *(abs(part) for each in places for part in (each.real, each.imag))])
+    axis.set_xlim(-reach, reach)
+    axis.set_ylim(-reach, reach)
+    axis.set_aspect("equal", adjustable="box")
+
+
+def _draw_half_plane(axis: Any, edge: float | None, places: Sequence[complex]) -> None:
+    """The left half-plane in gray, and the line of the rate."""
+    sizes = [abs(each) for each in places if each]
+    least, largest = min(sizes, default=1.0), max(sizes, default=1.0)
+    reals = [*(each.real for each in places), 0.0, -(edge or 0.0)]
+    left, right = min(reals), max(reals)
+    height = max((abs(each.imag) for each in places), default=0.0)
+    if largest > _WIDE * least:
+        # Slow eigenvalues would lie on one spot.
+        ticks = _decades(least, largest)
+        for scale in (axis.set_xscale, axis.set_yscale):
+            scale("symlog", linthresh=least, linscale=0.6)
+        for ticked in (axis.xaxis, axis.yaxis):
+            ticked.set_ticks(ticks, [f"{each:g}" for each in ticks])
+        limits = 3 * left or -least, 3 * right or least / 2
+        height = 3 * max(height, least)
+    else:
+        room = 0.15 * max(right - left, height / 2, 1e-300)
+        limits = left - room, right + room
+        height = 1.2 * height or (right - left) / 2 or 1.0
+    axis.axvspan(min(10 * limits[0], -largest), 0, color=LIGHT, zorder=0, linewidth=0)
+    axis.axvline(0, color=GRAY, linewidth=0.8, zorder=0.5)
+    if edge is not None:
+        axis.axvline(-edge, color=RED, linestyle="--", linewidth=1)
+    axis.set_xlim(*limits)
+    axis.set_ylim(-height, height)
+
+
+def _decades(least: float, largest: float) -> list[float]:
+    """0 and some powers of ten on both sides, none of them close to 0."""
+    powers = range(math.ceil(math.log10(least)), math.floor(math.log10(largest)) + 1)
+    shown = [10.0**k for k in powers[:: -(-len(powers) // _POWERS) or 1]]
+    return [*(-each for each in reversed(shown)), 0.0, *shown]
+
+
+def _draw_discs(axis: Any, points: Sequence[Point]) -> None:
+    """The discs that are large enough to be seen; where they lie is said of the others."""
+    from matplotlib.patches import Circle
+
+    proved = [each for each in points if each.multiplicity is not None]
+    if not proved:
+        return
+    left, right = axis.get_xlim()
+    for each in proved:
+        if each.radius > _SEEN * (right - left):
+            center = (each.place.real, each.place.imag)
+            axis.add_patch(Circle(center, each.radius, color=RED, alpha=0.3))
+    largest = max(each.radius for each in proved)
+    if largest:
+        digits = math.ceil(math.log10(largest))
+        axis.plot([], [], "x", color=BLUE, label=f"located within $10^{{{digits}}}$, with proof")
+    else:
+        axis.plot([], [], "x", color=BLUE, label="exact")
+    legend_below(axis)

@@ -1,0 +1,224 @@
+"""Trajectories over time: outputs with set-points and proved bounds, inputs, and decay."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from typing import Any, Protocol
+
+from mcexact.exact.floats import to_float
+from mcexact.exact.location import StabilityRegion, is_discrete
+from mcexact.plot.canvas import GRAY, NAMED, legend_below, one_axis, plain_label, several_axes
+
+_MARKED = 60
+"""The largest number of times in discrete time that are marked by dots."""
+_BOUNDED = 4
+"""The largest number of outputs whose proved bounds are drawn; more would hide the curves."""
+
+
+class Run(Protocol):
+    """What is shown of a trajectory."""
+
+    @property
+    def time(self) -> str: ...
+    @property
+    def times(self) -> Sequence[Fraction]: ...
+    def values(self, kind: str) -> dict[str, list[float]]: ...
+    def state_norms(self, rest: Sequence[float] | None = None) -> list[float]: ...
+    def error_norms(self) -> dict[str, list[float]]: ...
+
+
+class Bounds(Protocol):
+    """Proved bounds on a trajectory: a value at rest and a size for each output."""
+
+    @property
+    def outputs(self) -> Sequence[tuple[float, float]]: ...
+    @property
+    def state(self) -> Sequence[tuple[float, float]]: ...
+    @property
+    def bound(self) -> Fraction: ...
+    def decay(self, times: Sequence[Fraction]) -> list[float]: ...
+
+
+class Located(Protocol):
+    """A spectrum whose rate is enclosed between decimals."""
+
+    @property
+    def rate(self) -> Any: ...
+
+
+def responses(run: Run, ax: Any = None, *, envelope: Bounds | None = None) -> Any:
+    """Draw the outputs of a trajectory with their set-points, and the inputs beside them.
+
+    Parameters
+    ----------
+    run : Trajectory
+    ax : two axes, optional
+        For the outputs and the inputs; by default those of a new figure.
+    envelope : Envelope, optional
+        Proved bounds, drawn as dotted curves for up to four outputs and named as proved.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    upper, lower = several_axes(ax, 2)
+    outputs, references = run.values("outputs"), run.values("reference")
+    _draw_curves(upper, run, outputs, "outputs")
+    given = [values for values in references.values() if any(values)]
+    if given and len(outputs) <= NAMED:
+        for k, values in enumerate(references.values()):
+            label = "set-points" if k == 0 else None
+            _draw(upper, run, values, f"C{k}", label, linestyle="--", linewidth=1)
+    if envelope is not None and len(outputs) <= _BOUNDED:
+        _draw_bounds(upper, run, envelope)
+    _draw_curves(lower, run, run.values("inputs"), "inputs")
+    for axis in (upper, lower):
+        axis.set_xlabel(elapsed_label(run.time))
+        legend_below(axis, columns=4)
+    return upper.figure
+
+
+def elapsed_label(time: str) -> str:
+    """The label of the axis of times."""
+    return "step" if is_discrete(time) else "time"
+
+
+def _draw_curves(axis: Any, run: Run, curves: Mapping[str, list[float]], what: str) -> None:
+    """Curves with names, if there are few."""
+    named = len(curves) <= NAMED
+    for k, (name, values) in enumerate(curves.items()):
+        _draw(axis, run, values, f"C{k % 10}", plain_label(name) if named else None)
+    axis.set_title(what if named else f"{len(curves)} {what}", fontsize="medium")
+    axis.margins(x=0)
+    axis.grid(visible=True, alpha=0.3)
+
+
+def _draw(
+    axis: Any, run: Run, values: Sequence[float], color: str, label: str | None, **style: Any
+) -> None:
+    discrete = is_discrete(run.time)
+    marked = discrete and len(run.times) <= _MARKED and "linestyle" not in style
+    axis.plot(
+        list(map(to_float, run.times)),
+        [value if math.isfinite(value) else math.nan for value in values],
+        color=color,
+        label=label,
+        marker="." if marked else "",
+        drawstyle="steps-post" if discrete else "default",
+        **{"linewidth": 1.4, **style},
+    )
+
+
+def _draw_bounds(axis: Any, run: Run, envelope: Bounds) -> None:
+    """Curves between which the exact outputs are proved to stay; the picture keeps its limits."""
+    low, high = axis.get_ylim()
+    # Bounds that are much wider than the curves would make these flat.
+    low, high = low - 0.15 * (high - low), high + 0.15 * (high - low)
+    shrinking = envelope.decay(run.times)
+    seen = False
+    for k, (rest, size) in enumerate(envelope.outputs):
+        for sign in (1, -1):
+            values = [rest + sign * size * d for d in shrinking]
+            if any(low <= value <= high for value in values):
+                label = None if seen else "proved bounds"
+                _draw(axis, run, values, f"C{k}", label, linestyle=":", linewidth=1)
+                seen = True
+    axis.set_ylim(low, high)
+
+
+def has_bounds(run: Run, envelope: Bounds | None) -> bool:
+    """Whether the picture of the responses shows proved bounds."""
+    return envelope is not None and 0 < len(run.values("outputs")) <= _BOUNDED
+
+
+def decay(
+    run: Run,
+    ax: Any = None,
+    *,
+    spectrum: Located | None = None,
+    envelope: Bounds | None = None,
+    errors: bool = False,
+) -> Any:
+    """Draw the distance of the state from rest on a logarithmic axis, beside what is proved of it.
+
+    Parameters
+    ----------
+    run : Trajectory
+    ax : matplotlib.axes.Axes, optional
+        By default those of a new figure.
+    spectrum : LoopSpectrum, optional
+        Its certified rate is drawn as the slope of a dashed line; the line itself is no bound.
+    envelope : Envelope, optional
+        The proved bound on every entry of the state, and where the state rests; by default at 0.
+    errors : bool
+        Draw the estimation errors of the agents instead of the state.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    axis = one_axis(ax)
+    rest = None if envelope is None else [each for each, _ in envelope.state]
+    away = rest is not None and any(rest)
+    what = "distance of the state from rest" if away else "largest entry of the state"
+    curves = {"largest entry of x": run.state_norms(rest)}
+    if errors:
+        what = "largest entry of the estimation errors"
+        curves = {f"agent {name}": values for name, values in run.error_norms().items()}
+    shown = [v for values in curves.values() for v in values if 0 < v < math.inf]
+    for k, (name, values) in enumerate(curves.items()):
+        visible = [value if value > 0 else math.nan for value in values]
+        label = plain_label(name) if len(curves) <= NAMED else None
+        _draw(axis, run, visible, f"C{k % 10}", label)
+    times = list(map(to_float, run.times))
+    if shown:
+        axis.set_yscale("log")
+        axis.set_ylim(min(shown) / 3, max(shown) * 3)
+    if shown and spectrum is not None and spectrum.rate is not None:
+        line = _slope(run.time, spectrum, times, list(curves.values()))
+        label = f"slope of the certified {rate_text(run.time, spectrum)}"
+        if line:
+            axis.plot(times, line, "k--", linewidth=1, label=label)
+    if shown and envelope is not None and not errors:
+        largest = max((size for _, size in envelope.state), default=0.0)
+        bound = [largest * d or math.nan for d in envelope.decay(run.times)]
+        axis.plot(times, bound, color=GRAY, linewidth=1.4, label="proved bound")
+        axis.set_ylim(top=max(3 * max(shown), min(2 * largest, 1000 * max(shown))))
+    axis.set_xlabel(elapsed_label(run.time))
+    axis.set_title(what, fontsize="medium")
+    axis.margins(x=0)
+    axis.grid(visible=True, which="major", alpha=0.3)
+    legend_below(axis)
+    return axis.figure
+
+
+def _slope(
+    time: str, spectrum: Located, times: list[float], curves: list[list[float]]
+) -> list[float]:
+    """Draw the certified rate as a line from the highest point, except for a radius of 0."""
+    tops = [
+        max((v for v in values if v < math.inf), default=0.0)
+        for values in zip(*curves, strict=True)
+    ]
+    top = max(tops)
+    start = tops.index(top)
+    speed = to_float(spectrum.rate.lower)
+    if is_discrete(time):
+        radius = to_float(spectrum.rate.upper)
+        if radius <= 0:
+            return []
+        speed = -math.log(radius)
+    elapsed = [t - times[start] for t in times]
+    return [
+        top * math.exp(-speed * t) if t >= 0 and abs(speed * t) < 600 else math.nan for t in elapsed
+    ]
+
+
+def rate_text(time: str, spectrum: Located) -> str:
+    """The certified end of the enclosure of the rate."""
+    if spectrum.rate is None:
+        return ""
+    end = spectrum.rate.upper if is_discrete(time) else spectrum.rate.lower
+    return f"{StabilityRegion(time).word} {to_float(end):.4g}"
