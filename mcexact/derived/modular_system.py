@@ -5,7 +5,8 @@ from __future__ import annotations
 import random
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
+from itertools import islice
 
 from mcexact.exact import krylov
 from mcexact.exact.matrix import Matrix, from_numerators
@@ -116,11 +117,22 @@ def residue_systems(
 
 def drawn_gains(modular: ModularSystem, rng: random.Random) -> Gains:
     """Draw uniform residues for every gain F_i, p_i × q_i."""
-    ell, randrange = modular.modulus, rng.randrange
-    return tuple(
-        tuple(tuple([randrange(ell) for _ in range(c.C.nrows)]) for _ in range(c.B.ncols))
-        for c in modular.system.channels
-    )
+    sizes, drawn = modular.system.sizes, drawn_residues(rng, modular.modulus)
+    if set(sizes) == {(1, 1)}:
+        return tuple([((x,),) for x in islice(drawn, len(sizes))])
+    return tuple([tuple([tuple(islice(drawn, q)) for _ in range(p)]) for p, q in sizes])
+
+
+def drawn_residues(rng: random.Random, ell: int) -> Iterator[int]:
+    """Uniform residues without end: the least bits that hold ℓ, until they make one.
+
+    Examples
+    --------
+    >>> list(islice(drawn_residues(random.Random(1), 7), 5))
+    [1, 4, 6, 0, 2]
+    """
+    drawn = iter(partial(rng.getrandbits, ell.bit_length()), -1)
+    return filter(ell.__gt__, drawn)
 
 
 def closed_loop(modular: ModularSystem, gains: Gains) -> ModularMatrix:
@@ -145,9 +157,8 @@ def quick_bits(system: MultiChannelSystem) -> int:
     """The size of primes modulo which `loop_polynomials` is fastest."""
     if system.n < _KRYLOV_SIZE:
         return 30
-    inputs = sum(channel.B.ncols for channel in system.channels)
-    outputs = max(channel.C.nrows for channel in system.channels)
-    return krylov.exact_bits(max(system.n, inputs, outputs))
+    inputs, outputs = zip(*system.sizes, strict=True)
+    return krylov.exact_bits(max(system.n, sum(inputs), *outputs))
 
 
 def loop_polynomials(
@@ -189,7 +200,7 @@ def channel_sequences(
         (q, x, y), x of p_q and y of q_q residues.
     """
     system, ell = modular.system, modular.modulus
-    B, C = ([getattr(channel, port) for channel in system.channels] for port in ("B", "C"))
+    B, C = [channel.B for channel in system.channels], [channel.C for channel in system.channels]
     if stays_sparse(system.A, B, C):
         sparse = SparseLoop(system.A, B, C, ell)
         found = sparse.sequences(sparse.closed(gains), starts)
@@ -225,9 +236,9 @@ def lifted(M: ModularMatrix) -> Matrix:
 
 def lifted_gains(modular: ModularSystem, gains: Gains) -> tuple[Matrix, ...]:
     """The gains as integer matrices with the symmetric residues; equal ones are one object."""
-    sized = [(F, c.C.nrows) for F, c in zip(gains, modular.system.channels, strict=True)]
+    sized = list(zip(gains, modular.system.sizes, strict=True))
     made = {
-        (F, width): from_numerators([integers(row, modular.modulus) for row in F], 1, width)
-        for F, width in set(sized)
+        (F, (p, q)): from_numerators([integers(row, modular.modulus) for row in F], 1, q)
+        for F, (p, q) in set(sized)
     }
-    return tuple(made[each] for each in sized)
+    return tuple(map(made.__getitem__, sized))

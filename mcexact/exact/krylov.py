@@ -15,6 +15,7 @@ from __future__ import annotations
 import random
 from array import array
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import flint
@@ -33,6 +34,12 @@ if TYPE_CHECKING:
 _EXACT = 2**53
 _EXACT_IN_SINGLE = 2**24
 
+# A squaring costs as much as 25 products with a row at n = 130, and 600 at n = 1600.
+_FEW_SQUARINGS = 256
+# From so many states on, products with a row cost more than to reduce the row.
+_REDUCED_ALWAYS = 512
+_PART = 2**16
+
 Start = tuple[int, Sequence[int], Sequence[int]]
 """A channel q and residues x, y: b = B_q x and c = y C_q."""
 
@@ -42,7 +49,8 @@ def exact_bits(terms: int) -> int:
 
     Notes
     -----
-    `reduced` leaves residues of at most ℓ/2 + 3, and takes off a multiple of ℓ.
+    `reduced` leaves residues of at most ℓ/2 + 3, and takes off a multiple of ℓ.  One more residue
+    may be added to a sum before.
 
     Examples
     --------
@@ -56,7 +64,7 @@ def exact_bits(terms: int) -> int:
 
 
 def _largest_sum(terms: int, ell: int) -> int:
-    return terms * (ell // 2 + 3) ** 2 + ell
+    return (terms + 1) * (ell // 2 + 3) ** 2 + ell
 
 
 class FloatLoop:
@@ -76,32 +84,42 @@ class FloatLoop:
     def __init__(self, A: Matrix, B: Sequence[Matrix], C: Sequence[Matrix], ell: int) -> None:
         import numpy as np
 
-        self.ell, self.n = ell, A.nrows
-        self.inputs = offsets([M.ncols for M in B])
-        self.outputs = offsets([M.nrows for M in C])
-        terms = max(self.n, self.inputs[-1], self.outputs[-1])
+        self.ell, n = ell, A.nrows
+        widths = [M.ncols for M in B]
+        self.inputs, self.outputs = offsets(widths), offsets([M.nrows for M in C])
+        terms = max(n, self.inputs[-1], self.outputs[-1])
         single = _largest_sum(terms, ell) <= _EXACT_IN_SINGLE
         self.kind: type[np.floating[Any]] = np.float32 if single else np.float64
-        self.A = _residues([A], ell, self.kind)[0]
-        if all(M.ncols == M.denominator == 1 for M in B):
-            self.B = _numbers(B, ell, self.kind).reshape(len(B), self.n).T
+        self.A = residues([A], ell, self.kind).reshape(n, n)
+        self.C = residues(C, ell, self.kind).reshape(self.outputs[-1], n)
+        inputs = residues(B, ell, self.kind)
+        if set(widths) == {1}:
+            self.B = inputs.reshape(len(B), n).T
         else:
-            self.B = np.hstack([np.zeros((self.n, 0), self.kind), *_residues(B, ell, self.kind)])
-        if all(M.denominator == 1 for M in C):
-            self.C = _numbers(C, ell, self.kind).reshape(self.outputs[-1], self.n)
-        else:
-            self.C = np.vstack([np.zeros((0, self.n), self.kind), *_residues(C, ell, self.kind)])
+            ends = pairwise(n * start for start in self.inputs)
+            blocks = [
+                inputs[slice(*end)].reshape(n, p) for end, p in zip(ends, widths, strict=True)
+            ]
+            self.B = np.hstack([np.zeros((n, 0), self.kind), *blocks])
 
     def closed(self, gains: Sequence[Any]) -> Floats:
         """A + Σ B_i F_i C_i, for p_i × q_i rows of integers."""
         import numpy as np
 
-        F = np.zeros((self.inputs[-1], self.outputs[-1]), self.kind)
-        for i, rows in enumerate(gains):
-            if rows:
-                F[self.inputs[i] : self.inputs[i + 1], self.outputs[i] : self.outputs[i + 1]] = rows
-        heard = reduced(reduced(F, self.ell) @ self.C, self.ell)
-        return reduced(self.A + reduced(self.B @ heard, self.ell), self.ell)
+        single = range(len(gains) + 1)
+        if self.inputs == self.outputs == list(single):
+            scales = np.array([F[0][0] for F in gains], self.kind)
+            heard = reduce(scales, self.ell)[:, None] * self.C
+        else:
+            F = np.zeros((self.inputs[-1], self.outputs[-1]), self.kind)
+            places = pairwise(self.inputs), pairwise(self.outputs)
+            for (top, bottom), (left, right), rows in zip(*places, gains, strict=True):
+                if rows:
+                    F[top:bottom, left:right] = rows
+            heard = reduce(F, self.ell) @ self.C
+        moved = self.B @ reduce(heard, self.ell)
+        moved += self.A
+        return reduce(moved, self.ell)
 
     def sequences(self, M: Floats, starts: Iterable[Start]) -> Iterator[list[int]]:
         """The numbers y C_q Mᵏ B_q x modulo ℓ, k < 2n, for each (q, x, y)."""
@@ -109,40 +127,73 @@ class FloatLoop:
         for q, x, y in starts:
             some_inputs = self.B[:, self.inputs[q] : self.inputs[q + 1]]
             some_outputs = self.C[self.outputs[q] : self.outputs[q + 1]]
-            column = reduced(some_inputs @ self._vector(x), self.ell)
-            row = reduced(self._vector(y) @ some_outputs, self.ell)
+            column = reduce(some_inputs @ self._vector(x), self.ell)
+            row = reduce(self._vector(y) @ some_outputs, self.ell)
             yield steps.sequence(row, column)
 
     def _vector(self, x: Sequence[int]) -> Floats:
         import numpy as np
 
-        return reduced(np.array(x, dtype=self.kind), self.ell)
+        return reduce(np.array(x, dtype=self.kind), self.ell)
 
 
 class KrylovSteps:
-    """Powers of an n × n array of symmetric residues, with which sequences are computed."""
+    """An n × n array of symmetric residues and a power of it, with which sequences are computed."""
 
     def __init__(self, M: Floats, ell: int) -> None:
-        self.ell, self.powers = ell, [M]
-        # at n = 800: three squarings, and 200 products with a row for each sequence
-        for _ in range(min(3, len(M).bit_length() // 2)):
-            self.powers.append(reduced(self.powers[-1] @ self.powers[-1], ell))
+        import numpy as np
+
+        self.ell, self.M, self.power, self.steps = ell, M, M, 1
+        other: Floats | None = None
+        for _ in range(min(3 if len(M) < _FEW_SQUARINGS else 2, len(M).bit_length() // 2)):
+            squared = np.matmul(self.power, self.power, out=other)
+            other = None if self.power is M else self.power
+            self.power, self.steps = reduce(squared, ell), 2 * self.steps
+        self.at_once = 1
+        if 0 < len(M) < _REDUCED_ALWAYS:
+            exact = _EXACT_IN_SINGLE if M.dtype == np.float32 else _EXACT
+            self.at_once = products_at_once(int(np.abs(self.power).sum(axis=0).max()), ell, exact)
 
     def sequence(self, row: Floats, column: Floats) -> list[int]:
         """The numbers c Mᵏ b, k < 2n: (c M^{hg})(M^j b) for k = hg + j, j < h."""
         import numpy as np
 
-        *small, power = self.powers
-        columns = column[:, None]
-        for M in small:
-            columns = np.hstack([columns, reduced(M @ columns, self.ell)])
-        n, h = columns.shape
-        rows = np.empty((-(-2 * n // h), n), dtype=power.dtype)
-        for k in range(len(rows)):
-            rows[k] = row if k == 0 else reduced(rows[k - 1] @ power, self.ell)
-        numbers = reduced(rows @ columns, self.ell).ravel()[: 2 * n]
+        n, h = len(row), self.steps
+        columns = np.empty((h, n), dtype=row.dtype)
+        rows = np.empty((-(-2 * n // h), n), dtype=row.dtype)
+        columns[0], rows[:1] = column, row
+        for j in range(1, h):
+            reduce(np.matmul(self.M, columns[j - 1], out=columns[j]), self.ell)
+        for g in range(1, len(rows)):
+            np.matmul(rows[g - 1], self.power, out=rows[g])
+            if g % self.at_once == 0:
+                reduce(rows[g], self.ell)
+        numbers = reduce(reduce(rows, self.ell) @ columns.T, self.ell).ravel()[: 2 * n]
         found: list[int] = (numbers.astype(np.int64) % self.ell).tolist()
         return found
+
+
+def products_at_once(growth: int, ell: int, exact: int) -> int:
+    """How many products with a matrix keep residues exact, so that a multiple of ℓ can go.
+
+    Parameters
+    ----------
+    growth : int
+        The largest sum of the sizes of entries that are multiplied: of a row in M v, of a column in
+        v M.
+    ell : int
+    exact : int
+        Integers of at most this size are exact.
+
+    Examples
+    --------
+    >>> products_at_once(300, 7, 2**24), products_at_once(300, 7, 2**53)
+    (2, 6)
+    """
+    largest, products = ell // 2 + 3, 0
+    while products < 64 and largest * growth <= exact - ell:
+        largest, products = largest * growth, products + 1
+    return products
 
 
 def loop_polynomials(
@@ -164,7 +215,7 @@ def characteristic_polynomial(M: Floats, ell: int) -> ModularPolynomial:
 
     n, draw = len(M), random.Random(ell).randrange
     drawn = np.array([draw(ell) for _ in range(2 * n)], dtype=M.dtype)
-    row, column = reduced(drawn, ell).reshape(2, n)
+    row, column = reduce(drawn, ell).reshape(2, n)
     sequence = KrylovSteps(M, ell).sequence(row, column)
     recurrence = least_recurrence(sequence, ell)
     if recurrence.degree == n:
@@ -173,27 +224,23 @@ def characteristic_polynomial(M: Floats, ell: int) -> ModularPolynomial:
     return ModularPolynomial(ell, flint.nmod_mat(n, n, entries, ell).charpoly())
 
 
-def _residues(parts: Sequence[Matrix], ell: int, kind: type[np.floating[Any]]) -> list[Floats]:
-    """The symmetric residues of rational matrices, all of them reduced at once."""
-    residues, found, start = _numbers(parts, ell, kind), [], 0
-    for M in parts:
-        part = residues[start : start + M.nrows * M.ncols].reshape(M.shape)
-        start += part.size
-        if M.denominator != 1:
-            part = reduced(part * pow(M.denominator, -1, ell), ell)
-        found.append(part)
-    return found
-
-
-def _numbers(parts: Sequence[Matrix], ell: int, kind: type[np.floating[Any]]) -> Floats:
-    """The symmetric residues of the numerators of all parts, row by row, one after the other."""
+def residues(parts: Sequence[Matrix], ell: int, kind: type[np.floating[Any]]) -> Floats:
+    """The symmetric residues of rational matrices, row by row, one matrix after the other."""
     import numpy as np
 
-    words = b"".join(_words(M, ell) for M in parts)
-    together = np.frombuffer(words, dtype=np.int64)
-    if max(int(together.max(initial=0)), -int(together.min(initial=0))) >= _EXACT_IN_SINGLE // 2:
-        together = together % ell
-    return reduced(together.astype(kind), ell)
+    words = [_words(M, ell) for M in parts]
+    together = np.frombuffer(words[0] if len(words) == 1 else b"".join(words), dtype=np.int64)
+    found = together.astype(kind)
+    most = max(found.max(initial=0), -found.min(initial=0))
+    if most >= _EXACT_IN_SINGLE // 2:
+        found[:] = together % ell
+    if most > ell // 2:
+        reduce(found, ell)
+    if any(M.denominator != 1 for M in parts):
+        inverses = [pow(M.denominator, -1, ell) for M in parts]
+        found *= np.array(inverses, kind).repeat([M.nrows * M.ncols for M in parts])
+        reduce(found, ell)
+    return found
 
 
 def _words(M: Matrix, ell: int) -> array[int]:
@@ -204,16 +251,25 @@ def _words(M: Matrix, ell: int) -> array[int]:
     return words
 
 
-def reduced(table: Floats, ell: int) -> Floats:
-    """Integers of at most 2**53 − ℓ in size, each less a multiple of ℓ: at most ℓ/2 + 3 is left.
+def reduce(table: Floats, ell: int) -> Floats:
+    """Take multiples of ℓ off integers of at most 2**53 − ℓ in size: at most ℓ/2 + 3 is left.
 
+    In place, for arrays without gaps, and part by part: new arrays take longer than the arithmetic.
+
+    Notes
+    -----
     The quotient has an error of at most 2 units of 2**−53 relative to |x|/ℓ, so that what is left
     exceeds ℓ/2 by at most 2; the multiple and the difference are integers below 2**53.  In singles
     the same holds with 24 in place of 53.
     """
     import numpy as np
 
-    quotient = table * table.dtype.type(1.0 / ell)
-    np.rint(quotient, out=quotient)
-    quotient *= ell
-    return np.subtract(table, quotient, out=quotient)
+    numbers, inverse = table.ravel(order="K"), table.dtype.type(1.0 / ell)
+    quotients = np.empty(min(len(numbers), _PART), dtype=table.dtype)
+    for start in range(0, len(numbers), _PART):
+        part = numbers[start : start + _PART]
+        quotient = np.multiply(part, inverse, out=quotients[: len(part)])
+        np.rint(quotient, out=quotient)
+        quotient *= ell
+        part -= quotient
+    return table

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import flint
@@ -38,7 +39,7 @@ class ModularPolynomial:
         require_prime(modulus)
         return cls(modulus, flint.nmod_poly([int(c) % modulus for c in coefficients], modulus))
 
-    @property
+    @cached_property
     def coefficients(self) -> tuple[int, ...]:
         """Residues from 0 to ℓ − 1, constant term first, the last one not 0."""
         return tuple(map(int, self._poly.coeffs()))

@@ -29,8 +29,10 @@ def least_recurrence(sequence: Sequence[int], ell: int) -> ModularPolynomial:
     ring = flint.fmpz_mod_poly_ctx(flint.fmpz_mod_ctx(ell))
     if not any(sequence):
         return ModularPolynomial.from_coefficients([1], ell)
-    found = ring.minpoly(list(sequence)).coeffs()
-    return ModularPolynomial(ell, flint.nmod_poly(list(map(int, found)), ell))
+    coefficients = list(map(int, ring.minpoly(list(sequence)).coeffs()))
+    found = ModularPolynomial(ell, flint.nmod_poly(coefficients, ell))
+    found.__dict__["coefficients"] = tuple(coefficients)
+    return found
 
 
 def cofactors(

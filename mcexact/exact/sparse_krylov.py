@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from mcexact.exact.blocks import offsets
-from mcexact.exact.krylov import Start, reduced
+from mcexact.exact.krylov import Start, products_at_once, reduce
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.tables import is_mostly_zero
 
@@ -124,13 +124,7 @@ class SparseLoop:
 
 def steps_at_once(M: Integers, ell: int, exact: int) -> int:
     """How many products with M keep residues below a number, so that a multiple of ℓ can go."""
-    if not M.nnz:
-        return 1
-    growth, steps = int(abs(M).sum(axis=1).max()), 0
-    largest = ell // 2 + 3
-    while steps < 64 and largest * growth <= exact - ell:
-        largest, steps = largest * growth, steps + 1
-    return steps
+    return products_at_once(int(abs(M).sum(axis=1).max()), ell, exact) if M.nnz else 1
 
 
 def sequence(M: Integers, row: Any, column: Any, ell: int, length: int) -> list[int]:
@@ -158,7 +152,7 @@ def sequence(M: Integers, row: Any, column: Any, ell: int, length: int) -> list[
             seen[k] = v[where]
             v = step @ v
             if (start + k) % steps == steps - 1:
-                v = reduced(v, ell)
+                v = reduce(v, ell)
         found += (seen % ell @ row[where] % ell).tolist()
     return found
 

@@ -6,7 +6,7 @@ import random
 from math import isqrt
 from typing import TYPE_CHECKING, Any
 
-from mcexact.exact.krylov import reduced
+from mcexact.exact.krylov import reduce
 from mcexact.exact.modular_polynomial import ModularPolynomial
 from mcexact.exact.recurrence import least_recurrence
 
@@ -39,18 +39,18 @@ class SparsePowers:
         """p(M) V modulo ℓ, V n × k residues, by Horner's rule."""
         import numpy as np
 
-        V = reduced(np.asarray(V, dtype=np.float64), self.ell)
+        V = reduce(np.array(V, dtype=np.float64), self.ell)
         found: Floats = np.zeros_like(V)
         for c in reversed(p.coefficients):
             factor = c - self.ell if 2 * c > self.ell else c
-            found = reduced(self.M @ found + factor * V, self.ell)
+            found = reduce(self.M @ found + factor * V, self.ell)
         return self._residues(found)
 
     def product(self, V: Any) -> Residues:
         """M V modulo ℓ, V n × k residues."""
         import numpy as np
 
-        return self._residues(reduced(self.M @ reduced(V.astype(np.float64), self.ell), self.ell))
+        return self._residues(reduce(self.M @ reduce(V.astype(np.float64), self.ell), self.ell))
 
     def _residues(self, table: Floats) -> Residues:
         import numpy as np
@@ -65,11 +65,11 @@ class SparsePowers:
         small = max(1, _EXACT // (max(self.n, 1) * self.ell))
         row = np.array([rng.randrange(small) for _ in range(self.n)], dtype=np.float64)
         drawn = np.array([rng.randrange(self.ell) for _ in range(self.n)], dtype=np.float64)
-        v: Floats = reduced(drawn, self.ell)
+        v: Floats = reduce(drawn, self.ell)
         numbers = []
         for _ in range(2 * self.n):
             numbers.append(int(row @ v) % self.ell)
-            v = reduced(self.M @ v, self.ell)
+            v = reduce(self.M @ v, self.ell)
         return least_recurrence(numbers, self.ell)
 
 

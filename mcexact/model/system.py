@@ -203,6 +203,23 @@ class MultiChannelSystem:
         return lcm(self.A.denominator, *set(ports))
 
     @cached_property
+    def sizes(self) -> tuple[tuple[int, int], ...]:
+        """The numbers (p_i, q_i) of inputs and outputs of each channel."""
+        return tuple([(channel.B.ncols, channel.C.nrows) for channel in self.channels])
+
+    @cached_property
+    def active(self) -> tuple[int, ...]:
+        """The channels with B_i ≠ 0 and C_i ≠ 0.
+
+        Examples
+        --------
+        >>> MultiChannelSystem([[0]], [[[1]], [[0]]], [[[1]], [[1]]]).active
+        (0,)
+        """
+        ports = enumerate(self.channels)
+        return tuple([i for i, c in ports if not (c.B.is_zero() or c.C.is_zero())])
+
+    @cached_property
     def B(self) -> ChannelMatrices:
         """The B_i, n×p_i: ``B[0]`` or ``B["1"]`` is that of the first channel."""
         return ChannelMatrices((channel.B for channel in self.channels), self.names)

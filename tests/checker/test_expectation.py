@@ -13,7 +13,7 @@ from mcexact.checker import Expectation, Limits, Verdict
 from mcexact.checker.controller import FORMAT
 from mcexact.checker.expectation import difference
 from mcexact.checker.reading import Refused
-from mcexact.checker.statement import digest
+from mcexact.checker.statement import canonical_json, digest
 from mcexact.checker.system import read_plant
 from tests.checker.handmade import FIXED, FREE, PAPER, Document, certificate, changed, checked
 from tests.checker.manifests import EVIDENCE, manifest, sentence, write
@@ -61,6 +61,13 @@ def test_another_plant_is_invalid_and_both_digests_are_named() -> None:
     verdict = answered(LOOP, Expectation().about(file, Limits()))
     assert (verdict.verdict, verdict.code, verdict.place) == ("INVALID", "system", "system")
     assert ABOUT in verdict.message and digest(read_plant(PAPER)) in verdict.message
+
+
+def test_the_plant_in_a_file_is_granted_work_and_no_other_is() -> None:
+    assert Expectation().size == 0
+    file = text({"format": "mcexact-system/1", **PAPER})
+    found = Expectation().about(file, Limits())
+    assert found.size == len(canonical_json(found.plant)) > 0
 
 
 def test_another_controller_is_invalid_and_both_digests_are_named() -> None:

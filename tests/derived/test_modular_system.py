@@ -1,6 +1,7 @@
 """Loops closed modulo a prime: by floats and without them, the polynomials are the same."""
 
 import random
+from itertools import islice
 
 import pytest
 
@@ -11,8 +12,10 @@ from mcexact.checker import check_document
 from mcexact.derived.drawn.choices import SeededChoices
 from mcexact.derived.drawn.systems import system_with_fixed_mode
 from mcexact.derived.modular_system import (
+    ModularSystem,
     closed_loop,
     drawn_gains,
+    drawn_residues,
     generator,
     loop_polynomials,
     quick_bits,
@@ -71,3 +74,21 @@ def test_a_planted_mode_is_found_among_128_states(degree: int) -> None:
     assert planted.fixed_mode in [f.polynomial for f in spectrum.factors]
     verdict = check_document(codec.encode(spectrum).encode())
     assert verdict.verdict == "VALID", verdict
+
+
+@pytest.mark.parametrize("ell", [2, 3, 7, 8, 13, 2**19 - 1])
+def test_all_residues_are_drawn(ell: int) -> None:
+    found = list(islice(drawn_residues(random.Random(ell), ell), 500))
+    assert all(0 <= x < ell for x in found) and 2 * max(found) >= ell
+    assert len(set(found)) == ell or ell > 13
+
+
+def test_gains_have_the_sizes_of_their_channels() -> None:
+    for widths in ([(1, 1)] * 3, [(1, 1), (2, 3), (0, 2), (2, 0)]):
+        system = drawn(4, widths, seed=1)
+        gains = drawn_gains(ModularSystem(system, 31), random.Random(1))
+        assert [len(F) for F in gains] == [p for p, _ in widths]
+        assert [{len(row) for row in F} for F in gains] == [{q} if p else set() for p, q in widths]
+        drawn_one_by_one = list(islice(drawn_residues(random.Random(1), 31), 9))
+        entries = [x for F in gains for row in F for x in row]
+        assert entries == drawn_one_by_one[: len(entries)]

@@ -20,8 +20,7 @@ def prime(terms):
 
 
 def floats(M, ell):
-    [found] = krylov._residues([M], ell, np.float64)
-    return found
+    return krylov.residues([M], ell, np.float64).reshape(M.shape)
 
 
 @given(square_matrices(), st.integers(0, 50))
@@ -72,8 +71,41 @@ def test_sums_of_the_largest_products_are_exact_and_reduced_well(terms):
     total = np.full((1, terms), float(largest)) @ np.full((terms, 1), float(largest))
     assert int(total[0, 0]) == terms * largest**2
     for value in (int(total[0, 0]), -int(total[0, 0]), ell * (2**52 // ell) + ell // 2):
-        left = float(krylov.reduced(np.array([float(value)]), ell)[0])
+        left = float(krylov.reduce(np.array([float(value)]), ell)[0])
         assert left.is_integer() and (value - int(left)) % ell == 0 and abs(left) <= ell // 2 + 3
+
+
+@pytest.mark.parametrize("part", [1, 3, 12, 100])
+def test_numbers_are_reduced_in_place_part_by_part_in_any_order(part, monkeypatch):
+    monkeypatch.setattr(krylov, "_PART", part)
+    numbers = np.arange(-12, 12).reshape(4, 6)
+    for order in ("C", "F"):
+        table = np.array(numbers, dtype=np.float32, order=order)
+        assert krylov.reduce(table, 5) is table
+        assert np.array_equal(table % 5, numbers % 5) and abs(table).max() == 2
+    assert krylov.reduce(np.zeros((0, 3)), 5).shape == (0, 3)
+
+
+@pytest.mark.parametrize("n", [11 + 13 * 9, 11 + 13 * 14, 11 + 13 * 30, 11 + 13 * 40])
+@pytest.mark.parametrize("kind", [np.float32, np.float64])
+def test_a_sequence_is_exact_where_all_residues_are_large(n, kind):
+    """Modulo 13, 6n is 1 for these n: the matrix of entries 6 is its own square."""
+    steps = krylov.KrylovSteps(np.full((n, n), 6, dtype=kind), 13)
+    assert abs(steps.power).min() == 6
+    row, column = np.full(n, 6, dtype=kind), np.full(n, -5, dtype=kind)
+    assert steps.sequence(row, column) == [-30 * n % 13] * (2 * n)
+
+
+@pytest.mark.parametrize("n", [1, 2, 3, 7, 8, 127, 255, 256])
+def test_a_sequence_is_that_of_products_one_by_one(n):
+    rng, ell = random.Random(n), 31
+    M = np.array([[rng.randrange(ell) - 15 for _ in range(n)] for _ in range(n)], dtype=np.float32)
+    row, column = M[0].copy(), M[:, -1].copy()
+    found, v, whole = [], column.astype(np.int64), M.astype(np.int64)
+    for _ in range(2 * n):
+        found.append(int(row.astype(np.int64) @ v) % ell)
+        v = whole @ v % ell
+    assert krylov.KrylovSteps(M, ell).sequence(row, column) == found
 
 
 @given(st.data())

@@ -12,7 +12,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from mcexact.errors import LimitReached
-from mcexact.exact.krylov import reduced
+from mcexact.exact.krylov import reduce
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.sparse_krylov import SparseLoop
 from mcexact.model.system import MultiChannelSystem
@@ -123,7 +123,7 @@ def sparse_powers(
     most = _MOST_PRODUCTS // max(loop.A.nnz * width + n, 1)
     for k in range(min(n, most + 1)):
         if k:
-            V = reduced(A @ V, ell)
+            V = reduce(A @ V, ell)
         new = seen(V) & (found < 0)
         if new.any():
             found[new] = k
@@ -140,7 +140,7 @@ def _seen(loop: SparseLoop) -> Callable[[Any], Flags]:
     outputs, inputs = _members(loop.outputs), _members(loop.inputs)
 
     def seen(V: Any) -> Flags:
-        nonzero = (reduced(C @ V, loop.ell) % loop.ell != 0).astype(np.float32)
+        nonzero = (reduce(C @ V, loop.ell) % loop.ell != 0).astype(np.float32)
         found: Flags = (outputs @ nonzero @ inputs.T).T > 0
         return found
 

@@ -50,9 +50,8 @@ def state_blocks(system: MultiChannelSystem) -> tuple[StateBlock, ...]:
     True
     """
     if not system.A.is_sparse and _connected(_flags(system.A), system.n):
-        acting = [i for i, c in enumerate(system.channels) if not (c.B.is_zero() or c.C.is_zero())]
         states = tuple(range(system.n))
-        return (StateBlock(states, _part(system, states, acting)),)
+        return (StateBlock(states, _part(system, states, system.active)),)
     found = []
     for component in _components(*_arcs(system)):
         states = tuple(sorted(v for v in component if v < system.n))
@@ -194,7 +193,7 @@ def bounded_blocks(system: MultiChannelSystem, through: str | None = None) -> tu
 
 
 def _longest(block: StateBlock, denominator: int, through: str | None) -> KrylovSequence | None:
-    if block.system is None or through not in {None, *block.system.names}:
+    if block.system is None or not (through is None or through in block.system.names):
         return None
     found = best_sequences(block.system, denominator, through)
     return max(found, key=lambda each: each.degree, default=None)

@@ -87,12 +87,14 @@ def test_two_moduli_that_agree_end_the_search() -> None:
 
 
 def test_a_modulus_that_divides_a_denominator_is_left_out() -> None:
-    system = MultiChannelSystem([["1/7"]], [[["1/31"]]], [[[1]]])
+    first, second, third = [f"1/{ell}" for ell in MODULI]
+    system = MultiChannelSystem([[first]], [[[second]]], [[[1]]])
     [found] = best_sequences(system)
     assert found.modulus == MODULI[2]
-    [found] = best_sequences(MultiChannelSystem([[1]], [[[1]]], [[[1]]]), denominator=14)
+    one = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    [found] = best_sequences(one, denominator=2 * MODULI[0])
     assert found.modulus == MODULI[1]
-    nothing = MultiChannelSystem([["1/7"]], [[["1/31"]]], [[[f"1/{MODULI[2]}"]]])
+    nothing = MultiChannelSystem([[first]], [[[second]]], [[[third]]])
     assert list(best_sequences(nothing)) == []
     assert fixed_spectrum(nothing).empty
 
@@ -131,11 +133,10 @@ def test_a_mode_that_stays_once_is_proved_by_one_sequence_and_a_chain_is_not() -
 
 
 def test_factors_that_meet_modulo_the_prime_wait_for_another() -> None:
-    # 1 and 8 are the same modulo 7
-    system = MultiChannelSystem([[1, 0], [0, 8]], [[[0], [0]]], [[[1, 1]]])
+    system = MultiChannelSystem([[1, 0], [0, 1 + MODULI[0]]], [[[0], [0]]], [[[1, 1]]])
     evidence = fixed_spectrum(system).evidence
     assert isinstance(evidence, ByBlocks)
-    assert evidence.modulus == 31
+    assert evidence.modulus == MODULI[1]
 
 
 @pytest.mark.parametrize("name", gallery.names())
