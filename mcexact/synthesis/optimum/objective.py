@@ -13,13 +13,16 @@ from mcexact.synthesis.optimum.shape import NO_LIMITS, Shape
 from mcexact.synthesis.optimum.weights import Floats
 
 _SHAPE = 100.0
-SHARE_OF_SHIFTED = 0.05
-"""The weight of the cost of the shifted loop, which makes the border of the region a barrier."""
+SHARE_OF_SHIFTED = 0.0005
+"""The weight σ of the cost of the shifted loop, which makes the border of the region a barrier.
+
+With larger weights loops become faster than is asked, and dearer.
+"""
 
 
 @dataclass(frozen=True, eq=False)
 class Objective:
-    """J_0 + 0.05 J_a + μ Σ max(0, σ_max(T)/τ − 1)² + J_0 (Σ max(0, |K_ij|/g − 1)² + 100 e).
+    """J_0 + σ J_a + μ Σ max(0, σ_max(T)/τ − 1)² + J_0 (Σ max(0, |K_ij|/g − 1)² + 100 e).
 
     Here e is `Shape.excess`.
 
