@@ -22,10 +22,10 @@ release = version = mcexact.__version__
 extensions = [
     "sphinx.ext.autodoc",
     "sphinx.ext.autosummary",
-    "sphinx.ext.mathjax",
     "numpydoc",
     "myst_nb",
     "sphinx_copybutton",
+    "mathml",
 ]
 exclude_patterns = [f"generated/{name}.md" for name in ("exhibits", "designs", "speed")]
 templates_path = ["_templates"]
@@ -47,12 +47,22 @@ numpydoc_class_members_toctree = False
 copybutton_prompt_text = r">>> |\.\.\. |\$ "
 copybutton_prompt_is_regexp = True
 
+html_math_renderer = "mathml"
 html_theme = "pydata_sphinx_theme"
 html_title = "mcexact"
 html_static_path = ["_static"]
 html_css_files = ["mcexact.css"]
 html_show_sourcelink = False
+# Pages without others below them need no list of these.
+html_sidebars = {
+    page: []
+    for page in (
+        *("index", "install", "tutorial", "overview", "why-exactly", "comparison"),
+        "generated/glossary",
+    )
+}
 html_theme_options = {
+    "header_links_before_dropdown": 6,
     "show_toc_level": 2,
     "navbar_align": "left",
     "secondary_sidebar_items": ["page-toc"],

@@ -102,27 +102,32 @@ def _strategies() -> list[str]:
 
 
 def gallery_page() -> str:
-    """One row for each plant of the gallery: its size, its fixed modes, and its source."""
+    """An entry for each plant of the gallery: its size, its fixed modes, and its source."""
     lines = [
         "# Gallery",
         "",
-        "These plants ship with the package, as system files and by name. Decimals are exact as",
-        "typed. The fixed factors are what two independent programs computed exactly.",
+        "These plants ship with the package: `mcexact analyze gallery:NAME` takes one by its name.",
+        "Decimals are exact as typed. The fixed modes are what two independent programs computed",
+        "exactly, where they have been recorded.",
         "",
-        "| plant | n | m | time | fixed modes are the roots of | source |",
-        "|---|---|---|---|---|---|",
     ]
     for name in gallery.names():
         plant, known = gallery.load(name), _expected(name)
-        factors = known.get("fixed_factors")
-        fixed = (
-            "not recorded"
-            if factors is None
-            else " and ".join(f"`{_tidy(each['factor'])}`" for each in factors) or "none"
-        )
-        source = str(plant.source or known.get("source") or "").replace("|", "\\|")
-        lines.append(f"| `{name}` | {plant.n} | {plant.m} | {plant.time} | {fixed} | {source} |")
-    return "\n".join([*lines, ""])
+        source = plant.source or known.get("source") or ""
+        size = f"{plant.n} states, {plant.m} channels, {plant.time} time"
+        lines += [f"`{name}`", f": {size}. {_fixed(known)}", "", f"  {source}", ""]
+    return "\n".join(lines)
+
+
+def _fixed(known: dict[str, Any]) -> str:
+    """What is known of the fixed modes of a plant."""
+    factors = known.get("fixed_factors")
+    if factors is None:
+        return ""
+    if not factors:
+        return "No mode is fixed."
+    listed = " and ".join(f"`{_tidy(each['factor'])}`" for each in factors)
+    return f"Fixed modes: the roots of {listed}."
 
 
 def _expected(name: str) -> dict[str, Any]:
