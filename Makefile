@@ -8,7 +8,7 @@ DOCS := build/docs/environment
 PIP := $(BIN)/python -m pip install --quiet --quiet --disable-pip-version-check
 GALLERY := mcexact/model/gallery
 
-.PHONY: absence corpus coverage package-coverage docs mutants paper-mutants records reproduce look ledger sentences demo test lint types tests slow-tests matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs
+.PHONY: absence corpus coverage package-coverage docs mutants paper-mutants records reproduce look ledger schemas schemas-everywhere sentences demo test lint types tests slow-tests matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs
 
 demo: $(CORE)
 	$(BIN)/mcexact demo
@@ -127,6 +127,15 @@ look: $(STAMP)
 ledger: $(STAMP)
 	$(BIN)/python proofs/ledger_table.py
 	$(BIN)/python proofs/reading_order.py
+
+# The JSON Schemas of files and of --json, from their declarations: seconds.
+schemas: $(STAMP)
+	$(BIN)/python -m mcexact.report.schema
+
+# All JSON of all commands about every published plant, against these schemas: half an hour.
+# NAMES='quadruple-tank-pminus' tries some.
+schemas-everywhere: $(STAMP)
+	$(BIN)/python -m tests.campaigns.schemas $(NAMES)
 
 # The list of all sentences that the commands print about a system, from their templates.
 sentences: $(STAMP)

@@ -120,7 +120,7 @@ class Answer:
         for each in fields_of(type(self), "claim"):
             key = key_of(each)
             yield key, each.metadata["label"] or _in_words(key), getattr(self, each.name)
-        for name, label in _shown_of(type(self)).items():
+        for name, label in shown_of(type(self)).items():
             yield name, label or _in_words(name), getattr(self, name)
 
     def view(self) -> dict[str, Any]:
@@ -138,7 +138,7 @@ class Answer:
 
     def __bool__(self) -> NoReturn:
         claimed = [key for key, value in self.claim().items() if isinstance(value, bool)]
-        known = [name for name in _shown_of(type(self)) if isinstance(getattr(self, name), bool)]
+        known = [name for name in shown_of(type(self)) if isinstance(getattr(self, name), bool)]
         named = " or ".join(f".{name}" for name in known + claimed or self.claim())
         raise TypeError(f"an answer is neither true nor false: ask for {named}")
 
@@ -181,7 +181,7 @@ def fields_of(kind: type[Answer], role: str) -> list[dataclasses.Field[Any]]:
     return [each for each in dataclasses.fields(kind) if each.metadata.get("role") == role]
 
 
-def _shown_of(kind: type[Answer]) -> dict[str, str]:
+def shown_of(kind: type[Answer]) -> dict[str, str]:
     """Return the marked properties with their labels."""
     found = {}
     for name, each in vars(kind).items():

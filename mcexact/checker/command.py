@@ -27,6 +27,7 @@ from .reading import Limits, read_file
 
 PRECEDENCE = (70, 3, 1, 5, 0)
 """Of these statuses the first that any verdict has is that of the run."""
+FORMAT = "mcexact-verdicts/1"
 UNWRITTEN = 74
 """The status if the verdicts cannot be written."""
 
@@ -234,7 +235,8 @@ def _run(parser: argparse.ArgumentParser, arguments: Sequence[str] | None) -> in
         _complain(str(error))
         found = [error.found]
     if options.json:
-        _say(json.dumps({"verdicts": [about | asdict(v) for about, v in found]}, indent=1))
+        rows = [about | asdict(verdict) for about, verdict in found]
+        _say(json.dumps({"format": FORMAT, "verdicts": rows}, indent=1))
     return status_of(found)
 
 

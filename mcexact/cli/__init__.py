@@ -5,14 +5,17 @@ The modules import the rest of mcexact inside functions only, so that ``--help``
 
 from __future__ import annotations
 
+import contextlib
 import os
 import sys
 from collections.abc import Sequence
 
 import click
 
+from mcexact.cli import output
 from mcexact.cli.commands import Commands
 from mcexact.cli.failures import exit_status, one_message
+from mcexact.errors import NotWritten
 
 
 @click.group(
@@ -47,14 +50,24 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """
     # The readers limit the length of numbers themselves, and printed numbers may be longer.
     sys.set_int_max_str_digits(0)
+    output.begin()
     try:
         returned = command_line.main(arguments, prog_name="mcexact", standalone_mode=False)
         sys.exit(returned if isinstance(returned, int) else 0)
     except Exception as error:
-        _complain(one_message(error))
-        sys.exit(exit_status(error))
+        message, status = one_message(error), exit_status(error)
+        _complain(message)
+        _tell(message, status, sys.argv[1:] if arguments is None else arguments)
+        sys.exit(status)
     except KeyboardInterrupt:
         sys.exit(130)
+
+
+def _tell(message: str, status: int, arguments: Sequence[str]) -> None:
+    """Print an error as a JSON document, where one is asked for and nothing was printed before."""
+    if "--json" in arguments and not output.has_written():
+        with contextlib.suppress(NotWritten):
+            output.emit_json({"format": "mcexact-error/1", "status": status, "message": message})
 
 
 def _complain(message: str) -> None:

@@ -91,7 +91,15 @@ def command(
     from dataclasses import asdict
 
     from mcexact.checker.allowance import Clock, memory
-    from mcexact.checker.command import UNWRITTEN, NotAsked, line_of, misuse, status_of, verdicts
+    from mcexact.checker.command import (
+        FORMAT,
+        UNWRITTEN,
+        NotAsked,
+        line_of,
+        misuse,
+        status_of,
+        verdicts,
+    )
     from mcexact.checker.reading import Limits
     from mcexact.cli.output import deliver, json_text
     from mcexact.errors import InputError, NotWritten
@@ -121,7 +129,8 @@ def command(
                 raise error from None
             found = [refused.found]
         if as_json:
-            deliver(json_text({"verdicts": [about | asdict(verdict) for about, verdict in found]}))
+            rows = [about | asdict(verdict) for about, verdict in found]
+            deliver(json_text({"format": FORMAT, "verdicts": rows}))
     except NotWritten as error:
         if not error.reader_left:
             raise

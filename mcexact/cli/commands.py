@@ -23,6 +23,7 @@ COMMANDS = (
     "sample",
     "convert",
     "c2d",
+    "schema",
     "sweep",
 )
 

@@ -9,6 +9,8 @@ import click
 
 from mcexact.cli import options
 
+FORMAT = "mcexact-crosscheck/1"
+
 
 @click.command(name="crosscheck", short_help="Compare floating-point verdicts with the exact ones.")
 @click.argument("file", required=False)
@@ -68,7 +70,8 @@ def _crosschecked(place: str, data: bytes, limits: dict[str, int]) -> dict[str, 
 
     system = system_in(place, data, limits)
     found = crosscheck(system)
-    return {"json": crosscheck_view(found), "tables": crosscheck_tables(found)}
+    view = {"format": FORMAT, **crosscheck_view(found)}
+    return {"json": view, "tables": crosscheck_tables(found)}
 
 
 def _exhibited() -> dict[str, Any]:
@@ -78,7 +81,7 @@ def _exhibited() -> dict[str, Any]:
 
     found = [shown(each) for each in exhibits()]
     return {
-        "json": exhibits_view(found),
+        "json": {"format": FORMAT, "exhibits": exhibits_view(found)},
         "tables": exhibit_tables(found),
         "html": exhibits_page(found),
     }

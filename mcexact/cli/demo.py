@@ -19,6 +19,6 @@ def command(as_json: bool) -> None:
 
     shown = demonstration()
     if as_json:
-        emit_json(demonstration_view(shown))
+        emit_json({"format": "mcexact-demo/1", **demonstration_view(shown)})
     else:
         emit(demonstration_text(shown))

@@ -15,6 +15,17 @@ if TYPE_CHECKING:
 
 
 _PLACE = "standard output"
+_run = {"written": False}
+
+
+def begin() -> None:
+    """Begin a run, which has written nothing."""
+    _run["written"] = False
+
+
+def has_written() -> bool:
+    """Whether this run has written to standard output, or tried to."""
+    return _run["written"]
 
 
 def deliver(text: str) -> None:
@@ -27,6 +38,7 @@ def deliver(text: str) -> None:
     NotWritten
         If that is impossible, also because the reader of a pipe has closed it.
     """
+    _run["written"] = True
     stream: TextIO | None = sys.stdout
     if stream is None:
         raise NotWritten("cannot be written: it is closed", where=_PLACE)

@@ -76,7 +76,7 @@ def command(
             files["table.tex"] = pages.reproduction_latex(result)
         write_folder(output, files)
     if as_json:
-        emit_json(pages.reproduction_view(result))
+        emit_json({"format": "mcexact-reproduction/1", **pages.reproduction_view(result)})
     elif latex:
         emit(pages.reproduction_latex(result))
     else:

@@ -132,7 +132,7 @@ def command(
     if not documents:
         raise InputError("found no system file", where=", ".join(files))
     if as_json:
-        emit_json(sweep_view(documents, skipped))
+        emit_json({"format": "mcexact-sweep-summary/1", **sweep_view(documents, skipped)})
     else:
         tables = sweep_tables(documents, asked)
         emit_tables((*tables, skipped_table(skipped)) if skipped else tables, width=WIDE)

@@ -57,7 +57,7 @@ def test_a_certificate_that_is_not_accepted_is_an_internal_error(
     for module in (check, manifest):
         monkeypatch.setattr(module, "check_document", lambda *_: refused)
     status, out, err = call(*command, "--certificates", str(tmp_path / "evidence"))
-    assert (status, out) == (70, "")
+    assert status == 70 and json.loads(out).keys() == {"format", "status", "message"}
     assert "cannot be trusted" in err
     assert not (tmp_path / "evidence").exists()
 

@@ -134,7 +134,7 @@ def test_the_exhibits_are_listed_and_written_as_a_page(tmp_path):
     page = tmp_path / "exhibits.html"
     done = run("crosscheck", "--exhibits", "--html", str(page), "--json")
     assert done.status == 0
-    shown = json.loads(done.stdout)
+    shown = json.loads(done.stdout)["exhibits"]
     assert [each["exhibit"] for each in shown] == [each.name for each in exhibits()]
     assert all(each["recorded"]["floating"] != each["exact"] for each in shown)
     assert all(each["exhibit"] in page.read_text() for each in shown)
