@@ -35,7 +35,6 @@ def write_pages(folder: Path) -> None:
         "exhibits.md": _table(_exhibits()),
         "designs.md": _table(_by_hand()),
         "speed.md": _table(_speed()),
-        "formats.md": formats_page(folder),
         "glossary.md": glossary_page(),
     }
     for name, text in pages.items():
@@ -170,26 +169,6 @@ def certificates_page() -> str:
     """FORMAT.md, with the paths of files in the repository in the place of links to them."""
     text = (ROOT / "mcexact" / "answer" / "FORMAT.md").read_text(encoding="utf-8")
     return re.sub(r"\[([^\]]+)\]\((?!#|http)([^)]+)\)", r"\1 (`\2`)", text)
-
-
-def formats_page(folder: Path) -> str:
-    """The list of the pages about formats."""
-    pages = sorted(path.stem for path in (folder / "formats").glob("*.md"))
-    return "\n".join(
-        [
-            "# Formats",
-            "",
-            "Every file that mcexact reads or writes has a format with a name and a version.",
-            "",
-            "```{toctree}",
-            ":maxdepth: 1",
-            "",
-            *(f"../formats/{stem}" for stem in pages),
-            "certificates",
-            "```",
-            "",
-        ]
-    )
 
 
 def glossary_page() -> str:

@@ -82,6 +82,7 @@ def test_the_least_sharing_is_as_its_schema_says(tmp_path: Path) -> None:
     written(folder)
 
 
+@pytest.mark.slow
 def test_loops_are_as_their_schemas_say(tmp_path: Path) -> None:
     plant, folder, controller = small(tmp_path), tmp_path / "made", str(tmp_path / "c.json")
     asked(
