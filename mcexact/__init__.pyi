@@ -61,12 +61,13 @@ from .answer.single_channel_gains import SingleChannelGains as SingleChannelGain
 from .answer.stability import StabilityVerdict as StabilityVerdict
 from .answer.template import Sentence as Sentence
 from .answer.transfer_graph import TransferGraph as TransferGraph
-from .checker import Verdict as Verdict
+from .answer.verdict import Verdict as Verdict
 from .crosschecks.table import CrossChecks as CrossChecks
 from .crosschecks.table import crosscheck as crosscheck
 from .derived.augmented_outputs import augmented_outputs as augmented_outputs
 from .derived.delayed import held_system as held_system
 from .derived.delayed import lifted_system as lifted_system
+from .derived.drawn.draw import Draw as Draw
 from .derived.dual import dual as dual
 from .derived.error_system import error_system as error_system
 from .derived.extended import extended_system as extended_system
@@ -105,6 +106,7 @@ from .model.statespace import from_statespace as from_statespace
 from .model.statespace import loop_from_statespace as loop_from_statespace
 from .model.system import MultiChannelSystem as MultiChannelSystem
 from .model.to_statespace import to_statespace as to_statespace
+from .report.frame import to_pandas as to_pandas
 from .simulation.network import SignalNotReceived as SignalNotReceived
 from .simulation.trajectory import Trajectory as Trajectory
 from .simulation.trajectory import simulate as simulate

@@ -1,13 +1,16 @@
-"""How results appear in notebooks: HTML that is readable on light and dark paper, and LaTeX."""
+"""How results are shown in notebooks: HTML that is readable on light and dark paper, and LaTeX."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from html import escape
 from typing import Any
 
 LINE = 200
 """The largest number of characters of a ``repr``."""
+
+MOST_ROWS = 60
+"""The most rows of a table in a notebook."""
 
 _STYLE = """\
 .mcexact { --good: #2a9a4f; --bad: #d8502f; --line: rgba(128, 128, 128, 0.45);
@@ -31,6 +34,58 @@ _STYLE = """\
 """
 
 
+_ESCAPES = {
+    "\\": r"\textbackslash{}",
+    **{character: f"\\{character}" for character in "&%$#_{}"},
+    "~": r"\textasciitilde{}",
+    "^": r"\textasciicircum{}",
+}
+
+
+class Shown:
+    """A result that is shown as a table of labels and values."""
+
+    def labeled(self) -> Iterable[tuple[str, Any]]:
+        """Return the labels and the values that are shown."""
+        raise NotImplementedError
+
+    def explain(self) -> str:
+        """Say the result in plain words, one label with its value a line."""
+        return "\n".join(f"{label}: {_said(value)}" for label, value in self.labeled())
+
+    def piece_of_html(self) -> str:
+        """Return the table in HTML, to be shown inside of another one."""
+        return table(type(self).__name__, self.labeled())
+
+    def piece_of_latex(self) -> str:
+        """Return the table in LaTeX, to be shown inside of another one."""
+        return array(self.labeled())
+
+    def _repr_html_(self) -> str:
+        return framed(self.piece_of_html())
+
+    def _repr_latex_(self) -> str:
+        return rf"$\displaystyle {self.piece_of_latex()}$"
+
+
+def fitting(text: str, room: int = LINE) -> str:
+    """Return a text, cut at its end if it is longer than a line.
+
+    Examples
+    --------
+    >>> fitting("a long story", 8)
+    'a long …'
+    """
+    return text if len(text) <= room else f"{text[: room - 1]}…"
+
+
+def _said(value: Any) -> str:
+    """Return a value in words, on one line."""
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return "; ".join(value.explain().splitlines()) if isinstance(value, Shown) else str(value)
+
+
 def framed(body: str) -> str:
     """Return a piece of HTML with the style of this package, which changes nothing around it."""
     return f'<div class="mcexact"><style>{_STYLE}</style>{body}</div>'
@@ -46,9 +101,9 @@ def cell(value: Any) -> str:
 
 
 def table(caption: str, rows: Iterable[tuple[str, Any]]) -> str:
-    """Return labels and values as a piece of HTML."""
+    """Return labels and values as a piece of HTML, of very many the first ones."""
     body = "".join(
-        f"<tr><th>{escape(name)}</th><td>{cell(value)}</td></tr>" for name, value in rows
+        f"<tr><th>{escape(name)}</th><td>{cell(value)}</td></tr>" for name, value in first(rows)
     )
     return f"<table><caption>{escape(caption)}</caption><tbody>{body}</tbody></table>"
 
@@ -61,6 +116,42 @@ def grid(head: Sequence[str], rows: Iterable[Sequence[Any]], caption: str = "") 
     )
     over = f"<caption>{escape(caption)}</caption>" if caption else ""
     return f"<table>{over}<thead><tr>{names}</tr></thead><tbody>{body}</tbody></table>"
+
+
+def array(rows: Iterable[tuple[str, Any]]) -> str:
+    """Return labels and values as LaTeX, of very many the first ones."""
+    body = r" \\ ".join(
+        rf"\text{{{escaped(name)}}} & {latex(value)}" for name, value in first(rows)
+    )
+    return rf"\begin{{array}}{{ll}} {body} \end{{array}}"
+
+
+def first(rows: Iterable[tuple[str, Any]]) -> Iterator[tuple[str, Any]]:
+    """Yield the rows to show; the last one says that there are more."""
+    for k, row in enumerate(rows):
+        if k == MOST_ROWS:
+            yield "…", "more, which `to_dict` or `explain` gives"
+            return
+        yield row
+
+
+def latex(value: Any) -> str:
+    """Return a value as LaTeX: what shows itself does, and other values are text."""
+    if hasattr(value, "piece_of_latex"):
+        return str(value.piece_of_latex())
+    said = ("yes" if value else "no") if isinstance(value, bool) else value
+    return rf"\text{{{escaped(said if isinstance(said, str) else repr(said))}}}"
+
+
+def escaped(text: str) -> str:
+    r"""Escape a text for LaTeX.
+
+    Examples
+    --------
+    >>> escaped("50% of x_1")
+    '50\\% of x\\_1'
+    """
+    return "".join(_ESCAPES.get(character, character) for character in text)
 
 
 def kept(size: int, most: int) -> list[int | None]:

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from typing import Any
+from typing import Any, NoReturn
 
 from mcexact.analysis.questions import QUESTIONS, Question
 from mcexact.answer.account import Account
@@ -18,6 +18,7 @@ from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.exact.rational import written
 from mcexact.model.system import MultiChannelSystem
 from mcexact.plot.graphs import structure
+from mcexact.shown import Shown
 
 
 @dataclass(frozen=True)
@@ -39,7 +40,7 @@ class Effort:
         }
 
 
-class Analysis:
+class Analysis(Shown):
     """The answers about one system, by attribute or item, each decided when it is first used.
 
     Parameters
@@ -265,7 +266,7 @@ class Analysis:
         """
         self.account.save(folder, system_by_digest=system_by_digest)
 
-    def as_json(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, Any]:
         """Return plain data with an entry for each answer, keyed by the name of its question."""
         open_ = {}
         for name, reached in self.open().items():
@@ -273,6 +274,10 @@ class Analysis:
             open_[name] = {"decided": False, "computed_not_certified": bounds}
         told = [each.view() for each in self.effort()]
         return self.account.as_json(information=self.information, questions=told, **open_)
+
+    def to_rows(self) -> list[dict[str, Any]]:
+        """Decide all questions asked, and return a flat row for each answer."""
+        return [{"question": name, **each.to_row()} for name, each in self.decided().items()]
 
     def effort(self) -> tuple[Effort, ...]:
         """Decide all questions asked, and return how long each took, or why it was left out."""
@@ -311,8 +316,23 @@ class Analysis:
             f"{len(self._found)} questions decided, {open_} asked and not yet)"
         )
 
-    def _repr_html_(self) -> str:
-        return self.account._repr_html_()
+    def __bool__(self) -> NoReturn:
+        raise TypeError(
+            "an analysis is neither true nor false: ask for one of its answers, such as "
+            ".fixed_spectrum.empty or .completeness.complete"
+        )
+
+    def explain(self) -> str:
+        """Decide all questions asked, and say the answers in plain words, one sentence a line."""
+        return self.account.explain()
+
+    def labeled(self) -> Iterable[tuple[str, Any]]:
+        """Return the sentences of the answer, and the labels and texts of the table."""
+        return self.account.labeled()
+
+    def piece_of_html(self) -> str:
+        """Return the sentences and the table in HTML."""
+        return self.account.piece_of_html()
 
     def _outcomes(self) -> dict[str, Any]:
         """Return the names of all questions asked or needed, in the order of the table."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from html import escape
@@ -13,12 +13,15 @@ from mcexact.answer import codec
 from mcexact.answer.sentence import MANIFEST, Given, Sentences, manifest
 from mcexact.model.atomic import write_text
 from mcexact.model.canonical import canonical
+from mcexact.shown import Shown
 
 FORMAT = "mcexact-analysis/1"
+_ANSWER = ("answer", "answer.mode")
+_PLAIN = ("title", *_ANSWER, "table")
 
 
-@dataclass(frozen=True)
-class Account:
+@dataclass(frozen=True, repr=False)
+class Account(Shown):
     """Answers about one plant by name, with the sentences that follow from them.
 
     Attributes
@@ -105,23 +108,34 @@ class Account:
                 for each in self.sentences
             ],
             **{
-                name: answer.view() | {"certificate": f"{name}.json"}
+                name: answer.to_dict() | {"certificate": f"{name}.json"}
                 for name, answer in self.answers.items()
             },
         }
 
-    def _repr_html_(self) -> str:
+    def explain(self) -> str:
+        """Say in plain words what was found, one sentence a line."""
+        return "\n".join(each.line for each in self.sentences.at(*_PLAIN))
+
+    def labeled(self) -> Iterator[tuple[str, Any]]:
+        """Yield the sentences of the answer, and the labels and texts of the table."""
+        yield from (("", str(each)) for each in self.sentences.at(*_ANSWER))
+        yield from ((each.cells[0], str(each)) for each in self.sentences.at("table"))
+
+    def piece_of_html(self) -> str:
         """Return the sentences and the table in HTML, each entry with its reason."""
         said = "".join(
             f'<li title="{escape(_reason(each))}">{escape(each)}</li>'
-            for each in self.sentences.at("answer", "answer.mode")
+            for each in self.sentences.at(*_ANSWER)
         )
         rows = "".join(
             f'<tr title="{escape(_reason(each))}"><th>{escape(each.cells[0])}</th>'
             f"<td>{escape(each)}</td></tr>"
             for each in self.sentences.at("table")
         )
-        return f"<ul>{said}</ul><table>{rows}</table>"
+        title = "".join(self.sentences.at("title"))
+        over = f"<caption>{escape(title)}</caption>" if title else ""
+        return (f'<ul class="said">{said}</ul>' if said else "") + f"<table>{over}{rows}</table>"
 
 
 def _reason(sentence: Any) -> str:

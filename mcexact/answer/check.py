@@ -9,7 +9,9 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from mcexact.answer.protocol import Answer
-from mcexact.checker import Expectation, Limits, Verdict, check_document
+from mcexact.answer.verdict import Verdict
+from mcexact.checker import Expectation, Limits, check_document
+from mcexact.checker import Verdict as Found
 from mcexact.checker.manifest import NAME, verdicts_of
 from mcexact.checker.reading import Refused
 from mcexact.errors import InputError, InternalError, place_of
@@ -46,8 +48,9 @@ def check(
     Returns
     -------
     Verdict
-        Its ``verdict`` is VALID, INVALID, MALFORMED or INCOMPLETE.  ``statement`` is the verified
-        statement; ``code``, ``place`` and ``message`` say why a certificate is not valid.
+        Whether it is ``valid``: its ``verdict`` is VALID, INVALID, MALFORMED or INCOMPLETE.
+        ``statement`` is the verified statement; ``code``, ``place`` and ``message`` say why a
+        certificate is not valid.
 
     Raises
     ------
@@ -84,7 +87,7 @@ fixed_spectrum(system), or the name of a certificate file, found dict
         wanted = _asked("controller", wanted.controlled, _controller(controller))
     if expect is not None:
         wanted = _asked("expect", wanted.saying, _expected(expect))
-    return check_document(_text(certificate), wanted)
+    return Verdict.of(check_document(_text(certificate), wanted))
 
 
 def _asked(where: str, ask: Callable[[bytes, Limits], Expectation], data: bytes) -> Expectation:
@@ -136,7 +139,7 @@ def about_plant(text: str) -> Expectation:
     return Expectation(system=sha256(text), plant=plant, size=len(text))
 
 
-def recheck(files: Mapping[str, str], plant: str) -> dict[str, Verdict]:
+def recheck(files: Mapping[str, str], plant: str) -> dict[str, Found]:
     """Verify certificates about one plant, and the sentences of their manifest.
 
     Parameters
@@ -172,7 +175,7 @@ def recheck(files: Mapping[str, str], plant: str) -> dict[str, Verdict]:
 
 def _verdicts(
     files: Mapping[str, str], expected: Expectation, limits: Limits
-) -> Iterator[tuple[dict[str, str], Verdict]]:
+) -> Iterator[tuple[dict[str, str], Found]]:
     """Return the verdicts on the certificates and on the sentences of the manifest."""
     if NAME in files:
         yield from verdicts_of(lambda name: files[name or NAME].encode(), expected, limits)
@@ -190,7 +193,7 @@ def _limits(size: int) -> Limits:
     return Limits(**limits, work=10**30)
 
 
-def checked(data: bytes, system_digest: str = "", plant: str | None = None) -> Verdict:
+def checked(data: bytes, system_digest: str = "", plant: str | None = None) -> Found:
     """Return the checker's verdict on the text of a certificate of any length.
 
     Parameters

@@ -16,11 +16,11 @@ from mcexact.answer.formats import (
     name_set,
     name_text,
 )
-from mcexact.answer.latex import escaped
 from mcexact.exact.enclosures import exact_decimal
 from mcexact.exact.location import TIMES, StabilityRegion, is_discrete
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.shortened import decimal_number, number, polynomial, rounded
+from mcexact.shown import escaped
 
 Write = Callable[[Any], str]
 

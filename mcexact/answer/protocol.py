@@ -18,6 +18,7 @@ from mcexact.answer import showing
 from mcexact.model.canonical import Document, text_of
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import canonical_document, digest
+from mcexact.shown import Shown
 
 KINDS: dict[str, type[Answer]] = {}
 """The kinds of answers whose files have been imported, by name."""
@@ -61,7 +62,7 @@ def shown(label: str = "") -> Callable[[AnyFunction], AnyFunction]:
 
 
 @dataclass(frozen=True)
-class Part:
+class Part(Shown):
     """A piece of a claim or of a witness: a frozen dataclass whose keys are its fields.
 
     A key that is not a Python name is given by the metadata ``key`` of its field.
@@ -74,9 +75,25 @@ class Part:
         """Return the object of ``FORMAT.md``, with exact objects as values."""
         return {key_of(each): getattr(self, each.name) for each in dataclasses.fields(self)}
 
+    def to_dict(self) -> dict[str, Any]:
+        """Return the same as plain data."""
+        return {key: showing.plain_view(value) for key, value in self.document().items()}
+
+    def labeled(self) -> Iterator[tuple[str, Any]]:
+        """Yield the labels and values that notebooks show."""
+        for key, value in self.document().items():
+            yield _in_words(key), showing.displayed(value)
+
+    def __init_subclass__(cls) -> None:
+        # dataclasses write a representation of any length where a class has none of its own.
+        cls.__repr__ = Part.__repr__  # type: ignore[method-assign]
+
+    def __repr__(self) -> str:
+        return showing.call(type(self).__name__, self.document())
+
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Answer:
+class Answer(Shown):
     """A decision about a system, with its proof; two answers are equal if their certificates are.
 
     Attributes
@@ -123,9 +140,22 @@ class Answer:
         for name, label in shown_of(type(self)).items():
             yield name, label or _in_words(name), getattr(self, name)
 
-    def view(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, Any]:
         """Return everything displayed, as plain data."""
         return {key: showing.plain_view(value) for key, _, value in self.entries()}
+
+    def to_row(self) -> dict[str, Any]:
+        """Return one flat row for a table: of long claims, such as factors, their number.
+
+        Examples
+        --------
+        >>> from mcexact import MultiChannelSystem, fixed_spectrum
+        >>> found = fixed_spectrum(MultiChannelSystem([[1]], [[[0]]], [[[1]]]))
+        >>> found.to_row()["polynomial"], found.to_row()["factors"], found.to_row()["stabilizable"]
+        ('x - 1', 1, False)
+        """
+        row = {key: showing.flat(value) for key, _, value in self.entries()}
+        return {"kind": self.kind, "system": self.about.name, **row}
 
     def _text(self) -> str:
         return text_of([self.kind, digest(self.about), self.subject, self.document()])
@@ -145,11 +175,20 @@ class Answer:
     def __repr__(self) -> str:
         return showing.line(self)
 
-    def _repr_html_(self) -> str:
-        return showing.html(self)
+    def labeled(self) -> Iterator[tuple[str, Any]]:
+        """Yield the labels and values that notebooks show."""
+        for _, label, value in self.entries():
+            yield label, showing.displayed(value)
 
-    def _repr_latex_(self) -> str:
-        return showing.latex(self)
+    def explain(self) -> str:
+        """Say in plain words what is decided, in the sentences of `analyze`.
+
+        An answer about which these have no sentence is stated as a theorem, in the words of the
+        independent checker, which verifies it for this.
+        """
+        from mcexact.answer.explaining import explained
+
+        return explained(self)
 
 
 @dataclass_transform(frozen_default=True, field_specifiers=(claim, witness))

@@ -6,6 +6,7 @@ import inspect
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from html import escape
 from types import MappingProxyType
 from typing import Any, TypeVar
 
@@ -13,6 +14,7 @@ from mcexact.answer.protocol import Answer
 from mcexact.answer.template import Sentence, Template
 from mcexact.model.canonical import plain, sha256
 from mcexact.model.system import MultiChannelSystem
+from mcexact.shown import framed
 
 FORMAT = "mcexact-manifest/1"
 MANIFEST = "manifest.json"
@@ -256,7 +258,17 @@ class Rulebook(list[Rule]):
 
 
 class Sentences(tuple[Sentence, ...]):
-    """Sentences, each with its place."""
+    """Sentences, each with its place; `print` writes one a line."""
+
+    def __repr__(self) -> str:
+        return f"Sentences({len(self)} sentences; print them, or ask for .at(place))"
+
+    def __str__(self) -> str:
+        return "\n".join(each.line for each in self)
+
+    def _repr_html_(self) -> str:
+        items = "".join(f"<li>{escape(each.line)}</li>" for each in self)
+        return framed(f'<ul class="said">{items}</ul>')
 
     def at(self, *places: str) -> list[Sentence]:
         """Return the sentences of a place."""

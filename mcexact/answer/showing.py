@@ -3,38 +3,42 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
-from html import escape
 from typing import TYPE_CHECKING, Any
 
-from mcexact.answer.latex import escaped
+from mcexact import shown
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import rational_text
 from mcexact.exact.shortened import polynomial
 from mcexact.model.canonical import plain
-from mcexact.shown import LINE
+from mcexact.shown import LINE, Shown
 
 if TYPE_CHECKING:
     from mcexact.answer.protocol import Answer
 
 _CELL = 300
+_MOST = 20
 
 
 def line(answer: Answer) -> str:
-    """Return the claims on one line, in which no number and no name is cut.
-
-    Notes
-    -----
-    Each claim first gets the space of its shortest form; the remaining space goes to the claims
-    with the shortest complete forms.
-    """
+    """Return the claims on one line, in which no number and no name is cut."""
     values = answer.claim()
     if answer.subject:
         values["of"] = tuple(each["construction"] for each in answer.subject)
+    return call(type(answer).__name__, values)
+
+
+def call(head: str, values: Mapping[str, Any]) -> str:
+    """Return values by their names on one line, in which no number and no name is cut.
+
+    Notes
+    -----
+    Each value first gets the space of its shortest form; the remaining space goes to the values
+    with the shortest complete forms.
+    """
     texts = {key: fitted(value, 0) for key, value in values.items()}
-    head = type(answer).__name__
     room = LINE - len(_call(head, texts))
     for _, key in sorted((len(fitted(value, LINE)), key) for key, value in values.items()):
         longer = fitted(values[key], len(texts[key]) + room)
@@ -104,24 +108,52 @@ def plain_view(value: Any) -> Any:
     return plain(value)
 
 
-def html(answer: Answer) -> str:
-    """Return everything displayed as an HTML table."""
-    rows = "".join(
-        f"<tr><th>{escape(label)}</th><td>{escape(fitted(value, _CELL))}</td></tr>"
-        for _, label, value in answer.entries()
-    )
-    return f"<table><caption>{type(answer).__name__}</caption>{rows}</table>"
-
-
-def latex(answer: Answer) -> str:
-    """Return everything displayed as a LaTeX array."""
-    rows = r" \\ ".join(
-        rf"\text{{{escaped(label)}}} & {_latex(value)}" for _, label, value in answer.entries()
-    )
-    return rf"$\begin{{array}}{{ll}} {rows} \end{{array}}$"
-
-
-def _latex(value: Any) -> str:
+def flat(value: Any) -> Any:
+    """Return a value for one cell of a table: texts and numbers, or the number of items."""
+    if value is None or isinstance(value, (bool, int, str, Fraction)):
+        return value
     if isinstance(value, Polynomial):
-        return value.latex()
-    return rf"\text{{{escaped(fitted(value, _CELL))}}}"
+        return str(value)
+    if isinstance(value, Matrix):
+        return f"{value.nrows} × {value.ncols}"
+    return len(value) if isinstance(value, (tuple, list)) else fitted(value, _CELL)
+
+
+def displayed(value: Any) -> Any:
+    """Return a value as notebooks show it: parts as a table, and what is long shortened."""
+    if isinstance(value, tuple) and value and len(value) <= _MOST and _is_part(value[0]):
+        return Parts(value)
+    if isinstance(value, (bool, Matrix, Polynomial)) or _is_part(value):
+        return value
+    if isinstance(value, tuple) and value and all(isinstance(each, str) for each in value):
+        told = ", ".join(value)
+        return told if len(told) <= _CELL else fitted(value, _CELL)
+    if isinstance(value, str) and len(value) <= _CELL:
+        return value
+    return "none" if value is None or value == () else fitted(value, _CELL)
+
+
+def _is_part(value: Any) -> bool:
+    return hasattr(value, "document") and hasattr(value, "labeled")
+
+
+class Parts(Shown):
+    """Several parts of one kind, one row for each."""
+
+    def __init__(self, parts: Sequence[Any]) -> None:
+        self._parts = parts
+
+    def labeled(self) -> Iterator[tuple[str, Any]]:
+        """Yield each part with its number."""
+        yield from ((str(k), each) for k, each in enumerate(self._parts, start=1))
+
+    def _rows(self) -> list[list[Any]]:
+        return [[value for _, value in each.labeled()] for each in self._parts]
+
+    def piece_of_html(self) -> str:
+        """Return a table in HTML."""
+        return shown.grid([label for label, _ in self._parts[0].labeled()], self._rows())
+
+    def piece_of_latex(self) -> str:
+        """Return an array in LaTeX."""
+        return r" \quad ".join(each.piece_of_latex() for each in self._parts)

@@ -5,7 +5,7 @@ import sys
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from importlib import import_module
-from typing import TypeVar
+from typing import NoReturn, TypeVar
 
 from .arithmetic import NotAUnit
 from .budget import current, limited
@@ -71,6 +71,9 @@ class Verdict:
     place: str = ""
     message: str = ""
     spent: int = field(default=0, compare=False)
+
+    def __bool__(self) -> NoReturn:
+        raise TypeError("a verdict is neither true nor false: ask whether .verdict is VALID")
 
     @property
     def status(self) -> int:

@@ -196,7 +196,7 @@ def _answer(
 
         page = account_page(account)
     return told(account, system_by_digest) | {
-        "json": found.as_json(),
+        "json": found.to_dict(),
         "words": in_lines(account.sentences, _LINES_OF_WORDS),
         "tables": (*tables(account.sentences, most_modes=_MODES), *_effort(found.effort())),
         "latex": latex(account) if with_latex else "",

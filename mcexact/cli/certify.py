@@ -155,7 +155,7 @@ def _certified(
                 largest=bound if wanted["largest"] else None,
                 warnings=list(controller.warnings_for(system)),
                 rounded_to_digits=digits,
-                assessment=assessment.view(),
+                assessment=assessment.to_dict(),
             ),
             "controller": controller_text(controller),
         }

@@ -187,7 +187,7 @@ def _designed(
         )
         | {
             "controller": controller_text(found.controller),
-            "json": account.as_json(**found.view(), assessment=assessment.view()),
+            "json": account.as_json(**found.to_dict(), assessment=assessment.to_dict()),
         }
     )
 

@@ -118,7 +118,7 @@ def command(
     try:
         with contextlib.closing(records), _progress(len(sources)) as tell:  # type: ignore[type-var]
             for record in records:
-                documents.append(record.document())
+                documents.append(record.to_dict())
                 tell(documents)
                 if certificates is not None:
                     _write(directory(certificates), record, len(sources))

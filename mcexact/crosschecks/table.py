@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -26,6 +26,7 @@ from mcexact.floating import anderson_clements, controllability, fixed_modes, ma
 from mcexact.floating.fixed_mode_distance import FixedModeDistance, fixed_mode_distance
 from mcexact.floating.transfer_graph import transfer_edges
 from mcexact.model.system import MultiChannelSystem
+from mcexact.shown import Shown, grid
 
 if TYPE_CHECKING:
     import numpy as np
@@ -60,7 +61,7 @@ class CrossCheck:
 
 
 @dataclass(frozen=True, eq=False)
-class CrossChecks:
+class CrossChecks(Shown):
     """The cross-checks of one system.
 
     Attributes
@@ -81,6 +82,28 @@ class CrossChecks:
     def __repr__(self) -> str:
         wrong = len(self.disagreements)
         return f"CrossChecks({len(self.rows)} questions, {wrong} wrong in floating point)"
+
+    def explain(self) -> str:
+        """Say in plain words where floating point is wrong, one question a line."""
+        wrong = self.disagreements
+        told = [f"Floating point is wrong in {len(wrong)} of {len(self.rows)} questions."]
+        for row in wrong:
+            told.append(f"{row.question}: {row.floating} ({row.call}); exact: {row.exact}")
+        return "\n".join(told)
+
+    def piece_of_html(self) -> str:
+        """Return a row in HTML for each question."""
+        rows = ([row.question, row.call, row.floating, row.exact, row.agree] for row in self.rows)
+        return grid(["question", "call", "in floating point", "exact", "agree"], rows)
+
+    def labeled(self) -> Iterator[tuple[str, str]]:
+        """Yield the questions, each with both answers."""
+        for row in self.rows:
+            yield row.question, f"{row.floating}; exact: {row.exact}"
+
+    def to_dict(self) -> list[dict[str, Any]]:
+        """Return a mapping for each question."""
+        return [vars(row) for row in self.rows]
 
     @property
     def disagreements(self) -> tuple[CrossCheck, ...]:

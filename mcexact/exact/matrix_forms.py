@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 MOST_SHOWN = 12
 """The rows, and the columns, of the largest matrix that is shown completely."""
+_DOTS = {"⋱": r"\ddots", "⋮": r"\vdots", "…": r"\cdots"}
 _GAPS = {(True, True): "⋱", (True, False): "⋮", (False, True): "…"}
 
 
@@ -80,11 +81,15 @@ class MatrixForms:
         """The matrix as a piece of HTML."""
         return html(self)
 
-    def _repr_html_(self: Any) -> str:
+    def piece_of_latex(self: Any) -> str:
+        """The matrix as a piece of LaTeX."""
+        return latex(self)
+
+    def _repr_html_(self) -> str:
         return shown.framed(self.piece_of_html())
 
-    def _repr_latex_(self: Any) -> str:
-        return f"$\\displaystyle {latex(self)}$"
+    def _repr_latex_(self) -> str:
+        return rf"$\displaystyle {self.piece_of_latex()}$"
 
 
 def row_of(M: Matrix, i: Any) -> tuple[Fraction, ...]:
@@ -187,9 +192,9 @@ def _literal(x: Fraction) -> str:
     return repr(text) if "/" in text else text
 
 
-def shortened(M: Matrix, most: int = MOST_SHOWN) -> list[list[Fraction | str]]:
+def shortened(M: Matrix) -> list[list[Fraction | str]]:
     """Return the entries to show, with dots in the place of middle rows and columns."""
-    down, across = shown.kept(M.nrows, most), shown.kept(M.ncols, most)
+    down, across = shown.kept(M.nrows, MOST_SHOWN), shown.kept(M.ncols, MOST_SHOWN)
     rows, cols = [i for i in down if i is not None], [j for j in across if j is not None]
     entries = iter(M.take(rows=rows, cols=cols).rows())
     found: list[list[Fraction | str]] = []
@@ -226,8 +231,15 @@ def html(M: Matrix) -> str:
     return f'<table class="matrix"><tbody>{rows}</tbody></table>{size}'
 
 
-def latex(M: Matrix, most: int = MOST_SHOWN) -> str:
-    r"""Return the matrix as LaTeX, of more than so many rows or columns with dots in the middle.
+def latex(M: Matrix, *, whole: bool = False) -> str:
+    r"""Return the matrix as LaTeX.
+
+    Parameters
+    ----------
+    M : Matrix
+    whole : bool
+        Whether every entry is written, exactly; else a large matrix has dots in the place of middle
+        rows and columns, and long numbers are rounded.
 
     Examples
     --------
@@ -235,15 +247,14 @@ def latex(M: Matrix, most: int = MOST_SHOWN) -> str:
     >>> print(latex(Matrix.from_rows([["1/2", 0]])))
     \begin{bmatrix} \tfrac{1}{2} & 0 \end{bmatrix}
     """
-    dots = {"⋱": r"\ddots", "⋮": r"\vdots", "…": r"\cdots"}
     rows = r" \\ ".join(
-        " & ".join(dots[x] if isinstance(x, str) else _latex_of(x) for x in row)
-        for row in shortened(M, most)
+        " & ".join(_DOTS[x] if isinstance(x, str) else _latex_of(x, whole) for x in row)
+        for row in (M.rows() if whole else shortened(M))
     )
     return rf"\begin{{bmatrix}} {rows} \end{{bmatrix}}"
 
 
-def _latex_of(x: Fraction) -> str:
-    if len(rational_text(x)) <= 24:
+def _latex_of(x: Fraction, whole: bool) -> str:
+    if whole or len(rational_text(x)) <= 24:
         return rational_latex(x, "tfrac")
     return rf"\text{{{number(x)}}}"

@@ -59,10 +59,14 @@ class PolynomialForms:
     def _repr_html_(self) -> str:
         return shown.framed(self.piece_of_html())
 
-    def _repr_latex_(self: Any) -> str:
+    def piece_of_latex(self: Any) -> str:
+        """The polynomial as a piece of LaTeX; of a long one the first and last terms."""
         if len(str(self)) > 2 * shown.LINE:
-            return rf"$\displaystyle \text{{{_short(self)}}}$".replace("^", r"\^{}")
-        return rf"$\displaystyle {self.latex()}$"
+            return rf"\text{{{shown.escaped(_short(self))}}}"
+        return str(self.latex())
+
+    def _repr_latex_(self) -> str:
+        return rf"$\displaystyle {self.piece_of_latex()}$"
 
 
 def pasted(p: Any) -> str:

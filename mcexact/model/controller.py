@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
@@ -16,12 +16,13 @@ from mcexact.model.names import quoted
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import digest
+from mcexact.shown import Shown, fitting, grid
 
 MAPS = ("shared_update", "private_update", "input")
 
 
-@dataclass(frozen=True)
-class LinearMap:
+@dataclass(frozen=True, repr=False)
+class LinearMap(Shown):
     """A map Σ_j outputs[j] y_j + Σ_j shared[j] x_j + private z_i + reference r_i of agent i.
 
     Attributes
@@ -50,6 +51,24 @@ class LinearMap:
             None if self.reference is None or self.reference.is_zero() else self.reference,
         )
 
+    def __repr__(self) -> str:
+        used = {name: value for name, value in vars(self).items() if value}
+        return fitting(f"LinearMap({', '.join(f'{name}={value}' for name, value in used.items())})")
+
+    def labeled(self) -> Iterator[tuple[str, Matrix]]:
+        """Yield the signals and their coefficients."""
+        return self.terms()
+
+    def terms(self, names: Sequence[str] | None = None) -> Iterator[tuple[str, Matrix]]:
+        """Yield the signals, by the names of the agents or their positions, and coefficients."""
+        for letter, used in (("y", self.outputs), ("x", self.shared)):
+            for j, M in used.items():
+                yield f"{letter} of {j if names is None else names[j]}", M
+        if self.private is not None:
+            yield "z", self.private
+        if self.reference is not None:
+            yield "r", self.reference
+
     def matrices(self) -> Iterator[Matrix]:
         """All matrices of the map."""
         yield from self.outputs.values()
@@ -60,8 +79,8 @@ class LinearMap:
             yield self.reference
 
 
-@dataclass(frozen=True)
-class AgentProgram:
+@dataclass(frozen=True, repr=False)
+class AgentProgram(Shown):
     """The equations of one agent for x_i, z_i and its input u_i.
 
     Attributes
@@ -86,6 +105,25 @@ class AgentProgram:
     input: LinearMap = field(default_factory=LinearMap)
     hold: Mapping[int, int] = field(default_factory=dict)
 
+    def __repr__(self) -> str:
+        return f"AgentProgram({quoted(self.name)}, {self.shared} shared, {self.private} private)"
+
+    def told(self, names: Sequence[str] | None = None) -> str:
+        """Say in plain words what the agent keeps, and whose signals it uses."""
+        used = ", ".join(str(j) if names is None else names[j] for j in self.sources())
+        return (
+            f"Agent {self.name} keeps {self.shared} shared and {self.private} private states, and "
+            f"uses {f'signals of {used}' if used else 'no signals'}."
+        )
+
+    def explain(self) -> str:
+        """Say in plain words what the agent keeps, and whose signals it uses, by position."""
+        return self.told()
+
+    def labeled(self) -> Iterator[tuple[str, Any]]:
+        """Yield the left sides of the equations, and the coefficients on the right sides."""
+        return Equations(self, None).labeled()
+
     def maps(self) -> tuple[LinearMap, LinearMap, LinearMap]:
         """The three maps, in the order of `MAPS`."""
         return self.shared_update, self.private_update, self.input
@@ -96,8 +134,25 @@ class AgentProgram:
         return tuple(sorted(heard))
 
 
-@dataclass(frozen=True)
-class Controller:
+class Equations(Shown):
+    """The equations of an agent, whose left sides are the next x and z of the agent, and u."""
+
+    def __init__(self, agent: AgentProgram, names: Sequence[str] | None) -> None:
+        self._agent, self._names = agent, names
+
+    def labeled(self) -> Iterator[tuple[str, Any]]:
+        """Yield each signal with the equation that uses it, and its coefficients."""
+        for left, each in zip(("x", "z", "u"), self._agent.maps(), strict=True):
+            for signal, M in each.without_zeros().terms(self._names):
+                yield f"{left} from {signal}", M
+
+    def piece_of_html(self) -> str:
+        """Return the coefficients in HTML, one signal a row."""
+        return grid(["equation", "coefficients"], self.labeled())
+
+
+@dataclass(frozen=True, repr=False)
+class Controller(Shown):
     """m agent programs for a system of m channels.
 
     Attributes
@@ -116,6 +171,23 @@ class Controller:
     time: str
     system: str
     agents: tuple[AgentProgram, ...]
+
+    def explain(self) -> str:
+        """Say in plain words what the agents keep, use and send, one agent a line."""
+        names = [agent.name for agent in self.agents]
+        return "\n".join(agent.told(names) for agent in self.agents)
+
+    def labeled(self) -> Iterator[tuple[str, Any]]:
+        """Yield the equations of each agent."""
+        names = [agent.name for agent in self.agents]
+        for agent in self.agents:
+            yield f"agent {agent.name}", Equations(agent, names)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the object of a controller file as plain data, with quotients as strings."""
+        from mcexact.model.controller_file import controller_document
+
+        return controller_document(self)
 
     def __repr__(self) -> str:
         return f"Controller({len(self.agents)} agents, order {self.order}, {self.time} time)"

@@ -140,6 +140,11 @@ def _by_agent(value: Any, where: str, names: tuple[str, ...]) -> dict[int, Any]:
     return {j: value[name] for j, name in enumerate(names) if name in value}
 
 
+def controller_document(controller: Controller) -> dict[str, Any]:
+    """The object of a controller file as plain data, with quotients as strings."""
+    return {"format": FORMAT, "system": controller.system, **controller.document()}
+
+
 def controller_text(controller: Controller) -> str:
     """The text of a controller file: decimals where they are exact and short, a row on one line."""
     document = {"format": FORMAT, "system": controller.system, **_readable(controller.document())}

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
 from mcexact.errors import FloatRefused, InputError, UsageError
 from mcexact.model.names import checked_name, checked_names, nearest, quoted
+from mcexact.shown import LINE, Shown
 
 
-@dataclass(frozen=True)
-class NeighborGraph:
+@dataclass(frozen=True, repr=False)
+class NeighborGraph(Shown):
     """A directed graph on m agents with an edge j → i if and only if i receives messages of j.
 
     Methods take and return positions 0 … m−1 of agents.  The neighbor set N_i always contains i.
@@ -180,6 +181,33 @@ class NeighborGraph:
     def empty(cls, names: Sequence[str]) -> NeighborGraph:
         """Return the graph without edges, the case of decentralized control."""
         return cls(names, [[] for _ in names])
+
+    def __repr__(self) -> str:
+        delays = f", {self.delays}" if self.delays else ""
+        whole = f"NeighborGraph({self.names}, {self.neighbors}{delays})"
+        if len(whole) <= LINE:
+            return whole
+        return f"<neighbor graph of {self.m} agents, {len(self.edges())} links>"
+
+    def explain(self) -> str:
+        """Say in plain words who receives whose messages, one agent a line."""
+        return "\n".join(f"Agent {name} receives {told}." for name, told in self.labeled())
+
+    def labeled(self) -> Iterator[tuple[str, str]]:
+        """Yield each agent, and from whom it receives messages, with delays."""
+        for i, name in enumerate(self.names):
+            heard = []
+            for j in self.neighbors[i]:
+                late = self.delay(i, j)
+                if i != j:
+                    heard.append(self.names[j] + (f" ({late} steps late)" if late else ""))
+            yield name, f"messages of {', '.join(heard)}" if heard else "no messages"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return ``neighbors`` by names and, if there are any, ``delays``, as in a system file."""
+        from mcexact.model.system_file import graph_document
+
+        return graph_document(self)
 
     @property
     def m(self) -> int:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
@@ -19,6 +19,8 @@ from mcexact.model.channel_matrices import ChannelMatrices, position
 from mcexact.model.matrix_entry import as_table, require_shape, require_square
 from mcexact.model.names import checked_names, checked_text, quoted
 from mcexact.model.neighbor_graph import NeighborGraph, graph_for
+from mcexact.model.system_forms import SystemForms
+from mcexact.shown import LINE, Shown, fitting
 
 Construction = Mapping[str, Any]
 # These constructions depend on the neighbor graph of the plant, or lead to systems without one.
@@ -27,17 +29,24 @@ _GRAPH_IN_USE = frozenset(
 )
 
 
-@dataclass(frozen=True)
-class Channel:
+@dataclass(frozen=True, repr=False)
+class Channel(Shown):
     """One channel: the agent's name, B_i (n×p_i) and C_i (q_i×n)."""
 
     name: str
     B: Matrix
     C: Matrix
 
+    def __repr__(self) -> str:
+        return fitting(f"Channel({quoted(self.name)}, B={self.B!r}, C={self.C!r})")
+
+    def labeled(self) -> Iterator[tuple[str, Any]]:
+        """Yield the name and the matrices."""
+        yield from vars(self).items()
+
 
 @dataclass(frozen=True, init=False, repr=False)
-class MultiChannelSystem:
+class MultiChannelSystem(SystemForms):
     """A linear time-invariant system with m channels and rational matrices.
 
     In continuous time ẋ = A x + Σ B_i u_i, y_i = C_i x; in discrete time x(t+1) replaces ẋ. Agent i
@@ -359,9 +368,8 @@ class MultiChannelSystem:
     def __repr__(self) -> str:
         shown = ", ".join(quoted(name) for name in self.names[:8]) + (", …" if self.m > 8 else "")
         made = "".join(f", {c['construction']}" for c in self.subject)
-        return (
-            f"MultiChannelSystem(n={self.n}, m={self.m}, {self.time} time, channels: {shown}{made})"
-        )
+        text = f"n={self.n}, m={self.m}, {self.time} time, channels: {shown}{made}"
+        return f"{fitting(f'MultiChannelSystem({text}', LINE - 1)})"
 
 
 def require_discrete(system: MultiChannelSystem) -> None:

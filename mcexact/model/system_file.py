@@ -35,7 +35,7 @@ from mcexact.model.matrix_json import (
 from mcexact.model.names import checked_names, checked_text, quoted
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.parametric import ParametricSystem
-from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system import MultiChannelSystem, as_plant
 
 FORMAT = "mcexact-system/1"
 _REQUIRED = ("format", "time", "A", "channels")
@@ -192,7 +192,7 @@ def canonical_text(system: MultiChannelSystem | ParametricSystem) -> str:
         for channel in plant.channels
     )
     parts = [f'"A":{canonical_matrix_text(plant.A)},"channels":[{channels}]']
-    graph = {} if plant.neighbors is None else _graph_json(plant.neighbors)
+    graph = {} if plant.neighbors is None else graph_document(plant.neighbors)
     parts += [f'"{key}":{canonical(graph[key])}' for key in sorted(graph)]
     text = "{" + ",".join([*parts, f'"time":"{plant.time}"']) + "}"
     # Systems are immutable, so the text is made once and shared by all certificates.
@@ -207,7 +207,7 @@ def canonical_document(system: MultiChannelSystem | ParametricSystem) -> dict[st
     return document
 
 
-def _graph_json(graph: NeighborGraph) -> dict[str, Any]:
+def graph_document(graph: NeighborGraph) -> dict[str, Any]:
     """Return the keys ``neighbors`` and, if there are delays, ``delays``, by names."""
     names = graph.names
     document: dict[str, Any] = {
@@ -244,6 +244,17 @@ def digest(system: MultiChannelSystem | ParametricSystem) -> str:
     return known
 
 
+def system_document(system: MultiChannelSystem) -> dict[str, Any]:
+    """Return the object of a system file as plain data, with quotients as strings."""
+    document: dict[str, Any] = {"format": FORMAT}
+    for key, value in (("name", system.name), ("source", system.source)):
+        if value is not None:
+            document[key] = value
+    if system.sample_time is not None:
+        document["sample_time"] = number_json(system.sample_time)
+    return document | canonical_document(as_plant(system) if system.subject else system)
+
+
 def system_text(system: MultiChannelSystem) -> str:
     """Return the text of a system file, with one line for each row of a matrix."""
     head: list[tuple[str, str]] = [("format", json.dumps(FORMAT))]
@@ -257,7 +268,7 @@ def system_text(system: MultiChannelSystem) -> str:
     head.append(("channels", _channels_text(system)))
     if system.neighbors is not None:
         head.extend(
-            (key, json.dumps(value)) for key, value in _graph_json(system.neighbors).items()
+            (key, json.dumps(value)) for key, value in graph_document(system.neighbors).items()
         )
     return "{\n" + ",\n".join(f'  "{key}": {text}' for key, text in head) + "\n}\n"
 

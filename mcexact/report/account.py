@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from mcexact.answer.account import Account
-from mcexact.answer.latex import escaped, matrix
 from mcexact.answer.sentence import Sentences
 from mcexact.answer.template import Sentence
+from mcexact.exact import matrix_forms
+from mcexact.exact.matrix import Matrix
 from mcexact.report.text import WIDTH, Table, wrapped
+from mcexact.shown import escaped
 
 _COLUMNS = {
     "fixed-modes": ("factor", "roots, about", "stable", "in A", "fixed", "s", "rank"),
@@ -123,14 +125,20 @@ def measured(
     return Table("".join(said.at("measured.title")), (), (*assessed, *rows))
 
 
+def _matrix(M: Matrix) -> str:
+    return matrix_forms.latex(M, whole=True)
+
+
 def latex(account: Account) -> str:
     """Return the system and its fixed modes in LaTeX."""
     system = account.given.system
     lines = [f"% {escaped(system.name or 'system')}", r"\begin{align*}"]
-    lines.append(rf"A &= {matrix(system.A)} \\")
+    lines.append(rf"A &= {_matrix(system.A)} \\")
     for k, channel in enumerate(system.channels, start=1):
         last = r" \\" if k < system.m else ""
-        lines.append(rf"B_{{{k}}} &= {matrix(channel.B)}, & C_{{{k}}} &= {matrix(channel.C)}{last}")
+        lines.append(
+            rf"B_{{{k}}} &= {_matrix(channel.B)}, & C_{{{k}}} &= {_matrix(channel.C)}{last}"
+        )
     lines.append(r"\end{align*}")
     said: list[str] = [*account.sentences.at("latex")]
     if any(sentence.template.key == "latex-fixed-mode" for sentence in account.sentences):

@@ -54,8 +54,8 @@ class AccountPage:
             evidence.append(
                 {
                     "title": name,
-                    "verdict": said.verdict if said else "not re-checked",
-                    "theorem": said.line() if said else "",
+                    "verdict": said.verdict if said is not None else "not re-checked",
+                    "theorem": said.line() if said is not None else "",
                     "text": text,
                 }
             )

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from mcexact.answer.latex import escaped
 from mcexact.report.formulas import Node, formulas
+from mcexact.shown import escaped
 
 _ACCENTS = {"\u0302": "hat", "\u0303": "tilde", "\u0304": "bar", "\u0307": "dot"}
 _NAMES = {

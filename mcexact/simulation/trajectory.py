@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import chain
@@ -12,11 +12,13 @@ from mcexact.errors import InputError, UsageError
 from mcexact.exact.floats import Rounding, to_float
 from mcexact.exact.location import is_discrete
 from mcexact.exact.matrix import Matrix
+from mcexact.exact.shortened import number
 from mcexact.model.controller import Controller
 from mcexact.model.loop import ClosedLoop, closed_loop
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_links
 from mcexact.plot.responses import responses
+from mcexact.shown import Shown
 from mcexact.simulation.arithmetic import Native, arithmetic_named, representable
 from mcexact.simulation.continuous import integrated, taylor
 from mcexact.simulation.horizon import Grid, chosen_grid
@@ -45,8 +47,8 @@ class InitialState:
     private: tuple[tuple[Fraction, ...], ...]
 
 
-@dataclass(frozen=True)
-class Trajectory:
+@dataclass(frozen=True, repr=False)
+class Trajectory(Shown):
     """The trajectory of a plant and its agents.
 
     Attributes
@@ -86,6 +88,42 @@ class Trajectory:
             f"Trajectory({len(self.agents)} agents, {len(self.times)} times from {start} to {end}, "
             f"{self.time} time, {self.arithmetic})"
         )
+
+    def explain(self) -> str:
+        """Say in plain words what was run, and where it ended."""
+        start, end = self.times[0], self.times[-1]
+        unit = "step" if is_discrete(self.time) else "time"
+        told = [
+            f"{len(self.agents)} agents ran from {unit} {start} to {end} in {self.arithmetic} "
+            "arithmetic.",
+            *(f"At the end {name} = {value}." for name, value in self.to_rows()[-1].items()),
+        ]
+        return "\n".join([*told, *filter(None, (self.warning, self.note))])
+
+    def labeled(self) -> Iterator[tuple[str, str]]:
+        """Yield the signals, each at the first and at the last time."""
+        first, last = self.to_rows()[0], self.to_rows()[-1]
+        for name, value in first.items():
+            yield name, f"{_short(value)} → {_short(last[name])}"
+
+    def to_rows(self) -> list[dict[str, Any]]:
+        """Return a flat row for each time: t, the state x of the plant, and y, u and r of agents.
+
+        Numbers are those of the arithmetic: Fractions in exact runs.
+        """
+        rows = []
+        for time, at in zip(self.times, self.snapshots, strict=True):
+            row = {"t": time, **{f"x[{k}]": value for k, value in enumerate(at.plant)}}
+            for letter, signals in (("y", at.outputs), ("u", at.inputs), ("r", at.reference)):
+                for name, values in zip(self.agents, signals, strict=True):
+                    row |= {f"{letter} of {name}[{k}]": value for k, value in enumerate(values)}
+            rows.append(row)
+        return rows
+
+    def to_dict(self) -> dict[str, list[Any]]:
+        """Return the signals by name, each as a list of its numbers at all times."""
+        rows = self.to_rows()
+        return {name: [row[name] for row in rows] for name in rows[0]}
 
     def has_estimates(self) -> bool:
         """Whether each agent's shared sub-state has the dimension of the plant's state."""
@@ -183,6 +221,10 @@ def as_float(value: Any) -> float:
 def _largest(values: list[Any]) -> float:
     """Return the largest absolute value as a float: infinity beyond floats, 0 without entries."""
     return as_float(max((abs(value) for value in values), default=0))
+
+
+def _short(value: Any) -> str:
+    return number(value) if isinstance(value, Fraction) else f"{as_float(value):.6g}"
 
 
 def simulate(

@@ -11,14 +11,16 @@ from io import FileIO
 from typing import Any
 
 from mcexact.errors import InputError, UsageError
+from mcexact.exact.polynomial import Polynomial
 from mcexact.model.canonical import canonical
+from mcexact.shown import LINE, Shown, fitting
 
 FORMAT = "mcexact-sweep/1"
 _AGAIN = (4, 70)  # another run may succeed after a limit or a failure
 
 
-@dataclass(frozen=True)
-class Record:
+@dataclass(frozen=True, repr=False)
+class Record(Shown):
     """The answers about one system.
 
     Attributes
@@ -57,7 +59,49 @@ class Record:
         """Whether another run would find the same: no limit was reached and nothing failed."""
         return self.error is None or self.error["status"] not in _AGAIN
 
-    def document(self) -> dict[str, Any]:
+    def __repr__(self) -> str:
+        told = f"error {self.error['status']}" if self.error is not None else self._asked()
+        return fitting(f"Record({self.number}, {self.name!r}, {told}", LINE - 1) + ")"
+
+    def _asked(self) -> str:
+        return f"{self.digest[:12]}…, answers: {', '.join(self.answers)}"
+
+    def explain(self) -> str:
+        """Say what was found, in the statements that the checker verified, one a line."""
+        if self.error is not None:
+            return f"{self.name}: {self.error['message']}"
+        return "\n".join(str(answer["statement"]) for answer in self.answers.values())
+
+    def labeled(self) -> Iterator[tuple[str, Any]]:
+        """Yield the columns of a table, and what they hold."""
+        yield from self.to_row().items()
+
+    def to_row(self) -> dict[str, Any]:
+        """Return one flat row for a table: sizes, and the claims that fit into a cell.
+
+        The columns of a claim are ``question.claim``.  A polynomial is written as text; of another
+        list the number of its items is told, as of ``fixed_spectrum.factors``.
+
+        Examples
+        --------
+        >>> from mcexact import sweep
+        >>> from mcexact.model import gallery
+        >>> [record] = sweep([gallery.load("hidden-triple-mode")], ["completeness"])
+        >>> record.to_row()["n"], record.to_row()["completeness.complete"]
+        (5, False)
+        """
+        system = self.system or {}
+        row = {"number": self.number, "name": self.name, **system, "digest": self.digest}
+        for question, answer in self.answers.items():
+            for key, value in answer["claim"].items():
+                if key.endswith("polynomial"):
+                    value = str(Polynomial.from_coefficients(value))
+                row[f"{question}.{key}"] = len(value) if isinstance(value, list) else value
+        row["seconds"] = self.seconds
+        row["error"] = None if self.error is None else self.error["message"]
+        return row
+
+    def to_dict(self) -> dict[str, Any]:
         """Return the record as plain data, as in the file."""
         kept = {"format": FORMAT, "number": self.number, "name": self.name, "key": self.key}
         if self.error is not None:
@@ -145,7 +189,7 @@ class RecordFile:
 
     def add(self, record: Record) -> None:
         """Append a record as one complete line."""
-        line = canonical(record.document()).encode("ascii") + b"\n"
+        line = canonical(record.to_dict()).encode("ascii") + b"\n"
         try:
             self._stream.write(line)
         except OSError as error:

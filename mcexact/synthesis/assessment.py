@@ -17,6 +17,7 @@ from mcexact.exact.location import StabilityRegion
 from mcexact.model.controller import Controller
 from mcexact.model.loop import ClosedLoop
 from mcexact.model.system import MultiChannelSystem, as_plant
+from mcexact.shown import Shown, fitting
 from mcexact.synthesis.design import Design
 from mcexact.synthesis.network.networks import decentralized_network
 from mcexact.synthesis.optimum.aims import MARGIN, Aims
@@ -57,7 +58,7 @@ class Link:
 
 
 @dataclass(frozen=True, eq=False)
-class Assessment:
+class Assessment(Shown):
     """Figures of a closed loop, computed in floating point and not certified.
 
     Attributes
@@ -97,7 +98,15 @@ class Assessment:
     uncontrolled: Figures | None = None
 
     def __repr__(self) -> str:
-        return f"Assessment({self.verdict})"
+        return fitting(f"Assessment({self.verdict})")
+
+    def explain(self) -> str:
+        """Say in plain words whether to install the controller, and why."""
+        return "\n".join([self.verdict, *self.warnings[1:], *self.notes])
+
+    def labeled(self) -> list[tuple[str, str]]:
+        """Return the verdict and the figures as labels and texts."""
+        return [("verdict", self.verdict), *self.rows()]
 
     @property
     def central(self) -> Figures | None:
@@ -248,7 +257,7 @@ class Assessment:
         told = f"more than {MOST_DIGITS}" if self.digits is None else str(self.digits)
         return [("digits that suffice", told)]
 
-    def view(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, Any]:
         """Return the assessment as plain data."""
         return {
             "basis": BASIS,

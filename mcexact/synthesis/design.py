@@ -19,6 +19,7 @@ from mcexact.floating.margins import loop_margins
 from mcexact.model.controller import Controller
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
+from mcexact.shown import Shown
 from mcexact.synthesis.gate import CertifiedLoop, Proposal, first_certified
 from mcexact.synthesis.request import Arithmetic, Request
 
@@ -31,7 +32,7 @@ _SHOWN = (
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Design:
+class Design(Shown):
     """The result of every ``design_…`` function.
 
     Attributes
@@ -136,7 +137,7 @@ class Design:
             raise UsageError("the loop is not stable: there are no curves of its return to rest")
         return loop(curves, ax)
 
-    def view(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, Any]:
         """Return the design as plain data; a polynomial is a list of coefficients as strings."""
         polynomial, bound = self.loop.polynomial, self.region.bound
         return {
@@ -151,6 +152,18 @@ class Design:
             "floating_point": self.measures(),
             "controller": self.controller.document(),
         }
+
+    def explain(self) -> str:
+        """Say in plain words what was designed and what is proved, one sentence a line."""
+        return self.account.explain()
+
+    def labeled(self) -> Iterable[tuple[str, Any]]:
+        """Return the labels and texts of the table of the design."""
+        return self.account.labeled()
+
+    def piece_of_html(self) -> str:
+        """Return the table of the design in HTML."""
+        return self.account.piece_of_html()
 
     def __repr__(self) -> str:
         bound = f", {self.region}" if self.region.bound is not None else ""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from itertools import accumulate
 from typing import Any
@@ -22,6 +22,7 @@ from mcexact.model.controller import Controller
 from mcexact.model.loop import ClosedLoop, closed_loop
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
+from mcexact.shown import Shown
 from mcexact.synthesis.request import Progress
 
 _KEY = object()
@@ -99,7 +100,7 @@ class Proposal:
 
 
 @dataclass(frozen=True, eq=False)
-class CertifiedLoop:
+class CertifiedLoop(Shown):
     """A closed loop whose claims were verified exactly.
 
     Attributes
@@ -128,6 +129,20 @@ class CertifiedLoop:
     def __repr__(self) -> str:
         proved = ", ".join(each.kind for each in self.proofs)
         return f"CertifiedLoop({self.matrix.nrows} states, proved: {proved})"
+
+    def explain(self) -> str:
+        """Say in plain words what is proved of the loop."""
+        return "\n".join(each.explain() for each in self.proofs)
+
+    def labeled(self) -> Iterator[tuple[str, Any]]:
+        """Yield the matrix of the loop, and what is proved of it."""
+        yield "matrix", self.matrix
+        for proof in self.proofs:
+            yield proof.kind.replace("_", " "), proof
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return what is proved as plain data, keyed by the kinds of the certificates."""
+        return {each.kind: each.to_dict() for each in self.proofs}
 
     @property
     def controller(self) -> Controller:

@@ -109,7 +109,7 @@ def test_every_question_is_listed_with_its_seconds_or_why_it_is_left_out(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     found = analyze(PAPER)
-    told = found.as_json()["questions"]
+    told = found.to_dict()["questions"]
     assert [each["question"] for each in told] == list(found.unbidden) == list(found.asked)
     assert all(each["outcome"] == "decided" and each["seconds"] >= 0 for each in told)
     fewer = dict(QUESTIONS) | {"setpoint": replace(QUESTIONS["setpoint"], most=2)}
@@ -117,7 +117,7 @@ def test_every_question_is_listed_with_its_seconds_or_why_it_is_left_out(
     small = analyze(PAPER)
     reason = "more than 2 states, of which it needs dense matrices"
     assert small.left_out == {"setpoint": reason}
-    [left] = [each for each in small.as_json()["questions"] if each["outcome"] != "decided"]
+    [left] = [each for each in small.to_dict()["questions"] if each["outcome"] != "decided"]
     expected = {"question": "setpoint", "outcome": "left out", "seconds": 0.0, "reason": reason}
     assert left == expected
     asked = analyze(PAPER, also=["setpoint"])

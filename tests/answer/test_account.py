@@ -15,7 +15,7 @@ from tests.report.test_account import EXAMPLE
 
 
 def view_of(system: MultiChannelSystem, **question: Any) -> dict[str, Any]:
-    view = asked(system, **question).as_json()
+    view = asked(system, **question).to_dict()
     assert json.loads(json.dumps(view)) == view
     return view
 
@@ -66,7 +66,7 @@ def test_the_bounds_that_a_limit_leaves_are_numbers_of_json(
         raise LimitReached("a limit", lower=Fraction(2), upper=Fraction(7, 2))
 
     monkeypatch.setattr(Question, "decide", ended)
-    view = analyze(MultiChannelSystem(**EXAMPLE), ["minimal_communication"]).as_json()
+    view = analyze(MultiChannelSystem(**EXAMPLE), ["minimal_communication"]).to_dict()
     bounds = {"lower": 2, "upper": "7/2"}
     assert view["minimal_communication"] == {"decided": False, "computed_not_certified": bounds}
     [told] = [each["text"] for each in view["sentences"] if each["rule"] == "table-links-limit"]

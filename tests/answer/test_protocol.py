@@ -8,6 +8,7 @@ import typing
 from collections.abc import Iterator, Mapping
 from dataclasses import fields, is_dataclass
 from functools import cache
+from html import escape
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +26,7 @@ from mcexact.errors import UsageError
 from mcexact.model import gallery
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
+from mcexact.shown import escaped
 from tests.answer.test_golden import answers
 
 FORMAT = Path(home.__file__).with_name("FORMAT.md").read_text(encoding="utf-8")
@@ -106,18 +108,21 @@ def test_an_answer_is_read_back_from_its_certificate(name: str) -> None:
         assert read == found, question
         assert encode(read) == text
         assert repr(read) == repr(found)
-        assert read.view() == found.view()
+        assert read.to_dict() == found.to_dict()
 
 
 @pytest.mark.parametrize("name", gallery.names())
 def test_everything_that_is_shown_is_in_every_form(name: str) -> None:
     for _, found in about(name):
         entries = list(found.entries())
-        assert list(json.loads(json.dumps(found.view()))) == [key for key, _, _ in entries]
-        assert found.claim().keys() <= found.view().keys()
+        assert list(json.loads(json.dumps(found.to_dict()))) == [key for key, _, _ in entries]
+        assert found.claim().keys() <= found.to_dict().keys()
         html, latex = found._repr_html_(), found._repr_latex_()
-        assert html.count("<tr>") == latex.count(" & ") == len(entries)
         assert latex.startswith("$") and latex.endswith("$")
+        for _, label, _ in entries:
+            assert f"<tr><th>{escape(label)}</th>" in html
+            assert rf"\text{{{escaped(label)}}} & " in latex
+        assert list(found.to_row()) == ["kind", "system", *(key for key, _, _ in entries)]
 
 
 def test_every_kind_is_asked_about_a_plant_of_the_gallery() -> None:

@@ -57,7 +57,7 @@ def test_the_system_of_an_answer_is_made_again(name: str, tmp_path: Path) -> Non
         read = mcexact.load_certificate(file)
         assert read == found
         assert read.about == system
-        assert read.view() == found.view()
+        assert read.to_dict() == found.to_dict()
 
 
 def test_a_closed_loop_is_made_again(tmp_path: Path) -> None:

@@ -172,7 +172,7 @@ def test_every_text_about_a_published_plant_is_made_by_a_template(name: str) -> 
     asked = {"subset": [plant.names[0]], "channel": plant.names[0], "links": plant.n <= 8}
     found = asking(plant, **asked)
     require_certified(found.account)
-    require_all_forms(found.account, found.as_json())
+    require_all_forms(found.account, found.to_dict())
 
 
 @pytest.mark.usefixtures("_without_images")
@@ -182,7 +182,7 @@ def test_every_text_about_a_drawn_plant_is_made_by_a_template(start: int) -> Non
         plant = drawn(seed)
         found = asking(plant, **question(plant, random.Random(seed)))
         require_certified(found.account)
-        require_all_forms(found.account, found.as_json())
+        require_all_forms(found.account, found.to_dict())
 
 
 def test_the_list_of_all_sentences_is_the_one_in_the_file() -> None:

@@ -35,6 +35,12 @@ def test_every_verdict_has_a_status_and_only_good_ones_have_none(verdict: str, s
     assert Verdict(verdict).status == status
 
 
+@pytest.mark.parametrize("verdict", ["VALID", "INVALID"])
+def test_a_verdict_is_neither_true_nor_false_so_that_nobody_accepts_a_bad_one(verdict: str) -> None:
+    with pytest.raises(TypeError, match=r"neither true nor false: ask whether \.verdict is VALID$"):
+        bool(Verdict(verdict))
+
+
 def test_a_refusal_is_told_with_its_reason() -> None:
     told = Verdict("INVALID", code="rank", place="claim.rank", message="it is 2").line()
     assert told == "INVALID rank claim.rank: it is 2"

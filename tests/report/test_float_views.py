@@ -42,7 +42,7 @@ def test_what_is_proved_stands_apart_from_what_is_measured():
 def test_infinite_margins_are_null_in_json():
     plant = MultiChannelSystem([], [[]], [[]], neighbors={"1": []})
     design = design_observer(plant, rate=1, arithmetic="float")
-    view = design.view()
+    view = design.to_dict()
     assert view["floating_point"]["distance_to_instability"] is None
     json.dumps(view, allow_nan=False)
 

@@ -257,8 +257,8 @@ def test_an_unstable_loop_is_not_to_be_installed() -> None:
     region = StabilityRegion("continuous")
     found = assessed_loop(loop_of("1"), region, certified=False)
     assert found.install == "no" and "does not satisfy" in found.verdict
-    assert found.view()["margin"] == 0 and found.view()["cost"] is None
-    json.dumps(found.view(), allow_nan=False)
+    assert found.to_dict()["margin"] == 0 and found.to_dict()["cost"] is None
+    json.dumps(found.to_dict(), allow_nan=False)
     assert curves_of(loop_of("1"), region) is None
 
 
@@ -277,7 +277,7 @@ def test_a_controller_that_hardly_helps_is_told() -> None:
 def test_an_unstable_plant_has_no_cost_without_a_controller() -> None:
     found = assessed()
     assert dict(found.rows())["without a controller"] == "Re λ = 1, not stable"
-    assert found.view()["without_a_controller"]["cost"] is None and not found.notes
+    assert found.to_dict()["without_a_controller"]["cost"] is None and not found.notes
 
 
 def test_the_controller_of_the_theorem_comes_with_its_figures() -> None:

@@ -1,0 +1,92 @@
+"""Forms of a multi-channel system: words, a table for notebooks, and plain data."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from mcexact.exact.location import is_discrete
+from mcexact.exact.matrix_forms import latex
+from mcexact.exact.rational import rational_text
+from mcexact.shown import Shown, escaped, fitting, table
+
+_MOST_CHANNELS = 12
+
+
+class SystemForms(Shown):
+    """The display of `MultiChannelSystem`, which alone inherits it."""
+
+    def explain(self: Any) -> str:
+        """Say in plain words what the system is: sizes, equations, channels and links."""
+        return "\n".join(_sentences(self))
+
+    def labeled(self: Any) -> Iterator[tuple[str, Any]]:
+        """Yield the matrices, and the other attributes that are set."""
+        if self.subject:
+            yield "made by", ", ".join(each["construction"] for each in self.subject)
+        yield "A", self.A
+        for channel in self.channels[:_MOST_CHANNELS]:
+            yield f"B of {channel.name}", channel.B
+            yield f"C of {channel.name}", channel.C
+        if self.m > _MOST_CHANNELS:
+            yield "more channels", str(self.m - _MOST_CHANNELS)
+        if self.neighbors is not None:
+            yield "neighbors", self.neighbors
+        if self.sample_time is not None:
+            yield "sample time", rational_text(self.sample_time)
+        if self.source is not None:
+            yield "source", self.source
+
+    def piece_of_html(self: Any) -> str:
+        """Return the sizes and the matrices in HTML."""
+        return table(_heading(self), self.labeled())
+
+    def piece_of_latex(self: Any) -> str:
+        """Return the equations of the system with its matrices in LaTeX."""
+        change = r"x(t+1)" if is_discrete(self.time) else r"\dot{x}"
+        inputs = "".join(
+            rf" + {latex(channel.B)} u_{{\text{{{escaped(channel.name)}}}}}"
+            for channel in self.channels[:_MOST_CHANNELS]
+        )
+        lines = [rf"{change} &= {latex(self.A)} x{inputs}"]
+        lines += [
+            rf"y_{{\text{{{escaped(channel.name)}}}}} &= {latex(channel.C)} x"
+            for channel in self.channels[:_MOST_CHANNELS]
+        ]
+        more = r" \\ &\;\;\vdots" if self.m > _MOST_CHANNELS else ""
+        equations = r" \\ ".join(lines) + more
+        return rf"\begin{{aligned}} {equations} \end{{aligned}}"
+
+    def to_dict(self: Any) -> dict[str, Any]:
+        """Return the system as plain data, with quotients as strings; `read_system` reads it.
+
+        A derived system is written with its own matrices, as a plant.
+        """
+        from mcexact.model.system_file import system_document
+
+        return system_document(self)
+
+
+def _heading(system: Any) -> str:
+    name = f"{system.name}: " if system.name else ""
+    return f"{name}{_count(system.n, 'state')}, {_count(system.m, 'channel')}, {system.time} time"
+
+
+def _count(size: int, noun: str) -> str:
+    return f"{size} {noun}{'' if size == 1 else 's'}"
+
+
+def _sentences(system: Any) -> Iterator[str]:
+    yield f"{_heading(system)}."
+    if system.subject:
+        made = ", ".join(each["construction"] for each in system.subject)
+        yield f"It was made from a plant by: {made}."
+    left = "x(t+1)" if is_discrete(system.time) else "x'"
+    yield f"{left} = A x + the sum of B_i u_i, y_i = C_i x; agent i measures y_i and sets u_i."
+    for i, name in enumerate(system.names[:_MOST_CHANNELS]):
+        sizes = f"{_count(system.p(i), 'input')} and {_count(system.q(i), 'output')}"
+        yield fitting(f"Channel {name} has {sizes}.")
+    if system.m > _MOST_CHANNELS:
+        yield f"There are {system.m - _MOST_CHANNELS} more channels."
+    if system.neighbors is not None:
+        yield system.neighbors.explain()
