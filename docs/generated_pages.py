@@ -49,6 +49,7 @@ TOPICS = {
     "analysis": "Questions",
     "synthesis": "Design and certification",
     "simulation": "Simulation",
+    "plot": "Plots",
     "sweeps": "Many systems",
     "crosschecks": "Comparison with floating point",
     "answer": "Answers and certificates",
