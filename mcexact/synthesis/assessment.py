@@ -166,6 +166,8 @@ class Assessment(Shown):
 
     def _cares(self) -> list[str]:
         seen, central, told = self.figures, self.central, list[str]()
+        if not seen.margin > 0:
+            return []
         if _NO_MARGIN <= seen.margin < MARGIN:
             told.append(f"fragile, the margin at the plant's inputs is {_shown(seen.margin)}")
         if not self.shape.met(seen.damping, seen.fastest):
@@ -203,7 +205,7 @@ class Assessment(Shown):
         state = "the state" if self.uncontrolled else "state and integrals"
 
         def compared(name: str) -> str:
-            told = _shown(getattr(seen, name))
+            told = _finite(getattr(seen, name))
             if central is None:
                 return told
             return f"{told} (one controller for all agents: {_shown(getattr(central, name))})"
@@ -245,7 +247,7 @@ class Assessment(Shown):
         return [("without a controller", f"{self.region.measure} = {_shown(alone.bound)}, {cost}")]
 
     def _relative(self) -> str:
-        told = _shown(self.relative_cost)
+        told = _finite(self.relative_cost)
         if not self.relative_cost < 1:
             return told
         return f"{told} (that one is not the cheapest with this {self.region.word})"
@@ -288,6 +290,11 @@ def _numbers(figures: Figures) -> dict[str, float | None]:
 def _shown(value: float) -> str:
     """Three digits, without an exponent where that is short."""
     return f"{value:.3g}" if not 1000 <= abs(value) < 1e6 else f"{value:.0f}"
+
+
+def _finite(value: float) -> str:
+    """A number, or a dash where a loop that is not stable has none."""
+    return _shown(value) if isfinite(value) else "–"
 
 
 def assess(design: Design, aims: Aims | None = None) -> Assessment:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 from mcexact.errors import LimitReached
 from mcexact.synthesis.asking import slower
 from mcexact.synthesis.design import Design
 from mcexact.synthesis.optimum.aims import MARGIN
-from mcexact.synthesis.request import Request
+from mcexact.synthesis.request import Progress, Request, Warned
 
 _HALVINGS = 2
 
@@ -64,7 +65,14 @@ def _halved(request: Request, times: int) -> Request:
     for _ in range(times):
         region = slower(region)
     told = f", and {region.edge} was taken, since no faster loop that was found is robust"
-    return replace(request, region=region, notes=(*request.notes[:-1], request.notes[-1] + told))
+    notes = (*request.notes[:-1], request.notes[-1] + told)
+    return replace(request, region=region, notes=notes, tell=partial(_once_warned, request.tell))
+
+
+def _once_warned(tell: Progress, step: str) -> None:
+    """Tell a step, without the warnings that the first rate led to."""
+    if not isinstance(step, Warned):
+        tell(step)
 
 
 def _margin(made: Design) -> float:

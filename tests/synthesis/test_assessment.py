@@ -257,6 +257,11 @@ def test_an_unstable_loop_is_not_to_be_installed() -> None:
     region = StabilityRegion("continuous")
     found = assessed_loop(loop_of("1"), region, certified=False)
     assert found.install == "no" and "does not satisfy" in found.verdict
+    assert len(found.warnings) == 1
+    rows = dict(found.rows())
+    assert rows["peak of the state"].startswith("– (one controller for all agents: ")
+    assert rows["cost relative to that controller"] == "–"
+    assert rows["fastest eigenvalue"] == "|λ| = 2"
     assert found.to_dict()["margin"] == 0 and found.to_dict()["cost"] is None
     json.dumps(found.to_dict(), allow_nan=False)
     assert curves_of(loop_of("1"), region) is None

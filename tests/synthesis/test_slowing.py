@@ -9,7 +9,7 @@ from mcexact.errors import LimitReached
 from mcexact.model import gallery
 from mcexact.synthesis.asking import request_for
 from mcexact.synthesis.design import Design
-from mcexact.synthesis.request import Request
+from mcexact.synthesis.request import Request, Warned
 from mcexact.synthesis.slowing import at_a_robust_rate
 
 PLANT = gallery.load("lexalutyi-two-double-integrators")
@@ -72,3 +72,15 @@ def test_a_given_rate_stays():
     with pytest.raises(LimitReached, match="limit 1"):
         at_a_robust_rate(given, lambda asked: counted(asked, tried, 9))
     assert tried == [given]
+
+
+def test_what_is_hard_is_told_once():
+    told = list[str]()
+    chosen = replace(request_for(PLANT), tell=told.append)
+
+    def hard(asked: Request) -> Design:
+        asked.tell(Warned(f"{asked.region} is hard"))
+        return with_margin(asked, 0.1)
+
+    at_a_robust_rate(chosen, hard)
+    assert told == [f"{chosen.region} is hard", "a slower rate", "a slower rate"]

@@ -71,7 +71,7 @@ def figures_of(problem: FeedbackProblem, K: Floats, *, peak: bool = True) -> Fig
     form = SchurForm.of(M, discrete=problem.discrete)
     bound, gain = np.inf if form is None else form.bound, float(np.max(np.abs(K), initial=0.0))
     if form is None or not bound < (1.0 if problem.discrete else 0.0):
-        return Figures(problem.order, gain, bound, 0.0, np.inf, np.inf)
+        return unstable_figures(problem.order, gain, form)
     points = frequencies(
         form.eigenvalues, discrete=problem.discrete, count=_FREQUENCIES, widen=10.0
     )
@@ -84,9 +84,21 @@ def figures_of(problem: FeedbackProblem, K: Floats, *, peak: bool = True) -> Fig
         1 / largest if largest else np.inf,
         peak_of_state(M, range(problem.n), form) if peak else np.nan,
         cost,
-        least_damping(form.eigenvalues, discrete=problem.discrete),
-        float(np.max(np.abs(form.eigenvalues), initial=0.0)),
+        *damping_and_fastest(form),
     )
+
+
+def unstable_figures(order: int, gain: float, form: SchurForm | None) -> Figures:
+    """The figures of a loop that is not stable, or whose numbers overflow."""
+    if form is None:
+        return Figures(order, gain, np.inf, 0.0, np.inf, np.inf)
+    return Figures(order, gain, form.bound, 0.0, np.inf, np.inf, *damping_and_fastest(form))
+
+
+def damping_and_fastest(form: SchurForm) -> tuple[float, float]:
+    """The least damping ratio and the largest modulus of an eigenvalue."""
+    largest = float(np.max(np.abs(form.eigenvalues), initial=0.0))
+    return least_damping(form.eigenvalues, discrete=form.discrete), largest
 
 
 def peak_of_state(M: Floats, places: Sequence[int], form: SchurForm) -> float:

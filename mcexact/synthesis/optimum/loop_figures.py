@@ -15,10 +15,14 @@ from mcexact.exact.matrix import Matrix
 from mcexact.floating.margins import is_within
 from mcexact.model.controller import Controller, LinearMap
 from mcexact.model.loop import ClosedLoop, closed_loop
-from mcexact.synthesis.optimum.figures import Figures, peak_of_state
+from mcexact.synthesis.optimum.figures import (
+    Figures,
+    damping_and_fastest,
+    peak_of_state,
+    unstable_figures,
+)
 from mcexact.synthesis.optimum.kernel import quiet_floats
 from mcexact.synthesis.optimum.sensitivity import Complexes, Response, frequencies
-from mcexact.synthesis.optimum.shape import least_damping
 from mcexact.synthesis.optimum.spectrum import SchurForm
 from mcexact.synthesis.optimum.weights import Floats, Weights
 
@@ -60,19 +64,17 @@ def figures_of_loop(loop: ClosedLoop, weights: Weights, integrators: Sequence[in
     M, discrete = matrix_to_float(loop.matrix), is_discrete(loop.given.time)
     order, gain = loop.controller.order, to_float(loop.controller.largest_entry())
     form = SchurForm.of(M, discrete=discrete)
-    bound = np.inf if form is None else form.bound
-    if form is None or not bound < (1.0 if discrete else 0.0):
-        return Figures(order, gain, bound, 0.0, np.inf, np.inf)
+    if form is None or not form.bound < (1.0 if discrete else 0.0):
+        return unstable_figures(order, gain, form)
     U = input_rows(loop)
     return Figures(
         order,
         gain,
-        bound,
+        form.bound,
         margin_of(loop),
         peak_of_state(M, [*range(loop.given.n), *integrators], form),
         _cost(loop, form, U, weights, integrators),
-        least_damping(form.eigenvalues, discrete=discrete),
-        float(np.max(np.abs(form.eigenvalues), initial=0.0)),
+        *damping_and_fastest(form),
     )
 
 
