@@ -8,7 +8,7 @@ DOCS := build/docs/environment
 PIP := $(BIN)/python -m pip install --quiet --quiet --disable-pip-version-check
 GALLERY := mcexact/model/gallery
 
-.PHONY: absence corpus coverage package-coverage docs mutants paper-mutants records reproduce look ledger schemas schemas-everywhere sentences demo test lint types tests slow-tests matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs
+.PHONY: absence corpus coverage package-coverage docs mutants paper-mutants records reproduce look ledger schemas schemas-everywhere sentences demo test lint types tests slow-tests durations matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs
 
 demo: $(CORE)
 	$(BIN)/mcexact demo
@@ -33,6 +33,11 @@ tests: $(STAMP)
 # The tests that `make tests` leaves out, because each of them takes seconds: together they are all.
 slow-tests: $(STAMP)
 	HYPOTHESIS_PROFILE=ci $(BIN)/python -m pytest --quiet --numprocesses 2 --dist worksteal -m slow
+
+# Which tests take more than 0.7 seconds of the processor, measured one after another and written to
+# tests/slow.txt: half an hour.  PATHS='tests/synthesis' measures some.
+durations: $(STAMP)
+	$(BIN)/python -m tests.durations $(PATHS)
 
 # The full tests under every kernel, Python and library version that they have to pass with: an hour
 # or more. CELLS='oldest python3.*' runs some; PYTHONS holds interpreters that are not on PATH.

@@ -1,8 +1,11 @@
-"""Hypothesis profiles: `dev` at the desk, `ci` repeatable, `deep` for a long look."""
+"""Hypothesis profiles: `dev` at the desk, `ci` repeatable, `deep` for a long look; slow tests."""
 
 import os
 
+import pytest
 from hypothesis import HealthCheck, settings
+
+from tests.durations import slow_tests
 
 _SLOW = [HealthCheck.too_slow, HealthCheck.data_too_large]
 
@@ -12,3 +15,11 @@ settings.register_profile(
 )
 settings.register_profile("deep", max_examples=2000, deadline=None, suppress_health_check=_SLOW)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "dev"))
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark the tests that have been measured to be slow."""
+    slow = slow_tests()
+    for item in items:
+        if item.nodeid in slow:
+            item.add_marker(pytest.mark.slow)
