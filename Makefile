@@ -8,7 +8,7 @@ DOCS := build/docs/environment
 PIP := $(BIN)/python -m pip install --quiet --quiet --disable-pip-version-check
 GALLERY := mcexact/model/gallery
 
-.PHONY: absence corpus coverage package-coverage docs mutants paper-mutants records reproduce look ledger schemas schemas-everywhere sentences demo test lint types tests slow-tests durations matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs
+.PHONY: absence cluster corpus coverage package-coverage docs mutants paper-mutants records reproduce look ledger schemas schemas-everywhere sentences demo test lint types tests slow-tests durations matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs
 
 demo: $(CORE)
 	$(BIN)/mcexact demo
@@ -141,6 +141,10 @@ schemas: $(STAMP)
 # NAMES='quadruple-tank-pminus' tries some.
 schemas-everywhere: $(STAMP)
 	$(BIN)/python -m tests.campaigns.schemas $(NAMES)
+
+# A sweep of 2,000 systems over a dask cluster of two processes, of which one is killed: minutes.
+cluster: $(STAMP)
+	$(BIN)/python -m tests.campaigns.cluster $(or $(N),2000)
 
 # The list of all sentences that the commands print about a system, from their templates.
 sentences: $(STAMP)

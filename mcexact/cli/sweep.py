@@ -6,7 +6,7 @@ import contextlib
 import os
 import re
 import time
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,6 +14,7 @@ import click
 
 from mcexact.cli import options
 from mcexact.cli.failures import INTERRUPTED
+from mcexact.cli.families import Families, cluster, families
 from mcexact.sweeps.questions import QUESTIONS
 
 if TYPE_CHECKING:
@@ -44,6 +45,7 @@ _SAY_EVERY = 10.0  # seconds
 )
 @click.option("--seed", type=int, default=0, show_default=True, help="Seed of the first draw.")
 @options.draws
+@families
 @click.option(
     "-o",
     "--output",
@@ -58,6 +60,12 @@ _SAY_EVERY = 10.0  # seconds
     metavar="N",
     help="Number of processes; by default the number of processors.",
 )
+@click.option(
+    "--scheduler",
+    metavar="ADDRESS",
+    help="Have a running dask cluster decide, such as tcp://host:8786, on whose workers mcexact is "
+    "installed; the checker verifies every certificate here.",
+)
 @options.certificates
 @options.as_json
 @options.work_limits
@@ -69,6 +77,7 @@ def command(
     seed: int,
     output: Path | None,
     workers: int | None,
+    scheduler: str | None,
     certificates: Path | None,
     as_json: bool,
     timeout: float | None,
@@ -77,6 +86,7 @@ def command(
 ) -> int:
     """Answer the same questions about every system in the FILEs.
 
+    --grid, --all-graphs and --all-sensors ask about many systems that are made of each FILE.
     In a DIRECTORY, a *.json file is read if its key "format" says that it is a system file; other
     files are skipped and named in the summary.
 
@@ -96,32 +106,41 @@ def command(
     from mcexact.sweeps.jobs import decide
     from mcexact.sweeps.run import sweep
 
-    limits = {name: rest.pop(name) for name in ("bytes", "depth", "digits", "exponent")}
+    limits = Limits(
+        **options.given({name: rest.pop(name) for name in ("bytes", "depth", "digits", "exponent")})
+    )
+    made_of = Families(rest)
     listed = _Listed(files)
-    sources: list[Source] = list(listed.paths)
+    sources: list[Source] = listed.expanded(made_of.of(listed.paths, limits))
     sources += [Draw(number, **rest) for number in range(seed, seed + (draws or 0))]
     if not sources:
         raise click.UsageError("there are no systems to sweep over: name files, or give --draws N")
     asked = tuple(name for name in QUESTIONS if name in (questions or {"fixed_spectrum"}))
     require_writable(output, certificates)
     limited = timeout is not None or max_memory is not None
-    records = sweep(
-        sources,
-        asked,
-        results=output,
-        workers=workers or _processors(),
-        limits=Limits(**options.given(limits)),
-        read=partial(_read, timeout=timeout),
-        work=partial(_limited, timeout=timeout, max_memory=max_memory) if limited else decide,
-    )
+    if limited and scheduler is not None:
+        raise click.UsageError("limits on time and memory hold here: leave them out on a cluster")
     documents: list[dict[str, Any]] = []
     try:
-        with contextlib.closing(records), _progress(len(sources)) as tell:  # type: ignore[type-var]
-            for record in records:
-                documents.append(record.to_dict())
-                tell(documents)
-                if certificates is not None:
-                    _write(directory(certificates), record, len(sources))
+        with cluster(scheduler) as (executor, threads), _progress(len(sources)) as tell:
+            records = sweep(
+                sources,
+                asked,
+                results=output,
+                executor=executor,
+                workers=workers or threads or _processors(),
+                limits=limits,
+                read=partial(_read, timeout=timeout),
+                work=partial(_limited, timeout=timeout, max_memory=max_memory)
+                if limited
+                else decide,
+            )
+            with contextlib.closing(records):  # type: ignore[type-var]
+                for record in records:
+                    documents.append(record.to_dict())
+                    tell(documents)
+                    if certificates is not None:
+                        _write(directory(certificates), record, len(sources))
     except KeyboardInterrupt:
         kept = f"; run the same command again to resume from {output}" if output is not None else ""
         said = f"interrupted after {len(documents)} of {len(sources)} systems{kept}"
@@ -176,6 +195,17 @@ class _Listed:
         else:
             self._found.add(len(self.paths))
             self.paths.append(str(path))
+
+    def expanded(self, members: Iterable[tuple[int, Source]]) -> list[Source]:
+        """List what is made of the files, of which those in directories may be skipped."""
+        sources: list[Source] = []
+        found = set()
+        for k, source in members:
+            if k in self._found:
+                found.add(len(sources))
+            sources.append(source)
+        self._found = found
+        return sources
 
     def separated(
         self, documents: list[dict[str, Any]]
@@ -234,7 +264,8 @@ def _write(folder: Path, record: Record, total: int) -> None:
     from mcexact.model.atomic import write_text
 
     number = str(record.number + 1).zfill(len(str(total)))
-    stem = re.sub(r"[^A-Za-z0-9_.-]+", "-", Path(record.name).stem)[:60]
+    path, _, member = record.name.partition(": ")
+    stem = re.sub(r"[^A-Za-z0-9_.-]+", "-", Path(path).stem + (f"-{member}" if member else ""))[:60]
     for question, text in record.certificates.items():
         write_text(folder / f"{number}-{stem}-{question}.json", text)
 

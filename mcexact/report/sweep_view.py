@@ -96,9 +96,13 @@ def _tells(document: Document) -> int:
 
 
 def _short_names(documents: Sequence[Document]) -> dict[str, str]:
-    """Shorten paths by their common folder."""
+    """Shorten paths by their common folder, and members of one family by the name of the file."""
     names = {document["name"] for document in documents}
-    folders = {os.path.dirname(name) for name in names if os.sep in name}
+    if len(names) > 1 and len({name.partition(": ")[0] for name in names}) == 1:
+        return {name: shorten(name.partition(": ")[2], 60) for name in names}
+    # Behind a colon stands which member of a family it is, possibly with quotients.
+    paths = (name.partition(": ")[0] for name in names)
+    folders = {os.path.dirname(path) for path in paths if os.sep in path}
     try:
         common = os.path.commonpath(folders) + os.sep if folders else ""
     except ValueError:  # absolute ones and others

@@ -10,6 +10,7 @@ from typing import Any
 
 from mcexact.answer import codec
 from mcexact.derived.drawn.draw import Draw, drawn_system
+from mcexact.derived.variants import Variant
 from mcexact.errors import InputError, LimitReached, McexactError, OtherFormat, UsageError
 from mcexact.exact.rational import DEFAULT_LIMITS, Limits
 from mcexact.model.canonical import canonical, sha256
@@ -18,7 +19,7 @@ from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import digest, system_text
 from mcexact.sweeps.questions import QUESTIONS
 
-Source = str | os.PathLike[str] | MultiChannelSystem | Draw
+Source = str | os.PathLike[str] | MultiChannelSystem | Draw | Variant
 Reader = Callable[[str | os.PathLike[str], Limits], bytes]
 Outcome = dict[str, Any]
 """The plain data that `decide` returns: the answers, or the error that prevented them."""
@@ -72,17 +73,19 @@ def job(
     InputError, LimitReached
         If a file cannot be read.
     UsageError
-        If the entry is not a path, a system or a draw.
+        If the entry is not a path, a system, a variant or a draw.
     """
     if isinstance(source, Draw):
         return Job(f"seed {source.seed}", source, questions, limits)
+    if isinstance(source, Variant):
+        return Job(source.name, system_text(source.system()).encode(), questions, limits)
     if isinstance(source, MultiChannelSystem):
         name = source.name or f"system {number + 1}"
         return Job(name, system_text(source).encode(), questions, limits)
     if isinstance(source, str | os.PathLike):
         return Job(os.fspath(source), read(source, limits), questions, limits)
     raise UsageError(
-        f"expected paths, systems or draws to sweep over, found {type(source).__name__}"
+        f"expected paths, systems, variants or draws to sweep over, found {type(source).__name__}"
     )
 
 
@@ -144,5 +147,5 @@ def entries(
             made: Job | McexactError = job(source, number, questions, limits, read)
         except (InputError, LimitReached) as error:
             made = error
-        name = made.name if isinstance(made, Job) else str(source)
+        name = made.name if isinstance(made, Job) else getattr(source, "name", str(source))
         yield number, name, made
