@@ -100,7 +100,8 @@ def read_matrix(
     else:
         r, listed = len(items(value, place)), value
         c = len(items(listed[0], place)) if listed else ncols or 0
-        rows = [_numbers(items(row, place, c), place, limits) for row in listed]
+        plain = limits is None and _are_integers(listed, c)
+        rows = listed if plain else [_numbers(items(x, place, c), place, limits) for x in listed]
     if nrows not in (None, r) or ncols not in (None, c):
         malformed(place, f"expected another shape, found {r} by {c}")
     given = [*chain(*rows), *cells.values()]
@@ -120,6 +121,12 @@ def read_matrix(
     if whole:
         return Matrix(rows, c)
     return Matrix([[e.numerator * (d // e.denominator) for e in row] for row in rows], c, d)
+
+
+def _are_integers(rows: list[Json], ncols: int) -> bool:
+    """Whether each row is a list of so many integers; a row at a time takes three times as long."""
+    lists = set(map(type, rows)) <= {list} and set(map(len, rows)) <= {ncols}
+    return lists and set(map(type, chain.from_iterable(rows))) <= {int}
 
 
 def _numbers(row: list[Json], place: str, limits: Limits | None) -> list[Json]:

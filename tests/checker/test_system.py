@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from typing import Any
 
 import pytest
 
@@ -200,3 +201,35 @@ def test_a_text_about_a_system_has_at_most_10000_characters(key: str) -> None:
     assert digest_of(json.dumps({**BASE, key: "x" * 10_000})) == digest_of(json.dumps(BASE))
     with pytest.raises(Refused):
         digest_of(json.dumps({**BASE, key: "x" * 10_001}))
+
+
+@pytest.mark.parametrize(
+    ("reason", "rows"),
+    [
+        ("the first row is no list", [1, [2]]),
+        ("another row is no list", [[1], {"1": 2}]),
+        ("a text is no row", [[1], "2"]),
+        ("a row is too long", [[1], [2, 3]]),
+        ("a row is too short", [[1], []]),
+        ("true is no number", [[1], [True]]),
+        ("a list is no number", [[1], [[2]]]),
+        ("nothing is no number", [[1], [None]]),
+    ],
+)
+def test_rows_that_are_not_all_alike_are_refused_in_a_certificate(reason: str, rows: Any) -> None:
+    with pytest.raises(Refused, match="expected"):
+        read_matrix(rows, "A", None, None)
+
+
+def test_integers_are_read_as_they_are_and_others_beside_them_as_numbers() -> None:
+    assert read_matrix([[1, -(10**30)], [0, 2]], "A", 2, 2).rows == [[1, -(10**30)], [0, 2]]
+    mixed = read_matrix([[1, 2], ["1/2", 3]], "A", 2, 2)
+    assert (mixed.rows, mixed.denominator) == ([[2, 4], [1, 6]], 2)
+    assert read_matrix([[], []], "B", 2, None).ncols == 0
+    assert read_matrix([], "C", None, 3).ncols == 3
+
+
+def test_integers_of_a_file_have_a_limit_and_those_of_a_certificate_had_it() -> None:
+    assert read_matrix([[10**5]], "A", 1, 1).rows == [[10**5]]
+    with pytest.raises(Refused, match="more than 5 digits"):
+        read_matrix([[10**5]], "A", 1, 1, Limits(digits=5))
