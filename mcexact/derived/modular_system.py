@@ -208,8 +208,7 @@ def channel_sequences(
             yield from found
             return
     if system.n >= _KRYLOV_SIZE and ell.bit_length() <= quick_bits(system):
-        loop = krylov.FloatLoop(system.A, B, C, ell)
-        yield from loop.sequences(loop.closed(gains), starts)
+        yield from krylov.loop_sequences(system.A, B, C, gains, ell, starts)
         return
     A_F = closed_loop(modular, gains)
     for q, x, y in starts:
