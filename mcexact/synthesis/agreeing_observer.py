@@ -7,8 +7,8 @@ each other strongly (Kim, Shim and Cho 2016; Kim, Lee and Shim 2020).
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from itertools import chain
+from dataclasses import dataclass, replace
+from itertools import chain, product
 from typing import Literal
 
 import numpy as np
@@ -16,7 +16,7 @@ import numpy as np
 from mcexact.derived.error_system import error_system
 from mcexact.derived.feedback import closed_by
 from mcexact.exact.floats import matrix_from_float, matrix_to_float
-from mcexact.exact.location import StabilityRegion
+from mcexact.exact.location import StabilityRegion, is_discrete
 from mcexact.exact.matrix import Matrix
 from mcexact.floating.margins import is_within
 from mcexact.model.loop import closed_loop
@@ -28,7 +28,7 @@ from mcexact.synthesis.network.networks import decentralized_network
 from mcexact.synthesis.observer.coordinates import observer_coordinates
 from mcexact.synthesis.observer.observer import observer_proposals
 from mcexact.synthesis.observer.programs import observer_programs
-from mcexact.synthesis.observer.promising import most_promising
+from mcexact.synthesis.observer.promising import honors, most_promising
 from mcexact.synthesis.optimum.aims import MARGIN
 from mcexact.synthesis.optimum.cuts import whole_model
 from mcexact.synthesis.optimum.figures import Figures, central_optimum, shift_of
@@ -41,8 +41,9 @@ from mcexact.synthesis.optimum.weights import Floats, Weights
 from mcexact.synthesis.request import Request
 
 _STRENGTHS = (10.0, 30.0, 100.0, 3.0, 1.0)
+_SHARES, _NOISES = (1.0, 0.5), (1.0, 1e1, 1e2, 1e3, 1e4, 1e5)
 _DIGITS = (3, 6, 12)
-_FASTER, _ENOUGH = 1.1, 1.5
+_FASTER, _FASTER_THAN_STABLE, _ENOUGH = 1.1, 1.02, 1.5
 _NEGLIGIBLE = 1e-9
 
 
@@ -65,14 +66,15 @@ def observers(
 
     Notes
     -----
-    If an observer without a channel controller is fragile, it is compared with some others.
+    If an observer without a channel controller is fragile, or in discrete time much faster than
+    asked, it is compared with some others.
     """
     others = observer_proposals(system, graph, request, gains=gains, order=order)
     first = None
     if request.arithmetic == "float" and request.agent is None and not graph.delays:
         request.tell("estimates that agree")
         first = best_agreeing(system, graph, request.region, gains)
-    if first is not None and first.is_fragile:
+    if first is not None and (first.is_fragile or first.is_hasty):
         both = chain([first.proposal], others)
         yield from most_promising(system, graph, request.region, both, by_order=False)
         return
@@ -89,10 +91,18 @@ class Agreeing:
     ----------
     proposal : Proposal
     figures : Figures
+    region : StabilityRegion
+        The one asked for.
     """
 
     proposal: Proposal
     figures: Figures
+    region: StabilityRegion
+
+    @property
+    def is_hasty(self) -> bool:
+        """Whether, in discrete time, the loop is much faster than asked."""
+        return not honors(self.region, self.figures.bound)
 
     @property
     def is_fragile(self) -> bool:
@@ -111,7 +121,6 @@ def best_agreeing(
     Parameters
     ----------
     system : MultiChannelSystem
-        In continuous time.
     graph : NeighborGraph
         Without delays.
     region : StabilityRegion
@@ -122,9 +131,8 @@ def best_agreeing(
     -------
     Agreeing or None
         Of several strengths the first with a margin of 0.3 and 1.5 times the cost of one controller
-        for all agents; else the cheapest with this margin, or the most robust.  None in discrete
-        time, where a strength of this kind makes a loop unstable, for graphs that are not strongly
-        connected, and where no loop lies in the region.
+        for all agents; else the cheapest with this margin, or the most robust.  None for graphs
+        that are not strongly connected, and where no loop lies in the region.
 
     Notes
     -----
@@ -134,11 +142,16 @@ def best_agreeing(
         ẋ_i = (A + BF) x_i + L_i (y_i − C_i x_i)/w_i + γ Σ_j (x_j − x_i)
 
     The larger γ, the nearer are all x_i to one estimate with the derivative
-    (A + BF) x + L (y − C x), which is that of the optimal controller.  The states of all agents are
-    nm, half as many as with a channel controller.  Gains have 3 decimal digits if these suffice.
+    (A + BF) x + L (y − C x), which is that of the optimal controller.  In discrete time they are
+    drawn once in each step, by a part of their differences that grows no difference::
+
+        x_i⁺ = (A + BF) x_i + A L_i (y_i − C_i x_i)/w_i + γ A Σ_j (x_j − x_i),    γ ≤ 1/(1 + d)
+
+    with d the largest number of agents that one receives from.  Only slow filters agree then, so
+    that L is optimal for several noises, up to 100,000 times those of the outputs; loops that are
+    much faster than asked come last.  The states of all agents are nm, half as many as with a
+    channel controller.  Gains have 3 decimal digits if these suffice.
     """
-    if region.discrete:
-        return None
     with quiet_floats():
         weights = agreed_weights(graph)
         if weights is None:
@@ -151,14 +164,16 @@ def best_agreeing(
         made = list[Agreeing]()
         for each in _tried(system, graph, region, weights, *found):
             made.append(each)
-            if not each.is_fragile and each.figures.cost <= enough:
+            if not each.is_fragile and not each.is_hasty and each.figures.cost <= enough:
                 break
         return min(made, key=_rank, default=None)
 
 
-def _rank(each: Agreeing) -> tuple[bool, float]:
-    """Robust ones first, the cheapest first; of fragile ones the most robust."""
-    return each.is_fragile, -each.figures.margin if each.is_fragile else each.figures.cost
+def _rank(each: Agreeing) -> tuple[bool, bool, float]:
+    """Robust ones first, of these the ones as slow as asked, the cheapest first; else by margin."""
+    if each.is_fragile:
+        return True, True, -each.figures.margin
+    return False, each.is_hasty, each.figures.cost
 
 
 def agreed_weights(graph: NeighborGraph) -> Floats | None:
@@ -185,23 +200,26 @@ def agreed_weights(graph: NeighborGraph) -> Floats | None:
 
 def _optimal(
     system: MultiChannelSystem, region: StabilityRegion, gains: Sequence[Matrix] | None
-) -> tuple[tuple[Matrix, ...], Floats] | None:
-    """The gains F_i, of few digits, and L, of the optimal controller of all agents together."""
-    weights, shift = Weights.unit(system), shift_of(region, _FASTER)
+) -> tuple[tuple[Matrix, ...], list[Floats]] | None:
+    """The gains F_i, of few digits, and gains L for several noises, of one optimal controller."""
+    stable = region.discrete and region.edge == 1
+    shift = shift_of(region, _FASTER_THAN_STABLE if stable else _FASTER)
+    weights = Weights.unit(system)
     problem = FeedbackProblem.of(decentralized_network(system), (0,) * system.m, weights)
     model = whole_model(problem, weights)
-    L = estimator(model, shift)
-    if L is None:
-        return None
+    noises = _NOISES if region.discrete else _NOISES[:1]
+    filters = [estimator(replace(model, V=noise * model.V), shift) for noise in noises]
+    # In discrete time the gain of the newest output becomes that of the prediction.
+    found = [model.A @ L if region.discrete else L for L in filters if L is not None]
     if gains is not None:
-        return tuple(gains), L
+        return tuple(gains), found
     F = regulator(model, shift)
     if F is None:
         return None
     for digits in _DIGITS:
         short = _short(F, digits)
         if is_within(model.A + model.B @ short, region):
-            return split_by_channel(system, matrix_from_float(short, "decimal", where="F")), L
+            return split_by_channel(system, matrix_from_float(short, "decimal", where="F")), found
     return None
 
 
@@ -217,20 +235,32 @@ def _tried(
     region: StabilityRegion,
     weights: Floats,
     feedback: tuple[Matrix, ...],
-    L: Floats,
+    filters: Sequence[Floats],
 ) -> Iterator[Agreeing]:
     """Yield observers inside the region, of several strengths."""
-    closed = matrix_to_float(loop_matrix(system, feedback))
-    pace = float(np.max(np.abs(np.linalg.eigvals(closed)), initial=0.0)) or 1.0
     error = error_system(system, feedback, graph)
-    for strength in _STRENGTHS:
+    for L, drawn in product(filters, [*_drawn(system, graph, feedback)]):
         for digits in _DIGITS:
-            gains = _gains(system, graph, weights, L, strength * pace, digits)
+            gains = _gains(system, graph, weights, L, drawn, digits)
             if is_within(matrix_to_float(closed_by(error, gains)), region):
                 proposal = _proposal(system, graph, feedback, gains)
                 loop = closed_loop(system, proposal.controller, graph)
-                yield Agreeing(proposal, plain_figures(loop))
+                yield Agreeing(proposal, plain_figures(loop), region)
                 break
+
+
+def _drawn(
+    system: MultiChannelSystem, graph: NeighborGraph, feedback: tuple[Matrix, ...]
+) -> Iterator[Floats]:
+    """Yield γI, or γA in discrete time, for several strengths γ."""
+    if is_discrete(system.time):
+        most = max(len([j for j in graph.neighborhood(i) if j != i]) for i in range(system.m))
+        A = matrix_to_float(system.A)
+        yield from (share / (1 + most) * A for share in _SHARES)
+        return
+    closed = matrix_to_float(loop_matrix(system, feedback))
+    pace = float(np.max(np.abs(np.linalg.eigvals(closed)), initial=0.0)) or 1.0
+    yield from (strength * pace * np.eye(system.n) for strength in _STRENGTHS)
 
 
 def _gains(
@@ -238,15 +268,15 @@ def _gains(
     graph: NeighborGraph,
     weights: Floats,
     L: Floats,
-    strength: float,
+    drawn: Floats,
     digits: int,
 ) -> tuple[Matrix, ...]:
-    """The gains [K_i, H_ij …] = [−L_i/w_i, −γ I …], rounded to some digits."""
+    """The gains [K_i, H_ij …] = [−L_i/w_i, −D …] that draw by D, rounded to some digits."""
     found, start = [], 0
     for i in range(system.m):
         stop = start + system.q(i)
         others = len([j for j in graph.neighborhood(i) if j != i])
-        parts = [-L[:, start:stop] / weights[i], *[-strength * np.eye(system.n)] * others]
+        parts = [-L[:, start:stop] / weights[i], *[-drawn] * others]
         found.append(matrix_from_float(_short(np.hstack(parts), digits), "decimal", where="K"))
         start = stop
     return tuple(found)

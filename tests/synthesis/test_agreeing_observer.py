@@ -55,6 +55,39 @@ def test_gains_have_few_digits():
             assert all(x == float(f"{float(x):.2e}") for x in map(float, row))
 
 
+def sampled_vehicles(m: int = 3) -> MultiChannelSystem:
+    """Vehicles in a row, sampled, that measure distances and hear the next ones."""
+    step, names = 0.1, [str(i) for i in range(m)]
+    A = np.eye(2 * m) + np.kron(np.eye(m), [[0.0, step], [0.0, 0.0]])
+    B = [step * np.eye(2 * m)[:, [2 * i + 1]] for i in range(m)]
+    C = [np.eye(2 * m)[[2 * i]] - (np.eye(2 * m)[[2 * i - 2]] if i else 0) for i in range(m)]
+    plant = MultiChannelSystem.from_float(A, B, C, time="discrete", rounding="decimal", names=names)
+    return plant.with_neighbors(NeighborGraph.ring(plant.names))
+
+
+def test_in_discrete_time_slow_filters_agree_and_the_loop_is_about_as_slow_as_asked():
+    plant = sampled_vehicles()
+    design = design_observer(plant, radius="0.99", arithmetic="float")
+    assert check_document(encode(design.loop.proof).encode()).verdict == "VALID"
+    assert design.order == plant.n * plant.m
+    found = assess(design)
+    assert found.figures.margin >= 0.3 and found.relative_cost < 3
+    assert 0.96 <= found.figures.bound < 0.99
+
+
+def test_in_discrete_time_the_fastest_loops_come_last():
+    plant = sampled_vehicles()
+    slow, any_rate = (
+        best_agreeing(plant, plant.neighbors, StabilityRegion.of("discrete", radius=radius))
+        for radius in ("0.99", 1)
+    )
+    assert slow is not None and any_rate is not None
+    assert not slow.is_hasty and not slow.is_fragile
+    assert not any_rate.is_hasty and not any_rate.is_fragile
+    assert any_rate.figures.bound < slow.figures.bound
+    assert any_rate.figures.cost < slow.figures.cost
+
+
 def test_a_named_agent_carries_a_channel_controller():
     design = design_observer(with_ring(PENDULA), agent="2", rate=1, arithmetic="float")
     assert design.parts["agent"] == "2" and design.parts["channel_order"] > 0
@@ -113,7 +146,7 @@ def test_the_weights_belong_to_the_laplacian(heard, expected):
             StabilityRegion("continuous", 1),
         ),
         (
-            MultiChannelSystem([[2]], [[[1]]], [[[1]]], time="discrete", neighbors={"1": []}),
+            MultiChannelSystem([[2]], [[[1]]], [[[0]]], time="discrete", neighbors={"1": []}),
             StabilityRegion("discrete"),
         ),
         (
@@ -125,7 +158,7 @@ def test_the_weights_belong_to_the_laplacian(heard, expected):
             StabilityRegion("continuous", 1),
         ),
     ],
-    ids=["not strongly connected", "discrete time", "not observed", "not controlled"],
+    ids=["not strongly connected", "not observed in steps", "not observed", "not controlled"],
 )
 def test_elsewhere_there_is_none(plant, region):
     assert best_agreeing(plant, plant.neighbors, region) is None

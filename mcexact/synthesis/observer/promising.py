@@ -82,6 +82,20 @@ def rounds(region: StabilityRegion, errors: int) -> Iterator[Round]:
         yield Round(((region.tightened(margin), 1.0),))
 
 
+def honors(region: StabilityRegion, bound: float) -> bool:
+    """Whether a loop is about as slow as asked: its slowest eigenvalue has a modulus above ρ⁴.
+
+    Every loop is in continuous time, and for a radius of 1, which asks for no rate.
+
+    Examples
+    --------
+    >>> asked = StabilityRegion.of("discrete", radius="0.99")
+    >>> honors(asked, 0.98), honors(asked, 0.9)
+    (True, False)
+    """
+    return not region.discrete or region.edge >= 1 or bound >= to_float(region.edge) ** _MUCH_FASTER
+
+
 def most_promising(
     system: MultiChannelSystem,
     graph: NeighborGraph,
@@ -97,22 +111,20 @@ def most_promising(
     system : MultiChannelSystem
     graph : NeighborGraph
     region : StabilityRegion
-        Of a radius ρ, which a loop honors if its slowest eigenvalue has a modulus above ρ⁴.
+        In discrete time loops that `honors` accepts come first.
     proposals : iterable of Proposal
         Of these the first 8 are compared.
     by_order : bool
         Whether the order counts.
     """
     rest = iter(proposals)
-    # Only loops inside the region get here, and a radius of 1 asks for no rate.
-    least = to_float(region.edge) ** _MUCH_FASTER if region.edge < 1 else 0.0
 
     def rank(each: Proposal) -> tuple[int, bool, bool, float]:
         seen = plain_figures(closed_loop(system, each.controller, graph))
         order = each.controller.order if by_order else 0
         if not seen.margin >= MARGIN:
             return order, True, True, -seen.margin
-        return order, False, seen.bound < least, seen.cost
+        return order, False, not honors(region, seen.bound), seen.cost
 
     yield from sorted(islice(rest, _SHOWN), key=rank)
     yield from rest
