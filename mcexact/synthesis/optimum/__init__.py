@@ -6,7 +6,9 @@ M(K) = A + B K C.  A ladder of starts leads from static gains to the controller 
 =============  =========================================================================
 `aims`         what a search aims at
 `weights`      what the cost weighs
+`ties`         which entries of K are equal
 `problem`      the structure as a matrix K with a mask
+`alike`        agents that look alike use the same program
 `programs`     gain matrices as agent programs, balanced and rounded
 `spectrum`     one Schur form of a loop, and the Gramians of its shifts
 `cost`         the linear-quadratic cost with its gradient
@@ -21,7 +23,9 @@ M(K) = A + B K C.  A ladder of starts leads from static gains to the controller 
 `cuts`         the controller of all agents together, cut to what each agent knows
 `alone`        controllers of low order that each agent finds for its own part
 `polish`       from a start into the region and to a local optimum
-`ladder`       all starts in their order, and the best result
+`ladder`       what a search tries and finds, and how it is ranked
+`steps`        the starts of each step
+`climb`        all steps in their order, to the best result
 `figures`      order, gains, margin, peak and cost of a loop; the central optimum
 `loop_figures` the same of the controller of any loop, and how far it can be rounded
 `curves`       how robust a loop is over the frequency, and how it decays

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from mcexact.synthesis.optimum.problem import AgentPlaces, FeedbackProblem, Places
+from mcexact.synthesis.optimum.problem import AgentPlaces, FeedbackProblem
 from mcexact.synthesis.optimum.regulator import (
     Model,
     estimator,
@@ -15,6 +15,7 @@ from mcexact.synthesis.optimum.regulator import (
     regulator,
 )
 from mcexact.synthesis.optimum.starts import Locality, drawn_dynamics
+from mcexact.synthesis.optimum.ties import Places
 from mcexact.synthesis.optimum.weights import Floats, Weights
 
 

@@ -30,6 +30,7 @@ SLACK = 1.02
 _RATCHETS, _STALLS, _SHARE = 40, 4, 0.15
 _PARTS = (0.5, 0.25, 0.12, 0.06)
 _MARGIN_ROUNDS = 10
+_SETTLINGS, _SETTLED = 4, 150
 _DRAFT, _POLISH = 60, 500
 _CHECKED = 200
 _GAIN_AIMED_AT = 0.95
@@ -167,6 +168,26 @@ def ratcheted(problem: FeedbackProblem, x: Floats, target: Target, effort: Effor
         if stalls >= _STALLS:
             break
     return x if target.reached(bound) else None
+
+
+def settled(problem: FeedbackProblem, x: Floats, target: Target, effort: Effort) -> Floats:
+    """Lower the cost of a stable loop outside the region, until it lies inside or gets no better.
+
+    Notes
+    -----
+    The cost of a long network is least inside most regions, and from a loop that disturbs itself
+    less the way is short.  Half the rate of a loop is the barrier.  One that is not stable stays as
+    it is.
+    """
+    edge = 1.0 if problem.discrete else 0.0
+    for _ in range(_SETTLINGS):
+        bound = bound_of(problem, x)
+        if not bound < edge or target.reached(bound, SLACK) or effort.over:
+            break
+        shift = (bound + edge) / 2 if problem.discrete else -bound / 2
+        objective = _counted(Objective(problem, shift, target.largest_gain), effort)
+        x, _ = minimize(objective, x, steps=_SETTLED, tolerance=1e-3, stop=lambda: effort.over)
+    return x
 
 
 def drafted(

@@ -13,9 +13,11 @@ import numpy.typing as npt
 from mcexact.exact.floats import matrix_to_float
 from mcexact.exact.location import is_discrete
 from mcexact.synthesis.network.networks import DerivedNetwork, Signal
+from mcexact.synthesis.optimum.ties import Places, Ties
 from mcexact.synthesis.optimum.weights import Floats, Weights
 
-Places = npt.NDArray[np.intp]
+Sources = dict[tuple[Signal, bytes], slice]
+"""The rows of each signal of each age, which is known by the bytes of its output matrix."""
 Structure = tuple[DerivedNetwork, tuple[int, ...]]
 """A network, and the dimensions of the agents' private states."""
 
@@ -100,6 +102,8 @@ class FeedbackProblem:
         The weights of N states, P rows of K, N state noises and L noises of signals.
     scale : ndarray, P × L
         The entries of K are multiples of these.
+    ties : Ties or None
+        Free entries that are equal, if any are.
     """
 
     network: DerivedNetwork
@@ -116,6 +120,7 @@ class FeedbackProblem:
     W: Floats
     V: Floats
     scale: Floats
+    ties: Ties | None = None
 
     @classmethod
     def of(
@@ -183,8 +188,8 @@ class FeedbackProblem:
 
     @property
     def size(self) -> int:
-        """The number of free entries of K."""
-        return int(self._free.size)
+        """The number of free entries of K, of equal ones only one."""
+        return int(self._free.size) if self.ties is None else self.ties.count
 
     @property
     def order(self) -> int:
@@ -195,21 +200,37 @@ class FeedbackProblem:
     def _free(self) -> Places:
         return np.flatnonzero(self.mask)
 
+    def with_ties(self, ties: Ties) -> FeedbackProblem:
+        """Return the problem in which some free entries are equal, and so are their scales."""
+        scale = self.scale.ravel().copy()
+        logarithms = ties.summed(np.log(scale[self._free])) / ties.summed(np.ones(self._free.size))
+        scale[self._free] = np.exp(logarithms)[ties.number]
+        return replace(self, scale=scale.reshape(self.scale.shape), ties=ties)
+
+    @property
+    def untied(self) -> FeedbackProblem:
+        """The same problem in which no entries have to be equal."""
+        return self if self.ties is None else replace(self, ties=None)
+
     def gain(self, x: Floats) -> Floats:
         """Return K with the free entries x."""
         K = np.zeros(self.mask.size)
-        K[self._free] = x * self.scale.ravel()[self._free]
+        entries = x if self.ties is None else x[self.ties.number]
+        K[self._free] = entries * self.scale.ravel()[self._free]
         return K.reshape(self.mask.shape)
 
     def entries(self, K: Floats) -> Floats:
-        """Return the free entries of K as multiples of their scale, for which K is the gain."""
+        """Return the free entries of K as multiples of their scale, for which K is the gain.
+
+        Of equal ones it is one, and K is the gain if they are equal in K.
+        """
         found: Floats = K.ravel()[self._free] / self.scale.ravel()[self._free]
-        return found
+        return found if self.ties is None else self.ties.values(found)
 
     def gradient(self, G: Floats) -> Floats:
         """Return the gradient in the free entries, for the gradient in K."""
         found: Floats = G.ravel()[self._free] * self.scale.ravel()[self._free]
-        return found
+        return found if self.ties is None else self.ties.summed(found)
 
     @cached_property
     def bare(self) -> FeedbackProblem:
@@ -260,10 +281,10 @@ def _corner(M: Floats, size: int, diagonal: float) -> Floats:
     return found
 
 
-def _signals(network: DerivedNetwork) -> tuple[Floats, dict[tuple[Signal, bytes], slice]]:
+def _signals(network: DerivedNetwork) -> tuple[Floats, Sources]:
     """Return the rows of all signals, each once, and where each signal of each age stands."""
     found: list[Floats] = []
-    places: dict[tuple[Signal, bytes], slice] = {}
+    places: Sources = {}
     start = 0
     for _, signal, rows in _received(network):
         key = signal, rows.tobytes()
@@ -287,7 +308,7 @@ def _received(network: DerivedNetwork) -> list[tuple[int, Signal, Floats]]:
 
 
 def _places(
-    network: DerivedNetwork, orders: Sequence[int], sources: dict[tuple[Signal, bytes], slice]
+    network: DerivedNetwork, orders: Sequence[int], sources: Sources
 ) -> tuple[AgentPlaces, ...]:
     """Number the rows (u, v, z) and the columns (signals, z) of K, agent by agent."""
     given, signals = network.given, max((s.stop for s in sources.values()), default=0)
@@ -314,7 +335,7 @@ def _places(
     )
 
 
-def _outputs(network: DerivedNetwork, sources: dict[tuple[Signal, bytes], slice]) -> Places:
+def _outputs(network: DerivedNetwork, sources: Sources) -> Places:
     """Return for each signal the output of the plant that it is, −1 for sub-states."""
     given = network.given
     starts = [0, *accumulate(given.q(i) for i in range(given.m))]
@@ -325,9 +346,7 @@ def _outputs(network: DerivedNetwork, sources: dict[tuple[Signal, bytes], slice]
     return found
 
 
-def _noise(
-    network: DerivedNetwork, sources: dict[tuple[Signal, bytes], slice], V: Floats
-) -> Floats:
+def _noise(network: DerivedNetwork, sources: Sources, V: Floats) -> Floats:
     """Return the covariance of the noise of all signals.
 
     Outputs carry the noise of the plant, sub-states none.  The noises of one output at two ages are

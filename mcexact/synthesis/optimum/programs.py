@@ -91,7 +91,8 @@ def balanced(problem: FeedbackProblem, K: Floats) -> Floats:
 
     Notes
     -----
-    Exact in floating point; the eigenvalues of the loop stay.
+    Exact in floating point; the eigenvalues of the loop stay.  Agents that look alike could be
+    scaled differently, so that nothing is scaled while their entries have to be equal.
 
     Examples
     --------
@@ -103,6 +104,8 @@ def balanced(problem: FeedbackProblem, K: Floats) -> Floats:
     [[-2.0, 8.0], [8.0, -1.0]]
     """
     K = K.copy()
+    if problem.ties is not None:
+        return K
     for _ in range(5):
         for row, columns in enumerate(problem.columns_of_states, start=problem.p):
             entering, leaving = K[row].copy(), K[:, columns].copy()

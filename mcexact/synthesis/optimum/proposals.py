@@ -14,11 +14,12 @@ from mcexact.model.controller import Controller
 from mcexact.synthesis.gate import Proposal, certify
 from mcexact.synthesis.network.network_design import network_proposals, require_fast
 from mcexact.synthesis.optimum.aims import Aims
+from mcexact.synthesis.optimum.climb import climbed
 from mcexact.synthesis.optimum.diagnosis import Diagnosis, diagnosed, with_diagnosis
 from mcexact.synthesis.optimum.effort import PER_SECOND, Effort
 from mcexact.synthesis.optimum.figures import Figures, figures_of
 from mcexact.synthesis.optimum.kernel import quiet_floats
-from mcexact.synthesis.optimum.ladder import MOST_STATES, Candidate, Ladder, climbed, ranked
+from mcexact.synthesis.optimum.ladder import MOST_STATES, Candidate, Ladder, ranked
 from mcexact.synthesis.optimum.polish import Target, bound_of
 from mcexact.synthesis.optimum.problem import FeedbackProblem
 from mcexact.synthesis.optimum.programs import controller_of, rounded

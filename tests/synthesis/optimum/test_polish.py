@@ -8,7 +8,7 @@ from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.network.networks import decentralized_network
 from mcexact.synthesis.optimum.effort import Effort
 from mcexact.synthesis.optimum.eigenvalues import Eigenvalues
-from mcexact.synthesis.optimum.polish import Target, bound_of, calmed, inside
+from mcexact.synthesis.optimum.polish import Target, bound_of, calmed, inside, settled
 from mcexact.synthesis.optimum.problem import FeedbackProblem
 from mcexact.synthesis.optimum.weights import Weights
 
@@ -45,6 +45,24 @@ def test_a_search_gets_inside_from_a_start_that_disturbs():
     target = Target(StabilityRegion("continuous", 1))
     x = inside(problem, np.array([5.0, 1.0, 1.0, -1.0]), target, Effort(20_000))
     assert x is not None and target.reached(bound_of(problem, x))
+
+
+@pytest.mark.parametrize("time", ["continuous", "discrete"])
+def test_a_stable_loop_outside_gets_cheaper_until_it_is_inside(time):
+    A = [["-1/10", 1], [0, -2]] if time == "continuous" else [["9/10", 1], [0, "1/10"]]
+    problem = problem_with(A, time=time)
+    target = Target(StabilityRegion.of(time, bound="1/2"))
+    found = settled(problem, np.array([0.0]), target, Effort(1e4))
+    assert target.reached(bound_of(problem, found))
+
+
+def test_only_a_stable_loop_outside_is_settled():
+    problem = problem_with([[-1, 1], [1, -2]])
+    target = Target(StabilityRegion.of("continuous", bound="1/5"))
+    for x in (np.array([3.0]), np.array([-3.0])):
+        assert target.reached(bound_of(problem, x)) == (x[0] < 0)
+        effort = Effort(1e4)
+        assert settled(problem, x, target, effort).tolist() == x.tolist() and not effort.spent
 
 
 @pytest.mark.parametrize("c", [1.0, 1j, 2 - 1j])
