@@ -99,7 +99,8 @@ def parse(data: bytes, limits: Limits, decimal_of: Callable[[str], Json] | None 
     try:
         return json.loads(text, parse_float=floats, parse_constant=refuse, object_pairs_hook=pairs)
     except json.JSONDecodeError as error:
-        malformed(f"line {error.lineno} column {error.colno}", f"not JSON: {error.msg}")
+        said = error.msg.replace("Expecting", "expected")
+        malformed(f"line {error.lineno} column {error.colno}", f"not JSON: {said}")
     except RecursionError:
         malformed("file", "nested deeper than any certificate")
 

@@ -93,11 +93,25 @@ def test_a_bug_comes_before_everything_else(
 
 def test_one_document_says_the_same(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--json", "fixed.json", "invalid.json"]) == 1
-    found = json.loads(capsys.readouterr().out)["verdicts"]
+    document = json.loads(capsys.readouterr().out)
+    assert document.keys() == {"format", "verdicts"} and document["format"] == "mcexact-verdicts/1"
+    found = document["verdicts"]
     assert [(row["file"], row["verdict"]) for row in found] == [
         ("fixed.json", "VALID"),
         ("invalid.json", "INVALID"),
     ]
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [("A = 1", "not JSON: expected value"), ("[1 2]", "not JSON: expected ',' delimiter")],
+)
+def test_a_text_that_is_no_json_is_told_in_a_sentence(
+    text: str, said: str, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (folder / "other.json").write_text(text, encoding="utf-8")
+    assert main(["other.json"]) == 3
+    assert capsys.readouterr().out.rstrip().endswith(said)
 
 
 def test_a_document_is_indented_by_one(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
