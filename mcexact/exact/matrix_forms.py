@@ -77,6 +77,9 @@ class MatrixForms:
     def __str__(self: Any) -> str:
         return aligned(self)
 
+    def _repr_pretty_(self, printer: Any, cycle: bool) -> None:
+        printer.text(repr(self))
+
     def piece_of_html(self: Any) -> str:
         """The matrix as a piece of HTML."""
         return html(self)

@@ -52,6 +52,9 @@ class PolynomialForms:
 
         return Polynomial([to_float(c) for c in self.coefficients] or [0.0])
 
+    def _repr_pretty_(self, printer: Any, cycle: bool) -> None:
+        printer.text(repr(self))
+
     def piece_of_html(self: Any) -> str:
         """The polynomial as a piece of HTML."""
         return _html(self)

@@ -7,42 +7,18 @@ They serve the tests of this package, and the tests of other control algorithms:
 
     @given(jointly_controllable_systems(max_states=4))
     def test_my_rank_test_agrees(drawn):
-        A = drawn.system.A
+        A = np.array(drawn.system.A)
         ...
 
 A strategy draws a `Drawn`: a system, and what is known about it *by construction*.  No example is
 filtered away, and examples shrink to few states, few channels and small entries.  The systems are
-exact; ``mcexact.exact.floats.matrix_to_float`` converts their matrices to arrays of floats.
+exact; ``np.array(drawn.system.A)`` is an array of floats.  Hypothesis prints a counterexample as
+code, which makes an equal system where it is pasted.
+
+`assert_valid` asserts that the independent checker accepts a certificate.  pytest finds it as a
+fixture, too, and the fixture ``gallery_plant``, with which a test runs for every published plant.
 """
 
-from mcexact.derived.drawn.systems import Drawn
-from mcexact.testing.strategies import (
-    HypothesisChoices,
-    incomplete_systems,
-    jointly_controllable_systems,
-    neighbor_graphs,
-    sparse_systems,
-    systems,
-    systems_on_graphs,
-    systems_with_deficiency,
-    systems_with_fixed_mode,
-    systems_with_indices,
-    systems_with_remnant,
-    uncontrollable_systems,
-)
+import lazy_loader
 
-__all__ = [
-    "Drawn",
-    "HypothesisChoices",
-    "incomplete_systems",
-    "jointly_controllable_systems",
-    "neighbor_graphs",
-    "sparse_systems",
-    "systems",
-    "systems_on_graphs",
-    "systems_with_deficiency",
-    "systems_with_fixed_mode",
-    "systems_with_indices",
-    "systems_with_remnant",
-    "uncontrollable_systems",
-]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -16,6 +16,7 @@ from mcexact.derived.drawn.graph import drawn_graph
 from mcexact.derived.drawn.systems import Drawn
 from mcexact.exact.location import TIMES
 from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.testing.printing import printed, printed_graph
 
 T = TypeVar("T")
 
@@ -59,7 +60,7 @@ def _systems(
 ) -> Drawn:
     choices = HypothesisChoices(draw)
     n, m = choices.integer(min_states, max_states), choices.integer(1, max_channels)
-    return drawn.any_system(choices, n, m, time=_time(choices, time))
+    return printed(draw, drawn.any_system(choices, n, m, time=_time(choices, time)))
 
 
 def systems(
@@ -93,13 +94,16 @@ def _minimal(
 ) -> Drawn:
     choices = HypothesisChoices(draw)
     n, m = choices.integer(min_states, max_states), choices.integer(1, max_channels)
-    return drawn.jointly_controllable_system(
-        choices,
-        n,
-        m,
-        time=_time(choices, time),
-        inactive_channels=inactive_channels,
-        denominators=denominators,
+    return printed(
+        draw,
+        drawn.jointly_controllable_system(
+            choices,
+            n,
+            m,
+            time=_time(choices, time),
+            inactive_channels=inactive_channels,
+            denominators=denominators,
+        ),
     )
 
 
@@ -138,7 +142,9 @@ def _with_fixed_mode(
     choices = HypothesisChoices(draw)
     chosen = choices.integer(1, min(3, max_states)) if degree is None else degree
     n, m = choices.integer(chosen, max_states), choices.integer(2, max_channels)
-    return drawn.system_with_fixed_mode(choices, n, m, chosen, time=_time(choices, time))
+    return printed(
+        draw, drawn.system_with_fixed_mode(choices, n, m, chosen, time=_time(choices, time))
+    )
 
 
 def systems_with_fixed_mode(
@@ -174,8 +180,11 @@ def _uncontrollable(
 ) -> Drawn:
     choices = HypothesisChoices(draw)
     n, m = choices.integer(1, max_states), choices.integer(1, max_channels)
-    return drawn.uncontrollable_system(
-        choices, n, m, observable_side=observable_side, time=_time(choices, time)
+    return printed(
+        draw,
+        drawn.uncontrollable_system(
+            choices, n, m, observable_side=observable_side, time=_time(choices, time)
+        ),
     )
 
 
@@ -194,7 +203,7 @@ def uncontrollable_systems(
 def _sparse(draw: DrawFn, max_states: int, max_channels: int, time: str | None) -> Drawn:
     choices = HypothesisChoices(draw)
     n, m = choices.integer(0, max_states), choices.integer(1, max_channels)
-    return drawn.sparse_system(choices, n, m, time=_time(choices, time))
+    return printed(draw, drawn.sparse_system(choices, n, m, time=_time(choices, time)))
 
 
 def sparse_systems(
@@ -208,7 +217,9 @@ def sparse_systems(
 def _graphs(
     draw: DrawFn, names: Sequence[str], strongly_connected: bool | None, longest_delay: int
 ) -> NeighborGraph:
-    return drawn_graph(HypothesisChoices(draw), names, strongly_connected, longest_delay)
+    return printed_graph(
+        draw, drawn_graph(HypothesisChoices(draw), names, strongly_connected, longest_delay)
+    )
 
 
 def neighbor_graphs(
@@ -236,7 +247,7 @@ def _on_graphs(
 ) -> Drawn:
     found = draw(base)
     graph = draw(_graphs(found.system.names, strongly_connected, longest_delay))
-    return replace(found, system=found.system.with_neighbors(graph))
+    return printed(draw, replace(found, system=found.system.with_neighbors(graph)))
 
 
 def systems_on_graphs(
@@ -267,19 +278,22 @@ def _with_deficiency(
     choices = HypothesisChoices(draw)
     way = choices.option(("outputs+states", "states")) if share is None else share
     boundary = 1 if way == "states" else choices.option((1, 1, 2))
-    return system_with_deficiency(
-        choices,
-        choices.integer(1, most),
-        choices.integer(2 if way == "states" else boundary + 2, 4),
-        share=way,
-        degree=choices.option((1, 1, 2)),
-        length=choices.option((1, 1, 2)),
-        boundary=boundary,
-        transfer=choices.option((True, False)),
-        stable=choices.option((False, True)),
-        digits=digits and choices.integer(0, digits),
-        delay=delay,
-        time="discrete" if delay else _time(choices, time),
+    return printed(
+        draw,
+        system_with_deficiency(
+            choices,
+            choices.integer(1, most),
+            choices.integer(2 if way == "states" else boundary + 2, 4),
+            share=way,
+            degree=choices.option((1, 1, 2)),
+            length=choices.option((1, 1, 2)),
+            boundary=boundary,
+            transfer=choices.option((True, False)),
+            stable=choices.option((False, True)),
+            digits=digits and choices.integer(0, digits),
+            delay=delay,
+            time="discrete" if delay else _time(choices, time),
+        ),
     )
 
 
@@ -323,7 +337,9 @@ def _with_indices(draw: DrawFn, max_states: int, max_channels: int, time: str | 
     while left:
         indices.append(choices.integer(1, left))
         left -= indices[-1]
-    return structure.system_with_indices(choices, indices, m, time=_time(choices, time))
+    return printed(
+        draw, structure.system_with_indices(choices, indices, m, time=_time(choices, time))
+    )
 
 
 def systems_with_indices(
@@ -337,8 +353,11 @@ def systems_with_indices(
 def _with_remnant(draw: DrawFn, max_states: int, max_channels: int, time: str | None) -> Drawn:
     choices = HypothesisChoices(draw)
     n, m = choices.integer(3, max_states), choices.integer(2, max_channels)
-    return structure.system_with_remnant(
-        choices, n, m, nonzero_transfer=choices.option((False, True)), time=_time(choices, time)
+    return printed(
+        draw,
+        structure.system_with_remnant(
+            choices, n, m, nonzero_transfer=choices.option((False, True)), time=_time(choices, time)
+        ),
     )
 
 
@@ -356,7 +375,7 @@ def _incomplete(
     choices = HypothesisChoices(draw)
     why = choices.option(("transfer graph", "fixed mode")) if reason is None else reason
     n, m = choices.integer(2, max_states), choices.integer(2, max_channels)
-    return structure.incomplete_system(choices, n, m, why, time=_time(choices, time))
+    return printed(draw, structure.incomplete_system(choices, n, m, why, time=_time(choices, time)))
 
 
 def incomplete_systems(

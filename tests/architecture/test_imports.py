@@ -78,7 +78,7 @@ def may_import(importer: str, imported: str) -> bool:
     if imported not in STAGE or (importer == "report" and imported not in SHOWN):
         return False
     if importer == "testing":
-        return STAGE[imported] <= STAGE["derived"]
+        return STAGE[imported] <= STAGE["answer"]
     return importer in STAGE and STAGE[imported] < STAGE[importer]
 
 
