@@ -54,8 +54,8 @@ def aims(function: F) -> F:
             "--effort",
             type=number,
             metavar="SECONDS",
-            help="About how long a processor of 2024 may search, by counted work; 0 gives the "
-            "controller of the theorem without a search.",
+            help="About how long a processor of 2024 may search for each rate that is tried, by "
+            "counted work; 0 gives the controller of the theorem without a search.",
         ),
         click.option(
             "--digits",

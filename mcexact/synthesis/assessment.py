@@ -144,6 +144,11 @@ class Assessment(Shown):
         """Whether this loop, or the one for all agents, shows that the region is affordable."""
         return self.diagnosis.is_sensible or self.diagnosis.allows(self.figures)
 
+    @property
+    def _compares_peaks(self) -> bool:
+        """Whether the peak of one controller for all is of the same states, without integrals."""
+        return self.uncontrolled is not None
+
     def _strengths(self) -> str:
         digits = "1 digit suffices" if self.digits == 1 else f"{self.digits} digits suffice"
         return (
@@ -183,9 +188,10 @@ class Assessment(Shown):
             told.append(
                 f"the programs need {self.digits} digits to keep {self.region} and the margin"
             )
-        if seen.peak > _PEAK or (central and seen.peak > _TIMES_THE_PEAK * central.peak):
-            beside = f", {_shown(central.peak)} with one controller for all" if central else ""
-            told.append(f"the state can reach {_shown(seen.peak)} from a start of size 1{beside}")
+        beside = central.peak if central and self._compares_peaks else np.inf
+        if seen.peak > min(_PEAK, _TIMES_THE_PEAK * beside):
+            other = f", {_shown(beside)} with one controller for all" if isfinite(beside) else ""
+            told.append(f"the state can reach {_shown(seen.peak)} from a start of size 1{other}")
         if self.step_peak is not None and self.step_peak > _STEP_PEAK:
             told.append(f"an output reaches {_shown(self.step_peak)} after a unit step")
         if self.relative_cost > _TIMES_THE_COST:
@@ -202,7 +208,6 @@ class Assessment(Shown):
     def rows(self) -> list[tuple[str, str]]:
         """Return the figures as labels and texts."""
         seen, central, word = self.figures, self.central, self.region.word
-        state = "the state" if self.uncontrolled else "state and integrals"
 
         def compared(name: str) -> str:
             told = _finite(getattr(seen, name))
@@ -224,7 +229,7 @@ class Assessment(Shown):
             ("fastest eigenvalue", f"|λ| = {_shown(seen.fastest)}"),
             ("least damping ratio", _shown(seen.damping)),
             ("margin at the plant's inputs", compared("margin")),
-            (f"peak of {state}", compared("peak")),
+            ("peak of the state", compared("peak") if self._compares_peaks else _finite(seen.peak)),
             *self._stepped(),
             ("linear-quadratic cost", compared("cost")),
             ("cost relative to that controller", self._relative()),

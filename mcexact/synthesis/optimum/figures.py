@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -44,8 +44,8 @@ class Figures:
         1/max σ_max(T), T the complementary sensitivity at all inputs of the plant together; 0 if
         the loop is not stable.  A relative error of every input below this keeps the loop stable.
     peak : float
-        The largest ‖x(t)‖ from a unit state of the plant, the agents' states being 0; integrators
-        count as states of the plant.
+        The largest ‖x(t)‖ from a unit state of the plant, the agents' states being 0.  Where the
+        plant is one with integrators, these count, and their sizes depend on the unit of time.
     cost : float
         E[x'Qx + u'Ru], with tr(R K_y V K_y') also in continuous time.
     damping : float
@@ -82,7 +82,7 @@ def figures_of(problem: FeedbackProblem, K: Floats, *, peak: bool = True) -> Fig
         gain,
         bound,
         1 / largest if largest else np.inf,
-        peak_of_state(M, range(problem.n), form) if peak else np.nan,
+        peak_of_state(M, problem.n, form) if peak else np.nan,
         cost,
         *damping_and_fastest(form),
     )
@@ -101,8 +101,8 @@ def damping_and_fastest(form: SchurForm) -> tuple[float, float]:
     return least_damping(form.eigenvalues, discrete=form.discrete), largest
 
 
-def peak_of_state(M: Floats, places: Sequence[int], form: SchurForm) -> float:
-    """Compute max ‖E‖ over time, E the block of some states of exp(Mt) or M^t.
+def peak_of_state(M: Floats, n: int, form: SchurForm) -> float:
+    """Compute max ‖E‖ over time, E the block of n plant states of exp(Mt) or M^t.
 
     Notes
     -----
@@ -110,8 +110,7 @@ def peak_of_state(M: Floats, places: Sequence[int], form: SchurForm) -> float:
     fastest time constant to eight times the slowest; in discrete time at the first 400 steps, and
     then alike.  A lower estimate.
     """
-    block = np.ix_(places, places)
-    return max(1.0, max((norm(E[block]) for E in _powers(M, form)), default=1.0))
+    return max(1.0, max((norm(E[:n, :n]) for E in _powers(M, form)), default=1.0))
 
 
 def step_peak(loop: ClosedLoop) -> float:

@@ -72,7 +72,7 @@ def figures_of_loop(loop: ClosedLoop, weights: Weights, integrators: Sequence[in
         gain,
         form.bound,
         margin_of(loop),
-        peak_of_state(M, [*range(loop.given.n), *integrators], form),
+        peak_of_state(M, loop.given.n, form),
         _cost(loop, form, U, weights, integrators),
         *damping_and_fastest(form),
     )
