@@ -16,6 +16,9 @@ settings.register_profile(
 settings.register_profile("deep", max_examples=2000, deadline=None, suppress_health_check=_SLOW)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "dev"))
 
+# Pages have the same date on every day.
+os.environ.setdefault("SOURCE_DATE_EPOCH", "1700000000")
+
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Mark the tests that have been measured to be slow."""

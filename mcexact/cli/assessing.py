@@ -26,5 +26,6 @@ def assessed(
         from mcexact.report.loop_page import loop_page
         from mcexact.synthesis.optimum.curves import curves_of
 
-        page = loop_page(account, found.install, said, tables, curves_of(loop, found.region))
+        curves = curves_of(loop, found.region)
+        page = loop_page(account, found.install, said, tables, curves, loop.controller)
     return {"said": said, "tables": tables, "page": page}

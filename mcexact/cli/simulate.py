@@ -154,6 +154,7 @@ def _simulated(
     from mcexact.errors import InputError
     from mcexact.exact.rational import Limits
     from mcexact.model.controller_file import read_controller
+    from mcexact.model.system_file import canonical_text
     from mcexact.report.simulation import SimulationReport
     from mcexact.simulation.run import simulated_loop
     from mcexact.synthesis.certify import account_of_verdict
@@ -163,11 +164,12 @@ def _simulated(
         controller = read_controller(program[1], Limits(**limits))
     done = simulated_loop(system, controller, **wanted)
     report = SimulationReport(done, fractions)
-    account, proved = Account({}, Given(system), Sentences([])), dict[str, Any]()
+    account = Account({}, Given(system), Sentences([]))
+    proved: dict[str, Any] = {"files": {}, "plant": canonical_text(system)}
     if done.envelope is not None:
         account = account_of_verdict(done.envelope.proof, largest=False)
         proved = told(account, system_by_digest)
-    return {"files": {}, "plant": "", **proved} | {
+    return proved | {
         "warnings": done.warnings,
         "json": account.as_json(**report.as_json()),
         "tables": report.tables(),

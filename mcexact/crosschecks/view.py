@@ -10,6 +10,7 @@ from mcexact.crosschecks.records import Libraries
 from mcexact.crosschecks.table import CrossChecks
 from mcexact.exact.floats import finite
 from mcexact.report.page import page
+from mcexact.report.plant import shown_plant
 from mcexact.report.text import Table
 
 _WORDS = {True: "agree", False: "DISAGREE", None: "no answer"}
@@ -137,7 +138,10 @@ def exhibits_page(shown: Sequence[Shown]) -> str:
     return page(
         "exhibits",
         title="Where floating point was recorded to be wrong",
-        exhibits=exhibits_view(shown),
+        exhibits=[
+            view | {"plant": shown_plant(each.exhibit.make())}
+            for each, view in zip(shown, exhibits_view(shown), strict=True)
+        ],
         recorded=[str(libraries) for libraries in _recorded_by(shown)],
         here=[str(libraries) for libraries in _answered_by(shown)],
     )

@@ -41,7 +41,8 @@ def gains(controller: Any, ax: Any = None) -> Any:
     rows, columns = _labels(programs)
     cells = _cells(programs, rows, columns)
     height, width = sum(size for _, size in rows), sum(size for _, size in columns)
-    axis = one_axis(ax, min(2.2 + 0.42 * width, 9.0), min(1.6 + 0.34 * height, 9.0))
+    size = max(4.4, min(2.2 + 0.42 * width, 9.0)), max(2.4, min(1.6 + 0.34 * height, 9.0))
+    axis = one_axis(ax, *size)
     largest = max((abs(each) for row in cells for each in row), default=0.0) or 1.0
     axis.imshow(
         [[_shade(each, largest) for each in row] for row in cells] or [[0.0]],

@@ -59,8 +59,7 @@ def graph(
     ['1', '2']
     """
     names, edges = names_and_edges(found)
-    size = max(3.9, min(0.16 * len(names), 9.0)) if len(names) > LARGEST else 3.9
-    axis = one_axis(ax, size + 0.3, size)
+    axis = one_axis(ax, *graph_size(len(names)))
     if title:
         axis.set_title(title, fontsize="medium")
     crowded = len(names) > _INSIDE and len(edges) > _CROWDED * len(names)
@@ -96,20 +95,20 @@ def structure(system: Any, fixed: Any, transfer: Any, ax: Any = None) -> Any:
             inside = [system.names.index(name) for name in marked]
             senders = set(system.named(system.neighbors.union(inside))) - marked
     if ax is None:
-        width, height = _size(len(panels), system.m)
-        ax = empty_figure(width, height).subplots(1, len(panels), squeeze=False)
+        width, height = graph_size(system.m)
+        ax = empty_figure(width * len(panels), height).subplots(1, len(panels), squeeze=False)
     axes = several_axes(ax, len(panels))
     for axis, (title, found) in zip(axes, panels, strict=True):
         graph(found, axis, marked=marked, senders=senders, title=title)
     return axes[0].figure
 
 
-def _size(panels: int, channels: int) -> tuple[float, float]:
-    """The size of a figure of graphs in inches; a matrix of many channels needs room for names."""
+def graph_size(channels: int) -> tuple[float, float]:
+    """The size of the picture of one graph in inches; a matrix of many channels is larger."""
     if channels <= LARGEST:
-        return 4.4 * panels, 4.0
-    side = max(4.2, min(0.14 * channels, 9.0))
-    return side * panels, side
+        return 4.4, 4.0
+    side = max(4.4, min(0.16 * channels, 9.0))
+    return side, side
 
 
 def names_and_edges(found: Any) -> tuple[list[str], list[Edge]]:

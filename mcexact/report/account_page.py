@@ -8,9 +8,10 @@ from typing import Any
 
 from mcexact.answer.account import Account
 from mcexact.report.account import answer, tables
-from mcexact.report.graph_figures import LEAST, dimensions_picture, graph_picture
+from mcexact.report.graph_figures import LEAST, dimensions_picture, graph_pictures
 from mcexact.report.page import page
 from mcexact.report.picture import EmbeddedPicture, Picture
+from mcexact.report.plant import shown_plant
 from mcexact.report.text import Table
 
 
@@ -26,6 +27,8 @@ class AccountPage:
     answer : tuple of str
     pictures : tuple of EmbeddedPicture
     tables : tuple of Table
+    plant : mapping
+        The matrices and the source of the system, as `shown_plant` returns them.
     """
 
     title: str
@@ -34,6 +37,7 @@ class AccountPage:
     answer: tuple[str, ...]
     pictures: tuple[EmbeddedPicture, ...]
     tables: tuple[Table, ...]
+    plant: Mapping[str, Any]
 
     def rendered(
         self, certificates: Mapping[str, str], verdicts: Mapping[str, Any], latex: str | None = None
@@ -76,6 +80,7 @@ def account_page(account: Account) -> AccountPage:
         answer=tuple(answer(said)),
         pictures=tuple(drawn.embedded() for drawn in _pictures(account)),
         tables=(replace(first, title="All answers"), *rest),
+        plant=shown_plant(system),
     )
 
 
@@ -83,7 +88,7 @@ def _pictures(account: Account) -> list[Picture]:
     """Return pictures of the graphs, and of shared dimensions if these were asked about."""
     drawn = []
     if {"fixed_spectrum", "transfer_graph"} <= account.answers.keys():
-        drawn.append(graph_picture(account))
+        drawn += graph_pictures(account)
     if set(LEAST.values()) & account.answers.keys():
         drawn.append(dimensions_picture(account))
     return drawn

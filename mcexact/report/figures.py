@@ -7,8 +7,10 @@ import math
 
 from mcexact.answer.loop_spectrum import LoopSpectrum
 from mcexact.exact.floats import to_float
-from mcexact.plot.canvas import empty_figure
+from mcexact.model.controller import Controller
+from mcexact.plot.canvas import PANEL, empty_figure, one_axis
 from mcexact.plot.eigenvalues import eigenvalues
+from mcexact.plot.gains import gains
 from mcexact.plot.responses import decay, has_bounds, rate_text, responses
 from mcexact.report.picture import Picture
 from mcexact.simulation.envelope import Envelope
@@ -17,15 +19,36 @@ from mcexact.simulation.trajectory import Trajectory
 
 
 def simulation_pictures(done: SimulatedLoop) -> list[Picture]:
-    """Draw the responses, the decay, and the eigenvalues if they are known."""
+    """Draw the outputs, the inputs, the decay, and the eigenvalues if they are known."""
     spectrum, run, envelope = drawable(done.spectrum), done.run, done.envelope
+    outputs, inputs = (one_axis(None, *PANEL) for _ in range(2))
+    responses(run, [outputs, inputs], envelope=envelope)
     drawn = [
-        response_picture(run, "Outputs and inputs", envelope),
-        decay_picture(run, _at_rest(done, spectrum), "Decay", envelope),
+        Picture(outputs.figure, "Outputs", _outputs_told(run, envelope)),
+        Picture(inputs.figure, "Inputs", _range_told(run, "inputs")),
+        *decay_pictures(run, _at_rest(done, spectrum), "Decay", envelope),
     ]
     if spectrum is not None:
         drawn.append(spectrum_picture(spectrum, done.run.time, "Eigenvalues of the closed loop"))
-    return drawn
+    return [*drawn, *gains_pictures(run.loop.controller)]
+
+
+def gains_pictures(controller: Controller) -> list[Picture]:
+    """Draw the gains of a controller as a matrix, if it has some.
+
+    Parameters
+    ----------
+    controller : Controller
+    """
+    largest = to_float(controller.largest_entry())
+    if not largest:
+        return []
+    told = (
+        f"Every entry of the agents' programs, the largest {largest:.3g}: rows are what is "
+        "computed (u inputs, x shared states, z private states), columns what it is computed from "
+        "(y outputs, r set-points). Red is positive, blue negative, white zero."
+    )
+    return [Picture(gains(controller), "Gains of the controller", told)]
 
 
 def simulation_png(done: SimulatedLoop) -> bytes:
@@ -52,7 +75,8 @@ def simulation_png(done: SimulatedLoop) -> bytes:
 
 def _at_rest(done: SimulatedLoop, spectrum: LoopSpectrum | None) -> LoopSpectrum | None:
     """Return the spectrum if it says how the state decays: to 0, or to a point that is known."""
-    return spectrum if done.envelope is not None or not done.run.drive.changes else None
+    known = done.envelope is not None or not done.run.drive.changes
+    return spectrum if spectrum is not None and spectrum.stable and known else None
 
 
 def drawable(spectrum: LoopSpectrum | None) -> LoopSpectrum | None:
@@ -64,7 +88,7 @@ def drawable(spectrum: LoopSpectrum | None) -> LoopSpectrum | None:
 
 
 def response_picture(run: Trajectory, title: str, envelope: Envelope | None = None) -> Picture:
-    """Draw the outputs with set-points and proved bounds, and the inputs.
+    """Draw the outputs with set-points and proved bounds, and the inputs, in one picture.
 
     Parameters
     ----------
@@ -73,19 +97,28 @@ def response_picture(run: Trajectory, title: str, envelope: Envelope | None = No
     envelope : Envelope, optional
         Proved bounds.
     """
-    figure = responses(run, envelope=envelope)
-    outputs, inputs = run.values("outputs"), run.values("inputs")
-    words = []
-    for what, curves in (("outputs", outputs), ("inputs", inputs)):
-        values = [v for each in curves.values() for v in each if math.isfinite(v)]
-        if values:
-            least, largest = min(values), max(values)
-            words.append(f"The {len(curves)} {what} lie between {least:.3g} and {largest:.3g}")
+    words = f"{_outputs_told(run, envelope)} {_range_told(run, 'inputs')}"
+    return Picture(responses(run, envelope=envelope), title, words)
+
+
+def _outputs_told(run: Trajectory, envelope: Envelope | None) -> str:
+    """What the picture of the outputs shows, in words."""
+    words = _range_told(run, "outputs")
     if any(map(any, run.values("reference").values())):
-        words.append("Dashed: set-points")
+        words += " Dashed: set-points."
     if has_bounds(run, envelope):
-        words.append("Dotted: proved bounds on the exact outputs; the other curves are computed")
-    return Picture(figure, title, ". ".join(words) + ".")
+        words += " Dotted: proved bounds on the exact outputs; the other curves are computed."
+    return words
+
+
+def _range_told(run: Trajectory, kind: str) -> str:
+    """The range of a signal in words."""
+    curves = run.values(kind)
+    values = [v for each in curves.values() for v in each if math.isfinite(v)]
+    if not values:
+        return f"There are no {kind}."
+    many = f"The {len(curves)} {kind} lie" if len(curves) > 1 else f"The {kind[:-1]} lies"
+    return f"{many} between {min(values):.3g} and {max(values):.3g}."
 
 
 def spectrum_picture(spectrum: LoopSpectrum, time: str, title: str) -> Picture:
@@ -97,9 +130,7 @@ def spectrum_picture(spectrum: LoopSpectrum, time: str, title: str) -> Picture:
     time : {"continuous", "discrete"}
     title : str
     """
-    figure = empty_figure(5.0, 3.8)
-    axis = figure.subplots()
-    eigenvalues(spectrum, axis, time=time, title=title)
+    figure = eigenvalues(spectrum, one_axis(None, *PANEL), time=time, title=title)
     told = ", ".join(_point(disc.re, disc.im) for disc in spectrum.discs[:20])
     told += ", …" if len(spectrum.discs) > 20 else ""
     largest = max((to_float(disc.radius) for disc in spectrum.discs), default=0.0)
@@ -115,13 +146,13 @@ def _point(re: str, im: str) -> str:
     return f"{real:.4g}" if imaginary == 0 else f"{real:.4g}{imaginary:+.4g}i"
 
 
-def decay_picture(
+def decay_pictures(
     run: Trajectory,
     spectrum: LoopSpectrum | None,
     title: str,
     envelope: Envelope | None = None,
-) -> Picture:
-    """Draw the state and the agents' errors on a log axis against the certified rate.
+) -> list[Picture]:
+    """Draw the state, and the agents' errors if they have estimates, against the certified rate.
 
     Parameters
     ----------
@@ -132,20 +163,18 @@ def decay_picture(
     envelope : Envelope, optional
         Proved bounds.
     """
+    norms, line = run.state_norms(), ""
+    if spectrum is not None and spectrum.rate is not None:
+        line = f" The dashed line has the certified {rate_text(run.time, spectrum)}."
+    words = f"The state goes from {norms[0]:.2e} to {norms[-1]:.2e}.{line}"
+    if envelope is not None:
+        words += " The gray curve is a proved bound on every entry of the exact state."
+    figure = decay(run, one_axis(None, *PANEL), spectrum=spectrum, envelope=envelope)
+    drawn = [Picture(figure, title, words)]
     errors = run.error_norms()
-    panels = 1 + bool(errors)
-    figure = empty_figure(4.6 * panels, 3.7)
-    axes = list(figure.subplots(1, panels, squeeze=False)[0])
-    norms = run.state_norms()
-    decay(run, axes[0], spectrum=spectrum, envelope=envelope)
-    if errors:
-        decay(run, axes[1], spectrum=spectrum, errors=True)
-    words = f"The state goes from {norms[0]:.2e} to {norms[-1]:.2e}"
     if errors:
         last = max(values[-1] for values in errors.values())
-        words += f", the largest estimation error ends at {last:.2e}"
-    if spectrum is not None and spectrum.rate is not None:
-        words += f"; the dashed line has the certified {rate_text(run.time, spectrum)}"
-    if envelope is not None:
-        words += "; the gray curve is a proved bound on every entry of the exact state"
-    return Picture(figure, title, words + ".")
+        figure = decay(run, one_axis(None, *PANEL), spectrum=spectrum, errors=True)
+        words = f"The largest estimation error ends at {last:.2e}.{line}"
+        drawn.append(Picture(figure, f"{title} of the estimation errors", words))
+    return drawn

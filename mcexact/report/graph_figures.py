@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from mcexact.answer.account import Account
-from mcexact.plot.canvas import empty_figure
-from mcexact.plot.graphs import MARKED, structure
+from mcexact.plot.canvas import empty_figure, one_axis
+from mcexact.plot.graphs import MARKED, graph_size, structure
 from mcexact.report.picture import Picture
 
 LEAST = {
@@ -16,21 +16,29 @@ _BOUNDS = {
     "outputs+states": "shared_dimension_bound_outputs_states",
     "states": "shared_dimension_bound_states",
 }
+_NEIGHBORS, _TRANSFER = "picture-neighbor-graph", "picture-transfer-graph"
 _SHARING = ("sufficient to share", "least to share")
 
 
-def graph_picture(account: Account) -> Picture:
-    """Draw the neighbor graph, if there is one, and the transfer graph.
+def graph_pictures(account: Account) -> list[Picture]:
+    """Draw the neighbor graph, if there is one, and the transfer graph, one picture for each.
 
     Parameters
     ----------
     account : Account
         An account with the transfer graph and the fixed spectrum; see `structure`.
     """
-    said, answers = account.sentences, account.answers
-    figure = structure(account.given.system, answers["fixed_spectrum"], answers["transfer_graph"])
-    caption = "; ".join(said.at("graphs")) + "."
-    return Picture(figure, "".join(said.at("graphs.title")), caption)
+    system, said, answers = account.given.system, account.sentences, account.answers
+    panels = [_NEIGHBORS, _TRANSFER] if system.neighbors is not None else [_TRANSFER]
+    axes = [one_axis(None, *graph_size(system.m)) for _ in panels]
+    structure(system, answers["fixed_spectrum"], answers["transfer_graph"], axes)
+    title, sentences = "".join(said.at("graphs.title")), said.at("graphs")
+    pictures = []
+    for panel, axis in zip(panels, axes, strict=True):
+        others = {_NEIGHBORS, _TRANSFER} - {panel}
+        told = [each for each in sentences if each.template.key not in others]
+        pictures.append(Picture(axis.figure, title, "; ".join(told) + "."))
+    return pictures
 
 
 def dimensions_picture(account: Account) -> Picture:

@@ -6,10 +6,13 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from mcexact.answer.account import Account
+from mcexact.model.controller import Controller
 from mcexact.plot.canvas import NAMED, PANEL, one_axis
 from mcexact.plot.loops import LoopCurves, decay, effort, poles, sensitivity, steps
 from mcexact.report.account_page import AccountPage
+from mcexact.report.figures import gains_pictures
 from mcexact.report.picture import Picture
+from mcexact.report.plant import shown_plant
 from mcexact.report.text import Table
 
 
@@ -19,6 +22,7 @@ def loop_page(
     said: Sequence[str],
     tables: Sequence[Table],
     curves: LoopCurves | None,
+    controller: Controller,
 ) -> AccountPage:
     """Return the contents of the page.
 
@@ -30,10 +34,11 @@ def loop_page(
         The verdict, warnings and notes.
     tables : sequence of Table
     curves : LoopCurves or None
-        None if the loop is not stable, which leaves out the picture.
+        None if the loop is not stable, which leaves out their pictures.
+    controller : Controller
     """
     system = account.given.system
-    pictures = [] if curves is None else loop_pictures(curves)
+    pictures = [*([] if curves is None else loop_pictures(curves)), *gains_pictures(controller)]
     return AccountPage(
         title=system.name or "A closed loop",
         heading="A controller and its closed loop. Its figures are computed, not certified; the "
@@ -42,6 +47,7 @@ def loop_page(
         answer=tuple(said),
         pictures=tuple(each.embedded() for each in pictures),
         tables=tuple(tables),
+        plant=shown_plant(system),
     )
 
 

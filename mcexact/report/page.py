@@ -5,6 +5,8 @@ from __future__ import annotations
 from functools import cache
 from typing import Any
 
+from mcexact.report.stamp import stamp
+
 
 @cache
 def _environment() -> Any:
@@ -19,13 +21,15 @@ def _environment() -> Any:
     )
 
 
-def page(template: str, **content: Any) -> str:
+def page(template: str, *, dated: bool = True, **content: Any) -> str:
     """Fill a template.
 
     Parameters
     ----------
     template : str
         The name of the template without its suffix.
+    dated : bool
+        Whether the page has today's date at its end; see `stamp`.
     **content
         Texts, numbers, and `EmbeddedPicture` for pictures.
 
@@ -35,5 +39,7 @@ def page(template: str, **content: Any) -> str:
         A complete document with its styles and images; a content security policy forbids everything
         else, including scripts.
     """
-    text: str = _environment().get_template(f"{template}.html").render(**content)
+    text: str = (
+        _environment().get_template(f"{template}.html").render(**content, made=stamp(dated=dated))
+    )
     return text

@@ -10,6 +10,7 @@ from mcexact.exact.location import is_discrete
 from mcexact.exact.rational import rational_text
 from mcexact.report.figures import simulation_pictures, simulation_png
 from mcexact.report.page import page
+from mcexact.report.plant import shown_plant
 from mcexact.report.text import Table
 from mcexact.report.trajectory import shown_times, trajectory_csv
 from mcexact.simulation.run import SimulatedLoop
@@ -183,6 +184,7 @@ class SimulationReport:
             good=verdict is not None and verdict.stable,
             bad=verdict is not None and not verdict.stable,
             facts=self.facts(),
+            plant=shown_plant(done.run.loop.given),
             warnings=list(done.warnings),
             pictures=[each.embedded() for each in simulation_pictures(done)],
             tables=[

@@ -17,7 +17,7 @@ from mcexact.exact.location import TIMES
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.system import MultiChannelSystem
-from mcexact.report.graph_figures import graph_picture
+from mcexact.report.graph_figures import graph_pictures
 from mcexact.reproduce.equations import outputs, stacked
 from mcexact.reproduce.material import (
     PAPER,
@@ -118,7 +118,8 @@ def example(note: Notebook) -> None:
     else:
         note.check("a design is refused", False)
     heard = analyze(plant, ["fixed_spectrum", "transfer_graph"], information="outputs")
-    note.show(graph_picture(heard.account))
+    for drawn in graph_pictures(heard.account):
+        note.show(drawn)
 
 
 def _as_printed(plant: MultiChannelSystem) -> bool:

@@ -18,7 +18,7 @@ from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.system import MultiChannelSystem
-from mcexact.report.figures import decay_picture, spectrum_picture
+from mcexact.report.figures import decay_pictures, spectrum_picture
 from mcexact.reproduce.equations import errors_agree
 from mcexact.reproduce.material import (
     PAPER,
@@ -251,7 +251,8 @@ def _show_example(note: Notebook) -> None:
         spectrum_picture(spectrum, plant.time, "The closed loop with the distributed observer")
     )
     run = simulate(plant, design.controller, horizon=25)
-    note.show(decay_picture(run, spectrum, "The example under its distributed observer"))
+    for drawn in decay_pictures(run, spectrum, "The example under its distributed observer"):
+        note.show(drawn)
 
 
 def remark_1(note: Notebook) -> None:

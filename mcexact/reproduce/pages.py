@@ -35,6 +35,7 @@ def reproduction_page(found: Reproduction) -> str:
     ]
     return page(
         "reproduction",
+        dated=False,
         title="The paper, reproduced",
         holds=found.holds,
         answer=[typeset(sentence) for sentence in answer(found)],

@@ -11,8 +11,10 @@ from pathlib import Path
 import pytest
 
 from mcexact import checker
-from mcexact.model.controller_file import load_controller
+from mcexact.model.controller import AgentProgram, Controller
+from mcexact.model.controller_file import load_controller, save_controller
 from mcexact.model.formats.files import save_system
+from mcexact.model.system import MultiChannelSystem
 from tests.end_to_end.command_line import run
 from tests.synthesis.three_channels import three_channels
 
@@ -136,6 +138,18 @@ def test_a_picture_and_a_page_are_written(folder, tmp_path, time, suffix, magic)
     assert answer["stable"] is True and answer["time"] == time
     assert [each["name"] for each in answer["agents"]] == ["1", "2", "3"]
     assert len(answer["error_norms"]) == 3 and len(answer["state"]) == len(answer["times"])
+
+
+def test_an_unstable_loop_is_simulated_and_nothing_is_proved(folder, tmp_path):
+    plant = MultiChannelSystem([[2]], [[[1]]], [[[1]]], time="discrete")
+    save_system(plant, tmp_path / "plant.json")
+    idle = Controller("discrete", "", (AgentProgram("1", 0, 0),))
+    save_controller(idle, tmp_path / "idle.json")
+    files, page = (str(tmp_path / "plant.json"), str(tmp_path / "idle.json")), tmp_path / "run.html"
+    done = run("simulate", *files, "-o", str(page))
+    assert done.status == 0, done.stderr
+    assert "not stable" in " ".join(done.stdout.split()) and "roved" not in done.stdout
+    assert "VALID" not in done.stdout and "not stable" in page.read_text(encoding="utf-8")
 
 
 def test_an_arc_that_is_missing_in_the_plant_stops_the_run(folder, tmp_path):

@@ -1,7 +1,7 @@
-"""Open the reports at two widths, light and dark; write screenshots; end with 1 if one is wrong.
+"""Open all kinds of pages at two widths, light and dark, and in print; write screenshots.
 
-Run as ``python -m tests.look FOLDER [PAGE…]``: the pages default to a report of the reproduction
-and one of an analysis, which are made first.
+Run as ``python -m tests.look FOLDER [PAGE…]``: by default every kind of page is made first.  The
+status is 1 if something is wrong with a page.
 """
 
 from __future__ import annotations
@@ -11,49 +11,88 @@ import contextlib
 import sys
 from pathlib import Path
 
+from mcexact import AgentProgram, Controller, load_system, save_controller, save_system
 from mcexact.cli import main as mcexact
+from mcexact.derived.drawn.draw import Draw, drawn_system
 from mcexact.model import gallery
 from tests.look.browser import Browser, NoBrowser, closed_panels, open_page
 
-WIDTHS = (1280, 400)
-SCHEMES = ("light", "dark")
-TALLEST = 5000
+LOOKS = (
+    *((1280, "light"), (1280, "dark"), (400, "light"), (400, "dark")),
+    # The width of A4 paper between margins of 2 cm.
+    (642, "print"),
+)
+TALLEST = 6000
 
 
 def pages(folder: Path) -> list[Path]:
-    """The two reports, made now."""
-    plant = Path(gallery.__file__).parent / "liu2020-3ch-augmented-outputs.json"
-    analysis = folder / "analysis.html"
-    made = (
-        ("analyze", str(plant), "--html", str(analysis)),
-        ("reproduce", "-o", str(folder / "paper")),
-    )
-    for arguments in made:
-        with contextlib.redirect_stdout(sys.stderr), contextlib.suppress(SystemExit):
-            mcexact(arguments)
-    return [folder / "paper" / "report.html", analysis]
+    """One page of every kind, made now."""
+    plants = Path(gallery.__file__).parent
+    example = str(plants / "liu2020-3ch-augmented-outputs.json")
+    tanks, discrete = str(plants / "quadruple-tank-pminus.json"), str(plants / "compleib-dis5.json")
+    drawn, crowd = folder / "drawn.json", folder / "crowd.json"
+    gains, holding = str(folder / "gains.json"), str(folder / "holding.json")
+    made = {
+        "analysis": ("analyze", example),
+        "analysis-10": ("analyze", str(drawn)),
+        "analysis-60": ("analyze", str(crowd)),
+        "decentralized": ("design", "decentralized", tanks, "--effort", "2", "-o", gains),
+        "setpoint": ("design", "setpoint", tanks, "--effort", "2", "-o", holding),
+        "certified": ("certify", tanks, gains),
+        "exhibits": ("crosscheck", "--exhibits"),
+    }
+    runs = {
+        "run": (tanks, gains),
+        "run-setpoint": (tanks, holding, "--reference=1,-1/2", "--initial=0,0,0,0"),
+        "run-unstable": (discrete, str(folder / "idle.json")),
+    }
+    for path, channels in ((drawn, 10), (crowd, 60)):
+        system = drawn_system(Draw(1, states=12, channels=channels, neighbors=True))
+        save_system(system, path)
+    _idle(discrete, folder / "idle.json")
+    for name, arguments in made.items():
+        _run(*arguments, "--html", str(folder / f"{name}.html"))
+    for name, arguments in runs.items():
+        _run("simulate", *arguments, "-o", str(folder / f"{name}.html"))
+    _run("reproduce", "-o", str(folder / "paper"))
+    return [folder / "paper" / "report.html", *(folder / f"{name}.html" for name in [*made, *runs])]
+
+
+def _idle(plant: str, path: Path) -> None:
+    """Write a controller that does nothing."""
+    system = load_system(plant)
+    agents = tuple(AgentProgram(name, 0, 0) for name in system.names)
+    save_controller(Controller(system.time, "", agents), path)
+
+
+def _run(*arguments: str) -> None:
+    """Run a command; what it prints is no page."""
+    with contextlib.redirect_stdout(sys.stderr), contextlib.suppress(SystemExit):
+        mcexact(arguments)
 
 
 def look(browser: Browser, page: Path, folder: Path) -> int:
-    """Open one page four times; the number of complaints."""
+    """Open one page in every way; the number of complaints."""
     name = page.parent.name if page.stem == "report" else page.stem
+    if not page.exists():
+        print(f"{page}: was not written")
+        return 1
     count = 0
     for closed in closed_panels(browser, page):
         print(f"{page}: {closed} is linked, and its panel stays closed")
         count += 1
-    for width in WIDTHS:
-        for scheme in SCHEMES:
-            wrong = open_page(browser, page, width, scheme)
-            height = min(browser.evaluate("document.documentElement.scrollHeight"), TALLEST)
-            shot = browser.call(
-                "Page.captureScreenshot",
-                captureBeyondViewport=True,
-                clip={"x": 0, "y": 0, "width": width, "height": height, "scale": 1},
-            )
-            path = folder / f"{name}-{width}-{scheme}.png"
-            path.write_bytes(base64.b64decode(shot["data"]))
-            print(f"{path}: {'; '.join(wrong) if wrong else 'nothing wrong'}")
-            count += len(wrong)
+    for width, scheme in LOOKS:
+        wrong = open_page(browser, page, width, scheme)
+        height = min(browser.evaluate("document.documentElement.scrollHeight"), TALLEST)
+        shot = browser.call(
+            "Page.captureScreenshot",
+            captureBeyondViewport=True,
+            clip={"x": 0, "y": 0, "width": width, "height": height, "scale": 1},
+        )
+        path = folder / f"{name}-{width}-{scheme}.png"
+        path.write_bytes(base64.b64decode(shot["data"]))
+        print(f"{path}: {'; '.join(wrong) if wrong else 'nothing wrong'}")
+        count += len(wrong)
     return count
 
 

@@ -147,7 +147,7 @@ class Browser:
 
 
 def open_page(browser: Browser, path: Path, width: int, scheme: str) -> list[str]:
-    """Open a file at this width and in this color scheme; what is wrong with it, in words."""
+    """Open a file at this width, light, dark or as in print; what is wrong with it, in words."""
     browser.call(
         "Emulation.setDeviceMetricsOverride",
         width=width,
@@ -155,8 +155,10 @@ def open_page(browser: Browser, path: Path, width: int, scheme: str) -> list[str
         deviceScaleFactor=1,
         mobile=width < 600,
     )
+    printed = scheme == "print"
+    colors = {"name": "prefers-color-scheme", "value": "light" if printed else scheme}
     browser.call(
-        "Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}]
+        "Emulation.setEmulatedMedia", media="print" if printed else "screen", features=[colors]
     )
     browser.events.clear()
     address = path.resolve().as_uri()
@@ -169,12 +171,25 @@ def open_page(browser: Browser, path: Path, width: int, scheme: str) -> list[str
             wrong.append(f"{state}: the page is {wide} pixels wide, the window {view}")
         browser.evaluate("document.querySelectorAll('details').forEach(d => { d.open = true })")
     browser.evaluate("document.querySelectorAll('details').forEach(d => { d.open = false })")
+    wrong += [f"{each}" for each in browser.evaluate(_PRINTED if printed else _UNTOLD) or ()]
     dark = browser.evaluate("matchMedia('(prefers-color-scheme: dark)').matches")
     if dark != (scheme == "dark"):
         wrong.append(f"the color scheme is not {scheme}")
     return wrong
 
 
+# A box that can be scrolled sideways says so, and no other box does.
+_UNTOLD = """
+[...document.querySelectorAll('.box')].filter(box => {
+  const told = getComputedStyle(box, '::before').display !== 'none';
+  return box.offsetWidth && told !== box.scrollWidth > box.clientWidth;
+}).map(box => `${box.getAttribute('aria-label')}: wide and not told so, or the reverse`)
+"""
+# Paper cannot be scrolled.
+_PRINTED = """
+[...document.querySelectorAll('.box')].filter(box => box.scrollWidth > box.clientWidth + 1)
+  .map(box => `${box.getAttribute('aria-label')}: wider than the paper`)
+"""
 _CLOSED = """
 [...new Set([...document.querySelectorAll('a[href^="#"]')].map(link => link.hash))].filter(hash => {
   document.querySelectorAll('details').forEach(panel => { panel.open = false });

@@ -8,7 +8,7 @@ from html.parser import HTMLParser
 VOID = {"meta", "img", "br", "hr", "link", "input"}
 KNOWN = VOID | {"html", "head", "title", "style", "body", "header", "main", "section", "p", "div"}
 KNOWN |= {"h1", "h2", "h3", "table", "thead", "tbody", "tr", "th", "td", "ul", "li", "pre", "code"}
-KNOWN |= {"details", "summary", "figure", "figcaption", "cite", "span", "a", "b"}
+KNOWN |= {"details", "summary", "figure", "footer", "figcaption", "cite", "span", "a", "b"}
 KNOWN |= {
     "math",
     "mrow",

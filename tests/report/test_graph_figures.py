@@ -5,7 +5,7 @@ from matplotlib.colors import to_hex
 from mcexact.analysis.analyze import analyze
 from mcexact.derived.drawn.draw import Draw, drawn_system
 from mcexact.plot.graphs import LARGEST, MARKED, SENDERS
-from mcexact.report.graph_figures import graph_picture
+from mcexact.report.graph_figures import graph_pictures
 
 
 def test_a_large_graph_is_a_matrix_with_the_obstruction_first() -> None:
@@ -13,8 +13,7 @@ def test_a_large_graph_is_a_matrix_with_the_obstruction_first() -> None:
     system = drawn_system(Draw(3, states=8, channels=m, fixed_degree=1, neighbors=True))
     found = analyze(system, ["fixed_spectrum", "transfer_graph"])
     subset = found.fixed_spectrum.factors[0].channels
-    picture = graph_picture(found.account)
-    neighbors, transfer = picture.figure.axes
+    [neighbors], [transfer] = (each.figure.axes for each in graph_pictures(found.account))
     [image] = neighbors.images
     colors = [[to_hex(cell) for cell in row] for row in image.get_array()]
     assert len(colors) == m and system.neighbors is not None
@@ -31,5 +30,6 @@ def test_a_large_graph_is_a_matrix_with_the_obstruction_first() -> None:
 
 def test_a_small_graph_has_a_circle_for_every_channel() -> None:
     system = drawn_system(Draw(3, states=4, channels=3))
-    [axis] = graph_picture(analyze(system).account).figure.axes
+    [picture] = graph_pictures(analyze(system).account)
+    [axis] = picture.figure.axes
     assert not axis.images and len(axis.texts) == 3

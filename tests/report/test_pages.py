@@ -16,7 +16,7 @@ from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import canonical_text
 from mcexact.report.account import latex
 from mcexact.report.account_page import account_page
-from mcexact.report.graph_figures import graph_picture
+from mcexact.report.graph_figures import graph_pictures
 from tests.answer.asking import account_of
 from tests.report.strict_html import Page, external_addresses
 
@@ -59,15 +59,15 @@ def test_names_that_look_like_html_are_harmless() -> None:
 
 
 def test_pictures_carry_no_script_and_no_link() -> None:
-    uri = graph_picture(account_of(hostile())).embedded().uri
+    uri = graph_pictures(account_of(hostile()))[-1].embedded().uri
     image = base64.b64decode(uri.partition(",")[2]).decode("utf-8")
     assert "<script" not in image and "onerror" not in image and 'href="http' not in image
 
 
 def test_a_picture_is_the_same_bytes_every_time_and_says_what_it_shows() -> None:
     plant = gallery.load("liu2020-3ch-augmented-outputs")
-    drawn = graph_picture(account_of(plant))
-    assert drawn.embedded() == graph_picture(account_of(plant)).embedded()
+    drawn = graph_pictures(account_of(plant))[-1]
+    assert drawn.embedded() == graph_pictures(account_of(plant))[-1].embedded()
     assert "orange: channel 2" in drawn.alternative
 
 

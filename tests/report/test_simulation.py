@@ -9,7 +9,7 @@ import pytest
 from mcexact.exact.matrix import Matrix
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
 from mcexact.model.system import MultiChannelSystem
-from mcexact.report.figures import simulation_png
+from mcexact.report.figures import simulation_pictures, simulation_png
 from mcexact.report.simulation import SimulationReport
 from mcexact.report.trajectory import shown_times, trajectory_csv
 from mcexact.simulation.run import simulated_loop
@@ -133,6 +133,17 @@ def test_the_default_horizon_follows_the_spectrum():
     slow = simulated_loop(*halving(gain="-1/10")).run
     fast = simulated_loop(*halving(gain="-9/10")).run
     assert len(slow.times) > len(fast.times)
+
+
+def test_an_unstable_loop_has_no_certified_slope_and_no_gains_no_picture():
+    titles = {}
+    for gain in ("1", "-1/2", "0"):
+        drawn = simulation_pictures(simulated_loop(*halving(gain=gain)))
+        titles[gain] = [each.title for each in drawn]
+        told = " ".join(each.alternative for each in drawn)
+        assert ("dashed line" in told) == (gain == "-1/2")
+    assert titles["1"] == titles["-1/2"] and titles["1"][-1] == "Gains of the controller"
+    assert titles["0"] == titles["1"][:-1]
 
 
 def test_what_comes_from_outside_is_escaped():

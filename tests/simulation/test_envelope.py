@@ -49,7 +49,7 @@ def test_every_output_and_state_stays_inside(time: str, reference: int) -> None:
 
 @pytest.mark.parametrize("time", DECAY)
 def test_the_value_at_rest_is_where_the_trajectory_ends(time: str) -> None:
-    run = moved(time, reference=[2])
+    run = moved(time, reference=[2], horizon=60)
     [(rest, _)] = envelope_of(run, DECAY[time]).outputs
     assert float(run.snapshots[-1].outputs[0][0]) == pytest.approx(rest, abs=1e-2) and rest
 
