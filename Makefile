@@ -8,7 +8,7 @@ DOCS := build/docs/environment
 PIP := $(BIN)/python -m pip install --quiet --quiet --disable-pip-version-check
 GALLERY := mcexact/model/gallery
 
-.PHONY: absence cluster corpus coverage package-coverage docs mutants paper-mutants records reproduce look ledger schemas schemas-everywhere sentences demo test lint types tests slow-tests durations matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs
+.PHONY: absence cluster corpus coverage package-coverage docs mutants paper-mutants records reproduce look ledger schemas schemas-everywhere sentences demo designs test lint types tests slow-tests durations matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs
 
 demo: $(CORE)
 	$(BIN)/mcexact demo
@@ -48,6 +48,12 @@ matrix: $(STAMP)
 # minute, PARTS='absence command' those parts; what is kept in benchmarks/rows is not measured again.
 bench: $(STAMP)
 	$(BIN)/python -m benchmarks $(PARTS)
+
+# Designs for published plants and for families of plants: an hour.  Rows that are kept in
+# benchmarks/rows are not measured again.  Writes benchmarks/DESIGNS.md.
+designs: $(STAMP)
+	$(BIN)/python -m benchmarks.gallery_designs
+	$(BIN)/python -m benchmarks.families
 
 # Every decision beside exhaustive enumeration, on 10,000 drawn systems: minutes.
 agreement: $(STAMP)

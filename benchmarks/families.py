@@ -19,6 +19,7 @@ import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
+from math import nan
 from typing import Any
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -27,6 +28,7 @@ import numpy as np
 from scipy.linalg import expm
 
 from benchmarks.by_hand import made_by_hand, told_by_hand
+from benchmarks.design_page import PAGE, written
 from benchmarks.kept_rows import Row, chosen, kept, measured
 from mcexact import design_decentralized, design_extended
 from mcexact.errors import Impossible, LimitReached
@@ -236,7 +238,8 @@ def told(row: Row) -> str:
     return (
         f"{row['order']} / {row['gain']:.3g} ({central['gain']:.3g}) / "
         f"{row['margin']:.2f} ({central['margin']:.2f}) / {row['cost']:.2f}, "
-        f"peak {row['peak']:.3g} ({central['peak']:.3g}), digits {row['digits']}, {row['step']}"
+        f"peak {row['peak']:.3g} ({central.get('peak', nan):.3g}), digits {row['digits']}, "
+        f"{row['step']}"
     )
 
 
@@ -278,6 +281,7 @@ def main(arguments: list[str]) -> int:
                 print(
                     f"{row['name']}, {asked} | {told(row)}, {row['seconds']} s | {hand}", flush=True
                 )
+    PAGE.write_text(written(), encoding="utf-8")
     return 0
 
 
