@@ -3,7 +3,7 @@
 from itertools import accumulate
 
 from .budget import counted, spend
-from .packed_rows import multiples
+from .packed_rows import byte_sum, multiples
 from .sparse import Entry, residues
 from .system import System
 
@@ -59,18 +59,8 @@ def _products(
     lines: list[list[tuple[int, int]]], power: list[bytes], width: int, ell: int
 ) -> list[bytes]:
     """The rows of a product with a matrix of so many columns, modulo ℓ."""
-    tables, most = multiples(ell), 255 // (ell - 1)
-    terms = sum(map(len, lines))
+    tables, terms = multiples(ell), sum(map(len, lines))
     spend(len(lines) * (60 + width // 8) + terms * (40 + width // 4))
-
-    def combined(line: list[tuple[int, int]]) -> bytes:
-        total, addends = 0, 0
-        for j, x in line:
-            if addends == most:
-                reduced = total.to_bytes(width, "little").translate(tables[1])
-                total, addends = int.from_bytes(reduced, "little"), 1
-            total += int.from_bytes(power[j].translate(tables[x]), "little")
-            addends += 1
-        return total.to_bytes(width, "little").translate(tables[1])
-
-    return [combined(line) for line in lines]
+    return [
+        byte_sum((power[j].translate(tables[x]) for j, x in line), width, ell) for line in lines
+    ]

@@ -1,6 +1,6 @@
 """Rows and polynomials modulo ℓ as long integers, with slots for their entries."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import cache
 from operator import mul
 
@@ -34,24 +34,35 @@ class PackedRows:
 
     def _by_coefficient(self, u: Sequence[int]) -> bytes:
         """The same where no sum of so many rows leaves a byte: rows of one coefficient together."""
-        most, tables = 255 // (self.ell - 1), multiples(self.ell)
+        most, tables = most_addends(self.ell), multiples(self.ell)
         parts = len(self.rows) // most + min(len(self.rows), self.ell)
         spend(len(self.rows) * (4 + self._limbs // 16) + (parts + 1) * (40 + self.ncols // 8))
         alike: list[list[int]] = [[] for _ in range(self.ell)]
         for factor, row in zip(u, self.rows, strict=True):
             alike[factor].append(row)
-        total, addends = 0, 0
-        for factor in range(1, self.ell):
-            for k in range(0, len(alike[factor]), most):
-                if addends == most:
-                    total, addends = self._mapped(total, tables[1]), 1
-                total += self._mapped(sum(alike[factor][k : k + most]), tables[factor])
-                addends += 1
-        return total.to_bytes(self.ncols, "little").translate(tables[1])
+        sums = (
+            sum(alike[factor][k : k + most])
+            .to_bytes(self.ncols, "little")
+            .translate(tables[factor])
+            for factor in range(1, self.ell)
+            for k in range(0, len(alike[factor]), most)
+        )
+        return byte_sum(sums, self.ncols, self.ell)
 
-    def _mapped(self, number: int, table: bytes) -> int:
-        mapped = number.to_bytes(self.ncols, "little").translate(table)
-        return int.from_bytes(mapped, "little")
+
+def byte_sum(rows: Iterable[bytes], ncols: int, ell: int) -> bytes:
+    """The sum modulo ℓ of rows of residues, which are added as long integers."""
+    most, table, total = most_addends(ell), multiples(ell)[1], 0
+    for k, row in enumerate(rows, start=1):
+        total += int.from_bytes(row, "little")
+        if k % (most - 1) == 0:
+            total = int.from_bytes(total.to_bytes(ncols, "little").translate(table), "little")
+    return total.to_bytes(ncols, "little").translate(table)
+
+
+def most_addends(ell: int) -> int:
+    """How many residues a byte holds the sum of, at least four up to ``SMALL``."""
+    return 255 // (ell - 1)
 
 
 @cache
@@ -64,27 +75,23 @@ class Combination:
     """Σ f_k u_k modulo ℓ, for rows u_k of residues that come one after the other."""
 
     def __init__(self, ncols: int, ell: int) -> None:
-        self.ell, self.ncols, self.total, self.addends = ell, ncols, 0, 0
-        self.row = [0] * ncols
+        self.ell = ell
+        self.row: Sequence[int] = bytes(ncols)
 
     def add(self, factor: int, u: Sequence[int]) -> None:
         """Add a multiple of a row."""
-        if self.ell > SMALL:
-            spend(budget.reductions(self.ncols, budget.limbs([self.ell])))
-            self.row = [(x + factor * y) % self.ell for x, y in zip(self.row, u, strict=True)]
-            return
-        spend(40 + self.ncols // 8)
-        if self.addends == 255 // (self.ell - 1):
-            self.total, self.addends = int.from_bytes(self._reduced(), "little"), 1
-        self.total += int.from_bytes(bytes(u).translate(multiples(self.ell)[factor]), "little")
-        self.addends += 1
-
-    def _reduced(self) -> bytes:
-        return self.total.to_bytes(self.ncols, "little").translate(multiples(self.ell)[1])
+        ell, ncols = self.ell, len(self.row)
+        if ell > SMALL:
+            spend(budget.reductions(ncols, budget.limbs([ell])))
+            self.row = [(x + factor * y) % ell for x, y in zip(self.row, u, strict=True)]
+        else:
+            spend(40 + ncols // 8)
+            moved = bytes(u).translate(multiples(ell)[factor])
+            self.row = byte_sum((bytes(self.row), moved), ncols, ell)
 
     def is_zero(self) -> bool:
         """Whether the sum so far is 0."""
-        return not any(self.row if self.ell > SMALL else self._reduced())
+        return not any(self.row)
 
 
 def convolution(f: Sequence[int], g: Sequence[int], ell: int) -> list[int]:

@@ -7,7 +7,7 @@ from typing import Any
 from . import sparse
 from .arithmetic import Matrix
 from .budget import spend
-from .packed_rows import SMALL, multiples
+from .packed_rows import SMALL, byte_sum, multiples
 from .sparse import Entry, SparseMatrix, entries_of, residues
 from .system import System
 
@@ -66,17 +66,11 @@ class SparseStep:
         return [x % self.ell for x in total] + long
 
     def _added(self, u: bytes) -> bytes:
-        """The short columns: multiples of u, looked up, and sums of at most 255 in each byte."""
-        tables, most = multiples(self.ell), 255 // (self.ell - 1)
+        """The short columns: multiples of u, looked up, and added."""
+        tables = multiples(self.ell)
         products = b"".join(u.translate(tables[x]) for x in self.values)
-        total, addends = 0, 0
-        for gather, xs in self.layers:
-            if addends == most:
-                reduced = total.to_bytes(self.short, "little").translate(tables[1])
-                total, addends = int.from_bytes(reduced, "little"), 1
-            total += int.from_bytes(bytes(gather(products)[: len(xs)]), "little")
-            addends += 1
-        return total.to_bytes(self.short, "little").translate(tables[1])
+        layers = (bytes(gather(products)[: len(xs)]) for gather, xs in self.layers)
+        return byte_sum(layers, self.short, self.ell)
 
 
 def loop_entries(system: System, gains: Sequence[Matrix], ell: int) -> list[Entry] | None:

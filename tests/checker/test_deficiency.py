@@ -72,6 +72,7 @@ P = "witness.losses"
 ACCEPTED = [
     ("one block that leaves nothing", FREE),
     ("two modes, one of which loses more", STILL),
+    ("the least modulus", changed(STILL, ("witness.modulus", 2))),
     ("the other mode first", changed(STILL, (P, STILL["witness"]["losses"][::-1]))),
     (
         "the whole state fixed",
@@ -132,3 +133,5 @@ test_a_change_of_one_place_is_rejected = rejects(REJECTED)
 def test_a_mode_is_a_root_of_a_polynomial_that_is_not_constant() -> None:
     verdict = checked(changed(LOSS, ("witness.polynomial", [1])))
     assert (verdict.verdict, verdict.place) == ("MALFORMED", "witness.polynomial")
+    verdict = checked(changed(STILL, (f"{P}.0.polynomial", [1])))
+    assert (verdict.verdict, verdict.place) == ("MALFORMED", f"{P}[0]")

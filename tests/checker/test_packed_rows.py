@@ -7,7 +7,15 @@ import random
 import pytest
 
 from mcexact.checker.budget import Budget, limited
-from mcexact.checker.packed_rows import SMALL, Combination, PackedRows, convolution, multiples
+from mcexact.checker.packed_rows import (
+    SMALL,
+    Combination,
+    PackedRows,
+    byte_sum,
+    convolution,
+    most_addends,
+    multiples,
+)
 from mcexact.checker.reading import Refused
 
 MODULI = [2, 3, 7, SMALL - 1, SMALL, SMALL + 1, 127, 128, 2**30 - 35, 10**20 + 39]
@@ -54,6 +62,16 @@ def test_no_sum_of_many_rows_leaves_its_byte(ell: int) -> None:
     u = [rng.randrange(ell) for _ in range(nrows)]
     expected = [sum(x * row[j] for x, row in zip(u, rows, strict=True)) % ell for j in range(ncols)]
     assert list(PackedRows(rows, ncols, ell).combined(u)) == expected
+
+
+@pytest.mark.parametrize("ell", [ell for ell in MODULI if ell <= SMALL])
+def test_bytes_never_overflow_however_many_rows_are_added(ell: int) -> None:
+    assert most_addends(ell) * (ell - 1) <= 255 < (most_addends(ell) + 1) * (ell - 1)
+    for count in (0, 1, most_addends(ell) - 1, most_addends(ell), most_addends(ell) + 1, 600):
+        row = bytes([ell - 1, 0, 1])
+        found = byte_sum([row] * count, 3, ell)
+        assert found == bytes([count * x % ell for x in row])
+    assert byte_sum([], 2, ell) == bytes(2) and byte_sum([b""], 0, ell) == b""
 
 
 def test_the_multiples_of_bytes_are_made_once() -> None:

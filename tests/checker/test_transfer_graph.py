@@ -9,6 +9,7 @@ import random
 import pytest
 
 from mcexact.checker.arithmetic import Matrix, product
+from mcexact.checker.budget import Budget, limited
 from mcexact.checker.markov import unseen
 from mcexact.checker.reading import Refused
 from mcexact.checker.system import System, read_plant
@@ -224,3 +225,16 @@ def test_edges_connect_all_channels_or_prove_nothing(arcs: list[list[object]], g
         with pytest.raises(Refused) as found:
             require_connected(arcs, "arcs", RING, 7)
         assert (found.value.verdict, found.value.code) == ("INVALID", "arc")
+
+
+def test_no_power_is_computed_where_no_edge_is_claimed() -> None:
+    system = read_plant(plant([[1, 2], [3, 4]], ([[1], [1]], [[1, 0]])))
+
+    def units(triples: list[tuple[int, int, int]]) -> int:
+        budget = Budget(10**9, 0)
+        with limited(budget):
+            assert unseen(system, triples, 31) is None
+        return budget.spent
+
+    assert units([(0, 0, 1)]) - units([(0, 0, 0)]) > 200
+    assert units([(0, 0, 0)]) - units([]) > 200
