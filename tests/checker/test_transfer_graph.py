@@ -11,6 +11,7 @@ import pytest
 from mcexact.checker.arithmetic import Matrix, product
 from mcexact.checker.budget import Budget, limited
 from mcexact.checker.markov import unseen
+from mcexact.checker.paths import without_path
 from mcexact.checker.reading import Refused
 from mcexact.checker.system import System, read_plant
 from mcexact.checker.transfer_graph import read_arcs, require_arcs, require_connected
@@ -238,3 +239,21 @@ def test_no_power_is_computed_where_no_edge_is_claimed() -> None:
 
     assert units([(0, 0, 1)]) - units([(0, 0, 0)]) > 200
     assert units([(0, 0, 0)]) - units([]) > 200
+
+
+@pytest.mark.parametrize("step", [1, -1])
+def test_long_paths_are_found_in_a_few_turns_whatever_way_they_lead(step: int) -> None:
+    n = 100
+    order = list(range(n))[::step]
+    arcs = sorted([b, a, 1] for a, b in itertools.pairwise(order))
+    A = {"shape": [n, n], "entries": arcs}
+    first, last = ([[int(a == state)] for a in range(n)] for state in (order[0], order[-1]))
+    channels = [
+        {"name": name, "B": B, "C": [[entry for (entry,) in C]]}
+        for name, B, C in (("1", first, first), ("2", last, last))
+    ]
+    system = read_plant({"time": "continuous", "A": A, "channels": channels})
+    budget = Budget(10**9, 0)
+    with limited(budget):
+        assert without_path(system, itertools.product(range(2), repeat=2)) == {(1, 0)}
+    assert budget.spent < 10 * 40 * 2 * n
