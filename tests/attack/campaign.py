@@ -93,7 +93,7 @@ def run_batch(number: int, report: Report, only: int | None = None) -> Try | Non
         outcome, why = _outcome(attempt, verdict, report)
         if outcome == "rejected" and isinstance(attempt.document, dict) and verdict is not None:
             batch.rejected = attempt.document, verdict.place
-        found = verdict.verdict if verdict else "none"
+        found = "none" if verdict is None else verdict.verdict
         if found == "INCOMPLETE" and verdict is not None:
             found = f"INCOMPLETE {verdict.code}"
         report.count([*rows_of(attempt, batch), ("verdict", found)], outcome)
