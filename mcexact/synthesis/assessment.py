@@ -348,7 +348,7 @@ def assess(design: Design, aims: Aims | None = None) -> Assessment:
     return assessed_loop(
         design.loop.closed,
         design.region,
-        certified=True,
+        certified=design.stable,
         weights=(aims or Aims()).weights,
         notes=tuple(notes),
         diagnosis=parts.get("diagnosis"),

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from math import isfinite
 from typing import Any, Literal
 
+from mcexact.analysis.stability.stability import certify_stability
 from mcexact.answer.account import Account
 from mcexact.answer.protocol import Answer
 from mcexact.answer.rules import DESIGN
@@ -42,7 +44,8 @@ class Design(Shown):
         The arithmetic in which the controller was found; all proofs are exact.
     loop : CertifiedLoop
     region : StabilityRegion
-        The requested region; if it has a bound, every eigenvalue of the loop lies in it.
+        The requested region; if it has a bound, every eigenvalue of the loop lies in it.  Without
+        one the loop may be unstable, if its spectrum was prescribed so; see `stable`.
     certificates : mapping
         All certificates, keyed by the names of their files.
     parts : mapping
@@ -77,6 +80,11 @@ class Design(Shown):
     def order(self) -> int:
         """The dimension of all agents' states."""
         return self.controller.order
+
+    @cached_property
+    def stable(self) -> bool:
+        """Whether every eigenvalue lies in the region; only a prescribed spectrum may not."""
+        return _is_inside(self.loop, self.region)
 
     @property
     def name(self) -> str:
@@ -167,7 +175,8 @@ class Design(Shown):
 
     def __repr__(self) -> str:
         bound = f", {self.region}" if self.region.bound is not None else ""
-        return f"Design({self.name}, {self.arithmetic}, order {self.order}{bound}, certified)"
+        told = "certified" if self.stable else "certified to be unstable"
+        return f"Design({self.name}, {self.arithmetic}, order {self.order}{bound}, {told})"
 
 
 def designed(
@@ -184,9 +193,17 @@ def designed(
         system, proposals, request.region, graph, stable=stable, tell=request.tell
     )
     certificates = {proof.kind: proof for proof in loop.proofs}
+    if not _is_inside(loop, request.region):
+        unstable = certify_stability(loop.closed.system)
+        certificates[unstable.kind] = unstable
     return Design(
         method, request.arithmetic, loop, request.region, certificates, made.parts, request.notes
     )
+
+
+def _is_inside(loop: CertifiedLoop, region: StabilityRegion) -> bool:
+    """Whether every eigenvalue of a loop lies in a region, which its certificates say."""
+    return loop.polynomial is None or region.contains_roots_of(loop.polynomial)
 
 
 def _plain(value: Any) -> Any:

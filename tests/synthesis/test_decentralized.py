@@ -15,6 +15,7 @@ from mcexact.exact.polynomial import Polynomial
 from mcexact.model import gallery
 from mcexact.model.loop import closed_loop
 from mcexact.model.system import MultiChannelSystem
+from mcexact.synthesis.assessment import assess
 from mcexact.synthesis.decentralized import design_decentralized
 from mcexact.synthesis.design import Design
 from mcexact.synthesis.optimum.aims import THEOREM
@@ -89,3 +90,26 @@ def test_what_no_fixed_mode_forbids_is_done(seed: int, time: str) -> None:
     loop = closed_loop(drawn, design.controller).matrix
     assert region.contains_roots_of(characteristic_polynomial(loop))
     assert not design.controller.edges()
+
+
+@pytest.mark.parametrize(
+    ("time", "unstable"), [("continuous", 1), ("continuous", 0), ("discrete", 2)]
+)
+def test_a_prescribed_root_that_is_not_stable_is_placed_and_the_loop_is_said_to_be_unstable(
+    time: str, unstable: int
+) -> None:
+    plant = MultiChannelSystem([[0, 1], [2, 0]], [[[0], [1]]], [[[1, 0]]], time=time)
+    design = design_decentralized(plant, spectrum=["-1/2", "-1/2", unstable])
+    require_valid(design)
+    assert characteristic_polynomial(design.loop.matrix)(unstable) == 0
+    assert not design.stable and not design.certificates["stability"].stable  # type: ignore[attr-defined]
+    assert repr(design).endswith("certified to be unstable)")
+    assert "eigenvalues: not every one satisfies" in design.explain()
+    assert assess(design).verdict.startswith("Do not install: the loop does not satisfy")
+
+
+def test_a_prescribed_stable_spectrum_is_not_said_to_be_unstable() -> None:
+    plant = MultiChannelSystem([[0, 1], [2, 0]], [[[0], [1]]], [[[1, 0]]])
+    design = design_decentralized(plant, spectrum=["-1+2i", -1])
+    assert design.stable and "stability" not in design.certificates
+    assert "not every one" not in design.explain()

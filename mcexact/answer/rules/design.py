@@ -99,6 +99,13 @@ def _region(bounded_loop: Claim, given: Given) -> Said:
         yield say.REGION(region=given.region)
 
 
+@rule("table", say.OUTSIDE)
+def _unstable(stability: Claim, given: Given) -> Said:
+    """A loop whose prescribed spectrum is not stable was wanted, and is not to be installed."""
+    if not stability.stable:
+        yield say.OUTSIDE(region=given.region)
+
+
 @rule("table", say.STEADY)
 def _steady(loop: Claim, given: Given) -> Said:
     if given.has("solvability") and inside(loop, given.region):

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
 from mcexact.errors import InputError
+from mcexact.exact.floats import as_requested
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.rational import as_fraction
+from mcexact.exact.rational import as_fraction, rational_text
+from mcexact.model.names import quoted
 
 
 def spectrum_polynomial(spectrum: Any, degree: int, *, where: str = "spectrum") -> Polynomial:
@@ -17,9 +20,11 @@ def spectrum_polynomial(spectrum: Any, degree: int, *, where: str = "spectrum") 
 
     Parameters
     ----------
-    spectrum : Polynomial, or sequence
-        The coefficients of a monic polynomial, constant term first; or its roots, each a rational
-        number, or ``{"re": a, "im": b}`` with b ≠ 0 for the pair a ± b i.
+    spectrum : Polynomial, sequence or array
+        The coefficients of a monic polynomial, constant term first; or its roots.  A root is a real
+        number or complex: ``"-1+2i"``, ``-1+2j`` or ``{"re": -1, "im": 2}`` stands for the pair
+        −1 ± 2i, and its conjugate may be listed as well, as in arrays of numpy.  Floats stand for
+        the decimals that print them.
     degree : int
         The number of prescribed numbers, which distinguishes degree + 1 coefficients from degree
         roots.
@@ -39,9 +44,9 @@ def spectrum_polynomial(spectrum: Any, degree: int, *, where: str = "spectrum") 
 
     Examples
     --------
-    >>> str(spectrum_polynomial(["-1", {"re": "-1", "im": "2"}], 3))
+    >>> str(spectrum_polynomial(["-1", "-1+2i"], 3))
     'x^3 + 3*x^2 + 7*x + 5'
-    >>> spectrum_polynomial([5, 2, 1], 2) == spectrum_polynomial([{"re": -1, "im": 2}], 2)
+    >>> spectrum_polynomial([5, 2, 1], 2) == spectrum_polynomial([-1 - 2j, -1 + 2j], 2)
     True
     >>> spectrum_polynomial([-1, -2], 3)
     Traceback (most recent call last):
@@ -49,44 +54,74 @@ def spectrum_polynomial(spectrum: Any, degree: int, *, where: str = "spectrum") 
     mcexact.errors.InputError: spectrum: expected 3 numbers (or 4 coefficients of a monic \
 polynomial, constant term first), found a list of 2
     """
-    if isinstance(spectrum, Polynomial):
-        entries: Sequence[Any] = spectrum.coefficients
-    elif isinstance(spectrum, Sequence) and not isinstance(spectrum, (str, bytes)):
-        entries = spectrum
-    else:
-        raise InputError(
-            f"expected a list of coefficients, or of roots and pairs, found "
-            f"{type(spectrum).__name__}",
-            where=where,
-        )
-    if any(isinstance(entry, Mapping) for entry in entries):
-        return _from_roots(entries, degree, where)
-    if len(entries) == degree + 1:
-        values = [as_fraction(e, where=f"{where}[{k}]") for k, e in enumerate(entries)]
-        if values[-1] != 1:
+    entries = _listed(spectrum, where)
+    if any(map(_is_complex, entries)) or len(entries) != degree + 1:
+        if isinstance(spectrum, Polynomial):
             raise InputError(
-                f"expected a monic polynomial of degree {degree} (last coefficient 1) or "
-                f"{degree} roots, found {degree + 1} numbers of which the last is {values[-1]}",
+                f"expected a polynomial of degree {degree}, found degree {spectrum.degree}",
                 where=where,
             )
-        return Polynomial(tuple(values))
-    if isinstance(spectrum, Polynomial):
+        return _from_roots(entries, degree, where)
+    values = [as_requested(e, where=f"{where}[{k}]") for k, e in enumerate(entries)]
+    if values[-1] != 1:
         raise InputError(
-            f"expected a polynomial of degree {degree}, found degree {spectrum.degree}", where=where
+            f"expected a monic polynomial of degree {degree} (last coefficient 1) or "
+            f"{degree} roots, found {degree + 1} numbers of which the last is {values[-1]}",
+            where=where,
         )
-    return _from_roots(entries, degree, where)
+    return Polynomial(tuple(values))
+
+
+def _listed(spectrum: Any, where: str) -> Sequence[Any]:
+    """Return the coefficients or roots as a sequence."""
+    if isinstance(spectrum, Polynomial):
+        return spectrum.coefficients
+    if getattr(spectrum, "ndim", 0) == 1 and hasattr(spectrum, "tolist"):
+        # Items of single precision are read in their own precision, which `tolist` would lose.
+        return list(spectrum)
+    if isinstance(spectrum, Sequence) and not isinstance(spectrum, (str, bytes)):
+        return spectrum
+    raise InputError(
+        f"expected a list of coefficients, or of roots and pairs, found {type(spectrum).__name__}",
+        where=where,
+    )
+
+
+def _is_complex(entry: Any) -> bool:
+    """Whether an entry can only be a root; a real number can also be a coefficient."""
+    if isinstance(entry, str):
+        return entry[-1:] in {"i", "j"}
+    return isinstance(entry, (Mapping, complex)) or _kind_of(entry) == "c"
+
+
+def _kind_of(entry: Any) -> str:
+    return str(getattr(getattr(entry, "dtype", None), "kind", ""))
 
 
 def _from_roots(entries: Sequence[Any], degree: int, where: str) -> Polynomial:
     """The product of the factors of the roots and pairs."""
-    result, count = Polynomial((Fraction(1),)), 0
+    real, pairs = list[Fraction](), Counter[tuple[Fraction, Fraction]]()
     for k, entry in enumerate(entries):
-        factor = _factor(entry, f"{where}[{k}]")
-        result, count = result * factor, count + factor.degree
-    if count != degree:
+        re, im = _root(entry, f"{where}[{k}]")
+        if im:
+            pairs[re, im] += 1
+        else:
+            real.append(re)
+    result = Polynomial.from_roots(real)
+    for re, im in dict.fromkeys((re, abs(im)) for re, im in pairs):
+        above, below = pairs[re, im], pairs[re, -im]
+        if above and below and above != below:
+            raise InputError(
+                f"expected as many of {_shown(re, im)} as of its conjugate, or one of the two for "
+                f"each pair, found {above} and {below}",
+                where=where,
+            )
+        factor = Polynomial((re * re + im * im, -2 * re, Fraction(1)))
+        result = result * factor ** max(above, below)
+    if result.degree != degree:
         found = f"a list of {len(entries)}"
-        if count != len(entries):
-            found += f" with {count} numbers (a pair counts twice)"
+        if result.degree != len(entries):
+            found += f" with {result.degree} numbers (a pair counts twice)"
         raise InputError(
             f"expected {degree} numbers (or {degree + 1} coefficients of a monic polynomial, "
             f"constant term first), found {found}",
@@ -95,22 +130,51 @@ def _from_roots(entries: Sequence[Any], degree: int, where: str) -> Polynomial:
     return result
 
 
-def _factor(entry: Any, place: str) -> Polynomial:
-    """The factor of one root or of one pair."""
-    if not isinstance(entry, Mapping):
-        return Polynomial((-as_fraction(entry, where=place), Fraction(1)))
+def _shown(re: Fraction, im: Fraction) -> str:
+    return f"{rational_text(re)}+{rational_text(im)}i"
+
+
+def _root(entry: Any, place: str) -> tuple[Fraction, Fraction]:
+    """The real and the imaginary part of a root, which is 0 for a real one."""
+    if isinstance(entry, Mapping):
+        return _pair(entry, place)
+    if isinstance(entry, str) and _is_complex(entry):
+        return _parsed(entry, place)
+    if _is_complex(entry):
+        return as_requested(entry.real, where=place), as_requested(entry.imag, where=place)
+    return as_requested(entry, where=place), Fraction(0)
+
+
+def _parsed(text: str, place: str) -> tuple[Fraction, Fraction]:
+    """The parts of a complex number such as -1+2i, 3/2-i or 2i."""
+    digits = text[:-1]
+    # The imaginary part begins with the last sign that does not belong to an exponent.
+    signs = (k for k in range(len(digits) - 1, 0, -1) if digits[k] in "+-")
+    start = next((k for k in signs if digits[k - 1] not in "eE"), 0)
+    im = digits[start:].removeprefix("+")
+    try:
+        return as_fraction(digits[:start] or 0), as_fraction(f"{im}1" if im in {"", "-"} else im)
+    except InputError:
+        raise InputError(
+            f'expected a complex number such as "-1+2i" or "1/2-3i", found {quoted(text)}',
+            where=place,
+        ) from None
+
+
+def _pair(entry: Mapping[str, Any], place: str) -> tuple[Fraction, Fraction]:
+    """The parts of one root of a pair, whose conjugate is implied."""
     if set(entry) != {"re", "im"}:
         raise InputError(
             'expected a pair as {"re": a, "im": b}, its conjugate is implied', where=place
         )
-    re = as_fraction(entry["re"], where=f"{place}.re")
-    im = as_fraction(entry["im"], where=f"{place}.im")
+    re = as_requested(entry["re"], where=f"{place}.re")
+    im = as_requested(entry["im"], where=f"{place}.im")
     if im == 0:
         raise InputError(
             "expected an imaginary part that is not 0; write a real root as one number",
             where=place,
         )
-    return Polynomial((re * re + im * im, -2 * re, Fraction(1)))
+    return re, im
 
 
 def require_numbers(spectrum: Any, where: str = "spectrum") -> None:
@@ -130,7 +194,7 @@ def require_numbers(spectrum: Any, where: str = "spectrum") -> None:
 
     Examples
     --------
-    >>> require_numbers({"closed_loop": ["-1", {"re": "-1", "im": "2"}]})
+    >>> require_numbers({"closed_loop": ["-1", {"re": "-1", "im": "2"}, "3/2-i"]})
     >>> require_numbers({"closed_loop": ["-1", "foo"]})
     Traceback (most recent call last):
         ...
@@ -142,7 +206,7 @@ def require_numbers(spectrum: Any, where: str = "spectrum") -> None:
             require_numbers(numbers, f"{where}.{key}")
     elif isinstance(spectrum, Sequence) and not isinstance(spectrum, (str, bytes)):
         for k, entry in enumerate(spectrum):
-            _factor(entry, f"{where}[{k}]")
+            _root(entry, f"{where}[{k}]")
 
 
 def default_polynomial(region: StabilityRegion, degree: int) -> Polynomial:
