@@ -24,11 +24,16 @@ from mcexact.model.json_text import (
     parse,
     read_bytes,
     require_short_numbers,
+    require_start,
 )
 from mcexact.model.matrix_json import read_matrix
 from mcexact.model.names import checked_names, nearest, quoted
 
 FORMAT = "mcexact-controller/1"
+_OTHERS = (
+    "a controller file is JSON; in Python, local_controllers makes a controller of matrices, "
+    "or of systems of python-control"
+)
 
 
 def load_controller(path: str | os.PathLike[str], limits: Limits = DEFAULT_LIMITS) -> Controller:
@@ -57,6 +62,7 @@ def read_controller(text: bytes | str, limits: Limits = DEFAULT_LIMITS) -> Contr
     InputError
         If the text is malformed; the message says where, what was expected and what was found.
     """
+    require_start(text, _OTHERS)
     document = expect_format(parse(text, limits), FORMAT)
     expect_object(document, None, ("format", "time", "system", "agents"))
     require_time(document["time"])

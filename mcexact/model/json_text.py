@@ -83,6 +83,21 @@ def _too_large(limits: Limits) -> InputError:
     return InputError(f"expected at most {limits.bytes} bytes (Limits.bytes), found more")
 
 
+def require_start(data: bytes | str, hint: str) -> None:
+    """Refuse what does not begin as a JSON object or list, with a hint for files of other programs.
+
+    Raises
+    ------
+    InputError
+        If the first character that is not blank is none of these; an empty file is left to `parse`.
+    """
+    text = data.encode() if isinstance(data, str) else data
+    start = text.lstrip(b" \t\r\n")[:1]
+    if start not in (b"", b"{", b"[", _BYTE_ORDER_MARK[:1]):
+        shown = ascii(start.decode("ascii")) if start.isascii() else f"the byte 0x{start.hex()}"
+        raise InputError(f"not JSON: found {shown} at the beginning; {hint}")
+
+
 def parse(data: bytes | str, limits: Limits = DEFAULT_LIMITS) -> Any:
     """Parse one JSON document.
 

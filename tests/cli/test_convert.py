@@ -30,6 +30,7 @@ def test_floats_are_converted_by_a_rounding_only(tmp_path: Path) -> None:
     sizes = ("--inputs", "1", "--outputs", "1")
     status, _, said = call("convert", str(source), *sizes, "-o", str(target))
     assert status == 3 and "A: found 0.1: a float is not exact" in said and not target.exists()
+    assert f"'mcexact convert {source} --rounding decimal -o plant.json'" in said
     assert call("analyze", str(source))[0] == 3
     done = call("convert", str(source), *sizes, "--rounding", "decimal", "-o", str(target))
     assert done == (0, "", "")
@@ -76,6 +77,13 @@ def test_the_checker_reads_json_and_the_gallery(tmp_path: Path) -> None:
     status, _, said = call("check", certificate, "--system", str(tmp_path / "p.mat"))
     assert status == 3 and "the checker reads JSON alone: convert the plant by" in said
     assert call("check", certificate, "--system", "gallery:x")[0] == 2
+
+
+def test_a_controller_in_another_form_gets_a_hint(tmp_path: Path) -> None:
+    path = tmp_path / "c.mat"
+    path.write_bytes(mat())
+    status, _, said = call("certify", TANKS, str(path))
+    assert status == 3 and "local_controllers makes a controller of matrices" in said
 
 
 @pytest.mark.parametrize("text", ["A = [1 2; 3 4]", "# a comment\n", "x", "\x89PNG"])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shlex
 from collections.abc import Sequence
 
 from mcexact.errors import InputError
@@ -14,7 +15,7 @@ from mcexact.model.formats.archive import members
 from mcexact.model.formats.arrays import Rounded
 from mcexact.model.formats.parts import Parts, system_of
 from mcexact.model.formats.yaml_text import read_yaml
-from mcexact.model.json_text import read_bytes, require_short_numbers
+from mcexact.model.json_text import read_bytes, require_short_numbers, require_start
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import read_document, read_system
 
@@ -88,14 +89,17 @@ def read_any(
     suffix = os.path.splitext(place)[1].lower()
     parts = _parts(data, suffix, limits)
     if parts is not None:
-        return system_of(parts, Rounded(rounding, limits), (inputs, outputs))
+        try:
+            return system_of(parts, Rounded(rounding, limits), (inputs, outputs))
+        except InputError as error:  # a command in a hint can be copied
+            error.message = error.message.replace("convert FILE", f"convert {shlex.quote(place)}")
+            raise
     if suffix in (".yaml", ".yml"):
         system = read_document(read_yaml(data, limits), limits)
         require_short_numbers(data, limits)
         return system
-    start = data.lstrip(b" \t\r\n")[:1]
-    if start not in (b"", b"{", b"[", b"\xef") and len(data) <= limits.bytes:
-        raise InputError(f"not JSON: found {_shown(start)} at the beginning; {_READ}")
+    if len(data) <= limits.bytes:
+        require_start(data, _READ)
     return read_system(data, limits=limits)
 
 
@@ -121,7 +125,3 @@ def _parts(data: bytes, suffix: str, limits: Limits) -> Parts | None:
     if kinds == {".csv"}:
         return csv_folder.read_csv_files(files)
     raise InputError(f"found an archive, but not one of .npy or .csv files; {_READ}")
-
-
-def _shown(start: bytes) -> str:
-    return ascii(start.decode("ascii")) if start.isascii() else f"the byte 0x{start.hex()}"
