@@ -8,12 +8,14 @@ import click
 
 from mcexact.cli import designing
 from mcexact.cli.commands import GroupedCommand
+from mcexact.cli.spectra import spectrum_examples
 
 
 @click.command(
     cls=GroupedCommand,
     name="decentralized",
     short_help="Design a controller without communication.",
+    epilog=spectrum_examples("closed_loop", parts=True),
 )
 @click.argument("file")
 @designing.design_options(

@@ -8,12 +8,14 @@ import click
 
 from mcexact.cli import designing, options
 from mcexact.cli.commands import GroupedCommand
+from mcexact.cli.spectra import spectrum_examples
 
 
 @click.command(
     name="extended",
     cls=GroupedCommand,
     short_help="Design a controller with shared sub-states.",
+    epilog=spectrum_examples("closed_loop"),
 )
 @click.argument("file")
 @designing.design_options(

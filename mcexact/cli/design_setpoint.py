@@ -8,12 +8,14 @@ import click
 
 from mcexact.cli import designing
 from mcexact.cli.commands import GroupedCommand
+from mcexact.cli.spectra import spectrum_examples
 
 
 @click.command(
     cls=GroupedCommand,
     name="setpoint",
     short_help="Design a controller that holds outputs at set-points.",
+    epilog=spectrum_examples("feedback", "error"),
 )
 @click.argument("file")
 @designing.design_options(
