@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import json
 import re
 import shutil
@@ -49,8 +50,8 @@ TOPICS = {
     "analysis": "Questions",
     "synthesis": "Design and certification",
     "simulation": "Simulation",
-    "plot": "Plots",
     "sweeps": "Many systems",
+    "report": "Tables",
     "crosschecks": "Comparison with floating point",
     "answer": "Answers and certificates",
     "checker": "The checker's verdict",
@@ -76,29 +77,22 @@ def api_page() -> str:
         chosen = [name for name in mcexact.__all__ if origins.get(name) == folder]
         if chosen:
             lines += [f"## {title}", "", "```{eval-rst}", ".. currentmodule:: mcexact", ""]
-            lines += [".. autosummary::", "   :toctree: api", ""]
+            lines += [".. autosummary::", "   :toctree: api", "   :nosignatures:", ""]
             lines += [*(f"   {name}" for name in chosen), "```", ""]
-    lines += [
-        "## Drawn systems for tests",
-        "",
-        "```{eval-rst}",
-        ".. currentmodule:: mcexact.testing",
-        "",
-        ".. autosummary::",
-        "   :toctree: api",
-        "",
-        *(f"   {name}" for name in _strategies()),
-        "```",
-        "",
-    ]
+    for module, title in (("testing", "Drawn systems for tests"), ("plot", "Pictures")):
+        lines += [f"## {title}", "", "```{eval-rst}", f".. currentmodule:: mcexact.{module}", ""]
+        lines += [".. autosummary::", "   :toctree: api", "   :nosignatures:", ""]
+        lines += [*(f"   {name}" for name in _functions(module)), "```", ""]
     return "\n".join(lines)
 
 
-def _strategies() -> list[str]:
-    """What `mcexact.testing` exports."""
-    import mcexact.testing
-
-    return sorted(name for name in mcexact.testing.__all__ if name[0] != "_")
+def _functions(module: str) -> list[str]:
+    """The public functions and classes of a module of the package."""
+    found = importlib.import_module(f"mcexact.{module}")
+    named = ((name, getattr(found, name)) for name in dir(found) if name[0] != "_")
+    return sorted(
+        name for name, value in named if callable(value) and value.__module__.startswith("mcexact.")
+    )
 
 
 def gallery_page() -> str:
