@@ -5,7 +5,8 @@ from __future__ import annotations
 import json
 from typing import Any
 
-ROOTS: list[Any] = [-1, {"re": -1, "im": 2}]
+ROOTS = [-1, "-1+2i"]
+PAIRS: list[Any] = ["-1", {"re": -1, "im": "2"}]
 COEFFICIENTS = [5, 7, 3, 1]
 _HEAD = (
     "Examples of a file for --spectrum; the numbers are as many as the degree, a pair counts twice:"
@@ -26,15 +27,21 @@ def spectrum_examples(*keys: str, parts: bool = False) -> str:
     --------
     >>> print(spectrum_examples("closed_loop").removeprefix("\\b\\n"))
     Examples of a file for --spectrum; the numbers are as many as the degree, a pair counts twice:
-      {"closed_loop": [-1, {"re": -1, "im": 2}]}
-          the root -1 and the pair -1 ± 2i; fractions and decimals are strings or numbers
+      {"closed_loop": [-1, "-1+2i"]}
+          the root -1 and the pair -1 ± 2i
+      {"closed_loop": ["-1", {"re": -1, "im": "2"}]}
+          the same; a fraction such as "-1/3" is a string
       {"closed_loop": [5, 7, 3, 1]}
           the same as coefficients, the constant term first: x^3 + 3x^2 + 7x + 5
     """
     shown: list[tuple[dict[str, Any], str]] = [
         (
             dict.fromkeys(keys, ROOTS),
-            "the root -1 and the pair -1 ± 2i; fractions and decimals are strings or numbers",
+            "the root -1 and the pair -1 ± 2i",
+        ),
+        (
+            dict.fromkeys(keys, PAIRS),
+            'the same; a fraction such as "-1/3" is a string',
         ),
         (
             dict.fromkeys(keys, COEFFICIENTS),

@@ -7,7 +7,7 @@ import json
 import pytest
 
 from mcexact.cli import command_line
-from mcexact.cli.spectra import COEFFICIENTS, ROOTS
+from mcexact.cli.spectra import COEFFICIENTS, PAIRS, ROOTS
 from mcexact.synthesis.methods.spectrum import require_numbers, spectrum_polynomial
 
 
@@ -21,12 +21,13 @@ def test_every_example_is_read_as_a_spectrum(name: str, capsys: pytest.CaptureFi
     _, examples = help_of(name, capsys).split("Examples of a file for --spectrum")
     lines = [line.strip() for line in examples.splitlines()]
     documents = [json.loads(line) for line in lines if line.startswith('{"')]
-    assert len(documents) == (3 if name == "decentralized" else 2)
+    assert len(documents) == (4 if name == "decentralized" else 3)
     for document in documents:
         require_numbers(document)
         assert set(document) in ({"closed_loop"}, {"feedback", "error"})
 
 
-def test_both_forms_are_the_same_polynomial() -> None:
+def test_all_forms_are_the_same_polynomial() -> None:
     assert str(spectrum_polynomial(ROOTS, 3)) == "x^3 + 3*x^2 + 7*x + 5"
     assert spectrum_polynomial(ROOTS, 3) == spectrum_polynomial(COEFFICIENTS, 3)
+    assert spectrum_polynomial(ROOTS, 3) == spectrum_polynomial(PAIRS, 3)
