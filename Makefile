@@ -8,7 +8,7 @@ DOCS := build/docs/environment
 PIP := $(BIN)/python -m pip install --quiet --quiet --disable-pip-version-check
 GALLERY := mcexact/model/gallery
 
-.PHONY: absence cluster corpus coverage package-coverage docs mutants paper-mutants records reproduce look ledger schemas schemas-everywhere sentences demo designs test lint types tests slow-tests durations matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs
+.PHONY: absence parameters cluster corpus coverage package-coverage docs mutants paper-mutants records reproduce look ledger schemas schemas-everywhere sentences demo designs test lint types tests slow-tests durations matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs
 
 demo: $(CORE)
 	$(BIN)/mcexact demo
@@ -63,6 +63,11 @@ agreement: $(STAMP)
 # was found: minutes.  The same command continues after an interruption.
 absence: $(STAMP)
 	$(BIN)/python -m tests.campaigns.absence $(or $(N),10000)
+
+# Fixed modes for all values of a parameter beside enumeration at 40 points and modulo primes, on 1,000
+# drawn systems: minutes.
+parameters: $(STAMP)
+	$(BIN)/python -m tests.campaigns.parametric $(or $(N),1000) $(or $(FIRST),0)
 
 # So many mutants and forgeries of certificates, judged by an oracle that is written from FORMAT.md
 # alone: N=500000 takes minutes, N=5000000 an hour.

@@ -52,6 +52,8 @@ from .answer.exceptional_gains import ExceptionalSet as ExceptionalSet
 from .answer.fixed_spectrum import FixedFactor as FixedFactor
 from .answer.fixed_spectrum import FixedSpectrum as FixedSpectrum
 from .answer.neighbor_graph import NeighborGraphVerdict as NeighborGraphVerdict
+from .answer.parametric_fixed_spectrum import ExceptionalValue as ExceptionalValue
+from .answer.parametric_fixed_spectrum import ParametricFixedSpectrum as ParametricFixedSpectrum
 from .answer.pencil_rank import PencilRank as PencilRank
 from .answer.protocol import Answer as Answer
 from .answer.reading import load_certificate as load_certificate

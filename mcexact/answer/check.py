@@ -18,12 +18,13 @@ from mcexact.errors import InputError, InternalError, place_of
 
 if TYPE_CHECKING:
     from mcexact.model.controller import Controller
+    from mcexact.model.parametric import ParametricSystem
     from mcexact.model.system import MultiChannelSystem
 
 
 def check(
     certificate: Answer | str | os.PathLike[str],
-    system: MultiChannelSystem | None = None,
+    system: MultiChannelSystem | ParametricSystem | None = None,
     controller: Controller | str | os.PathLike[str] | None = None,
     expect: str | Mapping[str, Any] | None = None,
 ) -> Verdict:
@@ -33,7 +34,7 @@ def check(
     ----------
     certificate : Answer or path
         An answer, or the file of its certificate.
-    system : MultiChannelSystem, optional
+    system : MultiChannelSystem or ParametricSystem, optional
         The plant that the certificate must be about, and may name by its digest; with a derived
         system, the certificate must be about this system, or with a controller about its closed
         loop.
@@ -75,10 +76,11 @@ def check(
 fixed_spectrum(system), or the name of a certificate file, found dict
     """
     from mcexact.model.canonical import plain
+    from mcexact.model.parametric import ParametricSystem
     from mcexact.model.system import MultiChannelSystem
     from mcexact.model.system_file import canonical_text
 
-    if system is not None:
+    if system is not None and not isinstance(system, ParametricSystem):
         InputError.require(system, MultiChannelSystem, "system")
     wanted = Expectation() if system is None else about_plant(canonical_text(system))
     if system is not None and system.subject:

@@ -32,6 +32,29 @@ class ShrunkSubspace(Part):
 
 
 @dataclass(frozen=True)
+class ZeroBlock(Part):
+    """W (xI − A) U = 0, W B_T = 0 and C_i U = 0 for i outside T, modulo p and perhaps q.
+
+    Attributes
+    ----------
+    channels_T : tuple of str
+        The names of the channels in T, in the order of the system.
+    U : tuple of PolynomialMatrix
+        The coefficients of the powers of x below deg p, n × u polynomial matrices in t.
+    W : PolynomialMatrix
+        a × n, in t; a + u > n.
+    row_pivots, column_pivots : tuple of int
+        Rows of U, and columns of W, that form multiples of identity matrices.
+    """
+
+    channels_T: tuple[str, ...]
+    U: tuple[PolynomialMatrix, ...]
+    W: PolynomialMatrix
+    row_pivots: tuple[int, ...]
+    column_pivots: tuple[int, ...]
+
+
+@dataclass(frozen=True)
 class KrylovSequence(Part):
     """The numbers s_k = y C_q A_F^k B_q x modulo ℓ, by their least recurrence d, of degree L.
 

@@ -28,22 +28,23 @@ from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.polynomial_matrix import PolynomialMatrix
 from mcexact.exact.rational import Limits
-from mcexact.model import controller_file, system_file
+from mcexact.model import controller_file, parametric_file, system_file
 from mcexact.model.canonical import canonical
 from mcexact.model.json_text import read_bytes
 from mcexact.model.loop import closed_loop
+from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 
 
 def load_certificate(
-    path: str | os.PathLike[str], system: MultiChannelSystem | None = None
+    path: str | os.PathLike[str], system: MultiChannelSystem | ParametricSystem | None = None
 ) -> Answer:
     """Read an answer from the file of its certificate, once the checker has accepted it.
 
     Parameters
     ----------
     path : path
-    system : MultiChannelSystem, optional
+    system : MultiChannelSystem or ParametricSystem, optional
         The plant that the certificate must be about, and may name by its digest.
 
     Raises
@@ -71,9 +72,11 @@ def load_certificate(
         sys.set_int_max_str_digits(digits)
 
 
-def answer_of(document: Mapping[str, Any], plant: MultiChannelSystem | None = None) -> Answer:
+def answer_of(
+    document: Mapping[str, Any], plant: MultiChannelSystem | ParametricSystem | None = None
+) -> Answer:
     """Make the answer of a valid certificate's document, about the plant if it is given."""
-    known = _plant(document["system"]) if plant is None else plant
+    known: Any = _plant(document["system"]) if plant is None else plant
     about = constructed(known, document["subject"])
     return _answer(kind_named(document["kind"]), document, about)
 
@@ -87,8 +90,10 @@ def constructed(
     return system
 
 
-def _plant(document: Mapping[str, Any]) -> MultiChannelSystem:
+def _plant(document: Mapping[str, Any]) -> Any:
     text = canonical({"format": system_file.FORMAT, **document})
+    if "parameters" in document:
+        return parametric_file.read_parametric_system(text, limits=_roomy(text))
     return system_file.read_system(text, limits=_roomy(text))
 
 
@@ -129,7 +134,7 @@ _CONSTRUCTIONS: Mapping[
 }
 
 
-def _answer(kind: type[Answer], document: Mapping[str, Any], about: MultiChannelSystem) -> Answer:
+def _answer(kind: type[Answer], document: Mapping[str, Any], about: Any) -> Answer:
     """Convert claim and witness to the fields of a kind of answer."""
     hints = typing.get_type_hints(kind)
     values = {}
@@ -141,7 +146,7 @@ def _answer(kind: type[Answer], document: Mapping[str, Any], about: MultiChannel
     return kind(about, **values)
 
 
-def _value(wanted: Any, value: Any, about: MultiChannelSystem) -> Any:
+def _value(wanted: Any, value: Any, about: Any) -> Any:
     """Convert plain data to a value of a type."""
     arguments = typing.get_args(wanted)
     if isinstance(wanted, types.UnionType):

@@ -14,8 +14,7 @@ from .system import System
 def check(claim: Json, witness: Json, system: System) -> None:
     """Check a row at every root of each factor, and two determinants without other common roots.
 
-    Theorems ``exceptional_gains.exceptional_lost``, ``exceptional_gains.exceptional_kept``,
-    ``real_discs.real_discs``.
+    Theorems ``exceptional_gains.exceptional_lost``, ``exceptional_gains.exceptional_kept``.
     """
     rows, number, p, discs = fields(claim, "claim", "M", "blocks", "polynomial", "roots")
     modulus, listed, drawn = fields(witness, "witness", "modulus", "factors", "compressions")
@@ -25,8 +24,7 @@ def check(claim: Json, witness: Json, system: System) -> None:
     ell, parts = evidence.modulus(modulus, "witness.modulus"), (system.A, M, B, blocks)
     whole = reading.polynomial(p, "claim.polynomial")
     found = root_discs.root_discs(discs, "claim.roots", whole)
-    plain = all(im == 0 or abs(im) > radius for _, im, radius in found)
-    require(plain, "disc", "claim.roots", "a disc meets the real axis, but not in the middle")
+    root_discs.require_real_or_not(found, "claim.roots")
     place = "witness.factors"
     factors = [_lost_at(entry, place, *parts) for entry in items(listed, place)]
     require(reduce(poly_product, factors, [Fraction(1)]) == whole, "product", "claim", "no product")

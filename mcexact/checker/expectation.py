@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 from . import reading
 from .budget import current, limited
 from .controller import read_controller_file
+from .parametric_system import plant_of_file
 from .reading import Json, Limits, fields, items, malformed, parse, require, shown, string
 from .statement import canonical_json, digest_of
-from .system import canonical, read_system_file
 
 DIGEST = re.compile(r"[0-9a-f]{64}")
 LINE = re.compile(r"(?:VALID (?:'[^']*' )?([0-9a-f]{64}) )?(For .*)")
@@ -60,7 +60,7 @@ class Expectation:
 
     def about(self, data: bytes, limits: Limits) -> Expectation:
         """The same, about the plant in a system file."""
-        plant = canonical(read_system_file(data, limits))
+        plant = plant_of_file(data, limits)
         text = canonical_json(plant)
         return replace(self, system=digest_of(text), plant=plant, size=len(text))
 

@@ -10,10 +10,9 @@ from typing import NoReturn, TypeVar
 from .arithmetic import NotAUnit
 from .budget import current, limited
 from .expectation import Expectation
+from .parametric_system import digest, plant_of, subject_of
 from .reading import Json, Limits, Refused, fields, incomplete, malformed, parse, shown, string
-from .statement import described, digest, digest_of
-from .subject import read_subject
-from .system import read_plant
+from .statement import described, digest_of
 
 FORMAT = "mcexact-certificate/1"
 T = TypeVar("T")
@@ -23,8 +22,8 @@ STEMS = (
     "assignability", "closed_loop_spectrum", "common_dimension", "communication",
     "complementary_subsystem", "completeness", "controllability", "controllability_indices",
     "deficiency", "distributed_observer", "exceptional_gains", "fixed_spectrum", "neighbor_graph",
-    "pencil_rank", "setpoint", "shared_dimensions", "single_channel_gains", "stability",
-    "transfer_graph",
+    "parametric_fixed_spectrum", "pencil_rank", "setpoint", "shared_dimensions",
+    "single_channel_gains", "stability", "transfer_graph",
 )
 # fmt: on
 
@@ -122,11 +121,11 @@ def check_document(
             if type(given) is str:
                 given = wanted.named(given)
                 budget.grant(wanted.size)
-            plant = read_plant(given)
+            plant = plant_of(given)
             known = digest(plant)
             wanted.require_plant(known)
             budget.builds = True
-            system = read_subject(steps, replace(plant, words=f"the plant {known}"))
+            system = subject_of(steps, replace(plant, words=f"the plant {known}"), kind)
             budget.builds = False
             controller = system.controller
             wanted.require_subject(steps, controller)

@@ -35,6 +35,15 @@ def root_discs(value: Json, place: str, p: Polynomial) -> list[Disc]:
     return discs
 
 
+def require_real_or_not(discs: list[Disc], place: str) -> None:
+    """Stop unless each disc is centered on the real axis or does not meet it.
+
+    Theorem ``real_discs.real_discs``.
+    """
+    plain = all(im == 0 or abs(im) > radius for _, im, radius in discs)
+    require(plain, "disc", place, "a disc meets the real axis, but not in the middle")
+
+
 def require_rate(value: Json, place: str, discs: list[Disc], time: str) -> None:
     """Check an interval for minus the largest real part, or the largest modulus, of the roots.
 

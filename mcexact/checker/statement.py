@@ -3,16 +3,21 @@
 ``FORMAT.md`` specifies them.  A name always stands in quotes, so that none can imitate words.
 """
 
+from __future__ import annotations
+
 import hashlib
 import json
 from collections.abc import Iterable
 from dataclasses import replace
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from . import budget
 from .arithmetic import Matrix, Polynomial
 from .system import System, canonical, rows_of
+
+if TYPE_CHECKING:
+    from .parametric_system import ParametricSystem
 
 FIXED = "fixed under linear time-invariant decentralized control"
 PENCIL = "[xI - A, B; C, 0]"
@@ -70,13 +75,13 @@ def edge_set(edges: Iterable[Any]) -> str:
     return "{" + ", ".join(": ".join([edge, *map(str, cost)]) for edge, cost in ends) + "}"
 
 
-def polynomial_text(p: Polynomial) -> str:
-    """A polynomial, highest power first, such as x^2 - 3/2*x + 1."""
+def polynomial_text(p: Polynomial, x: str = "x") -> str:
+    """A polynomial in x, highest power first, such as x^2 - 3/2*x + 1."""
     terms, p = [], [Fraction(c) for c in p]
     budget.spend(budget.fractions(len(p), budget.limbs_of(p)))
     for k, c in reversed(list(enumerate(p))):
         if c:
-            power = "" if k == 0 else "x" if k == 1 else f"x^{k}"
+            power = "" if k == 0 else x if k == 1 else f"{x}^{k}"
             size = str(abs(c)) if abs(c) != 1 or not power else ""
             terms += ["-" if c < 0 else "+", size + ("*" if size and power else "") + power]
     sign = "-" if terms and terms[0] == "-" else ""
@@ -111,7 +116,7 @@ def suffixed(system: System, words: str, **parts: Any) -> System:
     return replace(system, words=f"{before} {words}", blocks=(), **parts)
 
 
-def described(system: System) -> str:
+def described(system: System | ParametricSystem) -> str:
     """The system a claim is about: what it was made from, its states, its channels, its time."""
     channels = f"channels {channel_set(system.names)}" if system.m else "no channels"
     return f"{system.words} ({counted(system.n, 'state')}, {channels}, {system.time} time)"

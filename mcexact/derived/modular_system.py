@@ -20,6 +20,7 @@ from mcexact.exact.modular import (
 from mcexact.exact.reconstruction import integers
 from mcexact.exact.sparse_krylov import SparseLoop, stays_sparse
 from mcexact.model.canonical import canonical, plain, sha256
+from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import digest
 
@@ -80,12 +81,12 @@ def _ranges(sizes: Sequence[int]) -> tuple[range, ...]:
     return tuple(ranges)
 
 
-def generator(system: MultiChannelSystem, kind: str) -> random.Random:
+def generator(system: MultiChannelSystem | ParametricSystem, kind: str) -> random.Random:
     """Return a source of draws that depends on the plant, the subject and the kind alone.
 
     Parameters
     ----------
-    system : MultiChannelSystem
+    system : MultiChannelSystem or ParametricSystem
     kind : str
         The kind of certificate for which the draws are used.
     """

@@ -52,6 +52,14 @@ def primes(seed: int, bits: int = _BITS) -> Iterator[int]:
             yield candidate
 
 
+def long_prime(rng: random.Random, bits: int) -> int:
+    """Draw a prime with exactly this many bits, more than a machine word has."""
+    while True:
+        candidate = rng.getrandbits(bits) | 1 << bits - 1 | 1
+        if flint.fmpz(candidate).is_prime():
+            return candidate
+
+
 def residue(q: Fraction | int, ell: int) -> int:
     """A rational number modulo a prime that does not divide its denominator.
 

@@ -106,7 +106,9 @@ class RationalFunction:
         if addend is None:
             return NotImplemented
         a, b, c, d = self.numerator, self.denominator, addend.numerator, addend.denominator
-        return _checked(self.parameters, a + c, b) if b == d else self._over(a * d + c * b, b * d)
+        for degree in (_degree(a) + _degree(d), _degree(c) + _degree(b), _degree(b) + _degree(d)):
+            _require_degree(degree)
+        return self._over(a * d + c * b, b * d)
 
     __radd__ = __add__
 

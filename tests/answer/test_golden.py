@@ -136,6 +136,46 @@ def of_its_channels(system: MultiChannelSystem) -> Answers:
         yield "exceptional_gains_controllability_set", found.controllability_set
 
 
+def of_a_parameter() -> Iterator[tuple[str, Any]]:
+    """The paper's example with one of its entries free, and the valves of four tanks."""
+    for i in range(3):
+        for j in range(3):
+            A: list[list[Any]] = [[1, 0, 0], [0, 1, 0], [0, 1, 1]]
+            A[i][j] = "t"
+            yield f"example: {i}, {j}", mcexact.fixed_spectrum(with_a_parameter(A, PORTS))
+    yield "tanks", mcexact.fixed_spectrum(tanks("t", "7/10"))
+    yield "tanks with a range", mcexact.fixed_spectrum(tanks("t", "t^2", (0, "1/2")))
+
+
+PORTS = (
+    ([[1], [0], [0]], [[1, 0, 0], [0, 0, 1]]),
+    ([[0], [1], [0]], [[0, 1, 0]]),
+    ([[1], [0], [0]], [[0, 1, 0]]),
+)
+
+
+def tanks(first: str, second: str, bounds: Any = (None, None)) -> mcexact.ParametricSystem:
+    """Four tanks (Johansson 2000) with the ratios of two valves."""
+    A = [
+        ["-1/62", 0, "1/23", 0],
+        [0, "-1/90", 0, "1/30"],
+        [0, 0, "-1/23", 0],
+        [0, 0, 0, "-1/30"],
+    ]
+    pumps = (
+        [[f"333/2800*({first})"], [0], [0], [f"333/3200*(1 - {first})"]],
+        [[0], [f"335/3200*({second})"], [f"335/2800*(1 - {second})"], [0]],
+    )
+    levels = ([["1/2", 0, 0, 0]], [[0, "1/2", 0, 0]])
+    return with_a_parameter(A, tuple(zip(pumps, levels, strict=True)), bounds)
+
+
+def with_a_parameter(A: Any, ports: Any, bounds: Any = (None, None)) -> mcexact.ParametricSystem:
+    """A plant with the parameter t."""
+    B, C = zip(*ports, strict=True)
+    return mcexact.ParametricSystem(A, B, C, parameters=["t"], assume={"t": bounds})
+
+
 def of_its_graph(plant: MultiChannelSystem) -> Answers:
     """What agents can share, at once and with the delays of their messages."""
     yield "neighbor_graph", neighbor_graph(plant)
@@ -229,6 +269,9 @@ def digests() -> dict[str, dict[str, str]]:
     for name, plant in networks():
         for question, answer in of_a_network(plant):
             add_answer(answer, ("plants", name), ("questions", question))
+    for name, answer in of_a_parameter():
+        place = ("questions", "parametric_fixed_spectrum")
+        add_answer(answer, ("plants", f"with a parameter: {name}"), place)
     for name, made in designs():
         for _, answer in made:
             add_answer(answer, ("designs", name))

@@ -27,7 +27,7 @@ from mcexact.model import gallery
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.shown import escaped
-from tests.answer.test_golden import answers
+from tests.answer.test_golden import answers, of_a_parameter
 
 FORMAT = Path(home.__file__).with_name("FORMAT.md").read_text(encoding="utf-8")
 _ELIDED = re.compile(r"… \d+ more|\(degree \d+\)|\d+×\d+ matrix|about -?\d[.\d]*(e[+-]\d+)?")
@@ -53,6 +53,7 @@ def about(name: str) -> tuple[tuple[str, Answer], ...]:
     found += [(question, each) for question, each in answers(plant) if each is not None]
     if name == "liu2020-3ch-no-communication":
         found += mcexact.design_observer(plant, rate=1).certificates.items()
+        found += [("parametric_fixed_spectrum", each) for _, each in of_a_parameter()]
     return tuple(found)
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.structure.exceptional_gains import exceptional_gains
 from mcexact.answer.codec import save_certificate
 from mcexact.cli import main
@@ -15,6 +16,7 @@ from mcexact.exact.matrix import Matrix
 from mcexact.model import gallery
 from mcexact.model.formats.files import save_system
 from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 
 PLANTS = ("liu2020-3ch-extended-n1", "lexalutyi-two-double-integrators")
@@ -71,6 +73,8 @@ def write_all(folder: Path) -> None:
         ones = Matrix.from_integers([[1] * plant.n for _ in range(plant.n)])
         found = exceptional_gains(ones, plant.A, plant.input_matrix())
         save_certificate(found.controllability_set, place / "exceptional_gains.json")
+    free = ParametricSystem([["t", 1], [0, 2]], [[[1], ["t"]]], [[[1, 0]]], parameters=["t"])
+    save_certificate(fixed_spectrum(free), folder / "parametric_fixed_spectrum.json")
 
 
 def with_graph(plant: MultiChannelSystem) -> MultiChannelSystem:

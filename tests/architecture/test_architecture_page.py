@@ -21,9 +21,10 @@ def test_at_least_ten_formulas_are_mapped() -> None:
 @pytest.mark.parametrize("formula, path, function", FORMULAS)
 def test_a_formula_leads_to_a_documented_function(formula: str, path: str, function: str) -> None:
     tree = ast.parse((ROOT / path).read_text(encoding="utf-8"))
-    [found] = [
+    *overloads, found = [
         node for node in tree.body if isinstance(node, ast.FunctionDef) and node.name == function
     ]
+    assert all(node.decorator_list for node in overloads)
     assert ast.get_docstring(found), formula
 
 

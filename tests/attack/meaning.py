@@ -35,6 +35,8 @@ def _text(value: Any) -> str:
 
 
 def _plant(value: Mapping[str, Any]) -> Any:
+    if "parameters" in value:
+        return value
     plant = read_plant(value)
     channels = [
         [name, _matrix(B), _matrix(C)]

@@ -32,9 +32,11 @@ SHARED = {
 """What all rules rest on."""
 SENTENCES = {path.stem for path in FILES if path.stem.startswith("sentence")} | {"manifest"}
 """What says of sentences that they are implied; no rule about a certificate rests on it."""
-RULES = sorted({path.stem for path in FILES} - FRONT - SHARED - SENTENCES)
+PARAMETERS = {"expressions", "parametric_system"}
+"""What the rules about plants with a parameter rest on: their entries and their reader."""
+RULES = sorted({path.stem for path in FILES} - FRONT - SHARED - SENTENCES - PARAMETERS)
 """One rule a file: a kind, a construction, or a piece of evidence that several kinds use."""
-MOST = 4198
+MOST = 4888
 """The lines of code of the checker, of all files of its folder, as :func:`lines_of_code` counts.
 
 It is what was reached: it falls with the checker, and who raises it says what that buys."""
@@ -75,6 +77,11 @@ def test_a_rule_takes_at_most_100_lines(stem: str) -> None:
 def test_what_all_rules_share_takes_at_most_1100_lines() -> None:
     shared = {stem: lines_of_code(FOLDER / f"{stem}.py") for stem in sorted(SHARED)}
     assert sum(shared.values()) <= 1100, shared
+
+
+def test_plants_with_a_parameter_take_at_most_290_lines() -> None:
+    read = {stem: lines_of_code(FOLDER / f"{stem}.py") for stem in sorted(PARAMETERS)}
+    assert sum(read.values()) <= 290, read
 
 
 def test_the_sentences_take_at_most_770_lines() -> None:

@@ -14,6 +14,7 @@ import pytest
 
 from mcexact.checker import check_document
 from mcexact.checker.kinds import KINDS
+from mcexact.checker.parametric_system import digest, plant_of
 from mcexact.checker.reading import Refused
 from mcexact.checker.statement import canonical_json, described, polynomial_text
 from mcexact.checker.subject import CONSTRUCTIONS, read_subject
@@ -73,6 +74,9 @@ def test_the_system_is_named_as_the_format_describes(name: str) -> None:
 
 def subject_of(document: Document) -> System:
     """The subject with the words that a statement has for it."""
+    if "parameters" in document["system"]:
+        plant: Any = plant_of(document["system"])
+        return replace(plant, words=f"the plant {digest(plant)}")  # type: ignore[no-any-return]
     verdict = check_document({**document, "kind": "neighbor_graph", "claim": {}, "witness": {}})
     system = read_plant(document["system"])
     named = System(**{**vars(system), "words": f"the plant {verdict.system_digest}"})

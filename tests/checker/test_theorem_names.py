@@ -18,7 +18,7 @@ PROOFS = FOLDER.parent.parent / "proofs"
 STEMS = sorted(path.stem for path in FOLDER.glob("*.py"))
 SENTENCES = {stem for stem in STEMS if stem.startswith("sentence")} | {"manifest"}
 SPOKEN = {"__init__", "__main__", "command", "controller", "expectation", "kinds", "reading"}
-SPOKEN |= {"allowance", "statement", "system"}
+SPOKEN |= {"allowance", "expressions", "parametric_system", "statement", "system"}
 NO_RULE = {*SPOKEN, "budget", "packed_rows", "sparse", "sparse_step"} | SENTENCES
 """What reads, starts, speaks, counts and packs numbers.
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import random
-from typing import cast
+from typing import cast, overload
 
 from mcexact.analysis.engine import (
     MODULI,
@@ -17,6 +17,7 @@ from mcexact.analysis.engine import (
     located,
     modes_left,
 )
+from mcexact.analysis.fixed_modes.parametric_fixed_spectrum import parametric_fixed_spectrum
 from mcexact.answer.evidence import Block, RateInterval, RootDisc, ShrunkSubspace
 from mcexact.answer.fixed_spectrum import (
     ByBlocks,
@@ -25,12 +26,14 @@ from mcexact.answer.fixed_spectrum import (
     FixedSpectrum,
     TwoPolynomials,
 )
+from mcexact.answer.parametric_fixed_spectrum import ParametricFixedSpectrum
 from mcexact.derived.modular_system import closed_loop, generator, lifted, lifted_gains
 from mcexact.errors import InputError, LimitReached
 from mcexact.exact.location import StabilityRegion, Time
 from mcexact.exact.modular import polynomial_residues, random_matrix
 from mcexact.exact.polynomial import Polynomial, product
 from mcexact.exact.sparse_krylov import stays_sparse
+from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 
 # Up to this size dense matrices are searched, which finds Jordan chains as well.
@@ -41,13 +44,24 @@ _SMALL_BLOCK = 500
 _MOST_MODES = 64
 
 
-def fixed_spectrum(system: MultiChannelSystem) -> FixedSpectrum:
+@overload
+def fixed_spectrum(system: MultiChannelSystem) -> FixedSpectrum: ...
+
+
+@overload
+def fixed_spectrum(system: ParametricSystem) -> ParametricFixedSpectrum: ...
+
+
+def fixed_spectrum(
+    system: MultiChannelSystem | ParametricSystem,
+) -> FixedSpectrum | ParametricFixedSpectrum:
     """Decide which modes no linear time-invariant decentralized feedback can move.
 
     Parameters
     ----------
-    system : MultiChannelSystem
-        A plant or a derived system.
+    system : MultiChannelSystem or ParametricSystem
+        A plant or a derived system; or a plant with one parameter, for all of whose values the
+        question is decided (`ParametricFixedSpectrum`).
 
     Notes
     -----
@@ -73,6 +87,8 @@ def fixed_spectrum(system: MultiChannelSystem) -> FixedSpectrum:
     >>> fixed_spectrum(MultiChannelSystem([[1]], [[[1]]], [[[1]]])).empty
     True
     """
+    if isinstance(system, ParametricSystem):
+        return parametric_fixed_spectrum(system)
     InputError.require(system, MultiChannelSystem, "system")
     blocks = bounded_blocks(system)
     if not modes_left(blocks):

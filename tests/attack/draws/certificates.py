@@ -11,6 +11,7 @@ from unittest import mock
 
 import mcexact
 from mcexact.analysis.fixed_modes import fixed_spectrum
+from mcexact.analysis.fixed_modes.parametric_fixed_spectrum import parametric_fixed_spectrum
 from mcexact.analysis.sharing import deficiency as deficiency_module
 from mcexact.analysis.sharing.deficiency import deficiency
 from mcexact.analysis.structure import controllability, transfer_graph
@@ -19,10 +20,12 @@ from mcexact.answer.reading import constructed
 from mcexact.errors import McexactError
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial
+from mcexact.model.parametric_file import read_parametric_system
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import read_system
 
 from .observers import drawn_observer
+from .parametric import drawn_parametric_plant
 from .plants import Document, drawn_plant
 from .subjects import NEEDS_GRAPH, drawn_subject
 
@@ -160,8 +163,11 @@ def certified(
     """The certificate that the package gives, or None where it refuses the question."""
     text = json.dumps({"format": "mcexact-system/1", **plant})
     try:
-        system = constructed(read_system(text), steps)
-        found = codec.document(DECISIONS[kind](rng, system))
+        if kind == "parametric_fixed_spectrum":
+            answer = parametric_fixed_spectrum(read_parametric_system(text))
+        else:
+            answer = DECISIONS[kind](rng, constructed(read_system(text), steps))
+        found = codec.document(answer)
     except (McexactError, ValueError):
         return None
     if found["kind"] != kind:
@@ -175,6 +181,8 @@ def drawn_certificate(rng: random.Random, kind: str, focus: str | None) -> Docum
     graph = kind in WITH_GRAPH or focus in NEEDS_GRAPH
     if kind == "distributed_observer":
         return drawn_observer(rng)
+    if kind == "parametric_fixed_spectrum":
+        return certified(rng, kind, drawn_parametric_plant(rng), [])
     plant = drawn_plant(rng, graph=graph)
     if kind in ABOUT_THE_PLANT:
         return certified(rng, kind, plant, [])

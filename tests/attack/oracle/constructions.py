@@ -11,11 +11,12 @@ from flint import fmpq_mat
 from .algebra import below, beside, identity, selection, stacked
 from .controllers import closed_loop
 from .networks import held, lifted
+from .parametric import read_parametric
 from .reading import demand, integer, listed, matrix, place, positions, record
 from .systems import System, read_plant
 
 
-def subject_of(document: Mapping[str, Any], most: int | None = None) -> System:
+def subject_of(document: Mapping[str, Any], most: int | None = None) -> Any:
     """The system that the claim of a document is about.
 
     Parameters
@@ -23,6 +24,9 @@ def subject_of(document: Mapping[str, Any], most: int | None = None) -> System:
     most : int, optional
         How many constructions to apply; all by default.
     """
+    if isinstance(document["system"], Mapping) and "parameters" in document["system"]:
+        demand(listed(document["subject"]) == [], "expected no construction")
+        return read_parametric(document["system"])
     system = read_plant(document["system"])
     for step in listed(document["subject"])[:most]:
         demand(isinstance(step, Mapping), "expected a construction")

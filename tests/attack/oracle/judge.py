@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from . import fixed, loops, sharing, structure
+from . import fixed, loops, parametric, sharing, structure
 from .constructions import subject_of
 from .reading import Unspecified, demand, record
-from .systems import System
 
 TRUE, FALSE, UNDECIDED = "true", "false", "undecided"
 
-KINDS: Mapping[str, Callable[[Any, Any, System], bool]] = {
+KINDS: Mapping[str, Callable[[Any, Any, Any], bool]] = {
     "assignability": structure.assignability,
     "closed_loop_spectrum": loops.closed_loop_spectrum,
     "common_dimension": sharing.common_dimension,
@@ -26,6 +25,7 @@ KINDS: Mapping[str, Callable[[Any, Any, System], bool]] = {
     "exceptional_gains": fixed.exceptional_gains,
     "fixed_spectrum": fixed.fixed_spectrum,
     "neighbor_graph": structure.neighbor_graph,
+    "parametric_fixed_spectrum": parametric.spectrum,
     "pencil_rank": fixed.rank_of_pencil,
     "setpoint": structure.setpoint,
     "shared_dimensions": sharing.shared_dimensions,
@@ -43,7 +43,9 @@ def judge(document: Mapping[str, Any]) -> tuple[str, str]:
         demand(document["format"] == "mcexact-certificate/1", "expected a certificate")
         kind = document["kind"]
         demand(isinstance(kind, str) and kind in KINDS, "expected a known kind")
-        system = subject_of(document)
+        system: Any = subject_of(document)
+        with_parameter = isinstance(system, parametric.ParametricPlant)
+        demand(with_parameter == kind.startswith("parametric_"), "expected another sort of plant")
         if system.n > MOST_STATES or system.m > 6:
             return UNDECIDED, f"{system.n} states, {system.m} channels"
         hint = document if kind == "distributed_observer" else document["witness"]

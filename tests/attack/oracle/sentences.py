@@ -7,6 +7,7 @@ from typing import Any
 
 from flint import fmpq
 
+from .parametric import parametric_sentence
 from .reading import decimal, listed, matrix, polynomial, rational
 from .systems import System
 from .words import (
@@ -262,7 +263,7 @@ def _transfer_graph(claim: Any, system: System) -> str:
     )
 
 
-SENTENCES = {
+SENTENCES: dict[str, Any] = {
     "assignability": _assignability,
     "closed_loop_spectrum": lambda claim, system: (
         f"the characteristic polynomial of A is {polynomial_text(claim['polynomial'])}"
@@ -280,6 +281,7 @@ SENTENCES = {
     "neighbor_graph": lambda claim, system: (
         f"its neighbor graph is {_not(claim['strongly_connected'])}strongly connected"
     ),
+    "parametric_fixed_spectrum": parametric_sentence,
     "pencil_rank": _pencil_rank,
     "setpoint": _setpoint,
     "shared_dimensions": _dimensions,

@@ -75,7 +75,7 @@ def read_plant(value: Any) -> System:
     demand(A.ncols() == n, "expected a square matrix")
     channels = [record(c, "name", "B", "C") for c in listed(found["channels"])]
     names = tuple(text(c["name"]) for c in channels)
-    _require_names(names)
+    require_names(names)
     B = tuple(table(c["B"], n, None) for c in channels)
     C = tuple(table(c["C"], None, n) for c in channels)
     heard = _graph(found["neighbors"], names) if "neighbors" in found else None
@@ -83,7 +83,7 @@ def read_plant(value: Any) -> System:
     return System(found["time"], A, names, B, C, heard, delays)
 
 
-def _require_names(names: Sequence[str]) -> None:
+def require_names(names: Sequence[str]) -> None:
     """Names that print, of which no two look alike."""
     demand(bool(names), "expected at least one channel")
     for name in names:

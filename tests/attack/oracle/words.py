@@ -84,7 +84,7 @@ def edges(pairs: Iterable[Sequence[Any]]) -> str:
     )
 
 
-def polynomial_text(value: Any) -> str:
+def polynomial_text(value: Any, variable: str = "x") -> str:
     """Powers descending."""
     p = value if isinstance(value, fmpq_poly) else polynomial(value)
     terms = []
@@ -93,7 +93,7 @@ def polynomial_text(value: Any) -> str:
         if c == 0:
             continue
         size = abs(c) if c >= 0 else -c
-        power = "" if k == 0 else "x" if k == 1 else f"x^{k}"
+        power = "" if k == 0 else variable if k == 1 else f"{variable}^{k}"
         factor = number(size) if k == 0 or size != 1 else ""
         term = "*".join(part for part in (factor, power) if part)
         sign = ("-" if c < 0 else "") if not terms else (" - " if c < 0 else " + ")

@@ -1,0 +1,179 @@
+"""Answer: the fixed modes for every value of a parameter."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from mcexact.answer.evidence import RootDisc, ZeroBlock
+from mcexact.answer.protocol import Answer, Part, answer, claim, shown, witness
+from mcexact.exact.enclosures import exact_decimal
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.polynomial import Polynomial
+from mcexact.model.parametric import ParametricSystem, Range
+
+ModePolynomial = tuple[Polynomial, ...]
+"""A polynomial in x, monic, by its coefficients, constant first, which are polynomials in t."""
+
+
+@dataclass(frozen=True)
+class ExceptionalMode(Part):
+    """A mode that is fixed at exceptional values, and is no root of a generic polynomial there.
+
+    Attributes
+    ----------
+    polynomial : tuple of Polynomial
+        p, monic in x, its coefficients polynomials in t, reduced modulo the value's q.
+    channels : tuple of str
+        A set s of channels whose pencil [xI − A, B_{m−s}; C_s, 0] loses rank.
+    """
+
+    polynomial: ModePolynomial
+    channels: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class ExceptionalValue(Part):
+    """Values of the parameter at which more is fixed, the roots of an irreducible polynomial.
+
+    Attributes
+    ----------
+    value : Polynomial
+        q, monic and irreducible over Q.
+    roots : tuple of RootDisc
+        Disjoint discs with one root each, centered on the real axis exactly for real roots.
+    modes : tuple of ExceptionalMode
+        What is fixed there besides the roots of the generic polynomials.
+    """
+
+    value: Polynomial
+    roots: tuple[RootDisc, ...]
+    modes: tuple[ExceptionalMode, ...]
+
+    @property
+    def exact(self) -> Fraction | None:
+        """The value, if it is rational."""
+        return -self.value.coefficients[0] if self.value.degree == 1 else None
+
+    @property
+    def real(self) -> tuple[RootDisc, ...]:
+        """The discs of the real roots."""
+        return tuple(disc for disc in self.roots if exact_decimal(disc.im) == 0)
+
+    def inside(self, bounds: Range) -> bool:
+        """Whether a root is real and in a range, or within the radius of its disc of it."""
+        low, high = bounds
+        if self.exact is not None:
+            return (low is None or low <= self.exact) and (high is None or self.exact <= high)
+        return any(meets(disc, bounds) for disc in self.real)
+
+
+def meets(disc: RootDisc, bounds: Range) -> bool:
+    """Whether a disc meets a range of real numbers, as far as its center and radius tell."""
+    re, im, radius = map(exact_decimal, (disc.re, disc.im, disc.radius))
+    low, high = bounds
+    below, above = low is not None and re + radius < low, high is not None and re - radius > high
+    return not (below or above or abs(im) > radius)
+
+
+@dataclass(frozen=True)
+class OutsideValue(Part):
+    """Values of the parameter without a real one in the range, of which nothing is claimed."""
+
+    value: Polynomial
+    roots: tuple[RootDisc, ...]
+
+
+@dataclass(frozen=True)
+class ExceptionalEvidence(Part):
+    """A zero block for each mode, and divisors of generic polynomials modulo q."""
+
+    modes: tuple[ZeroBlock, ...]
+    divisors: tuple[ModePolynomial, ...]
+
+
+@dataclass(frozen=True)
+class SettledValue(Part):
+    """Values at which nothing more is fixed, but perhaps a multiplicity is larger."""
+
+    value: Polynomial
+    divisors: tuple[ModePolynomial, ...]
+
+
+@dataclass(frozen=True)
+class MovedModes(Part):
+    """Evidence of the generic and exceptional modes, and that gains move all others.
+
+    Attributes
+    ----------
+    gains : two tuples of Matrix
+        F and G.
+    modulus : int
+        ℓ, modulo which det(xI − A_G) and all resultants with it are computed.
+    moduli : tuple of int
+        Modulo these the resultant of what is left of det(xI − A) and det(xI − A_F) is computed.
+    generic : tuple of ZeroBlock
+        One for each generic polynomial.
+    exceptional : tuple of ExceptionalEvidence
+        One for each exceptional value.
+    settled : tuple of SettledValue
+    undefined : tuple of Polynomial
+        Roots of that resultant at which an entry is undefined.
+    """
+
+    gains: tuple[tuple[Matrix, ...], tuple[Matrix, ...]]
+    modulus: int
+    moduli: tuple[int, ...]
+    generic: tuple[ZeroBlock, ...]
+    exceptional: tuple[ExceptionalEvidence, ...]
+    settled: tuple[SettledValue, ...]
+    undefined: tuple[Polynomial, ...]
+
+
+@answer("parametric_fixed_spectrum")
+class ParametricFixedSpectrum(Answer):
+    """The modes that no linear time-invariant decentralized feedback moves, for every parameter.
+
+    It is about A'/δ, B_i'/β_i, C_i'/γ_i in lowest terms, and every complex value of the parameter
+    at which all entries are defined.  The modes of the system are the roots x named here divided by
+    the value of δ.
+
+    Attributes
+    ----------
+    generic : tuple of tuples of Polynomial
+        The irreducible polynomials in x whose roots are fixed for every value of the parameter,
+        each by its coefficients, constant first.
+    exceptional : tuple of ExceptionalValue
+        All values at which another mode is fixed, and these modes.
+    outside : tuple of OutsideValue
+        Values of which nothing is claimed, because none is real and in the range assumed.
+    evidence : MovedModes
+    """
+
+    about: ParametricSystem  # type: ignore[assignment]
+    generic: tuple[ModePolynomial, ...] = claim("fixed for every value")
+    exceptional: tuple[ExceptionalValue, ...] = claim("exceptional values")
+    outside: tuple[OutsideValue, ...] = claim("values out of range")
+    evidence: MovedModes = witness(whole=True)
+
+    @property
+    @shown("undefined at the roots of")
+    def undefined_at(self) -> tuple[Polynomial, ...]:
+        """The irreducible polynomials at whose roots an entry is undefined."""
+        parts = [self.about.A, *(M for c in self.about.channels for M in (c.B, c.C))]
+        found = {q for M in parts for q, _ in M.reduced[1].factor()}
+        return tuple(sorted(found, key=lambda q: (q.degree, q.coefficients)))
+
+    @property
+    def settled(self) -> tuple[Polynomial, ...]:
+        """Values at which a multiplicity may be larger, but nothing more is fixed."""
+        return tuple(each.value for each in self.evidence.settled)
+
+    @property
+    def scale(self) -> Polynomial:
+        """δ, the denominator of A, by which the roots named here are to be divided."""
+        return self.about.A.reduced[1]
+
+    def in_range(self) -> tuple[ExceptionalValue, ...]:
+        """The exceptional values with a root in the range that is assumed of the parameter."""
+        return tuple(each for each in self.exceptional if each.inside(self.about.ranges[0]))

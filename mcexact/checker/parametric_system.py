@@ -1,0 +1,214 @@
+"""Plants whose entries are rational functions of a parameter, and plants of either sort."""
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+
+from . import budget, reading
+from .arithmetic import Matrix, Polynomial, poly_divide, poly_product
+from .expressions import PARAMETER, Function, common_divisor, function, function_text
+from .reading import Json, Limits, fields, incomplete, integer, items, malformed, printable, string
+from .statement import canonical_json, digest_of
+from .subject import read_subject
+from .system import System, canonical, number, parse_file, read_plant, read_system
+
+Layers = list[Matrix]
+"""The coefficients of a matrix of polynomials in the parameter, constant term first."""
+Range = tuple[Fraction | None, Fraction | None]
+"""The least and the largest value of t; None where there is none."""
+Table = tuple[list[list[Function]], int]
+"""Rows of functions, and the number of columns."""
+ONE = [Fraction(1)]
+
+
+@dataclass(frozen=True)
+class ParametricSystem:
+    """x' = A/δ x + Σ B_i/β_i u_i, y_i = C_i/γ_i x with polynomials in t in A, B_i and C_i.
+
+    ``range`` has the least and the largest value of t, None where there is none; ``poles`` are the
+    monic denominators, the first one δ.  ``document`` is the canonical object.
+    """
+
+    time: str
+    names: list[str]
+    parameter: str
+    range: Range
+    A: Layers
+    B: list[Layers]
+    C: list[Layers]
+    poles: list[Polynomial]
+    document: Json
+    words: str = "the plant"
+    controller: str = ""
+
+    @property
+    def n(self) -> int:
+        """The number of states."""
+        return self.A[0].nrows
+
+    @property
+    def m(self) -> int:
+        """The number of channels."""
+        return len(self.names)
+
+    def others(self, channels: list[int]) -> list[int]:
+        """The channels that are not among these."""
+        return [i for i in range(self.m) if i not in channels]
+
+
+def plant_of(value: Json) -> System | ParametricSystem:
+    """The plant of a certificate, which must be canonical."""
+    if not has_parameters(value):
+        return read_plant(value)
+    plant = read_parametric(value)
+    if plant.document != value:
+        malformed("system", "expected the canonical form: lowest terms, expanded")
+    return plant
+
+
+def plant_of_file(data: bytes, limits: Limits) -> Json:
+    """The canonical object of the plant in a system file, numbers as typed."""
+    with budget.limited(budget.current(limits.work), len(data)):
+        document = parse_file(data, limits)
+        if not isinstance(document, dict) or document.get("format") != "mcexact-system/1":
+            malformed("format", 'expected a system file, "format": "mcexact-system/1"')
+        if has_parameters(document):
+            return read_parametric(document, limits).document
+        return canonical(read_system(document, limits))
+
+
+def has_parameters(value: Json) -> bool:
+    """Whether a plant depends on parameters."""
+    return isinstance(value, dict) and "parameters" in value
+
+
+def digest(plant: System | ParametricSystem) -> str:
+    """The SHA-256 of the canonical object of a plant."""
+    known = plant.document if isinstance(plant, ParametricSystem) else canonical(plant)
+    return digest_of(canonical_json(known))
+
+
+def subject_of(
+    steps: Json, plant: System | ParametricSystem, kind: str
+) -> System | ParametricSystem:
+    """The plant, or what constructions make from it, for a kind of claims."""
+    parametric = isinstance(plant, ParametricSystem)
+    if parametric != kind.startswith("parametric_"):
+        about = "without" if parametric else "with"
+        malformed("system", f"the kind {kind} is about plants {about} parameters")
+    if not isinstance(plant, ParametricSystem):
+        return read_subject(steps, plant)
+    if items(steps, "subject"):
+        incomplete("construction", "subject", "no construction applies to parameters")
+    return plant
+
+
+def read_parametric(value: Json, limits: Limits | None = None) -> ParametricSystem:
+    """A plant with a parameter by the grammar of system files; without limits, of a certificate."""
+    extra = () if limits is None else ("format", "name", "source")
+    keys = ("time", "parameters", "A", "channels")
+    time, known, entries, listed, *texts = fields(value, "system", *keys, optional=extra)
+    for key, text in zip(extra[1:], texts[1:], strict=True):
+        printable("" if text is None else text, key, 10_000, allowed="\n\t")
+    if not isinstance(known, dict) or not known:
+        malformed("parameters", "expected an object keyed by parameters")
+    for name in known:
+        if not PARAMETER.fullmatch(name) or name == "x":
+            malformed(
+                "parameters", f"expected the name of a parameter, found {reading.shown(name)}"
+            )
+    if len(known) > 1:
+        incomplete("parameters", "parameters", "more than one parameter")
+    [(t, told)] = known.items()
+    ends = fields(told, f"parameters.{t}", optional=("range",))[0]
+    bounds: Range = (None, None) if ends is None else _range(ends, f"parameters.{t}.range", limits)
+    tables = [_table(entries, "A", t, limits, None, 0)]
+    n, names = len(tables[0][0]), []
+    for k, channel in enumerate(budget.counted(items(listed, "channels"))):
+        where = f"channels[{k}]"
+        B, C, name = fields(channel, where, "B", "C", optional=("name",))
+        tables.append(_table(B, f"{where}.B", t, limits, n, 0))
+        tables.append(_table(C, f"{where}.C", t, limits, None, n))
+        names.append(str(k + 1) if name is None else name)
+    if tables[0][1] != n or not names or any(width != n for _, width in tables[2::2]):
+        malformed("system", "expected a square A, at least one channel, and matching shapes")
+    own = reading.own_names(names, [f"channels[{k}].name" for k in range(len(names))])
+    forms = [_form(table, t) for table in tables]
+    channels = [
+        {"name": name, "B": B, "C": C}
+        for name, B, C in zip(own, forms[1::2], forms[2::2], strict=True)
+    ]
+    said = {} if bounds == (None, None) else {"range": [_end(bound) for bound in bounds]}
+    document = {"time": string(time, "time", "continuous", "discrete"), "parameters": {t: said}}
+    document |= {"A": forms[0], "channels": channels}
+    (A, *parts), poles = zip(*map(_cleared, tables), strict=True)
+    return ParametricSystem(
+        time, own, t, bounds, A, parts[0::2], parts[1::2], list(poles), document
+    )
+
+
+def _range(value: Json, place: str, limits: Limits | None) -> Range:
+    low, high = (
+        None if end is None else Fraction(number(end, place, limits))
+        for end in items(value, place, 2)
+    )
+    if low is not None and high is not None and low > high:
+        malformed(place, "expected an interval")
+    return low, high
+
+
+def _end(bound: Fraction | None) -> Json:
+    return None if bound is None else function_text(([bound] if bound else [], ONE), "")
+
+
+def _table(
+    value: Json, place: str, t: str, limits: Limits | None, nrows: int | None, ncols: int
+) -> Table:
+    """A matrix of functions: a list of rows, or an object that lists its nonzero entries."""
+    if isinstance(value, dict):
+        shape, entries = fields(value, place, "shape", "entries")
+        r, c = (integer(side, f"{place}.shape") for side in items(shape, f"{place}.shape", 2))
+        budget.spend(budget.table(r, c, 1))
+        rows: list[list[Function]] = [[([], ONE)] * c for _ in range(r)]
+        seen = set()
+        for i, j, entry in (items(triple, place, 3) for triple in items(entries, place)):
+            if integer(i, place) >= r or integer(j, place) >= c or (i, j) in seen:
+                malformed(place, f"expected a position of its own inside {r} by {c}")
+            seen.add((i, j))
+            rows[i][j] = function(entry, place, t, limits)
+    else:
+        listed = [items(row, place) for row in items(value, place)]
+        c = len(listed[0]) if listed else ncols
+        rows = [[function(e, place, t, limits) for e in items(row, place, c)] for row in listed]
+    if nrows not in (None, len(rows)):
+        malformed(place, f"expected {nrows} rows, found {len(rows)}")
+    return rows, c
+
+
+def _form(table: Table, t: str) -> Json:
+    """The canonical form of a matrix."""
+    rows, ncols = table
+    if not rows and ncols:
+        return {"shape": [0, ncols], "entries": []}
+    return [[function_text(entry, t) for entry in row] for row in rows]
+
+
+def _cleared(table: Table) -> tuple[Layers, Polynomial]:
+    """The layers of M, and δ, with M/δ the matrix and δ the least common denominator."""
+    rows, ncols = table
+    delta: Polynomial = ONE
+    for _, bottom in (entry for row in rows for entry in row):
+        delta = poly_product(delta, poly_divide(bottom, common_divisor(delta, bottom))[0])
+    above = [
+        [poly_product(top, poly_divide(delta, bottom)[0]) if top else [] for top, bottom in row]
+        for row in rows
+    ]
+    values = [c for row in above for entry in row for c in entry]
+    d = math.lcm(*(c.denominator for c in values))
+    length = max((len(entry) for row in above for entry in row), default=1)
+    layers = []
+    for k in range(max(length, 1)):
+        budget.build(len(rows), ncols, budget.limbs_of(values), budget.limbs([d]))
+        layer = [[int(e[k] * d) if k < len(e) else 0 for e in row] for row in above]
+        layers.append(Matrix(layer, ncols, d))
+    return layers, delta

@@ -1,0 +1,49 @@
+"""Plants with a parameter, of at most three states, as the objects of certificates."""
+
+from __future__ import annotations
+
+import random
+
+from mcexact.model.parametric import ParametricSystem
+
+from .plants import NAMES, Document, number
+
+ENTRIES = (
+    "t", "t", "t", "t + 1", "1 - t", "t^2", "t^2 - 2", "t^2 + 1", "2*t - 3", "t^3 - 2",
+    "1/(t - 2)", "t/(t + 1)", "(t - 1)*(t + 2)",
+)  # fmt: skip
+RANGES = ((0, 1), (None, 0), ("-1/2", None))
+
+
+def drawn_parametric_plant(rng: random.Random) -> Document:
+    """A plant; often a row of A that few entries or inputs couple to the others."""
+    n, m = rng.choice((0, 1, 2, 2, 2, 3, 3)), rng.choice((1, 2, 2))
+
+    def rows(nrows: int, ncols: int, density: float) -> list[list[object]]:
+        return [
+            [number(rng.choice((1, -1, 2))) if rng.random() < density else 0 for _ in range(ncols)]
+            for _ in range(nrows)
+        ]
+
+    A = rows(n, n, 0.4)
+    B = [rows(n, rng.choice((1, 1, 0)), 0.5) for _ in range(m)]
+    C = [rows(rng.choice((1, 1, 0)) if n else 0, n, 0.5) for _ in range(m)]
+    if n > 1 and rng.random() < 0.5:
+        A[-1] = [0] * (n - 1) + A[-1][-1:]
+        A[-1][rng.randrange(n)] = rng.choice(ENTRIES)
+        for B_i in B:
+            B_i[-1] = [0] * len(B_i[-1])
+    for _ in range(rng.choice((1, 1, 2))):
+        table = rng.choice([A, A, *B, *C])
+        if table and table[0]:
+            rng.choice(table)[rng.randrange(len(table[0]))] = rng.choice(ENTRIES)
+    plant = ParametricSystem(
+        A,
+        B,
+        C,
+        parameters=["t"],
+        assume={"t": rng.choice(RANGES)} if rng.random() < 0.2 else {},
+        time=rng.choice(("continuous", "discrete")),
+        names=rng.choice(NAMES)[:m],
+    )
+    return plant.document()

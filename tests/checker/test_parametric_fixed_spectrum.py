@@ -1,0 +1,342 @@
+"""The rule of ``parametric_fixed_spectrum``: zero blocks, and gains that move all the rest."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from tests.checker.handmade import changed, checked, plant, without
+from tests.checker.parametric_plants import (
+    ALL,
+    DIAGONAL,
+    EMPTY,
+    IRRATIONAL,
+    MOVING,
+    PAPER,
+    POLES,
+    RANGED,
+    SETTLED,
+)
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_what_is_found_is_proved(name: str) -> None:
+    found = checked(ALL[name])
+    assert found.verdict == "VALID", found.line()
+
+
+def test_the_statements_say_what_is_fixed_and_where() -> None:
+    said = checked(PAPER).statement
+    assert "for every complex t at which all entries are defined, the modes that are fixed" in said
+    assert "are the roots x of 1; at the roots of t, one in each of the discs {0 +- 0}" in said
+    assert 'of x + (-1), where [xI - A, B; C, 0], C the outputs of {"2", "3"}' in said
+    assert "multiplied by t + 1, are the roots x of x; " in checked(POLES).statement
+    ranged = checked(RANGED).statement
+    assert "defined, except at the roots of t^3 - 2, one in each" in ranged
+    assert "none of which is real and between 0 and 1, the" in ranged
+    assert "x^4 + (4*t^3 " not in checked(MOVING).statement
+    assert checked(EMPTY).statement.endswith("are the roots x of 1; no others")
+
+
+VALUE = "claim.exceptional.0"
+PROOF = "witness.exceptional.0"
+ROOT = [{"re": "0", "im": "0", "radius": "0"}]
+NOTHING = {"modes": [], "divisors": []}
+ZERO = {"denominator": 1, "entries": [[0]]}
+
+
+def shorter(block: Any) -> Any:
+    """A zero block with a column of U less."""
+    return {
+        **block,
+        "row_pivots": block["row_pivots"][:-1],
+        "U": [
+            {
+                "denominator": part["denominator"],
+                "coefficients": [[row[:-1] for row in layer] for layer in part["coefficients"]],
+            }
+            for part in block["U"]
+        ],
+    }
+
+
+def still(gains: Any) -> Any:
+    """Gains of zeros."""
+    return [{**F, "entries": [[0] * len(row) for row in F["entries"]]} for F in gains]
+
+
+FALSE: dict[str, tuple[Any, str]] = {
+    "a value is left out": (
+        changed(PAPER, ("claim.exceptional", []), ("witness.exceptional", [])),
+        "common_factor",
+    ),
+    "a value is said to be settled": (
+        changed(
+            PAPER,
+            ("claim.exceptional", []),
+            ("witness.exceptional", []),
+            ("witness.settled", [{"value": [0, 1], "divisors": []}]),
+        ),
+        "common_factor",
+    ),
+    "a value is settled, its mode a divisor of nothing": (
+        changed(
+            PAPER,
+            ("claim.exceptional", []),
+            ("witness.exceptional", []),
+            ("witness.settled", [{"value": [0, 1], "divisors": [[[-1], [1]]]}]),
+        ),
+        "divisor",
+    ),
+    "a value is called a pole": (
+        changed(
+            PAPER,
+            ("claim.exceptional", []),
+            ("witness.exceptional", []),
+            ("witness.undefined", [[0, 1]]),
+        ),
+        "pole",
+    ),
+    "a value in the range is left out": (
+        changed(
+            RANGED,
+            ("claim.exceptional", []),
+            ("witness.exceptional", []),
+            ("claim.outside", [*RANGED["claim"]["outside"], {"value": [0, 1], "roots": ROOT}]),
+        ),
+        "range",
+    ),
+    "a value congruent to one in the range is said to be beyond it": (
+        changed(
+            RANGED,
+            ("claim.exceptional", []),
+            ("witness.exceptional", []),
+            (
+                "claim.outside",
+                [
+                    *RANGED["claim"]["outside"],
+                    {
+                        "value": [RANGED["witness"]["modulus"], 1],
+                        "roots": [{**ROOT[0], "re": str(-RANGED["witness"]["modulus"])}],
+                    },
+                ],
+            ),
+        ),
+        "common_factor",
+    ),
+    "a generic polynomial that is right at two values": (
+        changed(DIAGONAL, ("claim.generic.0", [[6, -9, 2], [1]])),
+        "identity",
+    ),
+    "a real value is out of no range": (
+        changed(
+            PAPER,
+            ("claim.exceptional", []),
+            ("witness.exceptional", []),
+            ("claim.outside", [{"value": [0, 1], "roots": ROOT}]),
+        ),
+        "range",
+    ),
+    "a value is moved by the modulus": (
+        changed(
+            PAPER,
+            (f"{VALUE}.value", [PAPER["witness"]["modulus"], 1]),
+            (f"{VALUE}.roots.0.re", str(-PAPER["witness"]["modulus"])),
+        ),
+        "identity",
+    ),
+    "a value is moved": (
+        changed(PAPER, (f"{VALUE}.value", [-1, 1]), (f"{VALUE}.roots.0.re", "1")),
+        "identity",
+    ),
+    "another root": (changed(PAPER, (f"{VALUE}.roots.0.re", "1")), "disc"),
+    "a disc that meets the axis beside its center": (
+        changed(PAPER, (f"{VALUE}.roots.0", {"re": "0", "im": "0.1", "radius": "1"})),
+        "disc",
+    ),
+    "another mode": (changed(PAPER, (f"{VALUE}.modes.0.polynomial", [[-2], [1]])), "identity"),
+    "no mode": (changed(PAPER, (f"{VALUE}.modes", []), (f"{PROOF}.modes", [])), "claim"),
+    "other channels": (changed(PAPER, (f"{VALUE}.modes.0.channels", ["2"])), "claim"),
+    "another T": (changed(PAPER, (f"{PROOF}.modes.0.channels_T", [])), "identity"),
+    "all channels in T": (
+        changed(PAPER, (f"{PROOF}.modes.0.channels_T", ["1", "2", "3"])),
+        "identity",
+    ),
+    "a generic mode is left out": (
+        changed(MOVING, ("claim.generic", []), ("witness.generic", [])),
+        "product",
+    ),
+    "another generic mode": (changed(POLES, ("claim.generic.0", [[1], [1]])), "identity"),
+    "a generic mode that moves": (changed(POLES, ("claim.generic.0", [[0, 1], [1]])), "identity"),
+    "a mode at a value is said to be generic": (
+        changed(
+            PAPER,
+            ("claim.generic", [[[-1], [1]]]),
+            ("witness.generic", PAPER["witness"]["exceptional"][0]["modes"]),
+        ),
+        "identity",
+    ),
+    "a generic mode is said to be exceptional as well": (
+        changed(
+            SETTLED,
+            (f"{VALUE}.modes", [{"polynomial": [[], [1]], "channels": ["2"]}]),
+            (f"{PROOF}.modes", SETTLED["witness"]["generic"]),
+        ),
+        "common_factor",
+    ),
+    "a block that is too small": (
+        changed(
+            PAPER, (f"{PROOF}.modes.0", shorter(PAPER["witness"]["exceptional"][0]["modes"][0]))
+        ),
+        "rank",
+    ),
+    "pivots that are no identity": (
+        changed(POLES, ("witness.generic.0.row_pivots", [1, 3])),
+        "pivots",
+    ),
+    "pivots of another column": (
+        changed(POLES, ("witness.generic.0.column_pivots", [0, 1, 2])),
+        "pivots",
+    ),
+    "pivots that depend on x": (changed(MOVING, ("witness.generic.0.row_pivots", [0])), "pivots"),
+    "pivots that are 0": (
+        changed(
+            POLES,
+            ("witness.generic.0.U.0.coefficients", [[[0, 0]] * 4]),
+        ),
+        "pivots",
+    ),
+    "pivots at a value that are 2": (
+        changed(
+            PAPER,
+            (
+                f"{PROOF}.modes.0.W.coefficients",
+                [
+                    [
+                        [2 * e for e in row]
+                        for row in PAPER["witness"]["exceptional"][0]["modes"][0]["W"][
+                            "coefficients"
+                        ][0]
+                    ]
+                ],
+            ),
+        ),
+        "pivots",
+    ),
+    "too few moduli": (changed(PAPER, ("witness.moduli", [])), "modulus"),
+    "a small modulus": (changed(PAPER, ("witness.moduli", [101])), "modulus"),
+    "a modulus of 1": (changed(PAPER, ("witness.moduli", [1])), "modulus"),
+    "one modulus twice": (
+        changed(PAPER, ("witness.moduli", PAPER["witness"]["moduli"] * 2)),
+        "unit",
+    ),
+    "the gains 0 and others": (
+        changed(PAPER, ("witness.gains.0", still(PAPER["witness"]["gains"][0]))),
+        "product",
+    ),
+    "gains that move nothing": (
+        changed(SETTLED, ("witness.gains.1", still(SETTLED["witness"]["gains"][1]))),
+        "common_factor",
+    ),
+    "a divisor of nothing": (changed(PAPER, (f"{PROOF}.divisors", [[[5], [1]]])), "divisor"),
+    "the generic mode is no divisor": (
+        changed(SETTLED, ("witness.settled.0.divisors", [])),
+        "common_factor",
+    ),
+    "a settled value is left out": (changed(SETTLED, ("witness.settled", [])), "common_factor"),
+    "an irrational value is left out": (
+        changed(
+            IRRATIONAL,
+            ("claim.exceptional", IRRATIONAL["claim"]["exceptional"][:1]),
+            ("witness.exceptional", IRRATIONAL["witness"]["exceptional"][:1]),
+        ),
+        "common_factor",
+    ),
+    "values exchanged": (
+        changed(
+            IRRATIONAL,
+            ("witness.exceptional", IRRATIONAL["witness"]["exceptional"][::-1]),
+        ),
+        "identity",
+    ),
+    "another modulus that divides a denominator": (changed(POLES, ("witness.modulus", 2)), "unit"),
+}
+
+
+@pytest.mark.parametrize("lie", FALSE)
+def test_what_is_false_is_invalid(lie: str) -> None:
+    document, code = FALSE[lie]
+    found = checked(document)
+    assert (found.verdict, found.code) == ("INVALID", code), found.line()
+
+
+MALFORMED: dict[str, Any] = {
+    "a kind about plants without parameters": changed(
+        PAPER, ("kind", "neighbor_graph"), ("claim", {}), ("witness", {})
+    ),
+    "a plant without parameters": changed(PAPER, ("system", plant([[0]], ([[1]], [[1]])))),
+    "zeros at the end": changed(PAPER, (f"{VALUE}.modes.0.polynomial", [[-1, 0], [1]])),
+    "a coefficient that is not reduced": changed(
+        PAPER, (f"{VALUE}.modes.0.polynomial", [[-1, 1], [1]])
+    ),
+    "not monic in x": changed(PAPER, (f"{VALUE}.modes.0.polynomial", [[-1], [2]])),
+    "no x": changed(PAPER, (f"{VALUE}.modes.0.polynomial", [[1]])),
+    "a value that is not monic": changed(PAPER, (f"{VALUE}.value", [0, 2])),
+    "a value without t": changed(PAPER, (f"{VALUE}.value", [1])),
+    "a zero block less": changed(PAPER, ("witness.exceptional", [])),
+    "a mode's block less": changed(PAPER, (f"{PROOF}.modes", [])),
+    "a generic block less": changed(POLES, ("witness.generic", [])),
+    "a layer in x more": changed(
+        PAPER, (f"{PROOF}.modes.0.U", PAPER["witness"]["exceptional"][0]["modes"][0]["U"] * 2)
+    ),
+    "a layer in t more": changed(
+        PAPER,
+        (
+            f"{PROOF}.modes.0.W.coefficients",
+            PAPER["witness"]["exceptional"][0]["modes"][0]["W"]["coefficients"] * 2,
+        ),
+    ),
+    "one of two gains": changed(PAPER, ("witness.gains", PAPER["witness"]["gains"][:1])),
+    "gains of another shape": changed(PAPER, ("witness.gains.0.0", ZERO)),
+    "a key less": without(PAPER, "witness.settled"),
+    "a claim less": without(PAPER, "claim.outside"),
+    "an unknown key": changed(PAPER, (f"{VALUE}.real", True)),
+    "a pole that is no polynomial": changed(PAPER, ("witness.undefined", [[1]])),
+}
+
+
+@pytest.mark.parametrize("name", MALFORMED)
+def test_what_is_not_as_the_format_says_is_malformed(name: str) -> None:
+    found = checked(MALFORMED[name])
+    assert found.verdict == "MALFORMED", found.line()
+
+
+def test_no_construction_is_applied() -> None:
+    found = checked(changed(PAPER, ("subject", [{"construction": "dual"}])))
+    assert (found.verdict, found.code) == ("INCOMPLETE", "construction")
+
+
+KEPT: dict[str, Any] = {
+    "divisors of a mode": changed(PAPER, (f"{PROOF}.divisors", [[[-1], [1]]])),
+    "settled values where nothing happens": changed(
+        PAPER, ("witness.settled", [{"value": [7, 1], "divisors": []}])
+    ),
+    "poles where nothing happens": changed(POLES, ("witness.undefined", [[1, 1], [1, 1]])),
+    "values beyond a range": changed(
+        RANGED,
+        (
+            "claim.outside",
+            [
+                *RANGED["claim"]["outside"],
+                {"value": [3, 1], "roots": [{"re": "-3", "im": "0", "radius": "0"}]},
+            ],
+        ),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", KEPT)
+def test_what_is_superfluous_and_true_is_accepted(name: str) -> None:
+    found = checked(KEPT[name])
+    assert found.verdict == "VALID", found.line()

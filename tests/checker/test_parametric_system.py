@@ -1,0 +1,229 @@
+"""Plants with a parameter: the checker's grammar, canonical form and digest."""
+
+from __future__ import annotations
+
+import json
+import random
+from typing import Any
+
+import pytest
+
+from mcexact import MultiChannelSystem, ParametricSystem
+from mcexact.checker import Expectation, Limits
+from mcexact.checker.expressions import LONGEST, function, function_text
+from mcexact.checker.reading import Refused
+from mcexact.errors import InputError
+from mcexact.model.expression import parse_expression
+from mcexact.model.parametric_file import read_parametric_system
+from mcexact.model.system_file import digest, system_text
+from tests.checker.handmade import changed, checked
+from tests.checker.parametric_plants import ALL, PAPER, RANGED
+
+TEXTS: dict[Any, Any] = {
+    "1/2 + 3*t^2": "3*t^2 + 1/2",
+    "-t^2": "-t^2",
+    "- t^2 - -1": None,
+    "2 - 3 - t": "-t - 1",
+    "2 - (3 - t)": "t - 1",
+    "12/2/3*t": "2*t",
+    "0.25*t": "1/4*t",
+    "1e-3": "1/1000",
+    "-6/4": "-3/2",
+    7: 7,
+    "(t^2 - 1)/(t - 1)": "t + 1",
+    "1/(2 - 2*t)": "(-1/2)/(t - 1)",
+    "1/t - 1/t": 0,
+    "1/t + 1/(t + 1)": "(2*t + 1)/(t^2 + t)",
+    " ( t ) ": "t",
+    "t^0": 1,
+    "(1/t)^3": "(1)/(t^3)",
+    "0*t": 0,
+    "(0*t)^2": 0,
+    "t^1000": "t^1000",
+    "": None,
+    "   ": None,
+    "t t": None,
+    "2t": None,
+    "t**2": None,
+    "2*-t": None,
+    "+t": None,
+    "t^-1": None,
+    "t^": None,
+    "t^2^2": None,
+    "t^1001": None,
+    "1^1001": None,
+    "(t^100)^100": None,
+    "t^600*t^500": None,
+    "1/t^600 + 1/(t + 1)^600": None,
+    "t^9999999999": None,
+    "1e2*t": None,
+    "(t": None,
+    "t)": None,
+    "u": None,
+    "tt": None,
+    "1/(t - t)": None,
+    "t;": None,
+    "t\n": None,
+    "٣*t": None,
+    "(" * 49 + "t" + ")" * 49: "t",
+    "(" * 50 + "t" + ")" * 50: None,
+    "t" + " " * LONGEST: None,
+    None: None,
+    True: None,
+}
+
+
+def read(value: Any) -> Any:
+    """What the checker makes of an entry; None where it is malformed."""
+    try:
+        return function_text(function(value, "A", "t", Limits()), "t")
+    except Refused as found:
+        assert found.verdict == "MALFORMED", found.message
+        return None
+
+
+@pytest.mark.parametrize("value", TEXTS, ids=lambda value: repr(value)[:24])
+def test_an_entry_has_one_canonical_form(value: Any) -> None:
+    expected = TEXTS[value]
+    assert read(value) == (expected if expected not in ("1/1000", "-3/2") else str(expected))
+    if expected is not None:
+        assert read(expected) == expected
+
+
+@pytest.mark.parametrize("value", [v for v in TEXTS if isinstance(v, str)], ids=lambda v: v[:24])
+def test_the_package_reads_the_same_entries(value: str) -> None:
+    assert read(value) == parsed(value)
+
+
+def parsed(value: str) -> Any:
+    """What the package makes of a text."""
+    try:
+        entry = parse_expression(value, ("t",))
+    except InputError:
+        return None
+    found = entry.value
+    if not entry.is_constant:
+        return str(entry)
+    return int(found) if found.denominator == 1 else str(found)
+
+
+TOKENS = ("t", "t", "1", "2", "0.5", "+", "-", "*", "/", "^", "(", ")", " ", "3", "t^2", "u", "^2")
+
+
+def test_drawn_entries_are_read_alike() -> None:
+    rng, good = random.Random(1), 0
+    for _ in range(3000):
+        value = "".join(rng.choice(TOKENS) for _ in range(rng.randint(1, 9)))
+        found = read(value)
+        assert found == parsed(value), value
+        good += found is not None
+    assert good > 200
+
+
+SYSTEM = RANGED["system"]
+OTHERS: dict[str, tuple[Any, str]] = {
+    "no parameters": (changed(SYSTEM, ("parameters", {})), "MALFORMED"),
+    "a list of parameters": (changed(SYSTEM, ("parameters", ["t"])), "MALFORMED"),
+    "two parameters": (changed(SYSTEM, ("parameters", {"t": {}, "u": {}})), "INCOMPLETE"),
+    "the parameter x": (changed(SYSTEM, ("parameters", {"x": {}})), "MALFORMED"),
+    "a parameter of 65 letters": (changed(SYSTEM, ("parameters", {"t" * 65: {}})), "MALFORMED"),
+    "a range of one end": (changed(SYSTEM, ("parameters.t.range", [0])), "MALFORMED"),
+    "a range upside down": (changed(SYSTEM, ("parameters.t.range", [1, 0])), "MALFORMED"),
+    "a range that says nothing": (
+        changed(SYSTEM, ("parameters.t.range", [None, None])),
+        "MALFORMED",
+    ),
+    "an unknown key": (changed(SYSTEM, ("parameters.t.unit", "m")), "MALFORMED"),
+    "a neighbor graph": (changed(SYSTEM, ("neighbors", {})), "MALFORMED"),
+    "an entry that is not canonical": (changed(SYSTEM, ("A.2.0", "1*t")), "MALFORMED"),
+    "a number as a text": (changed(SYSTEM, ("A.0.0", "2")), "MALFORMED"),
+    "A is not square": (changed(SYSTEM, ("A", [[1, 2]])), "MALFORMED"),
+    "rows of two lengths": (changed(SYSTEM, ("A", [[1, 2], [3]])), "MALFORMED"),
+    "B has a row less": (changed(SYSTEM, ("channels.0.B", [[1]])), "MALFORMED"),
+    "C has a column less": (changed(SYSTEM, ("channels.0.C", [[1]])), "MALFORMED"),
+    "no channels": (changed(SYSTEM, ("channels", [])), "MALFORMED"),
+    "entries listed": (
+        changed(SYSTEM, ("A", {"shape": [3, 3], "entries": [[2, 0, "t"]]})),
+        "MALFORMED",
+    ),
+    "another time": (changed(SYSTEM, ("time", "sampled")), "MALFORMED"),
+    "a name": (changed(SYSTEM, ("name", "a")), "MALFORMED"),
+}
+
+
+@pytest.mark.parametrize("name", OTHERS)
+def test_the_system_of_a_certificate_is_canonical(name: str) -> None:
+    system, verdict = OTHERS[name]
+    found = checked({**RANGED, "system": system})
+    assert found.verdict == verdict, found.line()
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_the_digest_is_that_of_the_package(name: str) -> None:
+    text = json.dumps({"format": "mcexact-system/1", **ALL[name]["system"]})
+    assert checked(ALL[name]).system_digest == digest(read_parametric_system(text))
+
+
+FILE = {
+    "format": "mcexact-system/1",
+    "name": "a name",
+    "source": "a source",
+    "time": "continuous",
+    "parameters": {"t": {"range": ["0", 1.0]}},
+    "A": {"shape": [3, 3], "entries": [[0, 0, 2], [0, 2, -1], [1, 2, "-4/2"], [2, 0, "t + 0"]]},
+    "channels": [
+        {"name": "1", "B": [[0], ["t*t - 2"], ["t^3-2"]], "C": [[0, 0, 0], [0, 0, 1]]},
+        {"B": [[], [], []], "C": []},
+    ],
+}
+BROKEN: list[tuple[str, Any]] = [
+    ("A.entries.0.0", 3),
+    ("A.entries.0.1", 3),
+    ("A.entries.1", [0, 0, 1]),
+    ("A.shape", [3]),
+    ("A.entries.0.2", None),
+    ("name", 3),
+    ("parameters.t.range", ["t", 1]),
+    ("format", "mcexact-controller/1"),
+    ("sample_time", 1),
+]
+NO_SYSTEMS = ([], {"format": "mcexact-system/2", "parameters": {"t": {}}})
+
+
+def about(document: Any) -> Expectation:
+    """What a system file asks of a certificate."""
+    return Expectation().about(json.dumps(document).encode(), Limits())
+
+
+def test_a_system_file_is_compared_with_the_certificate() -> None:
+    system = changed(RANGED["system"], ("channels.1.C", {"shape": [0, 3], "entries": []}))
+    wanted = about(FILE)
+    assert wanted.plant == system
+    assert wanted.system == digest(read_parametric_system(json.dumps(FILE)))
+    assert checked(PAPER, expected=wanted).code == "system"
+    plain = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    assert about(json.loads(system_text(plain))).system == digest(plain)
+
+
+@pytest.mark.parametrize(("place", "value"), BROKEN)
+def test_a_broken_system_file_is_refused_by_both_readers(place: str, value: Any) -> None:
+    document = changed(FILE, (place, value))
+    with pytest.raises(Refused):
+        about(document)
+    with pytest.raises(InputError):
+        read_parametric_system(json.dumps(document))
+
+
+@pytest.mark.parametrize("document", NO_SYSTEMS)
+def test_what_is_no_system_file_is_refused(document: Any) -> None:
+    with pytest.raises(Refused):
+        about(document)
+
+
+def test_a_plant_may_be_named_by_its_digest() -> None:
+    plant = ParametricSystem([["t"]], [[[1]]], [[[1]]], parameters=["t"])
+    assert len(digest(plant)) == 64
+    named = {**PAPER, "system": checked(PAPER).system_digest}
+    assert checked(named).verdict == "INCOMPLETE"
+    file = {"format": "mcexact-system/1", **PAPER["system"]}
+    assert checked(named, expected=about(file)).verdict == "VALID"
