@@ -68,6 +68,36 @@ class ExceptionalValue(Part):
         return any(meets(disc, bounds) for disc in self.real)
 
 
+def in_parameter(p: Polynomial, t: str) -> str:
+    """A polynomial in the parameter.
+
+    Examples
+    --------
+    >>> in_parameter(Polynomial.of(-2, 0, 1), "t")
+    't^2 - 2'
+    """
+    return str(p).replace("x", t)
+
+
+def mode_text(p: ModePolynomial, t: str) -> str:
+    """A polynomial in x whose coefficients depend on the parameter.
+
+    Examples
+    --------
+    >>> mode_text((Polynomial.of(0, -1), Polynomial.of(2), Polynomial.of(1)), "t")
+    'x^2 + 2*x + (-t)'
+    """
+    terms = []
+    for k, c in reversed(list(enumerate(p))):
+        power = "" if k == 0 else "x" if k == 1 else f"x^{k}"
+        if c.is_zero():
+            continue
+        text = in_parameter(c, t)
+        factor = text if text.isdigit() else f"({text})"
+        terms.append(power if power and text == "1" else "*".join(filter(None, (factor, power))))
+    return " + ".join(terms)
+
+
 def meets(disc: RootDisc, bounds: Range) -> bool:
     """Whether a disc meets a range of real numbers, as far as its center and radius tell."""
     re, im, radius = map(exact_decimal, (disc.re, disc.im, disc.radius))
@@ -173,6 +203,22 @@ class ParametricFixedSpectrum(Answer):
     def scale(self) -> Polynomial:
         """δ, the denominator of A, by which the roots named here are to be divided."""
         return self.about.A.reduced[1]
+
+    @property
+    @shown("in words")
+    def words(self) -> tuple[str, ...]:
+        """What is fixed for every value, and at which values what else, in the parameter's name."""
+        t = self.about.parameters[0]
+        scaled = "" if self.scale.degree < 1 else f" divided by {in_parameter(self.scale, t)}"
+        told = [f"the roots of {mode_text(p, t)}{scaled} for every {t}" for p in self.generic]
+        for each in self.exceptional:
+            modes = " and ".join(
+                f"{mode_text(mode.polynomial, t)}{scaled} (channels: "
+                f"{', '.join(mode.channels) or 'none'})"
+                for mode in each.modes
+            )
+            told.append(f"the roots of {modes} where {in_parameter(each.value, t)} = 0")
+        return tuple(told)
 
     def in_range(self) -> tuple[ExceptionalValue, ...]:
         """The exceptional values with a root in the range that is assumed of the parameter."""

@@ -73,8 +73,9 @@ def parametric_fixed_spectrum(system: ParametricSystem) -> ParametricFixedSpectr
     >>> found = parametric_fixed_spectrum(plant)
     >>> found.generic
     ()
-    >>> [str(each.value) for each in found.exceptional]
-    ['x^2 - 2', 'x^2 - 2*x - 1']
+    >>> print(*found.words, sep="\\n")
+    the roots of x + (-t) (channels: none) where t^2 + t - 4 = 0
+    the roots of x + (-2) (channels: none) where t^2 - 2 = 0
     """
     return _Search(PolynomialSystem(system), generator(system, "parametric_fixed_spectrum")).found()
 
