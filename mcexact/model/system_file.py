@@ -80,7 +80,10 @@ def read_document(parsed: Any, limits: Limits = DEFAULT_LIMITS) -> MultiChannelS
     """
     document = expect_format(parsed, FORMAT)
     if "parameters" in document:
-        raise InputError("a system with parameters is read by load_parametric_system")
+        raise InputError(
+            "found a system with parameters, which load_parametric_system reads in Python; "
+            "'mcexact sweep FILE --grid NAME=0:1:11' asks about it at values"
+        )
     expect_object(document, None, _REQUIRED, _OPTIONAL)
     time = document["time"]
     require_time(time)
