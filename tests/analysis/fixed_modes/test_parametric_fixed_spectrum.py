@@ -58,6 +58,15 @@ def test_generic_modes_depend_on_the_parameter_and_are_divided_by_the_denominato
     assert fixed_spectrum(plant.at({t: 2})).factors[0].polynomial(Fraction(1, 2)) == 0
 
 
+def test_the_words_name_the_parameter() -> None:
+    A = [["1/k", 0, 0], [0, 1, "k"], [0, 0, 2]]
+    plant = ParametricSystem(A, [[[0], [1], [2]]], [[[1, 1, 0]]], parameters=["k"])
+    assert fixed_spectrum(plant).words == (
+        "the roots of x + (-1) divided by k for every k",
+        "the roots of x + (-1/2) divided by k (channels: none) where k - 1/2 = 0",
+    )
+
+
 def test_a_range_leaves_out_the_values_beyond_it() -> None:
     plant = ParametricSystem(
         [[0, 0], [t**2 - 2, 1]], [[[1], [0]]], [[[0, 1]]], parameters=[t], assume={t: (0, 1)}
