@@ -5,7 +5,7 @@ import os
 import pytest
 from hypothesis import HealthCheck, settings
 
-from tests.durations import slow_tests
+from tests.durations import SLOW_FIXTURES, slow_tests
 
 _SLOW = [HealthCheck.too_slow, HealthCheck.data_too_large]
 
@@ -24,5 +24,5 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Mark the tests that have been measured to be slow."""
     slow = slow_tests()
     for item in items:
-        if item.nodeid in slow:
+        if item.nodeid in slow or SLOW_FIXTURES & set(getattr(item, "fixturenames", ())):
             item.add_marker(pytest.mark.slow)

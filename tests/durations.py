@@ -22,6 +22,8 @@ ROOT = Path(__file__).parents[1]
 LIST = Path(__file__).with_name("slow.txt")
 MEASURED = ROOT / "build" / "durations.tsv"
 LIMIT = 0.7
+SLOW_FIXTURES = frozenset({"whole", "written"})
+"""Fixtures of a module that take seconds, which the first test that uses one pays for all."""
 
 
 def slow_tests() -> frozenset[str]:
