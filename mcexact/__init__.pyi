@@ -113,6 +113,8 @@ from .model.statespace import loop_from_statespace as loop_from_statespace
 from .model.system import MultiChannelSystem as MultiChannelSystem
 from .model.to_statespace import to_statespace as to_statespace
 from .report.frame import to_pandas as to_pandas
+from .simulation.envelope import Envelope as Envelope
+from .simulation.envelope import proved_envelope as proved_envelope
 from .simulation.network import SignalNotReceived as SignalNotReceived
 from .simulation.trajectory import Trajectory as Trajectory
 from .simulation.trajectory import simulate as simulate

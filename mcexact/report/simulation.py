@@ -49,6 +49,8 @@ class SimulationReport:
             between = f"between {found.rate.lower} and {found.rate.upper}"
             size = found.rate.lower if found.rate.lower == found.rate.upper else between
             lines.append(f"the closed loop is {stable}stable; its {what} is {size}")
+        if run.note is not None:
+            lines.append(run.note)
         return lines
 
     def tables(self, lines: int = 12) -> tuple[Table, ...]:

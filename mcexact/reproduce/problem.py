@@ -11,7 +11,8 @@ from mcexact.model.system_file import digest
 from mcexact.reproduce.equations import driven, outputs, stacked
 from mcexact.reproduce.material import PAPER, Numbers, graph_of, plants, three_channels
 from mcexact.reproduce.notebook import Notebook, Procedure
-from mcexact.simulation.trajectory import InitialState, simulate
+from mcexact.simulation.start import InitialState
+from mcexact.simulation.trajectory import simulate
 
 
 def continuous(note: Notebook) -> None:

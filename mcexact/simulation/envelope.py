@@ -7,7 +7,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
+from mcexact.analysis.stability.closed_loop_spectrum import closed_loop_spectrum
 from mcexact.analysis.stability.stability import certify_stability
+from mcexact.answer.loop_spectrum import LoopSpectrum
 from mcexact.answer.stability import LyapunovMethod, StabilityVerdict
 from mcexact.errors import McexactError
 from mcexact.exact.blocks import hstack, vstack
@@ -61,21 +63,22 @@ class Envelope:
         return f"proved: {StabilityRegion(self.time, self.bound)}"
 
 
-def proved_envelope(run: Trajectory, decay: Fraction) -> Envelope | None:
+def proved_envelope(run: Trajectory, spectrum: LoopSpectrum | None = None) -> Envelope | None:
     """Compute bounds on a trajectory from a certificate of stability.
 
     Parameters
     ----------
     run : Trajectory
         Its set-points and disturbances are constant.
-    decay : Fraction
-        A rate below that of the loop, or a radius above its own; the bounds are proved for one of a
-        few slower ones.
+    spectrum : LoopSpectrum, optional
+        That of the loop, if it is known.  The bounds are proved for a decay a little slower than
+        that of its slowest eigenvalue.
 
     Returns
     -------
     Envelope or None
-        None if a signal changes, if the loop is too large, or if no Lyapunov matrix was found.
+        None if a signal changes, if the loop is too large or not stable, or if no Lyapunov matrix
+        was found.
 
     Examples
     --------
@@ -83,14 +86,20 @@ def proved_envelope(run: Trajectory, decay: Fraction) -> Envelope | None:
     >>> from mcexact.model.system import MultiChannelSystem
     >>> from mcexact.simulation.trajectory import simulate
     >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
-    >>> run = simulate(plant, local_controllers(plant, [[[-3]]]), initial=[4])
-    >>> found = proved_envelope(run, Fraction(2))
+    >>> found = proved_envelope(simulate(plant, local_controllers(plant, [[[-3]]]), initial=[4]))
     >>> found.bound, [round(size, 9) for _, size in found.outputs]
     (Fraction(9, 5), [4.0])
+    >>> proved_envelope(simulate(plant, local_controllers(plant, [[[0]]]))) is None
+    True
     """
     loop = run.loop
     if not run.drive.is_constant or not 0 < loop.dimension <= LARGEST:
         return None
+    if spectrum is None:
+        spectrum = closed_loop_spectrum(loop.matrix, run.time)
+    if not spectrum.stable or spectrum.rate is None:
+        return None
+    decay = Fraction(spectrum.rate.upper if is_discrete(run.time) else spectrum.rate.lower)
     distance = _distance_from_rest(run)
     for region in _regions(run.time, decay):
         try:

@@ -62,11 +62,10 @@ def chosen_grid(
     Eigenvalues in floating point; only in discrete time the characteristic polynomial as well,
     which says exactly how many eigenvalues are 0, where floating point cannot.
     """
-    modes = _eigenvalues(loop)
-    discrete = is_discrete(loop.given.time)
-    if discrete:
-        chosen = last + _steps(loop, modes) if horizon is None else horizon
+    if is_discrete(loop.given.time):
+        chosen = last + _steps(loop, _eigenvalues(loop)) if horizon is None else horizon
         return Grid(tuple(Fraction(k) for k in range(math.ceil(chosen) + 1)))
+    modes = _eigenvalues(loop)
     fastest = max(map(abs, modes), default=0.0)
     end = _nice(last + _duration(modes)) if horizon is None else horizon
     needed = math.ceil(min(to_float(end) * fastest * _PER_RADIAN, 1e9)) if fastest else FEWEST

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import Any
 
 from mcexact.analysis.stability.closed_loop_spectrum import closed_loop_spectrum
 from mcexact.answer.loop_spectrum import LoopSpectrum
-from mcexact.exact.location import is_discrete
 from mcexact.model.controller import Controller
 from mcexact.model.system import MultiChannelSystem
 from mcexact.simulation.envelope import Envelope, proved_envelope
@@ -59,19 +57,6 @@ def simulated_loop(
         system.name or "simulation",
         run,
         spectrum,
-        _enveloped(run, spectrum),
-        controller.warnings_for(system) + _warnings(run),
+        proved_envelope(run, spectrum),
+        controller.warnings_for(system) + (() if run.warning is None else (run.warning,)),
     )
-
-
-def _enveloped(run: Trajectory, spectrum: LoopSpectrum | None) -> Envelope | None:
-    """Proved bounds on a run of a stable loop."""
-    if spectrum is None or not spectrum.stable or spectrum.rate is None:
-        return None
-    rate = spectrum.rate
-    return proved_envelope(run, Fraction(rate.upper if is_discrete(run.time) else rate.lower))
-
-
-def _warnings(run: Trajectory) -> tuple[str, ...]:
-    """What to know about the numbers of a run."""
-    return tuple(each for each in (run.warning, run.note) if each is not None)

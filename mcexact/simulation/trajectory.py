@@ -11,7 +11,6 @@ from typing import Any
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.floats import Rounding, to_float
 from mcexact.exact.location import is_discrete
-from mcexact.exact.matrix import Matrix
 from mcexact.exact.shortened import number
 from mcexact.model.controller import Controller
 from mcexact.model.loop import ClosedLoop, closed_loop
@@ -19,32 +18,16 @@ from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_links
 from mcexact.plot.responses import responses
 from mcexact.shown import Shown
-from mcexact.simulation.arithmetic import Native, arithmetic_named, representable
+from mcexact.simulation.arithmetic import arithmetic_named, representable
 from mcexact.simulation.continuous import integrated, taylor
 from mcexact.simulation.horizon import Grid, chosen_grid
 from mcexact.simulation.network import Network, Snapshot
 from mcexact.simulation.precision import double_precision_warning
 from mcexact.simulation.signals import Drive, numbers_of, signal_of
+from mcexact.simulation.start import InitialState, initial_state, set_initial
 
 SIGNALS = {"outputs": "y", "inputs": "u", "reference": "r"}
 """The letters of the signals of all agents, keyed by their names in a `Snapshot`."""
-
-
-@dataclass(frozen=True)
-class InitialState:
-    """The state in which a simulation starts.
-
-    Attributes
-    ----------
-    plant : tuple of Fraction
-        x(0).
-    shared, private : tuple of tuples of Fraction
-        x_i(0) and z_i(0) of each agent.
-    """
-
-    plant: tuple[Fraction, ...]
-    shared: tuple[tuple[Fraction, ...], ...]
-    private: tuple[tuple[Fraction, ...], ...]
 
 
 @dataclass(frozen=True, repr=False)
@@ -109,14 +92,15 @@ class Trajectory(Shown):
     def to_rows(self) -> list[dict[str, Any]]:
         """Return a flat row for each time: t, the state x of the plant, and y, u and r of agents.
 
-        Numbers are those of the arithmetic: Fractions in exact runs.
+        The names are those of the columns of ``mcexact simulate -o FILE.csv``.  Numbers are those
+        of the arithmetic: Fractions in exact runs.
         """
+        kinds = {kind: self.names(kind) for kind in SIGNALS}
         rows = []
         for time, at in zip(self.times, self.snapshots, strict=True):
-            row = {"t": time, **{f"x[{k}]": value for k, value in enumerate(at.plant)}}
-            for letter, signals in (("y", at.outputs), ("u", at.inputs), ("r", at.reference)):
-                for name, values in zip(self.agents, signals, strict=True):
-                    row |= {f"{letter} of {name}[{k}]": value for k, value in enumerate(values)}
+            row = {"t": time, **{f"x[{k + 1}]": value for k, value in enumerate(at.plant)}}
+            for kind, names in kinds.items():
+                row |= zip(names, chain(*getattr(at, kind)), strict=True)
             rows.append(row)
         return rows
 
@@ -292,7 +276,7 @@ def simulate(
 
     Examples
     --------
-    >>> from mcexact.model.controller import AgentProgram, LinearMap
+    >>> from mcexact import AgentProgram, Controller, LinearMap, Matrix, MultiChannelSystem
     >>> plant = MultiChannelSystem([[2]], [[[1]]], [[[1]]], time="discrete")
     >>> agent = AgentProgram("1", 0, 0, input=LinearMap({0: Matrix.from_rows([["-3/2"]])}))
     >>> run = simulate(plant, Controller("discrete", "", (agent,)), horizon=2)
@@ -316,7 +300,7 @@ def simulate(
     # A round at rest changes nothing, and shows whether an agent uses a signal that it lacks.
     network.evolution()
     start = initial_state(initial, system, controller, rounding)
-    _set_initial(network, start, system, controller)
+    set_initial(network, start, system, controller)
     outputs = [system.q(i) for i in range(system.m)]
     inputs = [system.p(i) for i in range(system.m)]
     drive = Drive(
@@ -362,57 +346,6 @@ def _grid(
         raise UsageError("expected a horizon above 0 and at least one interval")
     last = max((change.time for change in drive.changes), default=Fraction(0))
     return chosen_grid(loop, last, end, points)
-
-
-def initial_state(
-    initial: InitialState | Sequence[Any] | None,
-    system: MultiChannelSystem,
-    controller: Controller,
-    rounding: Rounding | None,
-) -> InitialState:
-    """Return the initial state; by default x(0) = (1, …, 1), and all agents are at 0."""
-    if isinstance(initial, InitialState):
-        return initial
-    zero, one = Fraction(0), Fraction(1)
-    x = (one,) * system.n if initial is None else numbers_of(initial, rounding, "initial")
-    if len(x) != system.n:
-        raise InputError(f"expected {system.n} numbers, found {len(x)}", where="initial")
-    return InitialState(
-        x,
-        tuple((zero,) * agent.shared for agent in controller.agents),
-        tuple((zero,) * agent.private for agent in controller.agents),
-    )
-
-
-def _set_initial(
-    network: Network, start: InitialState, system: MultiChannelSystem, controller: Controller
-) -> None:
-    """Check the sizes of an initial state, convert it and set it."""
-    if not len(start.shared) == len(start.private) == system.m:
-        raise InputError(
-            f"expected shared and private states of {system.m} agents, "
-            f"found {len(start.shared)} and {len(start.private)}",
-            where="initial",
-        )
-    expected = [
-        (system.n, start.plant, "x"),
-        *(
-            (size, values, f"agent {agent.name!r}")
-            for agent, x_i, z_i in zip(controller.agents, start.shared, start.private, strict=True)
-            for size, values in ((agent.shared, x_i), (agent.private, z_i))
-        ),
-    ]
-    for size, values, where in expected:
-        if len(values) != size:
-            raise InputError(f"expected {size} numbers, found {len(values)}", where=where)
-
-    def column(values: Sequence[Fraction]) -> Native:
-        return network.arithmetic.convert(Matrix.column(values))
-
-    parts = [
-        (column(x_i), column(z_i)) for x_i, z_i in zip(start.shared, start.private, strict=True)
-    ]
-    network.set_state(column(start.plant), parts)
 
 
 def _stepped(network: Network, times: Sequence[Fraction], drive: Drive) -> list[Snapshot]:

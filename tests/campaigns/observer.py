@@ -28,7 +28,8 @@ from mcexact.model.controller import Controller
 from mcexact.model.controller_file import controller_text
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import canonical_document
-from mcexact.simulation.trajectory import InitialState, simulate
+from mcexact.simulation.start import InitialState
+from mcexact.simulation.trajectory import simulate
 from mcexact.synthesis.design import Design
 from mcexact.synthesis.distributed_observer import design_observer
 from tests.oracle.controller_loop import applied, loop_rows

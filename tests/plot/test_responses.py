@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-from fractions import Fraction
 
 import pytest
 from matplotlib.figure import Figure
@@ -60,7 +59,7 @@ def test_axes_can_be_given_and_have_to_be_two() -> None:
 
 def test_proved_bounds_are_named_as_proved_and_contain_the_curves() -> None:
     run = run_of(time="continuous", initial=[3])
-    found = proved_envelope(run, Fraction(1))
+    found = proved_envelope(run)
     outputs, _ = responses(run, envelope=found).axes
     assert labels(outputs) == [r"y \$0", "proved bounds"]
     curve, upper, lower = (list(line.get_ydata()) for line in outputs.get_lines())

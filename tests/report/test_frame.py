@@ -40,7 +40,7 @@ def test_the_times_of_a_trajectory_are_rows_with_exact_numbers() -> None:
     plant = mcexact.MultiChannelSystem([[2]], [[[1]]], [[[1]]], time="discrete")
     controller = mcexact.local_controllers(plant, [[["-3/2"]]])
     table = mcexact.to_pandas(mcexact.simulate(plant, controller, horizon=2))
-    assert table["x[0]"].tolist() == [1, Fraction(1, 2), Fraction(1, 4)]
+    assert table["x[1]"].tolist() == [1, Fraction(1, 2), Fraction(1, 4)]
 
 
 @pytest.mark.parametrize("wrong", [PLANT, [PLANT], "records.jsonl", 3])

@@ -17,7 +17,8 @@ from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import canonical_document
 from mcexact.simulation.arithmetic import ExactArithmetic
 from mcexact.simulation.network import Network, SignalNotReceived
-from mcexact.simulation.trajectory import InitialState, simulate
+from mcexact.simulation.start import InitialState
+from mcexact.simulation.trajectory import simulate
 from mcexact.synthesis.distributed_observer import design_observer
 from tests.campaigns.observer import compare_discrete, one_design
 from tests.model.test_controller import drawn_controller
