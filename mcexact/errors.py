@@ -80,9 +80,10 @@ class InputError(McexactError, ValueError):
     def require(value: object, kind: type, where: str) -> None:
         """Refuse an argument of another type than the one expected, and say how to make one."""
         if not isinstance(value, kind):
-            advice = getattr(kind, "made_by", "")
+            article = "an" if kind.__name__[0] in "AEIO" else "a"
+            advice = getattr(kind, "_made_by", "")
             raise InputError(
-                f"expected a {kind.__name__}, found {type(value).__name__}"
+                f"expected {article} {kind.__name__}, found {type(value).__name__}"
                 f"{advice and f'; make one with {advice}'}",
                 where=where,
             )

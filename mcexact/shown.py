@@ -45,27 +45,27 @@ _ESCAPES = {
 class Shown:
     """A result that is shown as a table of labels and values."""
 
-    def labeled(self) -> Iterable[tuple[str, Any]]:
+    def _labeled(self) -> Iterable[tuple[str, Any]]:
         """Return the labels and the values that are shown."""
         raise NotImplementedError
 
     def explain(self) -> str:
         """Say the result in plain words, one label with its value a line."""
-        return "\n".join(f"{label}: {_said(value)}" for label, value in self.labeled())
+        return "\n".join(f"{label}: {_said(value)}" for label, value in self._labeled())
 
-    def piece_of_html(self) -> str:
+    def _html(self) -> str:
         """Return the table in HTML, to be shown inside of another one."""
-        return table(type(self).__name__, self.labeled())
+        return table(type(self).__name__, self._labeled())
 
-    def piece_of_latex(self) -> str:
+    def _latex(self) -> str:
         """Return the table in LaTeX, to be shown inside of another one."""
-        return array(self.labeled())
+        return array(self._labeled())
 
     def _repr_html_(self) -> str:
-        return framed(self.piece_of_html())
+        return framed(self._html())
 
     def _repr_latex_(self) -> str:
-        return rf"$\displaystyle {self.piece_of_latex()}$"
+        return rf"$\displaystyle {self._latex()}$"
 
 
 def fitting(text: str, room: int = LINE) -> str:
@@ -93,8 +93,8 @@ def framed(body: str) -> str:
 
 def cell(value: Any) -> str:
     """Return a value as a piece of HTML: what shows itself does, and other values are text."""
-    if hasattr(value, "piece_of_html"):
-        return str(value.piece_of_html())
+    if hasattr(value, "_html"):
+        return str(value._html())
     if isinstance(value, bool):
         return f'<span class="{"yes" if value else "no"}">{"yes" if value else "no"}</span>'
     return escape(value if isinstance(value, str) else repr(value))
@@ -137,8 +137,8 @@ def first(rows: Iterable[tuple[str, Any]]) -> Iterator[tuple[str, Any]]:
 
 def latex(value: Any) -> str:
     """Return a value as LaTeX: what shows itself does, and other values are text."""
-    if hasattr(value, "piece_of_latex"):
-        return str(value.piece_of_latex())
+    if hasattr(value, "_latex"):
+        return str(value._latex())
     said = ("yes" if value else "no") if isinstance(value, bool) else value
     return rf"\text{{{escaped(said if isinstance(said, str) else repr(said))}}}"
 

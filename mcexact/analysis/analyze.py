@@ -187,7 +187,9 @@ class Analysis(Shown):
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_") or name not in QUESTIONS:
-            raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+            raise AttributeError(
+                f"{type(self).__name__!r} object has no attribute {name!r}", name=name, obj=self
+            )
         return self[name]
 
     def __dir__(self) -> list[str]:
@@ -326,13 +328,13 @@ class Analysis(Shown):
         """Decide all questions asked, and say the answers in plain words, one sentence a line."""
         return self.account.explain()
 
-    def labeled(self) -> Iterable[tuple[str, Any]]:
+    def _labeled(self) -> Iterable[tuple[str, Any]]:
         """Return the sentences of the answer, and the labels and texts of the table."""
-        return self.account.labeled()
+        return self.account._labeled()
 
-    def piece_of_html(self) -> str:
+    def _html(self) -> str:
         """Return the sentences and the table in HTML."""
-        return self.account.piece_of_html()
+        return self.account._html()
 
     def _outcomes(self) -> dict[str, Any]:
         """Return the names of all questions asked or needed, in the order of the table."""

@@ -117,12 +117,12 @@ class Account(Shown):
         """Say in plain words what was found, one sentence a line."""
         return "\n".join(each.line for each in self.sentences.at(*_PLAIN))
 
-    def labeled(self) -> Iterator[tuple[str, Any]]:
+    def _labeled(self) -> Iterator[tuple[str, Any]]:
         """Yield the sentences of the answer, and the labels and texts of the table."""
         yield from (("", str(each)) for each in self.sentences.at(*_ANSWER))
         yield from ((each.cells[0], str(each)) for each in self.sentences.at("table"))
 
-    def piece_of_html(self) -> str:
+    def _html(self) -> str:
         """Return the sentences and the table in HTML, each entry with its reason."""
         said = "".join(
             f'<li title="{escape(_reason(each))}">{escape(each)}</li>'

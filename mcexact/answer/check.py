@@ -218,9 +218,12 @@ def _text(certificate: Any) -> bytes:
         with InputError.inside(place_of(certificate)):
             return read_bytes(certificate)
     if not isinstance(certificate, Answer):
+        several = {"certificates": ".certificates.values()", "decided": ".decided().values()"}
+        held = [path for name, path in several.items() if hasattr(certificate, name)]
         raise InputError(
             "expected an answer, such as fixed_spectrum(system), or the name of a certificate "
-            f"file, found {type(certificate).__name__}",
+            f"file, found {type(certificate).__name__}"
+            + "".join(f"; check each of its {path}" for path in held[:1]),
             where="certificate",
         )
     from mcexact.answer import codec

@@ -79,7 +79,7 @@ class Part(Shown):
         """Return the same as plain data."""
         return {key: showing.plain_view(value) for key, value in self.document().items()}
 
-    def labeled(self) -> Iterator[tuple[str, Any]]:
+    def _labeled(self) -> Iterator[tuple[str, Any]]:
         """Yield the labels and values that notebooks show."""
         for key, value in self.document().items():
             yield _in_words(key), showing.displayed(value)
@@ -175,7 +175,7 @@ class Answer(Shown):
     def __repr__(self) -> str:
         return showing.line(self)
 
-    def labeled(self) -> Iterator[tuple[str, Any]]:
+    def _labeled(self) -> Iterator[tuple[str, Any]]:
         """Yield the labels and values that notebooks show."""
         for _, label, value in self.entries():
             yield label, showing.displayed(value)

@@ -134,7 +134,7 @@ def displayed(value: Any) -> Any:
 
 
 def _is_part(value: Any) -> bool:
-    return hasattr(value, "document") and hasattr(value, "labeled")
+    return hasattr(value, "document") and hasattr(value, "_labeled")
 
 
 class Parts(Shown):
@@ -143,17 +143,17 @@ class Parts(Shown):
     def __init__(self, parts: Sequence[Any]) -> None:
         self._parts = parts
 
-    def labeled(self) -> Iterator[tuple[str, Any]]:
+    def _labeled(self) -> Iterator[tuple[str, Any]]:
         """Yield each part with its number."""
         yield from ((str(k), each) for k, each in enumerate(self._parts, start=1))
 
     def _rows(self) -> list[list[Any]]:
-        return [[value for _, value in each.labeled()] for each in self._parts]
+        return [[value for _, value in each._labeled()] for each in self._parts]
 
-    def piece_of_html(self) -> str:
+    def _html(self) -> str:
         """Return a table in HTML."""
-        return shown.grid([label for label, _ in self._parts[0].labeled()], self._rows())
+        return shown.grid([label for label, _ in self._parts[0]._labeled()], self._rows())
 
-    def piece_of_latex(self) -> str:
+    def _latex(self) -> str:
         """Return an array in LaTeX."""
-        return r" \quad ".join(each.piece_of_latex() for each in self._parts)
+        return r" \quad ".join(each._latex() for each in self._parts)

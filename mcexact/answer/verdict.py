@@ -52,7 +52,7 @@ class Verdict(Shown, checker.Verdict):
         """Say what was proved, or why the certificate is not valid."""
         return self.statement if self.valid else self.line()
 
-    def labeled(self) -> Iterator[tuple[str, Any]]:
+    def _labeled(self) -> Iterator[tuple[str, Any]]:
         """Yield the verdict with what it says."""
         yield "verdict", self.verdict
         for name in ("statement", "code", "place", "message"):

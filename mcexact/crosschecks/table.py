@@ -91,12 +91,12 @@ class CrossChecks(Shown):
             told.append(f"{row.question}: {row.floating} ({row.call}); exact: {row.exact}")
         return "\n".join(told)
 
-    def piece_of_html(self) -> str:
+    def _html(self) -> str:
         """Return a row in HTML for each question."""
         rows = ([row.question, row.call, row.floating, row.exact, row.agree] for row in self.rows)
         return grid(["question", "call", "in floating point", "exact", "agree"], rows)
 
-    def labeled(self) -> Iterator[tuple[str, str]]:
+    def _labeled(self) -> Iterator[tuple[str, str]]:
         """Yield the questions, each with both answers."""
         for row in self.rows:
             yield row.question, f"{row.floating}; exact: {row.exact}"

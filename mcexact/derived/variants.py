@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from mcexact.derived.augmented_outputs import augmented_outputs
-from mcexact.errors import LimitReached, UsageError
+from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.exact.rational import as_fraction, written
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.parametric import ParametricSystem
@@ -130,6 +130,7 @@ def neighbor_graph_variants(
     ...     plant, strongly_connected=True, up_to_isomorphism=True)][-1]
     '1→2, 1→3, 2→1, 2→3, 3→1, 3→2'
     """
+    InputError.require(plant, MultiChannelSystem, "system")
     m, names = plant.m, plant.names
     pairs = [(j, i) for j in range(m) for i in range(m) if i != j]
     if len(pairs) > math.log2(MOST):
@@ -190,6 +191,7 @@ def sensor_variants(plant: MultiChannelSystem, *, unused: bool = False) -> Itera
     >>> list(sensor_variants(plant))[1].system().C(1).numerators
     ((1,),)
     """
+    InputError.require(plant, MultiChannelSystem, "system")
     C = plant.output_matrix()
     sensors = [f"{name}[{k}]" for i, name in enumerate(plant.names) for k in range(plant.q(i))]
     owners = [*range(plant.m), *([-1] if unused else [])]

@@ -120,7 +120,7 @@ def matrix_from_float(
     ----------
     M : array_like, r × c
         A real two-dimensional array, a sparse array of scipy, or a list of rows of numbers.
-        Integers and matrices of this package do not change.
+        Integers, Fractions and matrices of this package do not change.
     rounding : {"decimal", "dyadic"}
         See `from_float`.
     where : str, optional
@@ -159,6 +159,8 @@ def _exact(entry: Any, rounding: Rounding, where: str) -> Fraction | int:
         return from_float(entry, rounding, where=where)
     if hasattr(entry, "__index__") and not isinstance(entry, bool) and kind != "b":
         return int(entry.__index__())
+    if isinstance(entry, Fraction):
+        return as_fraction(entry, where=where)
     raise InputError(f"expected a real number, found {type(entry).__name__}", where=where)
 
 

@@ -80,19 +80,19 @@ class MatrixForms:
     def _repr_pretty_(self, printer: Any, cycle: bool) -> None:
         printer.text(repr(self))
 
-    def piece_of_html(self: Any) -> str:
+    def _html(self: Any) -> str:
         """The matrix as a piece of HTML."""
         return html(self)
 
-    def piece_of_latex(self: Any) -> str:
+    def _latex(self: Any) -> str:
         """The matrix as a piece of LaTeX."""
         return latex(self)
 
     def _repr_html_(self) -> str:
-        return shown.framed(self.piece_of_html())
+        return shown.framed(self._html())
 
     def _repr_latex_(self) -> str:
-        return rf"$\displaystyle {self.piece_of_latex()}$"
+        return rf"$\displaystyle {self._latex()}$"
 
 
 def row_of(M: Matrix, i: Any) -> tuple[Fraction, ...]:

@@ -55,21 +55,21 @@ class PolynomialForms:
     def _repr_pretty_(self, printer: Any, cycle: bool) -> None:
         printer.text(repr(self))
 
-    def piece_of_html(self: Any) -> str:
+    def _html(self: Any) -> str:
         """The polynomial as a piece of HTML."""
         return _html(self)
 
     def _repr_html_(self) -> str:
-        return shown.framed(self.piece_of_html())
+        return shown.framed(self._html())
 
-    def piece_of_latex(self: Any) -> str:
+    def _latex(self: Any) -> str:
         """The polynomial as a piece of LaTeX; of a long one the first and last terms."""
         if len(str(self)) > 2 * shown.LINE:
             return rf"\text{{{shown.escaped(_short(self))}}}"
         return str(self.latex())
 
     def _repr_latex_(self) -> str:
-        return rf"$\displaystyle {self.piece_of_latex()}$"
+        return rf"$\displaystyle {self._latex()}$"
 
 
 def pasted(p: Any) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Any
+from typing import Any, ClassVar
 
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.location import is_discrete
@@ -55,7 +55,7 @@ class LinearMap(Shown):
         used = {name: value for name, value in vars(self).items() if value}
         return fitting(f"LinearMap({', '.join(f'{name}={value}' for name, value in used.items())})")
 
-    def labeled(self) -> Iterator[tuple[str, Matrix]]:
+    def _labeled(self) -> Iterator[tuple[str, Matrix]]:
         """Yield the signals and their coefficients."""
         return self.terms()
 
@@ -120,9 +120,9 @@ class AgentProgram(Shown):
         """Say in plain words what the agent keeps, and whose signals it uses, by position."""
         return self.told()
 
-    def labeled(self) -> Iterator[tuple[str, Any]]:
+    def _labeled(self) -> Iterator[tuple[str, Any]]:
         """Yield the left sides of the equations, and the coefficients on the right sides."""
-        return Equations(self, None).labeled()
+        return Equations(self, None)._labeled()
 
     def maps(self) -> tuple[LinearMap, LinearMap, LinearMap]:
         """The three maps, in the order of `MAPS`."""
@@ -140,15 +140,15 @@ class Equations(Shown):
     def __init__(self, agent: AgentProgram, names: Sequence[str] | None) -> None:
         self._agent, self._names = agent, names
 
-    def labeled(self) -> Iterator[tuple[str, Any]]:
+    def _labeled(self) -> Iterator[tuple[str, Any]]:
         """Yield each signal with the equation that uses it, and its coefficients."""
         for left, each in zip(("x", "z", "u"), self._agent.maps(), strict=True):
             for signal, M in each.without_zeros().terms(self._names):
                 yield f"{left} from {signal}", M
 
-    def piece_of_html(self) -> str:
+    def _html(self) -> str:
         """Return the coefficients in HTML, one signal a row."""
-        return grid(["equation", "coefficients"], self.labeled())
+        return grid(["equation", "coefficients"], self._labeled())
 
 
 @dataclass(frozen=True, repr=False)
@@ -168,6 +168,10 @@ class Controller(Shown):
     Agents are addressed by position in the programs, by name in files.
     """
 
+    _made_by: ClassVar[str] = (
+        "local_controllers(system, parts) or load_controller(file); a design has it as .controller"
+    )
+
     time: str
     system: str
     agents: tuple[AgentProgram, ...]
@@ -177,7 +181,7 @@ class Controller(Shown):
         names = [agent.name for agent in self.agents]
         return "\n".join(agent.told(names) for agent in self.agents)
 
-    def labeled(self) -> Iterator[tuple[str, Any]]:
+    def _labeled(self) -> Iterator[tuple[str, Any]]:
         """Yield the equations of each agent."""
         names = [agent.name for agent in self.agents]
         for agent in self.agents:

@@ -186,4 +186,5 @@ def save_controller(controller: Controller, path: str | os.PathLike[str]) -> Non
     InputError
         If the file cannot be written.
     """
+    InputError.require(controller, Controller, "controller")
     write_text(path, controller_text(controller))

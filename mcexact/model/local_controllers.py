@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from mcexact.errors import InputError
+from mcexact.errors import FloatRefused, InputError
 from mcexact.exact.floats import Rounding, matrix_from_float
 from mcexact.exact.matrix import Matrix
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
@@ -79,7 +79,14 @@ def _program(
         empty = hasattr(value, "__len__") and not len(value)
         if rounding is not None and not empty and not isinstance(value, Matrix):
             return matrix_from_float(value, rounding, where=place)
-        return as_matrix(value, place, ncols=ncols)
+        try:
+            return as_matrix(value, place, ncols=ncols)
+        except FloatRefused:
+            raise FloatRefused(
+                'a float is not exact: give local_controllers the rounding "decimal", which reads '
+                '0.1 as 1/10, or "dyadic", which takes the binary value',
+                where=place,
+            ) from None
 
     A = require_square(matrix(0), f"{where}.A")
     k = A.nrows

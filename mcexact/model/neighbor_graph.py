@@ -191,9 +191,9 @@ class NeighborGraph(Shown):
 
     def explain(self) -> str:
         """Say in plain words who receives whose messages, one agent a line."""
-        return "\n".join(f"Agent {name} receives {told}." for name, told in self.labeled())
+        return "\n".join(f"Agent {name} receives {told}." for name, told in self._labeled())
 
-    def labeled(self) -> Iterator[tuple[str, str]]:
+    def _labeled(self) -> Iterator[tuple[str, str]]:
         """Yield each agent, and from whom it receives messages, with delays."""
         for i, name in enumerate(self.names):
             heard = []

@@ -40,7 +40,7 @@ class Channel(Shown):
     def __repr__(self) -> str:
         return fitting(f"Channel({quoted(self.name)}, B={self.B!r}, C={self.C!r})")
 
-    def labeled(self) -> Iterator[tuple[str, Any]]:
+    def _labeled(self) -> Iterator[tuple[str, Any]]:
         """Yield the name and the matrices."""
         yield from vars(self).items()
 
@@ -101,7 +101,7 @@ class MultiChannelSystem(SystemForms):
     mcexact.errors.InputError: B[0]: expected 1 row, found 2
     """
 
-    made_by: ClassVar[str] = (
+    _made_by: ClassVar[str] = (
         "MultiChannelSystem(A, B, C), where B and C list a matrix for each channel, "
         "or with load_system(file) or from_statespace(model, …)"
     )
@@ -447,13 +447,29 @@ def with_links(
 
 def _listed(value: Any, where: str) -> list[Any]:
     """Return the matrices of all channels as a list."""
-    one = isinstance(value, (str, bytes, Mapping, Matrix))
+    if _is_one_matrix(value):
+        raise InputError(
+            "expected a list of matrices, one for each channel, found one matrix: write "
+            f"[{where}] for one channel, or from_stacked(A, B, C, sizes) for several",
+            where=where,
+        )
+    one = isinstance(value, (str, bytes, Mapping))
     if one or not hasattr(value, "__iter__"):
         raise InputError(
             f"expected a list of matrices, one for each channel, found {type(value).__name__}",
             where=where,
         )
     return list(value)
+
+
+def _is_one_matrix(value: Any) -> bool:
+    """Whether a value is a matrix, and no list of matrices: its rows hold numbers."""
+    if isinstance(value, Matrix) or getattr(value, "ndim", 0) == 2:
+        return True
+    row = value[0] if isinstance(value, (list, tuple)) and value else None
+    return isinstance(row, (list, tuple)) and any(
+        isinstance(entry, str) or not hasattr(entry, "__iter__") for entry in row
+    )
 
 
 def _channels(

@@ -20,7 +20,7 @@ class SystemForms(Shown):
         """Say in plain words what the system is: sizes, equations, channels and links."""
         return "\n".join(_sentences(self))
 
-    def labeled(self: Any) -> Iterator[tuple[str, Any]]:
+    def _labeled(self: Any) -> Iterator[tuple[str, Any]]:
         """Yield the matrices, and the other attributes that are set."""
         if self.subject:
             yield "made by", ", ".join(each["construction"] for each in self.subject)
@@ -37,11 +37,11 @@ class SystemForms(Shown):
         if self.source is not None:
             yield "source", self.source
 
-    def piece_of_html(self: Any) -> str:
+    def _html(self: Any) -> str:
         """Return the sizes and the matrices in HTML."""
-        return table(_heading(self), self.labeled())
+        return table(_heading(self), self._labeled())
 
-    def piece_of_latex(self: Any) -> str:
+    def _latex(self: Any) -> str:
         """Return the equations of the system with its matrices in LaTeX."""
         change = r"x(t+1)" if is_discrete(self.time) else r"\dot{x}"
         inputs = "".join(

@@ -83,7 +83,7 @@ class Trajectory(Shown):
         ]
         return "\n".join([*told, *filter(None, (self.warning, self.note))])
 
-    def labeled(self) -> Iterator[tuple[str, str]]:
+    def _labeled(self) -> Iterator[tuple[str, str]]:
         """Yield the signals, each at the first and at the last time."""
         first, last = self.to_rows()[0], self.to_rows()[-1]
         for name, value in first.items():
@@ -286,6 +286,7 @@ def simulate(
     [[[Fraction(-3, 2)]], [[Fraction(-3, 4)]], [[Fraction(-3, 8)]]]
     """
     InputError.require(system, MultiChannelSystem, "system")
+    InputError.require(controller, Controller, "controller")
     given = system
     system, found = with_links(system, graph)
     discrete = is_discrete(system.time)

@@ -72,7 +72,7 @@ class Record(Shown):
             return f"{self.name}: {self.error['message']}"
         return "\n".join(str(answer["statement"]) for answer in self.answers.values())
 
-    def labeled(self) -> Iterator[tuple[str, Any]]:
+    def _labeled(self) -> Iterator[tuple[str, Any]]:
         """Yield the columns of a table, and what they hold."""
         yield from self.to_row().items()
 

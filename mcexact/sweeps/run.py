@@ -10,7 +10,7 @@ from dataclasses import replace
 from typing import Any
 
 from mcexact.answer.check import checked
-from mcexact.errors import InternalError, McexactError
+from mcexact.errors import InternalError, McexactError, UsageError
 from mcexact.exact.rational import DEFAULT_LIMITS, Limits
 from mcexact.model.formats.recognize import read_input
 from mcexact.model.system_file import digest
@@ -83,6 +83,8 @@ def sweep(
     >>> record.name, record.answers["fixed_spectrum"]["claim"]["polynomial"]
     ('liu2020_3ch_no_communication', [-1, 1])
     """
+    if isinstance(sources, str) or not isinstance(sources, Iterable):
+        raise UsageError("expected several systems, such as [plant]", where="sources")
     asked = chosen(questions)
     team = Workers(executor, workers)
     return _swept(entries(sources, asked, limits, read), team, results, work)

@@ -104,7 +104,7 @@ class Assessment(Shown):
         """Say in plain words whether to install the controller, and why."""
         return "\n".join([self.verdict, *self.warnings[1:], *self.notes])
 
-    def labeled(self) -> list[tuple[str, str]]:
+    def _labeled(self) -> list[tuple[str, str]]:
         """Return the verdict and the figures as labels and texts."""
         return [("verdict", self.verdict), *self.rows()]
 

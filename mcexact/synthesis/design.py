@@ -165,13 +165,13 @@ class Design(Shown):
         """Say in plain words what was designed and what is proved, one sentence a line."""
         return self.account.explain()
 
-    def labeled(self) -> Iterable[tuple[str, Any]]:
+    def _labeled(self) -> Iterable[tuple[str, Any]]:
         """Return the labels and texts of the table of the design."""
-        return self.account.labeled()
+        return self.account._labeled()
 
-    def piece_of_html(self) -> str:
+    def _html(self) -> str:
         """Return the table of the design in HTML."""
-        return self.account.piece_of_html()
+        return self.account._html()
 
     def __repr__(self) -> str:
         bound = f", {self.region}" if self.region.bound is not None else ""

@@ -134,7 +134,7 @@ class CertifiedLoop(Shown):
         """Say in plain words what is proved of the loop."""
         return "\n".join(each.explain() for each in self.proofs)
 
-    def labeled(self) -> Iterator[tuple[str, Any]]:
+    def _labeled(self) -> Iterator[tuple[str, Any]]:
         """Yield the matrix of the loop, and what is proved of it."""
         yield "matrix", self.matrix
         for proof in self.proofs:

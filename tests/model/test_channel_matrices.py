@@ -44,7 +44,7 @@ def test_a_system_is_made_again_of_its_own_matrices():
 
 
 def test_one_matrix_in_place_of_a_list_is_refused():
-    with pytest.raises(InputError, match=r"^B: expected a list of matrices.*found Matrix"):
+    with pytest.raises(InputError, match=r"^B: expected a list.*found one matrix: write \[B\]"):
         MultiChannelSystem(PLANT.A, PLANT.B[0], PLANT.C)
 
 

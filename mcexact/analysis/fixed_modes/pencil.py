@@ -123,7 +123,11 @@ def pencil_ranks(
 
 
 def _irreducible(mode: Any) -> Polynomial:
-    p = mode if isinstance(mode, Polynomial) else Polynomial.from_roots([as_fraction(mode)])
+    p = (
+        mode
+        if isinstance(mode, Polynomial)
+        else Polynomial.from_roots([as_fraction(mode, where="mode")])
+    )
     if p.degree < 1:
         raise InputError("expected a number or a polynomial of degree at least 1", where="mode")
     factors = [factor for factor, _ in p.factor()]

@@ -21,9 +21,10 @@ from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.derived.extended import Share, checked_share, extended_system
 from mcexact.derived.modular_system import generator
 from mcexact.errors import InputError, UsageError
+from mcexact.exact.floats import as_requested
 from mcexact.exact.invariant_subspace import controllable_subspace
 from mcexact.exact.location import StabilityRegion
-from mcexact.exact.rational import Entry, as_fraction
+from mcexact.exact.rational import Entry
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_graph
 
@@ -192,7 +193,7 @@ def _program(
     m: int, costs: Sequence[Entry] | None, upper: Sequence[int | None] | None
 ) -> CoveringProgram:
     given = [1] * m if costs is None else costs
-    prices = tuple(as_fraction(c, where=f"costs[{i}]") for i, c in enumerate(given))
+    prices = tuple(as_requested(c, where=f"costs[{i}]") for i, c in enumerate(given))
     if len(prices) != m or any(price <= 0 for price in prices):
         raise UsageError(f"expected {m} positive numbers, one for each agent", where="costs")
     limits = tuple(upper) if upper is not None else (None,) * m

@@ -26,10 +26,11 @@ from mcexact.derived.links import add_links
 from mcexact.derived.modular_system import generator
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.blocks import block_diagonal
+from mcexact.exact.floats import as_requested
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.rational import Entry, as_fraction
+from mcexact.exact.rational import Entry
 from mcexact.model.names import quoted
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem, with_links
@@ -203,7 +204,10 @@ def _checked(
 
 def _prices(links: _Links, costs: Mapping[tuple[str, str], Entry]) -> tuple[Fraction, ...]:
     """The price of each candidate, 1 where none is given."""
-    prices = {_edge(links.plant, edge): as_fraction(price) for edge, price in costs.items()}
+    prices = {
+        _edge(links.plant, edge): as_requested(price, where="costs")
+        for edge, price in costs.items()
+    }
     if any(price <= 0 for price in prices.values()):
         raise UsageError("the price of a link must be positive", where="costs")
     return tuple(prices.get(edge, Fraction(1)) for edge in links.candidates)
