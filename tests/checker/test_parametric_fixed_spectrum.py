@@ -61,6 +61,12 @@ def shorter(block: Any) -> Any:
     }
 
 
+def grown(document: Any) -> Any:
+    """W(t) multiplied by 1 + t, for a W that does not depend on t."""
+    [layer] = document["witness"]["exceptional"][1]["modes"][0]["W"]["coefficients"]
+    return [layer, layer]
+
+
 def still(gains: Any) -> Any:
     """Gains of zeros."""
     return [{**F, "entries": [[0] * len(row) for row in F["entries"]]} for F in gains]
@@ -224,6 +230,10 @@ FALSE: dict[str, tuple[Any, str]] = {
         ),
         "pivots",
     ),
+    "pivots at a value that are 1 + t": (
+        changed(SETTLED, ("witness.exceptional.1.modes.0.W.coefficients", grown(SETTLED))),
+        "pivots",
+    ),
     "too few moduli": (changed(PAPER, ("witness.moduli", [])), "modulus"),
     "a small modulus": (changed(PAPER, ("witness.moduli", [101])), "modulus"),
     "a modulus of 1": (changed(PAPER, ("witness.moduli", [1])), "modulus"),
@@ -302,6 +312,14 @@ MALFORMED: dict[str, Any] = {
     "a key less": without(PAPER, "witness.settled"),
     "a claim less": without(PAPER, "claim.outside"),
     "an unknown key": changed(PAPER, (f"{VALUE}.real", True)),
+    "a zero at the end of a generic coefficient": changed(POLES, ("claim.generic.0", [[0], [1]])),
+    "a zero behind others": changed(POLES, ("claim.generic.0", [[1, 2, 0], [1]])),
+    "a settled value without t": changed(
+        PAPER, ("witness.settled", [{"value": [1], "divisors": []}])
+    ),
+    "a value beyond the range without t": changed(
+        RANGED, ("claim.outside", [{"value": [1], "roots": []}])
+    ),
     "a pole that is no polynomial": changed(PAPER, ("witness.undefined", [[1]])),
 }
 
@@ -334,6 +352,17 @@ KEPT: dict[str, Any] = {
         ),
     ),
 }
+
+
+@pytest.mark.parametrize(
+    ("root", "radius", "beyond"),
+    [("-3", "2.9", True), ("-3", "3", False), ("3", "1.9", True), ("3", "2", False)],
+)
+def test_a_disc_that_meets_the_range_is_not_beyond_it(root: str, radius: str, beyond: bool) -> None:
+    disc = {"re": root, "im": "0", "radius": radius}
+    more = {"value": [-int(root), 1], "roots": [disc]}
+    found = checked(changed(RANGED, ("claim.outside", [*RANGED["claim"]["outside"], more])))
+    assert (found.verdict, found.code) == (("VALID", "") if beyond else ("INVALID", "range"))
 
 
 @pytest.mark.parametrize("name", KEPT)

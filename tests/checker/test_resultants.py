@@ -1,0 +1,103 @@
+"""Resultants of polynomials in x and t, beside Sylvester's determinant."""
+
+from __future__ import annotations
+
+import random
+from fractions import Fraction
+from typing import Any
+
+import pytest
+import sympy
+
+from mcexact.checker.arithmetic import NotAUnit
+from mcexact.checker.interpolation import interpolated
+from mcexact.checker.reading import Refused
+from mcexact.checker.resultants import integer_resultant, residues, resultant
+
+t = sympy.Symbol("t")
+PRIME = 1000003
+
+
+def polynomial(*coefficients: list[Any]) -> list[list[Fraction]]:
+    """A polynomial in x and t."""
+    return [[Fraction(c) for c in part] for part in coefficients]
+
+
+def sylvester(f: list[list[Fraction]], g: list[list[Fraction]]) -> list[Fraction]:
+    """The coefficients of the determinant of Sylvester's matrix, constant first."""
+    size = len(f) + len(g) - 2
+    rows = []
+    for p, count in ((f, len(g) - 1), (g, len(f) - 1)):
+        values = [
+            sum(sympy.Rational(c.numerator, c.denominator) * t**i for i, c in enumerate(part))
+            for part in reversed(p)
+        ]
+        rows += [[0] * k + values + [0] * (size - k - len(values)) for k in range(count)]
+    found = sympy.Poly(sympy.Matrix(rows).det() if rows else 1, t)
+    return [Fraction(int(c.p), int(c.q)) for c in reversed(found.all_coeffs())]
+
+
+def drawn(rng: random.Random, degree: int) -> list[list[Fraction]]:
+    """Monic in x, with coefficients of degree up to 2 in t."""
+    parts = [
+        [Fraction(rng.randint(-4, 4), rng.choice((1, 1, 2, 3))) for _ in range(rng.randint(0, 3))]
+        for _ in range(degree)
+    ]
+    for part in parts:
+        while part and not part[-1]:
+            part.pop()
+    return [*parts, [Fraction(1)]]
+
+
+def multiple(f: list[list[Fraction]]) -> int:
+    """The least number that makes all coefficients integers."""
+    return int(sympy.ilcm(1, *(c.denominator for part in f for c in part)))
+
+
+@pytest.mark.parametrize("seed", range(24))
+def test_resultants_are_sylvester_s_determinants(seed: int) -> None:
+    rng = random.Random(seed)
+    f, g = drawn(rng, seed % 4), drawn(rng, rng.randint(1, 3))
+    expected = sylvester(f, g)
+    found = resultant(residues(f, PRIME), residues(g, PRIME), PRIME)
+    wanted = [c.numerator * pow(c.denominator, -1, PRIME) % PRIME for c in expected]
+    assert found == (wanted if any(wanted) else [])
+    factor = multiple(f) ** (len(g) - 1) * multiple(g) ** (len(f) - 1)
+    whole = integer_resultant(f, g, [PRIME, 2**61 - 1, 2**89 - 1])
+    assert whole == ([c * factor for c in expected] if any(expected) else [])
+
+
+def test_the_last_value_that_a_degree_needs_is_taken() -> None:
+    f, g = polynomial([-1], [1]), polynomial([0, 0, -1], [1])  # x − 1 and x − t²
+    assert resultant(residues(f, PRIME), residues(g, PRIME), PRIME) == [1, 0, PRIME - 1]
+    assert resultant(residues(f, 3), residues(g, 3), 3) == [1, 0, 2]
+    with pytest.raises(NotAUnit):  # 0 and 2 are the same modulo 2
+        resultant(residues(f, 2), residues(g, 2), 2)
+
+
+def test_the_moduli_have_to_exceed_twice_the_bound() -> None:
+    f, g = polynomial([0, "-1/2"], [1]), polynomial(["-1/3"], [1])  # 2x − t and 3x − 1
+    assert integer_resultant(f, g, [25]) == [-2, 3]
+    assert integer_resultant(f, g, [5, 7]) == [-2, 3]
+    for moduli in ([], [23], [5], [24 // 5]):
+        with pytest.raises((Refused, NotAUnit)):
+            integer_resultant(f, g, moduli)
+    with pytest.raises(NotAUnit):
+        integer_resultant(f, g, [5, 5])
+    with pytest.raises(Refused, match="expected a product"):
+        integer_resultant(polynomial([], [1]), polynomial([-1], [1]), [])
+
+
+def test_a_coefficient_of_half_the_product_is_positive() -> None:
+    f, g = polynomial([-3], [1]), polynomial([], [1])  # x − 3 and x: the bound is 4
+    assert integer_resultant(f, g, [9]) == [3]
+    assert integer_resultant(g, f, [9]) == [-3]
+    with pytest.raises(Refused):
+        integer_resultant(f, g, [8])
+
+
+def test_values_are_interpolated_over_q_and_modulo_a_number() -> None:
+    values = [[Fraction(k * k, 2), Fraction(1)] for k in range(3)]
+    assert interpolated(values) == [[0, 0, Fraction(1, 2)], [1]]
+    assert interpolated([[k * k % 7] for k in range(3)], 7) == [[0, 0, 1]]
+    assert interpolated([[0], [0]]) == [[]]
