@@ -249,6 +249,63 @@ class ParametricSystem:
             names=self.names,
         )
 
+    def with_full_output(self, names: Sequence[str] | None = None) -> ParametricSystem:
+        """The system of one channel with some inputs, all by default, that measures the state.
+
+        The modes that are fixed there are those that these inputs do not control: its fixed
+        spectrum says for which values of the parameter controllability is lost.
+
+        Raises
+        ------
+        InputError
+            If a name is unknown.
+
+        Examples
+        --------
+        >>> from mcexact import fixed_spectrum
+        >>> plant = ParametricSystem([[1, "t"], [0, 2]], [[[0], [1]]], [[[1, 0]]], parameters=["t"])
+        >>> print(*fixed_spectrum(plant.with_full_output()).words)
+        the roots of x + (-1) (channels: none) where t = 0
+        """
+        return self._alone(names, True)
+
+    def with_full_input(self, names: Sequence[str] | None = None) -> ParametricSystem:
+        """The system of one channel with some outputs, all by default, that drives every state.
+
+        The modes that are fixed there are those that these outputs do not observe.
+
+        Raises
+        ------
+        InputError
+            If a name is unknown.
+        """
+        return self._alone(names, False)
+
+    def _alone(self, names: Sequence[str] | None, inputs: bool) -> ParametricSystem:
+        chosen = self.names if names is None else tuple(names)
+        for name in chosen:
+            if name not in self.names:
+                raise InputError(f"unknown channel {quoted(name)}", where="names")
+        ports = [c.B if inputs else c.C for c in self.channels if c.name in chosen]
+        one = [[int(i == j) for j in range(self.n)] for i in range(self.n)]
+        identity = _functions(one, "identity", self.parameters)
+        if inputs:
+            rows = tuple(sum((B.rows[i] for B in ports), ()) for i in range(self.n))
+            B, C = FunctionMatrix(rows, sum(part.ncols for part in ports)), identity
+        else:
+            outputs = tuple(row for part in ports for row in part.rows)
+            B, C = identity, FunctionMatrix(outputs, self.n)
+        assume = dict(zip(self.parameters, self.ranges, strict=True))
+        return ParametricSystem(
+            self.A,
+            [B],
+            [C],
+            parameters=self.parameters,
+            assume=assume,
+            time=self.time,
+            names=["+".join(chosen) or "none"],
+        )
+
     def generic(self, seed: int = 0) -> MultiChannelSystem:
         """The system at drawn integers, whose structure is nearly always that of almost all values.
 
