@@ -35,7 +35,7 @@ class Verdict(Shown, checker.Verdict):
     True
     >>> other = MultiChannelSystem([[2]], [[[1]]], [[[1]]])
     >>> print(check(fixed_spectrum(plant), other).explain())  # doctest: +ELLIPSIS
-    INVALID system system: expected the system with SHA-256 ...
+    INVALID system system: about another system, ...
     """
 
     @classmethod

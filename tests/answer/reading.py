@@ -21,7 +21,10 @@ def texts_of_plain(text: str) -> Iterator[str]:
 
 
 class _Blocks(HTMLParser):
-    """The texts of paragraphs, headings, captions and rows; evidence in <pre> is left out."""
+    """The texts of paragraphs, headings, captions and rows.
+
+    What the user gave and when it was written is left out, as is evidence in <pre>.
+    """
 
     ALONE = frozenset({"p", "h1", "h2", "h3", "summary", "figcaption", "title"})
 
@@ -30,9 +33,12 @@ class _Blocks(HTMLParser):
         self.texts: list[str] = []
         self.cells: list[str] | None = None
         self.parts: list[str] | None = None
+        self.given = False
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        if tag == "tr":
+        if tag == "footer" or ("class", "given") in attrs:
+            self.given = True
+        elif tag == "tr":
             self.cells = []
         elif tag in self.ALONE | {"td", "th"}:
             self.parts = []
@@ -40,18 +46,21 @@ class _Blocks(HTMLParser):
     def handle_endtag(self, tag: str) -> None:
         if tag in {"td", "th"} and self.cells is not None and self.parts is not None:
             self.cells.append("".join(self.parts))
-        elif tag in self.ALONE and self.parts is not None:
+        elif tag in self.ALONE and self.parts is not None and not self.given:
             self.texts.append("".join(self.parts))
         elif tag == "tr" and self.cells is not None:
-            self.texts.append(" | ".join(self.cells))
+            if not self.given:
+                self.texts.append(" | ".join(self.cells))
             self.cells = None
         if tag in self.ALONE | {"td", "th"}:
             self.parts = None
+        if tag in {"section", "footer"}:
+            self.given = False
 
     def handle_data(self, data: str) -> None:
         if self.parts is not None:
             self.parts.append(data)
-        elif data.strip() and self.lasttag not in {"style", "pre"}:
+        elif data.strip() and not self.given and self.lasttag not in {"style", "pre"}:
             self.texts.append(data.strip())
 
 
