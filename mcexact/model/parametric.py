@@ -6,15 +6,15 @@ import random
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Any, NoReturn
+from typing import Any
 
-from mcexact.errors import FloatRefused, InputError, LimitReached
+from mcexact.errors import InputError, LimitReached
 from mcexact.exact.function_matrix import FunctionMatrix
 from mcexact.exact.location import require_time
-from mcexact.exact.rational import TWO_WAYS_IN, as_fraction, written
+from mcexact.exact.rational import as_fraction, written
 from mcexact.exact.rational_function import RationalFunction
-from mcexact.exact.rows import common_width, rows_of
-from mcexact.model.expression import checked_parameter, parse_expression
+from mcexact.model.expression import checked_parameter
+from mcexact.model.function_entry import as_function, as_functions
 from mcexact.model.matrix_entry import require_shape, require_square
 from mcexact.model.names import checked_names, checked_text, quoted
 from mcexact.model.system import Construction, MultiChannelSystem
@@ -118,7 +118,7 @@ class ParametricSystem:
     ) -> None:
         known = _checked_parameters(parameters)
         require_time(time)
-        square = require_square(_functions(A, "A", known), "A")
+        square = require_square(as_functions(A, "A", known), "A")
         if len(B) != len(C) or not len(B):
             raise InputError(
                 f"expected one matrix for each of at least one channel, found {len(B)} in B and "
@@ -133,8 +133,8 @@ class ParametricSystem:
         channels = tuple(
             ParametricChannel(
                 label,
-                require_shape(_functions(B_i, f"B[{i}]", known), f"B[{i}]", n, None),
-                require_shape(_functions(C_i, f"C[{i}]", known, n), f"C[{i}]", None, n),
+                require_shape(as_functions(B_i, f"B[{i}]", known), f"B[{i}]", n, None),
+                require_shape(as_functions(C_i, f"C[{i}]", known, n), f"C[{i}]", None, n),
             )
             for i, (label, B_i, C_i) in enumerate(zip(checked, B, C, strict=True))
         )
@@ -235,7 +235,7 @@ class ParametricSystem:
         """
         given, new = _by_name(line, self.parameters, "line"), _checked_parameters(parameters)
         values = [
-            _function(given.get(name, name), f"line[{name}]", new) for name in self.parameters
+            as_function(given.get(name, name), f"line[{name}]", new) for name in self.parameters
         ]
         zero = RationalFunction.constant(0, new)
         parts = self._mapped(lambda entry: entry.substituted(values, zero))
@@ -288,7 +288,7 @@ class ParametricSystem:
                 raise InputError(f"unknown channel {quoted(name)}", where="names")
         ports = [c.B if inputs else c.C for c in self.channels if c.name in chosen]
         one = [[int(i == j) for j in range(self.n)] for i in range(self.n)]
-        identity = _functions(one, "identity", self.parameters)
+        identity = as_functions(one, "identity", self.parameters)
         if inputs:
             rows = tuple(sum((B.rows[i] for B in ports), ()) for i in range(self.n))
             B, C = FunctionMatrix(rows, sum(part.ncols for part in ports)), identity
@@ -414,68 +414,3 @@ def _checked_ranges(
             raise InputError(f"expected an interval, found {low} above {high}", where=where)
         ranges.append((low, high))
     return tuple(ranges)
-
-
-def _functions(
-    value: Any, where: str, parameters: tuple[str, ...], ncols: int = 0
-) -> FunctionMatrix:
-    """Convert a matrix-like value."""
-    if isinstance(value, FunctionMatrix):
-        return value
-    rows = rows_of(value, where)
-    width = common_width(rows, where)
-    if width is None:
-        width = int(getattr(value, "shape", (0, ncols))[1])
-    return FunctionMatrix(
-        tuple(
-            tuple(_function(entry, f"{where}[{i}][{j}]", parameters) for j, entry in enumerate(row))
-            for i, row in enumerate(rows)
-        ),
-        width,
-    )
-
-
-def _function(entry: Any, where: str, parameters: tuple[str, ...]) -> RationalFunction:
-    """Convert an entry: a number, a text, or an expression of sympy."""
-    if isinstance(entry, RationalFunction):
-        return entry
-    if isinstance(entry, str):
-        return parse_expression(entry, parameters, where=where)
-    if getattr(entry, "free_symbols", None) and hasattr(entry, "as_numer_denom"):
-        return _from_sympy(entry, where, parameters)
-    return RationalFunction.constant(as_fraction(entry, where=where), parameters)
-
-
-def _from_sympy(entry: Any, where: str, parameters: tuple[str, ...]) -> RationalFunction:
-    """Convert an expression of sympy, which is a rational function of the parameters."""
-    import sympy
-
-    def refused() -> NoReturn:
-        raise InputError(
-            f"expected a rational function of {', '.join(parameters)} with rational coefficients, "
-            f"found {quoted(str(entry))}",
-            where=where,
-        )
-
-    if entry.has(sympy.Float):
-        raise FloatRefused(TWO_WAYS_IN, where=where)
-    symbols = {str(symbol): symbol for symbol in entry.free_symbols}
-    unknown = sorted(set(symbols) - set(parameters))
-    if unknown:
-        raise InputError(f"{unknown[0]!r} is not among the parameters", where=where)
-    generators = [symbols.get(name, sympy.Symbol(name)) for name in parameters]
-    try:
-        both = [
-            sympy.Poly(part, *generators, domain="QQ")
-            for part in sympy.fraction(sympy.together(entry))
-        ]
-    except (sympy.PolynomialError, sympy.CoercionFailed):
-        refused()
-    top, bottom = (
-        RationalFunction.from_terms(
-            {tuple(map(int, e)): Fraction(int(c.p), int(c.q)) for e, c in part.terms()},
-            parameters,
-        )
-        for part in both
-    )
-    return top / bottom
