@@ -40,6 +40,20 @@ TEXTS: dict[Any, Any] = {
     "0*t": 0,
     "(0*t)^2": 0,
     "t^1000": "t^1000",
+    "t^500*t^500": "t^1000",
+    "t^500*t^501": None,
+    "1/t^500*(1/t^500)": "(1)/(t^1000)",
+    "1/t^500*(1/t^501)": None,
+    "t^500 + 1/t^500": "(t^1000 + 1)/(t^500)",
+    "t^501 + 1/t^500": None,
+    "1/t^500 + t^501": None,
+    "1/t^500 + 1/(t^500 - 1)": "(2*t^500 - 1)/(t^1000 - t^500)",
+    "1/t^501 + 1/(t^500 - 1)": None,
+    "1^1000": 1,
+    "(1/t)^1000": "(1)/(t^1000)",
+    "t^000000001": "t",
+    "t^0000000001": None,
+    "t" + " " * (LONGEST - 1): "t",
     "": None,
     "   ": None,
     "t t": None,
@@ -127,6 +141,7 @@ OTHERS: dict[str, tuple[Any, str]] = {
     "two parameters": (changed(SYSTEM, ("parameters", {"t": {}, "u": {}})), "INCOMPLETE"),
     "the parameter x": (changed(SYSTEM, ("parameters", {"x": {}})), "MALFORMED"),
     "a parameter of 65 letters": (changed(SYSTEM, ("parameters", {"t" * 65: {}})), "MALFORMED"),
+    "no name of a parameter": (changed(SYSTEM, ("parameters", {"2u": {}})), "MALFORMED"),
     "a range of one end": (changed(SYSTEM, ("parameters.t.range", [0])), "MALFORMED"),
     "a range upside down": (changed(SYSTEM, ("parameters.t.range", [1, 0])), "MALFORMED"),
     "a range that says nothing": (
@@ -188,6 +203,11 @@ BROKEN: list[tuple[str, Any]] = [
     ("sample_time", 1),
 ]
 NO_SYSTEMS = ([], {"format": "mcexact-system/2", "parameters": {"t": {}}})
+
+
+def test_a_range_may_be_one_value() -> None:
+    document = changed(FILE, ("parameters.t.range", ["1/2", 0.5]))
+    assert about(document).plant["parameters"] == {"t": {"range": ["1/2", "1/2"]}}
 
 
 def about(document: Any) -> Expectation:
