@@ -71,7 +71,7 @@ def _draft(ladder: Ladder, start: Start) -> tuple[float, Start]:
     problem, x = start.problem, start.problem.entries(start.K)
     if problem.ties is not None:
         x = settled(problem, x, ladder.target, ladder.effort.part(0.4))
-    part = ladder.effort.part(0.3)
+    part = ladder.effort.part(0.3 if problem.ties is None else 0.5)
     entered = inside(problem, x, ladder.target, part)
     if entered is None:
         return np.inf, start

@@ -30,7 +30,7 @@ SLACK = 1.02
 _RATCHETS, _STALLS, _SHARE = 40, 4, 0.15
 _PARTS = (0.5, 0.25, 0.12, 0.06)
 _MARGIN_ROUNDS = 10
-_SETTLINGS, _SETTLED = 4, 150
+_SETTLED = 60
 _DRAFT, _POLISH = 60, 500
 _CHECKED = 200
 _GAIN_AIMED_AT = 0.95
@@ -170,8 +170,10 @@ def ratcheted(problem: FeedbackProblem, x: Floats, target: Target, effort: Effor
     return x if target.reached(bound) else None
 
 
-def settled(problem: FeedbackProblem, x: Floats, target: Target, effort: Effort) -> Floats:
-    """Lower the cost of a stable loop outside the region, until it lies inside or gets no better.
+def settled(
+    problem: FeedbackProblem, x: Floats, target: Target, effort: Effort, *, rounds: int = 8
+) -> Floats:
+    """Lower the cost of a stable loop outside the region, until it lies inside or for some rounds.
 
     Notes
     -----
@@ -180,13 +182,13 @@ def settled(problem: FeedbackProblem, x: Floats, target: Target, effort: Effort)
     it is.
     """
     edge = 1.0 if problem.discrete else 0.0
-    for _ in range(_SETTLINGS):
+    for _ in range(rounds):
         bound = bound_of(problem, x)
         if not bound < edge or target.reached(bound, SLACK) or effort.over:
             break
         shift = (bound + edge) / 2 if problem.discrete else -bound / 2
         objective = _counted(Objective(problem, shift, target.largest_gain), effort)
-        x, _ = minimize(objective, x, steps=_SETTLED, tolerance=1e-3, stop=lambda: effort.over)
+        x, _ = minimize(objective, x, steps=_SETTLED, stop=lambda: effort.over)
     return x
 
 

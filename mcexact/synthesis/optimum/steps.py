@@ -12,7 +12,7 @@ from mcexact.synthesis.optimum.cost import quadratic_costs
 from mcexact.synthesis.optimum.cuts import cut_gains, cut_observers, held_states, whole_model
 from mcexact.synthesis.optimum.figures import shift_of
 from mcexact.synthesis.optimum.ladder import MOST_STATES, Candidate, Ladder, Start, best_price
-from mcexact.synthesis.optimum.polish import SLACK, bound_of
+from mcexact.synthesis.optimum.polish import SLACK, bound_of, settled
 from mcexact.synthesis.optimum.problem import FeedbackProblem
 from mcexact.synthesis.optimum.programs import balanced, problem_of
 from mcexact.synthesis.optimum.starts import (
@@ -30,7 +30,7 @@ Rank = tuple[bool, float]
 _SHIFTS = (1.0, 1.3, 1.7, 2.5, 4.0)
 _REACHES = ((1.0, 1.0), (10.0, 1.0), (100.0, 1.0), (10.0, 100.0))
 _FURTHER_REACHES = ((10.0, 10.0), (100.0, 10.0))
-_MOST_ENTRIES = 1500
+_MOST_ENTRIES, _SETTLED = 1500, 3
 _BETTER, _GOOD = 0.97, 2.0
 _SMALL = 20
 _STATIC = "static gains"
@@ -129,15 +129,30 @@ def _cut(ladder: Ladder, static: FeedbackProblem, parts: Sequence[Locality]) -> 
         return []
     model, ranked = whole_model(static, ladder.weights), list[tuple[Rank, Floats]]()
     for noise, price in _REACHES if problem.ties is None else (*_REACHES, *_FURTHER_REACHES):
-        weighed = replace(model, V=noise * model.V, R=price * model.R)
+        weighed, tried = replace(model, V=noise * model.V, R=price * model.R), len(ranked)
         for factor in _SHIFTS:
             K = cut_observers(problem, held, weighed, shift_of(ladder.target.region, factor))
             if K is not None:
                 ranked.append((_rank(ladder, problem, K), K))
+        ranked[tried:] = sorted(ranked[tried:], key=_first)[:1]
+    ranked.sort(key=_first)
+    if problem.ties is not None:
+        ranked = sorted((_settled(ladder, problem, K) for _, K in ranked[:_SETTLED]), key=_first)
     if not ranked:
         return []
-    K = min(ranked, key=lambda each: each[0])[1]
+    K = ranked[0][1]
     return [Start("cut from the controller for all agents", problem, balanced(problem, K))]
+
+
+def _first(ranked: tuple[Rank, Floats]) -> Rank:
+    return ranked[0]
+
+
+def _settled(ladder: Ladder, problem: FeedbackProblem, K: Floats) -> tuple[Rank, Floats]:
+    """Follow a start for a short while: the cheapest one need not become the cheapest."""
+    x = settled(problem, problem.entries(K), ladder.target, ladder.effort.part(0.1), rounds=1)
+    K = problem.gain(x)
+    return _rank(ladder, problem, K), K
 
 
 def _local_observers(
