@@ -18,7 +18,7 @@ _STYLE = """\
 .mcexact table { border-collapse: collapse; margin: 0.3em 0; color: inherit; }
 .mcexact caption { caption-side: top; text-align: left; font-weight: 600; color: inherit;
   padding: 0.2em 0; }
-.mcexact tbody tr, .mcexact tbody tr:nth-child(odd) { background: transparent; }
+.mcexact tbody tr { background: transparent !important; }
 .mcexact th, .mcexact td { text-align: left !important; vertical-align: top; color: inherit;
   padding: 0.25em 0.6em; border: 0; border-bottom: 1px solid var(--line); white-space: normal; }
 .mcexact th { background: var(--panel); white-space: nowrap; font-weight: 600; }

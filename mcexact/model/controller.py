@@ -142,9 +142,13 @@ class Equations(Shown):
 
     def _labeled(self) -> Iterator[tuple[str, Any]]:
         """Yield each signal with the equation that uses it, and its coefficients."""
+        used = False
         for left, each in zip(("x", "z", "u"), self._agent.maps(), strict=True):
             for signal, M in each.without_zeros().terms(self._names):
+                used = True
                 yield f"{left} from {signal}", M
+        if not used:
+            yield "u", "0"
 
     def _html(self) -> str:
         """Return the coefficients in HTML, one signal a row."""

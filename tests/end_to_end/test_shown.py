@@ -196,11 +196,11 @@ def test_plain_data_of_a_system_is_a_system_file() -> None:
 
 def test_a_trajectory_is_lists_of_numbers_by_the_names_of_signals() -> None:
     found = run().to_dict()
-    assert list(found) == ["t", "x[0]", "x[1]", "y of 1[0]", "y of 2[0]", "u of 1[0]", "u of 2[0]",
-                           "r of 1[0]", "r of 2[0]"]  # fmt: skip
+    signals = [f"{letter} {name}" for letter in "yur" for name in (1, 2)]
+    assert list(found) == ["t", "x[1]", "x[2]", *signals]
     assert len(found["t"]) == 5 and found["t"][0] == Fraction(0)
-    assert found["y of 1[0]"] == found["x[0]"]
-    assert "At the end x[0] = " in run().explain()
+    assert found["y 1"] == found["x[1]"]
+    assert "At the end x[1] = " in run().explain()
 
 
 def test_a_row_of_a_sweep_is_flat() -> None:

@@ -1,0 +1,22 @@
+"""Types are shipped: a user's program is checked with them, and does what they say."""
+
+import tomllib
+from pathlib import Path
+
+import mcexact
+from tests.architecture.typed_user import used
+
+ROOT = Path(mcexact.__file__).parents[1]
+
+
+def test_the_package_says_that_it_has_types() -> None:
+    assert (ROOT / "mcexact" / "py.typed").exists()
+
+
+def test_the_program_of_a_user_is_checked_with_the_package() -> None:
+    configured = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    assert "tests/architecture/typed_user.py" in configured["tool"]["mypy"]["files"]
+
+
+def test_the_program_of_a_user_runs() -> None:
+    assert "Re λ < -1/2" in used() and "3.0 Drawn systems" in used()
