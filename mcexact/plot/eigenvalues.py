@@ -191,7 +191,7 @@ def _draw_half_plane(axis: Any, edge: float | None, places: Sequence[complex]) -
         for ticked in (axis.xaxis, axis.yaxis):
             ticked.set_ticks(ticks, [f"{each:g}" for each in ticks])
         limits = 3 * left or -least, 3 * right or least / 2
-        height = 3 * max(height, least)
+        height = max(3 * height, *(1.5 * each for each in ticks if 0 < each < 10.1 * least), least)
     else:
         room = 0.15 * max(right - left, height / 2, 1e-300)
         limits = left - room, right + room

@@ -32,23 +32,30 @@ def pages(folder: Path) -> list[Path]:
     tanks, discrete = str(plants / "quadruple-tank-pminus.json"), str(plants / "compleib-dis5.json")
     drawn, crowd = folder / "drawn.json", folder / "crowd.json"
     gains, holding = str(folder / "gains.json"), str(folder / "holding.json")
+    linked, shared = str(folder / "linked.json"), str(folder / "shared.json")
+    estimates = str(folder / "estimates.json")
     made = {
         "analysis": ("analyze", example),
         "analysis-10": ("analyze", str(drawn)),
         "analysis-60": ("analyze", str(crowd)),
         "decentralized": ("design", "decentralized", tanks, "--effort", "2", "-o", gains),
         "setpoint": ("design", "setpoint", tanks, "--effort", "2", "-o", holding),
+        "extended": ("design", "extended", linked, "--effort", "2", "-o", shared),
+        "observer": ("design", "observer", linked, "--arithmetic", "float", "-o", estimates),
         "certified": ("certify", tanks, gains),
         "exhibits": ("crosscheck", "--exhibits"),
     }
     runs = {
         "run": (tanks, gains),
         "run-setpoint": (tanks, holding, "--reference=1,-1/2", "--initial=0,0,0,0"),
+        "run-observer": (linked, estimates),
         "run-unstable": (discrete, str(folder / "idle.json")),
     }
     for path, channels in ((drawn, 10), (crowd, 60)):
         system = drawn_system(Draw(1, states=12, channels=channels, neighbors=True))
         save_system(system, path)
+    pair = {"1": ["2"], "2": ["1"]}
+    save_system(load_system(tanks).with_neighbors(pair), linked)
     _idle(discrete, folder / "idle.json")
     for name, arguments in made.items():
         _run(*arguments, "--html", str(folder / f"{name}.html"))

@@ -69,6 +69,12 @@ def test_eigenvalues_of_different_sizes_are_kept_apart() -> None:
     assert labels == ["-100", "-1", "0", "1", "100"]
 
 
+def test_small_imaginary_parts_have_a_scale() -> None:
+    axis = eigenvalues([-0.016, complex(-0.09, 0.003), complex(-0.09, -0.003), -11]).axes[0]
+    low, high = axis.get_ylim()
+    assert len([tick for tick in axis.get_yticks() if low < tick < high]) == 3
+
+
 def test_discrete_time_has_circles() -> None:
     axis = eigenvalues([0.5j], region=StabilityRegion.of("discrete", radius="3/4")).axes[0]
     assert [circle.get_radius() for circle in axis.patches] == [1, 0.75]
