@@ -21,6 +21,13 @@ from tests.checker.handmade import FIXED, FREE, PAPER, changed
 from tests.checker.manifests import EVIDENCE, SENTENCES, write
 
 
+@pytest.fixture
+def _imported_as_usual(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without pytest's hook, which loads a package with fixtures, and gives ``runpy`` no code."""
+    usual = [finder for finder in sys.meta_path if not hasattr(finder, "mark_rewrite")]
+    monkeypatch.setattr(sys, "meta_path", usual)
+
+
 class Stream(io.TextIOWrapper):
     """A stream that fails with an error as soon as it is written to, or only at the end."""
 
@@ -363,6 +370,7 @@ def test_standard_error_that_fails_at_the_end_leads_nowhere(
     stream.close()
 
 
+@pytest.mark.usefixtures("_imported_as_usual")
 @pytest.mark.parametrize("as_module", [True, False])
 def test_the_folder_starts_by_itself(
     folder: Path,
@@ -391,6 +399,7 @@ def test_the_folder_starts_by_itself(
     assert os.path.dirname(os.__file__) in sys.path
 
 
+@pytest.mark.usefixtures("_imported_as_usual")
 def test_an_interruption_before_the_checker_is_loaded_ends_with_130_too(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
