@@ -223,13 +223,17 @@ class _Task:
         closed = isinstance(spectrum, Mapping) and "closed_loop" in spectrum
         closed = closed or bool(self.graph.delays) or not self.graph.edges()
         extended = self.method == "extended" or (self.method is None and closed)
+        # Without links the system stays without a graph, and its certificates are about it.
+        apart = self.system.neighbors is None
 
         def proposed(to: MultiChannelSystem, asked: Request) -> Iterator[Proposal]:
             if not extended:
                 return observers(to, self.graph, asked)
-            return network_proposals(self._network(to, asked), asked)
+            network = decentralized_network(to) if apart else self._network(to, asked)
+            return network_proposals(network, asked)
 
-        minimal = extended and self.dimensions == "minimal" and not self.graph.delays
+        shared = extended and not apart and not self.graph.delays
+        minimal = shared and self.dimensions == "minimal"
         yield from _proposals(proposed, self.integrated, self.request, minimal=minimal)
 
 

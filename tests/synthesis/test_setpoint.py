@@ -7,6 +7,7 @@ from fractions import Fraction
 
 import pytest
 
+from mcexact.answer.check import check
 from mcexact.answer.codec import encode
 from mcexact.checker import Expectation, check_document
 from mcexact.errors import Impossible, InputError, UsageError
@@ -22,7 +23,7 @@ from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import digest
 from mcexact.simulation.trajectory import simulate
 from mcexact.synthesis.design import Design
-from mcexact.synthesis.setpoint import design_setpoint, with_integrators
+from mcexact.synthesis.setpoint import SetpointMethod, design_setpoint, with_integrators
 from tests.campaigns import extended as campaign
 
 
@@ -172,3 +173,14 @@ def test_integrators_of_another_agent_are_not_at_hand() -> None:
 def test_drawn_square_plants_reach_their_set_points() -> None:
     seen = campaign.setpoints(4, 1)
     assert seen["plants that satisfy the condition"] == 4
+
+
+@pytest.mark.parametrize("method", [None, "extended"])
+def test_without_links_a_refusal_is_about_the_plant_as_it_was_given(
+    method: SetpointMethod | None,
+) -> None:
+    plant = gallery.load("hidden-triple-mode")
+    assert plant.neighbors is None
+    with pytest.raises(Impossible, match="no linear time-invariant decentralized") as refused:
+        design_setpoint(plant, rate=1, method=method)
+    assert check(refused.value.certificate, plant).valid
