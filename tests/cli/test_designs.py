@@ -36,7 +36,7 @@ def test_a_file_is_enough_and_the_first_line_says_whether_to_install(
     shown = page.read_text(encoding="utf-8")
     Page(shown)
     assert not external_addresses(shown)
-    assert first in shown and shown.count("<figure") == 4
+    assert first in shown and shown.count("<figure") == 5
     told = run("certify", plant, str(controller), "--rate", "1/100")
     assert told.status == 0
     assert told.stdout.splitlines()[0].startswith("Worth installing: margin ")
