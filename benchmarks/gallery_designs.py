@@ -23,12 +23,12 @@ from benchmarks.design_page import PAGE, written
 from benchmarks.families import figures_row, told
 from benchmarks.kept_rows import Row, chosen, kept, measured
 from mcexact import Aims, design_decentralized, design_extended, design_setpoint
-from mcexact.derived.integrators import setpoint_system
 from mcexact.errors import Impossible, LimitReached, OutOfReach
 from mcexact.model import gallery
 from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.system import MultiChannelSystem, as_plant
+from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.assessment import assess
+from mcexact.synthesis.integrated_plant import integrated_plant
 
 EFFORT = 10.0
 """Seconds for each search: a grid of 111 rows ends within the hour."""
@@ -62,7 +62,7 @@ def answered(name: str, structure: str) -> Row:
     about = plant
     if structure == "setpoint":
         # That of the search counts the integrals.
-        found["peak"], about = seen.figures.peak, as_plant(setpoint_system(plant))
+        found["peak"], about = seen.figures.peak, integrated_plant(plant)
         if found.get("central"):
             found["central"].pop("peak")
     hand = made_by_hand(about, (found.get("central") or {}).get("cost"))

@@ -43,7 +43,7 @@ def request_for(
         As in `Request.of`.
     aims : Aims, optional
     controlled : MultiChannelSystem, optional
-        The system whose sensible rate counts, if it is not the given one.
+        The system with integrators whose sensible rate counts, if it is not the given one.
     avoids_fixed_modes : bool
         Whether a chosen rate is slow enough for the stable fixed modes of the system.
 
@@ -67,7 +67,9 @@ def request_for(
     (progress or (lambda _: None))("the sensible rate")
     about = controlled or system
     weights = Weights.of(system, (aims or Aims()).weights)
-    found = chosen_region(about, weights.with_integrators(about.n - system.n))
+    if controlled is not None:
+        weights = weights.with_integrators(system)
+    found = chosen_region(about, weights)
     region, told = found or _SMALL[StabilityRegion(system.time).discrete]
     if controlled is None and avoids_fixed_modes:
         region, told = _beyond(fixed_spectrum(system), region, told)

@@ -10,7 +10,6 @@ from typing import Any, Literal
 
 import numpy as np
 
-from mcexact.derived.integrators import setpoint_system
 from mcexact.errors import InputError
 from mcexact.exact.floats import finite, to_float
 from mcexact.exact.location import StabilityRegion
@@ -19,6 +18,7 @@ from mcexact.model.loop import ClosedLoop
 from mcexact.model.system import MultiChannelSystem, as_plant
 from mcexact.shown import Shown, fitting
 from mcexact.synthesis.design import Design
+from mcexact.synthesis.integrated_plant import integrated_plant
 from mcexact.synthesis.network.networks import decentralized_network
 from mcexact.synthesis.optimum.aims import MARGIN, Aims
 from mcexact.synthesis.optimum.diagnosis import Diagnosis, diagnosed
@@ -383,8 +383,9 @@ def assessed_loop(
         The limits on the eigenvalues that were aimed at.
     """
     given, places = loop.given, integrators_of(loop)
-    about = as_plant(setpoint_system(given)) if places else as_plant(given)
-    weighed = Weights.of(given, weights).with_integrators(len(places))
+    about, weighed = as_plant(given), Weights.of(given, weights)
+    if places:
+        about, weighed = integrated_plant(given), weighed.with_integrators(given)
     known = diagnosis or diagnosed(about, region, weighed)
     with quiet_floats():
         figures = figures_of_loop(loop, weighed, places)

@@ -33,6 +33,7 @@ from mcexact.synthesis.agreeing_observer import observers
 from mcexact.synthesis.asking import request_for
 from mcexact.synthesis.design import Design, Method, designed
 from mcexact.synthesis.gate import Proposal
+from mcexact.synthesis.integrated_plant import integrated_plant
 from mcexact.synthesis.network.network_design import network_proposals
 from mcexact.synthesis.network.networks import DerivedNetwork, decentralized_network
 from mcexact.synthesis.network.sharing import Dimensions, sharing_network
@@ -96,7 +97,8 @@ def design_setpoint(
     Returns
     -------
     Design
-        Agent i integrates y_i − r_i as the first q_i entries of its private state.  Its ``parts``
+        Agent i integrates y_i − r_i as the first q_i entries of its private state; in a search it
+        also uses y_i itself.  Its ``parts``
         are the ``solvability``, and ``designed``, the parts of the design for the plant with its
         integrators.
 
@@ -121,7 +123,7 @@ def design_setpoint(
     >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]], neighbors={"1": []})
     >>> design = design_setpoint(plant, rate=1)
     >>> sorted(design.certificates), design.controller.agents[0].private
-    (['setpoint', 'stability'], 2)
+    (['setpoint', 'stability'], 1)
     >>> wash = MultiChannelSystem([[0, 1], [-2, -3]], [[[0], [1]]], [[[0, 1]]],
     ...                           neighbors={"1": []})
     >>> design_setpoint(wash, rate=1)
@@ -137,7 +139,7 @@ invariant zero of the plant
     solvability = _required(system)
     integrated = setpoint_system(system)
     given = system, agent, spectrum, rate, radius, arithmetic, progress
-    request = request_for(*given, aims=aims, controlled=as_plant(integrated))
+    request = request_for(*given, aims=aims, controlled=integrated_plant(system))
     _require_reachable(integrated, request.region)
 
     def attempt(asked: Request) -> Design:
@@ -196,9 +198,8 @@ class _Task:
 
     def _weighed(self) -> tuple[MultiChannelSystem, StabilityRegion, Weights]:
         """The plant with its integrators, the region, and the weights."""
-        plant = as_plant(self.integrated)
-        weights = Weights.of(self.system, self.aims.weights)
-        return plant, self.request.region, weights.with_integrators(plant.n - self.system.n)
+        weights = Weights.of(self.system, self.aims.weights).with_integrators(self.system)
+        return integrated_plant(self.system), self.request.region, weights
 
     def _network(self, to: MultiChannelSystem, asked: Request) -> DerivedNetwork:
         """The network over which agents share sub-states."""
@@ -311,7 +312,8 @@ def with_integrators(system: MultiChannelSystem, controller: Controller) -> Cont
     system : MultiChannelSystem
         The plant.
     controller : Controller
-        A controller for its `setpoint_system`, in which agents use their own w_i alone.
+        A controller for its `setpoint_system` or `integrated_plant`, in which agents use their own
+        w_i and y_i alone.
 
     Returns
     -------
@@ -336,7 +338,7 @@ def with_integrators(system: MultiChannelSystem, controller: Controller) -> Cont
         ]
         own = moved[1].private or Matrix.zeros(k, q + k)
         private = LinearMap(
-            {i: vstack([Matrix.identity(q), Matrix.zeros(k, q)])},
+            {i: vstack([Matrix.identity(q), moved[1].outputs.get(i, Matrix.zeros(k, q))])},
             {j: vstack([Matrix.zeros(q, M.ncols), M]) for j, M in moved[1].shared.items()},
             block([[hstack([stay, Matrix.zeros(q, k)])], [own]]),
             vstack([-Matrix.identity(q), Matrix.zeros(k, q)]),
@@ -356,7 +358,13 @@ def with_integrators(system: MultiChannelSystem, controller: Controller) -> Cont
 
 
 def _on_own_state(each: LinearMap, i: int, nrows: int, q: int, k: int) -> LinearMap:
-    """Convert a map so that it reads w_i from the private state (w_i, z_i), not from the output."""
+    """Convert a map so that it reads w_i from the private state (w_i, z_i), not from the output.
+
+    What an agent measures is w_i, or (w_i, y_i).
+    """
     measured = each.outputs.get(i, Matrix.zeros(nrows, q))
+    own = measured.take(cols=range(q, measured.ncols))
     private = each.private or Matrix.zeros(nrows, k)
-    return LinearMap({}, each.shared, hstack([measured, private]))
+    integrals = measured.take(cols=range(q))
+    outputs = {i: own} if own.ncols else {}
+    return LinearMap(outputs, each.shared, hstack([integrals, private]))

@@ -23,6 +23,7 @@ from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import digest
 from mcexact.simulation.trajectory import simulate
 from mcexact.synthesis.design import Design
+from mcexact.synthesis.optimum.aims import Aims
 from mcexact.synthesis.setpoint import SetpointMethod, design_setpoint, with_integrators
 from tests.campaigns import extended as campaign
 
@@ -168,6 +169,28 @@ def test_integrators_of_another_agent_are_not_at_hand() -> None:
     idle = AgentProgram("2", 0, 0)
     with pytest.raises(InputError, match="integrators of another"):
         with_integrators(plant, Controller("continuous", "", (greedy, idle)))
+
+
+def test_agents_that_are_searched_act_on_their_outputs_at_once() -> None:
+    """Two tanks take proportional and integral control, without further states."""
+    design = design_setpoint(two_tanks(), rate="1/2", aims=Aims(effort=1))
+    for i, agent in enumerate(design.controller.agents):
+        assert agent.private == 1 and set(agent.input.outputs) == {i}
+    require_valid(design)
+
+
+def test_what_agents_do_with_their_outputs_stays_theirs() -> None:
+    plant = two_tanks()
+    gains = Matrix.from_rows([[-3, -5]])
+    given = AgentProgram("1", 0, 1, LinearMap(), LinearMap({0: gains}), LinearMap({0: gains}))
+    made = with_integrators(
+        plant, Controller("continuous", "", (given, AgentProgram("2", 0, 0)))
+    ).agents[0]
+    # w' = y − r, z' = −3 w − 5 y, u = −3 w − 5 y.
+    assert made.private_update.outputs[0].rows() == ((1,), (-5,))
+    assert made.private_update.private == Matrix.from_rows([[0, 0], [-3, 0]])
+    assert made.input.outputs[0].rows() == ((-5,),)
+    assert made.input.private == Matrix.from_rows([[-3, 0]])
 
 
 def test_drawn_square_plants_reach_their_set_points() -> None:

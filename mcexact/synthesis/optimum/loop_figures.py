@@ -8,6 +8,7 @@ from decimal import Context, Decimal
 from fractions import Fraction
 
 import numpy as np
+import numpy.typing as npt
 
 from mcexact.exact.floats import matrix_to_float, to_float
 from mcexact.exact.location import StabilityRegion, is_discrete
@@ -45,8 +46,8 @@ def figures_of_loop(loop: ClosedLoop, weights: Weights, integrators: Sequence[in
     Notes
     -----
     In floating point.  The loop is M, its inputs are u = U x + D ν with the noise ν of all outputs,
-    which enters the loop by N: at once, or by the messages under way; with integrators it is the
-    noise of the integrals.  With the Gramian S,
+    which enters the loop by N: at once, or by the messages under way; with integrators it is
+    also the noise of the integrals.  With the Gramian S,
     M S + S M' + W + N V N' = 0 (discrete time: M S M' − S + … = 0)::
 
         J = tr(S (Q + U'R U)) + tr(R D V D')
@@ -126,9 +127,7 @@ def _cost(
     places = np.array([*range(n), *integrators], dtype=np.intp)
     N, D = _noise(loop)
     if integrators:
-        # What agents measure is then their integrals, and nothing else.
-        N, D = matrix_to_float(loop.matrix)[:, places[n:]], U[:, places[n:]]
-        N[places[n:]] = 0.0
+        N, D = _with_integrals(loop, N, D, U, places[n:])
     Q, W = np.zeros((size, size)), np.zeros((size, size))
     Q[np.ix_(places, places)] = weights.Q
     W[np.ix_(places, places)] = weights.W
@@ -138,6 +137,24 @@ def _cost(
         return np.inf
     cost = float(np.sum(gramians[0] * Q)) + float(np.sum(weights.R * (D @ weights.V @ D.T)))
     return cost if cost > 0 and np.isfinite(cost) else np.inf
+
+
+def _with_integrals(
+    loop: ClosedLoop, N: Floats, D: Floats, U: Floats, places: npt.NDArray[np.intp]
+) -> tuple[Floats, Floats]:
+    """The same for the noise of all integrals and outputs; the integrators have no noise of these.
+
+    It is in the order of the channels, of each the integrals first.
+    """
+    measured = matrix_to_float(loop.matrix)[:, places]
+    N, measured = N.copy(), measured.copy()
+    N[places] = measured[places] = 0.0
+    columns, start = list[tuple[Floats, Floats]](), 0
+    for i in range(loop.given.m):
+        own = slice(start, start + loop.given.q(i))
+        columns += [(measured[:, own], U[:, places[own]]), (N[:, own], D[:, own])]
+        start = own.stop
+    return np.hstack([each for each, _ in columns]), np.hstack([each for _, each in columns])
 
 
 def _noise(loop: ClosedLoop) -> tuple[Floats, Floats]:

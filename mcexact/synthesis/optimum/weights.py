@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -90,13 +91,21 @@ class Weights:
             found = replace(found, **{name: _checked(entries, size, where, definite=name in "RV")})
         return found
 
-    def with_integrators(self, count: int) -> Weights:
-        """Return the weights of the plant with integrators of its outputs, which are weighed by 1.
+    def with_integrators(self, system: MultiChannelSystem) -> Weights:
+        """Return the weights of `integrated_plant`, for the weights of a system.
 
-        Integrators have noise of covariance 1, and what agents then measure has that of V.
+        Integrators are weighed by 1 and have noise of covariance 1.  What agents measure of them
+        has the noise of the outputs, independently.
         """
-        one = np.eye(count)
-        return replace(self, Q=block_diag(self.Q, one), W=block_diag(self.W, one))
+        sizes = [system.q(i) for i in range(system.m)]
+        one, starts = np.eye(sum(sizes)), np.concatenate([[0], np.cumsum(sizes)]).astype(np.intp)
+        places = [np.arange(a, b) for a, b in pairwise(starts)]
+        # The integrals of a channel come first, then its outputs.
+        order = np.concatenate([[], *(p + k for p in places for k in (0, len(one)))]).astype(
+            np.intp
+        )
+        V = block_diag(self.V, self.V)[np.ix_(order, order)]
+        return Weights(block_diag(self.Q, one), self.R, block_diag(self.W, one), V)
 
 
 def _checked(entries: Any, size: int, where: str, *, definite: bool) -> Floats:
