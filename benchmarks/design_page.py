@@ -22,7 +22,6 @@ REMARKS: Mapping[str, str] = {
     "compleib-tf1 decentralized": "the rate is slower than the mode -1/100000, which is fixed",
     "farina-string-of-vehicles-4 decentralized": "the search keeps away from the border of the "
     "rate, and the gains by hand are near it",
-    "farina-three-rooms setpoint": "this peak counts the integrals, over seconds, of slow outputs",
     "slicot-ctdsx-2-2-arnold-laub-eps1e-6 decentralized": _NEARLY_EQUAL,
     "slicot-ctdsx-2-2-arnold-laub-eps1e-6 extended": _NEARLY_EQUAL,
 }
