@@ -11,14 +11,13 @@ from functools import cached_property
 from typing import Any, NoReturn
 
 from mcexact.analysis.questions import QUESTIONS, Question
-from mcexact.answer.account import Account
+from mcexact.answer.account import Account, ShownByAccount
 from mcexact.answer.rules import ANALYSIS, with_own
 from mcexact.answer.sentence import Given, Sentences
 from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.exact.rational import written
 from mcexact.model.system import MultiChannelSystem
 from mcexact.plot.graphs import structure
-from mcexact.shown import Shown
 
 
 @dataclass(frozen=True)
@@ -40,7 +39,7 @@ class Effort:
         }
 
 
-class Analysis(Shown):
+class Analysis(ShownByAccount):
     """The answers about one system, by attribute or item, each decided when it is first used.
 
     Parameters
@@ -323,18 +322,6 @@ class Analysis(Shown):
             "an analysis is neither true nor false: ask for one of its answers, such as "
             ".fixed_spectrum.empty or .completeness.complete"
         )
-
-    def explain(self) -> str:
-        """Decide all questions asked, and say the answers in plain words, one sentence a line."""
-        return self.account.explain()
-
-    def _labeled(self) -> Iterable[tuple[str, Any]]:
-        """Return the sentences of the answer, and the labels and texts of the table."""
-        return self.account._labeled()
-
-    def _html(self) -> str:
-        """Return the sentences and the table in HTML."""
-        return self.account._html()
 
     def _outcomes(self) -> dict[str, Any]:
         """Return the names of all questions asked or needed, in the order of the table."""

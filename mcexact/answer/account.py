@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from html import escape
@@ -142,3 +142,22 @@ def _reason(sentence: Any) -> str:
     """The theorem and the premises of a sentence, without their values."""
     places = [f"{file}#{pointer}" for file, pointer, _ in sentence.because]
     return "; ".join(filter(None, [sentence.template.theorem, *places]))
+
+
+class ShownByAccount(Shown):
+    """A result that is shown as its account is: its sentences, or without these its table."""
+
+    @property
+    def account(self) -> Account:
+        """The answers, with the sentences that follow from them."""
+        raise NotImplementedError
+
+    def explain(self) -> str:
+        """Say the sentences of the account in plain words, one a line."""
+        return self.account.explain()
+
+    def _labeled(self) -> Iterable[tuple[str, Any]]:
+        return self.account._labeled()
+
+    def _html(self) -> str:
+        return self.account._html()

@@ -9,7 +9,7 @@ from math import isfinite
 from typing import Any, Literal
 
 from mcexact.analysis.stability.stability import certify_stability
-from mcexact.answer.account import Account
+from mcexact.answer.account import Account, ShownByAccount
 from mcexact.answer.protocol import Answer
 from mcexact.answer.rules import DESIGN
 from mcexact.answer.sentence import Given
@@ -21,7 +21,6 @@ from mcexact.floating.margins import loop_margins
 from mcexact.model.controller import Controller
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.shown import Shown
 from mcexact.synthesis.gate import CertifiedLoop, Proposal, first_certified
 from mcexact.synthesis.request import Arithmetic, Request
 
@@ -34,7 +33,7 @@ _SHOWN = (
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Design(Shown):
+class Design(ShownByAccount):
     """The result of every ``design_…`` function.
 
     Attributes
@@ -160,18 +159,6 @@ class Design(Shown):
             "floating_point": self.measures(),
             "controller": self.controller.document(),
         }
-
-    def explain(self) -> str:
-        """Say in plain words what was designed and what is proved, one sentence a line."""
-        return self.account.explain()
-
-    def _labeled(self) -> Iterable[tuple[str, Any]]:
-        """Return the labels and texts of the table of the design."""
-        return self.account._labeled()
-
-    def _html(self) -> str:
-        """Return the table of the design in HTML."""
-        return self.account._html()
 
     def __repr__(self) -> str:
         bound = f", {self.region}" if self.region.bound is not None else ""
