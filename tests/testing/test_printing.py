@@ -16,6 +16,7 @@ from mcexact.testing import Drawn
 ONCE = settings(
     max_examples=60,
     database=None,
+    print_blob=False,
     derandomize=True,
     phases=[Phase.generate],
     report_multiple_bugs=False,
