@@ -27,8 +27,8 @@ from mcexact.errors import Impossible, LimitReached, OutOfReach
 from mcexact.model import gallery
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.assessment import assess
 from mcexact.synthesis.integrated_plant import integrated_plant
+from mcexact.synthesis.loop_assessment import assess
 
 EFFORT = 10.0
 """Seconds for each search: a grid of 111 rows ends within the hour."""

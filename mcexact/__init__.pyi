@@ -121,13 +121,13 @@ from .simulation.trajectory import simulate as simulate
 from .sweeps.records import Record as Record
 from .sweeps.run import sweep as sweep
 from .synthesis.assessment import Assessment as Assessment
-from .synthesis.assessment import assess as assess
 from .synthesis.certify import certify_controller as certify_controller
 from .synthesis.decentralized import design_decentralized as design_decentralized
 from .synthesis.design import Design as Design
 from .synthesis.distributed_observer import design_observer as design_observer
 from .synthesis.extended import design_extended as design_extended
 from .synthesis.gate import CertifiedLoop as CertifiedLoop
+from .synthesis.loop_assessment import assess as assess
 from .synthesis.optimum.aims import Aims as Aims
 from .synthesis.setpoint import design_setpoint as design_setpoint
 

@@ -120,8 +120,9 @@ def _certified(
     from mcexact.model.loop import closed_loop
     from mcexact.report.account import tables
     from mcexact.report.text import Table
-    from mcexact.synthesis.assessment import BASIS, assessed_loop
+    from mcexact.synthesis.assessment import BASIS
     from mcexact.synthesis.certify import account_of_verdict, certify_controller
+    from mcexact.synthesis.loop_assessment import assessed_loop
     from mcexact.synthesis.optimum.loop_figures import rounded_controller
 
     system = system_in(*plant, limits)

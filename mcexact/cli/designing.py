@@ -142,7 +142,7 @@ def _designed(
     from mcexact.model.controller_file import controller_text
     from mcexact.model.json_text import parse
     from mcexact.report.account import measured, tables
-    from mcexact.synthesis.assessment import assess
+    from mcexact.synthesis.loop_assessment import assess
     from mcexact.synthesis.methods.spectrum import require_numbers
     from mcexact.synthesis.optimum.aims import Aims
     from mcexact.synthesis.request import Warned

@@ -13,7 +13,7 @@ from mcexact.model import gallery
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.agreeing_observer import agreed_weights, best_agreeing
-from mcexact.synthesis.assessment import assess
+from mcexact.synthesis.loop_assessment import assess
 
 PENDULA = "slicot-ctdsx-2-5-pendula-s2"
 

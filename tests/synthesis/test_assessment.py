@@ -14,10 +14,11 @@ from mcexact.exact.location import StabilityRegion
 from mcexact.model.local_controllers import local_controllers
 from mcexact.model.loop import ClosedLoop, closed_loop
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.assessment import Assessment, assess, assessed_loop
+from mcexact.synthesis.assessment import Assessment
 from mcexact.synthesis.decentralized import design_decentralized
 from mcexact.synthesis.distributed_observer import design_observer
 from mcexact.synthesis.extended import design_extended
+from mcexact.synthesis.loop_assessment import assess, assessed_loop
 from mcexact.synthesis.optimum.aims import THEOREM, Aims
 from mcexact.synthesis.optimum.curves import curves_of
 from mcexact.synthesis.optimum.diagnosis import diagnosed

@@ -15,9 +15,9 @@ from mcexact.exact.polynomial import Polynomial
 from mcexact.model import gallery
 from mcexact.model.loop import closed_loop
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.assessment import assess
 from mcexact.synthesis.decentralized import design_decentralized
 from mcexact.synthesis.design import Design
+from mcexact.synthesis.loop_assessment import assess
 from mcexact.synthesis.optimum.aims import THEOREM
 from tests.synthesis.three_channels import three_channels
 

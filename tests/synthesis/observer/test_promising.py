@@ -7,7 +7,7 @@ import pytest
 from mcexact import design_observer
 from mcexact.exact.location import StabilityRegion
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.assessment import assess
+from mcexact.synthesis.loop_assessment import assess
 from mcexact.synthesis.observer.promising import rounds
 
 

@@ -5,8 +5,8 @@ import pytest
 
 from mcexact.errors import UsageError
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.assessment import assess
 from mcexact.synthesis.decentralized import design_decentralized
+from mcexact.synthesis.loop_assessment import assess
 from mcexact.synthesis.optimum.aims import Aims
 from mcexact.synthesis.optimum.shape import NO_LIMITS, Shape, least_damping
 
