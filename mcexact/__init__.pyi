@@ -93,6 +93,7 @@ from .errors import UsageError as UsageError
 from .exact.location import StabilityRegion as StabilityRegion
 from .exact.matrix import Matrix as Matrix
 from .exact.polynomial import Polynomial as Polynomial
+from .model.box import Box as Box
 from .model.controller import AgentProgram as AgentProgram
 from .model.controller import Controller as Controller
 from .model.controller import LinearMap as LinearMap
@@ -112,6 +113,7 @@ from .model.statespace import from_statespace as from_statespace
 from .model.statespace import loop_from_statespace as loop_from_statespace
 from .model.system import MultiChannelSystem as MultiChannelSystem
 from .model.to_statespace import to_statespace as to_statespace
+from .model.uncertainty import Radii as Radii
 from .report.frame import to_pandas as to_pandas
 from .simulation.envelope import Envelope as Envelope
 from .simulation.envelope import proved_envelope as proved_envelope

@@ -20,6 +20,7 @@ from mcexact.model.matrix_entry import as_table, require_shape, require_square
 from mcexact.model.names import checked_names, checked_text, quoted
 from mcexact.model.neighbor_graph import NeighborGraph, graph_for
 from mcexact.model.system_forms import SystemForms
+from mcexact.model.uncertainty import Radii
 from mcexact.shown import LINE, Shown, fitting
 
 Construction = Mapping[str, Any]
@@ -69,6 +70,10 @@ class MultiChannelSystem(SystemForms):
         The directed graph of who receives whose messages, with its delays.
     sample_time : rational, optional
         The sample time in discrete time, which no decision uses.
+    uncertainty : Radii, optional
+        How far each entry may be from its value; `Box` makes them.  Without a radius above 0 there
+        are none.  Decisions are about the values unless they say that they are about every plant in
+        the box.
     name, source : str, optional
         A name and a source, which no decision uses.
 
@@ -112,6 +117,7 @@ class MultiChannelSystem(SystemForms):
     time: str
     neighbors: NeighborGraph | None
     sample_time: Fraction | None
+    uncertainty: Radii | None
     name: str | None = field(compare=False)
     source: str | None = field(compare=False)
     subject: tuple[Construction, ...] = field(hash=False)
@@ -127,6 +133,7 @@ class MultiChannelSystem(SystemForms):
         names: Sequence[str] | None = None,
         neighbors: NeighborGraph | Mapping[str, Iterable[str]] | None = None,
         sample_time: Any = None,
+        uncertainty: Radii | None = None,
         name: str | None = None,
         source: str | None = None,
     ) -> None:
@@ -141,11 +148,21 @@ class MultiChannelSystem(SystemForms):
             time=time,
             neighbors=graph_for(neighbors, labels),
             sample_time=_checked_sample_time(sample_time, time),
+            uncertainty=None,
             name=None if name is None else checked_text(name, "name"),
             source=None if source is None else checked_text(source, "source"),
             subject=(),
             _plant=None,
         )
+        if uncertainty is not None:
+            self._fill(uncertainty=self._fitting(uncertainty))
+
+    def _fitting(self, uncertainty: Radii) -> Radii | None:
+        """Return radii that have the shapes of the matrices; None if all entries are certain."""
+        InputError.require(uncertainty, Radii, "uncertainty")
+        with InputError.inside("uncertainty"):
+            uncertainty.require_shapes(self.A, self.B, self.C)
+        return None if uncertainty.is_zero() else uncertainty
 
     def _fill(self, **fields: Any) -> None:
         for key, value in fields.items():
@@ -335,6 +352,7 @@ class MultiChannelSystem(SystemForms):
             time=self.time,
             neighbors=neighbors,
             sample_time=self.sample_time,
+            uncertainty=None,
             name=self.name,
             source=self.source,
             subject=(*self.subject, dict(construction)),
@@ -365,9 +383,28 @@ class MultiChannelSystem(SystemForms):
         other._fill(neighbors=found, _plant=plant)
         return other
 
+    def with_uncertainty(self, uncertainty: Radii | None) -> Self:
+        """Return the same plant with other radii, or with none: then its data are certain.
+
+        Raises
+        ------
+        UsageError
+            If this system was made by a construction.
+        InputError
+            If the radii have other shapes than the matrices.
+        """
+        if self.subject:
+            raise UsageError("radii belong to the plant, and not to a derived system")
+        found = None if uncertainty is None else self._fitting(uncertainty)
+        other = object.__new__(type(self))
+        other._fill(**{name: getattr(self, name) for name in self.__dataclass_fields__})
+        other._fill(uncertainty=found)
+        return other
+
     def __repr__(self) -> str:
         shown = ", ".join(quoted(name) for name in self.names[:8]) + (", …" if self.m > 8 else "")
         made = "".join(f", {c['construction']}" for c in self.subject)
+        made += "" if self.uncertainty is None else f", {self.uncertainty.explain()}"
         text = f"n={self.n}, m={self.m}, {self.time} time, channels: {shown}{made}"
         return f"{fitting(f'MultiChannelSystem({text}', LINE - 1)})"
 

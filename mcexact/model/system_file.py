@@ -36,10 +36,11 @@ from mcexact.model.names import checked_names, checked_text, quoted
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem, as_plant
+from mcexact.model.uncertainty import read_radii
 
 FORMAT = "mcexact-system/1"
 _REQUIRED = ("format", "time", "A", "channels")
-_OPTIONAL = ("name", "source", "sample_time", "neighbors", "delays", "D")
+_OPTIONAL = ("name", "source", "sample_time", "neighbors", "delays", "D", "uncertainty")
 
 
 def read_system(data: bytes | str, *, limits: Limits = DEFAULT_LIMITS) -> MultiChannelSystem:
@@ -98,14 +99,17 @@ def read_document(parsed: Any, limits: Limits = DEFAULT_LIMITS) -> MultiChannelS
     sample_time = None
     if "sample_time" in document:
         sample_time = read_number(document["sample_time"], "sample_time", limits)
+    parts = A.matrix(), [B_i.matrix() for B_i in B], [C_i.matrix() for C_i in C]
+    radii = None
+    if "uncertainty" in document:
+        radii = read_radii(document["uncertainty"], document, names, *parts, limits)
     return MultiChannelSystem(
-        A.matrix(),
-        [B_i.matrix() for B_i in B],
-        [C_i.matrix() for C_i in C],
+        *parts,
         time=time,
         names=names,
         neighbors=_read_graph(document, names),
         sample_time=sample_time,
+        uncertainty=radii,
         name=_optional_text(document, "name"),
         source=_optional_text(document, "source"),
     )
@@ -197,7 +201,10 @@ def canonical_text(system: MultiChannelSystem | ParametricSystem) -> str:
     parts = [f'"A":{canonical_matrix_text(plant.A)},"channels":[{channels}]']
     graph = {} if plant.neighbors is None else graph_document(plant.neighbors)
     parts += [f'"{key}":{canonical(graph[key])}' for key in sorted(graph)]
-    text = "{" + ",".join([*parts, f'"time":"{plant.time}"']) + "}"
+    parts.append(f'"time":"{plant.time}"')
+    if plant.uncertainty is not None:
+        parts.append(f'"uncertainty":{canonical(plant.uncertainty.document(plant.names))}')
+    text = "{" + ",".join(parts) + "}"
     # Systems are immutable, so the text is made once and shared by all certificates.
     object.__setattr__(plant, "_canonical_text", text)
     return text
@@ -273,6 +280,10 @@ def system_text(system: MultiChannelSystem) -> str:
         head.extend(
             (key, json.dumps(value)) for key, value in graph_document(system.neighbors).items()
         )
+    if system.uncertainty is not None:
+        document = system.uncertainty.document(system.names)
+        with numbers_of_any_length():
+            head.append(("uncertainty", json.dumps(document)))
     return "{\n" + ",\n".join(f'  "{key}": {text}' for key, text in head) + "\n}\n"
 
 

@@ -34,6 +34,8 @@ class SystemForms(Shown):
             yield "neighbors", self.neighbors
         if self.sample_time is not None:
             yield "sample time", rational_text(self.sample_time)
+        if self.uncertainty is not None:
+            yield "uncertainty", self.uncertainty
         if self.source is not None:
             yield "source", self.source
 
@@ -90,3 +92,5 @@ def _sentences(system: Any) -> Iterator[str]:
         yield f"There are {system.m - _MOST_CHANNELS} more channels."
     if system.neighbors is not None:
         yield system.neighbors.explain()
+    if system.uncertainty is not None:
+        yield f"Of the data, {system.uncertainty.explain()}."

@@ -95,6 +95,22 @@ NEIGHBORS = table(rows(NAME)) | {
 DELAYS = table(table(WHOLE)) | {"description": "the steps that messages take, receiver by receiver"}
 
 
+def _uncertainty() -> Schema:
+    """How far the entries of a system may be from their values, in one of three ways."""
+    by_channel = table(MATRIX)
+    radii = record(
+        {},
+        {
+            "relative": NUMBER | {"description": "each radius is this part of the entry's modulus"},
+            "digits": {"const": "as typed"},
+            "absolute": record({}, {"A": MATRIX, "B": by_channel, "C": by_channel}, closed=True),
+        },
+        closed=True,
+        says="how far entries may be from their values; an entry without a radius is certain",
+    )
+    return radii | {"minProperties": 1, "maxProperties": 1}
+
+
 def _system() -> Schema:
     channel = {"name": NAME | {"description": "by default the number of the channel"}}
     exact = record(
@@ -114,6 +130,7 @@ def _system() -> Schema:
             "neighbors": NEIGHBORS,
             "delays": DELAYS,
             "D": MATRIX,
+            "uncertainty": _uncertainty(),
         },
         closed=True,
         says="a plant x' = A x + B_1 u_1 + …, y_i = C_i x (discrete time: x(t+1))",

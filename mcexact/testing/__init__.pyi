@@ -1,3 +1,4 @@
+from .boxes import members as members
 from .printing import Drawn as Drawn
 from .strategies import HypothesisChoices as HypothesisChoices
 from .strategies import incomplete_systems as incomplete_systems

@@ -185,7 +185,15 @@ def _graph(parts: Parts, matrix: Read, names: tuple[str, ...]) -> NeighborGraph 
 
 
 def parts_of(system: MultiChannelSystem) -> Parts:
-    """The parts of a system, whose tables are matrices."""
+    """The parts of a system, whose tables are matrices.
+
+    Raises
+    ------
+    InputError
+        If entries are uncertain: arrays have no place for radii.
+    """
+    if system.uncertainty is not None:
+        raise InputError("only .json and .yaml files keep the radii of uncertain entries")
     tables: dict[str, Matrix] = {"A": system.A}
     for k, channel in enumerate(system.channels, start=1):
         tables[f"B_{k}"], tables[f"C_{k}"] = channel.B, channel.C

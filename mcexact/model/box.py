@@ -1,0 +1,238 @@
+"""Boxes of plants: all plants whose entries are within radii of those of a nominal plant."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import lcm
+from typing import Any
+
+from mcexact.errors import InputError, UsageError
+from mcexact.exact.matrix import Matrix, from_cells
+from mcexact.model.system import MultiChannelSystem
+from mcexact.model.uncertainty import Radii, typed_radii
+from mcexact.shown import Shown
+
+_FINE = 2**20
+"""Members inside of a box are at multiples of this part of the radii."""
+
+
+@dataclass(frozen=True, init=False, repr=False)
+class Box(Shown):
+    """All plants whose entries differ from those of a nominal plant by at most their radii.
+
+    A member has |A − A0| ≤ D_A, |B_i − B0_i| ≤ D_B,i and |C_i − C0_i| ≤ D_C,i entry by entry, each
+    entry independently of all others.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        The nominal plant, no derived system.
+    radii : Radii, optional
+        D_A, D_B and D_C; by default those of the system, of which every entry may be certain.
+
+    Attributes
+    ----------
+    system : MultiChannelSystem
+        The nominal plant with the radii, which certificates about the box are about.
+
+    Raises
+    ------
+    UsageError
+        If the system was made by a construction.
+    InputError
+        If the radii have other shapes than the matrices.
+
+    Notes
+    -----
+    The digest covers values and radii: 0.10 and 0.1 differ if the digits are as typed.
+
+    Examples
+    --------
+    >>> plant = MultiChannelSystem([["0.5"]], [[["2.0"]]], [[[1]]])
+    >>> box = Box.relative(plant, "1/100")
+    >>> box
+    Box(n=1, m=1, continuous time: 3 entries are uncertain)
+    >>> box.radii.B[0].rows()
+    ((Fraction(1, 50),),)
+    >>> box.contains(plant), box.contains(MultiChannelSystem([["0.6"]], [[["2.0"]]], [[[1]]]))
+    (True, False)
+    """
+
+    system: MultiChannelSystem
+
+    def __init__(self, system: MultiChannelSystem, radii: Radii | None = None) -> None:
+        InputError.require(system, MultiChannelSystem, "system")
+        held = system if radii is None else system.with_uncertainty(radii)
+        if held.subject:
+            raise UsageError("a box is made of a plant, and not of a derived system")
+        object.__setattr__(self, "system", held)
+
+    @classmethod
+    def relative(cls, system: MultiChannelSystem, radius: Any) -> Box:
+        """The plants whose entries differ by at most so large a part of the moduli of the entries.
+
+        Zeros are certain.
+
+        Parameters
+        ----------
+        system : MultiChannelSystem
+        radius : rational
+            Such as "1/1000" for 0.1 %.
+        """
+        return cls(system, Radii.relative(system.A, system.B, system.C, radius))
+
+    @classmethod
+    def absolute(
+        cls,
+        system: MultiChannelSystem,
+        A: Any = None,
+        B: Sequence[Any] | None = None,
+        C: Sequence[Any] | None = None,
+    ) -> Box:
+        """The plants with given radii; what is left out is certain.
+
+        Parameters
+        ----------
+        system : MultiChannelSystem
+        A : matrix, n×n, optional
+        B, C : sequences of m matrices, optional
+        """
+        zeros = _zeros(system)
+        given: list[Any] = [zeros[k] if M is None else M for k, M in enumerate((A, B, C))]
+        return cls(system, Radii(given[0], given[1], given[2]))
+
+    @classmethod
+    def as_typed(cls, A: Any, B: Sequence[Any], C: Sequence[Any], **options: Any) -> Box:
+        """The plants that look like this one to the digits typed.
+
+        Parameters
+        ----------
+        A, B, C : matrices
+            Entries are texts such as "0.10", or Decimals.  A decimal with a point or an exponent is
+            known to half a unit of its last digit; integers, quotients and zeros are certain.
+        **options
+            As `MultiChannelSystem` takes them.
+
+        Examples
+        --------
+        >>> Box.as_typed([["0.10"]], [[[1]]], [[["0.1"]]]).radii.A[0, 0]
+        Fraction(1, 200)
+        """
+        system = MultiChannelSystem(A, B, C, **options)
+        n = system.n
+        return cls(
+            system,
+            Radii(
+                typed_radii(A, "A"),
+                [typed_radii(M, f"B[{i}]") for i, M in enumerate(B)],
+                [typed_radii(M, f"C[{i}]", n) for i, M in enumerate(C)],
+            ),
+        )
+
+    @property
+    def radii(self) -> Radii:
+        """D_A, D_B and D_C."""
+        found = self.system.uncertainty
+        return Radii(*_zeros(self.system)) if found is None else found
+
+    @property
+    def nominal(self) -> MultiChannelSystem:
+        """The nominal plant, without radii."""
+        return self.system.with_uncertainty(None)
+
+    @property
+    def n(self) -> int:
+        """The number of states."""
+        return self.system.n
+
+    @property
+    def m(self) -> int:
+        """The number of channels."""
+        return self.system.m
+
+    def scaled(self, factor: Any) -> Box:
+        """The box whose radii are multiplied by a number that is at least 0."""
+        return Box(self.system, self.radii * Fraction(factor))
+
+    def contains(self, plant: MultiChannelSystem) -> bool:
+        """Whether a plant of the same shapes is a member; names and graph play no part."""
+        for (_, D), M, M0 in zip(
+            self.radii.matrices(), _matrices(plant), _matrices(self.system), strict=True
+        ):
+            if M.shape != M0.shape or plant.time != self.system.time:
+                return False
+            if any(
+                abs(Fraction(x, (M - M0).denominator)) > D[i, j] for i, j, x in (M - M0).nonzero()
+            ):
+                return False
+        return True
+
+    def member(self, rng: random.Random, *, vertex: bool = False) -> MultiChannelSystem:
+        """Draw a member.
+
+        Parameters
+        ----------
+        rng : random.Random
+        vertex : bool
+            Whether every uncertain entry is at one of its two ends; otherwise it is anywhere in its
+            interval, on a grid of 2²¹ steps.
+
+        Examples
+        --------
+        >>> plant = MultiChannelSystem([[2]], [[[1]]], [[[0]]])
+        >>> corner = Box.relative(plant, "1/2").member(random.Random(1), vertex=True)
+        >>> corner.A[0, 0] in (1, 3), corner.C[0][0, 0]
+        (True, Fraction(0, 1))
+        """
+        if vertex:
+            return self.moved(lambda: Fraction(rng.choice((-1, 1))))
+        return self.moved(lambda: Fraction(rng.randint(-_FINE, _FINE), _FINE))
+
+    def moved(self, part: Callable[[], Fraction]) -> MultiChannelSystem:
+        """The member whose entries are moved by drawn parts of their radii, from −1 to 1."""
+        found = [
+            M0 + _spread(D, part)
+            for (_, D), M0 in zip(self.radii.matrices(), _matrices(self.system), strict=True)
+        ]
+        return MultiChannelSystem(
+            found[0],
+            found[1 : self.m + 1],
+            found[self.m + 1 :],
+            time=self.system.time,
+            names=self.system.names,
+            neighbors=self.system.neighbors,
+        )
+
+    def explain(self) -> str:
+        """Say what the box is, in plain words."""
+        return self.system.explain()
+
+    def _labeled(self) -> Iterator[tuple[str, Any]]:
+        """Yield the nominal plant and the radii."""
+        yield "nominal plant", self.nominal
+        yield "radii", self.radii
+
+    def __repr__(self) -> str:
+        told = self.radii.explain()
+        return f"Box(n={self.n}, m={self.m}, {self.system.time} time: {told})"
+
+
+def _matrices(plant: MultiChannelSystem) -> tuple[Matrix, ...]:
+    return plant.A, *plant.B, *plant.C
+
+
+def _zeros(plant: MultiChannelSystem) -> tuple[Matrix, list[Matrix], list[Matrix]]:
+    zeros = [Matrix.zeros(*M.shape) for M in _matrices(plant)]
+    return zeros[0], zeros[1 : plant.m + 1], zeros[plant.m + 1 :]
+
+
+def _spread(D: Matrix, part: Callable[[], Fraction]) -> Matrix:
+    """The radii, each times a part of its own."""
+    entries = [(i * D.ncols + j, x, part()) for i, j, x in D.nonzero()]
+    values = [x * p for _, x, p in entries]
+    common = lcm(1, *(value.denominator for value in values))
+    cells = [cell for cell, _, _ in entries]
+    return from_cells(D.shape, cells, (int(v * common) for v in values), D.denominator * common)
