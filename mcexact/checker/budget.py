@@ -1,8 +1,9 @@
 """The work that a check may take, counted before it is done, alike on every machine.
 
 One unit is about the product of two limbs (30 bits) in a loop, or one byte of a matrix that is
-built.  A document of N bytes is granted ``GRANTED`` + ``PER_BYTE`` · N units unless ``Limits.work``
-says otherwise; a check that would take more is INCOMPLETE.  Units say nothing of the claim.
+built.  A document of N bytes is granted ``GRANTED`` + ``PER_BYTE`` · N units, ``MORE`` times as
+many if its plant has a parameter, unless ``Limits.work`` says otherwise; a check that would take
+more is INCOMPLETE.  Units say nothing of the claim.
 """
 
 import math
@@ -14,6 +15,8 @@ from typing import Any, TypeVar
 
 GRANTED = 4 * 10**7
 PER_BYTE = 4000
+MORE = 10
+"""Plants with a parameter are small, and long to compute with."""
 LIMB = 30
 """The bits of a limb."""
 MOST = 10**30
@@ -39,6 +42,7 @@ class Budget:
     ``loops`` holds four numbers for each loop under way: the units that were spent when it began
     and when its turn began, the turns before this one, and all turns.  ``builds`` says that the
     subject is being built, so that the rule still follows; ``largest`` is the largest step of that.
+    ``usual`` is granted ``times`` over.
     """
 
     most: int | None = None
@@ -47,6 +51,7 @@ class Budget:
     loops: list[list[int]] = field(default_factory=list)
     builds: bool = False
     largest: int = 0
+    times: int = 1
 
     def spend(self, units: int, after: int = 0) -> None:
         """Count the units of a step that follows, or stop before it.
@@ -60,13 +65,18 @@ class Budget:
         """
         if self.builds:
             self.largest = max(self.largest, units)
-        most = self.usual if self.most is None else self.most
+        most = self.granted if self.most is None else self.most
         if self.spent + units > most:
             total = self._total(units + after)
             named = f"allow {self._named(total)} (Limits.work), {_duration(total)}"
             message = f"takes more than {most} units of work: {named}"
             raise Refused("INCOMPLETE", "work", "checker", message)
         self.spent += units
+
+    @property
+    def granted(self) -> int:
+        """The units that are granted by default."""
+        return self.usual * self.times
 
     def grant(self, size: int) -> None:
         """Allow what is granted for so many bytes."""
@@ -86,7 +96,7 @@ class Budget:
 
     def _named(self, total: int) -> int:
         """A budget that should do where so many units were counted."""
-        total = min(max(4 * total, self.usual), MOST)
+        total = min(max(4 * total, self.granted), MOST)
         digit = int(10 ** max(len(str(total)) - 2, 0))
         return -(-total // digit) * digit
 

@@ -8,9 +8,9 @@ from importlib import import_module
 from typing import NoReturn, TypeVar
 
 from .arithmetic import NotAUnit
-from .budget import current, limited
+from .budget import MORE, current, limited
 from .expectation import Expectation
-from .parametric_system import digest, plant_of, subject_of
+from .parametric_system import ParametricSystem, digest, plant_of, subject_of
 from .reading import Json, Limits, Refused, fields, incomplete, malformed, parse, shown, string
 from .statement import described, digest_of
 
@@ -122,6 +122,7 @@ def check_document(
                 given = wanted.named(given)
                 budget.grant(wanted.size)
             plant = plant_of(given)
+            budget.times = MORE if isinstance(plant, ParametricSystem) else budget.times
             known = digest(plant)
             wanted.require_plant(known)
             budget.builds = True

@@ -1,7 +1,7 @@
 """Resultants with respect to x of polynomials in x and t, modulo ℓ and over Q."""
 
 from . import budget
-from .arithmetic import Polynomial, cleared, inverse, poly_divide, poly_modulo, stripped
+from .arithmetic import Polynomial, cleared, inverse, poly_modulo, stripped
 from .interpolation import interpolated
 from .reading import require
 from .two_variables import Bivariate, degree
@@ -39,17 +39,38 @@ def _at(f: Residues, t: int, ell: int) -> Polynomial:
 
 
 def _of_values(f: Polynomial, g: Polynomial, ell: int) -> int:
-    """Res(f, g) = (−1)^(deg f · deg g) b^(deg f − deg r) Res(g, r), b leading in g, r = f mod g."""
-    result = 1
+    """Res(f, g) by remainders r of c·f, c a power of b, b leading in g, and one inverse at the end.
+
+    Res(f, g) = (−1)^(deg f · deg g) b^(deg f − deg r) Res(g, r) / c^(deg g).
+    """
+    top = bottom = 1
     while len(g) > 1:
-        rest = poly_divide(f, g, ell)[1]
+        rest, power, b = _remainder(f, g, ell)
+        # one b more above and below: the last inverse tells whether every b is a unit
+        top, lost = top * b, (len(f) - len(rest)) - power * (len(g) - 1)
+        bottom = bottom * pow(b, 1 - lost, ell) % ell
         if not rest:
-            return 0
+            return 0 * inverse(bottom, ell)
         if (len(f) - 1) * (len(g) - 1) % 2:
-            result = -result
-        result = result * pow(g[-1], len(f) - len(rest), ell) % ell
-        f, g = g, rest
-    return result * pow(g[0], len(f) - 1, ell) % ell
+            top = -top
+        top, f, g = top % ell, g, rest
+    return top * inverse(bottom, ell) * pow(g[0], len(f) - 1, ell) % ell
+
+
+def _remainder(f: Polynomial, g: Polynomial, ell: int) -> tuple[Polynomial, int, int]:
+    """The remainder of b^k f by g, k ≥ 2, with k and b, the leading coefficient of g."""
+    rest, b, k = [*f, *[0] * (len(g) + 1 - len(f))], g[-1], 2
+    turns = len(rest) - len(g)
+    budget.spend(100 + budget.reductions(turns * len(rest) + 16, budget.limbs([ell])))
+    while len(rest) > len(g) + 1:
+        last, k = rest.pop(), k + 1
+        shifted = [*[0] * (len(rest) + 1 - len(g)), *g]
+        rest = [(b * c - last * d) % ell for c, d in zip(rest, shifted, strict=False)]
+    # the last two turns at once, with one reduction for each coefficient
+    last, factor = rest[-1], b * b % ell
+    both, before = b * last % ell, (b * rest[-2] - last * g[-2]) % ell
+    triples = zip(rest[:-2], g, [0, *g], strict=False)
+    return stripped([(factor * c - before * d - both * e) % ell for c, d, e in triples]), k, b
 
 
 def integer_resultant(f: Bivariate, g: Bivariate, moduli: list[int]) -> list[int]:

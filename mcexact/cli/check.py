@@ -61,7 +61,8 @@ from mcexact.cli import options
     type=click.IntRange(min=1, max=10**30),
     metavar="N",
     help="Units of work that the check of a file may take, or that of a manifest with its "
-    "certificates; by default 40,000,000 and 4,000 for each byte.",
+    "certificates; by default 40,000,000 and 4,000 for each byte, ten times as many if the plant "
+    "has a parameter.",
 )
 @options.file_limits
 def command(

@@ -10,7 +10,7 @@ import pytest
 
 from mcexact.checker import budget, command
 from mcexact.checker.arithmetic import Polynomial
-from mcexact.checker.budget import GRANTED, PER_BYTE, Budget, Refused, current, limited
+from mcexact.checker.budget import GRANTED, MORE, PER_BYTE, Budget, Refused, current, limited
 from mcexact.checker.location import is_hurwitz
 from tests.checker.test_work import named
 
@@ -25,8 +25,10 @@ def asked(given: Budget, units: int, after: int = 0) -> int:
 def test_what_is_granted_is_what_the_documents_say() -> None:
     told = f"{GRANTED:,} units and {PER_BYTE:,} for each byte"
     assert told == "40,000,000 units and 4,000 for each byte"
-    assert told in " ".join((command.__doc__ or "").split())
-    assert Budget() == Budget(None, GRANTED, 0, [], False, 0)
+    assert MORE == 10
+    more = f"{told}, ten times as many if the plant has a parameter"
+    assert more in " ".join((command.__doc__ or "").split())
+    assert Budget() == Budget(None, GRANTED, 0, [], False, 0, 1)
 
 
 def test_a_limb_holds_thirty_bits() -> None:
@@ -108,6 +110,18 @@ def test_a_loop_goes_on_as_it_began(units: list[int], most: int, reached: int, w
         for each in budget.counted(units + [0] * (10 - len(units))):
             budget.spend(each)
     assert named(refused.value.message) == rounded(4 * (reached + whole))
+
+
+def test_what_is_granted_can_be_multiplied() -> None:
+    given = Budget(usual=100, times=3)
+    given.spend(300)
+    assert asked(given, 1) == 1300
+    given.grant(1)
+    assert given.granted == 3 * (100 + PER_BYTE)
+    given.spend(3 * PER_BYTE)
+    assert asked(Budget(1, 10**6, times=2), 3) == 2 * 10**6
+    assert Budget(5, 100, times=3).granted == 300
+    assert asked(Budget(5, 0, times=3), 6) == 24
 
 
 def test_a_budget_holds_for_what_is_inside() -> None:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import json
 from typing import Any
 
 import pytest
 
-from tests.checker.handmade import changed, checked, plant, without
+from mcexact.checker.budget import MORE, PER_BYTE, Budget, limited
+from tests.checker.handmade import FREE, changed, checked, plant, without
 from tests.checker.parametric_plants import (
     ALL,
     DIAGONAL,
@@ -328,6 +330,16 @@ MALFORMED: dict[str, Any] = {
 def test_what_is_not_as_the_format_says_is_malformed(name: str) -> None:
     found = checked(MALFORMED[name])
     assert found.verdict == "MALFORMED", found.line()
+
+
+def test_ten_times_as_much_work_is_granted() -> None:
+    spent, size = checked(PAPER).spent, PER_BYTE * len(json.dumps(PAPER))
+    with limited(Budget(usual=spent // 2 - size)):
+        assert checked(PAPER).verdict == "VALID"
+    with limited(budget := Budget()):
+        assert (checked(FREE).verdict, budget.times) == ("VALID", 1)
+        assert (checked(PAPER).verdict, budget.times) == ("VALID", MORE)
+        assert (checked(FREE).verdict, budget.times) == ("VALID", MORE)
 
 
 def test_no_construction_is_applied() -> None:
