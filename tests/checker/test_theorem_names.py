@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -29,22 +29,24 @@ ELSEWHERE = ("paper, ", "supporting: ")
 """How a line of theorems.txt begins if it justifies no rule by itself."""
 
 
+@cache
 def tree(stem: str) -> ast.Module:
     """The parsed file of the checker."""
     return ast.parse((FOLDER / f"{stem}.py").read_text(encoding="utf-8"))
 
 
-def docstrings(stem: str) -> Iterator[str]:
+@cache
+def docstrings(stem: str) -> tuple[str, ...]:
     """What the functions and classes of a file say of themselves."""
-    for node in ast.walk(tree(stem)):
-        if isinstance(node, ast.FunctionDef | ast.ClassDef):
-            yield ast.get_docstring(node) or ""
+    nodes = [n for n in ast.walk(tree(stem)) if isinstance(n, ast.FunctionDef | ast.ClassDef)]
+    return tuple(ast.get_docstring(node) or "" for node in nodes)
 
 
-def named(stem: str) -> set[str]:
+@cache
+def named(stem: str) -> frozenset[str]:
     """The theorems that a file of the checker names."""
     found = (listed for text in docstrings(stem) for listed in SENTENCE.findall(text))
-    return {name for listed in found for name in re.findall(r"[\w.]+", listed)}
+    return frozenset(name for listed in found for name in re.findall(r"[\w.]+", listed))
 
 
 def is_open(stem: str) -> bool:
@@ -52,17 +54,24 @@ def is_open(stem: str) -> bool:
     return any(OPEN in text for text in docstrings(stem))
 
 
-def rests_on(stem: str) -> set[str]:
+@cache
+def imported(stem: str) -> frozenset[str]:
+    """The files of the checker that one of them imports itself."""
+    found: set[str] = set()
+    for node in ast.walk(tree(stem)):
+        if isinstance(node, ast.ImportFrom) and node.level == 1:
+            found |= {node.module} if node.module else {alias.name for alias in node.names}
+    return frozenset(found & set(STEMS))
+
+
+@cache
+def rests_on(stem: str) -> frozenset[str]:
     """The files of the checker that one of them imports, itself and what they import included."""
-    found, new = set(), {stem}
+    found, new = set[str](), {stem}
     while new:
         found |= new
-        imported = set()
-        for node in (node for part in new for node in ast.walk(tree(part))):
-            if isinstance(node, ast.ImportFrom) and node.level == 1:
-                imported |= {node.module} if node.module else {alias.name for alias in node.names}
-        new = (imported & set(STEMS)) - found
-    return found
+        new = {each for part in new for each in imported(part)} - found
+    return frozenset(found)
 
 
 def theorems() -> dict[str, str]:

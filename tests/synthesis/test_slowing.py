@@ -1,6 +1,7 @@
 """A rate that nobody gave becomes slower where the loop would be fragile."""
 
 from dataclasses import replace
+from functools import cache
 
 import pytest
 
@@ -15,15 +16,18 @@ from mcexact.synthesis.slowing import at_a_robust_rate
 PLANT = gallery.load("lexalutyi-two-double-integrators")
 
 
-MADE = design_decentralized(PLANT, rate="1/4")
+@cache
+def made() -> Design:
+    """A design whose figures are replaced."""
+    return design_decentralized(PLANT, rate="1/4")
 
 
 def with_margin(asked: Request, margin: float, searched: bool = True) -> Design:
     """A design whose loop has a margin, by a search or not."""
-    found = MADE.parts["optimum"]
+    found = made().parts["optimum"]
     found = replace(found, figures=replace(found.figures, margin=margin))
-    parts = {**MADE.parts, "optimum": found} if searched else {}
-    return replace(MADE, region=asked.region, notes=asked.notes, parts=parts)
+    parts = {**made().parts, "optimum": found} if searched else {}
+    return replace(made(), region=asked.region, notes=asked.notes, parts=parts)
 
 
 def counted(asked: Request, tried: list[Request], fails: int) -> Design:
@@ -45,19 +49,19 @@ def counted(asked: Request, tried: list[Request], fails: int) -> Design:
 )
 def test_a_fragile_loop_becomes_slower(margins, searched, kept):
     chosen, left = request_for(PLANT), list(margins)
-    made = at_a_robust_rate(chosen, lambda asked: with_margin(asked, left.pop(0), searched))
-    assert not left and made.region.edge == chosen.region.edge / 2**kept
-    [note] = made.notes
+    slowed = at_a_robust_rate(chosen, lambda asked: with_margin(asked, left.pop(0), searched))
+    assert not left and slowed.region.edge == chosen.region.edge / 2**kept
+    [note] = slowed.notes
     assert note.startswith(chosen.notes[0]) and ("no faster loop" in note) == bool(kept)
 
 
 @pytest.mark.parametrize("fails", [0, 1, 2])
 def test_a_chosen_rate_is_halved_until_a_controller_is_found(fails):
     chosen, tried = request_for(PLANT), list[Request]()
-    made = at_a_robust_rate(chosen, lambda asked: counted(asked, tried, fails))
+    slowed = at_a_robust_rate(chosen, lambda asked: counted(asked, tried, fails))
     edges = [each.region.edge for each in tried]
     assert edges == [chosen.region.edge / 2**k for k in range(fails + 1)]
-    assert made.region == tried[-1].region
+    assert slowed.region == tried[-1].region
 
 
 def test_the_first_limit_is_told_if_none_is_found():
