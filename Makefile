@@ -7,6 +7,9 @@ STAMP := .venv/.installed
 DOCS := build/docs/environment
 PIP := $(BIN)/python -m pip install --quiet --quiet --disable-pip-version-check
 GALLERY := mcexact/model/gallery
+# Tests that are repeatable, in two processes that multiply in one thread each, and whose many short
+# programs are compiled once.
+ONCE := HYPOTHESIS_PROFILE=$(or $(HYPOTHESIS_PROFILE),ci) OPENBLAS_NUM_THREADS=$(or $(OPENBLAS_NUM_THREADS),1) PYTHONDONTWRITEBYTECODE=
 
 .PHONY: absence parameters cluster corpus coverage package-coverage docs mutants paper-mutants records reproduce look ledger schemas schemas-everywhere sentences demo designs test lint types tests slow-tests durations matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs
 
@@ -28,11 +31,11 @@ types: $(STAMP)
 	$(BIN)/mypy
 
 tests: $(STAMP)
-	HYPOTHESIS_PROFILE=ci $(BIN)/python -m pytest --quiet --numprocesses 2 --dist worksteal -m 'not slow'
+	$(ONCE) $(BIN)/python -m pytest --quiet --numprocesses 2 --dist worksteal -m 'not slow'
 
 # The tests that `make tests` leaves out, because each of them takes seconds: together they are all.
 slow-tests: $(STAMP)
-	HYPOTHESIS_PROFILE=ci $(BIN)/python -m pytest --quiet --numprocesses 2 --dist worksteal -m slow
+	$(ONCE) $(BIN)/python -m pytest --quiet --numprocesses 2 --dist worksteal -m slow
 
 # Which tests take more than 0.7 seconds of the processor, measured one after another and written to
 # tests/slow.txt: half an hour.  PATHS='tests/synthesis' measures some.

@@ -18,6 +18,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.end_to_end.prepared import Prepared
+
 ROOT = Path(__file__).parents[1]
 LIST = Path(__file__).with_name("slow.txt")
 MEASURED = ROOT / "build" / "durations.tsv"
@@ -33,7 +35,7 @@ def slow_tests() -> frozenset[str]:
 
 def spent() -> float:
     """The seconds of the processor that this process and those it has ended took so far."""
-    return sum(os.times()[:4])
+    return sum(os.times()[:4]) + Prepared.seconds
 
 
 @pytest.hookimpl(hookwrapper=True)

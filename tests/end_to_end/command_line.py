@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from tests.effort import PATIENCE
+from tests.end_to_end.prepared import prepared
 
 MCEXACT = (sys.executable, "-m", "mcexact")
 
@@ -28,19 +29,36 @@ class Run:
 
 def run(
     *arguments: str,
-    program: Sequence[str] = MCEXACT,
+    module: str = "mcexact",
+    program: Sequence[str] = (),
     stdin: bytes = b"",
     environment: Mapping[str, str] | None = None,
 ) -> Run:
-    """Run the program and wait for it."""
-    done = subprocess.run(
-        [*program, *arguments],
-        input=stdin,
-        capture_output=True,
-        check=False,
-        env={**os.environ, **(environment or {})},
-        timeout=PATIENCE,
-    )
+    """Run the program and wait for it.
+
+    Parameters
+    ----------
+    *arguments : str
+    module : str
+        What is run, in a process that has imported the libraries before.
+    program : sequence of str
+        What is run instead, in a process that starts anew, as it does with another environment.
+    stdin : bytes
+    environment : mapping, optional
+        Variables to set.
+    """
+    done: subprocess.CompletedProcess[bytes]
+    if program or environment or sys.platform != "linux":
+        done = subprocess.run(
+            [*(program or (sys.executable, "-m", module)), *arguments],
+            input=stdin,
+            capture_output=True,
+            check=False,
+            env={**os.environ, **(environment or {})},
+            timeout=PATIENCE,
+        )
+    else:
+        done = prepared().run(module, arguments, stdin)
     return Run(done.returncode, done.stdout.decode(), done.stderr.decode())
 
 

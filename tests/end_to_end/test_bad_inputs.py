@@ -13,8 +13,9 @@ from tests.end_to_end.bad_input_files import arguments
 from tests.end_to_end.command_line import Run, run
 
 TABLE = json.loads((Path(__file__).parent / "bad_inputs.json").read_text(encoding="utf-8"))
-FRUGAL = (sys.executable, "-m", "tests.effort", "200000")
-"""The program, allowed so many steps: it answers a bad input before any computation."""
+FRUGAL = ("tests.effort", "200000")
+"""The program as a module and its first argument, the steps that it is allowed: it answers a bad
+input before any computation."""
 
 
 @pytest.fixture(scope="module")
@@ -53,12 +54,14 @@ def shared_loop(folder: Path) -> dict[str, Any]:
 
 def run_entry(entry: dict[str, Any], found: list[str]) -> Run:
     environment = entry.get("environment", {})
+    module, steps = FRUGAL
+    command = shlex.join([sys.executable, "-m", module, steps, *found])
     if "shell" in entry:
-        command = entry["shell"].format(command=shlex.join([*FRUGAL, *found]))
+        command = entry["shell"].format(command=command)
         return run("-c", command, program=["sh"], environment=environment)
     if entry.get("closed_stdin"):
-        return run("-c", f"{shlex.join([*FRUGAL, *found])} <&-", program=["sh"])
-    return run(*found, program=FRUGAL, environment=environment)
+        return run("-c", f"{command} <&-", program=["sh"])
+    return run(steps, *found, module=module, environment=environment)
 
 
 @pytest.mark.parametrize("entry", TABLE["entries"], ids=lambda entry: entry["id"])
