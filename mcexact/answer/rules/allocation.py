@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from mcexact.answer.rules.analysis import Said, theorem_2
+from mcexact.answer.rules.analysis import Said
+from mcexact.answer.rules.sharing import theorem_2
 from mcexact.answer.sentence import Claim, Given, Rulebook
 from mcexact.answer.wording import allocation as say
 
