@@ -7,7 +7,8 @@ from collections.abc import Iterable, Sequence
 from itertools import accumulate
 
 from mcexact.errors import InputError
-from mcexact.exact.matrix import Matrix, Rows, from_cells, from_numerators, require_sides
+from mcexact.exact.matrix import Matrix, Rows, from_cells, from_numerators
+from mcexact.exact.matrix_sizes import require_sides
 
 
 def hstack(matrices: Sequence[Matrix], nrows: int | None = None) -> Matrix:

@@ -11,7 +11,8 @@ from typing import Any
 import flint
 
 from mcexact.errors import InputError
-from mcexact.exact.matrix import Matrix, require_positions, require_sizes
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix_sizes import require_positions, require_sizes
 from mcexact.exact.modular_polynomial import ModularPolynomial as ModularPolynomial
 from mcexact.exact.modular_polynomial import polynomial_residues as polynomial_residues
 from mcexact.exact.prime_field import divides_denominator, require_prime
