@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from mcexact.errors import InputError
+from mcexact.model.linked_system import with_graph
 from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.system import MultiChannelSystem, with_graph
+from mcexact.model.system import MultiChannelSystem
 
 
 def augmented_outputs(

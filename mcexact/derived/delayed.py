@@ -6,8 +6,9 @@ from collections.abc import Sequence
 
 from mcexact.derived.extended import Share, exchanged
 from mcexact.errors import InputError
+from mcexact.model.linked_system import with_graph
 from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.system import MultiChannelSystem, require_discrete, with_graph
+from mcexact.model.system import MultiChannelSystem, require_discrete
 
 
 def lifted_system(

@@ -9,8 +9,9 @@ from mcexact.derived.extended import selector
 from mcexact.derived.feedback import checked_gains
 from mcexact.errors import InputError
 from mcexact.exact.blocks import block, block_diagonal, vstack
+from mcexact.model.linked_system import with_graph
 from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.system import MultiChannelSystem, with_graph
+from mcexact.model.system import MultiChannelSystem
 
 
 def error_system(

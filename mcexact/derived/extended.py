@@ -9,9 +9,10 @@ from typing import Any, Literal, get_args
 from mcexact.errors import InputError, LimitReached
 from mcexact.exact.blocks import block, block_diagonal, hstack, kronecker, vstack
 from mcexact.exact.matrix import Matrix
+from mcexact.model.linked_system import with_graph
 from mcexact.model.names import quoted
 from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.system import MultiChannelSystem, with_graph
+from mcexact.model.system import MultiChannelSystem
 
 Share = Literal["outputs+states", "states"]
 

@@ -11,8 +11,9 @@ from mcexact.exact.linear_algebra import solve
 from mcexact.exact.location import steady_point
 from mcexact.exact.matrix import Matrix
 from mcexact.model.controller import Controller, LinearMap
+from mcexact.model.linked_system import with_links
 from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.system import MultiChannelSystem, require_discrete, with_links
+from mcexact.model.system import MultiChannelSystem, require_discrete
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
@@ -15,35 +15,20 @@ from mcexact.exact.floats import Rounding, matrix_from_float
 from mcexact.exact.location import is_discrete, require_time
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.rational import as_fraction
+from mcexact.model.channel import Channel, channels_of, listed_matrices
 from mcexact.model.channel_matrices import ChannelMatrices, position
-from mcexact.model.matrix_entry import as_table, require_shape, require_square
-from mcexact.model.names import checked_names, checked_text, quoted
+from mcexact.model.matrix_entry import as_table, require_square
+from mcexact.model.names import checked_text, quoted
 from mcexact.model.neighbor_graph import NeighborGraph, graph_for
 from mcexact.model.system_forms import SystemForms
 from mcexact.model.uncertainty import Radii
-from mcexact.shown import LINE, Shown, fitting
+from mcexact.shown import LINE, fitting
 
 Construction = Mapping[str, Any]
 # These constructions depend on the neighbor graph of the plant, or lead to systems without one.
 _GRAPH_IN_USE = frozenset(
     {"augmented_outputs", "arcs", "dual", "error", "extended", "held", "lifted", "merged"}
 )
-
-
-@dataclass(frozen=True, repr=False)
-class Channel(Shown):
-    """One channel: the agent's name, B_i (n×p_i) and C_i (q_i×n)."""
-
-    name: str
-    B: Matrix
-    C: Matrix
-
-    def __repr__(self) -> str:
-        return fitting(f"Channel({quoted(self.name)}, B={self.B!r}, C={self.C!r})")
-
-    def _labeled(self) -> Iterator[tuple[str, Any]]:
-        """Yield the name and the matrices."""
-        yield from vars(self).items()
 
 
 @dataclass(frozen=True, init=False, repr=False)
@@ -139,7 +124,9 @@ class MultiChannelSystem(SystemForms):
     ) -> None:
         table = require_square(as_table(A, "A"), "A")
         # All shapes are compared before any entry is converted.
-        channels = _channels(table.shape[0], _listed(B, "B"), _listed(C, "C"), names)
+        channels = channels_of(
+            table.shape[0], listed_matrices(B, "B"), listed_matrices(C, "C"), names
+        )
         labels = tuple(channel.name for channel in channels)
         require_time(time)
         self._fill(
@@ -197,8 +184,8 @@ class MultiChannelSystem(SystemForms):
 
         return cls(
             exact(A, "A"),
-            [exact(b, f"B[{i}]") for i, b in enumerate(_listed(B, "B"))],
-            [exact(c, f"C[{i}]") for i, c in enumerate(_listed(C, "C"))],
+            [exact(b, f"B[{i}]") for i, b in enumerate(listed_matrices(B, "B"))],
+            [exact(c, f"C[{i}]") for i, c in enumerate(listed_matrices(C, "C"))],
             **options,
         )
 
@@ -436,104 +423,6 @@ def as_plant(system: MultiChannelSystem) -> MultiChannelSystem:
         time=system.time,
         names=system.names,
         neighbors=system.neighbors,
-    )
-
-
-def with_graph(
-    system: MultiChannelSystem, graph: NeighborGraph | Mapping[str, Iterable[str]] | None = None
-) -> tuple[MultiChannelSystem, NeighborGraph]:
-    """Return a system with a neighbor graph, and the graph.
-
-    Parameters
-    ----------
-    system : MultiChannelSystem
-    graph : NeighborGraph or mapping of names, optional
-        Overrides ``system.neighbors``.
-
-    Raises
-    ------
-    UsageError
-        If neither the system nor the argument gives a neighbor graph.
-    """
-    if graph is not None:
-        system = system.with_neighbors(graph)
-    if system.neighbors is None:
-        raise UsageError(
-            "a neighbor graph is needed, and the system has none: add 'neighbors' to it"
-        )
-    return system, system.neighbors
-
-
-def with_links(
-    system: MultiChannelSystem, graph: NeighborGraph | Mapping[str, Iterable[str]] | None = None
-) -> tuple[MultiChannelSystem, NeighborGraph]:
-    """Return a system, and the graph over which its controllers communicate.
-
-    Parameters
-    ----------
-    system : MultiChannelSystem
-    graph : NeighborGraph or mapping of names, optional
-        Overrides ``system.neighbors``.  Without either, the controller graph has no edges; the
-        system itself stays without a graph, so that certificates about the closed loop are about
-        the user's plant.
-    """
-    if graph is None and system.neighbors is None:
-        return system, NeighborGraph.empty(system.names)
-    return with_graph(system, graph)
-
-
-def _listed(value: Any, where: str) -> list[Any]:
-    """Return the matrices of all channels as a list."""
-    if _is_one_matrix(value):
-        raise InputError(
-            "expected a list of matrices, one for each channel, found one matrix: write "
-            f"[{where}] for one channel, or from_stacked(A, B, C, sizes) for several",
-            where=where,
-        )
-    one = isinstance(value, (str, bytes, Mapping))
-    if one or not hasattr(value, "__iter__"):
-        raise InputError(
-            f"expected a list of matrices, one for each channel, found {type(value).__name__}",
-            where=where,
-        )
-    return list(value)
-
-
-def _is_one_matrix(value: Any) -> bool:
-    """Whether a value is a matrix, and no list of matrices: its rows hold numbers."""
-    if isinstance(value, Matrix) or getattr(value, "ndim", 0) == 2:
-        return True
-    row = value[0] if isinstance(value, (list, tuple)) and value else None
-    return isinstance(row, (list, tuple)) and any(
-        isinstance(entry, str) or not hasattr(entry, "__iter__") for entry in row
-    )
-
-
-def _channels(
-    n: int, B: list[Any], C: list[Any], names: Sequence[str] | None
-) -> tuple[Channel, ...]:
-    """Convert the matrices of all channels and check their shapes."""
-    m = len(B)
-    if m != len(C):
-        raise InputError(f"expected as many matrices as in B, {m}, found {len(C)}", where="C")
-    if not m:
-        raise InputError("expected at least one channel, found none", where="B")
-    if isinstance(names, str):
-        raise InputError("expected a list of names, found a string", where="names")
-    labels = [str(i + 1) for i in range(m)] if names is None else list(names)
-    if len(labels) != m:
-        raise InputError(f"expected {m} names, found {len(labels)}", where="names")
-    checked = checked_names(labels, [f"names[{i}]" for i in range(m)])
-    tables = [
-        (
-            require_shape(as_table(B[i], f"B[{i}]"), f"B[{i}]", n, None),
-            require_shape(as_table(C[i], f"C[{i}]", ncols=n), f"C[{i}]", None, n),
-        )
-        for i in range(m)
-    ]
-    return tuple(
-        Channel(name, B_i.matrix(), C_i.matrix())
-        for name, (B_i, C_i) in zip(checked, tables, strict=True)
     )
 
 

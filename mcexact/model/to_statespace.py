@@ -11,8 +11,9 @@ from mcexact.exact.floats import matrix_to_float, to_float
 from mcexact.exact.location import is_discrete
 from mcexact.exact.matrix import Matrix
 from mcexact.model.controller import Controller
+from mcexact.model.linked_system import with_links
 from mcexact.model.loop import ClosedLoop, closed_loop
-from mcexact.model.system import MultiChannelSystem, with_links
+from mcexact.model.system import MultiChannelSystem
 
 Parts = tuple[Matrix, Matrix, Matrix, Matrix]
 

@@ -13,9 +13,10 @@ from mcexact.exact.floats import Rounding, to_float
 from mcexact.exact.location import is_discrete
 from mcexact.exact.shortened import number
 from mcexact.model.controller import Controller
+from mcexact.model.linked_system import with_links
 from mcexact.model.loop import ClosedLoop, closed_loop
 from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.system import MultiChannelSystem, with_links
+from mcexact.model.system import MultiChannelSystem
 from mcexact.plot.responses import responses
 from mcexact.shown import Shown
 from mcexact.simulation.arithmetic import arithmetic_named, representable

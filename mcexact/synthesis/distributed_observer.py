@@ -8,8 +8,9 @@ from typing import Any, Literal
 from mcexact.derived.feedback import checked_gains
 from mcexact.errors import InputError, LimitReached
 from mcexact.exact.floats import Rounding
+from mcexact.model.linked_system import with_graph
 from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.system import MultiChannelSystem, with_graph
+from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.agreeing_observer import observers
 from mcexact.synthesis.asking import request_for
 from mcexact.synthesis.design import Design, designed

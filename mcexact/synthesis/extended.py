@@ -8,8 +8,9 @@ from typing import Any, Literal
 
 from mcexact.derived.extended import Share
 from mcexact.errors import Impossible, InputError, LimitReached, McexactError
+from mcexact.model.linked_system import with_graph
 from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.system import MultiChannelSystem, with_graph
+from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.asking import request_for
 from mcexact.synthesis.design import Design
 from mcexact.synthesis.network.network_design import network_design

@@ -26,8 +26,9 @@ from mcexact.exact.location import StabilityRegion, steady_point
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import product
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
+from mcexact.model.linked_system import with_links
 from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.system import MultiChannelSystem, as_plant, with_links
+from mcexact.model.system import MultiChannelSystem, as_plant
 from mcexact.model.system_file import digest
 from mcexact.synthesis.agreeing_observer import observers
 from mcexact.synthesis.asking import request_for

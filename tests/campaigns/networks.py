@@ -15,8 +15,9 @@ from mcexact.answer.transfer_graph import TransferGraph
 from mcexact.derived.delayed import held_system, lifted_system
 from mcexact.derived.extended import Share, extended_system
 from mcexact.exact.polynomial import Polynomial
+from mcexact.model.linked_system import with_graph
 from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.system import MultiChannelSystem, with_graph
+from mcexact.model.system import MultiChannelSystem
 
 
 @dataclass(frozen=True)

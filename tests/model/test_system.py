@@ -17,8 +17,9 @@ from mcexact.derived.dual import dual
 from mcexact.derived.feedback import feedback
 from mcexact.errors import FloatRefused, InputError, UsageError
 from mcexact.exact.matrix import Matrix
+from mcexact.model.linked_system import with_graph
 from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.system import MultiChannelSystem, with_graph
+from mcexact.model.system import MultiChannelSystem
 
 
 def small(**options):

@@ -14,8 +14,9 @@ from mcexact.derived.error_system import error_system
 from mcexact.derived.feedback import checked_gains
 from mcexact.errors import InputError
 from mcexact.exact.matrix import Matrix
+from mcexact.model.linked_system import with_graph
 from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.system import MultiChannelSystem, with_graph
+from mcexact.model.system import MultiChannelSystem
 
 
 @dataclass(frozen=True)

@@ -25,8 +25,9 @@ from mcexact.exact.floats import as_requested
 from mcexact.exact.invariant_subspace import controllable_subspace
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.rational import Entry
+from mcexact.model.linked_system import with_graph
 from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.system import MultiChannelSystem, with_graph
+from mcexact.model.system import MultiChannelSystem
 
 
 def base_system(system: MultiChannelSystem, share: str) -> MultiChannelSystem:

@@ -31,9 +31,10 @@ from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import Entry
+from mcexact.model.linked_system import with_links
 from mcexact.model.names import quoted
 from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.system import MultiChannelSystem, with_links
+from mcexact.model.system import MultiChannelSystem
 
 Edge = tuple[int, int]
 Carried = Literal["outputs", "outputs+states", "states"]

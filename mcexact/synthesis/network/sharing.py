@@ -14,8 +14,9 @@ from mcexact.derived.extended import Share, checked_dimensions
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.location import StabilityRegion
+from mcexact.model.linked_system import with_graph
 from mcexact.model.neighbor_graph import NeighborGraph
-from mcexact.model.system import MultiChannelSystem, as_plant, with_graph
+from mcexact.model.system import MultiChannelSystem, as_plant
 from mcexact.synthesis.network.networks import DerivedNetwork, NetworkKind, shared_network
 from mcexact.synthesis.request import Request
 
