@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 from mcexact.answer.evidence import RateInterval, RootDisc
 from mcexact.exact.polynomial import Polynomial
+from mcexact.plot.eigenvalues import eigenvalues
 
 
 @dataclass(frozen=True)
@@ -14,6 +16,7 @@ class LoopSpectrum:
 
     Attributes
     ----------
+    time : {"continuous", "discrete"}
     polynomial : Polynomial
         The characteristic polynomial.
     discs : tuple of RootDisc
@@ -25,7 +28,12 @@ class LoopSpectrum:
         time); None if there are no eigenvalues.
     """
 
+    time: str
     polynomial: Polynomial
     discs: tuple[RootDisc, ...]
     stable: bool
     rate: RateInterval | None
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draw the eigenvalues with their multiplicities; see `mcexact.plot.eigenvalues`."""
+        return eigenvalues(self, ax, time=self.time)

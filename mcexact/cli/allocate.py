@@ -72,6 +72,7 @@ if TYPE_CHECKING:
     show_default=True,
     help="Number of nodes of the branch tree after which the search ends with status 4.",
 )
+@options.page("the answers, a picture and all certificates")
 @options.answering
 def command(file: str, **given: Any) -> int:
     """Find the least dimensions that the agents of the system in FILE must share.
@@ -83,22 +84,30 @@ def command(file: str, **given: Any) -> int:
     set of communication links for which no mode is fixed.
     """
 
-    from mcexact.cli.files import require_writable
+    from mcexact.cli.files import require_page
+    from mcexact.cli.rechecking import Rechecked
     from mcexact.cli.running import Run, show_tables
+    from mcexact.model.atomic import write_text
 
-    run = Run(given)
-    require_writable(None, run.certificates)
+    run, html = Run(given), given.pop("html")
+    require_page(html, run.certificates, file)
     plant = run.read(file)
     answer = run.result(
         _answer,
         plant,
         run.limits,
         given,
+        html is not None,
         run.system_by_digest,
         doing=f"allocating for {plant[0]}",
     )
+
+    def write(checked: Rechecked) -> None:
+        if html is not None:
+            write_text(html, answer["page"].rendered(answer["certificates"], checked.verdicts))
+
     about = f"the answers about {plant[0]}"
-    run.conclude(answer, show_tables(answer), about=about).require_complete()
+    run.conclude(answer, show_tables(answer), about=about, write=write).require_complete()
     return 0 if answer["feasible"] else DEFINITE_NO
 
 
@@ -106,6 +115,7 @@ def _answer(
     plant: tuple[str, bytes],
     limits: dict[str, int],
     question: dict[str, Any],
+    with_page: bool,
     system_by_digest: bool,
 ) -> dict[str, Any]:
     """Decide and format the answer, in the child process."""
@@ -122,7 +132,13 @@ def _answer(
     else:
         account = account_of_dimensions(system, **_dimensions(system.names, question, region))
         least = account.answers["minimal_shared_dimensions"]
+    page = None
+    if with_page:
+        from mcexact.report.account_page import allocation_page
+
+        page = allocation_page(account)
     return told(account, system_by_digest) | {
+        "page": page,
         "json": account.as_json(),
         "tables": tables(account.sentences),
         "feasible": least.feasible,

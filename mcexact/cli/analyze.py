@@ -71,12 +71,7 @@ def _also(function: Callable[..., int]) -> Callable[..., int]:
     type=click.Choice(["no-fixed-modes"]),
     help="End with status 1 if this property does not hold.",
 )
-@click.option(
-    "--html",
-    type=click.Path(path_type=Path),
-    metavar="FILE",
-    help="Write a report as an HTML page, with sentences, graphs and all certificates.",
-)
+@options.page("sentences, graphs and all certificates")
 @click.option(
     "--latex", is_flag=True, help="Print the results in LaTeX (with --html: add them to the page)."
 )
@@ -100,15 +95,13 @@ def command(
     """
 
     from mcexact.cli import output
-    from mcexact.cli.files import require_drawable, require_other, require_writable
+    from mcexact.cli.files import require_page
     from mcexact.cli.rechecking import Rechecked
     from mcexact.cli.running import Run
     from mcexact.model.atomic import write_text
 
     run = Run(given)
-    require_other(html, file)
-    require_writable(html, run.certificates)
-    require_drawable(html)
+    require_page(html, run.certificates, file)
     also = [option for option in _ALSO if given[option.replace("-", "_")]]
     plant = run.read(file)
     answer = run.result(

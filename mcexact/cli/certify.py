@@ -8,7 +8,6 @@ import click
 
 from mcexact.cli import aiming, options
 from mcexact.cli.commands import GroupedCommand
-from mcexact.cli.designing import page
 from mcexact.cli.failures import DEFINITE_NO
 
 rounded_output = click.option(
@@ -45,7 +44,7 @@ rounded_output = click.option(
 )
 @aiming.weights
 @rounded_output
-@page
+@options.page("figures of the loop and all certificates")
 @options.answering
 def command(file: str, controller: str, **given: Any) -> int:
     """Decide whether CONTROLLER stabilizes the system in FILE, or makes it fast enough.
@@ -55,7 +54,7 @@ def command(file: str, controller: str, **given: Any) -> int:
     --certificates writes a proof of that as well. A warning is given if the controller was designed
     for another plant. The first line says whether to install the controller.
     """
-    from mcexact.cli.files import place_of, require_drawable, require_other, require_writable
+    from mcexact.cli.files import place_of, require_other, require_page, require_writable
     from mcexact.cli.output import emit, emit_tables
     from mcexact.cli.rechecking import Rechecked
     from mcexact.cli.running import Run
@@ -66,10 +65,9 @@ def command(file: str, controller: str, **given: Any) -> int:
     if output is not None and given["round_gains"] is None:
         raise click.UsageError("-o writes the rounded controller: give --round-gains, too")
     require_other(output, file, controller, weights)
-    require_other(html, file, controller, weights, None if output is None else str(output))
     require_writable(output, run.certificates)
-    require_writable(html, run.certificates)
-    require_drawable(html)
+    written = None if output is None else str(output)
+    require_page(html, run.certificates, file, controller, weights, written)
     about = place_of(controller)
     programs = run.read(file), run.read(controller), None if weights is None else run.read(weights)
     answer = run.result(

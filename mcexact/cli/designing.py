@@ -20,14 +20,6 @@ HOW = ("rate", "radius", "arithmetic")
 """The options that are arguments of the functions of `mcexact.synthesis` with the same names."""
 
 
-page = click.option(
-    "--html",
-    type=options.FOLDER,
-    metavar="FILE",
-    help="Write a report as an HTML page, with figures of the loop and all certificates.",
-)
-
-
 def design_options(
     spectrum_help: str,
     agent_help: str = "The agent with the channel controller of the theorem, which is then "
@@ -44,7 +36,7 @@ def design_options(
         click.option("--agent", metavar="NAME", help=agent_help),
         aiming.aims if searches else aiming.weights,
         options.controller_output,
-        page,
+        options.page("figures of the loop and all certificates"),
         options.answering,
     )
 
@@ -69,7 +61,7 @@ def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any
     wanted : mapping
         Further keyword arguments of the function.
     """
-    from mcexact.cli.files import require_drawable, require_other, require_writable
+    from mcexact.cli.files import require_other, require_page, require_writable
     from mcexact.cli.output import emit, emit_tables
     from mcexact.cli.rechecking import Rechecked
     from mcexact.cli.running import Run
@@ -79,10 +71,9 @@ def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any
     run, spectrum, weights = Run(given), given["spectrum"], given["weights"]
     output, html = given["output"], given["html"]
     require_other(output, file, spectrum, weights)
-    require_other(html, file, spectrum, weights, None if output is None else str(output))
     require_writable(output, run.certificates)
-    require_writable(html, run.certificates)
-    require_drawable(html)
+    written = None if output is None else str(output)
+    require_page(html, run.certificates, file, spectrum, weights, written)
     extra = tuple(None if each is None else run.read(each) for each in (spectrum, weights))
     keywords = {**wanted, "agent": given["agent"], **{key: given[key] for key in HOW}}
     aimed = {key: given[key] for key in aiming.AIMS if key in given}

@@ -121,6 +121,29 @@ def require_drawable(file: Path | None) -> None:
         MissingExtra.require("plot", "matplotlib")
 
 
+def require_page(page: Path | None, folder: Path | None, *inputs: str | None) -> None:
+    """Check before the work that a page can be written: its pictures, and where it is to stand.
+
+    Parameters
+    ----------
+    page : Path or None
+    folder : Path or None
+        The folder for certificates.
+    *inputs : str or None
+        Files that are read or written by the same command.
+
+    Raises
+    ------
+    InputError
+        If the page is one of these files, or cannot be written.
+    MissingExtra
+        If the library that draws is not installed.
+    """
+    require_other(page, *inputs)
+    require_writable(page, folder)
+    require_drawable(page)
+
+
 @contextlib.contextmanager
 def _refusing(path: Path) -> Iterator[None]:
     """Turn an operating-system error about writing into an InputError."""

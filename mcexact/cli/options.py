@@ -75,6 +75,17 @@ controller_output = click.option(
     help="Write the controller to this file; by default to standard output.",
 )
 
+
+def page(contents: str) -> Callable[[F], F]:
+    """Return the option for a page, which has these contents besides what is printed."""
+    return click.option(
+        "--html",
+        type=FOLDER,
+        metavar="FILE",
+        help=f"Write a report as an HTML page, with {contents}.",
+    )
+
+
 as_json = click.option("--json", "as_json", is_flag=True, help="Print one JSON document.")
 
 certificates = click.option(

@@ -83,7 +83,7 @@ def command(file: str, controller: str, **given: Any) -> None:
     from mcexact.cli.output import emit_tables
     from mcexact.cli.rechecking import Rechecked
     from mcexact.cli.running import Run
-    from mcexact.model.atomic import write_bytes
+    from mcexact.model.atomic import write_bytes, write_text
 
     run = Run(given)
     output, fractions = given.pop("output"), given.pop("fractions")
@@ -109,8 +109,10 @@ def command(file: str, controller: str, **given: Any) -> None:
         emit_tables(answer["tables"])
         return bool(answer["files"])
 
-    def write(_: Rechecked) -> None:
-        if output is not None:
+    def write(checked: Rechecked) -> None:
+        if output is not None and answer["page"] is not None:
+            write_text(output, answer["page"].rendered(answer["certificates"], checked.verdicts))
+        elif output is not None:
             write_bytes(output, answer["file"])
 
     about = f"the simulation of {plant[0]}"
@@ -165,7 +167,7 @@ def _simulated(
     done = simulated_loop(system, controller, **wanted)
     report = SimulationReport(done, fractions)
     account = Account({}, Given(system), Sentences([]))
-    proved: dict[str, Any] = {"files": {}, "plant": canonical_text(system)}
+    proved: dict[str, Any] = {"certificates": {}, "files": {}, "plant": canonical_text(system)}
     if done.envelope is not None:
         account = account_of_verdict(done.envelope.proof, largest=False)
         proved = told(account, system_by_digest)
@@ -174,4 +176,5 @@ def _simulated(
         "json": account.as_json(**report.as_json()),
         "tables": report.tables(),
         "file": report.file(suffix),
+        "page": report.page() if suffix == ".html" else None,
     }

@@ -66,6 +66,7 @@ _SAY_EVERY = 10.0  # seconds
     help="Have a running dask cluster decide, such as tcp://host:8786, on whose workers mcexact is "
     "installed; the checker verifies every certificate here.",
 )
+@options.page("counts and a row for every system")
 @options.certificates
 @options.as_json
 @options.work_limits
@@ -79,6 +80,7 @@ def command(
     workers: int | None,
     scheduler: str | None,
     certificates: Path | None,
+    html: Path | None,
     as_json: bool,
     timeout: float | None,
     max_memory: int | None,
@@ -96,12 +98,13 @@ def command(
     """
     from functools import partial
 
-    from mcexact.cli.files import directory, require_writable
+    from mcexact.cli.files import directory, require_other, require_writable
     from mcexact.cli.output import emit_json, emit_tables
     from mcexact.derived.drawn.draw import Draw
     from mcexact.errors import InputError
     from mcexact.exact.rational import Limits
-    from mcexact.report.sweep_view import skipped_table, sweep_tables, sweep_view
+    from mcexact.model.atomic import write_text
+    from mcexact.report.sweep_view import skipped_table, sweep_page, sweep_tables, sweep_view
     from mcexact.report.text import WIDE
     from mcexact.sweeps.jobs import decide
     from mcexact.sweeps.run import sweep
@@ -117,6 +120,8 @@ def command(
         raise click.UsageError("there are no systems to sweep over: name files, or give --draws N")
     asked = tuple(name for name in QUESTIONS if name in (questions or {"fixed_spectrum"}))
     require_writable(output, certificates)
+    require_other(html, *listed.paths, None if output is None else str(output))
+    require_writable(html, certificates)
     limited = timeout is not None or max_memory is not None
     if limited and scheduler is not None:
         raise click.UsageError("limits on time and memory hold here: leave them out on a cluster")
@@ -150,6 +155,8 @@ def command(
     documents, skipped = listed.separated(documents)
     if not documents:
         raise InputError("found no system file", where=", ".join(files))
+    if html is not None:
+        write_text(html, sweep_page(documents, asked, skipped).rendered())
     if as_json:
         emit_json({"format": "mcexact-sweep-summary/1", **sweep_view(documents, skipped)})
     else:

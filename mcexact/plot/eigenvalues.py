@@ -15,7 +15,7 @@ from mcexact.exact.location import StabilityRegion, is_discrete
 from mcexact.exact.polynomial import Polynomial
 from mcexact.plot.canvas import BLUE, GRAY, LIGHT, RED, legend_below, one_axis
 
-_WIDE, _POWERS = 100.0, 3
+_WIDE, _POWERS, _TICKS = 100.0, 3, 5
 _SEEN = 1 / 200
 """The part of the picture's width from which on a disc is seen."""
 
@@ -161,6 +161,8 @@ def draw_places(
     axis.axhline(0, color=GRAY, linewidth=0.6, zorder=0.5)
     axis.set_xlabel("real part")
     axis.set_ylabel("imaginary part")
+    if axis.get_xscale() == "linear":
+        axis.locator_params(axis="x", nbins=_TICKS)
 
 
 def _draw_disc(axis: Any, edge: float | None, places: Sequence[complex]) -> None:

@@ -9,7 +9,7 @@ from typing import Any
 from mcexact.errors import UsageError
 from mcexact.plot.canvas import GRAY, cut, empty_figure, one_axis, plain_label, several_axes
 
-MARKED, SENDERS, PLAIN = "#d95f02", "#7570b3", "#e8e8e8"
+MARKED, SENDERS, PLAIN, ADDED = "#d95f02", "#7570b3", "#e8e8e8", "#1f78b4"
 _EDGE, _FREE = "#555555", "#f4f4f4"
 LARGEST = 16
 """The largest number of channels that are drawn as a circle; more are drawn as a matrix."""
@@ -28,6 +28,7 @@ def graph(
     *,
     marked: Collection[str] = (),
     senders: Collection[str] = (),
+    added: Collection[Edge] = (),
     title: str | None = None,
 ) -> Any:
     """Draw a directed graph of channels or agents.
@@ -41,6 +42,8 @@ def graph(
         By default those of a new figure.
     marked, senders : collections of str
         Names in orange and in purple, and edges from purple to orange in purple.
+    added : collection of (str, str)
+        Edges in blue.
     title : str, optional
 
     Returns
@@ -63,10 +66,8 @@ def graph(
     if title:
         axis.set_title(title, fontsize="medium")
     crowded = len(names) > _INSIDE and len(edges) > _CROWDED * len(names)
-    if len(names) > LARGEST or crowded:
-        _draw_matrix(axis, names, edges, set(marked), set(senders))
-    else:
-        _draw_circle(axis, names, edges, set(marked), set(senders))
+    draw = _draw_matrix if len(names) > LARGEST or crowded else _draw_circle
+    draw(axis, names, edges, set(marked), set(senders), set(added))
     return axis.figure
 
 
@@ -142,6 +143,7 @@ def _draw_circle(
     edges: Sequence[Edge],
     marked: set[str],
     senders: set[str],
+    added: set[Edge],
 ) -> None:
     """Draw channels on a circle, with bent edges so that both directions are visible."""
     from matplotlib.patches import Circle, FancyArrowPatch
@@ -175,6 +177,7 @@ def _draw_circle(
             above = "bottom" if math.sin(a) > 0.9 else "top" if math.sin(a) < -0.9 else "center"
             axis.text(x, y, cut(name, 12), ha=side, va=above, fontsize="small", parse_math=False)
     for start, end in edges:
+        color = SENDERS if start in senders and end in marked else _EDGE
         axis.add_patch(
             FancyArrowPatch(
                 place[start],
@@ -186,8 +189,8 @@ def _draw_circle(
                 connectionstyle="arc3,rad=0.14",
                 arrowstyle="-|>",
                 mutation_scale=14 if m <= _INSIDE else 9,
-                color=SENDERS if start in senders and end in marked else _EDGE,
-                linewidth=1.2 if m <= _INSIDE else 0.8,
+                color=ADDED if (start, end) in added else color,
+                linewidth=(1.2 if m <= _INSIDE else 0.8) + ((start, end) in added),
             )
         )
 
@@ -198,6 +201,7 @@ def _draw_matrix(
     edges: Sequence[Edge],
     marked: set[str],
     senders: set[str],
+    added: set[Edge],
 ) -> None:
     """Draw a matrix with a column for the start and a row for the end of each edge.
 
@@ -216,6 +220,7 @@ def _draw_matrix(
         color = _EDGE
         if end in marked:
             color = MARKED if start in marked else SENDERS if start in senders else color
+        color = ADDED if (start, end) in added else color
         cells[place[end]][place[start]] = to_rgb(color)
     axis.imshow(cells, interpolation="nearest")
     axis.set_xticks([])

@@ -19,6 +19,11 @@ _COLUMNS = {
 }
 _COLUMNS_OF_ROWS = {"allocate-row": ("agent", "least"), "allocate-link": ("from", "to", "cost")}
 _BOUNDS = {"outputs+states": "Theorem 2's bound", "states": "Remark 2's bound"}
+_CONTINUOUS = "numerical abscissa", "no eigenvalue: the rate at which a norm can grow at first"
+_DISCRETE = (
+    "numerical radius",
+    "no eigenvalue: in t steps a norm grows to at most twice its power t",
+)
 _MORE = "Further fixed modes are listed below."
 _SHOWN = "the first {}; the JSON document and the HTML page list all. "
 
@@ -113,14 +118,16 @@ def measured(
     said : Sentences
     discrete : bool
     """
-    what = "radius" if discrete else "abscissa"
     labels = {
-        "numerical": f"numerical {what}",
-        "distance_to_instability": "distance to instability, at most",
+        "numerical": _DISCRETE if discrete else _CONTINUOUS,
+        "distance_to_instability": (
+            "distance to instability, at most",
+            "the 2-norm of a change of the loop's matrix that makes it unstable",
+        ),
     }
     rows = [
-        (label, "–" if (value := figures.get(name)) is None else f"{value:.6g}")
-        for name, label in labels.items()
+        (label, "–" if (value := figures.get(name)) is None else f"{value:.3g} ({told})")
+        for name, (label, told) in labels.items()
     ]
     return Table("".join(said.at("measured.title")), (), (*assessed, *rows))
 

@@ -1,79 +1,37 @@
-"""The page that `mcexact analyze --html` writes."""
+"""The pages that `mcexact analyze --html` and `mcexact allocate --html` write."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import replace
 
 from mcexact.answer.account import Account
 from mcexact.report.account import answer, tables
-from mcexact.report.graph_figures import LEAST, dimensions_picture, graph_pictures
-from mcexact.report.page import page
-from mcexact.report.picture import EmbeddedPicture, Picture
+from mcexact.report.answer_page import AnswerPage
+from mcexact.report.dimension_figures import (
+    LEAST,
+    allocation_picture,
+    dimensions_picture,
+)
+from mcexact.report.graph_figures import graph_pictures, links_picture
+from mcexact.report.picture import Picture
 from mcexact.report.plant import shown_plant
-from mcexact.report.text import Table
+
+_SHARED = (
+    "The least that the agents must share, with a proof that less does not suffice.",
+    "The least dimensions",
+)
+_LINKS = (
+    "The cheapest links to add, with a proof that cheaper ones do not suffice.",
+    "The links to add",
+)
 
 
-@dataclass(frozen=True)
-class AccountPage:
-    """The contents of a report, except for the verdicts on certificates.
-
-    Attributes
-    ----------
-    title, heading : str
-    good : bool
-        Whether control with the given information can stabilize the plant.
-    answer : tuple of str
-    pictures : tuple of EmbeddedPicture
-    tables : tuple of Table
-    plant : mapping
-        The matrices and the source of the system, as `shown_plant` returns them.
-    """
-
-    title: str
-    heading: str
-    good: bool
-    answer: tuple[str, ...]
-    pictures: tuple[EmbeddedPicture, ...]
-    tables: tuple[Table, ...]
-    plant: Mapping[str, Any]
-
-    def rendered(
-        self, certificates: Mapping[str, str], verdicts: Mapping[str, Any], latex: str | None = None
-    ) -> str:
-        """Return the whole page.
-
-        Parameters
-        ----------
-        certificates : mapping from names of files to texts
-        verdicts : mapping from names of files to Verdict
-            The checker's verdicts; a certificate without verdict is marked as not re-checked.
-        latex : str, optional
-            The results as LaTeX.
-        """
-        evidence = []
-        for name, text in certificates.items():
-            said = verdicts.get(name)
-            evidence.append(
-                {
-                    "title": name,
-                    "verdict": said.verdict if said is not None else "not re-checked",
-                    "theorem": said.line() if said is not None else "",
-                    "text": text,
-                }
-            )
-        if latex is not None:
-            evidence.append({"title": "LaTeX", "verdict": "", "theorem": "", "text": latex})
-        return page("account", **vars(self), evidence=evidence)
-
-
-def account_page(account: Account) -> AccountPage:
-    """Return the contents of the report on a system."""
+def account_page(account: Account) -> AnswerPage:
+    """Return the page of an analysis."""
     system, said = account.given.system, account.sentences
     first, *rest = tables(said)
     spectrum = account.answers.get("fixed_spectrum")
-    return AccountPage(
+    return AnswerPage(
         title=system.name or "A multi-channel system",
         heading="".join(said.at("page")),
         good=spectrum is None or spectrum.stabilizable,
@@ -92,3 +50,32 @@ def _pictures(account: Account) -> list[Picture]:
     if set(LEAST.values()) & account.answers.keys():
         drawn.append(dimensions_picture(account))
     return drawn
+
+
+def allocation_page(account: Account) -> AnswerPage:
+    """Return the page of the least dimensions, or of the links to add.
+
+    Parameters
+    ----------
+    account : Account
+        As `account_of_dimensions` or `account_of_links` returns it.
+    """
+    system, said = account.given.system, account.sentences
+    linked = account.answers.get("minimal_communication")
+    least = account.answers["minimal_shared_dimensions"] if linked is None else linked
+    heading, title = _SHARED if linked is None else _LINKS
+    drawn = []
+    if least.feasible:
+        drawn.append((allocation_picture if linked is None else links_picture)(account))
+    first, *rest = tables(said)
+    found = [replace(first, title=title)] if first.rows else []
+    words = said.at("title", *([] if first.rows else ["table.note"]))
+    return AnswerPage(
+        title=system.name or "A multi-channel system",
+        heading=heading,
+        good=least.feasible,
+        answer=tuple(words),
+        pictures=tuple(each.embedded() for each in drawn),
+        tables=(*found, *rest),
+        plant=shown_plant(system),
+    )

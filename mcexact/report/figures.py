@@ -117,8 +117,12 @@ def _range_told(run: Trajectory, kind: str) -> str:
     values = [v for each in curves.values() for v in each if math.isfinite(v)]
     if not values:
         return f"There are no {kind}."
+    least, largest = f"{min(values):.3g}", f"{max(values):.3g}"
+    if least == largest:
+        each = f"The {kind} stay" if len(curves) > 1 else f"The {kind[:-1]} stays"
+        return f"{each} at {least}."
     many = f"The {len(curves)} {kind} lie" if len(curves) > 1 else f"The {kind[:-1]} lies"
-    return f"{many} between {min(values):.3g} and {max(values):.3g}."
+    return f"{many} between {least} and {largest}."
 
 
 def spectrum_picture(spectrum: LoopSpectrum, time: str, title: str) -> Picture:
@@ -166,7 +170,7 @@ def decay_pictures(
     norms, line = run.state_norms(), ""
     if spectrum is not None and spectrum.rate is not None:
         line = f" The dashed line has the certified {rate_text(run.time, spectrum)}."
-    words = f"The state goes from {norms[0]:.2e} to {norms[-1]:.2e}.{line}"
+    words = f"The state goes from {norms[0]:.3g} to {norms[-1]:.3g}.{line}"
     if envelope is not None:
         words += " The gray curve is a proved bound on every entry of the exact state."
     figure = decay(run, one_axis(None, *PANEL), spectrum=spectrum, envelope=envelope)
@@ -175,6 +179,6 @@ def decay_pictures(
     if errors:
         last = max(values[-1] for values in errors.values())
         figure = decay(run, one_axis(None, *PANEL), spectrum=spectrum, errors=True)
-        words = f"The largest estimation error ends at {last:.2e}.{line}"
+        words = f"The largest estimation error ends at {last:.3g}.{line}"
         drawn.append(Picture(figure, f"{title} of the estimation errors", words))
     return drawn

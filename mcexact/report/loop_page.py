@@ -9,7 +9,7 @@ from mcexact.answer.account import Account
 from mcexact.model.controller import Controller
 from mcexact.plot.canvas import NAMED, PANEL, one_axis
 from mcexact.plot.loops import LoopCurves, decay, effort, poles, sensitivity, steps
-from mcexact.report.account_page import AccountPage
+from mcexact.report.answer_page import AnswerPage
 from mcexact.report.figures import gains_pictures
 from mcexact.report.picture import Picture
 from mcexact.report.plant import shown_plant
@@ -23,7 +23,7 @@ def loop_page(
     tables: Sequence[Table],
     curves: LoopCurves | None,
     controller: Controller,
-) -> AccountPage:
+) -> AnswerPage:
     """Return the contents of the page.
 
     Parameters
@@ -39,7 +39,7 @@ def loop_page(
     """
     system = account.given.system
     pictures = [*([] if curves is None else loop_pictures(curves)), *gains_pictures(controller)]
-    return AccountPage(
+    return AnswerPage(
         title=system.name or "A closed loop",
         heading="A controller and its closed loop. Its figures are computed, not certified; the "
         "certificates prove where the eigenvalues lie.",

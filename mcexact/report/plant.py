@@ -34,9 +34,9 @@ def shown_plant(system: MultiChannelSystem) -> dict[str, Any]:
         entries as labels and texts, and ``notes`` that say what was cut or rounded.
     """
     shown = _first(system.m)
-    named = [("A", system.A)]
-    for k in range(shown):
-        named += [(f"B_{k + 1}", system.B(k)), (f"C_{k + 1}", system.C(k))]
+    # Columns beside columns and rows beside rows take the least room.
+    named = [("A", system.A), *((f"B_{k + 1}", system.B(k)) for k in range(shown))]
+    named += [(f"C_{k + 1}", system.C(k)) for k in range(shown)]
     listed = {name: M for name, M in named if _is_listed(M)}
     drawn = [(name, M) for name, M in named if name not in listed]
     notes = []

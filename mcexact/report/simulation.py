@@ -8,8 +8,8 @@ from typing import Any
 from mcexact.exact.floats import finite, to_float
 from mcexact.exact.location import is_discrete
 from mcexact.exact.rational import rational_text
+from mcexact.report.answer_page import AnswerPage
 from mcexact.report.figures import simulation_pictures, simulation_png
-from mcexact.report.page import page
 from mcexact.report.plant import shown_plant
 from mcexact.report.text import Table
 from mcexact.report.trajectory import shown_times, trajectory_csv
@@ -165,32 +165,29 @@ class SimulationReport:
         return finite(as_float(value))
 
     def file(self, suffix: str) -> bytes:
-        """Return the content of a file with suffix .csv, .png or .html; empty without a suffix."""
+        """Return the content of a file with suffix .csv or .png; empty with another suffix."""
         if suffix == ".csv":
             return trajectory_csv(self.done.run, fractions=self.fractions).encode("utf-8")
         if suffix == ".png":
             return simulation_png(self.done)
-        if suffix == ".html":
-            return self.page().encode("utf-8")
         return b""
 
-    def page(self) -> str:
+    def page(self) -> AnswerPage:
         """Return the page of the simulation."""
         done = self.done
-        verdict = done.spectrum
-        return page(
-            "simulation",
+        return AnswerPage(
             title=done.title,
             heading="A controller, run as a network of agents that receive messages from neighbors "
             "only. Trajectories are computed; what is proved is said to be proved.",
-            good=verdict is not None and verdict.stable,
-            bad=verdict is not None and not verdict.stable,
-            facts=self.facts(),
-            plant=shown_plant(done.run.loop.given),
-            warnings=list(done.warnings),
-            pictures=[each.embedded() for each in simulation_pictures(done)],
-            tables=[
+            good=None if done.spectrum is None else done.spectrum.stable,
+            answer=(
+                *(f"{each[0].upper()}{each[1:]}." for each in self.facts()),
+                *(f"warning: {each}" for each in done.warnings),
+            ),
+            pictures=tuple(each.embedded() for each in simulation_pictures(done)),
+            tables=tuple(
                 replace(each, title=title)
                 for each, title in zip(self.tables(), _TITLES, strict=False)
-            ],
+            ),
+            plant=shown_plant(done.run.loop.given),
         )

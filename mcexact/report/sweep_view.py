@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
 from mcexact.answer.formats import count, cut
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.shortened import polynomial
+from mcexact.report.answer_page import AnswerPage
 from mcexact.report.text import Table, shorten
 
-_MOST_ROWS = 60
+_MOST_ROWS, _MOST_ON_A_PAGE = 60, 5000
 _MOST_SKIPPED = 20
 _NOT_STABILIZABLE = "not stabilizable: by no linear time-invariant decentralized controller"
 
@@ -70,14 +72,40 @@ _COUNTED = {
 }
 
 
-def sweep_tables(documents: Sequence[Document], questions: Sequence[str]) -> tuple[Table, ...]:
+def sweep_page(
+    documents: Sequence[Document],
+    questions: Sequence[str],
+    skipped: Sequence[tuple[str, str]] = (),
+) -> AnswerPage:
+    """Return the page of a sweep: the counts in words, and the tables."""
+    each, summed = sweep_tables(documents, questions, most=_MOST_ON_A_PAGE)
+    asked = ", ".join(name.replace("_", " ") for name in questions)
+    words = ["; ".join(f"{label}: {number}" for label, number in summed.rows).capitalize()]
+    failed = sum("error" in document for document in documents)
+    if failed:
+        words.append(f"warning: {count(failed, 'system')} without an answer, for reasons below")
+    tables = (each, skipped_table(skipped)) if skipped else (each,)
+    return AnswerPage(
+        title=f"A sweep over {count(len(documents), 'system')}",
+        heading=f"Asked about every system: {asked}. The independent checker verified the "
+        "certificate of every answer.",
+        good=None,
+        answer=(*words, *([summed.note] if summed.note else [])),
+        pictures=(),
+        tables=tuple(replace(found, title=found.title or "Every system") for found in tables),
+    )
+
+
+def sweep_tables(
+    documents: Sequence[Document], questions: Sequence[str], most: int = _MOST_ROWS
+) -> tuple[Table, Table]:
     """Return a row for each system, or for the most important ones, and the counts."""
     shown = list(documents)
     note = ""
-    if len(shown) > _MOST_ROWS:
-        shown = sorted(shown, key=_tells)[:_MOST_ROWS]
+    if len(shown) > most:
+        shown = sorted(shown, key=_tells)[:most]
         shown.sort(key=lambda document: int(document["number"]))
-        note = f"{_MOST_ROWS} of {count(len(documents), 'system')}; the JSON document lists all"
+        note = f"{most} of {count(len(documents), 'system')}; the JSON document lists all"
     columns = ("system", "n", "m", *(name.replace("_", " ") for name in questions), "seconds")
     short = _short_names(documents)
     rows = tuple(_row(short[document["name"]], document, questions) for document in shown)

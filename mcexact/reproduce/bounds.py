@@ -24,7 +24,7 @@ from mcexact.derived.extended import Share, extended_system
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.report.graph_figures import LEAST, dimensions_picture
+from mcexact.report.dimension_figures import LEAST, dimensions_picture
 from mcexact.reproduce.extended import SHARING
 from mcexact.reproduce.material import (
     PAPER,

@@ -30,7 +30,7 @@ def pages(folder: Path) -> list[Path]:
     plants = Path(gallery.__file__).parent
     example = str(plants / "liu2020-3ch-augmented-outputs.json")
     tanks, discrete = str(plants / "quadruple-tank-pminus.json"), str(plants / "compleib-dis5.json")
-    drawn, crowd = folder / "drawn.json", folder / "crowd.json"
+    drawn, crowd, short = (folder / f"{name}.json" for name in ("drawn", "crowd", "short"))
     gains, holding = str(folder / "gains.json"), str(folder / "holding.json")
     linked, shared = str(folder / "linked.json"), str(folder / "shared.json")
     estimates = str(folder / "estimates.json")
@@ -44,6 +44,9 @@ def pages(folder: Path) -> list[Path]:
         "observer": ("design", "observer", linked, "--arithmetic", "float", "-o", estimates),
         "certified": ("certify", tanks, gains),
         "exhibits": ("crosscheck", "--exhibits"),
+        "dimensions": ("allocate", str(short)),
+        "links": ("allocate", example, "--links"),
+        "sweep": ("sweep", "--draws", "9", "--plant-fixed-mode", "--question", "completeness"),
     }
     runs = {
         "run": (tanks, gains),
@@ -54,6 +57,7 @@ def pages(folder: Path) -> list[Path]:
     for path, channels in ((drawn, 10), (crowd, 60)):
         system = drawn_system(Draw(1, states=12, channels=channels, neighbors=True))
         save_system(system, path)
+    save_system(drawn_system(Draw(1, states=6, channels=4, deficiency=2)), short)
     pair = {"1": ["2"], "2": ["1"]}
     save_system(load_system(tanks).with_neighbors(pair), linked)
     _idle(discrete, folder / "idle.json")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 from matplotlib.figure import Figure
+from matplotlib.patches import Circle
 
 from mcexact.analysis.stability.closed_loop_spectrum import closed_loop_spectrum, open_loop_spectrum
 from mcexact.errors import UsageError
@@ -38,6 +39,13 @@ def test_a_spectrum_an_answer_and_numbers_are_drawn_alike() -> None:
     spectrum = closed_loop_spectrum(M, "continuous")
     for found in (spectrum, open_loop_spectrum(plant), [-2, -1], Polynomial.from_roots([-1, -2])):
         assert crosses(eigenvalues(found)) == [-2, -1]
+    assert crosses(spectrum.plot()) == [-2, -1]
+
+
+def test_a_spectrum_draws_the_stability_region_of_its_time() -> None:
+    for time, shown in (("continuous", 0), ("discrete", 1)):
+        [axis] = closed_loop_spectrum(Matrix.identity(1), time).plot().axes
+        assert sum(isinstance(each, Circle) for each in axis.patches) == shown
 
 
 def test_the_axes_that_are_given_are_drawn_on() -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from html.parser import HTMLParser
 
-VOID = {"meta", "img", "br", "hr", "link", "input"}
+VOID = {"meta", "img", "br", "wbr", "hr", "link", "input"}
 KNOWN = VOID | {"html", "head", "title", "style", "body", "header", "main", "section", "p", "div"}
 KNOWN |= {"h1", "h2", "h3", "table", "thead", "tbody", "tr", "th", "td", "ul", "li", "pre", "code"}
 KNOWN |= {"details", "summary", "figure", "footer", "figcaption", "cite", "span", "a", "b"}

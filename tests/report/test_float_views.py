@@ -36,6 +36,7 @@ def test_what_is_proved_stands_apart_from_what_is_measured():
     assert "certified" in proved.title and "not certified" in figures.title
     assert figures.title == "computed in floating point, not certified" and not figures.note
     assert {"margin at the plant's inputs", "numerical abscissa"} <= dict(figures.rows).keys()
+    assert "no eigenvalue" in dict(figures.rows)["numerical abscissa"]
     assert ("every eigenvalue of the loop", "Re λ < -1") in proved.rows
 
 

@@ -6,8 +6,11 @@ from fractions import Fraction
 
 import pytest
 
+from mcexact.cli import main
 from mcexact.exact.matrix import Matrix
 from mcexact.model.controller import AgentProgram, Controller, LinearMap
+from mcexact.model.controller_file import save_controller
+from mcexact.model.formats.files import save_system
 from mcexact.model.system import MultiChannelSystem
 from mcexact.report.figures import simulation_pictures, simulation_png
 from mcexact.report.simulation import SimulationReport
@@ -151,6 +154,19 @@ def test_what_comes_from_outside_is_escaped():
     named = MultiChannelSystem(
         plant.A, [plant.B(0)], [plant.C(0)], time=plant.time, name="<script> & $x^$"
     )
-    text = SimulationReport(simulated_loop(named, controller, horizon=3)).page()
+    text = SimulationReport(simulated_loop(named, controller, horizon=3)).page().rendered()
     assert "<script>" not in text and "&lt;script&gt; &amp; $x^$" in text
     assert external_addresses(text) == []
+
+
+def test_the_page_has_the_proof_of_its_bounds(tmp_path):
+    plant, controller = halving()
+    save_system(plant, tmp_path / "plant.json")
+    save_controller(controller, tmp_path / "gains.json")
+    page = tmp_path / "page.html"
+    with pytest.raises(SystemExit) as ended:
+        main(["simulate", *(str(tmp_path / f"{name}.json") for name in ("plant", "gains")),
+              "--horizon", "3", "-o", str(page)])  # fmt: skip
+    assert ended.value.code == 0
+    text = page.read_text(encoding="utf-8")
+    assert "Proved bounds" in text and ': <span class="yes">VALID' in text

@@ -45,7 +45,7 @@ def closed_loop_spectrum(M: Matrix, time: str) -> LoopSpectrum:
     distinct = polynomial.squarefree_part()
     discs, rate = located(time, [distinct] if distinct.degree > 0 else [])
     stable = StabilityRegion(time).contains_roots_of(polynomial)
-    return LoopSpectrum(polynomial, discs[0] if discs else (), stable, rate)
+    return LoopSpectrum(time, polynomial, discs[0] if discs else (), stable, rate)
 
 
 def open_loop_spectrum(system: MultiChannelSystem) -> ClosedLoopSpectrum:
