@@ -99,13 +99,12 @@ from .model.controller import Controller as Controller
 from .model.controller import LinearMap as LinearMap
 from .model.controller_file import load_controller as load_controller
 from .model.controller_file import save_controller as save_controller
+from .model.formats.files import load_parametric_system as load_parametric_system
 from .model.formats.files import load_system as load_system
 from .model.formats.files import save_system as save_system
 from .model.local_controllers import local_controllers as local_controllers
 from .model.neighbor_graph import NeighborGraph as NeighborGraph
 from .model.parametric import ParametricSystem as ParametricSystem
-from .model.parametric_file import load_parametric_system as load_parametric_system
-from .model.parametric_file import save_parametric_system as save_parametric_system
 from .model.published import gallery as gallery
 from .model.sampled import c2d as c2d
 from .model.stacked import from_stacked as from_stacked

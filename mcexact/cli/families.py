@@ -130,8 +130,7 @@ class Families:
             sensor_variants,
         )
         from mcexact.errors import InputError, place_of
-        from mcexact.model.formats.files import load_system
-        from mcexact.model.parametric_file import load_parametric_system
+        from mcexact.model.formats.files import load_parametric_system, load_system
 
         found: Iterator[Variant]
         if self._grid:

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from typing import Any
 
 from mcexact.exact.matrix import Matrix
+from mcexact.exact.matrix_forms import MatrixDisplay
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.polynomial_matrix import PolynomialMatrix
 from mcexact.exact.rational_function import RationalFunction
+from mcexact.shown import LINE
 
 
-@dataclass(frozen=True)
-class FunctionMatrix:
+@dataclass(frozen=True, repr=False)
+class FunctionMatrix(MatrixDisplay):
     """A matrix of rational functions of the same parameters.
 
     Attributes
@@ -39,6 +42,40 @@ class FunctionMatrix:
 
     def __getitem__(self, position: tuple[int, int]) -> RationalFunction:
         return self.rows[position[0]][position[1]]
+
+    def is_zero(self) -> bool:
+        """Whether every entry is the zero function."""
+        return not any(map(any, self.rows))
+
+    def take(self, rows: Sequence[int], cols: Sequence[int]) -> FunctionMatrix:
+        """The submatrix of some rows and columns."""
+        return FunctionMatrix(tuple(tuple(self.rows[i][j] for j in cols) for i in rows), len(cols))
+
+    def tolist(self) -> list[list[RationalFunction]]:
+        """The rows as lists of functions."""
+        return [list(row) for row in self.rows]
+
+    def to_sympy(self) -> Any:
+        """The matrix as one of sympy, whose entries are equal expressions.
+
+        Examples
+        --------
+        >>> t = RationalFunction.parameter("t", ("t",))
+        >>> FunctionMatrix(((t, 1 / t),), 2).to_sympy()
+        Matrix([[t, 1/t]])
+        """
+        import sympy
+
+        return sympy.Matrix(*self.shape, [e.to_sympy() for row in self.rows for e in row])
+
+    _sympy_ = to_sympy
+
+    def __repr__(self) -> str:
+        entries = ", ".join(f"[{', '.join(map(str, row))}]" for row in self.rows)
+        text = f"FunctionMatrix([{entries}])"
+        if len(text) <= LINE:
+            return text
+        return f"<{self.nrows} × {self.ncols} matrix of functions>"
 
     def mapped(self, function: Callable[[RationalFunction], RationalFunction]) -> FunctionMatrix:
         """The matrix of the values of a function at the entries."""

@@ -16,14 +16,39 @@ if TYPE_CHECKING:
 
     from mcexact.exact.matrix import Matrix
 
+_LONGEST = 60
 MOST_SHOWN = 12
 """The rows, and the columns, of the largest matrix that is shown completely."""
 _DOTS = {"⋱": r"\ddots", "⋮": r"\vdots", "…": r"\cdots"}
 _GAPS = {(True, True): "⋱", (True, False): "⋮", (False, True): "…"}
 
 
-class MatrixForms:
-    """The conversions and the display of `Matrix`, which alone inherits them."""
+class MatrixDisplay:
+    """The display of matrices of numbers and of functions."""
+
+    def __str__(self: Any) -> str:
+        return aligned(self)
+
+    def _repr_pretty_(self, printer: Any, cycle: bool) -> None:
+        printer.text(repr(self))
+
+    def _html(self: Any) -> str:
+        """The matrix as a piece of HTML."""
+        return html(self)
+
+    def _latex(self: Any) -> str:
+        """The matrix as a piece of LaTeX."""
+        return latex(self)
+
+    def _repr_html_(self) -> str:
+        return shown.framed(self._html())
+
+    def _repr_latex_(self) -> str:
+        return rf"$\displaystyle {self._latex()}$"
+
+
+class MatrixForms(MatrixDisplay):
+    """The conversions of `Matrix`, which alone inherits them."""
 
     def tolist(self: Any) -> list[list[Fraction]]:
         """The rows as lists of Fractions."""
@@ -73,26 +98,6 @@ class MatrixForms:
         return symbolic(self)
 
     _sympy_ = to_sympy
-
-    def __str__(self: Any) -> str:
-        return aligned(self)
-
-    def _repr_pretty_(self, printer: Any, cycle: bool) -> None:
-        printer.text(repr(self))
-
-    def _html(self: Any) -> str:
-        """The matrix as a piece of HTML."""
-        return html(self)
-
-    def _latex(self: Any) -> str:
-        """The matrix as a piece of LaTeX."""
-        return latex(self)
-
-    def _repr_html_(self) -> str:
-        return shown.framed(self._html())
-
-    def _repr_latex_(self) -> str:
-        return rf"$\displaystyle {self._latex()}$"
 
 
 def row_of(M: Matrix, i: Any) -> tuple[Fraction, ...]:
@@ -195,23 +200,23 @@ def _literal(x: Fraction) -> str:
     return repr(text) if "/" in text else text
 
 
-def shortened(M: Matrix) -> list[list[Fraction | str]]:
+def shortened(M: Any) -> list[list[Any]]:
     """Return the entries to show, with dots in the place of middle rows and columns."""
     down, across = shown.kept(M.nrows, MOST_SHOWN), shown.kept(M.ncols, MOST_SHOWN)
     rows, cols = [i for i in down if i is not None], [j for j in across if j is not None]
-    entries = iter(M.take(rows=rows, cols=cols).rows())
-    found: list[list[Fraction | str]] = []
+    entries = iter(M.take(rows=rows, cols=cols).tolist())
+    found: list[list[Any]] = []
     for i in down:
-        row = iter(()) if i is None else iter(next(entries))
+        row: Any = iter(()) if i is None else iter(next(entries))
         found.append([_GAPS[i is None, j is None] if None in (i, j) else next(row) for j in across])
     return found
 
 
-def aligned(M: Matrix) -> str:
+def aligned(M: Any) -> str:
     """Return the matrix as lines of text with columns that are aligned on the right."""
     if not (M.nrows and M.ncols):
         return f"[] ({M.nrows} × {M.ncols})"
-    table = [[x if isinstance(x, str) else number(x) for x in row] for row in shortened(M)]
+    table = [[_text(x) for x in row] for row in shortened(M)]
     widths = [max(map(len, column)) for column in zip(*table, strict=True)]
     lines = [
         "[" + "  ".join(x.rjust(width) for x, width in zip(row, widths, strict=True)) + "]"
@@ -221,25 +226,24 @@ def aligned(M: Matrix) -> str:
     return "\n".join([*lines, f"({M.nrows} × {M.ncols})"] if elided else lines)
 
 
-def html(M: Matrix) -> str:
+def html(M: Any) -> str:
     """Return the matrix as a piece of HTML, in brackets."""
     if not (M.nrows and M.ncols):
         return f"{M.nrows} × {M.ncols}, no entries"
     rows = "".join(
-        "<tr>" + "".join(f"<td>{escape(x) if isinstance(x, str) else number(x)}</td>" for x in row)
-        + "</tr>"
+        "<tr>" + "".join(f"<td>{escape(_text(x))}</td>" for x in row) + "</tr>"
         for row in shortened(M)
-    )  # fmt: skip
+    )
     size = f"<div>{M.nrows} × {M.ncols}</div>" if max(M.shape) > MOST_SHOWN else ""
     return f'<table class="matrix"><tbody>{rows}</tbody></table>{size}'
 
 
-def latex(M: Matrix, *, whole: bool = False) -> str:
+def latex(M: Any, *, whole: bool = False) -> str:
     r"""Return the matrix as LaTeX.
 
     Parameters
     ----------
-    M : Matrix
+    M : Matrix or FunctionMatrix
     whole : bool
         Whether every entry is written, exactly; else a large matrix has dots in the place of middle
         rows and columns, and long numbers are rounded.
@@ -252,12 +256,21 @@ def latex(M: Matrix, *, whole: bool = False) -> str:
     """
     rows = r" \\ ".join(
         " & ".join(_DOTS[x] if isinstance(x, str) else _latex_of(x, whole) for x in row)
-        for row in (M.rows() if whole else shortened(M))
+        for row in (M.tolist() if whole else shortened(M))
     )
     return rf"\begin{{bmatrix}} {rows} \end{{bmatrix}}"
 
 
-def _latex_of(x: Fraction, whole: bool) -> str:
+def _text(x: Any) -> str:
+    """An entry, or the dots in its place."""
+    if isinstance(x, str):
+        return x
+    return number(x) if isinstance(x, Fraction) else shown.fitting(str(x), _LONGEST)
+
+
+def _latex_of(x: Any, whole: bool) -> str:
+    if not isinstance(x, Fraction):
+        return str(x.latex())
     if whole or len(rational_text(x)) <= 24:
         return rational_latex(x, "tfrac")
     return rf"\text{{{number(x)}}}"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -12,8 +13,14 @@ import flint
 
 from mcexact.errors import InputError, LimitReached
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.rational import rational_text
+from mcexact.exact.rational import rational_latex, rational_text
+from mcexact.shown import escaped
 
+_GREEK = re.compile(
+    "alpha|beta|gamma|delta|epsilon|zeta|eta|theta|kappa|lambda|mu|nu|xi|pi|rho|sigma|tau|phi|chi|"
+    "psi|omega",
+    re.IGNORECASE,
+)
 MOST_DEGREE = 1000
 """The largest total degree of a numerator or a denominator."""
 
@@ -183,6 +190,41 @@ class RationalFunction:
         """Numerator and denominator as polynomials in the only parameter."""
         return _univariate(self.numerator), _univariate(self.denominator)
 
+    def to_sympy(self) -> Any:
+        """The function as an expression of sympy, N/D in the symbols of the parameters.
+
+        Examples
+        --------
+        >>> t = RationalFunction.parameter("t", ("t",))
+        >>> ((t * t + Fraction(1, 2)) / (t - 1)).to_sympy()
+        (t**2 + 1/2)/(t - 1)
+        """
+        return _symbolic(self.numerator, self.parameters) / _symbolic(
+            self.denominator, self.parameters
+        )
+
+    _sympy_ = to_sympy
+
+    def latex(self) -> str:
+        r"""LaTeX source.
+
+        Examples
+        --------
+        >>> t = RationalFunction.parameter("gamma_1", ("gamma_1",))
+        >>> print((t * t / (2 * t - 1)).latex())
+        \frac{\tfrac{1}{2} \gamma_{1}^{2}}{\gamma_{1} - \tfrac{1}{2}}
+        """
+        top = _text(self.numerator, self.parameters, latex=True)
+        if self.denominator == 1:
+            return top
+        return rf"\frac{{{top}}}{{{_text(self.denominator, self.parameters, latex=True)}}}"
+
+    def _latex(self) -> str:
+        return self.latex()
+
+    def _repr_latex_(self) -> str:
+        return rf"$\displaystyle {self.latex()}$"
+
     def __str__(self) -> str:
         top = _text(self.numerator, self.parameters)
         if self.denominator == 1:
@@ -234,18 +276,53 @@ def _evaluated(
     return total
 
 
-def _text(p: Any, parameters: tuple[str, ...]) -> str:
+def _symbolic(p: Any, parameters: tuple[str, ...]) -> Any:
+    """A polynomial as an expression of sympy."""
+    import sympy
+
+    symbols = sympy.symbols(parameters)
+    return sympy.Add(
+        *(
+            sympy.Rational(int(c.p), int(c.q))
+            * sympy.prod([s ** int(e) for s, e in zip(symbols, exponents, strict=False)])
+            for exponents, c in p.to_dict().items()
+        )
+    )
+
+
+def _text(p: Any, parameters: tuple[str, ...], *, latex: bool = False) -> str:
     """The terms from the lexicographically highest power down, as `Polynomial` writes its own."""
     text = ""
+    names = tuple(map(parameter_latex, parameters)) if latex else parameters
     for exponents, c in sorted(p.to_dict().items(), reverse=True):
         coefficient = Fraction(int(c.p), int(c.q))
         powers = [
-            name if e == 1 else f"{name}^{e}"
-            for name, e in zip(parameters, map(int, exponents), strict=False)
+            name if e == 1 else f"{name}^{{{e}}}" if latex else f"{name}^{e}"
+            for name, e in zip(names, map(int, exponents), strict=False)
             if e
         ]
         size = abs(coefficient)
-        factors = ([rational_text(size)] if size != 1 or not powers else []) + powers
+        number = rational_latex(size, "tfrac") if latex else rational_text(size)
+        factors = ([number] if size != 1 or not powers else []) + powers
         sign = "-" if coefficient < 0 else "+"
-        text += (f" {sign} " if text else "-" if coefficient < 0 else "") + "*".join(factors)
+        text += f" {sign} " if text else "-" if coefficient < 0 else ""
+        text += (" " if latex else "*").join(factors)
     return text or "0"
+
+
+def parameter_latex(name: str) -> str:
+    r"""The name of a parameter in LaTeX: Greek letters, and what follows the letters below.
+
+    Examples
+    --------
+    >>> print(parameter_latex("gamma1"), parameter_latex("k_2"), parameter_latex("mass"))
+    \gamma_{1} k_{2} \mathrm{mass}
+    """
+    letters, _, below = name.partition("_")
+    stem = letters.rstrip("0123456789")
+    below = letters[len(stem) :] + (f",{below}" if below and stem != letters else below)
+    if _GREEK.fullmatch(stem):
+        shown = f"\\{stem}"
+    else:
+        shown = stem if len(stem) == 1 else rf"\mathrm{{{stem}}}"
+    return f"{shown}_{{{escaped(below)}}}" if below else shown

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import Any, SupportsIndex, overload
+from typing import Any, SupportsIndex, TypeVar, overload
 
 from mcexact import shown
 from mcexact.errors import UsageError
-from mcexact.exact.matrix import Matrix
+from mcexact.model.matrix_entry import Shaped
 from mcexact.model.names import nearest, quoted
+
+M = TypeVar("M", bound=Shaped)
 
 
 def position(name: str, names: Sequence[str]) -> int:
@@ -27,17 +29,18 @@ def position(name: str, names: Sequence[str]) -> int:
     return names.index(name)
 
 
-class ChannelMatrices(tuple[Matrix, ...]):
+class ChannelMatrices(tuple[M, ...]):
     """One matrix for each channel: ``B[0]``, ``B["pump"]`` and ``B(0)`` are the same.
 
     Parameters
     ----------
-    matrices : iterable of Matrix
+    matrices : iterable of matrices
     names : tuple of str
         The channels, in order.
 
     Examples
     --------
+    >>> from mcexact.exact.matrix import Matrix
     >>> B = ChannelMatrices([Matrix.identity(1), Matrix.zeros(1, 2)], ("pump", "valve"))
     >>> B["valve"].shape, B[1] == B(1), len(B)
     ((1, 2), True, 2)
@@ -45,7 +48,7 @@ class ChannelMatrices(tuple[Matrix, ...]):
 
     names: tuple[str, ...]
 
-    def __new__(cls, matrices: Iterable[Matrix], names: tuple[str, ...]) -> ChannelMatrices:
+    def __new__(cls, matrices: Iterable[M], names: tuple[str, ...]) -> ChannelMatrices[M]:
         made = super().__new__(cls, matrices)
         made.names = names
         return made
@@ -54,10 +57,10 @@ class ChannelMatrices(tuple[Matrix, ...]):
         return tuple(self), self.names
 
     @overload
-    def __getitem__(self, channel: SupportsIndex | str) -> Matrix: ...
+    def __getitem__(self, channel: SupportsIndex | str) -> M: ...
 
     @overload
-    def __getitem__(self, channel: slice) -> tuple[Matrix, ...]: ...
+    def __getitem__(self, channel: slice) -> tuple[M, ...]: ...
 
     def __getitem__(self, channel: Any) -> Any:
         """Return the matrix of a channel, which is given by its position from 0, or its name."""
@@ -65,7 +68,7 @@ class ChannelMatrices(tuple[Matrix, ...]):
             channel = position(channel, self.names)
         return super().__getitem__(channel)
 
-    def __call__(self, channel: int | str) -> Matrix:
+    def __call__(self, channel: int | str) -> M:
         """Return the matrix of a channel."""
         return super().__getitem__(channel) if type(channel) is int else self[channel]
 
@@ -73,7 +76,7 @@ class ChannelMatrices(tuple[Matrix, ...]):
         whole = super().__repr__()
         if len(whole) <= shown.LINE:
             return whole
-        sizes = ", ".join(f"{M.nrows} × {M.ncols}" for M in self[:8])
+        sizes = ", ".join(f"{each.shape[0]} × {each.shape[1]}" for each in self[:8])
         return f"<matrices of {len(self)} channels: {sizes}{', …' if len(self) > 8 else ''}>"
 
     def _repr_html_(self) -> str:

@@ -9,15 +9,15 @@ from mcexact.errors import FloatRefused, InputError
 from mcexact.exact.function_matrix import FunctionMatrix
 from mcexact.exact.rational import TWO_WAYS_IN, as_fraction
 from mcexact.exact.rational_function import RationalFunction
-from mcexact.exact.rows import common_width, rows_of
 from mcexact.model.expression import parse_expression
+from mcexact.model.matrix_entry import Table, rows_and_width
 from mcexact.model.names import quoted
 
 
 def as_functions(
-    value: Any, where: str, parameters: tuple[str, ...], ncols: int = 0
-) -> FunctionMatrix:
-    """Convert a matrix-like value to a matrix of functions.
+    value: Any, where: str, parameters: tuple[str, ...], ncols: int | None = None
+) -> Table[FunctionMatrix]:
+    """Determine the shape of a matrix-like value, whose entries become functions when it is read.
 
     Parameters
     ----------
@@ -25,7 +25,7 @@ def as_functions(
     where : str
         The place of the matrix, for messages.
     parameters : tuple of str
-    ncols : int
+    ncols : int, optional
         The number of columns when there are no rows to tell it.
 
     Raises
@@ -37,24 +37,26 @@ def as_functions(
 
     Examples
     --------
-    >>> str(as_functions([["t/2 + 1", 3]], "A", ("t",))[0, 0])
+    >>> str(as_functions([["t/2 + 1", 3]], "A", ("t",)).matrix()[0, 0])
     '1/2*t + 1'
     """
     if isinstance(value, FunctionMatrix):
-        return value
-    rows = rows_of(value, where)
-    width = common_width(rows, where)
-    if width is None:
-        width = int(getattr(value, "shape", (0, ncols))[1])
-    return FunctionMatrix(
-        tuple(
+        return Table(value.shape, lambda: value)
+    rows, width = rows_and_width(value, where, ncols)
+
+    def matrix() -> FunctionMatrix:
+        return FunctionMatrix(
             tuple(
-                as_function(entry, f"{where}[{i}][{j}]", parameters) for j, entry in enumerate(row)
-            )
-            for i, row in enumerate(rows)
-        ),
-        width,
-    )
+                tuple(
+                    as_function(entry, f"{where}[{i}][{j}]", parameters)
+                    for j, entry in enumerate(row)
+                )
+                for i, row in enumerate(rows)
+            ),
+            width,
+        )
+
+    return Table((len(rows), width), matrix)
 
 
 def as_function(entry: Any, where: str, parameters: tuple[str, ...]) -> RationalFunction:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, Protocol, TypeVar
+from typing import Any, Generic, Protocol, TypeVar
 
 from mcexact.errors import InputError
 from mcexact.exact.matrix import Matrix
@@ -20,10 +20,11 @@ class Shaped(Protocol):
 
 
 S = TypeVar("S", bound=Shaped)
+M_co = TypeVar("M_co", covariant=True)
 
 
 @dataclass(frozen=True)
-class Table:
+class Table(Generic[M_co]):
     """A matrix from a caller whose shape is known and whose entries are not converted yet.
 
     Attributes
@@ -34,7 +35,7 @@ class Table:
     """
 
     shape: tuple[int, int]
-    matrix: Callable[[], Matrix]
+    matrix: Callable[[], M_co]
 
 
 def as_matrix(value: Any, where: str, ncols: int | None = None) -> Matrix:
@@ -68,7 +69,7 @@ def as_matrix(value: Any, where: str, ncols: int | None = None) -> Matrix:
     return as_table(value, where, ncols).matrix()
 
 
-def as_table(value: Any, where: str, ncols: int | None = None) -> Table:
+def as_table(value: Any, where: str, ncols: int | None = None) -> Table[Matrix]:
     """Determine the shape of a matrix-like value, and leave its entries to be converted later.
 
     Raises
@@ -83,11 +84,25 @@ def as_table(value: Any, where: str, ncols: int | None = None) -> Table:
     if is_sparse_array(value):
         entries, shape = entries_of(value, where), (int(value.shape[0]), int(value.shape[1]))
         return Table(shape, partial(Matrix.from_entries, shape, entries, where=where))
+    rows, width = rows_and_width(value, where, ncols)
+    return Table((len(rows), width), partial(Matrix.from_rows, rows, width, where=where))
+
+
+def rows_and_width(
+    value: Any, where: str, ncols: int | None = None
+) -> tuple[list[tuple[Any, ...]], int]:
+    """The rows of a matrix-like value, and their length, which is given where there is no row.
+
+    Raises
+    ------
+    FloatRefused
+        If it is an array of floats.
+    InputError
+        If the value is not a matrix, or its rows have different lengths.
+    """
     rows = rows_of(value, where)
     width = common_width(rows, where)
-    if width is None:
-        width = int(getattr(value, "shape", (0, ncols or 0))[1])
-    return Table((len(rows), width), partial(Matrix.from_rows, rows, width, where=where))
+    return rows, int(getattr(value, "shape", (0, ncols or 0))[1]) if width is None else width
 
 
 def require_shape(M: S, where: str, nrows: int | None, ncols: int | None) -> S:

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache, partial
-from typing import Any
+from typing import Any, TypeVar
 
 from mcexact.errors import InputError
+from mcexact.exact.function_matrix import FunctionMatrix
 from mcexact.exact.matrix import Matrix, from_cells
 from mcexact.exact.rational import (
     DEFAULT_LIMITS,
@@ -27,6 +30,8 @@ from mcexact.model.json_text import (
     shown_integer,
 )
 from mcexact.model.matrix_entry import Table, require_shape
+
+M = TypeVar("M")
 
 LONGEST_SIDE = 2**20
 """The most rows and columns of a sparse matrix; a few bytes must not fill the memory."""
@@ -91,17 +96,81 @@ def read_matrix(
         ...
     mcexact.errors.InputError: channels[2].B: expected 4 rows, found 3
     """
-    return unread_matrix(value, where, nrows, ncols, limits).matrix()
+    return unread_matrix(value, where, nrows, ncols, partial(numbers, limits=limits)).matrix()
+
+
+@dataclass(frozen=True)
+class Entries:
+    """The entries of a matrix in a file, which are not read yet.
+
+    Attributes
+    ----------
+    where : str
+        The place of the matrix, for messages.
+    shape : (int, int)
+    rows : list of lists, or None
+        The entries row by row.
+    given : list
+        Without rows, the triples [row, column, value] of the entries that are not 0.
+    """
+
+    where: str
+    shape: tuple[int, int]
+    rows: list[list[Any]] | None
+    given: list[Any]
+
+    def listed(self) -> Iterator[tuple[int, int, int, Any]]:
+        """Yield number, row, column and value of each triple.
+
+        Raises
+        ------
+        InputError
+            If it is no triple, or its position is outside or was there before.
+        """
+        r, c = self.shape
+        seen: set[int] = set()
+        for k, entry in enumerate(self.given):
+            if type(entry) is not list or len(entry) != 3:
+                length = len(expect_list(entry, self.place(k)))
+                raise InputError(
+                    f"expected [row, column, value], found {length} items", where=self.place(k)
+                )
+            i, j, value = entry
+            if type(i) is not int or type(j) is not int or i < 0 or j < 0:
+                i, j = (expect_integer(entry[axis], f"{self.place(k)}[{axis}]") for axis in (0, 1))
+            if i >= r or j >= c:
+                found = f"[{shown_integer(i)}, {shown_integer(j)}]"
+                raise InputError(
+                    f"expected a position inside {r} × {c}, found {found}", where=self.place(k)
+                )
+            if i * c + j in seen:
+                raise InputError(f"the position [{i}, {j}] is listed twice", where=self.place(k))
+            seen.add(i * c + j)
+            yield k, i, j, value
+
+    def place(self, k: int) -> str:
+        """The place of a triple."""
+        return f"{self.where}.entries[{k}]"
 
 
 def unread_matrix(
     value: Any,
     where: str,
-    nrows: int | None = None,
-    ncols: int | None = None,
-    limits: Limits = DEFAULT_LIMITS,
-) -> Table:
-    """Determine the shape of a matrix in a file, and leave its numbers to be read later.
+    nrows: int | None,
+    ncols: int | None,
+    read: Callable[[Entries], M],
+) -> Table[M]:
+    """Determine the shape of a matrix in a file, and leave its entries to be read later.
+
+    Parameters
+    ----------
+    value : list of rows, or object
+        As `read_matrix` takes it.
+    where : str
+    nrows, ncols : int or None
+        The expected shape, if it is known.
+    read : callable
+        Makes the matrix of its entries.
 
     Raises
     ------
@@ -110,14 +179,14 @@ def unread_matrix(
 
     Examples
     --------
-    >>> unread_matrix([[1, "no number"]], "A").shape
+    >>> unread_matrix([[1, "no number"]], "A", None, None, numbers).shape
     (1, 2)
     """
     if isinstance(value, dict):
         expect_object(value, where, ("shape", "entries"))
         shape = _sparse_shape(value["shape"], where)
         rows = expect_list(value["entries"], f"{where}.entries")
-        table = Table(shape, partial(_sparse, rows, shape, where, limits))
+        entries = Entries(where, shape, None, rows)
     else:
         rows = expect_list(value, where)
         for k, row in enumerate(rows):
@@ -129,8 +198,21 @@ def unread_matrix(
                 )
         width = common_width(rows, where)
         width = ncols or 0 if width is None else width
-        table = Table((len(rows), width), partial(_dense, rows, width, where, limits))
-    return require_shape(table, where, nrows, ncols)
+        entries = Entries(where, (len(rows), width), rows, [])
+    return require_shape(Table(entries.shape, partial(read, entries)), where, nrows, ncols)
+
+
+def numbers(entries: Entries, limits: Limits = DEFAULT_LIMITS) -> Matrix:
+    """Read the numbers of a matrix.
+
+    Raises
+    ------
+    InputError
+        If an entry is no number, or is too long.
+    """
+    if entries.rows is None:
+        return _sparse(entries, limits)
+    return _dense(entries.rows, entries.shape[1], entries.where, limits)
 
 
 def _dense(rows: list[list[Any]], width: int, where: str, limits: Limits) -> Matrix:
@@ -169,37 +251,18 @@ def _sparse_shape(value: Any, where: str) -> tuple[int, int]:
     return r, c
 
 
-def _sparse(entries: list[Any], shape: tuple[int, int], where: str, limits: Limits) -> Matrix:
+def _sparse(entries: Entries, limits: Limits) -> Matrix:
     """Read the entries of a sparse matrix."""
-    r, c = shape
+    c = entries.shape[1]
     values: dict[int, Fraction | int] = {}
-    for k, entry in enumerate(entries):
-        if type(entry) is not list or len(entry) != 3:
-            length = len(expect_list(entry, f"{where}.entries[{k}]"))
-            raise InputError(
-                f"expected [row, column, value], found {length} items",
-                where=f"{where}.entries[{k}]",
-            )
-        i, j, value = entry
-        if type(i) is not int or type(j) is not int or i < 0 or j < 0:
-            i, j = (expect_integer(entry[axis], f"{where}.entries[{k}][{axis}]") for axis in (0, 1))
-        if i >= r or j >= c:
-            found = f"[{shown_integer(i)}, {shown_integer(j)}]"
-            raise InputError(
-                f"expected a position inside {r} × {c}, found {found}",
-                where=f"{where}.entries[{k}]",
-            )
-        if i * c + j in values:
-            raise InputError(
-                f"the position [{i}, {j}] is listed twice", where=f"{where}.entries[{k}]"
-            )
+    for k, i, j, value in entries.listed():
         if type(value) is not int:
-            value = read_number(value, f"{where}.entries[{k}][2]", limits)
+            value = read_number(value, f"{entries.place(k)}[2]", limits)
         values[i * c + j] = value
     denominator = math.lcm(*{number.denominator for number in values.values()})
     cells = sorted(values)
     numerators = (values[k].numerator * (denominator // values[k].denominator) for k in cells)
-    return from_cells(shape, cells, numerators, denominator)
+    return from_cells(entries.shape, cells, numerators, denominator)
 
 
 def number_json(value: Fraction) -> int | str:
@@ -213,7 +276,7 @@ def number_json(value: Fraction) -> int | str:
     return rational_text(value)
 
 
-def matrix_json(M: Matrix) -> Any:
+def matrix_json(M: Matrix | FunctionMatrix) -> Any:
     """Write a matrix as a list of rows; one with columns but no rows says its shape.
 
     Raises
@@ -224,6 +287,8 @@ def matrix_json(M: Matrix) -> Any:
     r, c = M.shape
     if not r and c:
         return {"shape": [0, c], "entries": []}
+    if isinstance(M, FunctionMatrix):
+        return [[number_json(e.value) if e.is_constant else str(e) for e in row] for row in M.rows]
     d = M.denominator
     if d == 1 and M.words is not None:
         return [list(row) for row in M.numerators]

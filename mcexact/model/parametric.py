@@ -6,18 +6,21 @@ import random
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Any
+from typing import Any, ClassVar
 
 from mcexact.errors import InputError, LimitReached
 from mcexact.exact.function_matrix import FunctionMatrix
 from mcexact.exact.location import require_time
 from mcexact.exact.rational import as_fraction, written
 from mcexact.exact.rational_function import RationalFunction
+from mcexact.model.channel import ByChannel, Channel, channels_of
 from mcexact.model.expression import checked_parameter
 from mcexact.model.function_entry import as_function, as_functions
-from mcexact.model.matrix_entry import require_shape, require_square
-from mcexact.model.names import checked_names, checked_text, quoted
+from mcexact.model.matrix_entry import require_square
+from mcexact.model.matrix_json import matrix_json
+from mcexact.model.names import checked_text, quoted
 from mcexact.model.system import Construction, MultiChannelSystem
+from mcexact.model.system_forms import SystemForms
 
 Range = tuple[Fraction | None, Fraction | None]
 """The least and the largest value of a parameter; None where there is none."""
@@ -25,17 +28,8 @@ Range = tuple[Fraction | None, Fraction | None]
 _TRIES = 200
 
 
-@dataclass(frozen=True)
-class ParametricChannel:
-    """One channel: the agent's name, B_i (n×p_i) and C_i (q_i×n)."""
-
-    name: str
-    B: FunctionMatrix
-    C: FunctionMatrix
-
-
 @dataclass(frozen=True, init=False, repr=False)
-class ParametricSystem:
+class ParametricSystem(ByChannel[FunctionMatrix], SystemForms):
     """A multi-channel system whose entries are rational functions of parameters.
 
     Parameters
@@ -95,10 +89,14 @@ class ParametricSystem:
     mcexact.errors.FloatRefused: A[0][0]: a float is not exact: ...
     """
 
+    neighbors: ClassVar[None] = None
+    sample_time: ClassVar[None] = None
+    uncertainty: ClassVar[None] = None
+
     parameters: tuple[str, ...]
     ranges: tuple[Range, ...]
     A: FunctionMatrix
-    channels: tuple[ParametricChannel, ...]
+    channels: tuple[Channel[FunctionMatrix], ...]
     time: str
     name: str | None = field(compare=False)
     source: str | None = field(compare=False)
@@ -118,30 +116,18 @@ class ParametricSystem:
     ) -> None:
         known = _checked_parameters(parameters)
         require_time(time)
-        square = require_square(as_functions(A, "A", known), "A")
-        if len(B) != len(C) or not len(B):
-            raise InputError(
-                f"expected one matrix for each of at least one channel, found {len(B)} in B and "
-                f"{len(C)} in C",
-                where="B",
-            )
-        labels = [str(i + 1) for i in range(len(B))] if names is None else list(names)
-        if len(labels) != len(B):
-            raise InputError(f"expected {len(B)} names, found {len(labels)}", where="names")
-        checked = checked_names(labels, [f"names[{i}]" for i in range(len(labels))])
-        n = square.nrows
-        channels = tuple(
-            ParametricChannel(
-                label,
-                require_shape(as_functions(B_i, f"B[{i}]", known), f"B[{i}]", n, None),
-                require_shape(as_functions(C_i, f"C[{i}]", known, n), f"C[{i}]", None, n),
-            )
-            for i, (label, B_i, C_i) in enumerate(zip(checked, B, C, strict=True))
+        table = require_square(as_functions(A, "A", known), "A")
+        channels = channels_of(
+            table.shape[0],
+            B,
+            C,
+            names,
+            lambda value, where, ncols: as_functions(value, where, known, ncols),
         )
         fields = {
             "parameters": known,
             "ranges": _checked_ranges(assume or {}, known),
-            "A": square,
+            "A": table.matrix(),
             "channels": channels,
             "time": time,
             "name": None if name is None else checked_text(name, "name"),
@@ -151,19 +137,9 @@ class ParametricSystem:
             object.__setattr__(self, key, value)
 
     @property
-    def n(self) -> int:
-        """The number of states."""
-        return self.A.nrows
-
-    @property
-    def m(self) -> int:
-        """The number of channels."""
-        return len(self.channels)
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        """The names of the channels, in order."""
-        return tuple(channel.name for channel in self.channels)
+    def parameters_in_words(self) -> tuple[str, ...]:
+        """Each parameter with its range, such as "t in [0, 1]"."""
+        return tuple(map(_with_range, self.parameters, self.ranges))
 
     @property
     def plant(self) -> ParametricSystem:
@@ -257,7 +233,7 @@ class ParametricSystem:
 
         Raises
         ------
-        InputError
+        UsageError
             If a name is unknown.
 
         Examples
@@ -276,19 +252,16 @@ class ParametricSystem:
 
         Raises
         ------
-        InputError
+        UsageError
             If a name is unknown.
         """
         return self._alone(names, False)
 
     def _alone(self, names: Sequence[str] | None, inputs: bool) -> ParametricSystem:
-        chosen = self.names if names is None else tuple(names)
-        for name in chosen:
-            if name not in self.names:
-                raise InputError(f"unknown channel {quoted(name)}", where="names")
-        ports = [c.B if inputs else c.C for c in self.channels if c.name in chosen]
+        chosen = self.indices(self.names if names is None else names)
+        ports = [self.B[i] if inputs else self.C[i] for i in chosen]
         one = [[int(i == j) for j in range(self.n)] for i in range(self.n)]
-        identity = as_functions(one, "identity", self.parameters)
+        identity = as_functions(one, "identity", self.parameters).matrix()
         if inputs:
             rows = tuple(sum((B.rows[i] for B in ports), ()) for i in range(self.n))
             B, C = FunctionMatrix(rows, sum(part.ncols for part in ports)), identity
@@ -303,7 +276,7 @@ class ParametricSystem:
             parameters=self.parameters,
             assume=assume,
             time=self.time,
-            names=["+".join(chosen) or "none"],
+            names=["+".join(self.named(chosen)) or "none"],
         )
 
     def generic(self, seed: int = 0) -> MultiChannelSystem:
@@ -344,15 +317,15 @@ class ParametricSystem:
                 name: {} if bounds == (None, None) else {"range": [*map(_end, bounds)]}
                 for name, bounds in zip(self.parameters, self.ranges, strict=True)
             },
-            "A": _entries(self.A),
+            "A": matrix_json(self.A),
             "channels": [
-                {"name": channel.name, "B": _entries(channel.B), "C": _entries(channel.C)}
+                {"name": channel.name, "B": matrix_json(channel.B), "C": matrix_json(channel.C)}
                 for channel in self.channels
             ],
         }
 
     def __repr__(self) -> str:
-        told = ", ".join(map(_with_range, self.parameters, self.ranges))
+        told = ", ".join(self.parameters_in_words)
         shown = ", ".join(quoted(name) for name in self.names[:8]) + (", …" if self.m > 8 else "")
         return (
             f"ParametricSystem(n={self.n}, m={self.m}, {self.time} time, parameters: {told}, "
@@ -370,13 +343,6 @@ def _with_range(name: str, bounds: Range) -> str:
         return name
     left = "(-∞" if low is None else f"[{low}"
     return f"{name} in {left}, {'∞)' if high is None else f'{high}]'}"
-
-
-def _entries(M: FunctionMatrix) -> Any:
-    """The rows of a matrix; one with columns but no rows says its shape."""
-    if not M.nrows and M.ncols:
-        return {"shape": [0, M.ncols], "entries": []}
-    return [[written(e.value) if e.is_constant else str(e) for e in row] for row in M.rows]
 
 
 def _checked_parameters(parameters: Sequence[Any]) -> tuple[str, ...]:

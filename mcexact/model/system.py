@@ -15,8 +15,7 @@ from mcexact.exact.floats import Rounding, matrix_from_float
 from mcexact.exact.location import is_discrete, require_time
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.rational import as_fraction
-from mcexact.model.channel import Channel, channels_of, listed_matrices
-from mcexact.model.channel_matrices import ChannelMatrices, position
+from mcexact.model.channel import ByChannel, Channel, channels_of, listed_matrices
 from mcexact.model.matrix_entry import as_table, require_square
 from mcexact.model.names import checked_text, quoted
 from mcexact.model.neighbor_graph import NeighborGraph, graph_for
@@ -32,7 +31,7 @@ _GRAPH_IN_USE = frozenset(
 
 
 @dataclass(frozen=True, init=False, repr=False)
-class MultiChannelSystem(SystemForms):
+class MultiChannelSystem(ByChannel[Matrix], SystemForms):
     """A linear time-invariant system with m channels and rational matrices.
 
     In continuous time ẋ = A x + Σ B_i u_i, y_i = C_i x; in discrete time x(t+1) replaces ẋ. Agent i
@@ -96,9 +95,11 @@ class MultiChannelSystem(SystemForms):
         "or with load_system(file) or from_statespace(model, …)"
     )
     """What an error says to a caller who gives something else."""
+    parameters: ClassVar[tuple[str, ...]] = ()
+    """`ParametricSystem` has some."""
 
     A: Matrix
-    channels: tuple[Channel, ...]
+    channels: tuple[Channel[Matrix], ...]
     time: str
     neighbors: NeighborGraph | None
     sample_time: Fraction | None
@@ -124,9 +125,7 @@ class MultiChannelSystem(SystemForms):
     ) -> None:
         table = require_square(as_table(A, "A"), "A")
         # All shapes are compared before any entry is converted.
-        channels = channels_of(
-            table.shape[0], listed_matrices(B, "B"), listed_matrices(C, "C"), names
-        )
+        channels = channels_of(table.shape[0], B, C, names, as_table)
         labels = tuple(channel.name for channel in channels)
         require_time(time)
         self._fill(
@@ -190,21 +189,6 @@ class MultiChannelSystem(SystemForms):
         )
 
     @property
-    def n(self) -> int:
-        """The number of states."""
-        return self.A.nrows
-
-    @property
-    def m(self) -> int:
-        """The number of channels."""
-        return len(self.channels)
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        """The names of the channels, in order."""
-        return tuple(channel.name for channel in self.channels)
-
-    @property
     def plant(self) -> MultiChannelSystem:
         """The system from which this one was constructed, or this one."""
         return self if self._plant is None else self._plant
@@ -214,11 +198,6 @@ class MultiChannelSystem(SystemForms):
         """The least common denominator of all entries of A, B_i and C_i."""
         ports = [M.denominator for c in self.channels for M in (c.B, c.C)]
         return lcm(self.A.denominator, *set(ports))
-
-    @cached_property
-    def sizes(self) -> tuple[tuple[int, int], ...]:
-        """The numbers (p_i, q_i) of inputs and outputs of each channel."""
-        return tuple([(channel.B.ncols, channel.C.nrows) for channel in self.channels])
 
     @cached_property
     def active(self) -> tuple[int, ...]:
@@ -231,24 +210,6 @@ class MultiChannelSystem(SystemForms):
         """
         ports = enumerate(self.channels)
         return tuple([i for i, c in ports if not (c.B.is_zero() or c.C.is_zero())])
-
-    @cached_property
-    def B(self) -> ChannelMatrices:
-        """The B_i, n×p_i: ``B[0]`` or ``B["1"]`` is that of the first channel."""
-        return ChannelMatrices((channel.B for channel in self.channels), self.names)
-
-    @cached_property
-    def C(self) -> ChannelMatrices:
-        """The C_i, q_i×n: ``C[0]`` or ``C["1"]`` is that of the first channel."""
-        return ChannelMatrices((channel.C for channel in self.channels), self.names)
-
-    def p(self, i: int) -> int:
-        """Return p_i, the number of inputs of channel i."""
-        return self.channels[i].B.ncols
-
-    def q(self, i: int) -> int:
-        """Return q_i, the number of outputs of channel i."""
-        return self.channels[i].C.nrows
 
     def input_matrix(self, channels: Iterable[int] | None = None) -> Matrix:
         """Return B_T = [B_i, i ∈ T], n × Σ p_i; T is all channels by default.
@@ -271,40 +232,6 @@ class MultiChannelSystem(SystemForms):
         """
         chosen = range(self.m) if channels is None else sorted(set(channels))
         return vstack([self.C(i) for i in chosen], ncols=self.n)
-
-    def index(self, name: str) -> int:
-        """Return the position of a channel.
-
-        Raises
-        ------
-        UsageError
-            If no channel has this name.
-        """
-        return position(name, self.names)
-
-    def indices(self, names: Iterable[str]) -> tuple[int, ...]:
-        """Return the positions of some channels, in the order of the system.
-
-        Raises
-        ------
-        UsageError
-            If no channel has one of the names, or a single name is given instead of a list.
-        """
-        if isinstance(names, str):
-            raise UsageError(f"expected a list of names, found a string; write [{quoted(names)}]")
-        return tuple(sorted({self.index(name) for name in names}))
-
-    def named(self, channels: Iterable[int]) -> tuple[str, ...]:
-        """Return the names of some channels, in the order of the system.
-
-        Examples
-        --------
-        >>> ones = [[[1]], [[1]]]
-        >>> system = MultiChannelSystem([[0]], ones, ones, names=["left", "right"])
-        >>> system.named([1, 0])
-        ('left', 'right')
-        """
-        return tuple(self.channels[i].name for i in sorted(set(channels)))
 
     def derived(
         self,

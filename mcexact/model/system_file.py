@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import json
-from typing import Any
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from typing import Any, TypeVar
 
 from mcexact.errors import InputError
+from mcexact.exact.function_matrix import FunctionMatrix
 from mcexact.exact.location import require_time
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.rational import DEFAULT_LIMITS, Limits
@@ -23,10 +26,12 @@ from mcexact.model.json_text import (
 )
 from mcexact.model.matrix_entry import Table, require_square
 from mcexact.model.matrix_json import (
+    Entries,
     canonical_matrix_text,
     json_text_of_number,
     matrix_json,
     number_json,
+    numbers,
     read_matrix,
     read_number,
     sparse_matrix_text,
@@ -37,6 +42,8 @@ from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem, as_plant
 from mcexact.model.uncertainty import read_radii
+
+M = TypeVar("M")
 
 FORMAT = "mcexact-system/1"
 _REQUIRED = ("format", "time", "A", "channels")
@@ -82,15 +89,11 @@ def read_document(parsed: Any, limits: Limits = DEFAULT_LIMITS) -> MultiChannelS
     document = expect_format(parsed, FORMAT)
     if "parameters" in document:
         raise InputError(
-            "found a system with parameters, which load_parametric_system reads in Python; "
-            "'mcexact sweep FILE --grid NAME=0:1:11' asks about it at values"
+            "found a system with parameters: give values by --at NAME=1/2 where a command has this "
+            "option; in Python load_parametric_system reads it, and .at({…}) takes values"
         )
     expect_object(document, None, _REQUIRED, _OPTIONAL)
-    time = document["time"]
-    require_time(time)
-    # All shapes are compared before numbers are read.
-    A = require_square(unread_matrix(document["A"], "A", limits=limits), "A")
-    names, B, C = _read_channels(document["channels"], A.shape[0], limits)
+    A, names, B, C = unread_plant(document, partial(numbers, limits=limits))
     if "D" in document:
         _refuse_feedthrough(document["D"], "D", limits)
     for k, channel in enumerate(document["channels"]):
@@ -105,36 +108,66 @@ def read_document(parsed: Any, limits: Limits = DEFAULT_LIMITS) -> MultiChannelS
         radii = read_radii(document["uncertainty"], document, names, *parts, limits)
     return MultiChannelSystem(
         *parts,
-        time=time,
+        time=document["time"],
         names=names,
         neighbors=_read_graph(document, names),
         sample_time=sample_time,
         uncertainty=radii,
-        name=_optional_text(document, "name"),
-        source=_optional_text(document, "source"),
+        **texts_of(document),
     )
 
 
-def _optional_text(document: dict[str, Any], key: str) -> str | None:
-    return checked_text(expect_string(document[key], key), key) if key in document else None
+def texts_of(document: Mapping[str, Any]) -> dict[str, str]:
+    """The name and the source that a document has.
+
+    Raises
+    ------
+    InputError
+        If one of them is no text, or a long one.
+    """
+    return {
+        key: checked_text(expect_string(document[key], key), key)
+        for key in ("name", "source")
+        if key in document
+    }
 
 
-def _read_channels(
-    value: Any, n: int, limits: Limits
-) -> tuple[tuple[str, ...], list[Table], list[Table]]:
-    """Read the channels' names and the shapes of their matrices."""
-    channels = expect_list(value, "channels")
+def unread_plant(
+    document: Mapping[str, Any], read: Callable[[Entries], M], more: Sequence[str] = ("D",)
+) -> tuple[Table[M], tuple[str, ...], list[Table[M]], list[Table[M]]]:
+    """Read time and names, and compare all shapes before entries are read.
+
+    Parameters
+    ----------
+    document : mapping
+    read : callable
+        Makes a matrix of its entries.
+    more : sequence of str
+        The keys that a channel may have besides B, C and name.
+
+    Returns
+    -------
+    A, names, list of B_i, list of C_i
+
+    Raises
+    ------
+    InputError
+        If the time, a channel, a name or a shape is not as expected.
+    """
+    require_time(document["time"])
+    A = require_square(unread_matrix(document["A"], "A", None, None, read), "A")
+    channels = expect_list(document["channels"], "channels")
     if not channels:
         raise InputError("expected at least one channel, found none", where="channels")
-    names, places, B, C = [], [], [], []
+    n, names, places, B, C = A.shape[0], [], [], [], []
     for k, channel in enumerate(channels):
         where = f"channels[{k}]"
-        expect_object(channel, where, ("B", "C"), ("name", "D"))
+        expect_object(channel, where, ("B", "C"), ("name", *more))
         places.append(f"{where}.name")
         names.append(expect_name(channel.get("name", str(k + 1)), places[k]))
-        B.append(unread_matrix(channel["B"], f"{where}.B", nrows=n, limits=limits))
-        C.append(unread_matrix(channel["C"], f"{where}.C", ncols=n, limits=limits))
-    return checked_names(names, places), B, C
+        B.append(unread_matrix(channel["B"], f"{where}.B", n, None, read))
+        C.append(unread_matrix(channel["C"], f"{where}.C", None, n, read))
+    return A, checked_names(names, places), B, C
 
 
 def _refuse_feedthrough(value: Any, where: str, limits: Limits) -> None:
@@ -254,25 +287,29 @@ def digest(system: MultiChannelSystem | ParametricSystem) -> str:
     return known
 
 
-def system_document(system: MultiChannelSystem) -> dict[str, Any]:
+def system_document(system: MultiChannelSystem | ParametricSystem) -> dict[str, Any]:
     """Return the object of a system file as plain data, with quotients as strings."""
     document: dict[str, Any] = {"format": FORMAT}
     for key, value in (("name", system.name), ("source", system.source)):
         if value is not None:
             document[key] = value
+    if isinstance(system, ParametricSystem):
+        return document | system.document()
     if system.sample_time is not None:
         document["sample_time"] = number_json(system.sample_time)
     return document | canonical_document(as_plant(system) if system.subject else system)
 
 
-def system_text(system: MultiChannelSystem) -> str:
+def system_text(system: MultiChannelSystem | ParametricSystem) -> str:
     """Return the text of a system file, with one line for each row of a matrix."""
     head: list[tuple[str, str]] = [("format", json.dumps(FORMAT))]
     for key, text in (("name", system.name), ("source", system.source)):
         if text is not None:
             head.append((key, json.dumps(text)))
     head.append(("time", json.dumps(system.time)))
-    if system.sample_time is not None:
+    if isinstance(system, ParametricSystem):
+        head.append(("parameters", json.dumps(system.document()["parameters"])))
+    elif system.sample_time is not None:
         head.append(("sample_time", json_text_of_number(number_json(system.sample_time))))
     head.append(("A", _matrix_text(system.A, "  ")))
     head.append(("channels", _channels_text(system)))
@@ -287,7 +324,7 @@ def system_text(system: MultiChannelSystem) -> str:
     return "{\n" + ",\n".join(f'  "{key}": {text}' for key, text in head) + "\n}\n"
 
 
-def _channels_text(system: MultiChannelSystem) -> str:
+def _channels_text(system: MultiChannelSystem | ParametricSystem) -> str:
     blocks = []
     for channel in system.channels:
         lines = [
@@ -299,11 +336,12 @@ def _channels_text(system: MultiChannelSystem) -> str:
     return "[\n" + ",\n".join(blocks) + "\n  ]"
 
 
-def _matrix_text(M: Matrix, indent: str) -> str:
+def _matrix_text(M: Matrix | FunctionMatrix, indent: str) -> str:
     """Return the JSON text of a matrix, on one line if it is short, else one line for each row."""
-    M = M.suited()
-    if M.is_sparse:
-        return sparse_matrix_text(M, f",\n{indent}  ")
+    if isinstance(M, Matrix):
+        M = M.suited()
+        if M.is_sparse:
+            return sparse_matrix_text(M, f",\n{indent}  ")
     value = matrix_json(M)
     if isinstance(value, dict) or not value:
         return json.dumps(value)

@@ -6,15 +6,14 @@ from collections.abc import Iterator
 from typing import Any
 
 from mcexact.exact.location import is_discrete
-from mcexact.exact.matrix_forms import latex
 from mcexact.exact.rational import rational_text
-from mcexact.shown import Shown, escaped, fitting, table
+from mcexact.shown import Shown, escaped, fitting, latex, table
 
 _MOST_CHANNELS = 12
 
 
 class SystemForms(Shown):
-    """The display of `MultiChannelSystem`, which alone inherits it."""
+    """The display of systems of numbers and of functions."""
 
     def explain(self: Any) -> str:
         """Say in plain words what the system is: sizes, equations, channels and links."""
@@ -30,6 +29,8 @@ class SystemForms(Shown):
             yield f"C of {channel.name}", channel.C
         if self.m > _MOST_CHANNELS:
             yield "more channels", str(self.m - _MOST_CHANNELS)
+        if self.parameters:
+            yield "parameters", ", ".join(self.parameters_in_words)
         if self.neighbors is not None:
             yield "neighbors", self.neighbors
         if self.sample_time is not None:
@@ -90,6 +91,8 @@ def _sentences(system: Any) -> Iterator[str]:
         yield fitting(f"Channel {name} has {sizes}.")
     if system.m > _MOST_CHANNELS:
         yield f"There are {system.m - _MOST_CHANNELS} more channels."
+    if system.parameters:
+        yield f"Its entries are functions of {', '.join(system.parameters_in_words)}."
     if system.neighbors is not None:
         yield system.neighbors.explain()
     if system.uncertainty is not None:

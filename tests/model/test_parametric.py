@@ -13,11 +13,12 @@ from sympy import Float, Matrix, Symbol, sin, sqrt, symbols
 from mcexact import (
     MultiChannelSystem,
     ParametricSystem,
+    gallery,
     load_parametric_system,
     load_system,
-    save_parametric_system,
+    save_system,
 )
-from mcexact.errors import FloatRefused, InputError, LimitReached
+from mcexact.errors import FloatRefused, InputError, LimitReached, UsageError
 from mcexact.model.parametric_file import read_parametric_system
 from mcexact.model.system_file import canonical_document, digest
 
@@ -122,7 +123,7 @@ def test_options_are_checked(options: dict[str, Any], message: str) -> None:
 def test_shapes_are_checked() -> None:
     with pytest.raises(InputError, match="B\\[0\\]: expected 1 row"):
         ParametricSystem([[t]], [[[1], [2]]], [[[1]]], parameters=[t])
-    with pytest.raises(InputError, match="found 1 in B and 0 in C"):
+    with pytest.raises(InputError, match="C: expected as many matrices as in B, 1, found 0"):
         ParametricSystem([[t]], [[[1]]], [], parameters=[t])
 
 
@@ -185,7 +186,7 @@ def test_one_channel_has_the_inputs_or_the_outputs_of_some() -> None:
     seen = plant.with_full_input(["b"]).at({t: 3})
     assert seen.C(0).rows() == ((0, 3),) and seen.B(0).rows() == ((1, 0), (0, 1))
     assert plant.with_full_output([]).channels[0].B.shape == (2, 0)
-    with pytest.raises(InputError, match="unknown channel 'c'"):
+    with pytest.raises(UsageError, match="no channel 'c'"):
         plant.with_full_input(["c"])
 
 
@@ -202,7 +203,8 @@ def test_files_are_read_as_they_were_written(tmp_path: Path) -> None:
         source="a source",
     )
     path = tmp_path / "plant.json"
-    save_parametric_system(plant, path)
+    assert read_parametric_system(json.dumps(plant.to_dict())) == plant
+    save_system(plant, path)
     read = load_parametric_system(path)
     assert read == plant
     assert (read.name, read.source, read.ranges) == ("a name", "a source", ((None, 5),))
@@ -230,10 +232,10 @@ BROKEN: list[tuple[dict[str, Any], str]] = [
     ({"A": [[None]]}, "A\\[0\\]\\[0\\]: expected a number, found null"),
     ({"neighbors": {}}, "unknown key 'neighbors'"),
     ({"channels": []}, "at least one channel"),
-    ({"channels": [{"B": [[1]], "C": {"shape": [1], "entries": []}}]}, "rows and of columns"),
+    ({"channels": [{"B": [[1]], "C": {"shape": [1], "entries": []}}]}, "rows, columns"),
     (
         {"channels": [{"B": [[1]], "C": {"shape": [1, 1], "entries": [[0, 1, 1]]}}]},
-        "a position of its own",
+        "a position inside 1 × 1",
     ),
 ]
 
@@ -259,3 +261,39 @@ def test_ranges_names_and_entries_change_the_digest() -> None:
     assert digest(scalar(a * b + a, [b, a])) == digest(scalar(a * b + a, [a, b]))
     assert "t in (-∞, 1]" in repr(scalar("t", assume={t: (None, 1)}))
     assert "t in [0, ∞)" in repr(scalar("t", assume={t: (0, None)}))
+
+
+def test_a_system_is_shown_in_words_in_html_and_in_latex() -> None:
+    plant = ParametricSystem(
+        [["gamma1/2", 1], [0, "1/(1 + gamma1)"]],
+        [[[1], ["gamma1^2 - 3"]]],
+        [[[1, 0]]],
+        parameters=["gamma1"],
+        assume={"gamma1": (0, 1)},
+    )
+    assert "Its entries are functions of gamma1 in [0, 1]." in plant.explain()
+    assert "1/2*gamma1" in plant._repr_html_()
+    assert r"\tfrac{1}{2} \gamma_{1}" in plant._repr_latex_()
+    assert r"\frac{1}{\gamma_{1} + 1}" in plant._repr_latex_()
+    assert repr(plant.B[0]) == "FunctionMatrix([[1], [gamma1^2 - 3]])"
+
+
+def test_matrices_and_entries_become_those_of_sympy() -> None:
+    A = Matrix([[t / (1 + t), a * b - Fraction(1, 3)], [0, t**2]])
+    plant = ParametricSystem(A, [[[1], [0]]], [[[1, 0]]], parameters=[t, a, b])
+    assert (plant.A.to_sympy() - A).applyfunc(lambda entry: entry.simplify()).is_zero_matrix
+    assert Matrix(plant.B[0].to_sympy()) == Matrix([1, 0])
+
+
+def test_the_gallery_has_plants_with_parameters_by_name() -> None:
+    plant = load_parametric_system("gallery:quadruple-tank-parametric")
+    assert plant.at({"gamma1": "7/10", "gamma2": "3/5"}) == gallery("quadruple-tank-pminus")
+    with pytest.raises(UsageError, match="load_parametric_system"):
+        gallery("quadruple-tank-parametric")
+    with pytest.raises(InputError, match="without parameters"):
+        load_parametric_system("gallery:quadruple-tank-pminus")
+
+
+def test_a_system_with_parameters_is_written_as_json_alone(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="a name that ends"):
+        save_system(scalar("t"), tmp_path / "plant.mat")

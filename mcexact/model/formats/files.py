@@ -14,7 +14,8 @@ from mcexact.model.formats.csv_folder import csv_texts
 from mcexact.model.formats.mat import mat_bytes
 from mcexact.model.formats.npz import npz_bytes
 from mcexact.model.formats.parts import parts_of
-from mcexact.model.formats.recognize import read_any, read_input
+from mcexact.model.formats.recognize import read_any, read_input, read_plant
+from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import system_text
 
@@ -63,8 +64,38 @@ def load_system(
         )
 
 
+def load_parametric_system(
+    path: str | os.PathLike[str], *, limits: Limits = DEFAULT_LIMITS
+) -> ParametricSystem:
+    """Read a system with parameters from a file.
+
+    Parameters
+    ----------
+    path : path
+        A JSON file, or one that ends in .yaml or .yml; ``-`` for the standard input; or
+        ``gallery:NAME`` for a published plant.
+    limits : Limits, optional
+
+    Raises
+    ------
+    InputError
+        If the file is missing, unreadable, too large or malformed, or has no parameters; the
+        message says where.
+
+    Examples
+    --------
+    >>> load_parametric_system("gallery:quadruple-tank-parametric").parameters
+    ('gamma1', 'gamma2')
+    """
+    with InputError.inside(place_of(path)):
+        found = read_plant(read_input(path, limits), os.fspath(path), limits)
+        if not isinstance(found, ParametricSystem):
+            raise InputError("found a system without parameters, which load_system reads")
+        return found
+
+
 def save_system(
-    system: MultiChannelSystem,
+    system: MultiChannelSystem | ParametricSystem,
     path: str | os.PathLike[str],
     *,
     rounding: Rounding | None = None,
@@ -74,8 +105,9 @@ def save_system(
 
     Parameters
     ----------
-    system : MultiChannelSystem
-        A derived system is written with its own matrices, as a plant.
+    system : MultiChannelSystem or ParametricSystem
+        A derived system is written with its own matrices, as a plant.  A system with parameters is
+        written as JSON, which `load_parametric_system` reads.
     path : path
         Its end says the kind: .json, .mat, .npz, .yaml or .yml; a name without one is a folder for
         .csv files.  Other ends are JSON.
@@ -103,7 +135,7 @@ def save_system(
 
 
 def system_files(
-    system: MultiChannelSystem,
+    system: MultiChannelSystem | ParametricSystem,
     path: str | os.PathLike[str],
     *,
     rounding: Rounding | None = None,
@@ -116,8 +148,15 @@ def system_files(
     InputError
         If it would not hold the numbers of the system.
     """
-    InputError.require(system, MultiChannelSystem, "system")
     suffix = os.path.splitext(path)[1].lower()
+    if isinstance(system, ParametricSystem):
+        if suffix != ".json":
+            raise InputError(
+                f"a system with parameters is written as JSON: choose a name that ends in .json, "
+                f"or write the system at values, plant.at({{{system.parameters[0]!r}: …}})"
+            )
+        return system_text(system).encode("ascii")
+    InputError.require(system, MultiChannelSystem, "system")
     if (rounding is not None or nearest) and suffix not in (".mat", ".npz"):
         raise UsageError("numbers are rounded in .mat and .npz files only: leave it out")
     made: bytes | dict[str, str]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import shlex
 from collections.abc import Sequence
+from typing import Any
 
 from mcexact.errors import InputError
 from mcexact.exact.floats import Rounding
@@ -15,9 +16,11 @@ from mcexact.model.formats.archive import members
 from mcexact.model.formats.arrays import Rounded
 from mcexact.model.formats.parts import Parts, system_of
 from mcexact.model.formats.yaml_text import read_yaml
-from mcexact.model.json_text import read_bytes, require_short_numbers, require_start
+from mcexact.model.json_text import parse, read_bytes, require_short_numbers, require_start
+from mcexact.model.parametric import ParametricSystem
+from mcexact.model.parametric_file import read_parametric_document
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import read_document, read_system
+from mcexact.model.system_file import read_document
 
 GALLERY = "gallery:"
 _SUFFIXES = (".mat", ".npz", ".yaml", ".yml", ".csv")
@@ -94,13 +97,45 @@ def read_any(
         except InputError as error:  # a command in a hint can be copied
             error.message = error.message.replace("convert FILE", f"convert {shlex.quote(place)}")
             raise
+    system = read_document(_document(data, suffix, limits), limits)
+    require_short_numbers(data, limits)
+    return system
+
+
+def read_plant(
+    data: bytes, place: str, limits: Limits = DEFAULT_LIMITS
+) -> MultiChannelSystem | ParametricSystem:
+    """Read the system in a file, with parameters where the file names some.
+
+    Parameters
+    ----------
+    data : bytes
+    place : str
+    limits : Limits, optional
+        As `read_any` takes them.
+
+    Raises
+    ------
+    InputError
+        If it is malformed, or of another kind; the message says what to do.
+    """
+    suffix = os.path.splitext(place)[1].lower()
+    if _parts(data, suffix, limits) is not None:
+        return read_any(data, place, limits=limits)
+    document = _document(data, suffix, limits)
+    parametric = isinstance(document, dict) and "parameters" in document
+    system = (read_parametric_document if parametric else read_document)(document, limits)
+    require_short_numbers(data, limits)
+    return system
+
+
+def _document(data: bytes, suffix: str, limits: Limits) -> Any:
+    """The parsed document of a text."""
     if suffix in (".yaml", ".yml"):
-        system = read_document(read_yaml(data, limits), limits)
-        require_short_numbers(data, limits)
-        return system
+        return read_yaml(data, limits)
     if len(data) <= limits.bytes:
         require_start(data, _READ)
-    return read_system(data, limits=limits)
+    return parse(data, limits)
 
 
 def _parts(data: bytes, suffix: str, limits: Limits) -> Parts | None:

@@ -1,6 +1,7 @@
 """Published systems with their sources, some constructed systems, and answers known about them.
 
-Every file names its source, or says that it is constructed.  Decimals are exact as typed.
+Every file names its source, or says that it is constructed.  Decimals are exact as typed.  Plants
+with parameters are in the folder ``parametric``.
 ``expected.json`` contains answers that two independent programs computed exactly.
 """
 
@@ -13,10 +14,13 @@ from typing import Any
 
 from mcexact.errors import UsageError
 from mcexact.model.names import nearest, quoted
+from mcexact.model.parametric import ParametricSystem
+from mcexact.model.parametric_file import read_parametric_system
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import read_system
 
 _EXPECTED = "expected"
+_PARAMETRIC = "parametric"
 
 
 @cache
@@ -28,9 +32,25 @@ def names() -> tuple[str, ...]:
     >>> "hidden-triple-mode" in names()
     True
     """
-    files = resources.files(__name__).iterdir()
-    stems = (entry.name.removesuffix(".json") for entry in files if entry.name.endswith(".json"))
-    return tuple(sorted(stem for stem in stems if stem != _EXPECTED))
+    return tuple(stem for stem in _stems("") if stem != _EXPECTED)
+
+
+@cache
+def parametric_names() -> tuple[str, ...]:
+    """The names of the systems with parameters, sorted.
+
+    Examples
+    --------
+    >>> "quadruple-tank-parametric" in parametric_names()
+    True
+    """
+    return _stems(_PARAMETRIC)
+
+
+def _stems(folder: str) -> tuple[str, ...]:
+    """The names of the system files in a folder, sorted."""
+    files = (entry.name for entry in resources.files(__name__).joinpath(folder).iterdir())
+    return tuple(sorted(name.removesuffix(".json") for name in files if name.endswith(".json")))
 
 
 def load(name: str) -> MultiChannelSystem:
@@ -39,33 +59,50 @@ def load(name: str) -> MultiChannelSystem:
     Raises
     ------
     UsageError
-        If no system has this name.
+        If no system has this name, or the one that has it depends on parameters.
 
     Examples
     --------
     >>> load("liu2020-3ch-no-communication")
     MultiChannelSystem(n=3, m=3, continuous time, channels: '1', '2', '3')
     """
-    return read_system(text(require_name(name)))
+    if require_name(name) in parametric_names():
+        raise UsageError(
+            f"{name!r} depends on parameters: load_parametric_system('gallery:{name}') reads it"
+        )
+    return read_system(text(name))
+
+
+def load_parametric(name: str) -> ParametricSystem:
+    """Load a system with parameters.
+
+    Examples
+    --------
+    >>> load_parametric("quadruple-tank-parametric").parameters
+    ('gamma1', 'gamma2')
+    """
+    return read_parametric_system(text(name))
 
 
 def require_name(name: str) -> str:
-    """Return the name of a system of the gallery.
+    """Return the name of a system of the gallery, with or without parameters.
 
     Raises
     ------
     UsageError
         If no system has this name.
     """
-    if name not in names():
-        hint = nearest(name, names()) or "; 'mcexact gallery' lists them"
+    known = (*names(), *parametric_names())
+    if name not in known:
+        hint = nearest(name, known) or "; 'mcexact gallery' lists them"
         raise UsageError(f"there is no system {quoted(name)} in the gallery{hint}")
     return name
 
 
 def text(name: str) -> str:
     """The text of a system file of the gallery."""
-    return resources.files(__name__).joinpath(f"{name}.json").read_text("utf-8")
+    folder = _PARAMETRIC if name in parametric_names() else ""
+    return resources.files(__name__).joinpath(folder, f"{name}.json").read_text("utf-8")
 
 
 def expected(name: str) -> dict[str, Any]:
