@@ -19,8 +19,9 @@ from mcexact.cli.spectra import spectrum_examples
 )
 @click.argument("file")
 @designing.design_options(
-    'JSON {"closed_loop": P}, P a list of coefficients or of roots and pairs, or a mapping from '
-    "one agent of each strong component of the transfer graph to such a list."
+    "Roots such as '-1+2i, -3', as text; or JSON {\"closed_loop\": P}, as text or a file, P a list "
+    "of coefficients or of roots and pairs, or a mapping from one agent of each strong component "
+    "of the transfer graph to such a list."
 )
 def command(file: str, **given: Any) -> None:
     """Design a decentralized controller for the system in FILE (- for standard input).

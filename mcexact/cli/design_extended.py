@@ -19,7 +19,8 @@ from mcexact.cli.spectra import spectrum_examples
 )
 @click.argument("file")
 @designing.design_options(
-    'JSON {"closed_loop": P}, P a list of coefficients or of roots and pairs, without constraint.'
+    "Roots such as '-1+2i, -3', as text; or JSON {\"closed_loop\": P}, as text or a file, P a list "
+    "of coefficients or of roots and pairs, without constraint."
 )
 @click.option(
     "--dimensions",

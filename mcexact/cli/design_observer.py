@@ -19,7 +19,8 @@ from mcexact.cli.spectra import spectrum_examples
 )
 @click.argument("file")
 @designing.design_options(
-    'JSON {"feedback": P, "error": P}, P a list of coefficients or of roots and pairs.',
+    'JSON {"feedback": P, "error": P}, as text or a file, P a list of coefficients or of roots and '
+    "pairs.",
     agent_help="The agent with the channel controller; by default the first, in floating point "
     "none where none is needed.",
     searches=False,

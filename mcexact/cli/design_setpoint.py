@@ -19,8 +19,8 @@ from mcexact.cli.spectra import spectrum_examples
 )
 @click.argument("file")
 @designing.design_options(
-    'JSON for the plant with its integrators: {"feedback": P, "error": P}, or {"closed_loop": P} '
-    "with --method extended."
+    'JSON for the plant with its integrators, as text or a file: {"feedback": P, "error": P}, or '
+    '{"closed_loop": P} with --method extended.'
 )
 @click.option(
     "--method",

@@ -31,7 +31,7 @@ def design_options(
     given = (
         options.rate,
         options.radius,
-        click.option("--spectrum", metavar="FILE", help=spectrum_help),
+        click.option("--spectrum", metavar="SPECTRUM", help=spectrum_help),
         options.arithmetic,
         click.option("--agent", metavar="NAME", help=agent_help),
         aiming.aims if searches else aiming.weights,
@@ -65,6 +65,7 @@ def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any
     from mcexact.cli.output import emit, emit_tables
     from mcexact.cli.rechecking import Rechecked
     from mcexact.cli.running import Run
+    from mcexact.cli.spectra import read_spectrum
     from mcexact.errors import Impossible
     from mcexact.model.atomic import write_text
 
@@ -74,7 +75,10 @@ def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any
     require_writable(output, run.certificates)
     written = None if output is None else str(output)
     require_page(html, run.certificates, file, spectrum, weights, written)
-    extra = tuple(None if each is None else run.read(each) for each in (spectrum, weights))
+    extra = (
+        None if spectrum is None else read_spectrum(spectrum, run),
+        None if weights is None else run.read(weights),
+    )
     keywords = {**wanted, "agent": given["agent"], **{key: given[key] for key in HOW}}
     aimed = {key: given[key] for key in aiming.AIMS if key in given}
     plant = run.read(file)
