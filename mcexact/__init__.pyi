@@ -7,6 +7,9 @@ from .analysis.fixed_modes.assignability import assignability as assignability
 from .analysis.fixed_modes.completeness import completeness as completeness
 from .analysis.fixed_modes.error_gains import ErrorGains as ErrorGains
 from .analysis.fixed_modes.error_gains import error_gains as error_gains
+from .analysis.fixed_modes.exceptional_hypersurfaces import (
+    exceptional_hypersurfaces as exceptional_hypersurfaces,
+)
 from .analysis.fixed_modes.fixed_spectrum import fixed_spectrum as fixed_spectrum
 from .analysis.fixed_modes.pencil import pencil_rank as pencil_rank
 from .analysis.fixed_modes.pencil import pencil_ranks as pencil_ranks
@@ -49,6 +52,10 @@ from .answer.distributed_observer import DistributedObserver as DistributedObser
 from .answer.evidence import RateInterval as RateInterval
 from .answer.evidence import RootDisc as RootDisc
 from .answer.exceptional_gains import ExceptionalSet as ExceptionalSet
+from .answer.exceptional_hypersurfaces import (
+    ExceptionalHypersurfaces as ExceptionalHypersurfaces,
+)
+from .answer.exceptional_hypersurfaces import Hypersurface as Hypersurface
 from .answer.fixed_spectrum import FixedFactor as FixedFactor
 from .answer.fixed_spectrum import FixedSpectrum as FixedSpectrum
 from .answer.neighbor_graph import NeighborGraphVerdict as NeighborGraphVerdict

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
 
 from mcexact.answer.evidence import RootDisc, ZeroBlock
+from mcexact.answer.mode_words import blame, polynomial_in_x
 from mcexact.answer.protocol import Answer, Part, answer, claim, shown, witness
 from mcexact.exact.enclosures import exact_decimal
 from mcexact.exact.matrix import Matrix
@@ -85,17 +87,9 @@ def mode_text(p: ModePolynomial, t: str) -> str:
     Examples
     --------
     >>> mode_text((Polynomial.of(0, -1), Polynomial.of(2), Polynomial.of(1)), "t")
-    'x^2 + 2*x + (-t)'
+    'x^2 + 2*x - t'
     """
-    terms = []
-    for k, c in reversed(list(enumerate(p))):
-        power = "" if k == 0 else "x" if k == 1 else f"x^{k}"
-        if c.is_zero():
-            continue
-        text = in_parameter(c, t)
-        factor = text if text.isdigit() else f"({text})"
-        terms.append(power if power and text == "1" else "*".join(filter(None, (factor, power))))
-    return " + ".join(terms)
+    return polynomial_in_x([in_parameter(c, t) for c in p])
 
 
 def meets(disc: RootDisc, bounds: Range) -> bool:
@@ -213,12 +207,18 @@ class ParametricFixedSpectrum(Answer):
         told = [f"the roots of {mode_text(p, t)}{scaled} for every {t}" for p in self.generic]
         for each in self.exceptional:
             modes = " and ".join(
-                f"{mode_text(mode.polynomial, t)}{scaled} (channels: "
-                f"{', '.join(mode.channels) or 'none'})"
+                f"{mode_text(mode.polynomial, t)}{scaled} "
+                f"({blame(mode.channels, self.about.names)})"
                 for mode in each.modes
             )
             told.append(f"the roots of {modes} where {in_parameter(each.value, t)} = 0")
         return tuple(told)
+
+    def plot(self, ax: Any = None, **options: Any) -> Any:
+        """Draw the modes against the parameter; see `mcexact.plot.parameter_modes`."""
+        from mcexact.plot.parameters import parameter_modes
+
+        return parameter_modes(self, ax, **options)
 
     def in_range(self) -> tuple[ExceptionalValue, ...]:
         """The exceptional values with a root in the range that is assumed of the parameter."""

@@ -37,7 +37,7 @@ class PolynomialSystem:
         if len(self.system.parameters) != 1:
             raise UsageError(
                 f"one parameter is needed, found {', '.join(self.system.parameters)}: "
-                "give values or a line with .along(…)"
+                "exceptional_hypersurfaces(…) decides for several, .along(…) makes one of them"
             )
 
     @property

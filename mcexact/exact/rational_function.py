@@ -12,6 +12,7 @@ from typing import Any
 import flint
 
 from mcexact.errors import InputError, LimitReached
+from mcexact.exact.floats import to_float
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import rational_latex, rational_text
 from mcexact.shown import escaped
@@ -186,6 +187,17 @@ class RationalFunction:
             raise InputError(f"{self} is undefined there: its denominator is 0")
         return _evaluated(self.numerator, values, zero) / bottom
 
+    def values(self, places: Mapping[str, Any]) -> Any:
+        """The values at floats, or at arrays of them, in floating point.
+
+        Parameters
+        ----------
+        places : mapping
+            For each parameter a float or an array.
+        """
+        at = [places[name] for name in self.parameters]
+        return _in_floats(self.numerator, at) / _in_floats(self.denominator, at)
+
     def polynomials(self) -> tuple[Polynomial, Polynomial]:
         """Numerator and denominator as polynomials in the only parameter."""
         return _univariate(self.numerator), _univariate(self.denominator)
@@ -272,6 +284,17 @@ def _evaluated(
         for value, exponent in zip(values, exponents, strict=False):
             if exponent:
                 term = term * value ** int(exponent)
+        total = total + term
+    return total
+
+
+def _in_floats(p: Any, at: Sequence[Any]) -> Any:
+    """The value of a polynomial in floating point."""
+    total: Any = 0.0
+    for exponents, c in p.to_dict().items():
+        term: Any = to_float(Fraction(int(c.p), int(c.q)))
+        for place, exponent in zip(at, exponents, strict=False):
+            term = term * place ** int(exponent)
         total = total + term
     return total
 

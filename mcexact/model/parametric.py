@@ -241,7 +241,7 @@ class ParametricSystem(ByChannel[FunctionMatrix], SystemForms):
         >>> from mcexact import fixed_spectrum
         >>> plant = ParametricSystem([[1, "t"], [0, 2]], [[[0], [1]]], [[[1, 0]]], parameters=["t"])
         >>> print(*fixed_spectrum(plant.with_full_output()).words)
-        the roots of x + (-1) (channels: none) where t = 0
+        the roots of x - 1 (no channel controls it) where t = 0
         """
         return self._alone(names, True)
 

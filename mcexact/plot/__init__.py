@@ -11,5 +11,7 @@ from mcexact.plot.gains import gains as gains
 from mcexact.plot.graphs import graph as graph
 from mcexact.plot.graphs import structure as structure
 from mcexact.plot.loops import loop as loop
+from mcexact.plot.parameters import hypersurfaces as hypersurfaces
+from mcexact.plot.parameters import parameter_modes as parameter_modes
 from mcexact.plot.responses import decay as decay
 from mcexact.plot.responses import responses as responses

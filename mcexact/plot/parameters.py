@@ -1,0 +1,179 @@
+"""Modes against a parameter with its exceptional values, and hypersurfaces of two parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from typing import Any
+
+from mcexact.errors import UsageError
+from mcexact.exact.floats import to_float
+from mcexact.plot.canvas import BLUE, GRAY, NAMED, RED, legend_below, one_axis, plain_label
+
+_STEPS = 201
+_FINE = 301
+_REACH = Fraction(3)
+"""How far a parameter without a range is drawn on both sides of 0, or beyond what is found."""
+
+
+def parameter_modes(
+    found: Any, ax: Any = None, *, span: tuple[Any, Any] | None = None, title: str | None = None
+) -> Any:
+    """Draw the real parts of all modes against a parameter, and mark what is fixed.
+
+    Parameters
+    ----------
+    found : ParametricFixedSpectrum
+        The modes of A are thin lines, those that are fixed for every value thick ones.  A real
+        exceptional value is a dashed line, with a point for each mode that is fixed there.
+    ax : matplotlib.axes.Axes, optional
+        By default those of a new figure.
+    span : pair of numbers, optional
+        The values of the parameter to draw; by default its range, or what shows all real
+        exceptional values.
+    title : str, optional
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    import numpy as np
+
+    axis = one_axis(ax)
+    [t] = found.about.parameters
+    marks = [(float(disc.re), each) for each in found.exceptional for disc in each.real]
+    low, high = _span(found.about.ranges[0] if span is None else span, [x for x, _ in marks])
+    M, delta = found.about.A.reduced
+    layers = [layer.to_numpy() for layer in M.matrices]
+    below = _floats(delta)
+    where = np.linspace(low, high, _STEPS)
+    scale = np.polynomial.polynomial.polyval(where, below)
+    tops = [sum(layer * x**k for k, layer in enumerate(layers)) for x in where]
+    curves = np.full((_STEPS, M.nrows), np.nan)
+    for k, (top, bottom) in enumerate(zip(tops, scale, strict=True)):
+        if M.nrows and bottom:
+            curves[k] = np.sort(np.linalg.eigvals(top / bottom).real)
+    for column in curves.T:
+        axis.plot(where, column, color=BLUE, linewidth=0.8)
+    axis.plot([], [], color=BLUE, linewidth=0.8, label="modes of A")
+    for k, p in enumerate(found.generic):
+        label = "fixed for every value" if not k else None
+        for column in _roots(p, where, scale).T:
+            axis.plot(where, column, color=RED, linewidth=2.2, label=label)
+            label = None
+    for k, (x, each) in enumerate(marks):
+        if low <= x <= high:
+            axis.axvline(x, color=RED, linestyle="--", linewidth=0.9)
+            modes = [
+                value
+                for mode in each.modes
+                for value in _roots(mode.polynomial, np.array([x]), _at(below, x))[0]
+            ]
+            label = "fixed at this value" if not k else None
+            axis.plot([x] * len(modes), modes, "o", color=RED, markersize=5, label=label)
+    axis.axhline(0, color=GRAY, linewidth=0.6, zorder=0.5)
+    axis.set_xlim(low, high)
+    axis.set_xlabel(plain_label(t))
+    axis.set_ylabel("real part of the modes")
+    axis.set_title(f"fixed modes against {plain_label(t)}" if title is None else title,
+                   fontsize="medium")  # fmt: skip
+    legend_below(axis)
+    return axis.figure
+
+
+def hypersurfaces(
+    found: Any,
+    ax: Any = None,
+    *,
+    span: Mapping[str, tuple[Any, Any]] | None = None,
+    title: str = "where another mode is fixed",
+) -> Any:
+    """Draw where polynomials in two parameters are 0, as curves.
+
+    Parameters
+    ----------
+    found : ExceptionalHypersurfaces
+    ax : matplotlib.axes.Axes, optional
+        By default those of a new figure.
+    span : mapping, optional
+        For each parameter the least and the largest value to draw; by default its range.
+    title : str
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    UsageError
+        If there are not two parameters.
+    """
+    import numpy as np
+
+    names = found.about.parameters
+    if len(names) != 2:
+        raise UsageError(
+            f"expected two parameters, found {', '.join(names)}: give values to the others with "
+            ".along({…}, [two of them])"
+        )
+    axis = one_axis(ax)
+    ranges = dict(zip(names, found.about.ranges, strict=True)) | dict(span or {})
+    # A curve on the edge of a range is drawn, too.
+    first, second = (np.linspace(*_wider(_span(ranges[name], [])), _FINE) for name in names)
+    across, up = np.meshgrid(first, second)
+    for k, each in enumerate(found.hypersurfaces):
+        color, style = _STYLES[k % len(_STYLES)]
+        values = each.polynomial.values({names[0]: across, names[1]: up})
+        axis.contour(across, up, values, levels=[0.0], colors=[color], linestyles=[style])
+        if k < NAMED:
+            label = plain_label(str(each), 40)
+            axis.plot([], [], color=color, linestyle=style, label=label)
+    axis.set_xlim(first[0], first[-1])
+    axis.set_ylim(second[0], second[-1])
+    axis.set_xlabel(plain_label(names[0]))
+    axis.set_ylabel(plain_label(names[1]))
+    axis.set_title(title, fontsize="medium")
+    legend_below(axis)
+    return axis.figure
+
+
+_STYLES = [(color, style) for style in ("-", "--", ":") for color in (RED, BLUE, GRAY)]
+
+
+def _span(bounds: Sequence[Any], marks: Sequence[float]) -> tuple[float, float]:
+    """The values to draw: the range, with room for what is found where it has no end."""
+    low, high = bounds
+    inside = [float(low)] * (low is not None) + [float(high)] * (high is not None) + [*marks]
+    reach = max([float(_REACH), *(x - min(inside) for x in inside)]) / 3 if inside else 3.0
+    least, most = min(inside, default=0.0) - reach, max(inside, default=0.0) + reach
+    return least if low is None else float(low), most if high is None else float(high)
+
+
+def _wider(span: tuple[float, float]) -> tuple[float, float]:
+    margin = 0.03 * (span[1] - span[0])
+    return span[0] - margin, span[1] + margin
+
+
+def _floats(p: Any) -> list[float]:
+    """The coefficients of a polynomial, at least one."""
+    return [to_float(c) for c in p.coefficients] or [0.0]
+
+
+def _at(coefficients: Sequence[float], x: float) -> Any:
+    """The value of a polynomial at one place, as an array."""
+    import numpy as np
+
+    return np.polynomial.polynomial.polyval(np.array([x]), coefficients)
+
+
+def _roots(p: Sequence[Any], where: Any, scale: Any) -> Any:
+    """The real parts of the roots in x of a polynomial at values of the parameter, divided."""
+    import numpy as np
+
+    found = np.full((len(where), len(p) - 1), np.nan)
+    values = [np.polynomial.polynomial.polyval(where, _floats(c)) for c in p]
+    for k, coefficients in enumerate(zip(*values, strict=True)):
+        if scale[k]:
+            roots = np.polynomial.polynomial.polyroots(coefficients)
+            found[k] = np.sort(roots.real) / scale[k]
+    return found

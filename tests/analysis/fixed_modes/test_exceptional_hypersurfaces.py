@@ -1,0 +1,150 @@
+"""Several parameters: what is fixed for almost all values, and on which hypersurfaces more is."""
+
+from __future__ import annotations
+
+import random
+from fractions import Fraction
+from typing import Any
+
+import pytest
+
+from mcexact import (
+    ParametricSystem,
+    check,
+    exceptional_hypersurfaces,
+    fixed_spectrum,
+    load_parametric_system,
+)
+from mcexact.errors import UsageError
+from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.rational_function import RationalFunction
+
+
+def surfaces(plant: ParametricSystem) -> list[str]:
+    """The hypersurfaces, as texts."""
+    return [str(each.polynomial) for each in exceptional_hypersurfaces(plant).hypersurfaces]
+
+
+def count_fixed(plant: ParametricSystem, at: dict[str, Any]) -> int:
+    """How many different modes are fixed at a point."""
+    return sum(f.polynomial.degree for f in fixed_spectrum(plant.at(at)).factors)
+
+
+def test_the_quadruple_tank_is_exceptional_where_a_valve_is_closed() -> None:
+    tank = load_parametric_system("gallery:quadruple-tank-parametric")
+    found = exceptional_hypersurfaces(tank)
+    assert [str(each) for each in found.hypersurfaces] == ["gamma1 - 1 = 0", "gamma2 - 1 = 0"]
+    assert not found.generic and not found.undefined_at
+    assert "no mode for almost all values of gamma1, gamma2" in found.words
+    assert found.words[-1] == "not decided: values at which several conditions meet"
+
+
+def test_along_every_line_a_certificate_proves_it() -> None:
+    tank = load_parametric_system("gallery:quadruple-tank-parametric")
+    found = exceptional_hypersurfaces(tank)
+    assert len(found.lines) == len(found.certificates) == 2
+    for each in found.lines:
+        assert check(each.answer, tank.along(each.at)).valid
+        assert each.answer.generic == () and len(each.answer.exceptional) == 2
+
+
+def test_a_curve_that_is_no_product_of_lines_is_found() -> None:
+    plant = ParametricSystem(
+        [[0, "a"], [0, 1]], [[[0], [1]]], [[["b - a", 1]]], parameters=["a", "b"]
+    )
+    assert surfaces(plant) == ["a", "a - b", "a^2 - a*b - 1"]
+    [curve] = [
+        each
+        for each in exceptional_hypersurfaces(plant).hypersurfaces
+        if each.polynomial.numerator.total_degree() == 2
+    ]
+    assert str(curve.to_sympy().as_expr()) == "a**2 - a*b - 1"
+    for a in (1, 2, -3, Fraction(1, 2)):
+        assert count_fixed(plant, {"a": a, "b": a - 1 / Fraction(a)}) == 1
+
+
+def test_generic_modes_are_polynomials_in_the_parameters() -> None:
+    plant = ParametricSystem(
+        [["a*b", 0, 0], [0, "a", "b"], [0, 0, 2]],
+        [[[0], [0], [1]]],
+        [[[1, 1, 0]]],
+        parameters=["a", "b"],
+    )
+    found = exceptional_hypersurfaces(plant)
+    assert [[str(c) for c in p] for p in found.generic] == [["-a*b", "1"]]
+    assert "the roots of x - a*b for almost all values of a, b" in found.words
+    assert count_fixed(plant, {"a": 5, "b": 7}) == 1
+    assert surfaces(plant)[0] == "b" and count_fixed(plant, {"a": 5, "b": 0}) == 3
+
+
+def test_where_only_a_multiplicity_grows_nothing_is_exceptional() -> None:
+    plant = ParametricSystem([["a", 1], [0, "b"]], [[[0], [1]]], [[[1, 0]]], parameters=["a", "b"])
+    assert surfaces(plant) == []
+
+
+def test_denominators_are_undefined_and_not_exceptional() -> None:
+    plant = ParametricSystem(
+        [["1/(a - b)", 1], [0, 1]], [[[0], ["b"]]], [[["1/a", 0]]], parameters=["a", "b"]
+    )
+    found = exceptional_hypersurfaces(plant)
+    assert [str(each) for each in found.undefined_at] == ["a", "a - b"]
+    assert [str(each.polynomial) for each in found.hypersurfaces] == ["b"]
+
+
+def test_several_parameters_name_the_question_that_decides_for_them() -> None:
+    plant = ParametricSystem([["a*b"]], [[[1]]], [[[1]]], parameters=["a", "b"])
+    with pytest.raises(UsageError, match="exceptional_hypersurfaces"):
+        fixed_spectrum(plant)
+
+
+def test_no_states_and_channels_without_inputs_are_no_special_cases() -> None:
+    assert surfaces(ParametricSystem([], [[]], [[]], parameters=["a", "b"])) == []
+    idle = ParametricSystem([["a", 1], [0, "b"]], [[[], []]], [[]], parameters=["a", "b"])
+    assert len(exceptional_hypersurfaces(idle).generic) == 2
+
+
+def fixed_at(plant: ParametricSystem, at: dict[str, Any]) -> set[Polynomial]:
+    """The irreducible factors of what is fixed at a point."""
+    return {f.polynomial for f in fixed_spectrum(plant.at(at)).factors}
+
+
+def test_drawn_plants_agree_with_what_is_fixed_at_points() -> None:
+    """A point off all hypersurfaces has the generic modes alone, a point on one has more."""
+    rng = random.Random(7)
+    entries = ["0", "1", "a", "b", "a - b", "a*b + 1"]
+    on, off = 0, 0
+    for _ in range(6):
+        A = [[rng.choice(entries) if i <= j else "0" for j in range(3)] for i in range(3)]
+        B = [[[rng.choice(entries)] for _ in range(3)] for _ in range(2)]
+        C = [[[rng.choice(entries) for _ in range(3)]] for _ in range(2)]
+        plant = ParametricSystem(A, B, C, parameters=["a", "b"])
+        found = exceptional_hypersurfaces(plant)
+
+        def generic(at: dict[str, Any], found: Any = found) -> set[Polynomial]:
+            zero = RationalFunction.constant(0, ())
+            point = [at["a"], at["b"]]
+            values = (
+                Polynomial.from_coefficients([c.substituted(point, zero).value for c in p])
+                for p in found.generic
+            )
+            return {q for p in values for q, _ in p.factor()}
+
+        for _ in range(3):
+            at = {name: Fraction(rng.randint(-99, 99), 7) for name in ("a", "b")}
+            assert fixed_at(plant, at) == generic(at)
+            off += 1
+        for each in found.hypersurfaces:
+            a = Fraction(rng.randint(10, 99), 7)
+            met = solutions(each.polynomial, a)
+            for b in met:
+                at = {"a": a, "b": b}
+                assert fixed_at(plant, at) > generic(at)
+                on += 1
+    assert on > 5 and off == 18
+
+
+def solutions(h: RationalFunction, a: Fraction) -> list[Fraction]:
+    """The rational b at which a polynomial in a and b is 0."""
+    b = RationalFunction.parameter("b", ("b",))
+    at = h.substituted([b * 0 + a, b], b * 0).polynomials()[0]
+    return [-q.coefficients[0] for q, _ in at.factor() if q.degree == 1] if at else []
