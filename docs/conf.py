@@ -44,6 +44,11 @@ autosummary_imported_members = True
 autodoc_typehints = "none"
 numpydoc_show_class_members = False
 numpydoc_class_members_toctree = False
+toc_object_entries_show_parents = "hide"
+# Quotes are those of code nearly everywhere, and two minus signs those of an option.
+smartquotes = False
+# The empty line that ends an example in a source is not shown.
+highlight_options = {"pycon": {"stripnl": True}}
 copybutton_prompt_text = r">>> |\.\.\. |\$ "
 copybutton_prompt_is_regexp = True
 

@@ -13,6 +13,7 @@ from typing import Any
 import click
 
 import mcexact
+from mcexact.answer.formats import count
 from mcexact.cli import command_line
 from mcexact.crosschecks.gallery import exhibits, shown
 from mcexact.model import gallery
@@ -108,7 +109,7 @@ def gallery_page() -> str:
     for name in gallery.names():
         plant, known = gallery.load(name), _expected(name)
         source = plant.source or known.get("source") or ""
-        size = f"{plant.n} states, {plant.m} channels, {plant.time} time"
+        size = f"{count(plant.n, 'state')}, {count(plant.m, 'channel')}, {plant.time} time"
         lines += [f"`{name}`", f": {size}. {_fixed(known)}", "", f"  {source}", ""]
     return "\n".join(lines)
 
@@ -229,12 +230,12 @@ def _figures(found: dict[str, Any] | None) -> str:
 
 def _speed() -> list[str]:
     """The kept times, beside those of numpy where it is the peer."""
-    lines = ["| question | measured | | |", "|---|---|---|---|"]
+    lines = ["| question | ratio | aimed at | seconds, mcexact and peer |", "|---|---|---|---|"]
     for part in _rows("speed"):
         for row in part["rows"]:
             if row.get("unit") != "x":
                 continue
-            value = f"{row['ratio']:.3g} {row.get('unit', '')}".strip()
+            value = f"{row['ratio']:.3g}" if row["ratio"] < 1000 else f"{row['ratio']:.0f}"
             short = "" if row.get("holds") is not False else "**falls short**"
             detail = str(row.get("detail", "")).replace("|", "\\|")
             lines.append(

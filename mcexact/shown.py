@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Sequence
 from html import escape
 from typing import Any
@@ -21,7 +22,8 @@ _STYLE = """\
 .mcexact tbody tr { background: transparent !important; }
 .mcexact th, .mcexact td { text-align: left !important; vertical-align: top; color: inherit;
   padding: 0.25em 0.6em; border: 0; border-bottom: 1px solid var(--line); white-space: normal; }
-.mcexact th { background: var(--panel); white-space: nowrap; font-weight: 600; }
+.mcexact th { background: var(--panel); white-space: nowrap; font-weight: 600; max-width: 24em;
+  overflow: hidden; text-overflow: ellipsis; }
 .mcexact .yes { color: var(--good); font-weight: 600; }
 .mcexact .no { color: var(--bad); font-weight: 600; }
 .mcexact .said { border-left: 0.3em solid var(--accent); background: var(--panel);
@@ -40,6 +42,15 @@ _ESCAPES = {
     "~": r"\textasciitilde{}",
     "^": r"\textasciicircum{}",
 }
+
+
+_SIGNS = {
+    "\\": r"{\backslash}",
+    **{character: f"\\{character}" for character in "&%$#_{}"},
+    "~": r"{\sim}",
+    "^": r"{\wedge}",
+}
+_PIECES = re.compile(r"([^\\&%$#_{}~^]+)|\^([0-9]+)|([\\&%$#_{}~^])")
 
 
 class Shown:
@@ -120,9 +131,7 @@ def grid(head: Sequence[str], rows: Iterable[Sequence[Any]], caption: str = "") 
 
 def array(rows: Iterable[tuple[str, Any]]) -> str:
     """Return labels and values as LaTeX, of very many the first ones."""
-    body = r" \\ ".join(
-        rf"\text{{{escaped(name)}}} & {latex(value)}" for name, value in first(rows)
-    )
+    body = r" \\ ".join(rf"{words(name)} & {latex(value)}" for name, value in first(rows))
     return rf"\begin{{array}}{{ll}} {body} \end{{array}}"
 
 
@@ -140,7 +149,26 @@ def latex(value: Any) -> str:
     if hasattr(value, "_latex"):
         return str(value._latex())
     said = ("yes" if value else "no") if isinstance(value, bool) else value
-    return rf"\text{{{escaped(said if isinstance(said, str) else repr(said))}}}"
+    return words(said if isinstance(said, str) else repr(said))
+
+
+def words(text: str) -> str:
+    r"""Return a text for a formula, in which special characters are signs and powers are raised.
+
+    LaTeX, MathJax and KaTeX set these alike; inside of ``\text`` MathJax knows no escapes.
+
+    Examples
+    --------
+    >>> words("best_rate")
+    '\\text{best}\\_\\text{rate}'
+    >>> words("x^12 + 1")
+    '\\text{x}^{12}\\text{ + 1}'
+    """
+    set_apart = (
+        rf"\text{{{plain}}}" if plain else rf"^{{{power}}}" if power else _SIGNS[sign]
+        for plain, power, sign in _PIECES.findall(text)
+    )
+    return "".join(set_apart) or r"\text{}"
 
 
 def escaped(text: str) -> str:

@@ -65,7 +65,7 @@ class PolynomialForms:
     def _latex(self: Any) -> str:
         """The polynomial as a piece of LaTeX; of a long one the first and last terms."""
         if len(str(self)) > 2 * shown.LINE:
-            return rf"\text{{{shown.escaped(_short(self))}}}"
+            return shown.words(_short(self).replace("*", " "))
         return str(self.latex())
 
     def _repr_latex_(self) -> str:

@@ -7,7 +7,7 @@ from typing import Any
 
 from mcexact.exact.location import is_discrete
 from mcexact.exact.rational import rational_text
-from mcexact.shown import Shown, escaped, fitting, latex, table
+from mcexact.shown import Shown, fitting, latex, table, words
 
 _MOST_CHANNELS = 12
 
@@ -48,12 +48,12 @@ class SystemForms(Shown):
         """Return the equations of the system with its matrices in LaTeX."""
         change = r"x(t+1)" if is_discrete(self.time) else r"\dot{x}"
         inputs = "".join(
-            rf" + {latex(channel.B)} u_{{\text{{{escaped(channel.name)}}}}}"
+            rf" + {latex(channel.B)} u_{{{words(channel.name)}}}"
             for channel in self.channels[:_MOST_CHANNELS]
         )
         lines = [rf"{change} &= {latex(self.A)} x{inputs}"]
         lines += [
-            rf"y_{{\text{{{escaped(channel.name)}}}}} &= {latex(channel.C)} x"
+            rf"y_{{{words(channel.name)}}} &= {latex(channel.C)} x"
             for channel in self.channels[:_MOST_CHANNELS]
         ]
         more = r" \\ &\;\;\vdots" if self.m > _MOST_CHANNELS else ""

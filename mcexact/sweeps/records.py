@@ -73,8 +73,12 @@ class Record(Shown):
         return "\n".join(str(answer["statement"]) for answer in self.answers.values())
 
     def _labeled(self) -> Iterator[tuple[str, Any]]:
-        """Yield the columns of a table, and what they hold."""
-        yield from self.to_row().items()
+        """Yield the columns of a table, and what they hold; those that are empty are left out."""
+        for name, value in self.to_row().items():
+            if isinstance(value, dict):
+                yield name, ", ".join(f"{key} {each}" for key, each in value.items())
+            elif value is not None:
+                yield name, value
 
     def to_row(self) -> dict[str, Any]:
         """Return one flat row for a table: sizes, and the claims that fit into a cell.

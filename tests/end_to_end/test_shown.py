@@ -209,3 +209,16 @@ def test_a_row_of_a_sweep_is_flat() -> None:
     assert row["fixed_spectrum.polynomial"] == "x - 1/3"
     assert row["fixed_spectrum.factors"] == 1
     assert row["fixed_spectrum.stabilizable"] is False
+
+
+def test_special_characters_in_formulas_are_outside_of_texts() -> None:
+    """Inside of a text MathJax shows an escape as it is written."""
+    latex = plant()._repr_latex_() + record()._repr_latex_()
+    texts = re.findall(r"\\text\{([^{}]*)\}", latex)
+    assert r"\text{fixed}\_\text{spectrum.stabilizable}" in latex
+    assert texts and not set("".join(texts)) & set("\\&%$#_~^")
+
+
+def test_a_record_shows_an_interval_in_words_and_no_empty_cell() -> None:
+    html = record()._repr_html_()
+    assert "lower -0.3333" in html and "&#x27;lower" not in html and "None" not in html
