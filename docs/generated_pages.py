@@ -17,6 +17,7 @@ from mcexact.answer.formats import count
 from mcexact.cli import command_line
 from mcexact.crosschecks.gallery import exhibits, shown
 from mcexact.model import gallery
+from mcexact.model.published import published
 
 ROOT = Path(__file__).parents[1]
 ROWS = ROOT / "benchmarks" / "rows"
@@ -111,6 +112,18 @@ def gallery_page() -> str:
         source = plant.source or known.get("source") or ""
         size = f"{count(plant.n, 'state')}, {count(plant.m, 'channel')}, {plant.time} time"
         lines += [f"`{name}`", f": {size}. {_fixed(known)}", "", f"  {source}", ""]
+    lines += [
+        "## With parameters",
+        "",
+        "`mcexact analyze gallery:NAME` decides these for all values, and `--at NAME=1/2` at one;",
+        "`load_parametric_system` reads them.",
+        "",
+    ]
+    for each in published():
+        if each.parameters:
+            size = f"{each.n} states, {each.m} channels, parameters {', '.join(each.parameters)}"
+            lines += [f"`{each.name}`", f": {size}. {each.shows.capitalize()}.", ""]
+            lines += [f"  {each.source}", ""]
     return "\n".join(lines)
 
 

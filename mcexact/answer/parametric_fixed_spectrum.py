@@ -212,7 +212,7 @@ class ParametricFixedSpectrum(Answer):
                 for mode in each.modes
             )
             told.append(f"the roots of {modes} where {in_parameter(each.value, t)} = 0")
-        return tuple(told)
+        return tuple(told) or (f"no mode is fixed for any {t}",)
 
     def plot(self, ax: Any = None, **options: Any) -> Any:
         """Draw the modes against the parameter; see `mcexact.plot.parameter_modes`."""

@@ -30,6 +30,7 @@ def command(as_json: bool) -> None:
             each.name,
             str(each.n),
             str(each.m),
+            ", ".join(each.parameters),
             each.time,
             shorten(each.source, 60),
             each.shows,
@@ -37,5 +38,5 @@ def command(as_json: bool) -> None:
         for each in plants
     )
     note = "mcexact analyze gallery:NAME"
-    columns = ("name", "n", "m", "time", "source", "shows")
+    columns = ("name", "n", "m", "parameters", "time", "source", "shows")
     emit_tables((Table("", columns, rows, note),), width=WIDE)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import overload
 
 from mcexact.model import gallery as plants
+from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 
 _LONGEST = 24
@@ -52,6 +53,8 @@ class Published:
     name : str
         The name for `gallery`, and behind ``gallery:`` for commands.
     n, m : int
+    parameters : tuple of str
+        Those on which it depends; `load_parametric_system` reads such a plant.
     time : {"continuous", "discrete"}
     source : str
     shows : str
@@ -61,6 +64,7 @@ class Published:
     name: str
     n: int
     m: int
+    parameters: tuple[str, ...]
     time: str
     source: str
     shows: str
@@ -75,11 +79,23 @@ def published() -> tuple[Published, ...]:
     fixed: (x - 1)^3, although jointly controllable and observable
     """
     found = []
-    for name in plants.names():
-        system = plants.load(name)
-        source = system.source or ""
-        found.append(Published(name, system.n, system.m, system.time, source, _shows(name)))
+    systems: dict[str, MultiChannelSystem | ParametricSystem] = {
+        **{name: plants.load(name) for name in plants.names()},
+        **{name: plants.load_parametric(name) for name in plants.parametric_names()},
+    }
+    for name, system in sorted(systems.items()):
+        shows = _shows_for_all(name) if system.parameters else _shows(name)
+        sizes = system.n, system.m, system.parameters
+        found.append(Published(name, *sizes, system.time, system.source or "", shows))
     return tuple(found)
+
+
+def _shows_for_all(name: str) -> str:
+    """What a plant with parameters shows, from the answers that are known of it."""
+    known = plants.expected(name)
+    said = f"fixed for every value: {', '.join(known['generic'])}" if known["generic"] else ""
+    where = "".join(f", where {each} = 0" for each in known["exceptional"])
+    return said + where if said else f"a mode is fixed{where[1:]}"
 
 
 def _shows(name: str) -> str:

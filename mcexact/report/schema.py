@@ -397,7 +397,8 @@ def _error() -> Schema:
 
 
 def _gallery() -> Schema:
-    plant = {"name": TEXT, "n": WHOLE, "m": WHOLE, "time": TIME, "source": TEXT, "shows": TEXT}
+    plant = {"name": TEXT, "n": WHOLE, "m": WHOLE, "parameters": rows(TEXT), "time": TIME}
+    plant |= {"source": TEXT, "shows": TEXT}
     return record(named("mcexact-gallery/1") | {"plants": rows(record(plant))})
 
 

@@ -5,8 +5,11 @@ import json
 import pytest
 
 import mcexact
+from mcexact.answer.exceptional_hypersurfaces import mode_in_x
+from mcexact.answer.parametric_fixed_spectrum import in_parameter, mode_text
 from mcexact.model import gallery
 from mcexact.model.formats.recognize import read_any
+from mcexact.model.published import published
 from mcexact.model.system_file import read_system
 from tests.cli.calling import call
 
@@ -15,8 +18,13 @@ def test_the_list_names_every_plant_with_its_source_and_what_it_shows() -> None:
     status, out, _ = call("gallery", "--json")
     assert status == 0
     plants = json.loads(out)["plants"]
-    assert [plant["name"] for plant in plants] == list(gallery.names()) == list(mcexact.gallery())
+    assert [each["name"] for each in plants] == sorted(
+        [*gallery.names(), *gallery.parametric_names()]
+    )
+    assert [each["name"] for each in plants if not each["parameters"]] == list(mcexact.gallery())
     for plant in plants:
+        if plant["parameters"]:
+            continue
         system = mcexact.gallery(plant["name"])
         assert (plant["n"], plant["m"], plant["time"]) == (system.n, system.m, system.time)
         assert plant["source"] and plant["shows"] and "(-" not in plant["shows"]
@@ -24,6 +32,25 @@ def test_the_list_names_every_plant_with_its_source_and_what_it_shows() -> None:
         assert plant["shows"].startswith("fixed: " if known["fixed_factors"] else "no fixed mode")
     status, out, _ = call("gallery")
     assert status == 0 and all(plant["name"] in out for plant in plants)
+
+
+@pytest.mark.parametrize("name", gallery.parametric_names())
+def test_what_is_known_of_a_plant_with_parameters_is_what_is_decided(name: str) -> None:
+    plant = mcexact.load_parametric_system(f"gallery:{name}")
+    known, [each] = gallery.expected(name), [p for p in published() if p.name == name]
+    assert plant.source and each.parameters == plant.parameters
+    for value in (*known["generic"], *known["exceptional"]):
+        assert value in each.shows
+    if len(plant.parameters) > 1:
+        found = mcexact.exceptional_hypersurfaces(plant)
+        exceptional = [str(surface.polynomial) for surface in found.hypersurfaces]
+        generic = [mode_in_x(p) for p in found.generic]
+    else:
+        spectrum = mcexact.fixed_spectrum(plant)
+        [t] = plant.parameters
+        exceptional = [in_parameter(value.value, t) for value in spectrum.exceptional]
+        generic = [mode_text(p, t) for p in spectrum.generic]
+    assert (generic, exceptional) == (known["generic"], known["exceptional"])
 
 
 @pytest.mark.parametrize("kind", [[], ["json"], ["yaml"]])

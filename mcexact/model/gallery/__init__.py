@@ -32,7 +32,7 @@ def names() -> tuple[str, ...]:
     >>> "hidden-triple-mode" in names()
     True
     """
-    return tuple(stem for stem in _stems("") if stem != _EXPECTED)
+    return _stems("")
 
 
 @cache
@@ -50,7 +50,8 @@ def parametric_names() -> tuple[str, ...]:
 def _stems(folder: str) -> tuple[str, ...]:
     """The names of the system files in a folder, sorted."""
     files = (entry.name for entry in resources.files(__name__).joinpath(folder).iterdir())
-    return tuple(sorted(name.removesuffix(".json") for name in files if name.endswith(".json")))
+    stems = (name.removesuffix(".json") for name in files if name.endswith(".json"))
+    return tuple(sorted(stem for stem in stems if stem != _EXPECTED))
 
 
 def load(name: str) -> MultiChannelSystem:
@@ -102,7 +103,11 @@ def require_name(name: str) -> str:
 def text(name: str) -> str:
     """The text of a system file of the gallery."""
     folder = _PARAMETRIC if name in parametric_names() else ""
-    return resources.files(__name__).joinpath(folder, f"{name}.json").read_text("utf-8")
+    return _text(folder, name)
+
+
+def _text(folder: str, stem: str) -> str:
+    return resources.files(__name__).joinpath(folder, f"{stem}.json").read_text("utf-8")
 
 
 def expected(name: str) -> dict[str, Any]:
@@ -113,5 +118,6 @@ def expected(name: str) -> dict[str, Any]:
     >>> expected("hidden-triple-mode")["fixed_factors"]
     [{'factor': 'x - 1', 'multiplicity': 3}]
     """
-    answers: dict[str, dict[str, Any]] = json.loads(text(_EXPECTED))
+    folder = _PARAMETRIC if name in parametric_names() else ""
+    answers: dict[str, dict[str, Any]] = json.loads(_text(folder, _EXPECTED))
     return answers[name]
