@@ -89,7 +89,9 @@ DESIGNS = {
 
 
 @pytest.mark.parametrize("name", sorted(DESIGNS))
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize(
+    "seed", [*range(4), *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(4, 12))]
+)
 def test_what_is_said_of_designs_and_of_refusals(name: str, seed: int, tmp_path: Path) -> None:
     plant = drawn(seed)
     if plant.neighbors is None or plant.n > 3:

@@ -35,6 +35,12 @@ _NUMBER = re.compile(r"-?\d+(?:[./]\d+)?")
 _NAME = re.compile(r"'[^']*'")
 
 
+PLANTS = [
+    pytest.param(name, marks=[pytest.mark.slow] if gallery.load(name).n > 8 else [])
+    for name in gallery.names()
+]
+
+
 @cache
 def about(name: str) -> tuple[tuple[str, Answer], ...]:
     """What can be asked about a plant of the gallery, with a ring for its graph."""
@@ -70,7 +76,7 @@ def test_loops_controllers_and_trajectories_are_told_in_one_line() -> None:
         assert line.startswith(f"{type(found).__name__}(") and line.endswith(")")
 
 
-@pytest.mark.parametrize("name", gallery.names())
+@pytest.mark.parametrize("name", PLANTS)
 def test_an_answer_is_told_in_one_line_that_cuts_nothing(name: str) -> None:
     for question, found in about(name):
         line = repr(found)
@@ -91,7 +97,7 @@ def test_an_answer_is_told_in_one_line_that_cuts_nothing(name: str) -> None:
             assert set(kind.findall(values)) <= known | keys, (question, line)
 
 
-@pytest.mark.parametrize("name", gallery.names())
+@pytest.mark.parametrize("name", PLANTS)
 def test_an_answer_has_no_truth_value_and_says_what_to_ask(name: str) -> None:
     for _, found in about(name):
         with pytest.raises(TypeError, match=r"neither true nor false: ask for \.") as caught:
@@ -100,7 +106,7 @@ def test_an_answer_has_no_truth_value_and_says_what_to_ask(name: str) -> None:
         assert asked and all(hasattr(found, attribute) for attribute in asked)
 
 
-@pytest.mark.parametrize("name", gallery.names())
+@pytest.mark.parametrize("name", PLANTS)
 def test_an_answer_is_read_back_from_its_certificate(name: str) -> None:
     for question, found in about(name):
         text = encode(found)
@@ -112,7 +118,7 @@ def test_an_answer_is_read_back_from_its_certificate(name: str) -> None:
         assert read.to_dict() == found.to_dict()
 
 
-@pytest.mark.parametrize("name", gallery.names())
+@pytest.mark.parametrize("name", PLANTS)
 def test_everything_that_is_shown_is_in_every_form(name: str) -> None:
     for _, found in about(name):
         entries = list(found.entries())

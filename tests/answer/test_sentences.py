@@ -31,8 +31,12 @@ from tests.oracle.draws import exact, sparse_system
 ALL = tuple(everything())
 TEMPLATES = {template.key: template for template in ALL}
 PROOFS = Path(__file__).parents[2] / "proofs" / "theorems.txt"
-DRAWN = 200
 AT_ONCE = 10
+STARTS = [
+    *range(0, 60, AT_ONCE),
+    *(pytest.param(start, marks=pytest.mark.slow) for start in range(60, 200, AT_ONCE)),
+]
+"""The first numbers of the plants that are drawn for one test each."""
 
 # What is no sentence about the system: names of columns and parts of the page.
 CHROME = {
@@ -176,7 +180,7 @@ def test_every_text_about_a_published_plant_is_made_by_a_template(name: str) -> 
 
 
 @pytest.mark.usefixtures("_without_images")
-@pytest.mark.parametrize("start", range(0, DRAWN, AT_ONCE))
+@pytest.mark.parametrize("start", STARTS)
 def test_every_text_about_a_drawn_plant_is_made_by_a_template(start: int) -> None:
     for seed in range(start, start + AT_ONCE):
         plant = drawn(seed)
