@@ -78,7 +78,7 @@ class MultiprecisionArithmetic:
     name = "multiprecision"
 
     def __init__(self, digits: int) -> None:
-        from mpmath import MPContext  # type: ignore[import-untyped]
+        from mpmath import MPContext
 
         self.context = MPContext()
         # The terms of a Taylor series may exceed their sum by some digits, which these make up for.

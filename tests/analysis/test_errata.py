@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 from mcexact.analysis.fixed_modes.completeness import completeness
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.sharing.allocation import shared_dimension_bound
@@ -44,7 +46,7 @@ def test_a_neighbor_that_two_members_hear_counts_once() -> None:
     one = [[1]]
     plant = MultiChannelSystem([[0]], [one] * 3, [one] * 3)
     graph = NeighborGraph.complete(plant.names)
-    sizes, s, mode = [1, 1, 1], (0, 1), (0, 1)
+    sizes, s, mode = [1, 1, 1], (0, 1), (Fraction(0), Fraction(1))
     extended = plain(extended_system(plant, sizes, "states", graph))
     loss = pencil_rank(extended, s, mode) - pencil_rank(plain(plant), s, mode)
     once = sum(sizes[j] for j in graph.union(s))

@@ -80,7 +80,7 @@ def test_the_controller_can_be_an_object_or_a_file(tmp_path: Path) -> None:
     save_controller(design.controller, tmp_path / "controller.json")
     for controller in (design.controller, tmp_path / "controller.json"):
         for certificate in map(design.certificates.get, ("stability", "closed_loop_spectrum")):
-            assert check(certificate, plant, controller).verdict == "VALID"  # type: ignore[arg-type]
+            assert check(certificate, plant, controller).verdict == "VALID"
         refused = check(other.certificates["stability"], controller=controller)
         assert (refused.verdict, refused.code) == ("INVALID", "controller")
 

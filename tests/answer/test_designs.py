@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import pytest
 
@@ -15,6 +16,7 @@ from mcexact.answer.sentence import Given, Sentences
 from mcexact.answer.template import Sentence
 from mcexact.checker import Expectation, Limits
 from mcexact.checker.manifest import manifest_verdicts
+from mcexact.derived.extended import Share
 from mcexact.errors import Impossible, LimitReached
 from mcexact.exact.location import StabilityRegion
 from mcexact.model import gallery
@@ -24,6 +26,7 @@ from mcexact.report.account import tables
 from mcexact.report.text import plain
 from mcexact.synthesis.certify import account_of_verdict, certify_controller
 from mcexact.synthesis.decentralized import design_decentralized
+from mcexact.synthesis.design import Design
 from mcexact.synthesis.distributed_observer import design_observer
 from mcexact.synthesis.extended import design_extended
 from mcexact.synthesis.setpoint import design_setpoint
@@ -59,9 +62,9 @@ def test_what_is_said_of_allocations(start: int, tmp_path: Path) -> None:
             plant = plant.with_neighbors(NeighborGraph.ring(plant.names))
         number = rng.choice([None, Fraction(1, 2)])
         region = None if number is None else StabilityRegion(plant.time, number)
-        share = rng.choice(["outputs+states", "states"])
+        share = rng.choice(get_args(Share))
         free = rng.random() < 0.3
-        asked = {"share": share, "region": region, "free_assignability": free}
+        asked: dict[str, Any] = {"share": share, "region": region, "free_assignability": free}
         if rng.random() < 0.5:
             asked["costs"] = [rng.randint(1, 9) for _ in plant.names]
         if rng.random() < 0.3:
@@ -80,7 +83,7 @@ def wanted(plant: MultiChannelSystem) -> dict[str, Any]:
     return {"rate": "1/10"} if plant.time == "continuous" else {"radius": "9/10"}
 
 
-DESIGNS = {
+DESIGNS: dict[str, Callable[..., Design]] = {
     "observer": design_observer,
     "decentralized": design_decentralized,
     "extended": design_extended,

@@ -20,13 +20,13 @@ from mcexact.analysis.questions import QUESTIONS
 from mcexact.answer.codec import encode
 from mcexact.answer.protocol import KINDS, Answer, Part, fields_of, key_of, kind_named
 from mcexact.answer.reading import answer_of
-from mcexact.answer.showing import LINE, fitted
+from mcexact.answer.showing import fitted
 from mcexact.checker.kinds import KINDS as RULES
 from mcexact.errors import UsageError
 from mcexact.model import gallery
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.shown import escaped
+from mcexact.shown import LINE, escaped
 from tests.answer.test_golden import answers, of_a_parameter
 
 FORMAT = Path(home.__file__).with_name("FORMAT.md").read_text(encoding="utf-8")
@@ -68,7 +68,7 @@ def test_loops_controllers_and_trajectories_are_told_in_one_line() -> None:
     plant = plant.with_neighbors(mcexact.NeighborGraph.ring(plant.names))
     design = mcexact.design_observer(plant, rate=1)
     moved = mcexact.simulate(plant, design.controller, points=3)
-    results = [design, design.loop, design.controller, design.account, moved]
+    results: list[Any] = [design, design.loop, design.controller, design.account, moved]
     results += [mcexact.crosscheck(plant), mcexact.exceptional_gains([[0]], [[1]], [[1]])]
     for found in results:
         line = repr(found)

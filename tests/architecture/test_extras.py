@@ -42,7 +42,7 @@ def named(tree: ast.AST, extra: str = "") -> Iterator[tuple[str, str, int]]:
         if isinstance(node, ast.With):
             found = re.search(r"MissingExtra\.named\('(\w+)'\)", ast.unparse(node.items[0]))
             inside = found[1] if found else extra
-        yield from ((library, inside, node.lineno) for library in imported(node))
+        yield from ((library, inside, getattr(node, "lineno", 0)) for library in imported(node))
         yield from named(node, inside)
 
 

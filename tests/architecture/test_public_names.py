@@ -38,7 +38,7 @@ def test_what_a_public_function_returns_is_public() -> None:
 
 
 def test_every_error_is_public() -> None:
-    errors = {McexactError, *McexactError.__subclasses__()}
+    errors: set[type] = {McexactError, *McexactError.__subclasses__()}
     errors |= {each for error in errors for each in error.__subclasses__()}
     assert {error.__name__ for error in errors} <= set(mcexact.__all__)
 

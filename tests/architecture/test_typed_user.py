@@ -13,9 +13,14 @@ def test_the_package_says_that_it_has_types() -> None:
     assert (ROOT / "mcexact" / "py.typed").exists()
 
 
-def test_the_program_of_a_user_is_checked_with_the_package() -> None:
+def test_the_program_of_a_user_is_checked_as_strictly_as_the_package() -> None:
     configured = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
-    assert "tests/architecture/typed_user.py" in configured["tool"]["mypy"]["files"]
+    found = configured["tool"]["mypy"]
+    assert found["strict"] and found["files"] == ["mcexact", "tests"]
+    changed = {str(each.pop("module")): each for each in found["overrides"]}
+    for option, relaxed in changed["tests.*"].items():
+        if option != "disable_error_code":
+            assert changed["tests.architecture.typed_user"][option] is not relaxed
 
 
 def test_the_program_of_a_user_runs() -> None:

@@ -6,6 +6,7 @@ import json
 import random
 import re
 from collections.abc import Callable, Iterator
+from functools import partial
 from typing import Any
 
 from .draws.plants import Document
@@ -94,7 +95,7 @@ def change_node(rng: random.Random, document: Document, within: str) -> None:
     if what == 0:
         del parent[key]
     elif what == 1 and isinstance(parent, list):
-        parent.insert(key, copied(parent[key]))  # type: ignore[arg-type]
+        parent.insert(int(key), copied(parent[int(key)]))
     elif what == 2 and isinstance(parent, list):
         other = rng.randrange(len(parent))
         parent[key], parent[other] = parent[other], parent[key]  # type: ignore[index]
@@ -271,8 +272,8 @@ def edits() -> dict[str, Edit]:
     """Changes of one document, in place, by name."""
     made: dict[str, Edit] = {}
     for part in PARTS:
-        made[f"number in {part}"] = lambda rng, d, p=part: change_number(rng, d, p)
-        made[f"node in {part}"] = lambda rng, d, p=part: change_node(rng, d, p)
+        made[f"number in {part}"] = partial(change_number, within=part)
+        made[f"node in {part}"] = partial(change_node, within=part)
     made["denominators"] = multiplied
     made["large prime"] = lambda rng, d: other_modulus(rng, d, LARGE_PRIMES)
     made["small or composite modulus"] = lambda rng, d: other_modulus(rng, d, SMALL_MODULI)

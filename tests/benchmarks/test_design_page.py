@@ -1,11 +1,13 @@
 """The page of designs is made of the rows that were measured."""
 
+from typing import Any
+
 import pytest
 
 from benchmarks.design_page import PAGE, REMARKS, exceptions, page, reason, written
 from benchmarks.kept_rows import ROWS, kept
 
-DESIGNED = {
+DESIGNED: dict[str, Any] = {
     "name": "plant decentralized", "answer": "designed", "rate": "1/2", "order": 0, "gain": 2.0,
     "margin": 0.5, "cost": 1.2, "peak": 3.0, "digits": 2, "step": "static gains", "seconds": 0.5,
     "central": {"gain": 1.0, "margin": 0.6, "peak": 2.0, "cost": 10.0}, "machine": "a machine",

@@ -9,11 +9,13 @@ import random
 import sys
 from collections import Counter
 from fractions import Fraction
+from typing import get_args
 
 from mcexact.analysis.sharing.allocation import minimal_shared_dimensions, shared_dimension_bound
 from mcexact.analysis.sharing.communication import minimal_communication
 from mcexact.answer.codec import encode
 from mcexact.checker.kinds import check_document
+from mcexact.derived.extended import Share
 from mcexact.model.neighbor_graph import NeighborGraph
 from tests.oracle.allocation import demands, fewest_arcs, least_cost
 from tests.oracle.draws import exact
@@ -79,7 +81,7 @@ def compare_dimensions(count: int, seed: int) -> Counter[str]:
     for number in range(count):
         plain = drawn(rng)
         heard = drawn_neighbors(rng, plain.m)
-        share = rng.choice(["outputs+states", "states"])
+        share = rng.choice(get_args(Share))
         system = exact(plain)
         graph = NeighborGraph(system.names, tuple(map(tuple, heard)))
         weighted = rng.random() < 0.3
@@ -114,7 +116,7 @@ def compare_arcs(count: int, seed: int) -> Counter[str]:
     for number in range(count):
         plain = drawn(rng, states=3, channels=4 if number % 4 == 0 else 3)
         heard = drawn_neighbors(rng, plain.m)
-        share = rng.choice(["outputs", "outputs+states", "states"])
+        share = rng.choice(("outputs", *get_args(Share)))
         sizes = None if share == "outputs" else [rng.randint(0, 2) for _ in range(plain.m)]
         system = exact(plain)
         graph = NeighborGraph(system.names, tuple(map(tuple, heard)))

@@ -60,7 +60,8 @@ def run(arguments: list[str]) -> int:
     quiet = contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO())
     with quiet[0], quiet[1]:
         try:
-            return int(main(arguments) or 0)
+            main(arguments)
+            return 0
         except SystemExit as ended:
             return int(ended.code or 0)
 

@@ -56,7 +56,10 @@ def drawn_document(rng: random.Random) -> Pairs:
         rng.shuffle(pairs)
         agents.append(Pairs(pairs))
     time = rng.choice(["continuous", "discrete"])
-    found = [['"format"', Token('"mcexact-controller/1"')], ['"time"', quoted(time, rng)]]
+    found: list[list[Any]] = [
+        ['"format"', Token('"mcexact-controller/1"')],
+        ['"time"', quoted(time, rng)],
+    ]
     found += [['"system"', Token(rng.choice(['""', f'"{"0f" * 32}"']))], ['"agents"', agents]]
     rng.shuffle(found)
     return Pairs(found)

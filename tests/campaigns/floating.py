@@ -17,6 +17,7 @@ from collections import Counter
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -98,7 +99,7 @@ def timed_design(system: MultiChannelSystem) -> Timed:
             marks.append(time.perf_counter())
 
     began = time.perf_counter()
-    bound = {"rate": RATE} if system.time == "continuous" else {"radius": RADIUS}
+    bound: dict[str, Any] = {"rate": RATE} if system.time == "continuous" else {"radius": RADIUS}
     design = design_observer(system, arithmetic="float", progress=progress, **bound)
     ended = time.perf_counter()
     loop = matrix_to_float(design.loop.matrix)

@@ -22,7 +22,7 @@ from mcexact.analysis.fixed_modes.completeness import completeness
 from mcexact.analysis.fixed_modes.error_gains import error_gains
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.fixed_modes.pencil import pencil_rank
-from mcexact.analysis.fixed_modes.single_channel_gains import single_channel_gains
+from mcexact.analysis.fixed_modes.single_channel_gains import Want, single_channel_gains
 from mcexact.analysis.structure.complementary_subsystem import complementary_subsystem
 from mcexact.analysis.structure.controllability_indices import (
     controllability_indices,
@@ -43,6 +43,8 @@ from tests.oracle import enumeration, structure
 from tests.oracle.draws import exact, sparse_system
 
 Seen = Counter[str]
+
+SIDES: tuple[Want, ...] = ("controllable", "observable")
 
 
 def agree(what: str, given: Any, wanted: Any) -> None:
@@ -122,7 +124,7 @@ def _compare(
     found = completeness(system)
     agree(f"{what}, complete", found.complete, enumeration.is_complete(small))
     seen["complete"] += found.complete
-    q, side = rng.randrange(system.m), rng.choice(["controllable", "observable"])
+    q, side = rng.randrange(system.m), rng.choice(SIDES)
     alone = single_channel_gains(system, system.names[q], want=side)
     wanted = structure.single_channel(small if side == "controllable" else small.dual, q)
     agree(f"{what}, {side} through {q}", alone.exists, wanted)

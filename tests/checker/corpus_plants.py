@@ -7,7 +7,8 @@ import json
 import random
 from collections.abc import Callable, Iterator
 from fractions import Fraction
-from typing import Any
+from functools import partial
+from typing import Any, get_args
 
 from mcexact.analysis.analyze import analyze
 from mcexact.analysis.fixed_modes.assignability import assignability
@@ -21,7 +22,7 @@ from mcexact.analysis.sharing.communication import minimal_communication
 from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
 from mcexact.answer.codec import document
 from mcexact.derived.error_system import error_system
-from mcexact.derived.extended import extended_system
+from mcexact.derived.extended import Share, extended_system
 from mcexact.derived.integrators import setpoint_system
 from mcexact.errors import McexactError
 from mcexact.exact.location import StabilityRegion
@@ -50,6 +51,7 @@ from tests.checker.handmade import Document
 from tests.checker.test_fixed_spectrum import UNEVEN
 
 Found = Iterator[Document]
+Rows = list[list[Any]]
 
 
 def told(*decisions: Callable[[], Any]) -> Found:
@@ -79,13 +81,14 @@ def analyses(system: MultiChannelSystem, gains: bool = True) -> Found:
 def allocations(system: MultiChannelSystem) -> Found:
     """The least that agents have to share, at some prices and within some limits."""
     region = StabilityRegion(system.time, Fraction(1, 2))
-    m, share = system.m, ("outputs+states", "states")
-    for way in share:
+    m, ways = system.m, get_args(Share)
+    for way in ways:
+        least = partial(minimal_shared_dimensions, system, None, way)
         yield from told(
-            lambda way=way: common_dimension(system, None, way),
-            lambda way=way: minimal_shared_dimensions(system, None, way),
-            lambda way=way: minimal_shared_dimensions(system, None, way, free_assignability=True),
-            lambda way=way: minimal_shared_dimensions(system, None, way, region=region),
+            partial(common_dimension, system, None, way),
+            least,
+            partial(least, free_assignability=True),
+            partial(least, region=region),
         )
     yield from told(
         lambda: minimal_shared_dimensions(system, costs=[*range(1, m + 1)]),
@@ -112,12 +115,14 @@ def links(system: MultiChannelSystem) -> Found:
 
 def designs(system: MultiChannelSystem) -> Found:
     """The certificates of exact designs, or of why there is none."""
-    wanted = {"rate": "1/10"} if system.time == "continuous" else {"radius": "9/10"}
+    wanted: dict[str, Any] = {"rate": "1/10"}
+    if system.time == "discrete":
+        wanted = {"radius": "9/10"}
     for design in (design_observer, design_decentralized, design_extended, design_setpoint):
         # The gains of a search depend on the processor.
-        alone = {} if design is design_observer else {"aims": THEOREM}
+        alone: dict[str, Any] = {} if design is design_observer else {"aims": THEOREM}
         try:
-            made: Any = design(system, arithmetic="exact", **wanted, **alone)  # type: ignore[operator]
+            made: Any = design(system, arithmetic="exact", **wanted, **alone)
         except McexactError as refusal:
             proof = getattr(refusal, "certificate", None)
             if proof is not None:
@@ -176,7 +181,7 @@ def loops(system: MultiChannelSystem, seed: int) -> Found:
                     yield found
     for want in ("controllable", "observable", "both"):
         for channel in system.names:
-            yield from told(lambda w=want, c=channel: single_channel_gains(system, c, want=w))
+            yield from told(partial(single_channel_gains, system, channel, want=want))
 
 
 def everything(system: MultiChannelSystem, seed: int = 0) -> Found:
@@ -201,6 +206,9 @@ def alone(module: Any) -> Iterator[tuple[str, list[Document]]]:
 def crafted() -> dict[str, MultiChannelSystem]:
     """Set-points beside a mode that is not controlled, or not observed, and stable or not."""
     found = {}
+    A: Rows
+    B: Any
+    C: Any
     for time, places in (("continuous", (1, -2, 3)), ("discrete", (2, "1/2", 3))):
         for name, B, C, place in (
             ("stable_uncontrolled", [[1], [0]], [[1, 1]], 1),
@@ -247,17 +255,22 @@ def lacking() -> dict[str, list[Document]]:
 
 def tracking() -> Iterator[tuple[str, list[Document]]]:
     """Stable loops in which agents integrate outputs less set-points, or nearly do."""
-    unit, half = [[1, 0], [0, 1]], [["1/2", 0], [0, "1/2"]]
-    minus, twice = [[-1, 0], [0, -1]], [[-2, 0], [0, -2]]
+    A: Rows
+    unit: Rows = [[1, 0], [0, 1]]
+    half: Rows = [["1/2", 0], [0, "1/2"]]
+    minus: Rows = [[-1, 0], [0, -1]]
+    twice: Rows = [[-2, 0], [0, -2]]
     for time, A, kept in (("continuous", [[0, 0], [0, 0]], [0, 0]), ("discrete", unit, [1, 1])):
         port = {"name": "1", "B": unit, "C": unit}
-        system = {"time": time, "A": A, "channels": [port]}
-        stay = [[kept[0], 0], [0, kept[1]]]
-        leaks = [[f"{10 * kept[0] - 1}/10", 0], [0, kept[1]]]
-        grows = [[kept[0], 0], ["1/10", kept[1]]]
-        minds = [[kept[0], "-1/10"], [0, kept[1]]]
+        system: Document = {"time": time, "A": A, "channels": [port]}
+        stay: Rows = [[kept[0], 0], [0, kept[1]]]
+        leaks: Rows = [[f"{10 * kept[0] - 1}/10", 0], [0, kept[1]]]
+        grows: Rows = [[kept[0], 0], ["1/10", kept[1]]]
+        minds: Rows = [[kept[0], "-1/10"], [0, kept[1]]]
+        maps: list[tuple[Rows, Rows, Rows]]
         maps = [(unit, minus, each) for each in (stay, leaks, grows, minds)]
         maps += [(unit, each, stay) for each in (twice, half, [["-1/2", 0], [0, "-1/2"]], unit)]
+        own: Any
         for own in ([[1, 0], [-1, 1]], [[1, 1], [0, 1]], [["1/2", 0], [0, 1]], [[1, 0], [1, 0]]):
             maps.append(
                 (
@@ -271,7 +284,7 @@ def tracking() -> Iterator[tuple[str, list[Document]]]:
             for own, reference, rest in maps
         ]
         agents += [{**agents[0], "shared": {"1": [[v, 0], [0, 0]]}} for v in (0, "1/10")]
-        found = []
+        found: list[Document] = []
         for update in agents:
             back = {"outputs": {"1": twice}, "private": minus}
             program = {"name": "1", "shared": 2 * ("shared" in update), "private": 2}
@@ -287,7 +300,8 @@ def tracking() -> Iterator[tuple[str, list[Document]]]:
         for i in range(3)
     ]
     heard = {"1": [], "2": ["1", "3"], "3": []}
-    system = {"time": "continuous", "A": [[0] * 3] * 3, "channels": ports, "neighbors": heard}
+    system = {"time": "continuous", "A": [[0] * 3] * 3, "channels": ports}
+    system["neighbors"] = heard
     found = []
     for others in ({}, {"1": [[0]], "3": [[0]]}, {"1": [["1/9"]]}, {"3": [["1/9"]]}):
         programs = []
@@ -358,7 +372,7 @@ def pool() -> Iterator[tuple[str, list[Document]]]:
         yield name, [*everything(system), *designs(system)]
     for name, system in crafted().items():
         more = allocations(system) if system.neighbors is not None else iter(())
-        none = told(lambda s=system: joint_controllability(s, []))
+        none = told(partial(joint_controllability, system, []))
         yield name, [*analyses(system), *refusals(system), *more, *none]
     for name, listed in lacking().items():
         yield name, listed

@@ -17,7 +17,7 @@ def certified(A: Any, B: Any, C: Any, assume: Any = None, time: str = "continuou
     plant = ParametricSystem(
         A, B, C, parameters=["t"], assume={"t": assume} if assume else {}, time=time
     )
-    return json.loads(json.dumps(document(parametric_fixed_spectrum(plant))))  # type: ignore[no-any-return]
+    return json.loads(json.dumps(document(parametric_fixed_spectrum(plant))))
 
 
 PAPER = certified(

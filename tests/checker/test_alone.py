@@ -124,7 +124,7 @@ def test_importing_the_package_changes_no_path_and_imports_nothing(tmp_path: Pat
     assert checker.check_document(b"{}").status == 3
     assert sys.path == path
     with pytest.raises(AttributeError, match="has no attribute 'chek'"):
-        _ = checker.chek  # type: ignore[attr-defined]
+        _ = checker.chek
 
 
 def test_the_archive_has_the_files_of_the_folder_and_always_the_same_bytes(tmp_path: Path) -> None:

@@ -75,12 +75,12 @@ def test_a_rate_and_a_radius_move_every_root() -> None:
         p, real, square = [Fraction(1)], [], []
         for _ in range(rng.randint(1, 4)):
             re = Fraction(rng.randint(-12, 3), rng.choice([1, 2, 3, 8]))
-            im = rng.choice([0, Fraction(rng.randint(1, 5), rng.choice([1, 4, 5]))])
+            im = rng.choice([Fraction(0), Fraction(rng.randint(1, 5), rng.choice([1, 4, 5]))])
             p = poly_product(p, with_pair(re, im) if im else with_roots(re))
             real.append(re)
             square.append(re * re + im * im)
         slowest, largest = -max(real), max(square)
-        scaled = [c * rng.choice([1, 3, Fraction(1, 7)]) for c in p[:1]]
+        scaled = [c * rng.choice([Fraction(1), Fraction(3), Fraction(1, 7)]) for c in p[:1]]
         scaled = [c * scaled[0] / p[0] if p[0] else c for c in p]
         for rate in (slowest, slowest - Fraction(1, 99), slowest + Fraction(1, 99)):
             assert in_region(scaled, "continuous", rate) == (rate < slowest)

@@ -104,7 +104,7 @@ def test_a_form_decreases_or_not(
 
 
 COMPANION = square([0, 1], [-2, -3])
-EIGENVECTORS = {
+EIGENVECTORS: dict[str, Any] = {
     "T": matrix([1, 1], [-1, -2]),
     "Delta": matrix([-1, 0], [0, -2]),
     "modulus": 7,

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 from collections.abc import Callable
 from fractions import Fraction
+from functools import partial
 from typing import Any
 
 import pytest
@@ -87,12 +88,11 @@ def test_an_object_has_its_keys_and_no_others() -> None:
     assert reading.fields({"a": None}, "here", "a") == [None]
     assert reading.fields({"a": 1}, "here", "a", optional=("b", "c")) == [1, None, None]
     assert reading.fields({"a": 1, "c": 3}, "here", "a", optional=("b", "c")) == [1, None, 3]
+    value: Any
     for value in ({}, {"a": 1}, {"b": 1}, {"a": 1, "b": 2, "c": 3}, {"a": 1, "B": 2}, [1, 2], None):
-        assert (
-            verdict_of(lambda value=value: reading.fields(value, "here", "a", "b")) == "MALFORMED"
-        )
+        assert verdict_of(partial(reading.fields, value, "here", "a", "b")) == "MALFORMED"
     for value in ({"b": None}, {"c": 1}, [], None):
-        call = lambda value=value: reading.fields(value, "here", optional=("b",))  # noqa: E731
+        call = partial(reading.fields, value, "here", optional=("b",))
         assert verdict_of(call) == "MALFORMED"
 
 
@@ -208,18 +208,20 @@ def test_a_polynomial_matrix_is_reduced(value: Any, degree: int, good: bool) -> 
 
 
 def test_positions_increase_below_a_bound() -> None:
+    value: Any
     for value in ([], [0], [2], [0, 1, 2], [0, 2]):
         assert reading.positions(value, "here", 3) == value
     for value in ([3], [0, 3], [-1], [1, 0], [1, 1], [0, 0, 1], ["0"], [True], None, 0):
-        assert verdict_of(lambda value=value: reading.positions(value, "here", 3)) == "MALFORMED"
+        assert verdict_of(partial(reading.positions, value, "here", 3)) == "MALFORMED"
 
 
 def test_names_are_known_and_in_order() -> None:
     known = ["b", "a", "c"]
+    value: Any
     for value, expected in (([], []), (["a"], [1]), (["b", "c"], [0, 2]), (known, [0, 1, 2])):
         assert reading.names(value, "here", known) == expected
     for value in (["d"], ["a", "b"], ["a", "a"], ["b", "b", "c"], [0], [["a"]], [None], "a", None):
-        assert verdict_of(lambda value=value: reading.names(value, "here", known)) == "MALFORMED"
+        assert verdict_of(partial(reading.names, value, "here", known)) == "MALFORMED"
 
 
 LIMITS = Limits(bytes=40, depth=3, digits=5)

@@ -77,7 +77,7 @@ def test_a_cost_is_claimed_with_an_answer_or_neither_is() -> None:
     none = {"feasible": False, "added": None, "cost": None}
     assert claimed_cost(some, "added", {}) == Fraction(1, 2)
     assert claimed_cost(none, "added", None) is None
-    refused = [
+    refused: list[tuple[dict[str, Any], Any]] = [
         ({**none, "added": []}, None),
         ({**none, "cost": 0}, None),
         (none, {}),

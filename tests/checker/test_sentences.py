@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from fractions import Fraction
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import pytest
 
@@ -27,7 +27,7 @@ from mcexact.checker.manifest import RULES, Evidence
 from mcexact.checker.reading import Limits
 from mcexact.checker.sentence import Premise, Rule
 from mcexact.checker.sentences_design import DIMENSIONS
-from mcexact.derived.extended import extended_system
+from mcexact.derived.extended import Share, extended_system
 from mcexact.exact.location import StabilityRegion
 from mcexact.model import gallery
 from mcexact.model.canonical import canonical, plain
@@ -263,7 +263,7 @@ def accounts(start: int, stop: int) -> Iterator[Account]:
         yield asking(system, **question(system, rng)).account
         if system.neighbors is None:
             system = system.with_neighbors(NeighborGraph.ring(system.names))
-        share, bound = rng.choice(["outputs+states", "states"]), rng.choice([None, Fraction(1, 2)])
+        share, bound = rng.choice(get_args(Share)), rng.choice([None, Fraction(1, 2)])
         region = None if bound is None else StabilityRegion(system.time, bound)
         free, costs = rng.random() < 0.3, [rng.randint(1, 2) for _ in system.names]
         yield account_of_dimensions(

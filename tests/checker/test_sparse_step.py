@@ -144,13 +144,13 @@ def test_a_loop_is_sparse_if_no_gain_fills_more_than_an_eighth() -> None:
             assert sorted(found) == A.entries  # none of the entries that may be 0
 
 
-def edited(document: Document, edits: Any, *_: str) -> Document:
+def edited(document: Any, edits: Any, *_: str) -> Document:
     return changed(document, *((edits,) if isinstance(edits[0], str) else edits))
 
 
 DOCUMENTS = [
     *ACCEPTED,
-    *((reason, edited(*row)) for reason, *row in REJECTED),
+    *((row[0], edited(row[1], row[2])) for row in REJECTED),
     *((reason, spectrum(system, found)) for reason, system, found, _ in FALSE),
 ]
 

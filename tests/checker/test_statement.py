@@ -76,7 +76,7 @@ def subject_of(document: Document) -> System:
     """The subject with the words that a statement has for it."""
     if "parameters" in document["system"]:
         plant: Any = plant_of(document["system"])
-        return replace(plant, words=f"the plant {digest(plant)}")  # type: ignore[no-any-return]
+        return replace(plant, words=f"the plant {digest(plant)}")
     verdict = check_document({**document, "kind": "neighbor_graph", "claim": {}, "witness": {}})
     system = read_plant(document["system"])
     named = System(**{**vars(system), "words": f"the plant {verdict.system_digest}"})

@@ -66,7 +66,7 @@ def drawn_parts(rng: random.Random, system: MultiChannelSystem) -> list[list[str
 
 def missing_arcs(system: MultiChannelSystem) -> list[tuple[int, int]]:
     pairs = [(j, i) for j in range(system.m) for i in range(system.m) if i != j]
-    return [arc for arc in pairs if arc not in system.neighbors.edges()][:2]  # type: ignore[union-attr]
+    return [arc for arc in pairs if arc not in system.neighbors.edges()][:2]
 
 
 def controller(rng: random.Random, system: MultiChannelSystem) -> Controller:
@@ -75,7 +75,7 @@ def controller(rng: random.Random, system: MultiChannelSystem) -> Controller:
     shared, private = sizes(rng, system), sizes(rng, system)
 
     def drawn_map(i: int, nrows: int) -> LinearMap:
-        heard = graph.neighborhood(i)  # type: ignore[union-attr]
+        heard = graph.neighborhood(i)
         return LinearMap(
             {j: drawn(rng, nrows, system.q(j)) for j in heard if rng.random() < 0.7},
             {j: drawn(rng, nrows, shared[j]) for j in heard if rng.random() < 0.7},
@@ -85,10 +85,12 @@ def controller(rng: random.Random, system: MultiChannelSystem) -> Controller:
 
     agents = []
     for i in range(m):
-        followers = graph.followers(i) if system.time == "discrete" else ()  # type: ignore[union-attr]
+        followers = graph.followers(i) if system.time == "discrete" else ()
         hold = {j: rng.randint(0, 2) for j in followers if rng.random() < 0.5}
-        maps = (drawn_map(i, size) for size in (shared[i], private[i], system.p(i)))
-        agents.append(AgentProgram(system.names[i], shared[i], private[i], *maps, hold))
+        first, second, third = (drawn_map(i, size) for size in (shared[i], private[i], system.p(i)))
+        agents.append(
+            AgentProgram(system.names[i], shared[i], private[i], first, second, third, hold)
+        )
     return Controller(system.time, "", tuple(agents))
 
 

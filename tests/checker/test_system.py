@@ -152,7 +152,7 @@ def test_a_number_has_as_many_digits_as_it_is_written_with(
 @pytest.mark.parametrize("digits", range(4))
 @pytest.mark.parametrize("number", [0, 7, "7/8", "0.7", 12, "12/5", "-123"])
 def test_a_number_needs_the_digits_of_its_longer_part(number: object, digits: int) -> None:
-    needed = {0: 1, 7: 1, "7/8": 1, "0.7": 2, 12: 2, "12/5": 2, "-123": 3}[number]  # type: ignore[index]
+    needed = {0: 1, 7: 1, "7/8": 1, "0.7": 2, 12: 2, "12/5": 2, "-123": 3}[number]
     limits = Limits(digits=digits)
     if digits >= needed:
         assert system.number(number, "A", limits) is not None

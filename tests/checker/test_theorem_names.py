@@ -127,7 +127,7 @@ def test_the_rule_of_a_kind_names_a_theorem_or_is_open(kind: str) -> None:
 def test_every_theorem_of_a_rule_is_named_by_a_file_that_the_rule_rests_on(name: str) -> None:
     kinds = kinds_of(RULES[name])
     assert kinds <= set(KINDS)
-    for places in [rests_on(kind) for kind in kinds] or [set(STEMS)]:
+    for places in [rests_on(kind) for kind in kinds] or [frozenset(STEMS)]:
         assert any(name in named(stem) for stem in places)
 
 

@@ -184,7 +184,7 @@ def test_edges_are_sorted_and_none_is_given_twice(arcs: list[list[object]], good
 test_sound_evidence_is_accepted = accepts(ACCEPTED)
 
 
-@pytest.mark.parametrize("edits", REJECTED, ids=[row[0] for row in REJECTED])
+@pytest.mark.parametrize("edits", REJECTED, ids=lambda row: str(row[0]))
 def test_a_change_is_rejected(edits: tuple[object, ...]) -> None:
     verdict = checked(changed(GRAPH, *edits[1:]))  # type: ignore[arg-type]
     assert verdict.verdict in ("INVALID", "MALFORMED"), verdict.line()
@@ -255,5 +255,5 @@ def test_long_paths_are_found_in_a_few_turns_whatever_way_they_lead(step: int) -
     system = read_plant({"time": "continuous", "A": A, "channels": channels})
     budget = Budget(10**9, 0)
     with limited(budget):
-        assert without_path(system, itertools.product(range(2), repeat=2)) == {(1, 0)}
+        assert without_path(system, itertools.product(range(2), range(2))) == {(1, 0)}
     assert budget.spent < 10 * 40 * 2 * n

@@ -254,7 +254,7 @@ def test_matrices_of_zeros_are_read_at_once_however_large() -> None:
 
 @pytest.mark.parametrize("sparse", [True, False])
 def test_a_controller_file_is_read_within_a_budget(sparse: bool, tmp_path: Path) -> None:
-    private = {"private": [[0] * 2048]}
+    private: dict[str, Any] = {"private": [[0] * 2048]}
     if sparse:
         private = {"outputs": {"1": {"shape": [2**20, 0], "entries": []}}}
     maps = {"shared_update": {}, "private_update": private, "input": {}}
@@ -302,7 +302,7 @@ class Number(int):
 
 
 SQUARE = Matrix([[Number(2), Number(3)], [Number(5), Number(7)]], 2)
-ROWS = [[Number(2), Number(3)], [Number(5), Number(7)]]
+ROWS: Any = [[Number(2), Number(3)], [Number(5), Number(7)]]
 ONE: Any = Number(1)
 POLYNOMIAL = [Number(2), Number(3), Number(1)]
 CHARGED = {

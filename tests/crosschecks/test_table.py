@@ -3,8 +3,8 @@
 import pytest
 
 import mcexact
-from mcexact.crosschecks import table
 from mcexact.crosschecks.table import crosscheck
+from mcexact.floating import controllability
 from mcexact.model.system import MultiChannelSystem
 from tests.synthesis.three_channels import three_channels
 
@@ -43,7 +43,7 @@ def test_a_library_that_is_missing_gives_no_answer(monkeypatch):
     def missing(*_):
         raise ModuleNotFoundError("No module named 'control'", name="control")
 
-    monkeypatch.setattr(table.controllability, "ctrb_rank", missing)
+    monkeypatch.setattr(controllability, "ctrb_rank", missing)
     [row] = [row for row in crosscheck(PLAIN).rows if row.question == "joint controllability"]
     assert row.agree is None and row.floating == "no answer (control is not installed)"
 
@@ -52,7 +52,7 @@ def test_a_library_that_cannot_be_loaded_is_not_called_missing(monkeypatch):
     def unmapped(*_):
         raise ImportError("failed to map segment from shared object", name="control")
 
-    monkeypatch.setattr(table.controllability, "ctrb_rank", unmapped)
+    monkeypatch.setattr(controllability, "ctrb_rank", unmapped)
     with pytest.raises(ImportError, match="failed to map"):
         crosscheck(PLAIN)
 

@@ -14,6 +14,7 @@ from mcexact.derived.drawn.choices import SeededChoices
 from mcexact.derived.drawn.deficiency import system_with_deficiency
 from mcexact.derived.drawn.draw import Draw, drawn_system
 from mcexact.derived.drawn.graph import drawn_graph
+from mcexact.derived.drawn.parts import irreducible
 from mcexact.derived.drawn.structure import (
     incomplete_system,
     system_with_indices,
@@ -22,7 +23,6 @@ from mcexact.derived.drawn.structure import (
 from mcexact.derived.drawn.systems import (
     Drawn,
     any_system,
-    irreducible,
     jointly_controllable_system,
     sparse_system,
     system_with_fixed_mode,

@@ -60,7 +60,7 @@ def test_agents_that_send_outputs_are_plants_with_more_outputs() -> None:
     for variant in neighbor_graph_variants(PLANT, information="outputs", strongly_connected=True):
         made = variant.system()
         assert made.subject == () and made.plant is made
-        own = PLANT.with_neighbors(made.neighbors)  # type: ignore[arg-type]
+        own = PLANT.with_neighbors(made.neighbors)
         assert made.output_matrix() == augmented_outputs(own).output_matrix()
     everything = [*neighbor_graph_variants(PLANT, information="outputs")][-1]
     assert not fixed_spectrum(everything.system()).factors

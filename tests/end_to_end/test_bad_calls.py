@@ -78,7 +78,7 @@ CALLS: dict[str, tuple[Callable[[], Any], type[McexactError], tuple[str, ...]]] 
         ("A", "float64", "from_float", "decimal", "dyadic"),
     ),
     "B171 a python-control system, whose floats nobody says how to read": (
-        lambda: from_statespace(control.ss(0.5, 1, 1, 0), [(0, 0)], rounding=None),  # type: ignore[arg-type]
+        lambda: from_statespace(control.ss(0.5, 1, 1, 0), [(0, 0)], rounding=None),
         InputError,
         ("statespace.A[0][0]", "decimal", "dyadic"),
     ),

@@ -15,7 +15,7 @@ from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.derived.delayed import held_system, lifted_system
 from mcexact.derived.dual import dual
 from mcexact.derived.error_system import error_system
-from mcexact.derived.extended import extended_system
+from mcexact.derived.extended import Share, extended_system
 from mcexact.derived.feedback import feedback, full_output
 from mcexact.derived.integrators import setpoint_system
 from mcexact.derived.links import add_links
@@ -26,7 +26,7 @@ from mcexact.model.loop import closed_loop
 from mcexact.model.system_file import canonical_document, digest
 from tests.model.test_controller import drawn_controller
 
-SHARES = ("outputs+states", "states")
+SHARES: tuple[Share, ...] = ("outputs+states", "states")
 
 
 def rebuilt(system):

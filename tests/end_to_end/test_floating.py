@@ -2,6 +2,7 @@
 
 import json
 from fractions import Fraction
+from typing import Any
 
 import pytest
 
@@ -161,7 +162,8 @@ def test_the_cross_check_of_nonsense_is_malformed_input():
 def test_a_ring_is_certified_by_blocks_and_checked_by_a_copy():
     timed = timed_design(ring_plant(0, 5, 4))
     assert timed.design.loop.closed.dimension == 5 + 4 * 5
-    assert timed.design.loop.proof.evidence.transformation is not None
+    proof: Any = timed.design.loop.proof
+    assert proof.evidence.transformation is not None
     assert min(timed.ratios) > 0
     valid_by_copied_checker(encode(timed.design.loop.proof))
 

@@ -38,9 +38,9 @@ def test_only_finite_floats_come_in(x):
 
 def test_an_unknown_rounding_is_refused():
     with pytest.raises(InputError, match='expected rounding "decimal" or "dyadic"'):
-        from_float(0.5, "nearest")
+        from_float(0.5, "nearest")  # type: ignore[arg-type]
     with pytest.raises(InputError, match="expected rounding"):
-        matrix_from_float([[0.5]], "up")
+        matrix_from_float([[0.5]], "up")  # type: ignore[arg-type]
 
 
 def test_numbers_beyond_the_range_of_floats_become_infinities():

@@ -154,4 +154,4 @@ def test_regions_show_their_inequality():
     assert str(StabilityRegion("continuous", Fraction(1, 2))) == "Re λ < -1/2"
     assert str(StabilityRegion("discrete")) == "|λ| < 1"
     assert str(StabilityRegion("discrete", Fraction(3, 4))) == "|λ| < 3/4"
-    assert StabilityRegion("discrete", 1) == StabilityRegion("discrete", Fraction(1))
+    assert StabilityRegion("discrete", Fraction(1)) == StabilityRegion("discrete", Fraction(1))

@@ -3,6 +3,7 @@
 import pickle
 from fractions import Fraction
 from math import gcd
+from typing import Any
 
 import numpy as np
 import pytest
@@ -160,6 +161,7 @@ def test_shapes_must_match(other):
 
 
 def test_only_exact_numbers_multiply():
+    wrong: Any
     for wrong in (0.5, True, "2"):
         with pytest.raises(TypeError):
             Matrix.identity(1) * wrong
@@ -191,7 +193,7 @@ def test_negative_powers_are_refused():
         (lambda: Matrix.from_integers([[1]], ncols=2), "rows of 2 numerators"),
         (lambda: Matrix.from_integers([[1], [1, 2]]), "rows of 1 numerators"),
         (lambda: Matrix.from_integers([[True]]), "numerators of type int"),
-        (lambda: Matrix.from_integers([[0.5]]), "numerators of type int"),
+        (lambda: Matrix.from_integers([[0.5]]), "numerators of type int"),  # type: ignore[list-item]
     ],
 )
 def test_the_parts_of_a_matrix_are_examined(operation, message):
@@ -218,7 +220,8 @@ def test_rows_are_examined_and_the_place_is_named():
     with pytest.raises(FloatRefused, match=r"^B\[0\]\[1\]: a float"):
         Matrix.from_rows([[1, 0.5]], where="B")
     with pytest.raises(InputError, match=r"^B\[0\]: expected a row as a list, found int"):
-        Matrix.from_rows([1, 2], where="B")
+        Matrix.from_rows([1, 2], where="B")  # type: ignore[list-item]
+    wrong: Any
     for wrong in ("12", {1: 2}, None, 5):
         with pytest.raises(InputError, match="expected a matrix as a list of rows"):
             Matrix.from_rows(wrong)

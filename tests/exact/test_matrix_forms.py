@@ -1,6 +1,7 @@
 """Matrices as users of numpy, scipy, sympy, pandas and python-control expect them."""
 
 from fractions import Fraction
+from typing import Any
 
 import control
 import numpy as np
@@ -55,7 +56,7 @@ def test_functions_of_other_libraries_take_matrices():
     assert np.linalg.eigvals(M).tolist() == [1, -2]
     assert (M @ np.ones(2)).tolist() == [1 + 1 / 3, -2]
     assert (np.eye(2) @ M).tolist() == np.array(M).tolist()
-    assert scipy.linalg.expm(Matrix.zeros(2, 2)).tolist() == np.eye(2).tolist()
+    assert scipy.linalg.expm(Matrix.zeros(2, 2)).tolist() == np.eye(2).tolist()  # type: ignore[call-overload]
     assert control.ss(M, [[1], [0]], [[1, 0]], 0).A.tolist() == np.array(M).tolist()
 
 
@@ -80,15 +81,16 @@ def test_lists_and_rows_give_the_matrix_again(M):
 
 
 def test_a_row_is_found_by_its_position_and_a_submatrix_is_taken():
-    assert M[1] == M[np.int64(1)] == (0, -2)
+    assert M[1] == M[np.int64(1)] == (0, -2)  # type: ignore[call-overload]
     for missing in (2, -1):
         with pytest.raises(IndexError, match=f"no row {missing}"):
             M[missing]
+    position: Any
     for position in (slice(1), (0, slice(None)), None):
         with pytest.raises(TypeError, match=r"take\(rows=\[…\], cols=\[…\]\) gives a submatrix"):
             M[position]
     with pytest.raises(TypeError):
-        M / 0.5
+        M / 0.5  # type: ignore[operator]
 
 
 @given(matrices())

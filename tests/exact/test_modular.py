@@ -162,9 +162,10 @@ def test_square_matrices(M):
 
 @pytest.mark.parametrize("shape", [(0, 0), (0, 3), (3, 0)])
 def test_matrices_without_entries(shape):
-    Z = ModularMatrix.zeros(*shape, ELL)
+    nrows, ncols = shape
+    Z = ModularMatrix.zeros(nrows, ncols, ELL)
     assert Z.rank() == 0
-    assert Z.rows() == [[]] * shape[0]
+    assert Z.rows() == [[]] * nrows
     assert Z.kernel()[0] == ModularMatrix.identity(shape[1], ELL)
     assert (Z @ Z.T).shape == (shape[0], shape[0])
     assert hstack([Z, Z]).shape == (shape[0], 2 * shape[1])
@@ -208,7 +209,7 @@ I2 = ModularMatrix.identity(2, 7)
         (lambda: ModularMatrix.zeros(2, 3, 7).inverse(), "expected a square matrix"),
         (lambda: ModularMatrix.zeros(-1, 3, 7), "number of rows that is at least 0"),
         (lambda: ModularMatrix.from_rows([[1], [1, 2]], 7), "expected rows of 1 entries"),
-        (lambda: ModularMatrix.from_rows([[0.5]], 7), "expected integer entries"),
+        (lambda: ModularMatrix.from_rows([[0.5]], 7), "expected integer entries"),  # type: ignore[list-item]
         (lambda: ModularMatrix.from_rows([], 7, ncols=-1), "number of columns that is at least 0"),
         (lambda: random_matrix(-1, 2, 7, random.Random(0)), "number of rows that is at least 0"),
     ],

@@ -9,7 +9,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mcexact.errors import InputError
-from mcexact.exact import number_field
 from mcexact.exact.blocks import block_diagonal
 from mcexact.exact.linear_algebra import characteristic_polynomial, nullspace
 from mcexact.exact.linear_algebra import rank as rational_rank
@@ -18,6 +17,7 @@ from mcexact.exact.modular import residues
 from mcexact.exact.number_field import kernel, kernel_at, rank
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.polynomial_matrix import PolynomialMatrix, inflate
+from mcexact.exact.prime_field import primes
 from tests.exact.draws import evaluated, matrices, polynomials, small, square_matrices
 
 GOLDEN = Polynomial.of(-1, -1, 1)
@@ -120,7 +120,7 @@ def test_a_kernel_over_a_cubic_field_is_that_of_sympy():
 
 
 def test_a_rank_drop_only_modulo_the_probing_prime_is_no_rank_drop():
-    ell = next(number_field.primes(0, bits=62))
+    ell = next(primes(0, bits=62))
     M = PolynomialMatrix.pencil(Matrix.from_rows([[-ell, 0], [0, 1]]), Matrix.zeros(2, 2))
     U, pivots = kernel(M, GOLDEN)
     assert U.shape == (2, 0)
@@ -128,7 +128,7 @@ def test_a_rank_drop_only_modulo_the_probing_prime_is_no_rank_drop():
 
 
 def test_other_pivots_modulo_the_probing_prime_give_a_kernel_all_the_same():
-    ell = next(number_field.primes(0, bits=62))
+    ell = next(primes(0, bits=62))
     M = PolynomialMatrix.from_matrices(Matrix.from_rows([[ell, 1]]))
     U, pivots = kernel(M, CUBIC)
     assert (M @ U % CUBIC).is_zero()

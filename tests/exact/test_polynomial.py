@@ -2,6 +2,7 @@
 
 import pickle
 from fractions import Fraction
+from typing import Any
 
 import pytest
 from hypothesis import given
@@ -104,6 +105,7 @@ def test_sums_with_numbers():
     assert 1 + X == X + 1 == Polynomial.of(1, 1)
     assert Polynomial.of(1, -1) == 1 - X
     assert Fraction(1, 2) * X == Polynomial.of(0, "1/2")
+    wrong: Any
     for wrong in (0.5, True, "x"):
         with pytest.raises(TypeError):
             X + wrong
@@ -112,7 +114,7 @@ def test_sums_with_numbers():
         with pytest.raises(TypeError):
             X - wrong
     with pytest.raises(TypeError):
-        divmod(X, 2)
+        divmod(X, 2)  # type: ignore[operator]
 
 
 def test_roots_make_a_monic_polynomial():
@@ -143,8 +145,8 @@ def test_repr_builds_the_polynomial_again():
 @pytest.mark.parametrize(
     ("operation", "message"),
     [
-        (lambda: Polynomial((1, 2)), "expected a tuple of Fractions"),
-        (lambda: Polynomial([Fraction(1)]), "expected a tuple of Fractions"),
+        (lambda: Polynomial((1, 2)), "expected a tuple of Fractions"),  # type: ignore[arg-type]
+        (lambda: Polynomial([Fraction(1)]), "expected a tuple of Fractions"),  # type: ignore[arg-type]
         (lambda: Polynomial((Fraction(0),)), "expected a last coefficient that is not 0"),
         (lambda: ZERO.monic(), "the zero polynomial has no monic multiple"),
         (lambda: ZERO.factor(), "the zero polynomial has no factorization"),

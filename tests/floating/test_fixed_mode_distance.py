@@ -1,5 +1,7 @@
 """The perturbation that is handed out does make the obstruction exact, up to rounding."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -11,12 +13,12 @@ from mcexact.floating.fixed_mode_distance import fixed_mode_distance
 def test_the_perturbed_system_has_the_fixed_mode(seed):
     rng = np.random.default_rng(seed)
     n, m = 5, 3
-    A = rng.standard_normal((n, n))
+    A: Any = rng.standard_normal((n, n))
     B = [rng.standard_normal((n, 1)) for _ in range(m)]
     C = [rng.standard_normal((1, n)) for _ in range(m)]
     found = fixed_mode_distance(A, B, C)
-    moved = [each + d for each, d in zip(B, found.dB, strict=True)]
-    seen = [each + d for each, d in zip(C, found.dC, strict=True)]
+    moved: Any = [each + d for each, d in zip(B, found.dB, strict=True)]
+    seen: Any = [each + d for each, d in zip(C, found.dC, strict=True)]
     outside = frozenset(range(m)) - frozenset(found.channels)
     P = pencil(A + found.dA, moved, seen, outside, found.mode)
     assert np.linalg.svd(P, compute_uv=False)[n - 1] < 1e-10

@@ -32,7 +32,7 @@ def rebuilt(plant, controller):
                 for name in agent[part].get(kind, {}):
                     j = names.index(name)
                     used[kind, j] = max(used[kind, j], age(kind, j, i))
-    sizes = {("x",): n}
+    sizes: dict = {("x",): n}
     for j, agent in enumerate(agents):
         sizes |= {("shared", j, 0): agent["shared"], ("private", j, 0): agent["private"]}
     for j, agent in enumerate(agents):

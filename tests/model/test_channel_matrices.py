@@ -29,7 +29,7 @@ def test_they_are_sequences():
     assert PLANT.B[-1] == PLANT.B[1] and PLANT.B[:1] == (PLANT.B[0],)
     assert [M.shape for M in PLANT.C] == [(1, 2), (1, 2)]
     with pytest.raises(IndexError):
-        PLANT.B[2]
+        PLANT.B[2]  # type: ignore[misc]
 
 
 def test_an_unknown_name_is_named_with_the_nearest():
@@ -45,7 +45,7 @@ def test_a_system_is_made_again_of_its_own_matrices():
 
 def test_one_matrix_in_place_of_a_list_is_refused():
     with pytest.raises(InputError, match=r"^B: expected a list.*found one matrix: write \[B\]"):
-        MultiChannelSystem(PLANT.A, PLANT.B[0], PLANT.C)
+        MultiChannelSystem(PLANT.A, PLANT.B[0], PLANT.C)  # type: ignore[arg-type]
 
 
 def test_they_are_shown_whole_or_by_their_sizes():

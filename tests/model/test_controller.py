@@ -2,6 +2,7 @@
 
 import json
 import random
+from typing import Any
 
 import pytest
 from hypothesis import given
@@ -139,7 +140,7 @@ def test_a_controller_file_gives_the_controller_and_the_loop_back(drawn, seed):
 
 
 def test_a_controller_file_is_read_by_people():
-    gains = [["-0.0104", "1/3"], [2, f"1/{3**200}"]]
+    gains: list[list[Any]] = [["-0.0104", "1/3"], [2, f"1/{3**200}"]]
     plant = MultiChannelSystem([[1]], [[[1, 1]]], [[[1], [1]]], names=["1/2"])
     F = Matrix.from_rows(gains)
     controller = Controller(

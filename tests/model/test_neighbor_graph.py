@@ -104,7 +104,7 @@ def test_a_wrong_name_is_refused(arguments, message):
 
 def test_a_delay_that_is_a_float_is_refused_as_a_float():
     with pytest.raises(FloatRefused):
-        NeighborGraph(NAMES, [[1], [], []], [(0, 1, 1.0)])
+        NeighborGraph(NAMES, [[1], [], []], [(0, 1, 1.0)])  # type: ignore[list-item]
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,7 @@
 """Systems from stacked matrices with the channels' sizes, exact and of floats of any precision."""
 
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 import pytest
@@ -13,7 +14,7 @@ from mcexact.model.stacked import from_stacked
 from mcexact.model.system import MultiChannelSystem
 
 A, B, C = [[0, 1], [0, 0]], [[1, 0, 0], [0, 1, 2]], [[1, 0], [0, 1]]
-SIZES = {"inputs": [1, 2, 0], "outputs": (0, 1, 1)}
+SIZES: dict[str, Any] = {"inputs": [1, 2, 0], "outputs": (0, 1, 1)}
 EXPECTED = MultiChannelSystem(A, [[[1], [0]], [[0, 0], [1, 2]], [[], []]], [[], [[1, 0]], [[0, 1]]])
 
 

@@ -77,7 +77,7 @@ def test_what_does_not_fit_is_refused(statespace, channels, message):
 
 def test_a_rounding_has_to_be_chosen():
     with pytest.raises(TypeError, match="rounding"):
-        from_statespace(plant(), [(0, 0)])
+        from_statespace(plant(), [(0, 0)])  # type: ignore[call-arg]
 
 
 @pytest.mark.parametrize("time", ["continuous", "discrete"])

@@ -3,6 +3,7 @@
 import pickle
 from decimal import Decimal
 from fractions import Fraction
+from typing import Any
 
 import networkx
 import numpy as np
@@ -71,7 +72,7 @@ def test_floats_are_refused_with_the_two_ways_in(A, where):
     assert caught.value.where == where
 
 
-class Lying(list):
+class Lying(list[Any]):
     """A list whose length is not what it says."""
 
     def __len__(self):
@@ -184,7 +185,7 @@ def test_decimal_and_dyadic_rounding_differ():
     with pytest.raises(InputError, match=r"B\[0\]"):
         MultiChannelSystem.from_float([[1.0]], [[[float("nan")]]], [[[1.0]]], rounding="decimal")
     with pytest.raises(InputError, match="decimal"):
-        MultiChannelSystem.from_float(*arguments, rounding="nearest")
+        MultiChannelSystem.from_float(*arguments, rounding="nearest")  # type: ignore[arg-type]
 
 
 def test_a_derived_system_remembers_plant_and_constructions():

@@ -8,6 +8,7 @@ import random
 import stat
 import sys
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 import pytest
@@ -130,7 +131,7 @@ def test_the_digest_does_not_depend_on_how_the_file_is_written(drawn, rng):
 
 def test_everything_that_matters_changes_the_digest():
     base = digest(read_system(json.dumps(document())))
-    changes = [
+    changes: list[dict[str, Any]] = [
         {"time": "continuous"},
         {"A": [[1, 0], ["1/3", 0]]},
         {"channels": channel(name="v1"), "neighbors": None, "delays": None},
@@ -141,6 +142,7 @@ def test_everything_that_matters_changes_the_digest():
     ]
     digests = {digest(read_system(json.dumps(document(**change)))) for change in changes}
     assert len(digests) == len(changes) and base not in digests
+    same: list[dict[str, Any]]
     same = [{"name": "a", "source": "b", "sample_time": 1}, {"delays": {"u1": {"u2": 1}, "u2": {}}}]
     for change in same:
         assert digest(read_system(json.dumps(document(**change)))) == base
@@ -478,4 +480,4 @@ def test_sparse_arrays_of_floats_and_of_a_wrong_shape_are_refused():
     system = MultiChannelSystem.from_float(eye, [[[1]] * 3], [[[1] * 3]], rounding="decimal")
     assert system.A == Matrix.identity(3)
     with pytest.raises(InputError, match=r"B\[0\]: expected 3 rows, found 2"):
-        MultiChannelSystem(eye.astype(int), [eye.astype(int).tocsr()[:2]], [[[1] * 3]])
+        MultiChannelSystem(eye.astype(int), [eye.astype(int).tocsr()[:2]], [[[1] * 3]])  # type: ignore[misc]

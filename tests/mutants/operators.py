@@ -76,7 +76,7 @@ COUNTERPARTS = {a: b for pair in PAIRS for a, b in (pair, pair[::-1])}
 """Names, and those that one could write in their place by mistake."""
 
 
-class DeleteStatement(Operator):  # type: ignore[misc]
+class DeleteStatement(Operator):
     """Replace a call that stands alone, ``raise`` or an augmented assignment by ``pass``."""
 
     def mutation_positions(self, node: Any) -> Iterator[tuple[Any, Any]]:
@@ -109,7 +109,7 @@ def _blanks(node: Any) -> str:
     return str(node.get_first_leaf().prefix)
 
 
-class NegateFilter(Operator):  # type: ignore[misc]
+class NegateFilter(Operator):
     """Negate the condition of a comprehension."""
 
     def mutation_positions(self, node: Any) -> Iterator[tuple[Any, Any]]:
@@ -125,7 +125,7 @@ class NegateFilter(Operator):  # type: ignore[misc]
         return ()
 
 
-class SwapMembership(Operator):  # type: ignore[misc]
+class SwapMembership(Operator):
     """Replace ``in`` by ``not in`` and the other way round."""
 
     def mutation_positions(self, node: Any) -> Iterator[tuple[Any, Any]]:
@@ -149,7 +149,7 @@ class SwapMembership(Operator):  # type: ignore[misc]
         return ()
 
 
-class SwapName(Operator):  # type: ignore[misc]
+class SwapName(Operator):
     """Replace a name by its counterpart."""
 
     def mutation_positions(self, node: Any) -> Iterator[tuple[Any, Any]]:
@@ -199,8 +199,8 @@ def outside(source: str) -> list[Span]:
         elif isinstance(node, ast.FunctionDef):
             parts = [node if node.name in ESTIMATES else node.returns]
         elif isinstance(node, ast.Expr | ast.Assign | ast.AugAssign):
-            several = isinstance(node, ast.Assign) and isinstance(node.value, ast.Tuple)
-            values = node.value.elts if several else [node]
+            right = node.value if isinstance(node, ast.Assign) else None
+            values = right.elts if isinstance(right, ast.Tuple) else [node]
             targets = [getattr(part, "id", "") for part in _targets(node)]
             named = len(targets) == len(values)
             parts = [
@@ -255,7 +255,7 @@ def same_comparisons(source: str) -> list[tuple[Span, tuple[str, ...]]]:
     Texts, as in ``time == "discrete"``, have no order that means anything; and what is compared
     with its least value, as in ``gcd(a, b) == 1``, is never below it.
     """
-    spans = []
+    spans: list[tuple[Span, tuple[str, ...]]] = []
     for node in ast.walk(ast.parse(source)):
         if not isinstance(node, ast.Compare):
             continue

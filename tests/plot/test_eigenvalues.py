@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
@@ -19,8 +20,8 @@ def crosses(figure: Figure) -> list[complex]:
     """The places of the crosses."""
     [axis] = figure.axes
     lines = [line for line in axis.get_lines() if line.get_marker() == "x"]
-    pairs = zip(lines[0].get_xdata(), lines[0].get_ydata(), strict=True)
-    return [complex(x, y) for x, y in pairs]
+    x, y = np.array(lines[0].get_xdata()), np.array(lines[0].get_ydata())
+    return [complex(each) for each in x + 1j * y]
 
 
 def test_multiplicities_are_exact_and_discs_contain_the_roots() -> None:
@@ -63,7 +64,7 @@ def test_all_eigenvalues_and_the_edge_are_inside_the_picture() -> None:
         ([0], None),
         ([-1e-9, -2e-9], None),
     ):
-        axis = eigenvalues(roots, region=StabilityRegion("continuous", rate)).axes[0]
+        axis = eigenvalues(roots, region=StabilityRegion.of("continuous", rate=rate)).axes[0]
         left, right = axis.get_xlim()
         low, high = axis.get_ylim()
         assert all(left < each < right for each in roots) and low < 0 < high

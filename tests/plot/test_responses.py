@@ -96,7 +96,7 @@ def test_set_points_are_dashed_and_decay_is_towards_rest() -> None:
 
 def test_a_figure_shows_itself_without_pyplot() -> None:
     figure = run_of().plot()
-    assert isinstance(figure, Figure) and figure._repr_png_().startswith(b"\x89PNG")
+    assert isinstance(figure, Figure) and figure._repr_png_().startswith(b"\x89PNG")  # type: ignore[attr-defined]
     assert figure.canvas.manager is None
 
 

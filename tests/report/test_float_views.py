@@ -35,8 +35,9 @@ def test_what_is_proved_stands_apart_from_what_is_measured():
     figures = measured(design.measures(), assess(design).rows(), said, discrete=False)
     assert "certified" in proved.title and "not certified" in figures.title
     assert figures.title == "computed in floating point, not certified" and not figures.note
-    assert {"margin at the plant's inputs", "numerical abscissa"} <= dict(figures.rows).keys()
-    assert "no eigenvalue" in dict(figures.rows)["numerical abscissa"]
+    told = {row[0]: row[1] for row in figures.rows}
+    assert {"margin at the plant's inputs", "numerical abscissa"} <= told.keys()
+    assert "no eigenvalue" in told["numerical abscissa"]
     assert ("every eigenvalue of the loop", "Re λ < -1") in proved.rows
 
 
@@ -96,7 +97,7 @@ def test_an_exhibit_shows_its_record_beside_what_this_machine_says():
         *("no, rank 1 of 2", "no, rank 1 of 2", "yes, rank 2 of 2"),
     )
     assert answers.rows[1][2:] == ("yes", zero.here.floating, "no")
-    assert dict(machines.rows) == {
+    assert {row[0]: row[1] for row in machines.rows} == {
         "recorded": str(weak.exhibit.record.libraries),
         "here": str(weak.libraries),
     }

@@ -1,5 +1,7 @@
 """The figure of a loop and its description."""
 
+from fractions import Fraction
+
 from mcexact.exact.location import StabilityRegion
 from mcexact.model.local_controllers import local_controllers
 from mcexact.model.loop import closed_loop
@@ -20,7 +22,7 @@ def pictured(plant, gain, region):
 
 def test_continuous_time_has_a_line_and_discrete_time_a_circle():
     moving = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
-    curves, [picture, *_] = pictured(moving, -3, StabilityRegion("continuous", 1))
+    curves, [picture, *_] = pictured(moving, -3, StabilityRegion("continuous", Fraction(1)))
     assert curves.eigenvalues == [-2] and curves.edge == 1
     [poles] = picture.figure.axes
     shown = [list(x) for x, _ in lines(poles)]
@@ -34,7 +36,7 @@ def test_continuous_time_has_a_line_and_discrete_time_a_circle():
 
 def test_eigenvalues_beyond_the_line_are_not_said_to_be_inside():
     plant = MultiChannelSystem([[1, 0], [0, -5]], [[[1], [0]]], [[[1, 0]]])
-    _, [picture, *_] = pictured(plant, -3, StabilityRegion("continuous", 4))
+    _, [picture, *_] = pictured(plant, -3, StabilityRegion("continuous", Fraction(4)))
     assert "The 2 eigenvalues of the loop, 1 of them inside the dashed line" in picture.alternative
     sampled = MultiChannelSystem([["1/2"]], [[[1]]], [[[1]]], time="discrete")
     _, [picture, *_] = pictured(sampled, "1/4", StabilityRegion.of("discrete", radius="1/2"))

@@ -149,7 +149,7 @@ def test_what_ended_at_a_limit_is_tried_again_and_what_is_malformed_is_not(tmp_p
             return {"error": {"status": 4, "message": "the time limit was reached"}}
         return decide(job)
 
-    sources = [bad, DRAWS[0]]
+    sources: list[Any] = [bad, DRAWS[0]]
     with ThreadPoolExecutor(1) as threads:
         ended = by_number(sweep(sources, results=results, executor=threads, work=limited))
     assert [record.error["status"] for record in ended if record.error] == [3, 4]

@@ -143,7 +143,7 @@ def test_the_weights_belong_to_the_laplacian(heard, expected):
             with_ring(PENDULA).with_neighbors(
                 NeighborGraph.from_names(["1", "2"], {"1": ["2"], "2": []})
             ),
-            StabilityRegion("continuous", 1),
+            StabilityRegion("continuous", Fraction(1)),
         ),
         (
             MultiChannelSystem([[2]], [[[1]]], [[[0]]], time="discrete", neighbors={"1": []}),
@@ -151,11 +151,11 @@ def test_the_weights_belong_to_the_laplacian(heard, expected):
         ),
         (
             MultiChannelSystem([[2]], [[[1]]], [[[0]]], neighbors={"1": []}),
-            StabilityRegion("continuous", 1),
+            StabilityRegion("continuous", Fraction(1)),
         ),
         (
             MultiChannelSystem([[2]], [[[0]]], [[[1]]], neighbors={"1": []}),
-            StabilityRegion("continuous", 1),
+            StabilityRegion("continuous", Fraction(1)),
         ),
     ],
     ids=["not strongly connected", "not observed in steps", "not observed", "not controlled"],

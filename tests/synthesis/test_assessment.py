@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from dataclasses import replace
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 import pytest
@@ -163,7 +164,7 @@ def test_integrators_are_recognized_and_assessed_with_the_plant() -> None:
     assert integrators_of(loop_of("-3")) == ()
 
 
-def assessed(gain: str = "-3", **figures: float) -> Assessment:
+def assessed(gain: str = "-3", **figures: Any) -> Assessment:
     """An assessment, some of whose figures are others."""
     region = StabilityRegion.of("continuous", rate="1/2")
     found = assessed_loop(loop_of(gain), region, certified=True)
@@ -214,6 +215,7 @@ def test_a_robust_and_cheap_loop_shows_that_its_rate_is_sensible() -> None:
 
 
 def test_a_verdict_that_no_certificate_proves_says_so() -> None:
+    figures: Any
     for figures in ({}, {"margin": 0.04}, {"margin": 0.29}):
         assert assessed(**figures).verdict.endswith(" (computed)")
     hurried = diagnosed(ONE, StabilityRegion.of("continuous", rate=10**6))
@@ -276,7 +278,7 @@ def test_a_controller_that_hardly_helps_is_told() -> None:
     assert found.uncontrolled is not None and found.uncontrolled.bound == -1
     assert "it satisfies Re λ < -1/2, too" in found.notes[-1]
     assert dict(found.rows())["without a controller"] == "Re λ = -1, cost 0.5"
-    faster = assessed_loop(loop, StabilityRegion("continuous", 1), certified=True)
+    faster = assessed_loop(loop, StabilityRegion("continuous", Fraction(1)), certified=True)
     assert "it does not satisfy" in faster.notes[-1]
 
 

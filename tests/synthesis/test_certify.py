@@ -92,9 +92,9 @@ def test_a_bound_of_the_other_time_domain_is_wrong_usage():
 
 
 def test_the_gate_lets_no_slow_loop_through():
-    assert_valid(certify(PLANT, Proposal(STATIC), StabilityRegion("continuous", 1)).proof)
+    assert_valid(certify(PLANT, Proposal(STATIC), StabilityRegion("continuous", Fraction(1))).proof)
     with pytest.raises(
         Impossible, match="not every eigenvalue of the loop satisfies Re λ < -2"
     ) as refusal:
-        certify(PLANT, Proposal(STATIC), StabilityRegion("continuous", 2))
+        certify(PLANT, Proposal(STATIC), StabilityRegion("continuous", Fraction(2)))
     assert_valid(refusal.value.certificate)

@@ -53,7 +53,7 @@ def test_every_method_takes_a_plant_with_feedback(
 
 def test_what_is_said_of_a_loop_of_a_derived_system_is_implied(tmp_path: Path) -> None:
     plant = MultiChannelSystem([[1]], [[[1]], [[1]]], [[[1]], [[2]]])
-    heard = augmented_outputs(plant, {"1": ["2"], "2": []})
+    heard = augmented_outputs(plant, plant.with_neighbors({"1": ["2"], "2": []}).neighbors)
     tall = MultiChannelSystem([[1]], [[[1]]], [[[1], [2]]], neighbors={"1": []})
     made = design_setpoint(full_output(tall, 0), rate=1)
     require_implied(made.account, tmp_path)

@@ -78,7 +78,7 @@ def test_any_agent_may_carry_the_channel_controller(agent: str, dimensions: obje
 def test_floating_point_meets_a_rate_and_the_proof_is_exact() -> None:
     design = design_extended(three_channels(), rate=2, arithmetic="float")
     assert "stability" in design.certificates
-    assert design.certificates["stability"].stable
+    assert design.certificates["stability"].claim()["stable"]
     require_valid(design)
 
 

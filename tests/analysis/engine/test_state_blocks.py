@@ -39,7 +39,7 @@ def beside(*systems: MultiChannelSystem) -> MultiChannelSystem:
         for a, row in enumerate(rows):
             A[start + a][start : start + system.n] = row
         for channel in system.channels:
-            b = [[0] * channel.B.ncols for _ in range(n)]
+            b: list[list[Any]] = [[0] * channel.B.ncols for _ in range(n)]
             b[start : start + system.n] = [list(row) for row in channel.B.rows()]
             after = n - start - system.n
             B.append(b)

@@ -7,6 +7,7 @@ import random
 import pytest
 
 from mcexact import MultiChannelSystem, completeness, single_channel_gains
+from mcexact.analysis.fixed_modes.single_channel_gains import Want
 from mcexact.answer.codec import encode
 from mcexact.answer.single_channel_gains import GainsWitness, UnreachedWitness
 from mcexact.checker import check_document
@@ -66,6 +67,7 @@ def test_one_channel_is_decided_as_by_subsets_and_reachability() -> None:
         small = sparse_system(rng, 4, 3)
         q = rng.randrange(small.m)
         system = exact(small)
+        side: Want
         for side, view in (("controllable", small), ("observable", small.dual)):
             found = single_channel_gains(system, system.names[q], want=side)
             assert found.exists == structure.single_channel(view, q)
@@ -120,7 +122,7 @@ def test_without_states_everything_is_reached() -> None:
 def test_bad_questions_are_refused() -> None:
     system = MultiChannelSystem([[0]], [[[1]]], [[[1]]])
     with pytest.raises(UsageError, match="expected one of controllable, observable, both"):
-        single_channel_gains(system, want="stable")
+        single_channel_gains(system, want="stable")  # type: ignore[arg-type]
     with pytest.raises(UsageError, match="available only with both properties"):
         single_channel_gains(system, want="observable", cyclic=True)
     with pytest.raises(UsageError):

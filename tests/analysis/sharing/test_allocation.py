@@ -117,8 +117,7 @@ def test_rounding_up_the_relaxation_is_not_enough(
 ) -> None:
     found = minimal_shared_dimensions(triangles(copies))
     assert found.total == least
-    halves = [[number, Fraction(1, 2)] for number in range(3 * copies)]
-    bound = sum((y for _, y in halves), Fraction(0))
+    bound = sum((Fraction(1, 2) for _ in range(3 * copies)), Fraction(0))
     assert bound == relaxed
     assert (len(found.tree) > 1) == (copies > 1)
     assert_valid(found)
@@ -249,7 +248,7 @@ def test_the_rank_of_an_extended_pencil_counts_each_boundary_agent_once() -> Non
         graph = NeighborGraph(system.names, tuple(map(tuple, heard)))
         sizes = [rng.randint(0, 2) for _ in range(small.m)]
         for share in ("outputs+states", "states"):
-            extended = extended_system(system, sizes, share, graph)  # type: ignore[arg-type]
+            extended = extended_system(system, sizes, share, graph)
             linked = system.with_neighbors(graph)
             base = plain(augmented_outputs(linked) if share == "outputs+states" else linked)
             for p in irreducible_factors(characteristic_polynomial(small.A)):

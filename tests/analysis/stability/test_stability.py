@@ -70,7 +70,7 @@ def test_both_roads_agree(states: int, time: str, stable: bool) -> None:
     )
     loop = matrix_system(M, time)
     for method in ("polynomial", "lyapunov"):
-        verdict = certify_stability(loop, method=method)  # type: ignore[arg-type]
+        verdict = certify_stability(loop, method=method)
         assert verdict.stable is stable
         assert_valid(verdict)
 
@@ -169,7 +169,7 @@ def test_a_loop_may_be_a_list_of_rows() -> None:
 
 def test_no_states_are_stable() -> None:
     for method in ("polynomial", "lyapunov"):
-        verdict = certify_stability(matrix_system(Matrix.zeros(0, 0)), method=method)  # type: ignore[arg-type]
+        verdict = certify_stability(matrix_system(Matrix.zeros(0, 0)), method=method)
         assert verdict.stable
         assert_valid(verdict)
 

@@ -4,6 +4,7 @@ import pytest
 
 from mcexact.analysis.structure.transfer_graph import transfer_graph
 from mcexact.answer import codec
+from mcexact.answer.protocol import Answer
 from mcexact.checker import check_document
 from mcexact.derived.dual import dual
 from mcexact.exact.matrix import Matrix
@@ -12,8 +13,8 @@ from mcexact.model.system import MultiChannelSystem
 from tests.oracle.draws import exact
 
 
-def valid(answer: object) -> bool:
-    return check_document(codec.encode(answer).encode()).verdict == "VALID"  # type: ignore[attr-defined]
+def valid(answer: Answer) -> bool:
+    return check_document(codec.encode(answer).encode()).verdict == "VALID"
 
 
 @pytest.mark.parametrize("name", gallery.names())

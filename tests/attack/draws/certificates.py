@@ -61,8 +61,8 @@ def _exceptional(rng: random.Random, system: MultiChannelSystem) -> Found:
 
 
 def _bound(rng: random.Random, time: str) -> Fraction | None:
-    some = {"continuous": (0, 1, Fraction(1, 2)), "discrete": (1, Fraction(1, 2), Fraction(3, 4))}
-    return rng.choice([None, *map(Fraction, some[time])])
+    some = {"continuous": ("0", "1", "1/2"), "discrete": ("1", "1/2", "3/4")}
+    return rng.choice([None, *(Fraction(each) for each in some[time])])
 
 
 def _stability(rng: random.Random, system: MultiChannelSystem) -> Found:
@@ -78,7 +78,7 @@ def _dimensions(rng: random.Random, system: MultiChannelSystem) -> Found:
     return mcexact.minimal_shared_dimensions(
         system,
         None,
-        rng.choice(["outputs+states", "states"]),  # type: ignore[arg-type]
+        rng.choice(["outputs+states", "states"]),
         costs=[Fraction(rng.randint(1, 3), rng.randint(1, 2)) for _ in range(m)],
         upper=[rng.choice([None, None, 1, 0]) for _ in range(m)],
         free_assignability=rng.random() < 0.4,
@@ -195,5 +195,5 @@ def some_certificate(rng: random.Random, kind: str, focus: str | None = None) ->
     for attempt in range(200):
         found = drawn_certificate(rng, kind, focus if attempt < 30 else None)
         if found is not None:
-            return json.loads(json.dumps(found))  # type: ignore[no-any-return]
+            return json.loads(json.dumps(found))
     raise ArithmeticError(f"no certificate of {kind} is found")

@@ -34,7 +34,7 @@ def observer_program(rng: random.Random, system: System, extra: int = 0) -> Docu
     """
     n = system.n
 
-    def padded(M: fmpq_mat, nrows: int, ncols: int) -> list[list[int | str]]:
+    def padded(M: fmpq_mat, nrows: int, ncols: int) -> list[Any]:
         rows = [row + [0] * (ncols - len(row)) for row in _rows(M)]
         return rows + [[0] * ncols for _ in range(nrows - len(rows))]
 
@@ -46,7 +46,8 @@ def observer_program(rng: random.Random, system: System, extra: int = 0) -> Docu
     for i, name in enumerate(system.names):
         heard = [j for j in (system.heard or [])[i] if j != i]
         K, k = _drawn(rng, n, system.C[i].nrows()), rng.choice((0, 0, 1))
-        own, others = loop + K * system.C[i], {}
+        own: Any = loop + K * system.C[i]
+        others: dict[str, Any] = {}
         for j in heard:
             H = _drawn(rng, n, n)
             own = own + H

@@ -59,8 +59,8 @@ def _bounds(document: Document) -> tuple[bool, fmpq]:
     """Whether time is continuous, and the bound."""
     continuous = document["system"]["time"] == "continuous"
     bound = document["claim"]["bound"]
-    value = fmpq(int(not continuous)) if bound is None else Fraction(bound)
-    return continuous, fmpq(value.numerator, value.denominator) if bound is not None else value
+    value = Fraction(int(not continuous) if bound is None else bound)
+    return continuous, fmpq(value.numerator, value.denominator)
 
 
 def _stable_block(document: Document, k: int) -> fmpq_mat:

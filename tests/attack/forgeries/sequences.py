@@ -46,16 +46,16 @@ class Numbers:
                         for g, row in enumerate(F["entries"])
                         for h, value in enumerate(row)
                     )
-        B, C = _table(rng, system.B[q], ell), _table(rng, system.C[q], ell)
+        b, c = _table(rng, system.B[q], ell), _table(rng, system.C[q], ell)
         x = [rng.randrange(ell) for _ in range(system.B[q].ncols())]
         y = [rng.randrange(ell) for _ in range(system.C[q].nrows())]
-        column = [sum(f * v for f, v in zip(row, x, strict=True)) for row in B]
-        u = [sum(f * row[k] for f, row in zip(y, C, strict=True)) for k in range(n)]
+        column = [sum(f * v for f, v in zip(row, x, strict=True)) for row in b]
+        u = [sum(f * row[k] for f, row in zip(y, c, strict=True)) for k in range(n)]
         self.s = []
         for _ in range(2 * n + 2):
             self.s.append(sum(f * v for f, v in zip(u, column, strict=True)) % ell)
             u = [sum(u[i] * A[i][k] for i in range(n)) % ell for k in range(n)]
-        self.start = {
+        self.start: dict[str, Any] = {
             "modulus": ell,
             "gains": gains,
             "channel": system.names[q],

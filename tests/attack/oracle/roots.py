@@ -47,7 +47,7 @@ def decided(question: Callable[[Sign], T]) -> T:
     raise ArithmeticError("the last precision decides")
 
 
-def roots_of(p: fmpq_poly) -> list[Any]:
+def roots_of(p: Any) -> list[Any]:
     """The roots as balls in the precision of the moment; a multiple root comes once."""
     return [acb(root) for root, _ in p.complex_roots()] if p.degree() > 0 else []
 

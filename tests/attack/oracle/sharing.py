@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from flint import fmpq
+from flint import fmpq, fmpq_poly
 
 from . import algebra
 from .constructions import augmented_outputs, extended
@@ -27,7 +27,7 @@ class Region:
     time: str
     bound: fmpq | None
 
-    def violated_by(self, p: fmpq) -> bool:
+    def violated_by(self, p: fmpq_poly) -> bool:
         """Whether a root of an irreducible polynomial is not inside the region."""
         return self.bound is None or not inside(p, self.time, self.bound)
 

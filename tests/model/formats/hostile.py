@@ -23,7 +23,7 @@ GOOD: dict[str, Any] = {
 
 def mat(compressed: bool = True, **changed: Any) -> bytes:
     """A file of MATLAB with some variables changed, or left out if they are None."""
-    stream = io.BytesIO()
+    stream: Any = io.BytesIO()
     variables = {key: value for key, value in (GOOD | changed).items() if value is not None}
     scipy.io.savemat(stream, variables, do_compression=compressed)
     return stream.getvalue()
@@ -62,7 +62,7 @@ def compressed(element: bytes) -> bytes:
 
 def npz(**changed: Any) -> bytes:
     """An archive of numpy with some arrays changed, or left out if they are None."""
-    stream = io.BytesIO()
+    stream: Any = io.BytesIO()
     arrays = {key: value for key, value in (GOOD | changed).items() if value is not None}
     np.savez(stream, allow_pickle=True, **arrays)
     return stream.getvalue()
@@ -70,7 +70,7 @@ def npz(**changed: Any) -> bytes:
 
 def archive(files: Mapping[str, bytes], compression: int = zipfile.ZIP_DEFLATED) -> bytes:
     """An archive of some files."""
-    stream = io.BytesIO()
+    stream: Any = io.BytesIO()
     with zipfile.ZipFile(stream, "w", compression) as made:
         for name, content in files.items():
             made.writestr(name, content)

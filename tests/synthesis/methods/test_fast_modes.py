@@ -1,6 +1,7 @@
 """Modes that are fast enough stay where they are; slow ones that nothing moves are refused."""
 
 from fractions import Fraction
+from typing import Any
 
 import pytest
 
@@ -15,8 +16,8 @@ from mcexact.model.system_file import digest
 from mcexact.synthesis.distributed_observer import design_observer
 from mcexact.synthesis.methods.fast_modes import feedback_for_region, observable_part
 
-FAST = {"continuous": -5, "discrete": Fraction(1, 10)}
-BOUND = {"continuous": {"rate": 2}, "discrete": {"radius": Fraction(1, 2)}}
+FAST: dict[str, Any] = {"continuous": -5, "discrete": Fraction(1, 10)}
+BOUND: dict[str, Any] = {"continuous": {"rate": 2}, "discrete": {"radius": Fraction(1, 2)}}
 PAIR = {"1": ["2"], "2": ["1"]}
 
 
@@ -49,7 +50,8 @@ def test_a_fast_mode_that_is_not_seen_or_not_moved_is_left_alone(time, ports):
 @pytest.mark.parametrize("time", ["continuous", "discrete"])
 @pytest.mark.parametrize("ports", [UNSEEN, UNMOVED])
 def test_a_mode_that_is_too_slow_is_refused_with_its_certificate(time, ports):
-    system = plant(time, *ports, last=-2 if time == "continuous" else Fraction(1, 2))
+    B, C = ports
+    system = plant(time, B, C, last=-2 if time == "continuous" else Fraction(1, 2))
     with pytest.raises(Impossible) as caught:
         design_observer(system, **BOUND[time])
     verdict = check_document(encode(caught.value.certificate).encode())

@@ -9,7 +9,7 @@ from mcexact.exact.location import StabilityRegion
 from mcexact.floating.margins import is_within
 from mcexact.synthesis.methods.riccati import riccati_feedback
 
-SLOW = StabilityRegion("continuous", 1)
+SLOW = StabilityRegion("continuous", Fraction(1))
 
 
 @pytest.mark.parametrize("effort", [1e-2, 1.0, 1e2])

@@ -52,7 +52,9 @@ def test_unstable_roots_are_mirrored():
 
 
 def test_slow_roots_become_a_little_faster_than_asked():
-    found = scaled_polynomial(Polynomial.from_roots([0]), StabilityRegion("continuous", 2), 1)
+    found = scaled_polynomial(
+        Polynomial.from_roots([0]), StabilityRegion("continuous", Fraction(2)), 1
+    )
     assert found == Polynomial.from_roots(["-5/2"])
     found = scaled_polynomial(Polynomial.from_roots([1]), REGIONS[3], 1)
     assert Fraction(9998, 10000) < -found.coefficients[0] < Fraction(9999, 10000)

@@ -1,6 +1,7 @@
 """The observer in floating point: what comes out is certified, or nothing does."""
 
 from fractions import Fraction
+from typing import Any
 
 import pytest
 
@@ -119,7 +120,7 @@ def test_an_agent_that_sees_every_error_needs_no_channel_controller():
 
 def test_the_arithmetic_has_two_names_and_every_agent_has_a_gain():
     with pytest.raises(UsageError, match='expected "exact" or "float"'):
-        design_observer(three_channels(), rate=1, arithmetic="decimal")
+        design_observer(three_channels(), rate=1, arithmetic="decimal")  # type: ignore[arg-type]
     with pytest.raises(InputError, match="expected 3 gains"):
         design_observer(three_channels(), rate=1, gains=[], arithmetic="float")
 
@@ -151,7 +152,7 @@ def test_what_cannot_be_certified_is_not_returned(monkeypatch):
 )
 def test_plants_at_the_edge_are_designed_for(A, B, C, neighbors, time):
     plant = MultiChannelSystem(A, B, C, time=time, neighbors=neighbors)
-    bound = {"rate": "3/2"} if time == "continuous" else {"radius": "1/8"}
+    bound: dict[str, Any] = {"rate": "3/2"} if time == "continuous" else {"radius": "1/8"}
     design = design_observer(plant, arithmetic="float", **bound)
     assert_meets(design, plant, *bound.values())
 

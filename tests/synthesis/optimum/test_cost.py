@@ -124,7 +124,7 @@ def test_the_sensitivity_is_the_response_at_the_inputs_of_the_plant(kind):
     expected = 0.0
     for z in points:
         inner = np.linalg.solve(z * np.eye(len(M)) - M, of.B[:, :3])
-        expected = max(expected, np.linalg.norm((K @ of.C)[:3] @ inner, 2))
+        expected = max(expected, float(np.linalg.norm((K @ of.C)[:3] @ inner, 2)))
     assert Sensitivity(of, K).peak(points) == pytest.approx(expected, rel=1e-9)
 
 

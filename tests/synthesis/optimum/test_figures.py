@@ -1,5 +1,6 @@
 """Figures agree with what they mean, and the central optimum is one."""
 
+import math
 import re
 from fractions import Fraction
 
@@ -85,7 +86,7 @@ def test_the_peak_of_a_slow_loop_in_discrete_time_comes_late():
     )
     of = FeedbackProblem.of(decentralized_network(plant), (0,), Weights.unit(plant))
     found = figures_of(of, np.zeros(of.mask.shape))
-    assert found.peak == pytest.approx(10_000 / np.e, rel=0.01)
+    assert found.peak == pytest.approx(10_000 / math.e, rel=0.01)
 
 
 def test_an_unstable_loop_has_no_margin():
@@ -96,7 +97,10 @@ def test_an_unstable_loop_has_no_margin():
 
 
 def test_the_shift_of_a_region():
-    rate, radius = StabilityRegion("continuous", 3), StabilityRegion("discrete", Fraction(1, 4))
+    rate, radius = (
+        StabilityRegion("continuous", Fraction(3)),
+        StabilityRegion("discrete", Fraction(1, 4)),
+    )
     assert shift_of(rate) == 3 and shift_of(rate, 2.0) == 6
     assert shift_of(radius) == 0.25 and shift_of(radius, 2.0) == 0.0625
     assert shift_of(StabilityRegion("discrete")) == 1
@@ -104,7 +108,10 @@ def test_the_shift_of_a_region():
 
 def test_a_plant_that_nobody_controls_has_no_central_optimum():
     plant = MultiChannelSystem([[1]], [[[0]]], [[[1]]])
-    assert central_optimum(plant, Weights.unit(plant), StabilityRegion("continuous", 1)) is None
+    assert (
+        central_optimum(plant, Weights.unit(plant), StabilityRegion("continuous", Fraction(1)))
+        is None
+    )
 
 
 @pytest.mark.parametrize("time", ["continuous", "discrete"])
@@ -130,7 +137,7 @@ def nearly_fixed(epsilon: str) -> MultiChannelSystem:
 
 
 def test_the_diagnosis_names_the_mode_and_the_sensible_rate():
-    region = StabilityRegion("continuous", 3)
+    region = StabilityRegion("continuous", Fraction(3))
     found = diagnosed(nearly_fixed("1e-5"), region)
     assert not found.is_sensible
     assert found.modes[0].mode == -1 and found.modes[0].change < 2e-5
@@ -148,7 +155,7 @@ def test_a_sensible_request_is_called_so():
 def test_without_any_sensible_rate_none_is_named():
     # Both of them are unstable and hardly apart.
     plant = MultiChannelSystem([[1, 0], [0, "1.0001"]], [[[1], [1]]], [[[1, 1]]])
-    found = diagnosed(plant, StabilityRegion("continuous", 1))
+    found = diagnosed(plant, StabilityRegion("continuous", Fraction(1)))
     assert not found.is_sensible and found.sensible is None
     assert str(found).endswith("sensible rate none (computed)")
 
@@ -156,6 +163,6 @@ def test_without_any_sensible_rate_none_is_named():
 def test_modes_inside_the_region_and_conjugates_are_not_listed():
     A = [[0, 1, 0], [-1, 0, 0], [0, 0, -5]]
     plant = MultiChannelSystem(A, [[[1], [0], [1]]], [[[1, 0, 1]]])
-    found = slow_modes(plant, StabilityRegion("continuous", 1))
+    found = slow_modes(plant, StabilityRegion("continuous", Fraction(1)))
     assert [each.mode.imag > 0 for each in found] == [True]
     assert Matrix.from_rows(A).nrows == 3

@@ -1,5 +1,7 @@
 """Ways from a start into a region."""
 
+from fractions import Fraction
+
 import numpy as np
 import pytest
 
@@ -42,7 +44,7 @@ def test_a_stable_loop_stays_as_it_is():
 
 def test_a_search_gets_inside_from_a_start_that_disturbs():
     problem = problem_with([[-1, 1], [1, -2]], orders=(1,))
-    target = Target(StabilityRegion("continuous", 1))
+    target = Target(StabilityRegion("continuous", Fraction(1)))
     x = inside(problem, np.array([5.0, 1.0, 1.0, -1.0]), target, Effort(20_000))
     assert x is not None and target.reached(bound_of(problem, x))
 

@@ -7,6 +7,7 @@ import pytest
 
 from mcexact.answer.codec import encode
 from mcexact.checker import check_document
+from mcexact.derived.extended import Share
 from mcexact.errors import Impossible, LimitReached
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
@@ -43,7 +44,7 @@ def searched(method, family: Family, asked: Request):
     return network_design(method, family.network, asked, searched_proposals(family, asked))
 
 
-def design(plant: MultiChannelSystem, bound: str, share: str | None = None, kind=None):
+def design(plant: MultiChannelSystem, bound: str, share: Share | None = None, kind=None):
     asked = request(plant, bound)
     if share is None:
         family = Family(decentralized_network(plant))
