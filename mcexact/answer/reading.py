@@ -7,7 +7,7 @@ import os
 import sys
 import types
 import typing
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from fractions import Fraction
 from typing import Any
@@ -23,6 +23,8 @@ from mcexact.derived.feedback import feedback, full_output
 from mcexact.derived.integrators import setpoint_system
 from mcexact.derived.links import add_links
 from mcexact.derived.merged import merged
+from mcexact.derived.moved_entries import moved
+from mcexact.derived.restricted import restricted
 from mcexact.errors import InputError, place_of
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
@@ -81,10 +83,10 @@ def answer_of(
     return _answer(kind_named(document["kind"]), document, about)
 
 
-def constructed(
-    system: MultiChannelSystem, subject: Iterable[Mapping[str, Any]]
-) -> MultiChannelSystem:
+def constructed(system: Any, subject: Sequence[Mapping[str, Any]]) -> Any:
     """Apply constructions, given as plain data of a certificate, to a plant."""
+    if isinstance(system, ParametricSystem):
+        return moved(system, lambda plain: constructed(plain, subject)) if subject else system
     for construction in subject:
         system = _CONSTRUCTIONS[construction["construction"]](system, construction)
     return system
@@ -129,6 +131,7 @@ _CONSTRUCTIONS: Mapping[
     "held": lambda system, given: held_system(system, given["dimensions"]),
     "integrators": lambda system, _: setpoint_system(system),
     "merged": lambda system, given: merged(system, given["parts"]),
+    "restricted": lambda system, given: restricted(system, given["channels"]),
     "error": lambda system, given: error_system(system, _gains(given, [system.n] * system.m)),
     "closed_loop": _closed_loop,
 }

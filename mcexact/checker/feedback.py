@@ -1,4 +1,4 @@
-"""Constructions ``dual``, ``feedback``, ``full_output``, ``merged``, ``integrators``, ``error``."""
+"""Constructions ``dual``, ``feedback``, ``full_output``, ``merged``, ``restricted`` and others."""
 
 import json
 
@@ -63,6 +63,20 @@ def merged(system: System, step: dict[str, Json], place: str) -> System:
     sets = ", ".join(channel_set(system.names[i] for i in part) for part in parts)
     words = f"with its channels merged into {sets}"
     B, C = [inputs(system, part) for part in parts], [outputs(system, part) for part in parts]
+    return suffixed(system, words, names=known, B=B, C=C, neighbors=None, delays={})
+
+
+def restricted(system: System, step: dict[str, Json], place: str) -> System:
+    """Only some of the channels, at least one; no neighbor graph.
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    (listed,) = fields(step, place, "channels")
+    chosen = names(listed, place, system.names)
+    require(bool(chosen), "subject", place, "expected at least one channel")
+    known = [system.names[i] for i in chosen]
+    B, C = [system.B[i] for i in chosen], [system.C[i] for i in chosen]
+    words = f"with the channels {channel_set(known)} alone"
     return suffixed(system, words, names=known, B=B, C=C, neighbors=None, delays={})
 
 

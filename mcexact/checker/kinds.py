@@ -10,7 +10,8 @@ from typing import NoReturn, TypeVar
 from .arithmetic import NotAUnit
 from .budget import MORE, current, limited
 from .expectation import Expectation
-from .parametric_system import ParametricSystem, digest, plant_of, subject_of
+from .moved_entries import subject_of
+from .parametric_system import ParametricSystem, digest, plant_of
 from .reading import Json, Limits, Refused, fields, incomplete, malformed, parse, shown, string
 from .statement import described, digest_of
 

@@ -1,11 +1,10 @@
 """Kind ``parametric_fixed_spectrum``: all fixed modes for all values of a parameter."""
 
-from functools import reduce
-
-from . import evidence, reading, root_discs
-from .arithmetic import Polynomial, poly_divide, poly_product
+from . import evidence, reading
+from .arithmetic import Polynomial
 from .budget import counted
 from .moved_modes import MovedModes
+from .parameter_values import REAL, listed_value, roots_text, values_left_out, where_text
 from .parametric_system import ParametricSystem
 from .reading import Json, fields, items, require
 from .statement import FIXED, PENCIL, channel_set, polynomial_text
@@ -34,14 +33,7 @@ def check(claim: Json, witness: Json, system: ParametricSystem) -> None:
         value, divisors = fields(entry, place, "value", "divisors")
         values.append(reading.polynomial(value, f"{place}.value", 1))
         moved.require_complete(values[-1], [], divisors, f"{place}.divisors")
-    for k, entry in enumerate(items(left_out, "claim.outside")):
-        values.append(_outside(entry, f"claim.outside[{k}]", system))
-    denominator = reduce(poly_product, system.poles)
-    for k, entry in enumerate(items(poles, "witness.undefined")):
-        place = f"witness.undefined[{k}]"
-        values.append(reading.polynomial(entry, place, 1))
-        gone = not poly_divide(denominator, values[-1])[1]
-        require(gone, "pole", place, "it divides no denominator")
+    values += values_left_out(left_out, poles, system)
     moduli = [evidence.modulus(ell, "witness.moduli") for ell in items(numbers, "witness.moduli")]
     moved.require_no_other(values, moduli)
 
@@ -53,8 +45,7 @@ def _exceptional(
     place, inside = f"claim.{where}", f"witness.{where}"
     value, discs, listed = fields(entry, place, "value", "roots", "modes")
     blocks, divisors = fields(proof, inside, "modes", "divisors")
-    q = reading.polynomial(value, f"{place}.value", 1)
-    root_discs.require_real_or_not(root_discs.root_discs(discs, f"{place}.roots", q), place)
+    q = listed_value(value, discs, place)
     count, modes = len(items(listed, f"{place}.modes")), []
     require(count > 0, "claim", f"{place}.modes", "expected at least one mode")
     for k, block in enumerate(items(blocks, f"{inside}.modes", count)):
@@ -69,37 +60,15 @@ def _exceptional(
     return q
 
 
-def _outside(entry: Json, place: str, system: ParametricSystem) -> Polynomial:
-    """A value q without a root in the range that is assumed."""
-    value, listed = fields(entry, place, "value", "roots")
-    q, (low, high) = reading.polynomial(value, f"{place}.value", 1), system.range
-    for re, im, radius in root_discs.root_discs(listed, f"{place}.roots", q):
-        left = low is not None and re + radius < low
-        right = high is not None and re - radius > high
-        apart = left or right or abs(im) > radius
-        require(apart, "range", place, "a root may be in the range")
-    return q
-
-
 def statement(claim: Json, system: ParametricSystem) -> str:
     """The fixed modes for every value of the parameter."""
     t, delta = system.parameter, polynomial_text(system.poles[0], system.parameter)
-    where = f"for every complex {t} at which all entries are defined"
-    if claim["outside"]:
-        low, high = ("infinity" if end is None else str(end) for end in system.range)
-        roots = ", ".join(_roots(entry, t) for entry in claim["outside"])
-        where += f", except at {roots}, none of which is real and between {low} and {high}"
     modes = ", ".join(text(read_coefficients(p), t) for p in claim["generic"]) or "1"
     scaled = "" if delta == "1" else f", multiplied by {delta},"
+    where = where_text(claim, system)
     start = f"{where}, the modes that are {FIXED}{scaled} are the roots x of {modes}"
     texts = [_exceptional_text(entry, t) for entry in claim["exceptional"]]
     return "; ".join([start, *texts, "no others"])
-
-
-def _roots(entry: Json, t: str) -> str:
-    """The roots of a value, and where they are."""
-    value, discs = polynomial_text(entry["value"], t), root_discs.disc_set(entry["roots"])
-    return f"the roots of {value}, one in each of the discs {discs}"
 
 
 def _exceptional_text(entry: Json, t: str) -> str:
@@ -109,5 +78,4 @@ def _exceptional_text(entry: Json, t: str) -> str:
         f"{channel_set(mode['channels'])} and B the inputs of the others, loses rank"
         for mode in entry["modes"]
     ]
-    real = "real ones where the disc is centered on the real axis, and only there"
-    return f"at {_roots(entry, t)}, {real}, and there besides those of {' and '.join(modes)}"
+    return f"at {roots_text(entry, t)}, {REAL}, and there besides those of {' and '.join(modes)}"

@@ -3,13 +3,13 @@
 import math
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
 
 from . import budget, reading
 from .arithmetic import Matrix, Polynomial, poly_divide, poly_product
 from .expressions import PARAMETER, Function, common_divisor, function, function_text
 from .reading import Json, Limits, fields, incomplete, integer, items, malformed, printable, string
 from .statement import canonical_json, digest_of
-from .subject import read_subject
 from .system import System, canonical, number, parse_file, read_plant, read_system
 
 Layers = list[Matrix]
@@ -26,13 +26,15 @@ class ParametricSystem:
     """x' = A/δ x + Σ B_i/β_i u_i, y_i = C_i/γ_i x with polynomials in t in A, B_i and C_i.
 
     ``range`` has the least and the largest value of t, None where there is none; ``poles`` are the
-    monic denominators, the first one δ.  ``document`` is the canonical object.
+    monic denominators, the first one δ.  ``tables`` are A, B_1, C_1, B_2, … as functions, and
+    ``document`` is the canonical object of the plant.
     """
 
     time: str
     names: list[str]
     parameter: str
     range: Range
+    tables: list[Table]
     A: Layers
     B: list[Layers]
     C: list[Layers]
@@ -88,21 +90,6 @@ def digest(plant: System | ParametricSystem) -> str:
     return digest_of(canonical_json(known))
 
 
-def subject_of(
-    steps: Json, plant: System | ParametricSystem, kind: str
-) -> System | ParametricSystem:
-    """The plant, or what constructions make from it, for a kind of claims."""
-    parametric = isinstance(plant, ParametricSystem)
-    if parametric != kind.startswith("parametric_"):
-        about = "without" if parametric else "with"
-        malformed("system", f"the kind {kind} is about plants {about} parameters")
-    if not isinstance(plant, ParametricSystem):
-        return read_subject(steps, plant)
-    if items(steps, "subject"):
-        incomplete("construction", "subject", "no construction applies to parameters")
-    return plant
-
-
 def read_parametric(value: Json, limits: Limits | None = None) -> ParametricSystem:
     """A plant with a parameter by the grammar of system files; without limits, of a certificate."""
     extra = () if limits is None else ("format", "name", "source")
@@ -141,10 +128,7 @@ def read_parametric(value: Json, limits: Limits | None = None) -> ParametricSyst
     said = {} if bounds == (None, None) else {"range": [_end(bound) for bound in bounds]}
     document = {"time": string(time, "time", "continuous", "discrete"), "parameters": {t: said}}
     document |= {"A": forms[0], "channels": channels}
-    (A, *parts), poles = zip(*map(_cleared, tables), strict=True)
-    return ParametricSystem(
-        time, own, t, bounds, A, parts[0::2], parts[1::2], list(poles), document
-    )
+    return ParametricSystem(time, own, t, bounds, **cleared_tables(tables), document=document)
 
 
 def _range(value: Json, place: str, limits: Limits | None) -> Range:
@@ -191,6 +175,13 @@ def _form(table: Table, t: str) -> Json:
     if not rows and ncols:
         return {"shape": [0, ncols], "entries": []}
     return [[function_text(entry, t) for entry in row] for row in rows]
+
+
+def cleared_tables(tables: list[Table]) -> dict[str, Any]:
+    """The parts of a plant that these matrices determine."""
+    (A, *ports), poles = zip(*map(_cleared, tables), strict=True)
+    B, C = ports[0::2], ports[1::2]
+    return {"tables": tables, "A": A, "B": B, "C": C, "poles": list(poles)}
 
 
 def _cleared(table: Table) -> tuple[Layers, Polynomial]:

@@ -2,13 +2,15 @@
 
 from .budget import spend
 from .closed_loop import closed_loop
-from .feedback import dual, error, feedback, full_output, integrators, merged
+from .feedback import dual, error, feedback, full_output, integrators, merged, restricted
 from .information_structure import arcs, augmented_outputs, extended, held, lifted
 from .reading import Json, incomplete, items, malformed, shown
 from .system import System
 
 LISTED = (arcs, augmented_outputs, closed_loop, dual, error, extended, feedback, full_output)
-CONSTRUCTIONS = {rule.__name__: rule for rule in (*LISTED, held, integrators, lifted, merged)}
+CONSTRUCTIONS = {
+    rule.__name__: rule for rule in (*LISTED, held, integrators, lifted, merged, restricted)
+}
 
 
 def read_subject(value: Json, plant: System) -> System:

@@ -86,25 +86,27 @@ def characteristic(A: Layers, ell: int = 0) -> Bivariate:
 
     Open: see ``proofs/OPEN.md``.
     """
+    return interpolated(_characteristic_values(A, ell), ell)
+
+
+def _characteristic_values(A: Layers, ell: int) -> list[Polynomial]:
+    """det(xI − A(t)) for t = 0, 1, …, as many as its degree in t asks for."""
     n = A[0].nrows
     sides = [[_length(A, i, False) for i in range(n)], [_length(A, i, True) for i in range(n)]]
     many = min(map(sum, sides)) + 1
     if ell:
         rows = [layer.modulo(ell) for layer in A]
-        return interpolated(
-            [
-                characteristic_polynomial_modulo(_at(rows, t, ell), ell)
-                for t in budget.counted(range(many))
-            ],
-            ell,
-        )
+        return [
+            characteristic_polynomial_modulo(_at(rows, t, ell), ell)
+            for t in budget.counted(range(many))
+        ]
     values = []
     for t in budget.counted(range(many)):
         total = Matrix.zeros(n, n)
         for layer in reversed(A):
             total = total.times(t) + layer
         values.append(characteristic_polynomial(total))
-    return interpolated(values)
+    return values
 
 
 def _length(A: Layers, i: int, column: bool) -> int:

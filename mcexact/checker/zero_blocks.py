@@ -29,14 +29,14 @@ def zero_block(
     beside = positions(columns, f"{place}.column_pivots", n)
     require(len(above) + len(beside) > n, "rank", place, "the zero block is too small")
     parts = items(given, f"{place}.U", len(p) - 1)
-    U = [_layers(part, f"{place}.U", n, len(above), q) for part in parts]
-    W = _layers(listed, f"{place}.W", len(beside), n, q)
+    U = [polynomial_layers(part, f"{place}.U", n, len(above), q) for part in parts]
+    W = polynomial_layers(listed, f"{place}.W", len(beside), n, q)
     pivots = [[layer.take(above) for layer in part] for part in U]
-    _require_multiple(pivots[0], len(above), f"{place}.row_pivots", q)
+    require_multiple(pivots[0], len(above), f"{place}.row_pivots", q)
     outside = all(layered.is_zero(part) for part in pivots[1:])
     require(outside, "pivots", place, "a pivot row depends on x")
     chosen_columns = [layer.T.take(beside) for layer in W]
-    _require_multiple(chosen_columns, len(beside), f"{place}.column_pivots", q)
+    require_multiple(chosen_columns, len(beside), f"{place}.column_pivots", q)
     for i in T:
         unmoved = layered.is_zero(layered.product(W, system.B[i], q))
         require(unmoved, "identity", place, f"W B_i is not zero for channel number {i + 1}")
@@ -55,7 +55,9 @@ def zero_block(
     return T
 
 
-def _layers(value: Json, place: str, nrows: int, ncols: int, q: Polynomial | None) -> Layers:
+def polynomial_layers(
+    value: Json, place: str, nrows: int, ncols: int, q: Polynomial | None
+) -> Layers:
     """A matrix of polynomials in t, reduced modulo q."""
     _, coefficients = fields(value, place, "denominator", "coefficients")
     most = len(items(coefficients, place)) if q is None else len(q) - 1
@@ -68,7 +70,7 @@ def _scalar(c: Polynomial, size: int) -> Layers:
     return [identity.times(entry) for entry in c] or [Matrix.zeros(size, size)]
 
 
-def _require_multiple(block: Sequence[Matrix], size: int, place: str, q: Polynomial | None) -> None:
+def require_multiple(block: Sequence[Matrix], size: int, place: str, q: Polynomial | None) -> None:
     """Stop unless a block is c(t) times an identity matrix, c = 1 if q is given, else c ≠ 0."""
     identity = Matrix.unit_rows(size, 0, size)
     factors = [layer.times(0) if not size else identity.times(_corner(layer)) for layer in block]

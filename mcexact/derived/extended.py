@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from itertools import accumulate
-from typing import Any, Literal, get_args
+from typing import Any, Literal, get_args, overload
 
+from mcexact.derived.links import add_links
+from mcexact.derived.moved_entries import moved
 from mcexact.errors import InputError, LimitReached
 from mcexact.exact.blocks import block, block_diagonal, hstack, kronecker, vstack
 from mcexact.exact.matrix import Matrix
 from mcexact.model.linked_system import with_graph
 from mcexact.model.names import quoted
 from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 
 Share = Literal["outputs+states", "states"]
@@ -94,27 +97,45 @@ def require_size(states: int) -> None:
         )
 
 
+@overload
 def extended_system(
     system: MultiChannelSystem,
     dimensions: Sequence[int],
     share: Share = "outputs+states",
     graph: NeighborGraph | None = None,
-) -> MultiChannelSystem:
+) -> MultiChannelSystem: ...
+
+
+@overload
+def extended_system(
+    system: ParametricSystem,
+    dimensions: Sequence[int],
+    share: Share = "outputs+states",
+    graph: NeighborGraph | None = None,
+) -> ParametricSystem: ...
+
+
+def extended_system(
+    system: MultiChannelSystem | ParametricSystem,
+    dimensions: Sequence[int],
+    share: Share = "outputs+states",
+    graph: NeighborGraph | None = None,
+) -> MultiChannelSystem | ParametricSystem:
     """Append to every agent i a shared sub-state x_i of dimension n_i with ẋ_i = v_i.
 
     Parameters
     ----------
-    system : MultiChannelSystem
+    system : MultiChannelSystem or ParametricSystem
     dimensions : sequence of m int
         n_1 … n_m, each ≥ 0.
     share : {"outputs+states", "states"}
         Whether agents receive their neighbors' outputs in addition to their sub-states.
     graph : NeighborGraph, optional
-        Overrides ``system.neighbors``.
+        Overrides ``system.neighbors``; a system with parameters has none of its own.
 
     Returns
     -------
-    MultiChannelSystem
+    MultiChannelSystem or ParametricSystem
         n̄ = n + Σ n_i states.  A distributed controller of the plant is a decentralized one of it.
 
     Raises
@@ -145,6 +166,14 @@ def extended_system(
     >>> extended.n, extended.C(1).numerators
     (4, ((0, 1, 0, 0), (0, 1, 0, 0), (0, 0, 0, 1)))
     """
+    if isinstance(system, ParametricSystem):
+        links = () if graph is None else graph.edges()
+        return moved(
+            system,
+            lambda bare: extended_system(
+                add_links(bare, links) if links else bare, dimensions, share
+            ),
+        )
     InputError.require(system, MultiChannelSystem, "system")
     system, found = with_graph(system, graph)
     construction = {"construction": "extended", "share": share, "dimensions": dimensions}

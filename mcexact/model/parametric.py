@@ -225,60 +225,6 @@ class ParametricSystem(ByChannel[FunctionMatrix], SystemForms):
             names=self.names,
         )
 
-    def with_full_output(self, names: Sequence[str] | None = None) -> ParametricSystem:
-        """The system of one channel with some inputs, all by default, that measures the state.
-
-        The modes that are fixed there are those that these inputs do not control: its fixed
-        spectrum says for which values of the parameter controllability is lost.
-
-        Raises
-        ------
-        UsageError
-            If a name is unknown.
-
-        Examples
-        --------
-        >>> from mcexact import fixed_spectrum
-        >>> plant = ParametricSystem([[1, "t"], [0, 2]], [[[0], [1]]], [[[1, 0]]], parameters=["t"])
-        >>> print(*fixed_spectrum(plant.with_full_output()).words)
-        the roots of x - 1 (no channel controls it) where t = 0
-        """
-        return self._alone(names, True)
-
-    def with_full_input(self, names: Sequence[str] | None = None) -> ParametricSystem:
-        """The system of one channel with some outputs, all by default, that drives every state.
-
-        The modes that are fixed there are those that these outputs do not observe.
-
-        Raises
-        ------
-        UsageError
-            If a name is unknown.
-        """
-        return self._alone(names, False)
-
-    def _alone(self, names: Sequence[str] | None, inputs: bool) -> ParametricSystem:
-        chosen = self.indices(self.names if names is None else names)
-        ports = [self.B[i] if inputs else self.C[i] for i in chosen]
-        one = [[int(i == j) for j in range(self.n)] for i in range(self.n)]
-        identity = as_functions(one, "identity", self.parameters).matrix()
-        if inputs:
-            rows = tuple(sum((B.rows[i] for B in ports), ()) for i in range(self.n))
-            B, C = FunctionMatrix(rows, sum(part.ncols for part in ports)), identity
-        else:
-            outputs = tuple(row for part in ports for row in part.rows)
-            B, C = identity, FunctionMatrix(outputs, self.n)
-        assume = dict(zip(self.parameters, self.ranges, strict=True))
-        return ParametricSystem(
-            self.A,
-            [B],
-            [C],
-            parameters=self.parameters,
-            assume=assume,
-            time=self.time,
-            names=["+".join(self.named(chosen)) or "none"],
-        )
-
     def generic(self, seed: int = 0) -> MultiChannelSystem:
         """The system at drawn integers, whose structure is nearly always that of almost all values.
 

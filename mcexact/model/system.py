@@ -26,7 +26,17 @@ from mcexact.shown import LINE, fitting
 Construction = Mapping[str, Any]
 # These constructions depend on the neighbor graph of the plant, or lead to systems without one.
 _GRAPH_IN_USE = frozenset(
-    {"augmented_outputs", "arcs", "dual", "error", "extended", "held", "lifted", "merged"}
+    {
+        "augmented_outputs",
+        "arcs",
+        "dual",
+        "error",
+        "extended",
+        "held",
+        "lifted",
+        "merged",
+        "restricted",
+    }
 )
 
 

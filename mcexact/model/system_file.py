@@ -221,7 +221,7 @@ def canonical_text(system: MultiChannelSystem | ParametricSystem) -> str:
     large and sparse; name and source are left out.
     """
     if isinstance(system, ParametricSystem):
-        return canonical(system.document())
+        return canonical(system.plant.document())
     plant = system.plant
     known: str | None = plant.__dict__.get("_canonical_text")
     if known is not None:

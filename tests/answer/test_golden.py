@@ -145,6 +145,13 @@ def of_a_parameter() -> Iterator[tuple[str, Any]]:
             A[i][j] = "t"
             yield f"example: {i}, {j}", mcexact.fixed_spectrum(with_a_parameter(A, PORTS))
     yield "tanks", mcexact.fixed_spectrum(tanks("t", "7/10"))
+    A = [[1, 0, 0], ["t", 1, 0], [0, "t - 1", 1]]
+    plant = with_a_parameter(A, PORTS)
+    yield "controllability", mcexact.joint_controllability(plant, ["1", "2"])
+    yield "observability", mcexact.joint_observability(plant)
+    ring = mcexact.NeighborGraph.ring(plant.names)
+    extended = mcexact.extended_system(plant, (0, 0, 1), graph=ring)
+    yield "shared dimensions", mcexact.fixed_spectrum(extended)
     yield "tanks with a range", mcexact.fixed_spectrum(tanks("t", "t^2", (0, "1/2")))
 
 

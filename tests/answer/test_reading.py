@@ -41,6 +41,7 @@ MADE: dict[str, Callable[[], MultiChannelSystem]] = {
     "held": lambda: mcexact.held_system(PLANT, [0, 2]),
     "integrators": lambda: mcexact.setpoint_system(PLANT),
     "merged": lambda: mcexact.merged(PLANT, [["a", "b"]]),
+    "restricted": lambda: mcexact.restricted(PLANT, ["b"]),
     "error": lambda: mcexact.error_system(PLANT, FEEDBACK),
     "several": lambda: mcexact.dual(
         full_output(mcexact.extended_system(add_links(ONE_WAY, [(1, 0)]), [0, 1]), 0)

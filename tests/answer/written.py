@@ -74,7 +74,9 @@ def write_all(folder: Path) -> None:
         found = exceptional_gains(ones, plant.A, plant.input_matrix())
         save_certificate(found.controllability_set, place / "exceptional_gains.json")
     free = ParametricSystem([["t", 1], [0, 2]], [[[1], ["t"]]], [[[1, 0]]], parameters=["t"])
-    save_certificate(fixed_spectrum(free), folder / "parametric_fixed_spectrum.json")
+    place = folder / "with-a-parameter"
+    place.mkdir()
+    save_certificate(fixed_spectrum(free), place / "parametric_fixed_spectrum.json")
 
 
 def with_graph(plant: MultiChannelSystem) -> MultiChannelSystem:

@@ -342,11 +342,6 @@ def test_ten_times_as_much_work_is_granted() -> None:
         assert (checked(FREE).verdict, budget.times) == ("VALID", MORE)
 
 
-def test_no_construction_is_applied() -> None:
-    found = checked(changed(PAPER, ("subject", [{"construction": "dual"}])))
-    assert (found.verdict, found.code) == ("INCOMPLETE", "construction")
-
-
 KEPT: dict[str, Any] = {
     "divisors of a mode": changed(PAPER, (f"{PROOF}.divisors", [[[-1], [1]]])),
     "settled values where nothing happens": changed(

@@ -23,6 +23,7 @@ from mcexact.derived.feedback import feedback, full_output
 from mcexact.derived.integrators import setpoint_system
 from mcexact.derived.links import add_links
 from mcexact.derived.merged import merged
+from mcexact.derived.restricted import restricted
 from mcexact.exact.matrix import Matrix
 from mcexact.model import system_file
 from mcexact.model.canonical import plain
@@ -115,6 +116,7 @@ BUILDS: dict[str, list[Build]] = {
         lambda rng, s: lifted_system(s, sizes(rng, s), share="states"),
     ],
     "merged": [lambda rng, s: merged(s, drawn_parts(rng, s))],
+    "restricted": [lambda rng, s: restricted(s, rng.sample(s.names, rng.randint(1, s.m)))],
 }
 
 

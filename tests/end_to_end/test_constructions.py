@@ -20,6 +20,7 @@ from mcexact.derived.feedback import feedback, full_output
 from mcexact.derived.integrators import setpoint_system
 from mcexact.derived.links import add_links
 from mcexact.derived.merged import merged
+from mcexact.derived.restricted import restricted
 from mcexact.exact.matrix import Matrix
 from mcexact.model.canonical import text_of
 from mcexact.model.loop import closed_loop
@@ -73,6 +74,7 @@ def test_checker_and_package_build_the_same_subjects(drawn, seed):
     rebuilt(lifted_system(system, sizes, rng.choice(SHARES)))
     rebuilt(held_system(system, sizes))
     rebuilt(setpoint_system(system))
+    rebuilt(restricted(dual(system), rng.sample(system.names, rng.randint(1, m))))
     rebuilt(dual(merged(system, [system.names[k::2] for k in range(min(m, 2))])))
     rebuilt(error_system(system, gains(rng, system, [system.n] * m)))
     augmented = setpoint_system(system)

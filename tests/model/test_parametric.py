@@ -169,27 +169,6 @@ def test_along_a_line_the_values_are_those_at_its_points() -> None:
         plant.along({a: 0, b: "s"})
 
 
-def test_one_channel_has_the_inputs_or_the_outputs_of_some() -> None:
-    plant = ParametricSystem(
-        [[t, 1], [0, 2]],
-        [[[1], [0]], [[t, 2], [0, t]]],
-        [[[1, 0]], [[0, t]]],
-        parameters=[t],
-        assume={t: (0, 1)},
-        names=["a", "b"],
-    )
-    full = plant.with_full_output()
-    assert full.names == ("a+b",) and full.ranges == plant.ranges
-    found = full.at({t: 3})
-    assert found.B(0).rows() == ((1, 3, 2), (0, 0, 3))
-    assert found.C(0).rows() == ((1, 0), (0, 1))
-    seen = plant.with_full_input(["b"]).at({t: 3})
-    assert seen.C(0).rows() == ((0, 3),) and seen.B(0).rows() == ((1, 0), (0, 1))
-    assert plant.with_full_output([]).channels[0].B.shape == (2, 0)
-    with pytest.raises(UsageError, match="no channel 'c'"):
-        plant.with_full_input(["c"])
-
-
 def test_files_are_read_as_they_were_written(tmp_path: Path) -> None:
     plant = ParametricSystem(
         [["t/3", 1], [0, "-1e-2"]],

@@ -2,23 +2,26 @@
 
 This folder answers no question by itself.  The other folders of `analysis` import from this page.
 
-========================  =============================================================
-`obstructions`            the fixed factors of a system, with gains that move all others
-`one_channel`             proofs that no more is fixed, by one sequence of one channel
-`state_blocks`            the same for blocks of states, which share no gain
-`reached_blocks`          the same for what channels control, whatever they measure
-`shrunk_subspace`         proofs that a mode is fixed, by Wong sequences modulo a prime
-`sparse_loops`            drawn closed loops of sparse systems modulo primes
-`sparse_annihilator`      what channels of large sparse systems do not control
-`sparse_subspaces`        the same for large sparse systems, by products with sparse matrices
-`reachability`            the transfer graph modulo a prime, and zero transfers
-`sparse_reachability`     the transfer graph of large sparse systems
-`rate`                    root discs, and the best rate that some modes allow
-`covering`                covering integer programs, with a branch tree as proof
-`lyapunov`                Lyapunov matrices, refined and verified exactly
-`smith_doubling`          Lyapunov equations to any precision
-`separated_instability`   a quadratic form for a loop with one unstable block
-========================  =============================================================
+=======================  =============================================================
+`obstructions`           the fixed factors of a system, with gains that move all others
+`one_channel`            proofs that no more is fixed, by one sequence of one channel
+`state_blocks`           the same for blocks of states, which share no gain
+`reached_blocks`         the same for what channels control, whatever they measure
+`shrunk_subspace`        proofs that a mode is fixed, by Wong sequences modulo a prime
+`sparse_loops`           drawn closed loops of sparse systems modulo primes
+`sparse_annihilator`     what channels of large sparse systems do not control
+`sparse_subspaces`       the same for large sparse systems, by products with sparse matrices
+`parametric_modes`       what is fixed for all values of a parameter, and where more is
+`parametric_control`     the same for what channels do not control or observe
+`zero_blocks`            proofs that a mode is fixed for all values, or at some
+`reachability`           the transfer graph modulo a prime, and zero transfers
+`sparse_reachability`    the transfer graph of large sparse systems
+`rate`                   root discs, and the best rate that some modes allow
+`covering`               covering integer programs, with a branch tree as proof
+`lyapunov`               Lyapunov matrices, refined and verified exactly
+`smith_doubling`         Lyapunov equations to any precision
+`separated_instability`  a quadratic form for a loop with one unstable block
+=======================  =============================================================
 """
 
 from mcexact.analysis.engine.covering import (
@@ -33,6 +36,8 @@ from mcexact.analysis.engine.covering import (
 from mcexact.analysis.engine.lyapunov import QuadraticForm, quadratic_form
 from mcexact.analysis.engine.obstructions import Decision, Obstruction, decide
 from mcexact.analysis.engine.one_channel import MODULI, best_sequences
+from mcexact.analysis.engine.parametric_control import parametric_controllability
+from mcexact.analysis.engine.parametric_modes import parametric_fixed_spectrum
 from mcexact.analysis.engine.rate import located
 from mcexact.analysis.engine.reachability import (
     Edge,
@@ -103,6 +108,8 @@ __all__ = [
     "minimize",
     "modes_left",
     "obstruction_modulo",
+    "parametric_controllability",
+    "parametric_fixed_spectrum",
     "quadratic_form",
     "reachable_pairs",
     "separated_instability",

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
-from mcexact.analysis.fixed_modes.parametric_fixed_spectrum import parametric_fixed_spectrum
+from mcexact.analysis.engine import parametric_fixed_spectrum
 from mcexact.answer.exceptional_hypersurfaces import (
     ExceptionalHypersurfaces,
     Hypersurface,

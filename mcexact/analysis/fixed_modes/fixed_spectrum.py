@@ -16,8 +16,8 @@ from mcexact.analysis.engine import (
     fixed_subspaces,
     located,
     modes_left,
+    parametric_fixed_spectrum,
 )
-from mcexact.analysis.fixed_modes.parametric_fixed_spectrum import parametric_fixed_spectrum
 from mcexact.answer.evidence import Block, RateInterval, RootDisc, ShrunkSubspace
 from mcexact.answer.fixed_spectrum import (
     ByBlocks,

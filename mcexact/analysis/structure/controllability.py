@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from typing import overload
 
 from mcexact.analysis.engine import (
     annihilator,
@@ -10,12 +11,14 @@ from mcexact.analysis.engine import (
     measured_blocks,
     measured_system,
     modes_left,
+    parametric_controllability,
     transposed_blocks,
 )
 from mcexact.answer.controllability import ByBlocks, ByRank, JointControllability
 from mcexact.answer.evidence import Block
 from mcexact.answer.fixed_spectrum import ByBlocks as FixedByBlocks
 from mcexact.answer.fixed_spectrum import FixedSpectrum
+from mcexact.answer.parametric_fixed_spectrum import ParametricFixedSpectrum
 from mcexact.derived.dual import dual
 from mcexact.derived.modular_system import generator
 from mcexact.errors import InputError
@@ -23,23 +26,41 @@ from mcexact.exact.invariant_subspace import controllable_subspace
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
+from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 
 # Up to this size a rank modulo a prime is the shorter evidence, and quick to check.
 _SMALL = 128
 
 
+@overload
 def joint_controllability(
     system: MultiChannelSystem,
     channels: Iterable[str] | None = None,
     *,
     spectrum: FixedSpectrum | None = None,
-) -> JointControllability:
+) -> JointControllability: ...
+
+
+@overload
+def joint_controllability(
+    system: ParametricSystem, channels: Iterable[str] | None = None
+) -> ParametricFixedSpectrum: ...
+
+
+def joint_controllability(
+    system: MultiChannelSystem | ParametricSystem,
+    channels: Iterable[str] | None = None,
+    *,
+    spectrum: FixedSpectrum | None = None,
+) -> JointControllability | ParametricFixedSpectrum:
     """Decide whether (A, B_T) is controllable.
 
     Parameters
     ----------
-    system : MultiChannelSystem
+    system : MultiChannelSystem or ParametricSystem
+        A plant with one parameter is decided for all values: the answer has the modes that T does
+        not control, and the values at which they are more (`ParametricFixedSpectrum`).
     channels : iterable of str, optional
         T, names of channels, by default all.
     spectrum : FixedSpectrum, optional
@@ -63,6 +84,8 @@ def joint_controllability(
     >>> alone.controllable, str(alone.uncontrollable_polynomial)
     (False, 'x - 2')
     """
+    if isinstance(system, ParametricSystem):
+        return parametric_controllability(system, channels)
     InputError.require(system, MultiChannelSystem, "system")
     return _decided(system, channels, lambda: _own(system, spectrum))
 
@@ -151,17 +174,33 @@ def _by_rank(system: MultiChannelSystem, T: Sequence[int]) -> JointControllabili
     )
 
 
+@overload
 def joint_observability(
     system: MultiChannelSystem,
     channels: Iterable[str] | None = None,
     *,
     spectrum: FixedSpectrum | None = None,
-) -> JointControllability:
+) -> JointControllability: ...
+
+
+@overload
+def joint_observability(
+    system: ParametricSystem, channels: Iterable[str] | None = None
+) -> ParametricFixedSpectrum: ...
+
+
+def joint_observability(
+    system: MultiChannelSystem | ParametricSystem,
+    channels: Iterable[str] | None = None,
+    *,
+    spectrum: FixedSpectrum | None = None,
+) -> JointControllability | ParametricFixedSpectrum:
     """Decide whether (C_T, A) is observable, by controllability of the dual system.
 
     Parameters
     ----------
-    system : MultiChannelSystem
+    system : MultiChannelSystem or ParametricSystem
+        A plant with one parameter is decided for all values, as by `joint_controllability`.
     channels : iterable of str, optional
         T, names of channels, by default all.
     spectrum : FixedSpectrum, optional
@@ -169,9 +208,11 @@ def joint_observability(
 
     Returns
     -------
-    JointControllability
+    JointControllability or ParametricFixedSpectrum
         The answer about ``dual(system)``: ``observable`` says whether (C_T, A) is, ``dimension`` is
         the rank of [C_T; C_T A; …], and ``uncontrollable_polynomial`` has the unobservable modes.
     """
+    if isinstance(system, ParametricSystem):
+        return parametric_controllability(system, channels, observed=True)
     InputError.require(system, MultiChannelSystem, "system")
     return _decided(dual(system), channels, lambda: transposed_blocks(_own(system, spectrum)))

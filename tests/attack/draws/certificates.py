@@ -10,8 +10,8 @@ from typing import Any
 from unittest import mock
 
 import mcexact
+from mcexact.analysis.engine.parametric_modes import parametric_fixed_spectrum
 from mcexact.analysis.fixed_modes import fixed_spectrum
-from mcexact.analysis.fixed_modes.parametric_fixed_spectrum import parametric_fixed_spectrum
 from mcexact.analysis.sharing import deficiency as deficiency_module
 from mcexact.analysis.sharing.deficiency import deficiency
 from mcexact.analysis.structure import controllability, transfer_graph
@@ -25,7 +25,7 @@ from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import read_system
 
 from .observers import drawn_observer
-from .parametric import drawn_parametric_plant
+from .parametric import drawn_moves, drawn_parametric_plant
 from .plants import Document, drawn_plant
 from .subjects import NEEDS_GRAPH, drawn_subject
 
@@ -164,7 +164,7 @@ def certified(
     text = json.dumps({"format": "mcexact-system/1", **plant})
     try:
         if kind == "parametric_fixed_spectrum":
-            answer = parametric_fixed_spectrum(read_parametric_system(text))
+            answer = parametric_fixed_spectrum(constructed(read_parametric_system(text), steps))
         else:
             answer = DECISIONS[kind](rng, constructed(read_system(text), steps))
         found = codec.document(answer)
@@ -182,7 +182,8 @@ def drawn_certificate(rng: random.Random, kind: str, focus: str | None) -> Docum
     if kind == "distributed_observer":
         return drawn_observer(rng)
     if kind == "parametric_fixed_spectrum":
-        return certified(rng, kind, drawn_parametric_plant(rng), [])
+        parametric = drawn_parametric_plant(rng)
+        return certified(rng, kind, parametric, drawn_moves(rng, parametric))
     plant = drawn_plant(rng, graph=graph)
     if kind in ABOUT_THE_PLANT:
         return certified(rng, kind, plant, [])

@@ -5,8 +5,12 @@ from __future__ import annotations
 import random
 
 from mcexact.model.parametric import ParametricSystem
+from tests.attack.oracle.constructions import subject_of
+from tests.attack.oracle.moved_entries import MOVING
+from tests.attack.oracle.reading import Unspecified
 
 from .plants import NAMES, Document, number
+from .subjects import drawn_step
 
 ENTRIES = (
     "t", "t", "t", "t + 1", "1 - t", "t^2", "t^2 - 2", "t^2 + 1", "2*t - 3", "t^3 - 2",
@@ -47,3 +51,31 @@ def drawn_parametric_plant(rng: random.Random) -> Document:
         names=rng.choice(NAMES)[:m],
     )
     return plant.document()
+
+
+def drawn_moves(rng: random.Random, plant: Document, largest: int = 5) -> list[Document]:
+    """Constructions that move the entries of a plant; often none."""
+    A = plant["A"]
+    bare = {
+        "time": plant["time"],
+        "A": [[0] * len(A) for _ in A],
+        "channels": [{**c, "B": _zeros(c["B"]), "C": _zeros(c["C"])} for c in plant["channels"]],
+        "neighbors": {c["name"]: [] for c in plant["channels"]},
+    }
+    steps: list[Document] = []
+    while rng.random() < 0.35 and len(steps) < 3:
+        system = subject_of({"system": bare, "subject": steps})
+        step = drawn_step(rng, rng.choice(MOVING), system)
+        if step is None:
+            continue
+        try:
+            made = subject_of({"system": bare, "subject": [*steps, step]})
+        except Unspecified:
+            continue
+        if made.n <= largest:
+            steps.append(step)
+    return steps
+
+
+def _zeros(M: Document | list[list[object]]) -> object:
+    return M if isinstance(M, dict) else [[0] * len(row) for row in M]

@@ -13,7 +13,7 @@ from .plants import VALUES, Document, entries, number
 
 CONSTRUCTIONS = (
     "augmented_outputs", "dual", "feedback", "full_output", "arcs", "extended", "lifted", "held",
-    "integrators", "error", "merged", "closed_loop",
+    "integrators", "error", "merged", "restricted", "closed_loop",
 )  # fmt: skip
 NEEDS_GRAPH = ("arcs", "augmented_outputs", "extended", "lifted", "held", "error")
 LARGEST = 12
@@ -59,6 +59,8 @@ def drawn_step(rng: random.Random, name: str, system: System) -> Document | None
             [system.names[i] for i in range(m) if labels[i] == k] for k in dict.fromkeys(labels)
         ]
         step["parts"] = parts
+    elif name == "restricted":
+        step["channels"] = [s for s in system.names if rng.random() < 0.6] or [*system.names[:1]]
     elif name == "closed_loop":
         step["controller"] = drawn_controller(rng, system)
     return step

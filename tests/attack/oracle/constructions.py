@@ -10,6 +10,7 @@ from flint import fmpq_mat
 
 from .algebra import below, beside, identity, selection, stacked
 from .controllers import closed_loop
+from .moved_entries import moved
 from .networks import held, lifted
 from .parametric import read_parametric
 from .reading import demand, integer, listed, matrix, place, positions, record
@@ -25,10 +26,14 @@ def subject_of(document: Mapping[str, Any], most: int | None = None) -> Any:
         How many constructions to apply; all by default.
     """
     if isinstance(document["system"], Mapping) and "parameters" in document["system"]:
-        demand(listed(document["subject"]) == [], "expected no construction")
-        return read_parametric(document["system"])
-    system = read_plant(document["system"])
-    for step in listed(document["subject"])[:most]:
+        plant = read_parametric(document["system"])
+        return moved(plant, listed(document["subject"])[:most], built)
+    return built(read_plant(document["system"]), listed(document["subject"])[:most])
+
+
+def built(system: System, steps: Sequence[Any]) -> System:
+    """What constructions make from a system."""
+    for step in steps:
         demand(isinstance(step, Mapping), "expected a construction")
         name = step.get("construction")
         demand(isinstance(name, str) and name in CONSTRUCTIONS, "expected a known construction")
@@ -173,6 +178,14 @@ def merged(system: System, given: Mapping[str, Any]) -> System:
     return replace(system, names=names, B=B, C=C).plain()
 
 
+def restricted(system: System, given: Mapping[str, Any]) -> System:
+    """These channels, and no others."""
+    chosen = positions(given["channels"], system.names)
+    demand(bool(chosen), "expected a channel")
+    names, B, C = (tuple(part[i] for i in chosen) for part in (system.names, system.B, system.C))
+    return replace(system, names=names, B=B, C=C).plain()
+
+
 Build = Callable[[System, Mapping[str, Any]], System]
 CONSTRUCTIONS: Mapping[str, tuple[Sequence[str], Build]] = {
     "augmented_outputs": ((), augmented_outputs),
@@ -186,5 +199,6 @@ CONSTRUCTIONS: Mapping[str, tuple[Sequence[str], Build]] = {
     "integrators": ((), integrators),
     "error": (("gains",), error),
     "merged": (("parts",), merged),
+    "restricted": (("channels",), restricted),
     "closed_loop": (("controller",), lambda system, g: closed_loop(system, g["controller"])),
 }

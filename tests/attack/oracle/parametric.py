@@ -12,7 +12,16 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from flint import Ordering, acb, fmpq, fmpq_mpoly_ctx, fmpq_poly, fmpz, nmod_mat, nmod_poly
+from flint import (
+    Ordering,
+    acb,
+    fmpq,
+    fmpq_mpoly_ctx,
+    fmpq_poly,
+    fmpz,
+    nmod_mat,
+    nmod_poly,
+)
 
 from . import algebra
 from .reading import (
@@ -32,7 +41,8 @@ RING = fmpq_mpoly_ctx.get(("t", "x"), Ordering.lex)
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,63}", re.ASCII)
 QUOTIENT = re.compile(r"\((.*)\)/\((.*)\)", re.DOTALL)
 SEED = 20
-Rows = list[list[tuple[fmpq_poly, fmpq_poly]]]
+Function = tuple[fmpq_poly, fmpq_poly]
+Rows = list[list[Function]]
 
 
 @dataclass(frozen=True)

@@ -94,6 +94,8 @@ def _words(step: Mapping[str, Any], system: System) -> str:
         return f"with the links {edges(added)} added to its neighbor graph"
     if kind == "merged":
         return f"with its channels merged into {', '.join(map(channels, step['parts']))}"
+    if kind == "restricted":
+        return f"with the channels {channels(step['channels'])} alone"
     if kind == "closed_loop":
         shown = digested(_controller(step["controller"], system))
         return f"the closed loop with the controller with {shown} of: "

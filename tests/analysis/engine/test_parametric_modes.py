@@ -15,8 +15,6 @@ from mcexact import (
     ParametricSystem,
     check,
     fixed_spectrum,
-    joint_controllability,
-    joint_observability,
     load_certificate,
     save_certificate,
 )
@@ -112,23 +110,6 @@ def test_a_certificate_is_read_back(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="does not accept"):
         load_certificate(path, tanks("t", "t"))
     assert check(found, tanks("t", "t")).verdict == "INVALID"
-
-
-@pytest.mark.parametrize("number", range(8))
-def test_what_is_fixed_at_one_channel_is_what_it_does_not_control(number: int) -> None:
-    rng = random.Random(number)
-    plant = drawn_parametric(rng)
-    lost = fixed_spectrum(plant.with_full_output())
-    unseen = fixed_spectrum(plant.with_full_input())
-    for value in (Fraction(0), Fraction(rng.randint(-9, 9), 4)):
-        try:
-            there = plant.at({"t": value})
-        except InputError:
-            continue
-        for found, asked in ((lost, joint_controllability), (unseen, joint_observability)):
-            holds = not found.generic and all(each.value(value) for each in found.exceptional)
-            if all(each.value(value) for each in found.outside):
-                assert (asked(there).dimension == there.n) is holds
 
 
 @pytest.mark.parametrize("number", (1, 2, 3, 4))

@@ -1,0 +1,69 @@
+"""Constructions that only put entries elsewhere, applied to plants with a parameter."""
+
+from dataclasses import replace
+
+from . import budget
+from .arithmetic import Matrix
+from .parametric_system import ONE, ParametricSystem, Table, cleared_tables
+from .reading import Json, incomplete, items, malformed
+from .subject import CONSTRUCTIONS, read_subject
+from .system import System
+
+# fmt: off
+MOVING = (
+    "arcs", "augmented_outputs", "dual", "extended", "full_output", "integrators", "merged",
+    "restricted",
+)
+# fmt: on
+"""The others compute with entries, or need the delays of a neighbor graph."""
+
+
+def moved(steps: Json, plant: ParametricSystem) -> ParametricSystem:
+    """Apply constructions, which make a matrix of entries of the plant, of 0 and of 1.
+
+    So they are applied to numbers in the places of the entries, 0 for 0 and else 2, 3, …, which
+    tell from the result which entry stands where.  The plant has the neighbor graph without edges.
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    for k, step in enumerate(items(steps, "subject")):
+        name = step.get("construction") if isinstance(step, dict) else None
+        if type(name) is str and name in CONSTRUCTIONS and name not in MOVING:
+            incomplete("construction", f"subject[{k}]", f"{name} does not apply to parameters")
+    if not steps:
+        return plant
+    known = [([], ONE), (ONE, ONE)]
+
+    def numbered(table: Table) -> Matrix:
+        rows, ncols = table
+        budget.spend(budget.table(len(rows), ncols, 1))
+        result = []
+        for row in rows:
+            result.append([len(known) + j if entry[0] else 0 for j, entry in enumerate(row)])
+            known.extend(row)
+        return Matrix(result, ncols)
+
+    def entries(M: Matrix) -> Table:
+        budget.spend(budget.table(M.nrows, M.ncols))
+        return [[known[k] for k in row] for row in M.rows], M.ncols
+
+    A, *ports = map(numbered, plant.tables)
+    alone = [[i] for i in range(plant.m)]
+    start = System(plant.time, plant.names, A, ports[0::2], ports[1::2], alone, words=plant.words)
+    made = read_subject(steps, start)
+    pairs = [M for pair in zip(made.B, made.C, strict=True) for M in pair]
+    parts = cleared_tables([entries(M) for M in (made.A, *pairs)])
+    return replace(plant, names=made.names, words=made.words, **parts)
+
+
+def subject_of(
+    steps: Json, plant: System | ParametricSystem, kind: str
+) -> System | ParametricSystem:
+    """The plant, or what constructions make from it, for a kind of claims."""
+    parametric = isinstance(plant, ParametricSystem)
+    if parametric != kind.startswith("parametric_"):
+        about = "without" if parametric else "with"
+        malformed("system", f"the kind {kind} is about plants {about} parameters")
+    return (
+        moved(steps, plant) if isinstance(plant, ParametricSystem) else read_subject(steps, plant)
+    )
