@@ -20,6 +20,8 @@ _BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 _SHORT = 18
 REMEMBERED = 10_000
 """The number of different numbers that are kept to be recognized when they occur again."""
+_MANY = 20
+"""From so many known keys on, a message about an unknown one does not list them."""
 _LONG = re.compile(rf"[0-9]{{{_SHORT + 1}}}")
 _DIGITS = re.compile(r"[0-9]+", re.ASCII)
 _ESCAPED_DIGIT = re.compile(r"\\u003([0-9])")
@@ -79,6 +81,17 @@ def read_bytes(path: str | os.PathLike[str], limits: Limits = DEFAULT_LIMITS) ->
     return data
 
 
+def _advice(text: str, error: json.JSONDecodeError) -> str:
+    """What people write that JSON does not have, by what stands where a parser stops."""
+    position = error.pos
+    if text[position : position + 1] == "/":
+        return '; a quotient is a text, "1/3", and there are no comments'
+    trailing = text[:position].rstrip()[-1:] == "," and text[position : position + 1] in ("]", "}")
+    if trailing or error.msg.startswith("Illegal trailing comma"):  # since Python 3.13
+        return "; leave out the comma before the closing bracket"
+    return ""
+
+
 def _too_large(limits: Limits) -> InputError:
     return InputError(f"expected at most {limits.bytes} bytes (Limits.bytes), found more")
 
@@ -135,7 +148,8 @@ def parse(data: bytes | str, limits: Limits = DEFAULT_LIMITS) -> Any:
         raise _too_deep(limits) from None
     except json.JSONDecodeError as error:
         said = "expected a value" if error.msg == "Expecting value" else error.msg
-        raise InputError(f"not JSON: {said} at line {error.lineno}, column {error.colno}") from None
+        place = f"line {error.lineno}, column {error.colno}"
+        raise InputError(f"not JSON: {said} at {place}{_advice(text, error)}") from None
     for depth, level in enumerate(_levels(document), start=1):
         if depth > limits.depth:
             raise _too_deep(limits)
@@ -233,7 +247,9 @@ def expect_object(
     known = [*required, *optional]
     for key in value:
         if key not in known:
-            raise InputError(f"unknown key {quoted(key)}{nearest(key, known)}", where=where)
+            listed = f"; known are {', '.join(map(quoted, known))}" if len(known) < _MANY else ""
+            hint = nearest(key, known) or listed
+            raise InputError(f"unknown key {quoted(key)}{hint}", where=where)
     for key in required:
         if key not in value:
             raise InputError(f"the key {quoted(key)} is missing", where=where)

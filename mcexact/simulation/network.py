@@ -81,6 +81,8 @@ class Agent:
     inputs, outputs : int
         p_i and q_i.
     arithmetic : Arithmetic
+    names : sequence of str
+        Of all agents.
     """
 
     def __init__(
@@ -90,11 +92,12 @@ class Agent:
         inputs: int,
         outputs: int,
         arithmetic: Arithmetic,
+        names: Sequence[str],
     ) -> None:
         def zero(size: int) -> Native:
             return arithmetic.convert(Matrix.zeros(size, 1))
 
-        self.position, self.name = position, program.name
+        self.position, self.name, self._names = position, program.name, names
         self._shared_update = _Map(program.shared_update, zero(program.shared), arithmetic)
         self._private_update = _Map(program.private_update, zero(program.private), arithmetic)
         self._input = _Map(program.input, zero(inputs), arithmetic)
@@ -134,8 +137,8 @@ class Agent:
             return self.message_for(j)
         if j not in self._inbox:
             raise SignalNotReceived(
-                f"agent {quoted(self.name)} uses a signal of agent number {j + 1}, "
-                "which it does not receive"
+                f"agent {quoted(self.name)} uses a signal of agent {quoted(self._names[j])}, "
+                "which it does not receive: the plant has no such link"
             )
         return self._inbox[j]
 
@@ -213,7 +216,7 @@ class Network:
         self._C = [arithmetic.convert(channel.C) for channel in system.channels]
         self.state = arithmetic.convert(Matrix.zeros(system.n, 1))
         self.agents = [
-            Agent(i, program, system.p(i), system.q(i), arithmetic)
+            Agent(i, program, system.p(i), system.q(i), arithmetic, system.names)
             for i, program in enumerate(controller.agents)
         ]
         self._links = []

@@ -10,6 +10,7 @@ from typing import Any, Literal
 
 import numpy as np
 
+from mcexact.answer.formats import count
 from mcexact.exact.floats import finite
 from mcexact.exact.location import StabilityRegion
 from mcexact.shown import Shown, fitting
@@ -207,7 +208,8 @@ class Assessment(Shown):
             per_agent = f"{min(self.orders.values())}, alike for all {len(self.orders)}"
         sent = sum(link.numbers for link in self.links)
         most = max((link.numbers for link in self.links), default=0)
-        network = f"{sent} over {len(self.links)} links, at most {most} on one" if sent else "none"
+        network = f"{sent} over {count(len(self.links), 'link')}, at most {most} on one"
+        network = network if sent else "none"
         return [
             ("states of each agent", per_agent),
             ("largest gain", compared("largest_gain")),
