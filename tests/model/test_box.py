@@ -172,7 +172,7 @@ def test_what_is_drawn_is_a_member(drawn: testing.Drawn, seed: int, vertex: bool
     box = Box.relative(drawn.system, "1/3")
     member = box.member(random.Random(seed), vertex=vertex)
     assert box.contains(member) and box.contains(box.nominal)
-    far = [M * 2 for M in (member.A, *member.B, *member.C)]
+    far = [M * 3 for M in (member.A, *member.B, *member.C)]
     m = box.m
     other = MultiChannelSystem(far[0], far[1 : m + 1], far[m + 1 :], time=drawn.system.time)
     assert box.contains(other) == all(M.is_zero() for M in far)
