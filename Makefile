@@ -37,7 +37,7 @@ tests: $(STAMP)
 slow-tests: $(STAMP)
 	$(ONCE) $(BIN)/python -m pytest --quiet --numprocesses 2 --dist worksteal -m slow
 
-# Which tests take more than half a second of the processor, measured one after another and written to
+# Which tests take more than 0.7 seconds of the processor, measured one after another and written to
 # tests/slow.txt: half an hour.  PATHS='tests/synthesis' measures some.
 durations: $(STAMP)
 	$(BIN)/python -m tests.durations $(PATHS)

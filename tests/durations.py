@@ -15,6 +15,7 @@ import subprocess
 import sys
 from collections.abc import Generator, Iterable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -23,9 +24,11 @@ from tests.end_to_end.prepared import Prepared
 ROOT = Path(__file__).parents[1]
 LIST = Path(__file__).with_name("slow.txt")
 MEASURED = ROOT / "build" / "durations.tsv"
-LIMIT = 0.5
+LIMIT = 0.7
 SLOW_FIXTURES = frozenset({"whole", "written"})
-"""Fixtures of a module that take seconds, which the first test that uses one pays for all."""
+"""Fixtures of a module that take seconds; the tests that use one are slow."""
+NEVER_SLOW = ("tests/documentation/",)
+"""Folders whose tests always run: what the documentation promises is tried before each change."""
 
 
 def slow_tests() -> frozenset[str]:
@@ -38,20 +41,36 @@ def spent() -> float:
     return sum(os.times()[:4]) + Prepared.seconds
 
 
+class Shared:
+    """The seconds that went into fixtures which several tests use."""
+
+    seconds = 0.0
+
+
 @pytest.hookimpl(hookwrapper=True)
-def pytest_runtest_protocol(item: pytest.Item) -> Generator[None]:
-    """Write down the seconds of each test, its preparation included."""
+def pytest_fixture_setup(fixturedef: pytest.FixtureDef[Any]) -> Generator[None]:
+    """Keep what a module prepares apart from the test that happens to be its first."""
     begun = spent()
     yield
+    if fixturedef.scope != "function":
+        Shared.seconds += spent() - begun
+
+
+@pytest.hookimpl(hookwrapper=True)
+def pytest_runtest_protocol(item: pytest.Item) -> Generator[None]:
+    """Write down the seconds of each test, its own preparation included."""
+    begun = spent() - Shared.seconds
+    yield
     with MEASURED.open("a", encoding="utf-8") as stream:
-        stream.write(f"{spent() - begun:.2f}\t{item.nodeid}\n")
+        stream.write(f"{spent() - Shared.seconds - begun:.2f}\t{item.nodeid}\n")
 
 
 def updated(listed: Iterable[str], measured: dict[str, float]) -> list[str]:
     """The list after a measurement: what was measured counts, and other files stay."""
     files = {name.partition("::")[0] for name in measured}
     stay = {name for name in listed if name.partition("::")[0] not in files}
-    return sorted(stay | {name for name, seconds in measured.items() if seconds > LIMIT})
+    slow = {name for name, seconds in measured.items() if seconds > LIMIT}
+    return sorted(stay | {name for name in slow if not name.startswith(NEVER_SLOW)})
 
 
 def measurements(text: str) -> dict[str, float]:

@@ -66,26 +66,27 @@ def hidden(value: Any, place: str, longest: int, allowed: str = "") -> str:
 
 SIGNED = re.compile(rational._NUMBER.pattern.replace("-?", "[+-]?", 1), re.ASCII)
 LOOSENED = [
-    ("nulls are keys left out", checker, "fields", lenient_fields),
-    ("the rest of a file is ignored", checker, "_check_unused", lambda *_: None),
-    ("feedthrough is ignored", checker, "_require_no_feedthrough", lambda *_: None),
-    ("names may be hidden", checker, "printable", hidden),
-    ("a number may be as long as it likes", checker, "too_long", lambda *_: False),
-    ("names may be numbers", system_file, "expect_name", lambda value, where: value),
-    ("long numbers may be texts", system_file, "require_short_numbers", lambda *_: None),
-    ("sparse matrices may be longer", matrix_json, "LONGEST_SIDE", 2**24),
-    ("feedthrough is ignored here", system_file, "_refuse_feedthrough", lambda *_: None),
-    ("a number may have a plus sign", rational, "_NUMBER", SIGNED),
+    ("nulls are keys left out", checker, "fields", lenient_fields, 2),
+    ("the rest of a file is ignored", checker, "_check_unused", lambda *_: None, 0),
+    ("feedthrough is ignored", checker, "_require_no_feedthrough", lambda *_: None, 0),
+    ("names may be hidden", checker, "printable", hidden, 0),
+    ("a number may be as long as it likes", checker, "too_long", lambda *_: False, 3),
+    ("names may be numbers", system_file, "expect_name", lambda value, where: value, 17),
+    ("long numbers may be texts", system_file, "require_short_numbers", lambda *_: None, 0),
+    ("sparse matrices may be longer", matrix_json, "LONGEST_SIDE", 2**24, 1),
+    ("feedthrough is ignored here", system_file, "_refuse_feedthrough", lambda *_: None, 0),
+    ("a number may have a plus sign", rational, "_NUMBER", SIGNED, 5),
 ]
+"""What is loosened, by what, and the seed of the first files that show it."""
 
 
-@pytest.mark.parametrize(("what", "module", "name", "loose"), LOOSENED)
+@pytest.mark.parametrize(("what", "module", "name", "loose", "first"), LOOSENED)
 def test_a_reader_that_is_loosened_is_found_out(
-    what: str, module: Any, name: str, loose: Any, monkeypatch: pytest.MonkeyPatch
+    what: str, module: Any, name: str, loose: Any, first: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(module, name, loose)
     found = Tally()
-    for seed in range(25):
+    for seed in range(first, 25):
         found = run(200, seed)
         if found.failures:
             return
