@@ -40,7 +40,8 @@ def run(
     ----------
     *arguments : str
     module : str
-        What is run, in a process that has imported the libraries before.
+        What is run, in a process that has imported the libraries before; if its memory is limited,
+        in one that starts anew, since without memory OpenBLAS waits forever for some of it.
     program : sequence of str
         What is run instead, in a process that starts anew, as it does with another environment.
     stdin : bytes
@@ -48,7 +49,8 @@ def run(
         Variables to set.
     """
     done: subprocess.CompletedProcess[bytes]
-    if program or environment or sys.platform != "linux":
+    anew = program or environment or "--max-memory" in arguments
+    if anew or sys.platform != "linux":
         done = subprocess.run(
             [*(program or (sys.executable, "-m", module)), *arguments],
             input=stdin,
