@@ -182,7 +182,8 @@ def restricted(system: System, given: Mapping[str, Any]) -> System:
     """These channels, and no others."""
     chosen = positions(given["channels"], system.names)
     demand(bool(chosen), "expected a channel")
-    names, B, C = (tuple(part[i] for i in chosen) for part in (system.names, system.B, system.C))
+    names = tuple(system.names[i] for i in chosen)
+    B, C = (tuple(part[i] for i in chosen) for part in (system.B, system.C))
     return replace(system, names=names, B=B, C=C).plain()
 
 
