@@ -1,7 +1,8 @@
 (* The rules that place the roots of a polynomial or the eigenvalues of a matrix, applied to concrete
    ones with every hypothesis discharged. *)
 From mathcomp Require Import all_ssreflect all_algebra all_field.
-From mcexact Require Import location mobius moved_roots root_discs rate_interval real_discs stability instability.
+From mcexact Require Import location mobius moved_roots root_discs rate_interval real_discs stability instability
+  routh_integers sector.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.Theory GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -215,4 +216,70 @@ Lemma inst_lyapunov_posdef_discrete lambda : eigenvalue (0%:M : 'M[algC]_1) lamb
 Proof.
 apply: (@lyapunov_discrete _ 1 _ 1%:M); rewrite ?ler01//; first exact/posdef1/ltr01.
 by rewrite raddf0 mulmx0 subr0 expr1n scale1r; apply/posdef1/ltr01.
+Qed.
+
+(* A damping ratio: x + 1 has the ratio 1/2, and x - 1 has not; their polynomials are x^2 + 6x + 12 and
+   x^2 - 6x + 12.  So have the matrices -1 and 1. *)
+Lemma inst_turned (a : rat) : a ^+ 2 = 1 -> turned ('X + a%:P) 1 2%:R = Poly [:: 12%:R; 6%:R * a; 1].
+Proof.
+move=> a1; have sp : size ('X + a%:P) = 2%N by rewrite size_XaddC.
+have pE k : ('X + a%:P)`_k = if k is j.+1 then (j == 0%N)%:R else a by case: k => [|k]; rewrite coefD coefX coefC ?add0r ?addr0.
+have eR (h e : rat) : real_part ('X + a%:P) h e = 'X + (a * h)%:P.
+  apply/polyP=> k; rewrite coef_poly sp [RHS]coefD coefX coefC.
+  by case: k => [|[|k]] //=; rewrite pE /= ?add0r ?addr0 ?mulr0 ?subr0 ?mulr1.
+have eO (h e : rat) : other_part ('X + a%:P) h e = a%:P.
+  by apply/polyP=> k; rewrite coef_poly sp coefC; case: k => [|[|k]] //=; rewrite pE /= ?mulr0 ?addr0 ?mulr1.
+rewrite /turned eR eO; have -> : a * (2%:R ^+ 2 - 1 ^+ 2) = 3%:R * a by rewrite mulrC.
+apply/polyP=> k; rewrite coef_Poly sqrrD !coefD coefXn !coefMC coefX coefZ -!polyC_exp !coefC.
+case: k => [|[|[|k]]] /=; first by rewrite !mul0r !add0r mulrACA -[a * a]expr2 a1 !mulr1.
+- by rewrite !mul1r mul0r mulr0 add0r !addr0 -mulrDl.
+- by rewrite !mul0r mulr0 !addr0.
+by rewrite !mul0r mulr0 !addr0 nth_nil.
+Qed.
+Lemma inst_turned_integers (a : rat) (w : int) : a ^+ 2 = 1 -> w%:~R = 6%:R * a ->
+  integers_of (turned ('X + a%:P) 1 2%:R) [:: 1; w; 12%:Z].
+Proof.
+move=> a1 we; rewrite inst_turned//; exists 1, 1; split=> //; first by rewrite (@PolyK _ 0).
+by rewrite /lead_coef !(@PolyK _ 0)//; case=> [|[|[|k]]] //= _; rewrite expr1n mulr1 mul1r divr1.
+Qed.
+Lemma inst_damping (z : algC) : root (map_poly ratr ('X + 1%:P)) z -> damped (ratr (1 / 2%:R)) z.
+Proof.
+move: z; apply/(@damping_by_integers _ ('X + 1%:P) 1 2%:R [:: 1; 6%:Z; 12%:Z] true) => //.
+  by rewrite -size_poly_eq0 size_XaddC.
+exact: inst_turned_integers.
+Qed.
+Lemma inst_not_damping : ~ (forall z : algC, root (map_poly ratr ('X + (-1)%:P)) z -> damped (ratr (1 / 2%:R)) z).
+Proof.
+apply/(@damping_by_integers _ ('X + (-1)%:P) 1 2%:R [:: 1; - 6%:Z; 12%:Z] false) => //.
+  by rewrite -size_poly_eq0 size_XaddC.
+exact: inst_turned_integers.
+Qed.
+Lemma inst_damping_rule (z : algC) : root (turned ('X + 1%:P) 1 2%:R) z -> 'Re z < 0.
+Proof.
+have r1 : 1 < 2%:R :> algC by rewrite ltr1n.
+move: z; apply/(damping_rule _ ltr01 r1) => z rz.
+have e : ratr (1 / 2%:R) = 1 / 2%:R :> algC by rewrite fmorph_div rmorph1 rmorph_nat.
+by rewrite -e; apply: inst_damping; rewrite rmorphD /= map_polyX map_polyC /= rmorph1.
+Qed.
+Lemma half01 : 0 < 2%:R^-1 :> algC /\ 2%:R^-1 < 1 :> algC.
+Proof. by rewrite invr_gt0 ltr0n invf_lt1 ?ltr0n// ltr1n. Qed.
+Lemma eigenvalue_scalar (a lambda : algC) : eigenvalue (a%:M : 'M_1) lambda -> lambda = a.
+Proof.
+move/eigenvalueP=> [v]; rewrite mul_mx_scalar => /eqP; rewrite -subr_eq0 -scalerBl scaler_eq0.
+by case/orP=> [|/eqP-> /eqP //]; rewrite subr_eq0 => /eqP.
+Qed.
+Lemma inst_damping_matrix mu :
+  eigenvalue (lifted ((-1)%:M : 'M[algC]_1) (2%:R^-1 ^+ 2 / (1 - 2%:R^-1 ^+ 2))) mu -> 'Re mu < 0.
+Proof.
+move: mu; apply/(damping_matrix _ half01.1 half01.2) => lambda /eigenvalue_scalar ->.
+by rewrite /damped normrN1 mulr1 raddfN /= (Creal_ReP _ (rpred1 _)) ltr_oppl opprK half01.2.
+Qed.
+Lemma inst_not_damping_matrix : ~ (forall mu,
+  eigenvalue (lifted (1%:M : 'M[algC]_1) (2%:R^-1 ^+ 2 / (1 - 2%:R^-1 ^+ 2))) mu -> 'Re mu < 0).
+Proof.
+move/(damping_matrix _ half01.1 half01.2)/(_ 1) => h.
+have e : eigenvalue (1%:M : 'M[algC]_1) 1.
+  by apply/eigenvalueP; exists 1%:M; [rewrite mulmx1 scale1r | exact: one_neq0].
+move: (h e); rewrite /damped normr1 mulr1 (Creal_ReP _ (rpred1 _)) => l.
+by have := lt_trans l (_ : - 2%:R^-1 < 0); rewrite oppr_lt0 half01.1 ltr10 => /(_ isT).
 Qed.

@@ -142,7 +142,7 @@ def _dimensions(sizes: Sequence[tuple[str, int]]) -> str:
 
 def _region(region: StabilityRegion) -> str:
     """Write the region of eigenvalues, such as Re λ < -1."""
-    return f"{region.measure} < {number(region.limit)}"
+    return listed([f"{compared} {number(limit)}" for compared, limit in region.bounds()])
 
 
 def _combinations(rows: Sequence[Sequence[Fraction]]) -> str:

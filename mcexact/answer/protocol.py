@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import dataclasses
 import importlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar, NoReturn, TypeVar, dataclass_transform
@@ -27,7 +27,7 @@ AnyAnswer = TypeVar("AnyAnswer", bound="Answer")
 AnyFunction = TypeVar("AnyFunction", bound=Callable[..., Any])
 
 
-def claim(label: str = "", *, key: str = "") -> Any:
+def claim(label: str = "", *, key: str = "", optional: bool = False) -> Any:
     """A field that the checker verifies.
 
     Parameters
@@ -36,8 +36,16 @@ def claim(label: str = "", *, key: str = "") -> Any:
         Its label in tables; by default the key in words.
     key : str
         Its key in the certificate, if that is not the name of the field.
+    optional : bool
+        By default it is None, and then the certificate leaves it out.
     """
-    return dataclasses.field(metadata={"role": "claim", "label": label, "key": key})
+    metadata = {"role": "claim", "label": label, "key": key, "optional": optional}
+    default: Any = None if optional else dataclasses.MISSING
+    return dataclasses.field(default=default, kw_only=optional, metadata=metadata)
+
+
+LEFT_OUT = {"optional": True}
+"""The metadata of a field of a `Part` that the certificate leaves out where it is None."""
 
 
 def witness(*, whole: bool = False) -> Any:
@@ -73,7 +81,7 @@ class Part(Shown):
 
     def document(self) -> dict[str, Any]:
         """Return the object of ``FORMAT.md``, with exact objects as values."""
-        return {key_of(each): getattr(self, each.name) for each in dataclasses.fields(self)}
+        return _given(self, dataclasses.fields(self))
 
     def to_dict(self) -> dict[str, Any]:
         """Return the same as plain data."""
@@ -118,7 +126,7 @@ class Answer(Shown):
 
     def claim(self) -> dict[str, Any]:
         """Return the statement, with the keys of the kind's ``claim``."""
-        return {key_of(each): getattr(self, each.name) for each in fields_of(type(self), "claim")}
+        return _given(self, fields_of(type(self), "claim"))
 
     def witness(self) -> dict[str, Any]:
         """Return the evidence, with the keys of the kind's ``witness``."""
@@ -135,8 +143,9 @@ class Answer(Shown):
     def entries(self) -> Iterator[tuple[str, str, Any]]:
         """Yield key, label and value of the claims and of the marked properties."""
         for each in fields_of(type(self), "claim"):
-            key = key_of(each)
-            yield key, each.metadata["label"] or _in_words(key), getattr(self, each.name)
+            key, value = key_of(each), getattr(self, each.name)
+            if value is not None or not is_optional(each):
+                yield key, each.metadata["label"] or _in_words(key), value
         for name, label in shown_of(type(self)).items():
             yield name, label or _in_words(name), getattr(self, name)
 
@@ -233,6 +242,17 @@ def shown_of(kind: type[Answer]) -> dict[str, str]:
 def key_of(each: dataclasses.Field[Any]) -> str:
     """Return the key of a field in the certificate."""
     return each.metadata.get("key") or each.name
+
+
+def is_optional(each: dataclasses.Field[Any]) -> bool:
+    """Return whether a field that is None is left out of the certificate."""
+    return bool(each.metadata.get("optional"))
+
+
+def _given(found: Any, fields: Iterable[dataclasses.Field[Any]]) -> dict[str, Any]:
+    """Return the keys and values of the fields that are not left out."""
+    values = {each: getattr(found, each.name) for each in fields}
+    return {key_of(f): v for f, v in values.items() if v is not None or not is_optional(f)}
 
 
 def _in_words(key: str) -> str:

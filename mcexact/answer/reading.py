@@ -13,7 +13,7 @@ from fractions import Fraction
 from typing import Any
 
 from mcexact.answer.check import checked
-from mcexact.answer.protocol import Answer, fields_of, key_of, kind_named
+from mcexact.answer.protocol import Answer, fields_of, is_optional, key_of, kind_named
 from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.derived.delayed import held_system, lifted_system
 from mcexact.derived.dual import dual
@@ -144,6 +144,8 @@ def _answer(kind: type[Answer], document: Mapping[str, Any], about: Any) -> Answ
     for role in ("claim", "witness"):
         for each in fields_of(kind, role):
             whole = each.metadata.get("whole")
+            if is_optional(each) and key_of(each) not in document[role]:
+                continue
             value = document[role] if whole else document[role][key_of(each)]
             values[each.name] = _value(hints[each.name], value, about)
     return kind(about, **values)
@@ -164,8 +166,8 @@ def _value(wanted: Any, value: Any, about: Any) -> Any:
         if issubclass(wanted, Answer):
             return _answer(wanted, value, about)
         hints = typing.get_type_hints(wanted)
-        entries = {f.name: _value(hints[f.name], value[key_of(f)], about) for f in fields(wanted)}
-        return wanted(**entries)
+        given = [f for f in fields(wanted) if key_of(f) in value or not is_optional(f)]
+        return wanted(**{f.name: _value(hints[f.name], value[key_of(f)], about) for f in given})
     return value
 
 
@@ -174,7 +176,8 @@ def _could_be(wanted: Any, value: Any) -> bool:
     if wanted is types.NoneType or value is None:
         return wanted is types.NoneType and value is None
     if is_dataclass(wanted) and wanted not in _READ and isinstance(value, dict):
-        return {key_of(each) for each in fields(wanted)} == value.keys()
+        needed = {key_of(each) for each in fields(wanted) if not is_optional(each)}
+        return needed <= value.keys() <= {key_of(each) for each in fields(wanted)}
     return True
 
 

@@ -17,7 +17,7 @@ from functools import cache, cached_property
 from typing import Any, Literal, Union, get_args, get_origin
 
 from mcexact import answer
-from mcexact.answer.protocol import KINDS, Answer, Part, fields_of, key_of, shown_of
+from mcexact.answer.protocol import KINDS, Answer, Part, fields_of, is_optional, key_of, shown_of
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.polynomial_matrix import PolynomialMatrix
@@ -72,7 +72,7 @@ def kinds() -> dict[str, type[Answer]]:
 
 def claim_schema(kind: type[Answer]) -> Schema:
     """The schema of the ``claim`` of a kind's certificates."""
-    return _object(_typed(kind, fields_of(kind, "claim")), "certificate")
+    return _of_fields(kind, fields_of(kind, "claim"), "certificate")
 
 
 def witness_schema(kind: type[Answer]) -> Schema:
@@ -81,7 +81,7 @@ def witness_schema(kind: type[Answer]) -> Schema:
     whole = [each for each in fields if each.metadata["whole"]]
     if whole:
         return of_type(typing.get_type_hints(kind)[whole[0].name], "certificate")
-    return _object(_typed(kind, fields), "certificate")
+    return _of_fields(kind, fields, "certificate")
 
 
 def view_schema(kind: type[Answer]) -> Schema:
@@ -91,13 +91,29 @@ def view_schema(kind: type[Answer]) -> Schema:
         shown = vars(kind)[name]
         get = shown.func if isinstance(shown, cached_property) else shown.fget
         typed[name] = typing.get_type_hints(get)["return"]
-    return _object(typed | {"certificate": str}, "view")
+    made = _object(typed | {"certificate": str}, "view")
+    return _without_optional(made, fields_of(kind, "claim"))
 
 
 def _typed(kind: type[Any], fields: Sequence[dataclasses.Field[Any]]) -> dict[str, Any]:
     """The keys of some fields with the types of their values."""
     hints = typing.get_type_hints(kind)
     return {key_of(each): hints[each.name] for each in fields}
+
+
+def _of_fields(kind: type[Any], fields: Sequence[dataclasses.Field[Any]], form: Form) -> Schema:
+    """The schema of an object with the keys of these fields."""
+    return _without_optional(_object(_typed(kind, fields), form), fields)
+
+
+def _without_optional(made: Schema, fields: Sequence[dataclasses.Field[Any]]) -> Schema:
+    """Let keys be left out, and never null, where their fields say so."""
+    for key in (key_of(each) for each in fields if is_optional(each)):
+        made["required"].remove(key)
+        [made["properties"][key]] = [
+            each for each in made["properties"][key]["anyOf"] if each != _PLAIN[type(None)]
+        ]
+    return made
 
 
 def _object(typed: Mapping[str, Any], form: Form) -> Schema:
@@ -140,7 +156,7 @@ def of_type(hint: Any, form: Form) -> Schema:
     if origin in (dict, Mapping):
         return {"type": "object", "additionalProperties": of_type(parts[1], form)}
     if isinstance(hint, type) and issubclass(hint, Part):
-        return _object(_typed(hint, dataclasses.fields(hint)), form)
+        return _of_fields(hint, dataclasses.fields(hint), form)
     if isinstance(hint, type) and issubclass(hint, Answer):  # a part of another answer
         return {
             "type": "object",

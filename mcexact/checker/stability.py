@@ -1,12 +1,12 @@
-"""Kind ``stability``: whether every eigenvalue meets a rate or radius; ``proofs/stability.md``."""
+"""Kind ``stability``: whether every eigenvalue lies in a region; ``proofs/stability.md``."""
 
 from fractions import Fraction
 
+from .arithmetic import Matrix
 from .characteristic_polynomial import characteristic_polynomial
-from .location import in_region
 from .quadratic_forms import decreasing, require_dominant, transformed
 from .reading import Json, boolean, fields, integer, items, matrix, require, string
-from .region import inside, read_bound
+from .sector import LIMITS, read_region, within
 from .statement import denied
 from .system import System
 
@@ -18,40 +18,49 @@ def check(claim: Json, witness: Json, system: System) -> None:
     ``stability.stability_continuous``, ``stability.stability_discrete``,
     ``stability.stability_blocks``.
     """
-    limit, verdict = fields(claim, "claim", "bound", "stable")
-    stable, given = boolean(verdict, "claim.stable"), read_bound(limit, system)
-    bound = Fraction(int(system.time == "discrete")) if given is None else given
+    bound, verdict, zeta, largest = fields(claim, "claim", "bound", "stable", optional=LIMITS)
+    stable, region = boolean(verdict, "claim.stable"), read_region(bound, zeta, largest, system)
     method, M = witness.get("method") if isinstance(witness, dict) else None, system.A
     if string(method, "witness.method", "polynomial", "lyapunov", "instability") == "polynomial":
         fields(witness, "witness", "method")
-        found = in_region(characteristic_polynomial(M), system.time, bound)
+        found = region.contains(characteristic_polynomial(M))
         require(found == stable, "claim", "claim.stable", "the characteristic polynomial differs")
     elif method == "lyapunov":
         require(stable, "claim", "claim.stable", "this evidence is for a stable loop")
         _, change, listed = fields(witness, "witness", "method", "transformation", "blocks")
         start, Delta = 0, M if change is None else transformed(change, M)
         for place, entry in ((f"witness.blocks[{k}]", e) for k, e in enumerate(items(listed, ""))):
-            size = integer(fields(entry, place, "size", "P", "R", "R2")[0], f"{place}.size")
+            keys = ("size", "P", "R", "R2", *region.limits)
+            size = integer(fields(entry, place, *keys)[0], f"{place}.size")
             block, rest = range(start, start + size), range(start + size, M.nrows)
             require(block.stop <= M.nrows, "size", place, f"expected {M.nrows} states in all")
             below = Delta.take(rest, block)
             require(below.is_zero(), "blocks", place, "not block upper triangular")
-            P = decreasing(entry, place, Delta.take(block, block), system.time, bound)
-            R = matrix(entry["R"], f"{place}.R", size, size)
-            require_dominant(R.T @ (P @ R), f"{place}.R")
+            for key, side in region.sides(Delta.take(block, block)).items():
+                _require_inside(entry, place, key, side)
             start += size
         require(start == M.nrows, "size", "witness.blocks", f"expected {M.nrows} states in all")
     else:
         require(not stable, "claim", "claim.stable", "this evidence is for an unstable loop")
-        *_, direction = fields(witness, "witness", "method", "P", "R2", "v")
-        P = decreasing(witness, "witness", M, system.time, bound)
-        v = matrix(direction, "witness.v", M.nrows, 1)
+        given, sides = ("side",) * bool(region.limits), region.sides(M)
+        *_, direction = fields(witness, "witness", *given, "method", "P", "R2", "v")
+        side = sides[string(witness.get("side", "bound"), "witness.side", *sides)]
+        P = decreasing(witness, "witness", *side)
+        v = matrix(direction, "witness.v", P.nrows, 1)
         falls = not v.is_zero() and (v.T @ (P @ v)).rows[0][0] <= 0
         require(falls, "direction", "witness.v", "expected v not 0 with v'Pv <= 0")
 
 
+def _require_inside(entry: Json, place: str, key: str, side: tuple[Matrix, str, Fraction]) -> None:
+    """Stop unless a quadratic form shows that a block lies on one side of the region's border."""
+    if key != "bound":
+        entry, place = entry[key], f"{place}.{key}"
+        fields(entry, place, "P", "R", "R2")
+    P = decreasing(entry, place, *side)
+    R = matrix(entry["R"], f"{place}.R", P.nrows, P.nrows)
+    require_dominant(R.T @ (P @ R), f"{place}.R")
+
+
 def statement(claim: Json, system: System) -> str:
     """Where all eigenvalues lie, or that they do not."""
-    limit = claim["bound"]
-    bound = int(system.time == "discrete") if limit is None else limit
-    return f"{denied(claim['stable'])}every eigenvalue of A has {inside(bound, system)}"
+    return f"{denied(claim['stable'])}every eigenvalue of A has {within(claim, system)}"

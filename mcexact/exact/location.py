@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any, Literal, get_args
 
@@ -12,11 +12,15 @@ from mcexact.errors import InputError, UsageError
 from mcexact.exact.floats import as_requested
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import written
+from mcexact.exact.sector import turned
 
 Time = Literal["continuous", "discrete"]
 
 
 TIMES = get_args(Time)
+
+LIMITS = ("damping", "largest_modulus")
+"""The limits on eigenvalues besides a rate, in continuous time."""
 
 
 def require_time(time: object) -> None:
@@ -118,13 +122,18 @@ class StabilityRegion:
     bound : rational or float, optional
         A rate R > 0 in continuous time: Re λ < −R.  A radius R, 0 < R ≤ 1, in discrete time:
         |λ| < R.
+    damping : rational or float, optional
+        A damping ratio ζ, 0 < ζ < 1, in continuous time: −Re λ > ζ|λ|.
+    largest_modulus : rational or float, optional
+        A number M > 0 in continuous time: |λ| < M.
 
     Raises
     ------
     InputError
         The time is neither.
     UsageError
-        The bound is out of range.
+        A number is out of range, or a limit is given in discrete time, where the eigenvalues of one
+        damping ratio are on a spiral, about which no polynomial decides.
 
     Examples
     --------
@@ -133,13 +142,18 @@ class StabilityRegion:
     True
     >>> StabilityRegion("continuous", 1).contains_roots_of(p)
     False
+    >>> print(StabilityRegion("continuous", damping=0.5, largest_modulus=10))
+    Re λ < 0, |λ| < 10 and damping ratio > 1/2
     """
 
     time: str
     bound: Fraction | None = None
+    damping: Fraction | None = None
+    largest_modulus: Fraction | None = None
 
     def __post_init__(self) -> None:
         discrete = is_discrete(self.time)
+        self._read_limits(discrete)
         if self.bound is None:
             return
         bound = as_requested(self.bound, where=self.word)
@@ -148,6 +162,21 @@ class StabilityRegion:
         if discrete and not 0 < bound <= 1:
             raise UsageError(f"expected a radius above 0 and at most 1, found {bound}")
         object.__setattr__(self, "bound", bound)
+
+    def _read_limits(self, discrete: bool) -> None:
+        """Convert the damping ratio and the largest modulus to rationals in their ranges."""
+        for name in LIMITS:
+            given = getattr(self, name)
+            if given is None:
+                continue
+            limit, most = as_requested(given, where=name), 1 if name == "damping" else None
+            if discrete:
+                told = "damping ratio" if name == "damping" else "largest modulus"
+                raise UsageError(f"a {told} is certified in continuous time only", where=name)
+            if limit <= 0 or (most is not None and limit >= most):
+                above = "a number above 0" + (" and below 1" if most else "")
+                raise UsageError(f"expected {above}, found {written(limit)}", where=name)
+            object.__setattr__(self, name, limit)
 
     @classmethod
     def of(
@@ -212,6 +241,22 @@ class StabilityRegion:
             raise UsageError("give a region of the same time domain, or a rate or a radius")
         return region
 
+    def limited(self, damping: Any = None, largest_modulus: Any = None) -> StabilityRegion:
+        """Return the part of the region with a damping ratio, or below a largest modulus.
+
+        Raises
+        ------
+        UsageError
+            As for the region itself.
+        """
+        return replace(self, damping=damping, largest_modulus=largest_modulus)
+
+    @property
+    def limits(self) -> dict[str, Fraction]:
+        """The damping ratio and the largest modulus, as far as they are given."""
+        given = {name: getattr(self, name) for name in LIMITS}
+        return {name: limit for name, limit in given.items() if limit is not None}
+
     @property
     def discrete(self) -> bool:
         """Whether the region belongs to discrete time."""
@@ -246,7 +291,7 @@ class StabilityRegion:
         'Re λ < -5/2'
         """
         change = -margin * self.edge if self.discrete else margin * (self.edge + offset)
-        return StabilityRegion.of(self.time, bound=self.edge + change)
+        return StabilityRegion.of(self.time, bound=self.edge + change).limited(**self.limits)
 
     def shifted(self, p: Polynomial) -> Polynomial:
         """Return a polynomial that is stable iff all roots of p lie in this region.
@@ -279,7 +324,22 @@ class StabilityRegion:
         [True, False]
         """
         standard = self.shifted(p)
-        return is_schur(standard) if self.discrete else is_hurwitz(standard)
+        inside = is_schur(standard) if self.discrete else is_hurwitz(standard)
+        if inside and self.largest_modulus is not None:
+            inside = is_schur(p.scale(self.largest_modulus))
+        if inside and self.damping is not None:
+            inside = is_hurwitz(turned(p, self.damping))
+        return inside
+
+    def bounds(self) -> list[tuple[str, Fraction]]:
+        """Return the inequalities of the region, each as what is compared, and the number."""
+        found = [(f"{self.measure} <", self.limit)]
+        if self.largest_modulus is not None:
+            found.append(("|λ| <", self.largest_modulus))
+        if self.damping is not None:
+            found.append(("damping ratio >", self.damping))
+        return found
 
     def __str__(self) -> str:
-        return f"{self.measure} < {written(self.limit)}"
+        *others, last = [f"{compared} {written(number)}" for compared, number in self.bounds()]
+        return f"{', '.join(others)} and {last}" if others else last

@@ -137,6 +137,22 @@ def of_its_channels(system: MultiChannelSystem) -> Answers:
         yield "exceptional_gains_controllability_set", found.controllability_set
 
 
+def of_regions() -> Iterator[tuple[str, Any]]:
+    """A loop with the damping ratio 3/5 and the modulus 5, in regions that hold it or not."""
+    A = [[-3, 4, 0], [-4, -3, 1], [0, 0, -2]]
+    ports = [[[0], [0], [1]]], [[[1, 0, 0]]]
+    loop = MultiChannelSystem(A, *ports)
+    limits: dict[str, dict[str, Any]] = {
+        "damped": {"damping": "1/2"},
+        "not damped": {"damping": "3/5"},
+        "slow": {"largest_modulus": "501/100"},
+        "in a region": {"rate": 1, "damping": "1/2", "largest_modulus": 6},
+        "not in a region": {"rate": 2, "damping": "1/2", "largest_modulus": 5},
+    }
+    for name, given in limits.items():
+        yield name, mcexact.certify_stability(loop, method="polynomial", **given)
+
+
 def of_a_parameter() -> Iterator[tuple[str, Any]]:
     """The paper's example with one of its entries free, and the valves of four tanks."""
     for i in range(3):
@@ -281,6 +297,8 @@ def digests(asked: Iterable[tuple[str, MultiChannelSystem]]) -> dict[str, dict[s
     for name, answer in of_a_parameter():
         place = ("questions", "parametric_fixed_spectrum")
         add_answer(answer, ("plants", f"with a parameter: {name}"), place)
+    for name, answer in of_regions():
+        add_answer(answer, ("plants", f"a loop: {name}"), ("questions", "stability in a region"))
     for name, made in designs():
         for _, answer in made:
             add_answer(answer, ("designs", name))

@@ -70,6 +70,61 @@ APART = certificate(
 )
 """The second state drives the first; if the first drives the second, too, 1 is an eigenvalue."""
 THREE = matrix([1, 0, 0], [0, 1, 0], [0, 0, 1])
+FOUR = matrix([1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1])
+
+
+def side(P: Document) -> Document:
+    return {"P": P, "R": P, "R2": P}
+
+
+def limited(stable: bool, **limits: Any) -> Document:
+    return {**claim(stable), **limits}
+
+
+# [-3 4; -4 -3] has the eigenvalues -3 + 4i and -3 - 4i: the modulus 5, the damping ratio 3/5.
+ROUND = loop([[-3, 4], [-4, -3]])
+DAMPED = certificate("stability", ROUND, limited(True, damping="1/2"), POLYNOMIAL)
+WITHIN = certificate("stability", ROUND, limited(True, largest_modulus=6), POLYNOMIAL)
+BOTH_LIMITS = {"damping": "1/2", "largest_modulus": 6}
+IN_A_REGION = certificate(
+    "stability",
+    ROUND,
+    {"bound": 2, "stable": True, **BOTH_LIMITS},
+    {
+        "method": "lyapunov",
+        "transformation": None,
+        # For ζ = 1/2 the lifted matrix is [M, -M/3; M, M].
+        "blocks": [
+            {
+                **form(UNIT),
+                "damping": {
+                    "P": matrix([3, 0, 0, 0], [0, 3, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]),
+                    "R": FOUR,
+                    "R2": matrix([1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 2, 0], [0, 0, 0, 2]),
+                },
+                "largest_modulus": side(UNIT),
+            }
+        ],
+    },
+)
+NOT_DAMPED = certificate(
+    "stability",
+    loop([[0, 1], [-1, 0]]),
+    limited(False, damping="3/5"),
+    POLYNOMIAL,
+)
+TOO_FAST = certificate(
+    "stability",
+    loop([[-2, 0], [0, "-1/2"]]),
+    limited(False, largest_modulus=1),
+    {
+        "method": "instability",
+        "side": "largest_modulus",
+        "P": matrix([-1, 0], [0, 1]),
+        "R2": UNIT,
+        "v": matrix([1], [0]),
+    },
+)
 
 ACCEPTED = [
     ("a block that drives another", APART),
@@ -87,6 +142,37 @@ ACCEPTED = [
         BY_POLYNOMIAL, ("claim.bound", 1), ("claim.stable", False)
     )),
     ("no states", certificate("stability", loop([]), claim(True), POLYNOMIAL)),
+    ("a damping ratio", DAMPED),
+    ("a damping ratio near its own", changed(DAMPED, ("claim.damping", "599/1000"))),
+    ("exactly its damping ratio is not met", changed(
+        DAMPED, ("claim.damping", "3/5"), ("claim.stable", False)
+    )),
+    ("a larger damping ratio is not met", changed(
+        DAMPED, ("claim.damping", "601/1000"), ("claim.stable", False)
+    )),
+    ("every damping ratio of real eigenvalues", changed(
+        BY_POLYNOMIAL, ("claim.damping", "999/1000")
+    )),
+    ("no damping ratio of the eigenvalue 0", certificate(
+        "stability", loop([[0]]), limited(False, damping="1/1000"), POLYNOMIAL
+    )),
+    ("a largest modulus", WITHIN),
+    ("exactly its largest modulus is not met", changed(
+        WITHIN, ("claim.largest_modulus", 5), ("claim.stable", False)
+    )),
+    ("a largest modulus above 1, which is no radius", changed(
+        WITHIN, ("claim.largest_modulus", "501/100")
+    )),
+    ("a rate, a damping ratio and a largest modulus", IN_A_REGION),
+    ("the same by the polynomial", changed(IN_A_REGION, ("witness", POLYNOMIAL))),
+    ("a rate that is not met, and limits that are", changed(
+        IN_A_REGION, ("witness", POLYNOMIAL), ("claim.bound", 3), ("claim.stable", False)
+    )),
+    ("limits of no states", certificate(
+        "stability", loop([]), limited(True, **BOTH_LIMITS), POLYNOMIAL
+    )),
+    ("no damping at all", NOT_DAMPED),
+    ("an eigenvalue that is too fast", TOO_FAST),
 ]  # fmt: skip
 
 REJECTED = [
@@ -121,6 +207,87 @@ REJECTED = [
     ("instability of a stable loop", UNSTABLE, ("system.A.0.0", -1)),
     ("instability called stability", UNSTABLE, ("claim.stable", True)),
     ("an unknown method", BY_POLYNOMIAL, ("witness.method", "eigenvalues")),
+    ("exactly its damping ratio", DAMPED, ("claim.damping", "3/5")),
+    ("a larger damping ratio", DAMPED, ("claim.damping", "601/1000")),
+    ("a damping ratio of 0", DAMPED, ("claim.damping", 0), "INVALID"),
+    ("a damping ratio of 1", DAMPED, ("claim.damping", 1), "INVALID"),
+    ("a negative damping ratio", DAMPED, ("claim.damping", "-1/2"), "INVALID"),
+    ("a damping ratio that is null", DAMPED, ("claim.damping", None), "MALFORMED"),
+    (
+        "a damping ratio in discrete time",
+        IN_DISCRETE_TIME,
+        [("witness", POLYNOMIAL), ("claim.damping", "1/2")],
+        "INVALID",
+    ),
+    (
+        "a largest modulus in discrete time",
+        IN_DISCRETE_TIME,
+        [("witness", POLYNOMIAL), ("claim.largest_modulus", "1/2")],
+        "INVALID",
+    ),
+    ("exactly its largest modulus", WITHIN, ("claim.largest_modulus", 5)),
+    ("a largest modulus of 0", WITHIN, ("claim.largest_modulus", 0), "INVALID"),
+    (
+        "limits in vain, for a rate that is not met",
+        IN_A_REGION,
+        [("witness", POLYNOMIAL), ("claim.bound", 3)],
+    ),
+    (
+        "a limit without its form",
+        DAMPED,
+        [
+            ("witness", BY_LYAPUNOV["witness"]),
+        ],
+        "MALFORMED",
+    ),
+    ("a form without its limit", IN_A_REGION, ("claim", claim(True)), "MALFORMED"),
+    (
+        "a form of the rate for the damping ratio",
+        IN_A_REGION,
+        ("witness.blocks.0.damping", side(UNIT)),
+    ),
+    (
+        "a form that does not decrease with the damping ratio",
+        IN_A_REGION,
+        [("claim.damping", "3/5")],
+        "INVALID",
+    ),
+    (
+        "a negative form for the damping ratio",
+        IN_A_REGION,
+        (
+            "witness.blocks.0.damping.P",
+            matrix(*([-3 * (i == j) for j in range(4)] for i in range(4))),
+        ),
+        "INVALID",
+    ),
+    (
+        "R of zeros for the damping ratio",
+        IN_A_REGION,
+        ("witness.blocks.0.damping.R", matrix(*([0] * 4 for _ in range(4)))),
+        "INVALID",
+    ),
+    (
+        "a form that does not decrease with the largest modulus",
+        IN_A_REGION,
+        ("claim.largest_modulus", 5),
+        "INVALID",
+    ),
+    (
+        "a key too many beside a form",
+        IN_A_REGION,
+        ("witness.blocks.0.damping.size", 4),
+        "MALFORMED",
+    ),
+    ("evidence against another side", TOO_FAST, ("witness.side", "bound"), "INVALID"),
+    ("evidence against a side that is not claimed", TOO_FAST, ("witness.side", "damping")),
+    ("evidence against a side, without limits", UNSTABLE, ("witness.side", "bound"), "MALFORMED"),
+    (
+        "evidence against no side",
+        certificate("stability", TOO_FAST["system"], TOO_FAST["claim"], TOO_FAST["witness"]),
+        ("witness", UNSTABLE["witness"]),
+        "MALFORMED",
+    ),
 ]
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import accumulate, pairwise
 from typing import Any, Literal, get_args
@@ -12,6 +12,7 @@ from mcexact.analysis.engine import QuadraticForm, quadratic_form, separated_ins
 from mcexact.answer.stability import (
     InstabilityMethod,
     LyapunovBlock,
+    LyapunovForm,
     LyapunovMethod,
     PolynomialMethod,
     StabilityVerdict,
@@ -25,6 +26,7 @@ from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import primes, residues
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import Entry, as_fraction
+from mcexact.exact.sector import lifted
 from mcexact.model.matrix_entry import as_matrix
 from mcexact.model.system import MultiChannelSystem
 
@@ -84,6 +86,8 @@ def certify_stability(
     *,
     rate: Entry | None = None,
     radius: Entry | None = None,
+    damping: Entry | None = None,
+    largest_modulus: Entry | None = None,
     method: Method | None = None,
     separation: Separation | None = None,
     polynomial: Polynomial | None = None,
@@ -100,6 +104,8 @@ def certify_stability(
     rate, radius : rational, optional
         A number instead of the region: real parts below −rate (continuous time), or moduli below
         the radius (discrete time).  By default only stability is decided.
+    damping, largest_modulus : rational, optional
+        In continuous time, besides a rate: −Re λ > damping·|λ|, and |λ| < largest_modulus.
     method : {"polynomial", "lyapunov"}, optional
         By default the characteristic polynomial for small loops, Lyapunov matrices for large ones,
         and the polynomial again if these are inconclusive.
@@ -125,9 +131,13 @@ def certify_stability(
     True
     >>> certify_stability(matrix_system(M), rate=1).stable
     False
+    >>> certify_stability(matrix_system(M), damping="1/2", largest_modulus=3).stable
+    True
     """
     InputError.require(loop, MultiChannelSystem, "loop")
     region = StabilityRegion.asked(loop.time, region, rate, radius) or StabilityRegion(loop.time)
+    if damping is not None or largest_modulus is not None:
+        region = region.limited(damping, largest_modulus)
     if method not in {None, *get_args(Method)}:
         raise UsageError(f'expected "polynomial" or "lyapunov", found {method!r}', where="method")
     if separation is not None:
@@ -143,7 +153,9 @@ def certify_stability(
             found = _lyapunov(loop, region, separation)
             stable = isinstance(found, LyapunovMethod)
         if found is not None:
-            return StabilityVerdict(loop, bound=region.bound, stable=stable, evidence=found)
+            return StabilityVerdict(
+                loop, bound=region.bound, stable=stable, **region.limits, evidence=found
+            )
     raise UsageError("the Lyapunov method was inconclusive: leave out `method`", where="method")
 
 
@@ -174,15 +186,22 @@ def _lyapunov(
 ) -> LyapunovMethod | InstabilityMethod | None:
     """Find quadratic forms of the blocks, or of the whole loop if unstable; None if undecided."""
     parts: Sequence[Matrix] = (loop.A,) if separation is None else separation.blocks()
-    forms = []
-    for D in parts:
-        form = quadratic_form(D, region)
-        if form is None:
-            return None
-        forms.append(form)
-    if any(form.R is None for form in forms):
-        return _instability(loop, region, separation, forms)
-    blocks = [LyapunovBlock(f.P.nrows, f.P, f.R, f.R2) for f in forms if f.R is not None]
+    found: dict[str, list[LyapunovForm]] = {}
+    for side in ("bound", *region.limits):
+        forms = []
+        for D in parts:
+            form = quadratic_form(*_of_side(side, D, region))
+            if form is None:
+                return None
+            forms.append(form)
+        if any(form.R is None for form in forms):
+            return _instability(loop, region, side, separation, forms)
+        found[side] = [LyapunovForm(f.P, f.R, f.R2) for f in forms if f.R is not None]
+    blocks = []
+    for k, first in enumerate(found.pop("bound")):
+        block = LyapunovBlock(first.P.nrows, first.P, first.R, first.R2)
+        limits: dict[str, Any] = {side: made[k] for side, made in found.items()}
+        blocks.append(replace(block, **limits))
     transformation = None
     if separation is not None:
         modulus = _nonsingular_modulus(loop, separation.T)
@@ -190,23 +209,36 @@ def _lyapunov(
     return LyapunovMethod(transformation, tuple(blocks))
 
 
+def _of_side(side: str, D: Matrix, region: StabilityRegion) -> tuple[Matrix, StabilityRegion]:
+    """A matrix that has all its eigenvalues in a region, iff D meets this side of the given one."""
+    if side == "damping" and region.damping is not None:
+        return lifted(D, region.damping), StabilityRegion(region.time)
+    if side == "largest_modulus" and region.largest_modulus is not None:
+        return D * (1 / region.largest_modulus), StabilityRegion("discrete")
+    return D, StabilityRegion(region.time, region.bound)
+
+
 def _instability(
     loop: MultiChannelSystem,
     region: StabilityRegion,
+    side: str,
     separation: Separation | None,
     forms: Sequence[QuadraticForm],
 ) -> InstabilityMethod | None:
     """A form for the whole loop: its only block's, that made of the blocks', or a new one."""
+    named = side if region.limits else None
     if separation is None:
         [form] = forms
-    elif separation.inverse is not None:
-        return separated_instability(loop.A, separation.T, separation.inverse, forms, region)
+    elif separation.inverse is not None and side == "bound":
+        T, inverse = separation.T, separation.inverse
+        found = separated_instability(loop.A, T, inverse, forms, region)
+        return None if found is None else replace(found, side=named)
     else:
-        whole = quadratic_form(loop.A, region)
+        whole = quadratic_form(*_of_side(side, loop.A, region))
         if whole is None:
             return None
         form = whole
-    return None if form.v is None else InstabilityMethod(form.P, form.R2, form.v)
+    return None if form.v is None else InstabilityMethod(form.P, form.R2, form.v, side=named)
 
 
 def _nonsingular_modulus(loop: MultiChannelSystem, T: Matrix) -> int:

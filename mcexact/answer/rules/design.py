@@ -5,7 +5,7 @@ from __future__ import annotations
 from mcexact.answer.rules.analysis import Said
 from mcexact.answer.sentence import Claim, Given, Rulebook
 from mcexact.answer.wording import design as say
-from mcexact.exact.location import StabilityRegion
+from mcexact.exact.location import LIMITS, StabilityRegion
 
 RULES = Rulebook()
 rule = RULES.rule
@@ -14,9 +14,15 @@ rule = RULES.rule
 def inside(loop: Claim, region: StabilityRegion) -> bool:
     """Whether the claim about a loop is that every eigenvalue lies in a region."""
     if loop.has("stable"):
-        return bool(loop.stable and loop.bound == region.bound)
+        return bool(loop.stable and about(loop, region))
     parts = (loop.polynomial,) if loop.has("polynomial") else (loop.feedback, loop.error)
     return all(region.contains_roots_of(p) for p in parts)
+
+
+def about(loop: Claim, region: StabilityRegion) -> bool:
+    """Whether a claim of the kind ``stability`` is about this region."""
+    limits = {name: getattr(loop, name) for name in LIMITS if loop.has(name)}
+    return bool(loop.bound == region.bound and limits == region.limits)
 
 
 # Designs.
@@ -144,7 +150,7 @@ def _states(given: Given) -> Said:
 
 @rule("table", say.INSIDE, say.OUTSIDE)
 def _location(loop: Claim, given: Given) -> Said:
-    if loop.bound == given.region.bound:
+    if about(loop, given.region):
         yield (say.INSIDE if loop.stable else say.OUTSIDE)(region=given.region)
 
 

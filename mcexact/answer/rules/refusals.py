@@ -6,6 +6,7 @@ from typing import Any
 
 from mcexact.answer.protocol import Answer
 from mcexact.answer.rules.analysis import Said
+from mcexact.answer.rules.design import about
 from mcexact.answer.sentence import Claim, Given, Rulebook
 from mcexact.answer.wording import refusals as say
 from mcexact.errors import Impossible, InternalError
@@ -97,7 +98,7 @@ def _no_dimensions(shared_dimensions: Claim, given: Given) -> Said:
 
 @rule("outside", say.OUTSIDE)
 def _outside(stability: Claim, given: Given) -> Said:
-    if not stability.stable and stability.bound == given.region.bound:
+    if not stability.stable and about(stability, given.region):
         yield say.OUTSIDE(region=given.region)
 
 

@@ -180,3 +180,37 @@ def test_a_region_of_the_other_time_domain_is_refused() -> None:
         with pytest.raises(UsageError, match="region of the same time domain"):
             time = "continuous" if options else "discrete"
             certify_stability(loop, StabilityRegion(time), **options)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("method", ["polynomial", "lyapunov"])
+@pytest.mark.parametrize(
+    ("limits", "stable"),
+    [
+        ({"damping": "59/100"}, True),
+        ({"damping": "61/100"}, False),
+        ({"largest_modulus": "51/10"}, True),
+        ({"largest_modulus": "49/10"}, False),
+        ({"damping": 0.5, "largest_modulus": 6, "rate": 1}, True),
+        ({"damping": 0.5, "largest_modulus": 6, "rate": "7/2"}, False),
+    ],
+)
+def test_a_region_is_decided_with_limits_by_both_methods(limits, stable, method):
+    loop = matrix_system([[-3, 4, 1], [-4, -3, 0], [0, 0, -2]])
+    found = certify_stability(loop, method=method, **limits)
+    assert found.stable == stable and found.region.limits.keys() == limits.keys() - {"rate"}
+    assert_valid(found)
+
+
+def test_limits_are_decided_block_by_block():
+    blocks = [[[Fraction(-3), Fraction(4)], [Fraction(-4), Fraction(-3)]], [[Fraction(-1)]]]
+    M = block_diagonal([Matrix.from_rows(block) for block in blocks])
+    T = Matrix.from_rows([[1, 0, 2], [0, 1, 1], [0, 0, 1]])
+    inverse = Matrix.from_rows([[1, 0, -2], [0, 1, -1], [0, 0, 1]])
+    loop = matrix_system(T @ M @ inverse)
+    separation = Separation(T, M, (2, 1), inverse)
+    for damping in ("1/2", "7/10"):
+        found = certify_stability(
+            loop, method="lyapunov", separation=separation, damping=damping, largest_modulus=8
+        )
+        assert found.stable == (damping == "1/2")
+        assert_valid(found)

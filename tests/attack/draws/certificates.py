@@ -70,7 +70,11 @@ def _stability(rng: random.Random, system: MultiChannelSystem) -> Found:
     if system.time == "continuous" and bound == 0:
         bound = None
     method: Any = rng.choice(["polynomial", "lyapunov", "lyapunov"])
-    return mcexact.certify_stability(system, StabilityRegion(system.time, bound), method=method)
+    region = StabilityRegion(system.time, bound)
+    if system.time == "continuous" and rng.random() < 0.5:
+        ratios, moduli = (None, "1/2", "1/10", "9/10", "3/5"), (None, 1, 3, 10, "100")
+        region = region.limited(rng.choice(ratios), rng.choice(moduli))
+    return mcexact.certify_stability(system, region, method=method)
 
 
 def _dimensions(rng: random.Random, system: MultiChannelSystem) -> Found:

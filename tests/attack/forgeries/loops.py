@@ -13,6 +13,7 @@ from ..draws.observers import drawn_observer, late_observer
 from ..draws.plants import Document, number
 from ..oracle.algebra import identity
 from ..oracle.constructions import subject_of
+from .regions import REGIONS
 from .writing import PRIME, unit, written, zeros
 
 Forged = Document | None
@@ -197,5 +198,5 @@ SPECTRUM = (congruent_coefficient, other_degree)
 OBSERVER = (congruent_coefficient, other_degree, too_fast, larger_share)
 STABILITY = (
     another_matrix, few_blocks, own_plant, own_plant, skew_form, falling_form, wrong_verdict,
-    stricter_bound, indefinite_form,
+    stricter_bound, indefinite_form, *REGIONS,
 )  # fmt: skip

@@ -11,7 +11,7 @@ from .algebra import identity
 from .constructions import subject_of
 from .controllers import Loop, read_agents
 from .reading import demand, polynomial, rational, record, truth
-from .roots import inside
+from .roots import damped, inside
 from .systems import System
 
 
@@ -26,9 +26,20 @@ def _bound(value: Any, time: str) -> fmpq | None:
 
 def stability(claim: Any, witness: Any, system: System) -> bool:
     """Where the roots of χ_A are."""
-    found = record(claim, "bound", "stable")
-    bound = _bound(found["bound"], system.time)
-    return truth(found["stable"]) is inside(system.A.charpoly(), system.time, bound)
+    found = record(claim, "bound", "stable", optional=("damping", "largest_modulus"))
+    bound, p = _bound(found["bound"], system.time), system.A.charpoly()
+    held = inside(p, system.time, bound)
+    if len(found) > 2:
+        demand(system.time == "continuous", "expected limits in continuous time alone")
+    if "damping" in found:
+        zeta = rational(found["damping"])
+        demand(0 < zeta < 1, "expected a damping ratio")
+        held = held and damped(p, zeta)
+    if "largest_modulus" in found:
+        most = rational(found["largest_modulus"])
+        demand(most > 0, "expected a modulus")
+        held = held and inside(p, "discrete", most)
+    return truth(found["stable"]) is held
 
 
 def closed_loop_spectrum(claim: Any, witness: Any, system: System) -> bool:

@@ -78,6 +78,18 @@ def inside(p: fmpq_poly, time: str, bound: fmpq | None) -> bool:
     return decided(question)
 
 
+def damped(p: fmpq_poly, zeta: fmpq) -> bool:
+    """Whether −Re λ > ζ|λ| for all roots."""
+
+    def question(sign: Sign) -> bool:
+        return all(
+            sign(r.real) < 0 and sign(r.real**2 - arb(zeta * zeta) * _squared(r)) > 0
+            for r in roots_of(p)
+        )
+
+    return decided(question)
+
+
 def _squared(z: Any) -> Any:
     """|z|²."""
     return z.real * z.real + z.imag * z.imag

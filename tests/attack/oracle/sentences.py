@@ -288,6 +288,14 @@ SENTENCES: dict[str, Any] = {
     "single_channel_gains": _single,
     "stability": lambda claim, system: (
         f"{_not(claim['stable'])}every eigenvalue of A has {_region(claim['bound'], system.time)}"
+        + "".join(
+            f" and {words} {number(rational(claim[key]))}"
+            for key, words in (
+                ("damping", "damping ratio above"),
+                ("largest_modulus", "modulus below"),
+            )
+            if key in claim
+        )
     ),
     "transfer_graph": _transfer_graph,
 }
