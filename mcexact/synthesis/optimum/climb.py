@@ -9,7 +9,7 @@ import numpy as np
 from mcexact.synthesis.optimum.cost import quadratic_costs
 from mcexact.synthesis.optimum.figures import figures_of
 from mcexact.synthesis.optimum.ladder import Candidate, Ladder, Start, contents, ranked
-from mcexact.synthesis.optimum.polish import drafted, inside, polished, settled
+from mcexact.synthesis.optimum.polish import bound_of, drafted, inside, polished, settled
 from mcexact.synthesis.optimum.problem import FeedbackProblem
 from mcexact.synthesis.optimum.programs import balanced
 from mcexact.synthesis.optimum.steps import steps_of
@@ -25,10 +25,10 @@ def climbed(ladder: Ladder) -> list[Candidate]:
     Notes
     -----
     In floating point; nothing is proved.  All starts of a step are followed for a while, and the
-    best two of them to the end.  For a large plant 1.5 times the price that is enough ends the
-    search after a step.  Where drafts are dear there is only one, and if its cost is far too high
-    it waits until all steps were tried, unless its agents are tied; a hopeless one waits in any
-    case.
+    best two of them to the end; a start that lies inside the region counts as it is, too.  For a
+    large plant 1.5 times the price that is enough ends the search after a step.  Where drafts are
+    dear there is only one, and if its cost is far too high it waits until all steps were tried,
+    unless its agents are tied; a hopeless one waits in any case.
     """
     found: list[Candidate] = []
     later: list[tuple[float, Start]] = []
@@ -38,6 +38,7 @@ def climbed(ladder: Ladder) -> list[Candidate]:
             if ladder.effort.over:
                 break
             ladder.tell(start.step)
+            found += _as_it_is(ladder, start)
             before = ladder.effort.left
             value, draft = _draft(ladder, start)
             if value <= ladder.enough and _finish(ladder, draft, found):
@@ -60,6 +61,14 @@ def climbed(ladder: Ladder) -> list[Candidate]:
         if _finish(ladder, draft, found):
             break
     return found
+
+
+def _as_it_is(ladder: Ladder, start: Start) -> list[Candidate]:
+    """A start inside the region, which is a candidate: descent may end with a higher price."""
+    if not ladder.target.reached(bound_of(start.problem, start.problem.entries(start.K))):
+        return []
+    made = _candidate(ladder, start.step, start.problem.untied, start.K)
+    return [] if made is None else [made]
 
 
 def _draft(ladder: Ladder, start: Start) -> tuple[float, Start]:

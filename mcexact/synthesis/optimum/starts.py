@@ -22,6 +22,7 @@ Realization = tuple[Floats, Floats, Floats, Floats]
 
 _NEGLIGIBLE = 1e-9
 _SLOWER = 8.0
+_MUCH = 0.02
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,7 +41,7 @@ class Locality:
 
 
 def localities(
-    problem: FeedbackProblem, weights: Weights, *, driven: bool = False
+    problem: FeedbackProblem, weights: Weights, *, driven: bool = False, much: bool = False
 ) -> list[Locality]:
     """Return the part of the plant of each agent.
 
@@ -53,6 +54,9 @@ def localities(
     weights : Weights
     driven : bool
         Take the states that its inputs drive alone; then an output may read states of others, too.
+    much : bool
+        Take the states on which its inputs have more than a fiftieth of their largest effect: where
+        inputs are held between samples, every state near by is driven a little.
 
     Examples
     --------
@@ -69,7 +73,8 @@ def localities(
     A, B, C = problem.A[:n, :n], problem.B[:n], problem.C[:, :n]
     sets = []
     for agent in problem.agents:
-        touched = np.any(B[:, agent.inputs] != 0, axis=1)
+        effects = np.max(np.abs(B[:, agent.inputs]), axis=1, initial=0.0)
+        touched = effects > (_MUCH * np.max(effects, initial=0.0) if much else 0.0)
         if not driven:
             touched = touched | np.any(C[agent.own] != 0, axis=0)
         sets.append(set(map(int, np.flatnonzero(touched))))

@@ -45,6 +45,9 @@ def steps_of(
     """
     static = ladder.problem(ladder.structure(0))
     parts = [localities(static, ladder.weights, driven=each) for each in (False, True)]
+    narrow = localities(static, ladder.weights, much=True)
+    if all(_states(narrow) != _states(each) for each in parts):
+        parts.append(narrow)
     yield [Start(_STATIC, static, _best_static(ladder, static, parts))]
     cut = _cut(ladder, static, parts[1])
     if ladder.large and any(sum(each.problem.network.dimensions) for each in cut):
@@ -71,6 +74,10 @@ def steps_of(
         problem, K = problem_of(*proposed, ladder.weights, ladder.sizes)
         if problem.size <= _MOST_ENTRIES:
             yield [Start("from the theorem's controller", problem, balanced(problem, K))]
+
+
+def _states(parts: list[Locality]) -> list[tuple[int, ...]]:
+    return [each.states for each in parts]
 
 
 def _drawn(
