@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
+from mcexact.cli import options
+
 if TYPE_CHECKING:
     from mcexact.synthesis.optimum.aims import Aims
 
@@ -36,6 +38,23 @@ weights = click.option(
     help='JSON {"Q": rows, "R": rows, "W": rows, "V": rows}, or some of them: weights of states '
     "and inputs, and covariances of the noises of states and outputs; by default identities, and "
     "I/100 for V.",
+)
+
+
+damping = click.option(
+    "--damping",
+    type=options.rational,
+    metavar="RATIO",
+    help="Every eigenvalue has a damping ratio above RATIO; in discrete time a design aims at it, "
+    "which is not certified.",
+)
+
+fastest = click.option(
+    "--fastest",
+    "largest_modulus",
+    type=options.rational,
+    metavar="MODULUS",
+    help="In continuous time: every modulus is below MODULUS.",
 )
 
 
@@ -78,19 +97,8 @@ def aims(function: F) -> F:
             metavar="GAIN",
             help="Largest gain to aim at; by default ten times that of one controller for all.",
         ),
-        click.option(
-            "--fastest",
-            "largest_modulus",
-            type=number,
-            metavar="MODULUS",
-            help="Largest modulus of an eigenvalue to aim at, in continuous time; not certified.",
-        ),
-        click.option(
-            "--damping",
-            type=number,
-            metavar="RATIO",
-            help="Least damping ratio of an eigenvalue to aim at; not certified.",
-        ),
+        fastest,
+        damping,
         click.option(
             "--margin",
             type=number,

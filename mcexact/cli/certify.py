@@ -28,6 +28,8 @@ rounded_output = click.option(
 @click.argument("controller")
 @options.rate
 @options.radius
+@aiming.damping
+@aiming.fastest
 @click.option(
     "--largest", is_flag=True, help="Search for the largest rate (least radius) and certify it."
 )
@@ -50,9 +52,10 @@ def command(file: str, controller: str, **given: Any) -> int:
     """Decide whether CONTROLLER stabilizes the system in FILE, or makes it fast enough.
 
     The controller is linear and time-invariant, as in every controller file. The decision is exact,
-    also for a controller designed in floating point. If the answer is no, the exit status is 1, and
-    --certificates writes a proof of that as well. A warning is given if the controller was designed
-    for another plant. The first line says whether to install the controller.
+    also for a controller designed in floating point. If the answer is no, the exit status is 1,
+    --certificates writes a proof of that as well, and a disc is told that holds an eigenvalue and
+    lies outside, if the loop is small. A warning is given if the controller was designed for
+    another plant. The first line says whether to install the controller.
     """
     from mcexact.cli.files import place_of, require_other, require_page, require_writable
     from mcexact.cli.output import emit, emit_tables
@@ -119,7 +122,11 @@ def _certified(
     from mcexact.report.account import tables
     from mcexact.report.text import Table
     from mcexact.synthesis.assessment import BASIS
-    from mcexact.synthesis.certify import account_of_verdict, certify_controller
+    from mcexact.synthesis.certify import (
+        account_of_verdict,
+        certify_controller,
+        enclosed_outside,
+    )
     from mcexact.synthesis.loop_assessment import assessed_loop
     from mcexact.synthesis.optimum.loop_figures import rounded_controller
 
@@ -131,6 +138,11 @@ def _certified(
             controller = rounded_controller(controller, digits)
             notes = (f"the verdict is about the controller rounded to {count(digits, 'digit')}",)
         found = certify_controller(system, controller, **wanted)
+    outside = enclosed_outside(found)
+    if outside is not None:
+        center = f"{outside.re} + {outside.im} i".replace("+ -", "- ")
+        near = f"an eigenvalue is at most {outside.radius} from {center}"
+        notes = (*notes, f"{near}, outside {found.region}")
     loop, weighed = closed_loop(system, controller), aiming.read_weights(weights, limits)
     with InputError.inside(plant[0] if weights is None else weights[0]):
         assessment = assessed_loop(
@@ -154,6 +166,7 @@ def _certified(
                 largest=bound if wanted["largest"] else None,
                 warnings=list(controller.warnings_for(system)),
                 rounded_to_digits=digits,
+                eigenvalue_outside=None if outside is None else outside.to_dict(),
                 assessment=assessment.to_dict(),
             ),
             "controller": controller_text(controller),

@@ -35,12 +35,12 @@ class NoCommand(click.UsageError):
 LAST = "Limits and help"
 GROUPS = {
     "Asked of the loop": (
-        "rate", "radius", "spectrum", "largest", "round_gains", "method", "dimensions", "share",
-        "network", "free_assignability", "order", "agent", "arithmetic",
+        "rate", "radius", "damping", "largest_modulus", "spectrum", "largest", "round_gains",
+        "method", "dimensions", "share", "network", "free_assignability", "order", "agent",
+        "arithmetic",
     ),
     "Weights and limits of the search": (
-        "weights", "margin", "damping", "largest_modulus", "largest_gain",
-        "largest_order", "most_digits", "effort", "seeds",
+        "weights", "margin", "largest_gain", "largest_order", "most_digits", "effort", "seeds",
     ),
     "Output": ("output", "html", "certificates", "system_by_digest", "as_json"),
     LAST: ("timeout", "max_memory", "help_all"),

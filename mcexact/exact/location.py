@@ -331,6 +331,28 @@ class StabilityRegion:
             inside = is_hurwitz(turned(p, self.damping))
         return inside
 
+    def excludes(self, re: Fraction, im: Fraction, radius: Fraction) -> bool:
+        """Whether a whole disc lies outside, by an inequality that decides if the disc is small.
+
+        Examples
+        --------
+        >>> region = StabilityRegion("continuous", 1, damping=0.5)
+        >>> [region.excludes(Fraction(re), Fraction(3), Fraction(1, 10)) for re in (-1, -2)]
+        [True, False]
+        """
+        squared = re**2 + im**2
+        if self.discrete:
+            return squared >= (self.edge + radius) ** 2
+        if re - radius >= -self.edge:
+            return True
+        most, zeta = self.largest_modulus, self.damping
+        if most is not None and squared >= (most + radius) ** 2:
+            return True
+        if zeta is None:
+            return False
+        decay = -re + radius * (1 + zeta)
+        return decay <= 0 or decay**2 <= zeta**2 * squared
+
     def bounds(self) -> list[tuple[str, Fraction]]:
         """Return the inequalities of the region, each as what is compared, and the number."""
         found = [(f"{self.measure} <", self.limit)]

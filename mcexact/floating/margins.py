@@ -74,8 +74,17 @@ def spectral_bound(M: Array, time: str) -> float:
 
 
 def is_within(M: Array, region: StabilityRegion) -> bool:
-    """Whether the computed eigenvalues lie in a region."""
-    return spectral_bound(M, region.time) < to_float(region.limit)
+    """Whether the computed eigenvalues lie in a region, with its limits."""
+    if not spectral_bound(M, region.time) < to_float(region.limit):
+        return False
+    if not region.limits:
+        return True
+    eigenvalues = np.linalg.eigvals(M).astype(np.complex128)
+    sizes = np.abs(eigenvalues)
+    damping, most = region.damping, region.largest_modulus
+    if most is not None and not np.all(sizes < to_float(most)):
+        return False
+    return damping is None or bool(np.all(-eigenvalues.real > to_float(damping) * sizes))
 
 
 def _numerical_bound(M: Array, time: str) -> float:

@@ -74,6 +74,7 @@ def design() -> Schema:
         "arithmetic": TEXT,
         "order": WHOLE,
         "certified_bound": some(TEXT),
+        "region": TEXT,
         "closed_loop_polynomial": some(rows(TEXT)),
         "bits_of_longest_number": WHOLE,
         "floating_point": _FIGURES,
@@ -109,6 +110,7 @@ def certify() -> Schema:
             "largest": some(TEXT),
             "warnings": rows(TEXT),
             "rounded_to_digits": some(WHOLE),
+            "eigenvalue_outside": some(record({"re": TEXT, "im": TEXT, "radius": TEXT})),
             "assessment": ASSESSMENT,
         }
     )

@@ -8,6 +8,7 @@ from typing import Any
 
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.answer.fixed_spectrum import FixedSpectrum
+from mcexact.errors import UsageError
 from mcexact.exact.location import StabilityRegion
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.optimum.aims import Aims
@@ -50,7 +51,7 @@ def request_for(
     Raises
     ------
     UsageError
-        As in `Request.of`.
+        As in `Request.of`, or if the largest modulus of the aims leaves no number of this rate.
 
     Examples
     --------
@@ -63,7 +64,8 @@ def request_for(
     no rate was given: 1/1000 is a small one, since all agents together have no optimal controller
     """
     if spectrum is not None or rate is not None or radius is not None:
-        return Request.of(system, agent, spectrum, rate, radius, arithmetic, progress)
+        given = Request.of(system, agent, spectrum, rate, radius, arithmetic, progress)
+        return _limited(given, aims)
     (progress or (lambda _: None))("the sensible rate")
     about = controlled or system
     weights = Weights.of(system, (aims or Aims()).weights)
@@ -74,15 +76,25 @@ def request_for(
     if controlled is None and avoids_fixed_modes:
         region, told = _beyond(fixed_spectrum(system), region, told)
     note = f"no {region.word} was given: {region.edge} is {told}"
-    given: dict[str, Any] = {region.word: region.edge}
-    made = Request.of(system, agent, arithmetic=arithmetic, progress=progress, **given)
-    return replace(made, notes=(note,))
+    asked: dict[str, Any] = {region.word: region.edge}
+    made = Request.of(system, agent, arithmetic=arithmetic, progress=progress, **asked)
+    return _limited(replace(made, notes=(note,)), aims)
+
+
+def _limited(request: Request, aims: Aims | None) -> Request:
+    """Add the damping ratio and the largest modulus of the aims, which continuous time proves."""
+    if aims is None or request.region.discrete:
+        return request
+    region = request.region.limited(aims.damping, aims.largest_modulus)
+    if region.largest_modulus is not None and region.largest_modulus <= region.edge:
+        raise UsageError(f"no eigenvalue satisfies {region}: allow a larger modulus")
+    return replace(request, region=region)
 
 
 def slower(region: StabilityRegion) -> StabilityRegion:
     """Halve a rate, or the distance of a radius to 1."""
     edge = (region.edge + 1) / 2 if region.discrete else region.edge / 2
-    return StabilityRegion(region.time, edge)
+    return replace(region, bound=edge)
 
 
 def _beyond(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+from mcexact.analysis.stability.closed_loop_spectrum import eigenvalue_outside
 from mcexact.analysis.stability.stability import (
     POLYNOMIAL_LIMIT,
     Method,
@@ -12,6 +13,7 @@ from mcexact.analysis.stability.stability import (
     fastest_region,
 )
 from mcexact.answer.account import Account
+from mcexact.answer.evidence import RootDisc
 from mcexact.answer.rules import VERDICT
 from mcexact.answer.sentence import Given
 from mcexact.answer.stability import StabilityVerdict
@@ -40,12 +42,14 @@ def certify_controller(
     *,
     rate: Entry | None = None,
     radius: Entry | None = None,
+    damping: Entry | None = None,
+    largest_modulus: Entry | None = None,
     method: Method | None = None,
     largest: bool = False,
     round_gains: int | None = None,
     progress: Progress | None = None,
 ) -> StabilityVerdict:
-    """Decide whether every eigenvalue of a closed loop meets a rate or a radius.
+    """Decide whether every eigenvalue of a closed loop lies in a region.
 
     Parameters
     ----------
@@ -57,6 +61,8 @@ def certify_controller(
         Overrides ``system.neighbors``.
     rate, radius : rational, optional
         A rate in continuous time, a radius in discrete time; by default only stability is decided.
+    damping, largest_modulus : rational, optional
+        In continuous time: whether also −Re λ > damping·|λ|, and |λ| < largest_modulus.
     method : {"polynomial", "lyapunov"}, optional
         See `certify_stability`.
     largest : bool
@@ -105,7 +111,7 @@ def certify_controller(
     InputError.require(system, MultiChannelSystem, "system")
     InputError.require(controller, Controller, "controller")
     tell = progress or (lambda _: None)
-    region = StabilityRegion.of(system.time, rate, radius)
+    region = StabilityRegion.of(system.time, rate, radius).limited(damping, largest_modulus)
     if largest and region.bound is not None:
         raise UsageError("give either a rate (radius) or `largest`, not both")
     if round_gains is not None:
@@ -123,7 +129,7 @@ def certify_controller(
         separation = next(filter(None, (each.separation(loop.A) for each in coordinates)), None)
     if largest:
         tell("the largest rate")
-        region = _largest(loop, separation) or region
+        region = (_largest(loop, separation) or region).limited(**region.limits)
     tell("the decision")
     return _decided(loop, region, method, separation)
 
@@ -175,6 +181,31 @@ def _largest(loop: MultiChannelSystem, separation: Separation | None) -> Stabili
         else:
             fails = middle
     return best
+
+
+def enclosed_outside(found: StabilityVerdict) -> RootDisc | None:
+    """Enclose an eigenvalue of a loop that is certified not to lie in its region.
+
+    Parameters
+    ----------
+    found : StabilityVerdict
+
+    Returns
+    -------
+    RootDisc or None
+        None if all lie in the region, or the loop has more than 40 states.
+
+    Examples
+    --------
+    >>> from mcexact.model.local_controllers import local_controllers
+    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    >>> found = certify_controller(plant, local_controllers(plant, [[[-3]]]), largest_modulus=1)
+    >>> enclosed_outside(found)
+    RootDisc(re='-2', im='0', radius='0')
+    """
+    if found.stable or found.about.n > POLYNOMIAL_LIMIT:
+        return None
+    return eigenvalue_outside(found.about.A, found.region)
 
 
 def account_of_verdict(found: StabilityVerdict, *, largest: bool = False) -> Account:

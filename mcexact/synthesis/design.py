@@ -153,6 +153,7 @@ class Design(ShownByAccount):
             "arithmetic": self.arithmetic,
             "order": self.order,
             "certified_bound": None if bound is None else str(bound),
+            "region": str(self.region),
             "closed_loop_polynomial": None if polynomial is None else _plain(polynomial),
             "bits_of_longest_number": self.controller.bit_length(),
             **{key: _plain(self.parts[key]) for key in _SHOWN if key in self.parts},

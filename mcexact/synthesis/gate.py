@@ -269,7 +269,10 @@ def _observer(loop: ClosedLoop, proposal: Proposal, region: StabilityRegion) -> 
         bound=region.bound,
         moduli=agreeing_moduli([(M_F, feedback), (M_E, error)], seed),
     )
-    return CertifiedLoop(loop, feedback * error, (proof,), _KEY)
+    proofs: list[Answer] = [proof]
+    if region.limits:
+        proofs.append(certify_stability(loop.system, region, polynomial=feedback * error))
+    return CertifiedLoop(loop, feedback * error, tuple(proofs), _KEY)
 
 
 def _of_the_messages_in_use(polynomial: Polynomial, dimension: int) -> Polynomial:

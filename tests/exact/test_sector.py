@@ -43,7 +43,7 @@ def test_a_root_on_the_border_is_outside():
     assert inside.contains_roots_of(p)
     assert not inside.limited(Fraction(3, 5)).contains_roots_of(p)
     assert not inside.limited(largest_modulus=5).contains_roots_of(p)
-    assert not StabilityRegion("continuous", damping="1/100").contains_roots_of(Polynomial.of(0, 1))
+    assert not StabilityRegion("continuous").limited("1/100").contains_roots_of(Polynomial.of(0, 1))
 
 
 @pytest.mark.parametrize(
@@ -62,7 +62,7 @@ def test_a_limit_out_of_range_is_wrong_usage(time, limits, message):
 
 
 def test_a_region_says_all_its_inequalities():
-    region = StabilityRegion("continuous", 1, largest_modulus=10)
+    region = StabilityRegion.of("continuous", 1).limited(largest_modulus=10)
     assert str(region) == "Re λ < -1 and |λ| < 10"
     assert str(region.tightened(Fraction(1))) == "Re λ < -2 and |λ| < 10"
     assert str(region.limited(damping=0.5)) == "Re λ < -1 and damping ratio > 1/2"

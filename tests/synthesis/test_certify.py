@@ -11,7 +11,7 @@ from mcexact.exact.location import StabilityRegion
 from mcexact.model.local_controllers import local_controllers
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis import certify as certifying
-from mcexact.synthesis.certify import certify_controller
+from mcexact.synthesis.certify import certify_controller, enclosed_outside
 from mcexact.synthesis.distributed_observer import design_observer
 from mcexact.synthesis.gate import Proposal, certify
 from tests.synthesis.three_channels import three_channels
@@ -82,6 +82,26 @@ def test_a_loop_too_large_for_its_polynomial_says_so(monkeypatch):
     monkeypatch.setattr(certifying, "_POLYNOMIAL_UNASKED", 0)
     with pytest.raises(LimitReached, match="choose the method polynomial"):
         certify_controller(PLANT, STATIC, rate=2)
+
+
+def test_a_region_is_certified_or_an_eigenvalue_outside_is_enclosed():
+    spiral = MultiChannelSystem([[0, 1], [-25, -6]], [[[0], [1]]], [[[1, 0]]])  # -3 + 4i, -3 - 4i
+    none = local_controllers(spiral, [[[0]]])
+    held = certify_controller(spiral, none, rate=1, damping="1/2", largest_modulus=6)
+    assert held.stable and enclosed_outside(held) is None
+    for limits in ({"damping": "7/10"}, {"largest_modulus": 4}, {"rate": 4, "damping": "1/2"}):
+        found = certify_controller(spiral, none, **limits)
+        disc = enclosed_outside(found)
+        assert not found.stable and disc is not None and Fraction(disc.re) == -3
+        assert_valid(found)
+    on_the_border = enclosed_outside(certify_controller(spiral, none, damping="3/5"))
+    assert on_the_border is not None and on_the_border.radius == "0"
+
+
+def test_the_largest_rate_is_searched_within_limits():
+    found = certify_controller(PLANT, STATIC, largest=True, largest_modulus=3)
+    assert found.stable and found.largest_modulus == 3 and found.bound is not None
+    assert not certify_controller(PLANT, STATIC, largest=True, largest_modulus=1).stable
 
 
 def test_a_bound_of_the_other_time_domain_is_wrong_usage():

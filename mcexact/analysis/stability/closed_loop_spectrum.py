@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from math import lcm, prod
 
 from mcexact.analysis.engine import located
 from mcexact.answer.closed_loop_spectrum import ClosedLoopSpectrum
+from mcexact.answer.evidence import RootDisc
 from mcexact.answer.loop_spectrum import LoopSpectrum
 from mcexact.derived.modular_system import generator
 from mcexact.errors import InputError, InternalError
@@ -46,6 +48,33 @@ def closed_loop_spectrum(M: Matrix, time: str) -> LoopSpectrum:
     discs, rate = located(time, [distinct] if distinct.degree > 0 else [])
     stable = StabilityRegion(time).contains_roots_of(polynomial)
     return LoopSpectrum(time, polynomial, discs[0] if discs else (), stable, rate)
+
+
+def eigenvalue_outside(M: Matrix, region: StabilityRegion) -> RootDisc | None:
+    """Enclose an eigenvalue that lies outside a region.
+
+    Returns
+    -------
+    RootDisc or None
+        A disc outside the region that holds an eigenvalue; None if there is no such eigenvalue, or
+        only one on the border.
+
+    Notes
+    -----
+    Exact, for small loops as `closed_loop_spectrum`.
+
+    Examples
+    --------
+    >>> M = Matrix.from_rows([[-1, 3], [-3, -1]])
+    >>> found = eigenvalue_outside(M, StabilityRegion("continuous", damping="1/2"))
+    >>> found.re, abs(Fraction(found.im))
+    ('-1', Fraction(3, 1))
+    >>> eigenvalue_outside(M, StabilityRegion("continuous", damping="1/4"))
+    """
+    for disc in closed_loop_spectrum(M, region.time).discs:
+        if region.excludes(*(Fraction(part) for part in (disc.re, disc.im, disc.radius))):
+            return disc
+    return None
 
 
 def open_loop_spectrum(system: MultiChannelSystem) -> ClosedLoopSpectrum:

@@ -8,6 +8,8 @@ from math import isfinite
 from typing import Any
 
 from mcexact.errors import UsageError
+from mcexact.exact.floats import as_requested, to_float
+from mcexact.exact.rational import Entry
 from mcexact.synthesis.optimum.shape import Shape
 from mcexact.synthesis.request import Request
 
@@ -17,7 +19,10 @@ SEEDS = 4
 
 @dataclass(frozen=True)
 class Aims:
-    """What a search for a controller aims at; nothing of this is certified.
+    """What a search for a controller aims at.
+
+    Of this only a damping ratio and a largest modulus in continuous time are certified: then no
+    controller without them is a design.
 
     Parameters
     ----------
@@ -30,9 +35,10 @@ class Aims:
         of all agents together.
     largest_order : int, optional
         The largest number of states of each agent.
-    damping : float, optional
-        The least damping ratio of an eigenvalue, −Re s/|s| for s = λ or in discrete time log λ.
-    largest_modulus : float, optional
+    damping : rational or float, optional
+        The least damping ratio of an eigenvalue, −Re s/|s| for s = λ or in discrete time log λ,
+        where it is aimed at and not certified.
+    largest_modulus : rational or float, optional
         The largest modulus of an eigenvalue, in continuous time.
     digits : int, optional
         The largest number of significant decimal digits of an entry.
@@ -62,8 +68,8 @@ class Aims:
     margin: float = MARGIN
     largest_gain: float | None = None
     largest_order: int | None = None
-    damping: float | None = None
-    largest_modulus: float | None = None
+    damping: Entry | None = None
+    largest_modulus: Entry | None = None
     digits: int | None = None
     effort: float | None = None
     seeds: int = SEEDS
@@ -74,10 +80,13 @@ class Aims:
             good = 0 < self.largest_gain and isfinite(self.largest_gain)
             _require(good, "largest_gain", "a number above 0", self.largest_gain)
         if self.damping is not None:
-            good = 0 < self.damping < 1
+            object.__setattr__(self, "damping", as_requested(self.damping, where="damping"))
+            good = 0 < _number(self.damping) < 1
             _require(good, "damping", "a number above 0 and below 1", self.damping)
         if self.largest_modulus is not None:
-            good = 0 < self.largest_modulus and isfinite(self.largest_modulus)
+            most = as_requested(self.largest_modulus, where="largest_modulus")
+            object.__setattr__(self, "largest_modulus", most)
+            good = 0 < _number(self.largest_modulus)
             _require(good, "largest_modulus", "a number above 0", self.largest_modulus)
         for name, least in (("largest_order", 0), ("digits", 1), ("seeds", 1)):
             number = getattr(self, name)
@@ -95,7 +104,12 @@ class Aims:
     @property
     def shape(self) -> Shape:
         """The limits on the eigenvalues."""
-        return Shape(self.damping, self.largest_modulus)
+        limits = (self.damping, self.largest_modulus)
+        return Shape(*(None if limit is None else _number(limit) for limit in limits))
+
+
+def _number(limit: Entry) -> float:
+    return to_float(as_requested(limit))
 
 
 def _require(good: bool, name: str, expected: str, found: object) -> None:

@@ -11,7 +11,7 @@ from mcexact.synthesis.optimum.aims import SEEDS
 from mcexact.synthesis.optimum.alike import tied
 from mcexact.synthesis.optimum.effort import Effort
 from mcexact.synthesis.optimum.figures import Figures
-from mcexact.synthesis.optimum.polish import Target, bound_of
+from mcexact.synthesis.optimum.polish import Target
 from mcexact.synthesis.optimum.problem import FeedbackProblem, Sizes, Structure
 from mcexact.synthesis.optimum.programs import NetworkController, rounded
 from mcexact.synthesis.optimum.weights import Floats, Weights
@@ -19,7 +19,7 @@ from mcexact.synthesis.request import Progress
 
 _LARGEST_ORDER = 3
 _PRICE_OF_ORDER, _PRICED_ORDERS = 1.02, 20
-_CONTENT, _FRAGILE = 1.5, 1.25
+_CONTENT, _FRAGILE, _NOT_CERTIFIED = 1.5, 1.25, 1e6
 MOST_STATES = 100
 """Of plants for which the controller of the theorem is constructed where a search found none."""
 
@@ -100,8 +100,7 @@ class Ladder:
         """Whether a gain matrix stays in the region with the digits that it may have."""
         if self.most_digits is None:
             return True
-        x = problem.entries(rounded(K, self.most_digits))
-        return self.target.reached(bound_of(problem, x))
+        return self.target.keeps(problem, problem.entries(rounded(K, self.most_digits)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -148,7 +147,8 @@ def _price(ladder: Ladder, candidate: Candidate) -> float:
     lacking = _FRAGILE * target.margin / max(figures.margin, 1e-9)
     lacking = 1.0 if figures.margin >= target.margin else lacking
     large = max(figures.largest_gain / target.largest_gain, 1.0)
-    lacking *= 1.0 if target.shape.met(figures.damping, figures.fastest) else _FRAGILE
+    if not target.shape.met(figures.damping, figures.fastest):
+        lacking *= _NOT_CERTIFIED if target.region.limits else _FRAGILE
     priced = min(figures.order, _PRICED_ORDERS) if ladder.large else figures.order
     return figures.cost * lacking * large * _PRICE_OF_ORDER**priced
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from mcexact.exact.floats import to_float
 from mcexact.exact.location import StabilityRegion
-from mcexact.floating.margins import spectral_bound
+from mcexact.floating.margins import is_within, spectral_bound
 from mcexact.synthesis.optimum.cost import INFINITE, Valued, quadratic_costs
 from mcexact.synthesis.optimum.descent import Function, minimize
 from mcexact.synthesis.optimum.effort import Effort
@@ -59,6 +59,12 @@ class Target:
         """Whether a largest real part or modulus lies in the region, tightened by a factor."""
         shift = shift_of(self.region, factor)
         return bound < shift if self.region.discrete else bound < -shift
+
+    def keeps(self, problem: FeedbackProblem, x: Floats) -> bool:
+        """Whether the computed eigenvalues of a loop lie in the region, with its limits."""
+        if not self.reached(bound_of(problem, x)):
+            return False
+        return not self.region.limits or is_within(problem.loop(x), self.region)
 
 
 def bound_of(problem: FeedbackProblem, x: Floats) -> float:

@@ -20,7 +20,7 @@ from mcexact.synthesis.optimum.effort import PER_SECOND, Effort
 from mcexact.synthesis.optimum.figures import Figures, figures_of
 from mcexact.synthesis.optimum.kernel import quiet_floats
 from mcexact.synthesis.optimum.ladder import MOST_STATES, Candidate, Ladder, ranked
-from mcexact.synthesis.optimum.polish import Target, bound_of
+from mcexact.synthesis.optimum.polish import Target
 from mcexact.synthesis.optimum.problem import FeedbackProblem
 from mcexact.synthesis.optimum.programs import controller_of, rounded
 from mcexact.synthesis.optimum.structures import Family
@@ -218,7 +218,7 @@ def _stored(found: Candidate, target: Target, least: int, tried: Iterable[int]) 
     robust = found.figures.margin >= target.margin
     for digits in tried:
         stored = rounded(found.K, digits)
-        if not target.reached(bound_of(problem, problem.entries(stored))):
+        if not target.keeps(problem, problem.entries(stored)):
             continue
         if not robust or figures_of(problem, stored, peak=False).margin >= target.margin:
             return stored
@@ -228,7 +228,7 @@ def _stored(found: Candidate, target: Target, least: int, tried: Iterable[int]) 
 
 def _certified(problem: FeedbackProblem, K: Floats, target: Target) -> bool:
     """Whether the gate certifies a controller; it is asked only where floating point sees it."""
-    if not target.reached(bound_of(problem, problem.entries(K))):
+    if not target.keeps(problem, problem.entries(K)):
         return False
     network = problem.network
     proposal = Proposal(controller_of(problem, K))
@@ -312,7 +312,7 @@ def searched_proposals(
     try:
         found = optimum(family, request, aims, weights=weights, diagnosis=known)
     except LimitReached as limit:
-        if aims.largest_order is not None or aims.digits is not None:
+        if aims.largest_order is not None or aims.digits is not None or request.region.limits:
             raise
         yield _of_the_theorem(family, request, limit, known)
         return

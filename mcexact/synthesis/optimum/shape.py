@@ -35,7 +35,7 @@ def least_damping(eigenvalues: Complexes, *, discrete: bool) -> float:
 
 @dataclass(frozen=True)
 class Shape:
-    """Limits on the eigenvalues of a loop, which a search aims at; they are not certified.
+    """Limits on the eigenvalues of a loop, which a search aims at.
 
     Attributes
     ----------
