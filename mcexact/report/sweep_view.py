@@ -90,7 +90,7 @@ def sweep_page(
         heading=f"Asked about every system: {asked}. The independent checker verified the "
         "certificate of every answer.",
         good=None,
-        answer=(*words, *([summed.note] if summed.note else [])),
+        answer=(*words, *([summed.note.capitalize()] if summed.note else [])),
         pictures=(),
         tables=tuple(replace(found, title=found.title or "Every system") for found in tables),
     )

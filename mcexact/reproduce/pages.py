@@ -21,7 +21,7 @@ COMMON_BOUND = (
     "The paper asks whether its bound on the common dimension of shared sub-states is tight. It is "
     "not: a plant with four agents has the bound 2 where outputs and sub-states are shared, and "
     "n_i = 1 for all suffices, as does (0, 1, 1, 0). Exactly those dimensions suffice whose sum "
-    "over N_s∖s is at least n − rank for every subset s and every eigenvalue."
+    "over N_s∖s is at least n − rank P_s(λ) for every subset s and every eigenvalue λ."
 )
 """The answer to the paper's open question, proved by the examination `tight`."""
 
