@@ -61,6 +61,8 @@ DIAGONAL = certified([["t", 0], [0, "2*t"]], [[[0], [0]]], [[[1, 1]]])
 """t and 2t for every t; at t = 1, 3/2, 2 and 3 one of them is a root of x + 2t² − 9t + 6."""
 EMPTY = certified([], [[]], [[[]]])
 """No states."""
+TWO = certified([[1, 0], [0, 2]], [[["t"], ["t"]]], [[[1, 1]]])
+"""Both modes are fixed at t = 0, where nothing is controlled."""
 ALL = {
     "paper": PAPER,
     "settled": SETTLED,
@@ -70,4 +72,5 @@ ALL = {
     "irrational": IRRATIONAL,
     "diagonal": DIAGONAL,
     "empty": EMPTY,
+    "two": TWO,
 }

@@ -19,6 +19,7 @@ from tests.checker.parametric_plants import (
     POLES,
     RANGED,
     SETTLED,
+    TWO,
 )
 
 
@@ -262,6 +263,18 @@ FALSE: dict[str, tuple[Any, str]] = {
             IRRATIONAL,
             ("claim.exceptional", IRRATIONAL["claim"]["exceptional"][:1]),
             ("witness.exceptional", IRRATIONAL["witness"]["exceptional"][:1]),
+        ),
+        "common_factor",
+    ),
+    "modes at a value exchanged": (
+        changed(TWO, (f"{PROOF}.modes", TWO["witness"]["exceptional"][0]["modes"][::-1])),
+        "identity",
+    ),
+    "one of two modes at a value": (
+        changed(
+            TWO,
+            (f"{VALUE}.modes", TWO["claim"]["exceptional"][0]["modes"][:1]),
+            (f"{PROOF}.modes", TWO["witness"]["exceptional"][0]["modes"][:1]),
         ),
         "common_factor",
     ),
