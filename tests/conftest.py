@@ -1,6 +1,8 @@
 """Hypothesis profiles: `dev` at the desk, `ci` repeatable, `deep` for a long look; slow tests."""
 
+import gc
 import os
+from collections.abc import Generator
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -26,3 +28,12 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         if item.nodeid in slow or SLOW_FIXTURES & set(getattr(item, "fixturenames", ())):
             item.add_marker(pytest.mark.slow)
+
+
+@pytest.hookimpl(hookwrapper=True)
+def pytest_collection() -> Generator[None]:
+    """Look for no garbage among what is collected, which stays to the end."""
+    gc.disable()
+    yield
+    gc.freeze()
+    gc.enable()

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.architecture.test_imports import MODULES, PACKAGE, ROOT
+from tests.architecture.test_imports import MODULES, PACKAGE, ROOT, tree_of
 
 EXTRAS = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"][
     "optional-dependencies"
@@ -48,7 +48,7 @@ def named(tree: ast.AST, extra: str = "") -> Iterator[tuple[str, str, int]]:
 
 @pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(ROOT)))
 def test_an_import_from_an_extra_names_it(path: Path) -> None:
-    for library, extra, line in named(ast.parse(path.read_text(encoding="utf-8"))):
+    for library, extra, line in named(tree_of(path)):
         if library in EXTRA_OF and not drawn_before(path, library):
             assert extra == EXTRA_OF[library], f"{path}:{line}: {library}"
 

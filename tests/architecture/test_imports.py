@@ -3,6 +3,7 @@
 import ast
 import sys
 from collections.abc import Iterator
+from functools import cache
 from graphlib import TopologicalSorter
 from pathlib import Path
 
@@ -38,10 +39,22 @@ def part_of(path: Path) -> str:
     return path.relative_to(PACKAGE).parts[0].removesuffix(".py")
 
 
+@cache
+def tree_of(path: Path) -> ast.Module:
+    """A parsed module: many tests look at all of them."""
+    return ast.parse(path.read_text(encoding="utf-8"))
+
+
+@cache
+def nodes_of(path: Path) -> tuple[ast.AST, ...]:
+    """All nodes of a module."""
+    return tuple(ast.walk(tree_of(path)))
+
+
 def imports_of(path: Path) -> Iterator[tuple[str, int, int]]:
     """Every module that a file imports, absolutely: name, level of the import, line."""
     package = ("mcexact", *path.relative_to(PACKAGE).parts[:-1])
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    for node in nodes_of(path):
         if isinstance(node, ast.Import):
             for alias in node.names:
                 yield alias.name, 0, node.lineno
@@ -134,7 +147,7 @@ def test_no_module_is_named_for_having_no_topic() -> None:
 def test_no_stage_walks_through_the_subsets_of_the_channels() -> None:
     """Powersets and bit masks over channels belong to the slow oracle in the tests."""
     for path in MODULES:
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        for node in nodes_of(path):
             if not isinstance(node, ast.Call):
                 continue
             place = f"{path}:{node.lineno}"
@@ -148,15 +161,13 @@ def test_no_stage_walks_through_the_subsets_of_the_channels() -> None:
 
 def test_every_module_is_short_enough_to_have_one_topic() -> None:
     for path in MODULES:
-        tree = ast.parse(path.read_text(encoding="utf-8"))
-        statements = sum(isinstance(node, ast.stmt) for node in ast.walk(tree))
+        statements = sum(isinstance(node, ast.stmt) for node in nodes_of(path))
         assert statements <= 400, f"{path} hides two topics: {statements} statements"
 
 
 def test_nothing_is_validated_by_a_statement_that_an_option_deletes() -> None:
     for path in MODULES:
-        tree = ast.parse(path.read_text(encoding="utf-8"))
-        assert not [node.lineno for node in ast.walk(tree) if isinstance(node, ast.Assert)], path
+        assert not [n.lineno for n in nodes_of(path) if isinstance(n, ast.Assert)], path
 
 
 ROOMS = {

@@ -3,7 +3,7 @@
 import ast
 from collections.abc import Callable, Iterator
 
-from tests.architecture.test_imports import MODULES, PACKAGE, part_of
+from tests.architecture.test_imports import MODULES, PACKAGE, nodes_of, part_of
 
 TIMES = {"continuous", "discrete"}
 
@@ -14,7 +14,7 @@ def found_outside(*places: str, what: Callable[[ast.AST], bool]) -> list[str]:
         f"{path}:{getattr(node, 'lineno', 0)}"
         for path in MODULES
         if part_of(path) != "checker" and str(path.relative_to(PACKAGE)) not in places
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        for node in nodes_of(path)
         if what(node)
     ]
 
