@@ -1,3 +1,4 @@
+# Untested: no image has been built from this file.
 # The command mcexact with what draws and python-control:
 #     docker build -t mcexact . && docker run --rm -v "$PWD:/work" mcexact analyze plant.json
 FROM python:3.12-slim

@@ -11,7 +11,15 @@ from typing import Any
 
 
 def place_of(path: str | os.PathLike[str]) -> str:
-    """What messages call a file."""
+    """What messages call a file.
+
+    Raises
+    ------
+    InputError
+        If it is no name of a file.
+    """
+    if not isinstance(path, (str, os.PathLike)):
+        raise InputError(f"expected the name of a file, found {type(path).__name__}", where="path")
     return "standard input" if os.fspath(path) == "-" else os.fspath(path)
 
 

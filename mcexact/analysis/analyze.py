@@ -14,6 +14,7 @@ from mcexact.analysis.questions import QUESTIONS, Question
 from mcexact.answer.account import Account, ShownByAccount
 from mcexact.answer.rules import ANALYSIS, with_own
 from mcexact.answer.sentence import Given, Sentences
+from mcexact.arguments import one_of, several, told
 from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.exact.rational import written
 from mcexact.model.system import MultiChannelSystem
@@ -77,19 +78,19 @@ class Analysis(ShownByAccount):
         }
         self._found: dict[str, Any] = {}
         self._seconds: dict[str, float] = {}
-        _require_several(questions=questions, subset=subset)
-        plant.indices([*(subset or ()), *([] if channel is None else [channel])])
-        if information not in {"own", "outputs"}:
-            raise UsageError(f"expected the information 'own' or 'outputs', found {information!r}")
+        named = () if subset is None else several(subset, "subset")
+        plant.indices([*named, *([] if channel is None else [channel])])
+        one_of(information, ("own", "outputs"), "information")
         if information == "outputs":
             self._require(
                 "neighbors", "the information 'outputs' is about messages between neighbors"
             )
         if questions is not None:
             self.left_out = {}
-        self._asked = set(self.unbidden if questions is None else questions)
-        for name in sorted(self._asked):
+        listed = self.unbidden if questions is None else several(questions, "questions")
+        for name in listed:
             self._require_known(name)
+        self._asked = set(listed)
 
     @property
     def asked(self) -> tuple[str, ...]:
@@ -125,8 +126,8 @@ class Analysis(ShownByAccount):
                 yield name
 
     def _require_known(self, name: str) -> None:
-        if name not in QUESTIONS:
-            raise UsageError(f"there is no question {name!r}; expected {', '.join(QUESTIONS)}")
+        if not isinstance(name, str) or name not in QUESTIONS:
+            raise UsageError(f"there is no question {told(name)}; expected {', '.join(QUESTIONS)}")
         self._require(QUESTIONS[name].needs, f"the question {name!r} is about {{}}")
 
     def _require(self, needed: str, asked: str) -> None:
@@ -330,13 +331,6 @@ class Analysis(ShownByAccount):
         return {name: self._found[name] for name in self.asked}
 
 
-def _require_several(**given: Iterable[str] | None) -> None:
-    """Raise an error where one text stands for several, which would be taken letter by letter."""
-    for argument, names in given.items():
-        if isinstance(names, str):
-            raise UsageError(f"expected several names, such as [{names!r}]", where=argument)
-
-
 def _written(bound: Fraction | None) -> Any:
     return None if bound is None else written(bound)
 
@@ -387,9 +381,8 @@ def analyze(
     >>> sorted(found.minimal_communication.added)
     [('1', '2')]
     """
-    _require_several(also=also)
     made = Analysis(plant, questions, information=information, subset=subset, channel=channel)
-    named = {*also}
+    named = {*several(also, "also")}
     for name in sorted(named):
         made._require_known(name)
     made._asked |= named

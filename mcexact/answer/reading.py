@@ -60,6 +60,8 @@ def load_certificate(
     """
     with InputError.inside(place_of(path)):
         data = read_bytes(path)
+    if system is not None and not isinstance(system, ParametricSystem):
+        InputError.require(system, MultiChannelSystem, "system")
     plant = None if system is None else system.plant
     text = None if plant is None else system_file.canonical_text(plant)
     verdict = checked(data, plant=text)

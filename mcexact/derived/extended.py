@@ -6,13 +6,13 @@ from collections.abc import Callable, Mapping, Sequence
 from itertools import accumulate
 from typing import Any, Literal, get_args, overload
 
+from mcexact.arguments import one_of, several
 from mcexact.derived.links import add_links
 from mcexact.derived.moved_entries import moved
 from mcexact.errors import InputError, LimitReached
 from mcexact.exact.blocks import block, block_diagonal, hstack, kronecker, vstack
 from mcexact.exact.matrix import Matrix
 from mcexact.model.linked_system import with_graph
-from mcexact.model.names import quoted
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
@@ -31,10 +31,7 @@ def checked_share(share: str) -> str:
     InputError
         If it is neither ``"outputs+states"`` nor ``"states"``.
     """
-    if share not in get_args(Share):
-        raise InputError(
-            f'expected "outputs+states" or "states", found {quoted(share)}', where="share"
-        )
+    one_of(share, get_args(Share), "share", InputError)
     return share
 
 
@@ -46,7 +43,7 @@ def checked_dimensions(system: MultiChannelSystem, dimensions: Sequence[int]) ->
     InputError
         If their number is not m, or one is negative or not an integer.
     """
-    found = tuple(dimensions)
+    found = several(dimensions, "dimensions", "integers")
     if len(found) != system.m:
         raise InputError(
             f"expected {system.m} dimensions, one for each agent, found {len(found)}",

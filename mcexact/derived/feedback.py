@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from mcexact.arguments import several
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.blocks import vstack
 from mcexact.exact.floats import Rounding, matrix_from_float
@@ -36,7 +37,7 @@ def checked_gains(
         If the number of gains is not m, a gain has the wrong shape, or there are floats and no
         rounding.
     """
-    gains = list(gains)
+    gains = several(gains, "gains", "matrices")
     if len(gains) != system.m:
         raise InputError(f"expected {system.m} gains, found {len(gains)}", where="gains")
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import unicodedata
 from collections.abc import Sequence
 
+from mcexact.arguments import several
 from mcexact.errors import InputError, UsageError
 from mcexact.model.names import quoted
 from mcexact.model.system import MultiChannelSystem
@@ -67,6 +68,7 @@ def merged(system: MultiChannelSystem, parts: Sequence[Sequence[str]]) -> MultiC
     mcexact.errors.UsageError: parts: expected every channel in exactly one part, found '2' 0 times
     """
     InputError.require(system, MultiChannelSystem, "system")
+    parts = several(parts, "parts", "lists of names")
     found = sorted(system.indices(part) for part in parts)
     if () in found:
         raise UsageError("expected at least one channel in every part, found none", where="parts")

@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
+from mcexact.arguments import several
 from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.exact.rational import as_fraction, written
@@ -74,7 +75,12 @@ def parameter_grid(
     >>> next(parameter_grid(plant, {"t": ["1/2"]})).system().B(0).numerators
     ((2,),)
     """
-    given = {str(name): [as_fraction(x) for x in listed] for name, listed in values.items()}
+    InputError.require(plant, ParametricSystem, "plant")
+    InputError.require(values, Mapping, "values")
+    given = {
+        str(name): [as_fraction(x) for x in several(listed, "values", "numbers")]
+        for name, listed in values.items()
+    }
     if given.keys() != set(plant.parameters):
         wrong = sorted(given.keys() ^ set(plant.parameters))
         raise UsageError(

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
+from mcexact.arguments import one_of
 from mcexact.errors import InputError
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.rational import as_fraction
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
 Rounding = Literal["decimal", "dyadic"]
+_ROUNDINGS = get_args(Rounding)
 
 # Floats hold every integer up to here.
 _EXACT = 2**53
@@ -52,10 +54,10 @@ def from_float(x: float, rounding: Rounding, *, where: str | None = None) -> Fra
     >>> from_float(numpy.float32(0.1), "decimal"), from_float(numpy.float32(0.1), "dyadic")
     (Fraction(1, 10), Fraction(13421773, 134217728))
     """
-    if rounding not in ("decimal", "dyadic"):
-        raise InputError(
-            f'expected rounding "decimal" or "dyadic", found {rounding!r}', where=where
-        )
+    one_of(rounding, _ROUNDINGS, "rounding", InputError)
+    shape = getattr(x, "shape", ())
+    if shape:
+        raise InputError(f"expected a number, found an array of shape {shape}", where=where)
     # A numpy scalar stays as it is: Python's floats are longer than some and shorter than others.
     value = x if hasattr(x, "as_integer_ratio") else float(x)
     try:

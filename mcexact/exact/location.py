@@ -8,6 +8,7 @@ from typing import Any, Literal, get_args
 
 import flint
 
+from mcexact.arguments import one_of
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.floats import as_requested
 from mcexact.exact.polynomial import Polynomial
@@ -25,10 +26,7 @@ LIMITS = ("damping", "largest_modulus")
 
 def require_time(time: object) -> None:
     """Raise an error unless a time domain is ``"continuous"`` or ``"discrete"``."""
-    if time not in TIMES:
-        short = isinstance(time, str) and len(time) <= 40
-        found = ascii(time) if short else f"a {type(time).__name__}"
-        raise InputError(f'expected "continuous" or "discrete", found {found}', where="time")
+    one_of(time, TIMES, "time", InputError)
 
 
 def is_discrete(time: str) -> bool:
@@ -237,6 +235,7 @@ class StabilityRegion:
         """
         if region is None:
             return None if rate is None and radius is None else cls.of(time, rate, radius)
+        InputError.require(region, StabilityRegion, "region")
         if region.time != time or rate is not None or radius is not None:
             raise UsageError("give a region of the same time domain, or a rate or a radius")
         return region

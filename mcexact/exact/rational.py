@@ -190,7 +190,7 @@ MultiChannelSystem.from_float(..., rounding="decimal" | "dyadic")
         return _from_decimal(entry, where)
     if isinstance(entry, (int, Fraction)):
         return Fraction(int(entry.numerator), int(entry.denominator))
-    if hasattr(entry, "__index__"):
+    if hasattr(entry, "__index__") and not getattr(entry, "shape", ()):
         return Fraction(entry.__index__())
     if getattr(entry, "is_Rational", False) is True:
         return Fraction(int(entry.p), int(entry.q))

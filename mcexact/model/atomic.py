@@ -6,7 +6,7 @@ import os
 import tempfile
 from pathlib import Path
 
-from mcexact.errors import InputError
+from mcexact.errors import InputError, place_of
 
 
 def write_text(path: str | os.PathLike[str], text: str) -> None:
@@ -35,6 +35,7 @@ def write_bytes(path: str | os.PathLike[str], data: bytes) -> None:
     InputError
         If the folder is missing or cannot be written.
     """
+    place = place_of(path)
     try:
         target = Path(os.path.realpath(path))
         # For a stream, the target of the link is not a name that can be opened.
@@ -44,7 +45,7 @@ def write_bytes(path: str | os.PathLike[str], data: bytes) -> None:
             return
         _replace(target, data)
     except OSError as error:
-        raise InputError(f"cannot write: {error.strerror or error}", where=str(path)) from error
+        raise InputError(f"cannot write: {error.strerror or error}", where=place) from error
     except ValueError as error:
         raise InputError(f"is not a file name: {error}", where=repr(path)) from error
 

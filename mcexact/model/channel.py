@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Generic, TypeVar
 
-from mcexact.errors import InputError, UsageError
+from mcexact.arguments import several
+from mcexact.errors import InputError
 from mcexact.exact.function_matrix import FunctionMatrix
 from mcexact.exact.matrix import Matrix
 from mcexact.model.channel_matrices import ChannelMatrices, position
@@ -94,11 +95,11 @@ class ByChannel(Generic[M]):
         Raises
         ------
         UsageError
-            If no channel has one of the names, or a single name is given instead of a list.
+            If no channel has one of the names.
+        InputError
+            If a single name is given instead of a list.
         """
-        if isinstance(names, str):
-            raise UsageError(f"expected a list of names, found a string; write [{quoted(names)}]")
-        return tuple(sorted({self.index(name) for name in names}))
+        return tuple(sorted({self.index(name) for name in several(names, "channels")}))
 
     def named(self, channels: Iterable[int]) -> tuple[str, ...]:
         """Return the names of some channels, in the order of the system.
@@ -176,9 +177,7 @@ def channels_of(
         raise InputError(f"expected as many matrices as in B, {m}, found {len(C)}", where="C")
     if not m:
         raise InputError("expected at least one channel, found none", where="B")
-    if isinstance(names, str):
-        raise InputError("expected a list of names, found a string", where="names")
-    labels = [str(i + 1) for i in range(m)] if names is None else list(names)
+    labels = [str(i + 1) for i in range(m)] if names is None else several(names, "names")
     if len(labels) != m:
         raise InputError(f"expected {m} names, found {len(labels)}", where="names")
     checked = checked_names(labels, [f"names[{i}]" for i in range(m)])

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 from typing import Any, SupportsIndex, TypeVar, overload
 
 from mcexact import shown
+from mcexact.arguments import told
 from mcexact.errors import UsageError
 from mcexact.model.matrix_entry import Shaped
 from mcexact.model.names import nearest, quoted
@@ -21,9 +22,9 @@ def position(name: str, names: Sequence[str]) -> int:
     UsageError
         If no channel has this name.
     """
-    if name not in names:
+    if not isinstance(name, str) or name not in names:
         raise UsageError(
-            f"there is no channel {quoted(name)}{nearest(str(name), names)}; "
+            f"there is no channel {told(name)}{nearest(str(name), names)}; "
             f"the channels are {', '.join(map(quoted, names))}"
         )
     return names.index(name)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from mcexact.arguments import several
 from mcexact.errors import FloatRefused, InputError
 from mcexact.exact.floats import Rounding, matrix_from_float
 from mcexact.exact.matrix import Matrix
@@ -49,6 +50,7 @@ def local_controllers(
     ((0, -6), (1, -5))
     """
     InputError.require(system, MultiChannelSystem, "system")
+    parts = several(parts, "parts", "controllers, one for each channel")
     if len(parts) != system.m:
         raise InputError(f"expected {system.m} controllers, found {len(parts)}", where="parts")
     agents = tuple(

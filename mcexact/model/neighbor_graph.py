@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
+from mcexact.arguments import several
 from mcexact.errors import FloatRefused, InputError, UsageError
 from mcexact.model.names import checked_name, checked_names, nearest, quoted
 from mcexact.model.networkx_links import links_of
@@ -61,7 +62,9 @@ class NeighborGraph(Shown):
         neighbors: Sequence[Iterable[int]],
         delays: Iterable[tuple[int, int, int]] = (),
     ) -> None:
-        names = checked_names(list(names), [f"names[{i}]" for i in range(len(names))])
+        names = several(names, "names")
+        names = checked_names(names, [f"names[{i}]" for i in range(len(names))])
+        neighbors = several(neighbors, "neighbors", "sets of positions, one for each agent")
         m = len(names)
         if len(neighbors) != m:
             raise InputError(
@@ -71,7 +74,8 @@ class NeighborGraph(Shown):
         sets = []
         for i, heard in enumerate(neighbors):
             where = f"neighbors[{i}]"
-            sets.append(tuple(sorted({i, *(_position(j, m, where) for j in heard)})))
+            listed = several(heard, where, "positions")
+            sets.append(tuple(sorted({i, *(_position(j, m, where) for j in listed)})))
         object.__setattr__(self, "names", names)
         object.__setattr__(self, "neighbors", tuple(sets))
         object.__setattr__(self, "delays", self._checked_delays(delays))
@@ -81,7 +85,11 @@ class NeighborGraph(Shown):
     ) -> tuple[tuple[int, int, int], ...]:
         """Sort the delays and drop those of 0; refuse a delay that is not on an edge."""
         found: dict[tuple[int, int], int] = {}
-        for i, j, delay in delays:
+        for k, late in enumerate(several(delays, "delays", "triples (i, j, d)")):
+            triple = several(late, f"delays[{k}]", "the two positions and the delay")
+            if len(triple) != 3:
+                raise InputError(f"expected (i, j, d), found {late!r}", where=f"delays[{k}]")
+            i, j, delay = triple
             i, j = _position(i, self.m, "delays"), _position(j, self.m, "delays")
             where = f"delays[{quoted(self.names[i])}][{quoted(self.names[j])}]"
             if isinstance(delay, bool) or not isinstance(delay, int) or delay < 0:
@@ -162,25 +170,35 @@ class NeighborGraph(Shown):
         return cls(names, sets, late)
 
     @classmethod
-    def complete(cls, names: Sequence[str]) -> NeighborGraph:
-        """Return the complete graph without delays."""
+    def complete(cls, names: Sequence[str] | int) -> NeighborGraph:
+        """Return the complete graph without delays, on agents as in `ring`."""
+        names = _agents(names)
         return cls(names, [range(len(names))] * len(names))
 
     @classmethod
-    def ring(cls, names: Sequence[str]) -> NeighborGraph:
+    def ring(cls, names: Sequence[str] | int) -> NeighborGraph:
         """Return the cyclic graph N_i = {i, i+1}, N_m = {m, 1}, as in the paper's example.
+
+        Parameters
+        ----------
+        names : sequence of str, or int
+            The agents; or their number m, for the names "1" … "m" that channels have by default.
 
         Examples
         --------
+        >>> NeighborGraph.ring(3).names
+        ('1', '2', '3')
         >>> NeighborGraph.ring(["1", "2", "3"]).neighbors
         ((0, 1), (1, 2), (0, 2))
         """
+        names = _agents(names)
         m = len(names)
         return cls(names, [[(i + 1) % m] for i in range(m)])
 
     @classmethod
-    def empty(cls, names: Sequence[str]) -> NeighborGraph:
-        """Return the graph without edges, the case of decentralized control."""
+    def empty(cls, names: Sequence[str] | int) -> NeighborGraph:
+        """Return the graph without edges, on agents as in `ring`."""
+        names = _agents(names)
         return cls(names, [[] for _ in names])
 
     def __repr__(self) -> str:
@@ -349,6 +367,15 @@ class NeighborGraph(Shown):
         mcexact.errors.InputError: graph: expected a directed graph, found an undirected one; ...
         """
         return cls.from_names(*links_of(graph, names))
+
+
+def _agents(names: Sequence[str] | int) -> tuple[Any, ...]:
+    """Return the names of agents that are given, or of a number of them."""
+    if isinstance(names, int) and not isinstance(names, bool):
+        if names < 0:
+            raise InputError(f"expected a number of agents >= 0, found {names}", where="names")
+        return tuple(str(i + 1) for i in range(names))
+    return several(names, "names", "names, or a number of agents")
 
 
 def _position(value: object, m: int, where: str) -> int:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any, ClassVar
 
+from mcexact.arguments import told
 from mcexact.errors import InputError, LimitReached
 from mcexact.exact.function_matrix import FunctionMatrix
 from mcexact.exact.location import require_time
@@ -304,6 +305,11 @@ def _checked_parameters(parameters: Sequence[Any]) -> tuple[str, ...]:
 
 def _by_name(given: Mapping[Any, Any], known: tuple[str, ...], where: str) -> dict[str, Any]:
     """The values of a mapping whose keys are symbols or names of parameters."""
+    if not isinstance(given, Mapping):
+        raise InputError(
+            f"expected a mapping from parameters, such as {{'t': …}}, found {told(given)}",
+            where=where,
+        )
     found = {str(key): value for key, value in given.items()}
     for name in found:
         if name not in known:

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 from itertools import accumulate
 from typing import Any
 
+from mcexact.arguments import several
 from mcexact.errors import InputError
 from mcexact.exact.floats import Rounding, matrix_from_float
 from mcexact.exact.matrix import Matrix
@@ -95,7 +96,7 @@ def split_by_sizes(
 def _parts(sizes: Iterable[int], count: int, where: str, what: str) -> list[Sequence[int]]:
     """Split the positions below a count into consecutive parts of given sizes."""
     known = []
-    for k, size in enumerate(sizes):
+    for k, size in enumerate(several(sizes, where, "integers")):
         if isinstance(size, bool) or not hasattr(size, "__index__") or size < 0:
             raise InputError(f"expected an integer >= 0, found {size!r}", where=f"{where}[{k}]")
         known.append(int(size))

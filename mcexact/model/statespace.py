@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
+from mcexact.arguments import several
 from mcexact.errors import InputError
 from mcexact.exact.floats import Rounding, from_float, matrix_from_float
 from mcexact.exact.matrix import Matrix
@@ -176,7 +177,7 @@ def _listed(channels: Channels) -> tuple[list[str] | None, list[tuple[Signals, S
     names = None
     if isinstance(channels, Mapping):
         names, channels = list(channels), list(channels.values())
-    pairs = list(channels)
+    pairs = list(several(channels, "channels", "pairs (inputs, outputs)"))
     if not pairs:
         raise InputError("expected at least one channel, found none", where="channels")
     for k, pair in enumerate(pairs):

@@ -11,7 +11,7 @@ from mcexact.analysis.stability.closed_loop_spectrum import closed_loop_spectrum
 from mcexact.analysis.stability.stability import certify_stability
 from mcexact.answer.loop_spectrum import LoopSpectrum
 from mcexact.answer.stability import LyapunovMethod, StabilityVerdict
-from mcexact.errors import McexactError
+from mcexact.errors import InputError, McexactError
 from mcexact.exact.blocks import hstack, vstack
 from mcexact.exact.floats import to_float
 from mcexact.exact.linear_algebra import solve_nonsingular
@@ -92,11 +92,13 @@ def proved_envelope(run: Trajectory, spectrum: LoopSpectrum | None = None) -> En
     >>> proved_envelope(simulate(plant, local_controllers(plant, [[[0]]]))) is None
     True
     """
+    InputError.require(run, Trajectory, "run")
     loop = run.loop
     if not run.drive.is_constant or not 0 < loop.dimension <= LARGEST:
         return None
     if spectrum is None:
         spectrum = closed_loop_spectrum(loop.matrix, run.time)
+    InputError.require(spectrum, LoopSpectrum, "spectrum")
     if not spectrum.stable or spectrum.rate is None:
         return None
     decay = Fraction(spectrum.rate.upper if is_discrete(run.time) else spectrum.rate.lower)

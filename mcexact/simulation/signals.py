@@ -8,6 +8,7 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import Any
 
+from mcexact.arguments import several, told
 from mcexact.errors import InputError
 from mcexact.exact.floats import Rounding, from_float
 from mcexact.exact.matrix import Matrix
@@ -162,7 +163,8 @@ def numbers_of(
             return from_float(value, rounding, where=place)
         return as_fraction(value, where=place)
 
-    return tuple(exact(value, f"{where}[{k}]") for k, value in enumerate(values))
+    listed = several(values, where, "numbers")
+    return tuple(exact(value, f"{where}[{k}]") for k, value in enumerate(listed))
 
 
 def by_channel(
@@ -190,7 +192,7 @@ def by_channel(
     >>> [M.rows() for M in by_channel([1, 2, 3], [2, 1], None, "reference")]
     [((Fraction(1, 1),), (Fraction(2, 1),)), ((Fraction(3, 1),),)]
     """
-    listed = list(values)
+    listed = list(several(values, where, "numbers"))
     if any(_is_listed(each) for each in listed):
         if len(listed) != len(sizes):
             raise InputError(f"expected {len(sizes)} channels, found {len(listed)}", where=where)
@@ -239,8 +241,13 @@ def signal_of(
     if level is not None:
         changes.append(Change(Fraction(0), by_channel(level, sizes, rounding, where[0])))
     for name, given, ramp in ((where[1], steps, False), (where[2], ramps, True)):
-        for k, (time, values) in enumerate(given):
+        for k, change in enumerate(several(given, name, "pairs (time, numbers)")):
             place = f"{name}[{k}]"
+            if not _is_listed(change) or len(change) != 2:
+                raise InputError(
+                    f"expected a pair (time, numbers), found {told(change)}", where=place
+                )
+            time, values = change
             [start] = numbers_of([time], rounding, place)
             if start < 0:
                 raise InputError(f"expected a time of at least 0, found {start}", where=place)

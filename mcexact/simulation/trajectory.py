@@ -8,6 +8,7 @@ from fractions import Fraction
 from itertools import chain
 from typing import Any
 
+from mcexact.arguments import told
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.floats import Rounding, to_float
 from mcexact.exact.location import is_discrete
@@ -344,6 +345,8 @@ def _grid(
         [end] = numbers_of([horizon], rounding, "horizon")
     if discrete and end is not None and (end != int(end) or end < 0):
         raise UsageError(f"expected a number of steps, found {end}", where="horizon")
+    if points is not None and (isinstance(points, bool) or not isinstance(points, int)):
+        raise InputError(f"expected an integer, found {told(points)}", where="points")
     if not discrete and ((end is not None and end <= 0) or (points is not None and points < 1)):
         raise UsageError("expected a horizon above 0 and at least one interval")
     last = max((change.time for change in drive.changes), default=Fraction(0))

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from mcexact.analysis.questions import QUESTIONS as ALL
+from mcexact.arguments import several
 from mcexact.errors import UsageError
 
 QUESTIONS = {
@@ -22,7 +23,7 @@ def chosen(names: Iterable[str]) -> tuple[str, ...]:
     UsageError
         If no name is given, or a name is not a question.
     """
-    asked = {names} if isinstance(names, str) else set(names)
+    asked = {names} if isinstance(names, str) else set(several(names, "questions"))
     unknown = sorted(asked - set(QUESTIONS))
     if unknown or not asked:
         found = repr(unknown[0]) if unknown else "none"

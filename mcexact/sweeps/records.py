@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from io import FileIO
 from typing import Any
 
-from mcexact.errors import InputError, UsageError
+from mcexact.errors import InputError, UsageError, place_of
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.canonical import canonical
 from mcexact.shown import LINE, Shown, fitting
@@ -174,6 +174,7 @@ class RecordFile:
     """
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
+        place_of(path)
         self.path = os.fspath(path)
         self.known = read_records(path)
         try:

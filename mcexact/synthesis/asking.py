@@ -8,7 +8,7 @@ from typing import Any
 
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.answer.fixed_spectrum import FixedSpectrum
-from mcexact.errors import UsageError
+from mcexact.errors import InputError, UsageError
 from mcexact.exact.location import StabilityRegion
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.optimum.aims import Aims
@@ -63,12 +63,14 @@ def request_for(
     >>> print(*request_for(MultiChannelSystem([[1]], [[[0]]], [[[1]]])).notes)
     no rate was given: 1/1000 is a small one, since all agents together have no optimal controller
     """
+    aims = Aims() if aims is None else aims
+    InputError.require(aims, Aims, "aims")
     if spectrum is not None or rate is not None or radius is not None:
         given = Request.of(system, agent, spectrum, rate, radius, arithmetic, progress)
         return _limited(given, aims)
     (progress or (lambda _: None))("the sensible rate")
     about = controlled or system
-    weights = Weights.of(system, (aims or Aims()).weights)
+    weights = Weights.of(system, aims.weights)
     if controlled is not None:
         weights = weights.with_integrators(system)
     found = chosen_region(about, weights)

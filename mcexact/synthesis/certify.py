@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from typing import get_args
 
 from mcexact.analysis.stability.closed_loop_spectrum import eigenvalue_outside
 from mcexact.analysis.stability.stability import (
@@ -17,6 +18,7 @@ from mcexact.answer.evidence import RootDisc
 from mcexact.answer.rules import VERDICT
 from mcexact.answer.sentence import Given
 from mcexact.answer.stability import StabilityVerdict
+from mcexact.arguments import one_of
 from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.exact.floats import matrix_to_float, to_float
 from mcexact.exact.location import StabilityRegion
@@ -110,6 +112,7 @@ def certify_controller(
     """
     InputError.require(system, MultiChannelSystem, "system")
     InputError.require(controller, Controller, "controller")
+    one_of(method, (None, *get_args(Method)), "method")
     tell = progress or (lambda _: None)
     region = StabilityRegion.of(system.time, rate, radius).limited(damping, largest_modulus)
     if largest and region.bound is not None:

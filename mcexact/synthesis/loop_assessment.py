@@ -63,6 +63,8 @@ def assess(design: Design, aims: Aims | None = None) -> Assessment:
     'no'
     """
     InputError.require(design, Design, "design")
+    aims = Aims() if aims is None else aims
+    InputError.require(aims, Aims, "aims")
     parts = design.parts.get("designed", design.parts)
     notes = list(design.notes)
     if "blocks" in parts and "diagnosis" in parts:
@@ -80,7 +82,7 @@ def assess(design: Design, aims: Aims | None = None) -> Assessment:
         design.loop.closed,
         design.region,
         certified=design.stable,
-        weights=(aims or Aims()).weights,
+        weights=aims.weights,
         notes=tuple(notes),
         diagnosis=parts.get("diagnosis"),
         shape=(aims or Aims()).shape,

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
+from mcexact.arguments import one_of
 from mcexact.errors import UsageError
 from mcexact.exact.location import StabilityRegion
 from mcexact.model.system import MultiChannelSystem
@@ -71,10 +72,7 @@ class Request:
             raise UsageError(
                 f"give a {region.word} or a spectrum, which says how fast the loop has to be"
             )
-        if arithmetic not in ("exact", "float"):
-            raise UsageError(
-                f'expected "exact" or "float", found {arithmetic!r}', where="arithmetic"
-            )
+        one_of(arithmetic, get_args(Arithmetic), "arithmetic")
         if arithmetic == "float" and spectrum is not None:
             raise UsageError(
                 "a design in floating point takes a rate or a radius; a spectrum needs exact "

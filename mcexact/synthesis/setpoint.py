@@ -12,6 +12,7 @@ from mcexact.analysis.structure.setpoint import setpoint_solvability
 from mcexact.answer.rules.refusals import refusal
 from mcexact.answer.setpoint import SetpointSolvability
 from mcexact.answer.wording import refusals as say
+from mcexact.arguments import one_of
 from mcexact.derived.integrators import setpoint_system
 from mcexact.errors import (
     Impossible,
@@ -19,7 +20,6 @@ from mcexact.errors import (
     InternalError,
     LimitReached,
     OutOfReach,
-    UsageError,
 )
 from mcexact.exact.blocks import block, hstack, vstack
 from mcexact.exact.location import StabilityRegion, steady_point
@@ -135,8 +135,7 @@ invariant zero of the plant
     """
     InputError.require(system, MultiChannelSystem, "system")
     system, graph = with_links(system, graph)
-    if method not in (None, "observer", "extended"):
-        raise UsageError(f'expected "observer" or "extended", found {method!r}', where="method")
+    one_of(method, (None, "observer", "extended"), "method")
     solvability = _required(system)
     integrated = setpoint_system(system)
     given = system, agent, spectrum, rate, radius, arithmetic, progress

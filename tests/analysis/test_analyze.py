@@ -13,7 +13,7 @@ from mcexact.analysis.analyze import Analysis, analyze
 from mcexact.analysis.questions import QUESTIONS, Question
 from mcexact.checker import Expectation, Limits
 from mcexact.checker.manifest import manifest_verdicts
-from mcexact.errors import LimitReached, UsageError
+from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.model import gallery
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
@@ -143,14 +143,14 @@ def test_indices_are_asked_where_their_evidence_is_short(n: int, width: int, ask
         ({"questions": ["pencil_rank"]}, "'pencil_rank' is about a set of channels: give subset="),
         ({"questions": ["channel_gains_both"]}, "is about one channel: give channel="),
         ({"questions": ["completness"]}, "there is no question 'completness'"),
-        ({"information": "all"}, "'own' or 'outputs'"),
-        ({"questions": "completeness"}, "questions: expected several names"),
-        ({"also": "completeness"}, "also: expected several names"),
-        ({"subset": "12"}, "subset: expected several names, such as ..12"),
+        ({"information": "all"}, '"own" or "outputs"'),
+        ({"questions": "completeness"}, "questions: expected a list of names"),
+        ({"also": "completeness"}, "also: expected a list of names"),
+        ({"subset": "12"}, "subset: expected a list of names, found '12': write .'12'."),
     ],
 )
 def test_what_makes_no_sense_is_refused_before_the_work(given: dict[str, Any], said: str) -> None:
-    with pytest.raises(UsageError, match=said):
+    with pytest.raises((InputError, UsageError), match=said):
         analyze(PAPER, **given)
 
 

@@ -171,9 +171,7 @@ def test_an_unknown_channel_is_named_with_the_known_ones():
 
 
 def test_a_name_is_not_read_as_a_list_of_the_names_of_its_letters():
-    with pytest.raises(
-        UsageError, match=r"expected a list of names, found a string; write \['12'\]"
-    ):
+    with pytest.raises(InputError, match=r"expected a list of names, found '12': write \['12'\]"):
         small().indices("12")
 
 

@@ -41,6 +41,7 @@ def assignability(
     """
     InputError.require(system, MultiChannelSystem, "system")
     graph = transfer_graph(system) if graph is None else graph
+    InputError.require(graph, TransferGraph, "graph")
     rng = generator(system, "assignability")
     realizations, degrees = [], []
     for component in graph.components:

@@ -69,6 +69,7 @@ def completeness(
     InputError.require(system, MultiChannelSystem, "system")
     if spectrum is None:
         spectrum = fixed_spectrum(system)
+    InputError.require(spectrum, FixedSpectrum, "spectrum")
     rng = generator(system, "completeness")
     evidence = _evidence(system, spectrum, rng)
     complete = isinstance(evidence, BlocksWitness | FreedomWitness)

@@ -119,6 +119,7 @@ def pencil_ranks(
     InputError.require(system, MultiChannelSystem, "system")
     names = system.named(system.indices(subset))
     found = open_loop_spectrum(system) if spectrum is None else spectrum
+    InputError.require(found, ClosedLoopSpectrum, "spectrum")
     return tuple(pencil_rank(system, names, mode) for mode, _ in found.polynomial.factor())
 
 

@@ -15,6 +15,7 @@ from mcexact.answer.single_channel_gains import (
     StuckWitness,
     UnreachedWitness,
 )
+from mcexact.arguments import one_of, told
 from mcexact.derived.dual import dual
 from mcexact.derived.feedback import closed_by, full_output
 from mcexact.derived.modular_system import (
@@ -103,8 +104,9 @@ def single_channel_gains(
     False
     """
     InputError.require(system, MultiChannelSystem, "system")
-    if want not in SIDES:
-        raise UsageError(f"expected one of {', '.join(SIDES)}, found {want!r}")
+    one_of(want, tuple(SIDES), "want")
+    if index is not None and type(index) is not int:
+        raise UsageError(f"expected an integer, found {told(index)}", where="index")
     if cyclic and want != "both":
         raise UsageError("a cyclic matrix is available only with both properties")
     channels = tuple(range(system.m)) if channel is None else tuple(system.indices([channel]))

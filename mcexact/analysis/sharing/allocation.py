@@ -17,6 +17,7 @@ from mcexact.analysis.structure.transfer_graph import transfer_graph
 from mcexact.answer.covering import ConnectivityCut
 from mcexact.answer.deficiency import Deficiency
 from mcexact.answer.shared_dimensions import SharedDimensions
+from mcexact.arguments import several
 from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.derived.extended import Share, checked_share, extended_system
 from mcexact.derived.modular_system import generator
@@ -193,11 +194,11 @@ def plant_with_graph(
 def _program(
     m: int, costs: Sequence[Entry] | None, upper: Sequence[int | None] | None
 ) -> CoveringProgram:
-    given = [1] * m if costs is None else costs
+    given = [1] * m if costs is None else several(costs, "costs", "numbers")
     prices = tuple(as_requested(c, where=f"costs[{i}]") for i, c in enumerate(given))
     if len(prices) != m or any(price <= 0 for price in prices):
         raise UsageError(f"expected {m} positive numbers, one for each agent", where="costs")
-    limits = tuple(upper) if upper is not None else (None,) * m
+    limits = (None,) * m if upper is None else several(upper, "upper", "integers")
     if len(limits) != m or any(u is not None and (type(u) is not int or u < 0) for u in limits):
         raise UsageError(f"expected {m} integers >= 0 or None, one for each agent", where="upper")
     return CoveringProgram(prices, limits)

@@ -20,6 +20,7 @@ from mcexact.analysis.sharing.cut_generation import CoveringProblem, covering_op
 from mcexact.analysis.sharing.separation import least_minimizers, violating_factors
 from mcexact.answer.communication import MinimalCommunication
 from mcexact.answer.covering import LinkCut
+from mcexact.arguments import one_of, several, told
 from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.derived.extended import Share, extended_system, selector
 from mcexact.derived.links import add_links
@@ -32,7 +33,6 @@ from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational import Entry
 from mcexact.model.linked_system import with_links
-from mcexact.model.names import quoted
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 
@@ -184,29 +184,28 @@ def _checked(
 ) -> _Links:
     if plant.subject:
         raise UsageError("give the plant, not a system derived from it", where="system")
+    one_of(share, (None, *get_args(Carried)), "share", InputError)
     carried: Carried = share or ("outputs" if dimensions is None else "outputs+states")
-    if carried not in get_args(Carried):
-        raise InputError(
-            f'expected "outputs", "outputs+states" or "states", found {quoted(carried)}',
-            where="share",
-        )
     if (carried == "outputs") != (dimensions is None):
         raise UsageError("sub-states are shared iff their dimensions are given", where="share")
-    excluded = {_edge(plant, edge) for edge in forbidden}
+    excluded = {
+        _edge(plant, edge, "forbidden") for edge in several(forbidden, "forbidden", "links")
+    }
     candidates = tuple(
         (j, i)
         for j in range(plant.m)
         for i in range(plant.m)
         if j not in graph.neighborhood(i) and (j, i) not in excluded
     )
-    sizes = None if dimensions is None else tuple(dimensions)
+    sizes = None if dimensions is None else several(dimensions, "dimensions", "integers")
     return _Links(plant, carried, sizes, candidates)
 
 
 def _prices(links: _Links, costs: Mapping[tuple[str, str], Entry]) -> tuple[Fraction, ...]:
     """The price of each candidate, 1 where none is given."""
+    InputError.require(costs, Mapping, "costs")
     prices = {
-        _edge(links.plant, edge): as_requested(price, where="costs")
+        _edge(links.plant, edge, "costs"): as_requested(price, where="costs")
         for edge, price in costs.items()
     }
     if any(price <= 0 for price in prices.values()):
@@ -214,7 +213,11 @@ def _prices(links: _Links, costs: Mapping[tuple[str, str], Entry]) -> tuple[Frac
     return tuple(prices.get(edge, Fraction(1)) for edge in links.candidates)
 
 
-def _edge(plant: MultiChannelSystem, edge: tuple[str, str]) -> Edge:
+def _edge(plant: MultiChannelSystem, edge: tuple[str, str], where: str) -> Edge:
+    if isinstance(edge, str) or not isinstance(edge, Sequence) or len(edge) != 2:
+        raise InputError(
+            f"expected links as pairs (sender, receiver) of names, found {told(edge)}", where=where
+        )
     sender, receiver = edge
     return plant.index(sender), plant.index(receiver)
 

@@ -18,6 +18,7 @@ from mcexact.answer.stability import (
     StabilityVerdict,
     Transformation,
 )
+from mcexact.arguments import one_of
 from mcexact.derived.modular_system import generator
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.linear_algebra import characteristic_polynomial
@@ -138,8 +139,9 @@ def certify_stability(
     region = StabilityRegion.asked(loop.time, region, rate, radius) or StabilityRegion(loop.time)
     if damping is not None or largest_modulus is not None:
         region = region.limited(damping, largest_modulus)
-    if method not in {None, *get_args(Method)}:
-        raise UsageError(f'expected "polynomial" or "lyapunov", found {method!r}', where="method")
+    if polynomial is not None:
+        InputError.require(polynomial, Polynomial, "polynomial")
+    one_of(method, (None, *get_args(Method)), "method")
     if separation is not None:
         _require_separation(loop.A, separation)
     tried = (method,) if method is not None else _order(loop.n, separation)
@@ -166,6 +168,7 @@ def _order(n: int, separation: Separation | None) -> tuple[Method, ...]:
 
 
 def _require_separation(M: Matrix, separation: Separation) -> None:
+    InputError.require(separation, Separation, "separation")
     N, T, Delta = M.nrows, separation.T, separation.Delta
     if T.shape != (N, N) or Delta.shape != (N, N) or sum(separation.sizes) != N:
         raise UsageError(f"expected T, Δ and blocks of {N} states", where="separation")

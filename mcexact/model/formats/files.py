@@ -53,6 +53,7 @@ def load_system(
     >>> load_system("gallery:quadruple-tank-pminus").n
     4
     """
+    InputError.require(limits, Limits, "limits")
     with InputError.inside(place_of(path)):
         return read_any(
             read_input(path, limits),
@@ -148,6 +149,7 @@ def system_files(
     InputError
         If it would not hold the numbers of the system.
     """
+    place_of(path)
     suffix = os.path.splitext(path)[1].lower()
     if isinstance(system, ParametricSystem):
         if suffix != ".json":

@@ -12,8 +12,9 @@ from functools import cache
 from importlib import resources
 from typing import Any
 
+from mcexact.arguments import told
 from mcexact.errors import UsageError
-from mcexact.model.names import nearest, quoted
+from mcexact.model.names import nearest
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.parametric_file import read_parametric_system
 from mcexact.model.system import MultiChannelSystem
@@ -94,9 +95,9 @@ def require_name(name: str) -> str:
         If no system has this name.
     """
     known = (*names(), *parametric_names())
-    if name not in known:
-        hint = nearest(name, known) or "; 'mcexact gallery' lists them"
-        raise UsageError(f"there is no system {quoted(name)} in the gallery{hint}")
+    if not isinstance(name, str) or name not in known:
+        hint = nearest(str(name), known) or "; 'mcexact gallery' lists them"
+        raise UsageError(f"there is no system {told(name)} in the gallery{hint}")
     return name
 
 

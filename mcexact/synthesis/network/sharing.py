@@ -10,8 +10,9 @@ from mcexact.analysis.sharing.allocation import minimal_shared_dimensions, share
 from mcexact.answer.deficiency import Deficiency
 from mcexact.answer.rules.refusals import refusal
 from mcexact.answer.shared_dimensions import SharedDimensions
+from mcexact.arguments import one_of
 from mcexact.derived.extended import Share, checked_dimensions
-from mcexact.errors import InputError, UsageError
+from mcexact.errors import InputError
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.location import StabilityRegion
 from mcexact.model.linked_system import with_graph
@@ -57,9 +58,8 @@ def sharing_network(
         the way of sharing.
     """
     system, found = with_graph(system, graph)
+    one_of(network, (None, "extended", "lifted", "held"), "network")
     kind: NetworkKind = network or ("lifted" if found.delays else "extended")
-    if kind not in ("extended", "lifted", "held"):
-        raise UsageError(f'expected "extended", "lifted" or "held", found {kind!r}')
     sharing = sharing_of(kind, share)
     request.tell("shared dimensions")
     allocation, sizes = _sizes(system, dimensions, sharing, request.region, free_assignability)
@@ -74,11 +74,11 @@ def _sizes(
     free_assignability: bool,
 ) -> tuple[SharedDimensions | Deficiency | None, tuple[int, ...]]:
     """Return the dimensions n_1 … n_m, and the answer that determined them."""
+    if not isinstance(dimensions, str):
+        return None, checked_dimensions(system, dimensions)
     if dimensions == "bound":
         most = shared_dimension_bound(system, share=share)
         return most, (most.deficiency,) * system.m
-    if not isinstance(dimensions, str):
-        return None, checked_dimensions(system, dimensions)
     if dimensions != "minimal":
         raise InputError(
             f'expected "minimal", "bound" or {system.m} numbers, found {dimensions!r}',

@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import Any, Literal
 
 from mcexact.analysis.structure.controllability import joint_observability
+from mcexact.arguments import one_of
 from mcexact.derived.error_system import error_system
 from mcexact.errors import Impossible, InputError, LimitReached, UsageError
 from mcexact.exact.location import StabilityRegion
@@ -60,8 +61,7 @@ def observer_proposals(
             "the distributed observer has no delays on its links; remove them, or design with an "
             "extended system"
         )
-    if order not in (None, "least"):
-        raise UsageError(f'expected order "least" or none, found {order!r}', where="order")
+    one_of(order, (None, "least"), "order")
     carrier, region = request.agent or 0, request.region
     if request.arithmetic == "float":
         from mcexact.synthesis.observer.in_floating_point import float_proposals

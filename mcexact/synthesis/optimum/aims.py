@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import isfinite
+from numbers import Real
 from typing import Any
 
+from mcexact.arguments import told
 from mcexact.errors import UsageError
 from mcexact.exact.floats import as_requested, to_float
 from mcexact.exact.rational import Entry
@@ -75,6 +77,10 @@ class Aims:
     seeds: int = SEEDS
 
     def __post_init__(self) -> None:
+        for name in ("margin", "largest_gain", "damping", "largest_modulus", "effort"):
+            number = getattr(self, name)
+            if isinstance(number, bool) or not isinstance(number, Real):
+                _require(number is None and name != "margin", name, "a number", told(number))
         _require(0 < self.margin < 1, "margin", "a number above 0 and below 1", self.margin)
         if self.largest_gain is not None:
             good = 0 < self.largest_gain and isfinite(self.largest_gain)

@@ -43,5 +43,5 @@ def test_a_reducible_polynomial_is_refused_with_its_factors() -> None:
 
 def test_one_text_is_no_subset() -> None:
     plant = gallery.load("liu2020-3ch-no-communication")
-    with pytest.raises(UsageError, match="expected a list of names"):
+    with pytest.raises(InputError, match="expected a list of names"):
         pencil_ranks(plant, "23")
