@@ -27,9 +27,10 @@ from mcexact.cli.spectra import spectrum_examples
 )
 @click.option(
     "--order",
-    type=click.Choice(["least"]),
-    help="Use the least order that one of the indices allows, instead of m - 1; in floating point "
-    "use an observer of reduced order.",
+    type=click.Choice(["least", "low"]),
+    help="`least`: the least order that one of the indices allows, instead of m - 1; in floating "
+    "point an observer of reduced order. `low`: compare it with a controller of low order over the "
+    "same links, whose agents do not estimate the whole state, and keep the better one.",
 )
 def command(file: str, order: str | None, **given: Any) -> None:
     """Design a distributed observer-based controller for the system in FILE (- for standard input).

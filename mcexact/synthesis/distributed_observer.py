@@ -2,20 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any, Literal
 
 from mcexact.derived.feedback import checked_gains
-from mcexact.errors import InputError, LimitReached
+from mcexact.errors import Impossible, InputError, LimitReached, McexactError, UsageError
 from mcexact.exact.floats import Rounding
+from mcexact.exact.matrix import Matrix
 from mcexact.model.linked_system import with_graph
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.agreeing_observer import observers
 from mcexact.synthesis.asking import request_for
 from mcexact.synthesis.design import Design, designed
+from mcexact.synthesis.extended import design_extended
+from mcexact.synthesis.optimum.aims import MARGIN
 from mcexact.synthesis.optimum.diagnosis import with_diagnosis
-from mcexact.synthesis.request import Arithmetic, Progress
+from mcexact.synthesis.optimum.loop_figures import plain_figures
+from mcexact.synthesis.request import Arithmetic, Progress, Request
+
+_PRICE_OF_ORDER = 1.02
 
 
 def design_observer(
@@ -27,7 +34,7 @@ def design_observer(
     rate: Any = None,
     radius: Any = None,
     gains: Sequence[Any] | None = None,
-    order: Literal["least"] | None = None,
+    order: Literal["least", "low"] | None = None,
     rounding: Rounding | None = None,
     arithmetic: Arithmetic = "exact",
     progress: Progress | None = None,
@@ -53,10 +60,13 @@ def design_observer(
     gains : sequence of m matrices, optional
         Given F_i (p_i×n); then ``spectrum`` has no ``"feedback"``.  With F_i = 0 this is the
         open-loop observer of section II-B, whose agents estimate the state and do not act.
-    order : {"least"}, optional
-        Use a channel controller of order one less than the smaller of the two indices, instead of m
-        − 1.  In floating point, use an observer of reduced order instead of nm, if it can be
-        certified.
+    order : {"least", "low"}, optional
+        "low" also designs a controller of low order over the same links, as `design_extended`, and
+        keeps the better of both, which `Design.notes` tells with the figures of both: whoever
+        wants to control the plant needs no estimate of the whole state in every agent.
+        "least" uses a channel controller of order one less than the smaller of the two indices,
+        instead of m − 1; in floating point it uses an observer of reduced order instead of nm, if
+        it can be certified.
     rounding : {"decimal", "dyadic"}, optional
         How floats in ``gains`` become exact; see `MultiChannelSystem.from_float`.
     arithmetic : {"exact", "float"}
@@ -82,7 +92,8 @@ def design_observer(
         If no observer was found, or none could be certified; the message tells the mode that is
         nearest to being fixed, and the sensible rate.
     UsageError
-        If a spectrum, rate and radius contradict each other, or the graph has delays.
+        If a spectrum, rate and radius contradict each other, or the graph has delays; or if a low
+        order is asked for together with a spectrum, an agent or gains.
 
     Notes
     -----
@@ -111,8 +122,60 @@ H_ij let one agent control and observe all estimation errors
     request = request_for(system, agent, spectrum, rate, radius, arithmetic, progress)
     sizes = [system.n] * system.m
     exact = None if gains is None else checked_gains(system, gains, sizes, rounding=rounding)
-    proposals = observers(system, graph, request, gains=exact, order=order)
+    if order != "low":
+        return _observer(system, graph, request, exact, order)
+    if spectrum is not None or agent is not None or gains is not None:
+        raise UsageError("a low order takes a rate or a radius, and no spectrum, agent or gains")
+    return _better(system, graph, request)
+
+
+def _observer(
+    system: MultiChannelSystem,
+    graph: NeighborGraph,
+    request: Request,
+    gains: Sequence[Matrix] | None = None,
+    order: Literal["least"] | None = None,
+) -> Design:
+    """Certify the first observer that passes the gate."""
+    proposals = observers(system, graph, request, gains=gains, order=order)
     try:
         return designed("observer", request, system, graph, proposals)
     except LimitReached as limit:
         raise with_diagnosis(limit, system, request.region) from None
+
+
+def _better(system: MultiChannelSystem, graph: NeighborGraph, request: Request) -> Design:
+    """Design an observer and a controller of low order, and keep the better one.
+
+    Raises
+    ------
+    Impossible, LimitReached
+        That of the observer, if both fail.
+    """
+    bound: dict[str, Any] = {request.region.word: request.region.edge}
+    asked: dict[str, Any] = {"arithmetic": request.arithmetic, "progress": request.tell, **bound}
+    ways: dict[str, Callable[[], Design]] = {
+        "the observer": lambda: _observer(system, graph, request),
+        "a controller of low order": lambda: design_extended(system, graph, **asked),
+    }
+    found, told, failed = dict[str, Design](), list[str](), list[McexactError]()
+    for name, design in ways.items():
+        try:
+            found[name] = design()
+        except (Impossible, LimitReached) as error:
+            failed.append(error)
+            told.append(f"{name}: {error}")
+            continue
+        seen = plain_figures(found[name].loop.closed)
+        told.append(f"{name}: {seen.order} states, margin {seen.margin:.3g}, cost {seen.cost:.3g}")
+    if not found:
+        raise failed[0]
+    best = min(found, key=lambda name: _price(found[name]))
+    note = f"{best} was kept ({'; '.join(told)}; computed)"
+    return replace(found[best], notes=(*request.notes, note))
+
+
+def _price(made: Design) -> tuple[bool, float]:
+    """Whether a design is fragile, and its cost, dearer by two percent for each state."""
+    seen = plain_figures(made.loop.closed)
+    return not seen.margin >= MARGIN, seen.cost * _PRICE_OF_ORDER**seen.order

@@ -73,10 +73,11 @@ def assess(design: Design, aims: Aims | None = None) -> Assessment:
             "in one agent of each strong component"
         )
     if "observer_gains" in parts and design.order > design.loop.closed.given.m:
+        other = "`design setpoint`" if design.name == "setpoint" else "`--order low`"
         notes.append(
-            f"the agents of a distributed observer have {design.order} states together: "
-            f"`design {'setpoint' if design.name == 'setpoint' else 'extended'}` searches "
-            "controllers of low order over the same links"
+            "every agent of a distributed observer estimates the whole state, with "
+            f"{design.order} states together: where this is not wanted, {other} tries controllers "
+            "of low order over the same links"
         )
     return assessed_loop(
         design.loop.closed,

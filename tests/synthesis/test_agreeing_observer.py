@@ -1,6 +1,7 @@
 """Observers whose agents are drawn to agree."""
 
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 import pytest
@@ -8,10 +9,12 @@ import pytest
 from mcexact import design_observer, design_setpoint
 from mcexact.answer.codec import encode
 from mcexact.checker import check_document
+from mcexact.errors import LimitReached, UsageError
 from mcexact.exact.location import StabilityRegion
 from mcexact.model import gallery
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
+from mcexact.synthesis import distributed_observer
 from mcexact.synthesis.agreeing_observer import agreed_weights, best_agreeing
 from mcexact.synthesis.loop_assessment import assess
 
@@ -73,6 +76,38 @@ def test_in_discrete_time_slow_filters_agree_and_the_loop_is_about_as_slow_as_as
     found = assess(design)
     assert found.figures.margin >= 0.3 and found.relative_cost < 3
     assert 0.96 <= found.figures.bound < 0.99
+
+
+def test_a_low_order_is_compared_with_the_observer() -> None:
+    carts = MultiChannelSystem(
+        [[0, 1, 0, 0], ["-1/2", 0, "1/2", 0], [0, 0, 0, 1], ["1/2", 0, "-1/2", 0]],
+        [[[0], [1], [0], [0]], [[0], [0], [0], [1]]],
+        [[[1, 0, 0, 0], [0, 1, 0, 0]], [[0, 0, 1, 0], [0, 0, 0, 1]]],
+        neighbors={"1": ["2"], "2": ["1"]},
+    )
+    asked: dict[str, Any] = {"rate": "1/4", "arithmetic": "float"}
+    plain = design_observer(carts, **asked)
+    low = design_observer(carts, order="low", **asked)
+    assert plain.name == "observer" and plain.order == 8
+    assert low.name == "extended" and low.order < plain.order and low.stable
+    assert "was kept" in low.notes[-1] and "the observer: 8 states" in low.notes[-1]
+    with pytest.raises(UsageError, match="a low order takes a rate or a radius"):
+        design_observer(carts, agent="1", order="low", **asked)
+
+
+def test_the_observer_is_kept_where_no_low_order_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    def none(*_: Any, **__: Any) -> None:
+        raise LimitReached("none")
+
+    plant = MultiChannelSystem(
+        [[1]], [[[1]], [[0]]], [[[0]], [[1]]], neighbors={"1": ["2"], "2": ["1"]}
+    )
+    monkeypatch.setattr(distributed_observer, "design_extended", none)
+    found = design_observer(plant, rate=1, order="low", arithmetic="float")
+    assert found.name == "observer" and "a controller of low order: none" in found.notes[-1]
+    monkeypatch.setattr(distributed_observer, "designed", none)
+    with pytest.raises(LimitReached, match="none"):
+        design_observer(plant, rate=1, order="low", arithmetic="float")
 
 
 def test_in_discrete_time_the_fastest_loops_come_last():

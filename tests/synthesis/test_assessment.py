@@ -319,12 +319,12 @@ def test_only_designs_are_assessed() -> None:
     assert isinstance(assessed().figures, Figures)
 
 
-def test_an_observer_tells_which_command_searches_lower_orders() -> None:
+def test_an_observer_tells_what_it_is_for_and_what_tries_lower_orders() -> None:
     plant = MultiChannelSystem(
         [[1, 1], [0, 2]], [[[1], [0]], [[0], [1]]], [[[1, 0]], [[0, 1]]],
         neighbors={"1": ["2"], "2": ["1"]},
     )  # fmt: skip
     told = assess(design_observer(plant, rate=1, arithmetic="float"))
-    assert any("`design extended` searches controllers of low order" in each for each in told.notes)
+    assert any("`--order low` tries controllers of low order" in each for each in told.notes)
     searched = assess(design_extended(plant, rate=1))
-    assert not any("searches controllers" in each for each in searched.notes)
+    assert not any("tries controllers" in each for each in searched.notes)

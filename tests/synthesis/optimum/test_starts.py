@@ -1,0 +1,55 @@
+"""Starts of searches: what agents take for the whole, and starts that count as they are."""
+
+from __future__ import annotations
+
+import pytest
+
+from mcexact.exact.location import StabilityRegion
+from mcexact.model.system import MultiChannelSystem
+from mcexact.synthesis.decentralized import design_decentralized
+from mcexact.synthesis.network.networks import decentralized_network
+from mcexact.synthesis.optimum import climb
+from mcexact.synthesis.optimum.aims import Aims
+from mcexact.synthesis.optimum.figures import figures_of, shift_of
+from mcexact.synthesis.optimum.problem import FeedbackProblem
+from mcexact.synthesis.optimum.starts import local_regulators, localities
+from mcexact.synthesis.optimum.weights import Weights
+
+
+def sampled_string() -> MultiChannelSystem:
+    """Two vehicles with gap, speed and actuator; each input moves also the gap behind, a little."""
+    A = [
+        [1, "-0.2", "-0.0176", 0, 0, 0],
+        [0, 1, "0.1648", 0, 0, 0],
+        [0, 0, "0.6703", 0, 0, 0],
+        [0, "0.2", "0.0176", 1, "-0.2", "-0.0176"],
+        [0, 0, 0, 0, 1, "0.1648"],
+        [0, 0, 0, 0, 0, "0.6703"],
+    ]
+    B = [
+        [["-0.0024"], ["0.0352"], ["0.3297"], ["0.0024"], [0], [0]],
+        [[0], [0], [0], ["-0.0024"], ["0.0352"], ["0.3297"]],
+    ]
+    C = [[[int(j == i) for j in range(6)] for i in (first, first + 1)] for first in (0, 3)]
+    return MultiChannelSystem(A, B, C, time="discrete")
+
+
+def test_states_that_an_agent_hardly_drives_can_be_left_out() -> None:
+    plant = sampled_string()
+    weights = Weights.unit(plant)
+    problem = FeedbackProblem.of(decentralized_network(plant), (0, 0), weights)
+    assert [each.states for each in localities(problem, weights)] == [(0, 1, 2, 3), (3, 4, 5)]
+    narrow = localities(problem, weights, much=True)
+    assert [each.states for each in narrow] == [(0, 1, 2), (3, 4, 5)]
+    shift = shift_of(StabilityRegion.of("discrete", radius="0.98"))
+    K = local_regulators(problem, narrow, shift)
+    assert figures_of(problem, K, peak=False).bound < 0.98
+
+
+def test_a_start_inside_the_region_counts_as_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(climb, "_finish", lambda *_: False)
+    made = design_decentralized(sampled_string(), radius="0.98", aims=Aims(seeds=1, effort=0.2))
+    assert made.parts["optimum"].step == "static gains"
+    monkeypatch.setattr(climb, "_as_it_is", lambda *_: [])
+    made = design_decentralized(sampled_string(), radius="0.98", aims=Aims(seeds=1, effort=0.2))
+    assert "optimum" not in made.parts
