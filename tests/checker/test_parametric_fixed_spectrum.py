@@ -167,6 +167,7 @@ FALSE: dict[str, tuple[Any, str]] = {
     "another mode": (changed(PAPER, (f"{VALUE}.modes.0.polynomial", [[-2], [1]])), "identity"),
     "no mode": (changed(PAPER, (f"{VALUE}.modes", []), (f"{PROOF}.modes", [])), "claim"),
     "other channels": (changed(PAPER, (f"{VALUE}.modes.0.channels", ["2"])), "claim"),
+    "channels that come later": (changed(PAPER, (f"{VALUE}.modes.0.channels", ["3"])), "claim"),
     "another T": (changed(PAPER, (f"{PROOF}.modes.0.channels_T", [])), "identity"),
     "all channels in T": (
         changed(PAPER, (f"{PROOF}.modes.0.channels_T", ["1", "2", "3"])),
@@ -191,6 +192,23 @@ FALSE: dict[str, tuple[Any, str]] = {
             SETTLED,
             (f"{VALUE}.modes", [{"polynomial": [[], [1]], "channels": ["2"]}]),
             (f"{PROOF}.modes", SETTLED["witness"]["generic"]),
+        ),
+        "common_factor",
+    ),
+    "a generic mode is said to be exceptional beside another": (
+        changed(
+            SETTLED,
+            (
+                f"{VALUE}.modes",
+                [
+                    *SETTLED["claim"]["exceptional"][0]["modes"],
+                    {"polynomial": [[], [1]], "channels": ["2"]},
+                ],
+            ),
+            (
+                f"{PROOF}.modes",
+                [*SETTLED["witness"]["exceptional"][0]["modes"], *SETTLED["witness"]["generic"]],
+            ),
         ),
         "common_factor",
     ),
