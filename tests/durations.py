@@ -27,8 +27,17 @@ MEASURED = ROOT / "build" / "durations.tsv"
 LIMIT = 0.7
 SLOW_FIXTURES = frozenset({"whole", "written"})
 """Fixtures of a module that take seconds; the tests that use one are slow."""
-NEVER_SLOW = ("tests/documentation/",)
-"""Folders whose tests always run: what the documentation promises is tried before each change."""
+NEVER_SLOW = (
+    "tests/analysis/fixed_modes/test_fixed_spectrum.py::test_drawn_systems_agree",
+    "tests/answer/test_golden.py::",
+    "tests/architecture/",
+    "tests/documentation/",
+)
+"""Beginnings of the names of tests that run before each change, however long they take.
+
+They are what the documentation promises, the bytes of certificates, and the comparison of fixed
+modes with enumeration.
+"""
 
 
 def slow_tests() -> frozenset[str]:

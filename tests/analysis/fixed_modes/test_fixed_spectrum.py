@@ -57,15 +57,15 @@ def checked(system: MultiChannelSystem) -> FixedSpectrum:
     return spectrum
 
 
-@pytest.mark.parametrize("start", range(0, 250, 50))
+@pytest.mark.parametrize("start", range(0, 250, 25))
 def test_drawn_systems_agree_with_the_enumeration_of_all_subsets(start: int) -> None:
     """All decisions of the spine and their certificates."""
     with_fixed_modes = 0
-    for seed in range(10**6 + start, 10**6 + start + 50):
+    for seed in range(10**6 + start, 10**6 + start + 25):
         problems, fixed = disagreements(*drawn_pair(seed))
         assert not problems, (seed, problems)
         with_fixed_modes += fixed
-    assert with_fixed_modes > 10
+    assert with_fixed_modes > 5
 
 
 @pytest.mark.parametrize("name", gallery.names())
