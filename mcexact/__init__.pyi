@@ -3,6 +3,8 @@
 from . import plot as plot
 from .analysis.analyze import Analysis as Analysis
 from .analysis.analyze import analyze as analyze
+from .analysis.engine.parametric_structure import ParametricCompleteness as ParametricCompleteness
+from .analysis.engine.parametric_structure import ParametricTransferGraph as ParametricTransferGraph
 from .analysis.fixed_modes.assignability import assignability as assignability
 from .analysis.fixed_modes.completeness import completeness as completeness
 from .analysis.fixed_modes.error_gains import ErrorGains as ErrorGains
@@ -61,6 +63,8 @@ from .answer.fixed_spectrum import FixedSpectrum as FixedSpectrum
 from .answer.neighbor_graph import NeighborGraphVerdict as NeighborGraphVerdict
 from .answer.parametric_fixed_spectrum import ExceptionalValue as ExceptionalValue
 from .answer.parametric_fixed_spectrum import ParametricFixedSpectrum as ParametricFixedSpectrum
+from .answer.parametric_rank import LowerRank as LowerRank
+from .answer.parametric_rank import ParametricRank as ParametricRank
 from .answer.pencil_rank import PencilRank as PencilRank
 from .answer.protocol import Answer as Answer
 from .answer.reading import load_certificate as load_certificate

@@ -35,8 +35,8 @@ class ExceptionalMode(Part):
 
 
 @dataclass(frozen=True)
-class ExceptionalValue(Part):
-    """Values of the parameter at which more is fixed, the roots of an irreducible polynomial.
+class ParameterValue(Part):
+    """Values of the parameter, the roots of an irreducible polynomial.
 
     Attributes
     ----------
@@ -44,13 +44,10 @@ class ExceptionalValue(Part):
         q, monic and irreducible over Q.
     roots : tuple of RootDisc
         Disjoint discs with one root each, centered on the real axis exactly for real roots.
-    modes : tuple of ExceptionalMode
-        What is fixed there besides the roots of the generic polynomials.
     """
 
     value: Polynomial
     roots: tuple[RootDisc, ...]
-    modes: tuple[ExceptionalMode, ...]
 
     @property
     def exact(self) -> Fraction | None:
@@ -68,6 +65,19 @@ class ExceptionalValue(Part):
         if self.exact is not None:
             return (low is None or low <= self.exact) and (high is None or self.exact <= high)
         return any(meets(disc, bounds) for disc in self.real)
+
+
+@dataclass(frozen=True)
+class ExceptionalValue(ParameterValue):
+    """Values of the parameter at which more is fixed.
+
+    Attributes
+    ----------
+    modes : tuple of ExceptionalMode
+        What is fixed there besides the roots of the generic polynomials.
+    """
+
+    modes: tuple[ExceptionalMode, ...]
 
 
 def in_parameter(p: Polynomial, t: str) -> str:

@@ -23,8 +23,8 @@ STEMS = (
     "assignability", "closed_loop_spectrum", "common_dimension", "communication",
     "complementary_subsystem", "completeness", "controllability", "controllability_indices",
     "deficiency", "distributed_observer", "exceptional_gains", "fixed_spectrum", "neighbor_graph",
-    "parametric_fixed_spectrum", "pencil_rank", "setpoint", "shared_dimensions",
-    "single_channel_gains", "stability", "transfer_graph",
+    "parametric_fixed_spectrum", "parametric_rank", "pencil_rank", "setpoint",
+    "shared_dimensions", "single_channel_gains", "stability", "transfer_graph",
 )
 # fmt: on
 

@@ -89,6 +89,14 @@ def characteristic(A: Layers, ell: int = 0) -> Bivariate:
     return interpolated(_characteristic_values(A, ell), ell)
 
 
+def determinant(A: Layers, ell: int = 0) -> Polynomial:
+    """The determinant of A(t) or of −A(t), over Q, or modulo ℓ if one is given.
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    return interpolated([value[:1] for value in _characteristic_values(A, ell)], ell)[0]
+
+
 def _characteristic_values(A: Layers, ell: int) -> list[Polynomial]:
     """det(xI − A(t)) for t = 0, 1, …, as many as its degree in t asks for."""
     n = A[0].nrows

@@ -141,7 +141,12 @@ def resultant_modulo(f: Bivariate, g: Bivariate, ell: int) -> flint.nmod_poly:
         )
         for t in range(many)
     ]
-    slopes = values
+    return interpolated_modulo(values, ell)
+
+
+def interpolated_modulo(values: Sequence[int], ell: int) -> flint.nmod_poly:
+    """The polynomial modulo a prime with these values at 0, 1, … (Newton)."""
+    many, slopes = len(values), list(values)
     for k in range(1, many):
         f_k = pow(k, -1, ell)
         slopes = slopes[:k] + [

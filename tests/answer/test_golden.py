@@ -168,6 +168,11 @@ def of_a_parameter() -> Iterator[tuple[str, Any]]:
     ring = mcexact.NeighborGraph.ring(plant.names)
     extended = mcexact.extended_system(plant, (0, 0, 1), graph=ring)
     yield "shared dimensions", mcexact.fixed_spectrum(extended)
+    yield "set-points", mcexact.setpoint_solvability(tanks("t", "7/10"))
+    for k, ranks in enumerate(mcexact.observability_indices(plant, ["2"])):
+        yield f"rank {k + 1}", ranks
+    for pair, found in mcexact.transfer_graph(tanks("1/(t - 1)", "t^2")).columns.items():
+        yield f"edge {pair}", found
     yield "tanks with a range", mcexact.fixed_spectrum(tanks("t", "t^2", (0, "1/2")))
 
 
@@ -295,8 +300,7 @@ def digests(asked: Iterable[tuple[str, MultiChannelSystem]]) -> dict[str, dict[s
         for question, answer in of_a_network(plant):
             add_answer(answer, ("plants", name), ("questions", question))
     for name, answer in of_a_parameter():
-        place = ("questions", "parametric_fixed_spectrum")
-        add_answer(answer, ("plants", f"with a parameter: {name}"), place)
+        add_answer(answer, ("plants", f"with a parameter: {name}"), ("questions", answer.kind))
     for name, answer in of_regions():
         add_answer(answer, ("plants", f"a loop: {name}"), ("questions", "stability in a region"))
     for name, made in designs():

@@ -59,7 +59,7 @@ def about(name: str) -> tuple[tuple[str, Answer], ...]:
     found += [(question, each) for question, each in answers(plant) if each is not None]
     if name == "liu2020-3ch-no-communication":
         found += mcexact.design_observer(plant, rate=1).certificates.items()
-        found += [("parametric_fixed_spectrum", each) for _, each in of_a_parameter()]
+        found += [(each.kind, each) for _, each in of_a_parameter()]
     return tuple(found)
 
 

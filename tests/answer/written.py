@@ -10,6 +10,7 @@ from pathlib import Path
 
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.structure.exceptional_gains import exceptional_gains
+from mcexact.analysis.structure.setpoint import setpoint_solvability
 from mcexact.answer.codec import save_certificate
 from mcexact.cli import main
 from mcexact.exact.matrix import Matrix
@@ -77,6 +78,7 @@ def write_all(folder: Path) -> None:
     place = folder / "with-a-parameter"
     place.mkdir()
     save_certificate(fixed_spectrum(free), place / "parametric_fixed_spectrum.json")
+    save_certificate(setpoint_solvability(free), place / "parametric_rank.json")
 
 
 def with_graph(plant: MultiChannelSystem) -> MultiChannelSystem:

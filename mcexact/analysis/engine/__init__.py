@@ -13,6 +13,8 @@ This folder answers no question by itself.  The other folders of `analysis` impo
 `sparse_subspaces`       the same for large sparse systems, by products with sparse matrices
 `parametric_modes`       what is fixed for all values of a parameter, and where more is
 `parametric_control`     the same for what channels do not control or observe
+`parametric_minors`      ranks of matrices of polynomials in a parameter
+`parametric_structure`   the transfer graph and completeness by such ranks
 `zero_blocks`            proofs that a mode is fixed for all values, or at some
 `reachability`           the transfer graph modulo a prime, and zero transfers
 `sparse_reachability`    the transfer graph of large sparse systems
@@ -37,7 +39,14 @@ from mcexact.analysis.engine.lyapunov import QuadraticForm, quadratic_form
 from mcexact.analysis.engine.obstructions import Decision, Obstruction, decide
 from mcexact.analysis.engine.one_channel import MODULI, best_sequences
 from mcexact.analysis.engine.parametric_control import parametric_controllability
+from mcexact.analysis.engine.parametric_minors import parametric_rank
 from mcexact.analysis.engine.parametric_modes import parametric_fixed_spectrum
+from mcexact.analysis.engine.parametric_structure import (
+    ParametricCompleteness,
+    ParametricTransferGraph,
+    parametric_completeness,
+    parametric_transfer_graph,
+)
 from mcexact.analysis.engine.rate import located
 from mcexact.analysis.engine.reachability import (
     Edge,
@@ -86,6 +95,8 @@ __all__ = [
     "ExactSubspace",
     "Node",
     "Obstruction",
+    "ParametricCompleteness",
+    "ParametricTransferGraph",
     "QuadraticForm",
     "StateBlock",
     "Tree",
@@ -108,8 +119,11 @@ __all__ = [
     "minimize",
     "modes_left",
     "obstruction_modulo",
+    "parametric_completeness",
     "parametric_controllability",
     "parametric_fixed_spectrum",
+    "parametric_rank",
+    "parametric_transfer_graph",
     "quadratic_form",
     "reachable_pairs",
     "separated_instability",

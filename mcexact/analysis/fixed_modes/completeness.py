@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import random
 from collections.abc import Iterator
+from typing import overload
 
 from mcexact.analysis.engine import (
     Edge,
+    ParametricCompleteness,
     decide,
     edge_modulus,
     is_connected,
     is_large_and_sparse,
+    parametric_completeness,
     sparse_powers,
     suspected_edges,
     witnessed_powers,
@@ -30,20 +33,33 @@ from mcexact.derived.modular_system import ModularSystem, generator, lifted_gain
 from mcexact.errors import InputError, InternalError
 from mcexact.exact.invariant_subspace import controllable_subspace
 from mcexact.exact.matrix import Matrix
+from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 
 Freedom = ByBlocks | tuple[Matrix, ...]
 """The proof that no mode is fixed: by blocks, or gains that move every mode."""
 
 
+@overload
 def completeness(
     system: MultiChannelSystem, *, spectrum: FixedSpectrum | None = None
-) -> Completeness:
+) -> Completeness: ...
+
+
+@overload
+def completeness(system: ParametricSystem) -> ParametricCompleteness: ...
+
+
+def completeness(
+    system: MultiChannelSystem | ParametricSystem, *, spectrum: FixedSpectrum | None = None
+) -> Completeness | ParametricCompleteness:
     """Decide whether a system is complete.
 
     Parameters
     ----------
-    system : MultiChannelSystem
+    system : MultiChannelSystem or ParametricSystem
+        For a plant with one parameter the answer says whether it is complete for almost every
+        value, and for which values it is not (`ParametricCompleteness`).
     spectrum : FixedSpectrum, optional
         ``fixed_spectrum(system)``, if it is known already.
 
@@ -66,6 +82,8 @@ def completeness(
     >>> completeness(MultiChannelSystem([], [[], []], [[], []])).complete
     False
     """
+    if isinstance(system, ParametricSystem):
+        return parametric_completeness(system)
     InputError.require(system, MultiChannelSystem, "system")
     if spectrum is None:
         spectrum = fixed_spectrum(system)

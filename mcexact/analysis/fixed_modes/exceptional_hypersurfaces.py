@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
-from mcexact.analysis.engine import parametric_fixed_spectrum
+from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.answer.exceptional_hypersurfaces import (
     ExceptionalHypersurfaces,
     Hypersurface,
@@ -134,7 +134,7 @@ class _Search:
             at = self._line(3 + attempt)
             met = {h: _factors(h, at) for h in candidates}
             try:
-                answer = parametric_fixed_spectrum(self.system.along(at, _ALONG))
+                answer = fixed_spectrum(self.system.along(at, _ALONG))
             except InputError:
                 continue
             found = _confirmed(answer, met)

@@ -6,15 +6,20 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import overload
 
+from mcexact.analysis.structure.parametric_ranks import parametric_indices
 from mcexact.answer.controllability_indices import ControllabilityIndices
+from mcexact.answer.parametric_rank import ParametricRank
 from mcexact.derived.dual import dual
 from mcexact.derived.modular_system import generator, residue_systems
+from mcexact.derived.moved_entries import moved
 from mcexact.errors import InputError, InternalError
 from mcexact.exact.blocks import hstack, vstack
 from mcexact.exact.linear_algebra import solve_nonsingular
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import ModularMatrix, residues
+from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 
 
@@ -30,14 +35,28 @@ class _Profile:
         return tuple(map(len, self.rows))
 
 
+@overload
 def controllability_indices(
     system: MultiChannelSystem, channels: Iterable[str] | None = None
-) -> ControllabilityIndices:
+) -> ControllabilityIndices: ...
+
+
+@overload
+def controllability_indices(
+    system: ParametricSystem, channels: Iterable[str] | None = None
+) -> tuple[ParametricRank, ...]: ...
+
+
+def controllability_indices(
+    system: MultiChannelSystem | ParametricSystem, channels: Iterable[str] | None = None
+) -> ControllabilityIndices | tuple[ParametricRank, ...]:
     """Compute the controllability index and the controllability indices of (A, B_T).
 
     Parameters
     ----------
-    system : MultiChannelSystem
+    system : MultiChannelSystem or ParametricSystem
+        For a plant with one parameter the answers are the ranks of the first k blocks for
+        k = 1, 2, …, for all values, until none grows at any value (`ParametricRank`).
     channels : iterable of str, optional
         T, names of channels, by default all.
 
@@ -59,6 +78,8 @@ def controllability_indices(
     >>> controllability_indices(MultiChannelSystem(A, B, [[[1, 0, 0]]] * 2), ["2"]).index is None
     True
     """
+    if isinstance(system, ParametricSystem):
+        return parametric_indices(system, channels)
     InputError.require(system, MultiChannelSystem, "system")
     T = range(system.m) if channels is None else system.indices(channels)
     B = system.input_matrix(T)
@@ -71,17 +92,31 @@ def controllability_indices(
     raise InternalError("the stream of primes is endless")
 
 
+@overload
 def observability_indices(
     system: MultiChannelSystem, channels: Iterable[str] | None = None
-) -> ControllabilityIndices:
+) -> ControllabilityIndices: ...
+
+
+@overload
+def observability_indices(
+    system: ParametricSystem, channels: Iterable[str] | None = None
+) -> tuple[ParametricRank, ...]: ...
+
+
+def observability_indices(
+    system: MultiChannelSystem | ParametricSystem, channels: Iterable[str] | None = None
+) -> ControllabilityIndices | tuple[ParametricRank, ...]:
     """Compute the observability index and indices of (C_T, A), by those of the dual system.
 
     Parameters
     ----------
-    system : MultiChannelSystem
+    system : MultiChannelSystem or ParametricSystem
     channels : iterable of str, optional
         T, names of channels, by default all.
     """
+    if isinstance(system, ParametricSystem):
+        return parametric_indices(moved(system, dual), channels)
     InputError.require(system, MultiChannelSystem, "system")
     return controllability_indices(dual(system), channels)
 

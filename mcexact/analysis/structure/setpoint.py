@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import random
 from functools import reduce
+from typing import overload
 
+from mcexact.analysis.structure.parametric_ranks import parametric_setpoints
+from mcexact.answer.parametric_rank import ParametricRank
 from mcexact.answer.setpoint import SetpointSolvability
 from mcexact.derived.modular_system import generator
 from mcexact.errors import InputError, InternalError
@@ -19,18 +22,32 @@ from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import primes, residues
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.polynomial_matrix import PolynomialMatrix
+from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 
 _POINTS = 8
 _MINORS = 3
 
 
-def setpoint_solvability(system: MultiChannelSystem) -> SetpointSolvability:
+@overload
+def setpoint_solvability(system: MultiChannelSystem) -> SetpointSolvability: ...
+
+
+@overload
+def setpoint_solvability(system: ParametricSystem) -> ParametricRank: ...
+
+
+def setpoint_solvability(
+    system: MultiChannelSystem | ParametricSystem,
+) -> SetpointSolvability | ParametricRank:
     """Decide whether linear time-invariant set-point control of all outputs is possible.
 
     Parameters
     ----------
-    system : MultiChannelSystem
+    system : MultiChannelSystem or ParametricSystem
+        For a plant with one parameter the answer is the rank of [A, B; C, 0] (discrete time: A − I)
+        for all values, and where it is less (`ParametricRank`): set-points are possible where it is
+        n + Σ q_i.
 
     Notes
     -----
@@ -52,6 +69,8 @@ def setpoint_solvability(system: MultiChannelSystem) -> SetpointSolvability:
     >>> setpoint_solvability(wash).invariant_zero
     True
     """
+    if isinstance(system, ParametricSystem):
+        return parametric_setpoints(system)
     InputError.require(system, MultiChannelSystem, "system")
     n, B, C = system.n, system.input_matrix(), system.output_matrix()
     place, unit, none = steady_point(system.time), Matrix.identity(n), Matrix.zeros

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import random
+from typing import overload
 
 from mcexact.analysis.engine import (
     Edge,
+    ParametricTransferGraph,
     edge_modulus,
     is_large_and_sparse,
+    parametric_transfer_graph,
     reachable_pairs,
     sparse_powers,
     strong_components,
@@ -19,15 +22,28 @@ from mcexact.answer.transfer_graph import TransferGraph
 from mcexact.derived.modular_system import generator, residue_systems
 from mcexact.errors import InputError, InternalError
 from mcexact.exact.invariant_subspace import InvariantSubspace, controllable_subspace
+from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 
 
-def transfer_graph(system: MultiChannelSystem) -> TransferGraph:
+@overload
+def transfer_graph(system: MultiChannelSystem) -> TransferGraph: ...
+
+
+@overload
+def transfer_graph(system: ParametricSystem) -> ParametricTransferGraph: ...
+
+
+def transfer_graph(
+    system: MultiChannelSystem | ParametricSystem,
+) -> TransferGraph | ParametricTransferGraph:
     """Decide for every pair of channels whether C_i (xI − A)⁻¹ B_j ≠ 0.
 
     Parameters
     ----------
-    system : MultiChannelSystem
+    system : MultiChannelSystem or ParametricSystem
+        For a plant with one parameter the answer says at which values which edges vanish
+        (`ParametricTransferGraph`).
 
     Notes
     -----
@@ -48,6 +64,8 @@ def transfer_graph(system: MultiChannelSystem) -> TransferGraph:
     >>> graph.strongly_connected
     False
     """
+    if isinstance(system, ParametricSystem):
+        return parametric_transfer_graph(system)
     InputError.require(system, MultiChannelSystem, "system")
     if is_large_and_sparse(system):
         found = _by_structure(system)

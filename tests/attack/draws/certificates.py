@@ -10,16 +10,19 @@ from typing import Any
 from unittest import mock
 
 import mcexact
+from mcexact.analysis.engine.parametric_minors import parametric_rank
 from mcexact.analysis.engine.parametric_modes import parametric_fixed_spectrum
 from mcexact.analysis.fixed_modes import fixed_spectrum
 from mcexact.analysis.sharing import deficiency as deficiency_module
 from mcexact.analysis.sharing.deficiency import deficiency
 from mcexact.analysis.structure import controllability, transfer_graph
 from mcexact.answer import codec
+from mcexact.answer.parametric_rank import ControllabilityMatrix, SetpointMatrix, TransferColumn
 from mcexact.answer.reading import constructed
 from mcexact.errors import McexactError
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.polynomial import Polynomial
+from mcexact.model.parametric import ParametricSystem
 from mcexact.model.parametric_file import read_parametric_system
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import read_system
@@ -157,6 +160,26 @@ DECISIONS: Mapping[str, Callable[[random.Random, MultiChannelSystem], Found]] = 
     "stability": _stability,
     "transfer_graph": _as_large(lambda rng, s: mcexact.transfer_graph(s)),
 }
+
+
+def _rank(rng: random.Random, system: ParametricSystem) -> Found:
+    some = tuple(name for name in system.names if rng.random() < 0.7)
+    return parametric_rank(
+        system,
+        rng.choice(
+            (
+                SetpointMatrix(),
+                ControllabilityMatrix(some, rng.randint(1, max(system.n, 1))),
+                TransferColumn(rng.choice(system.names), rng.choice(system.names)),
+            )
+        ),
+    )
+
+
+PARAMETRIC: Mapping[str, Callable[[random.Random, ParametricSystem], Found]] = {
+    "parametric_fixed_spectrum": lambda rng, s: parametric_fixed_spectrum(s),
+    "parametric_rank": _rank,
+}
 ABOUT_THE_PLANT = ("common_dimension", "communication", "shared_dimensions")
 WITH_GRAPH = ("common_dimension", "neighbor_graph", "shared_dimensions")
 
@@ -167,8 +190,8 @@ def certified(
     """The certificate that the package gives, or None where it refuses the question."""
     text = json.dumps({"format": "mcexact-system/1", **plant})
     try:
-        if kind == "parametric_fixed_spectrum":
-            answer = parametric_fixed_spectrum(constructed(read_parametric_system(text), steps))
+        if kind in PARAMETRIC:
+            answer = PARAMETRIC[kind](rng, constructed(read_parametric_system(text), steps))
         else:
             answer = DECISIONS[kind](rng, constructed(read_system(text), steps))
         found = codec.document(answer)
@@ -185,7 +208,7 @@ def drawn_certificate(rng: random.Random, kind: str, focus: str | None) -> Docum
     graph = kind in WITH_GRAPH or focus in NEEDS_GRAPH
     if kind == "distributed_observer":
         return drawn_observer(rng)
-    if kind == "parametric_fixed_spectrum":
+    if kind in PARAMETRIC:
         parametric = drawn_parametric_plant(rng)
         return certified(rng, kind, parametric, drawn_moves(rng, parametric))
     plant = drawn_plant(rng, graph=graph)

@@ -10,7 +10,7 @@ import random
 
 from ..draws.plants import Document
 from ..mutators import SMALL_MODULI, other_modulus
-from . import gains, loops, modes, parametric, sharing, structure, subjects
+from . import gains, loops, modes, parametric, parametric_rank, sharing, structure, subjects
 from .anything import altered
 
 FORGERS = {
@@ -27,6 +27,7 @@ FORGERS = {
     "exceptional_gains": gains.EXCEPTIONAL,
     "fixed_spectrum": modes.SPECTRUM,
     "parametric_fixed_spectrum": parametric.PARAMETRIC,
+    "parametric_rank": parametric_rank.RANKS,
     "pencil_rank": modes.PENCIL,
     "setpoint": structure.SETPOINT,
     "shared_dimensions": sharing.DIMENSIONS,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from . import fixed, loops, parametric, sharing, structure
+from . import fixed, loops, parametric, parametric_rank, sharing, structure
 from .constructions import subject_of
 from .reading import Unspecified, demand, record
 
@@ -26,6 +26,7 @@ KINDS: Mapping[str, Callable[[Any, Any, Any], bool]] = {
     "fixed_spectrum": fixed.fixed_spectrum,
     "neighbor_graph": structure.neighbor_graph,
     "parametric_fixed_spectrum": parametric.spectrum,
+    "parametric_rank": parametric_rank.rank,
     "pencil_rank": fixed.rank_of_pencil,
     "setpoint": structure.setpoint,
     "shared_dimensions": sharing.shared_dimensions,

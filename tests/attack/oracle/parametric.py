@@ -69,7 +69,7 @@ class ParametricPlant:
     @property
     def denominators(self) -> list[fmpq_poly]:
         """The least common denominators of A, B_1, C_1, …"""
-        return [_common(rows) for rows, _, _ in self.tables]
+        return [common_denominator(rows) for rows, _, _ in self.tables]
 
 
 def read_parametric(value: Any) -> ParametricPlant:
@@ -142,7 +142,7 @@ def _polynomial(value: str, t: str) -> fmpq_poly:
     return result
 
 
-def _common(rows: Rows) -> fmpq_poly:
+def common_denominator(rows: Rows) -> fmpq_poly:
     result = fmpq_poly([1])
     for row in rows:
         for _, bottom in row:
@@ -174,14 +174,14 @@ def spectrum(claim: Any, witness: Any, plant: ParametricPlant) -> bool:
                 chi = pair[0]
         left.append(chi)
     values = [
-        (_monic(entry["value"]), entry)
+        (monic(entry["value"]), entry)
         for entry in (record(e, "value", "roots", "modes") for e in listed(found["exceptional"]))
     ]
     outside = [
-        (_monic(entry["value"]), entry)
+        (monic(entry["value"]), entry)
         for entry in (record(e, "value", "roots") for e in listed(found["outside"]))
     ]
-    if not all(_is_outside(q, entry["roots"], plant.range) for q, entry in outside):
+    if not all(is_outside(q, entry["roots"], plant.range) for q, entry in outside):
         return False
     if not all(discs_hold(entry["roots"], q, real=True) for q, entry in values):
         return False
@@ -212,7 +212,7 @@ def _right_at(
     rng: random.Random,
 ) -> bool:
     """Whether the claim says at the roots of q what is fixed there, and why."""
-    ell, tau = _place(q, rng, plant)
+    ell, tau = root_modulo(q, rng)
     fixed = _at(chis[0], tau, ell)
     for chi in chis[1:]:
         fixed = fixed.gcd(_at(chi, tau, ell))
@@ -234,18 +234,18 @@ def _right_at(
     return bool(_radical(fixed, ell) == _radical(claimed, ell))
 
 
-def _place(q: fmpq_poly, rng: random.Random, plant: ParametricPlant) -> tuple[int, int]:
+def root_modulo(q: fmpq_poly, rng: random.Random) -> tuple[int, int]:
     """A drawn prime, and a root of q modulo it."""
     while True:
         ell = rng.getrandbits(61) | 1
         if not fmpz(ell).is_prime():
             continue
-        roots = nmod_poly([_residue(c, ell) for c in q.coeffs()], ell).roots()
+        roots = nmod_poly([residue_of(c, ell) for c in q.coeffs()], ell).roots()
         if roots:
             return ell, int(rng.choice(roots)[0])
 
 
-def _residue(c: fmpq, ell: int) -> int:
+def residue_of(c: fmpq, ell: int) -> int:
     return int(c.p) * pow(int(c.q), -1, ell) % ell
 
 
@@ -253,7 +253,7 @@ def _at(f: Any, tau: int, ell: int) -> nmod_poly:
     """A polynomial in t and x at t = τ modulo ℓ."""
     found: dict[int, int] = {}
     for (i, k), c in f.to_dict().items():
-        found[int(k)] = found.get(int(k), 0) + _residue(c, ell) * pow(tau, int(i), ell)
+        found[int(k)] = found.get(int(k), 0) + residue_of(c, ell) * pow(tau, int(i), ell)
     return nmod_poly([found.get(k, 0) % ell for k in range(max(found, default=0) + 1)], ell)
 
 
@@ -288,14 +288,15 @@ def _rank(plant: ParametricPlant, s: Sequence[int], p: nmod_poly, tau: int, ell:
 
 def _values(table: tuple[Rows, int, int], tau: int, ell: int) -> list[list[int]]:
     """The entries times their common denominator, modulo ℓ."""
-    delta = _common(table[0])
+    delta = common_denominator(table[0])
     return [
-        [
-            int(nmod_poly([_residue(c, ell) for c in (top * (delta // bottom)).coeffs()], ell)(tau))
-            for top, bottom in row
-        ]
-        for row in table[0]
+        [residue_at(top * (delta // bottom), tau, ell) for top, bottom in row] for row in table[0]
     ]
+
+
+def residue_at(p: fmpq_poly, tau: int, ell: int) -> int:
+    """A polynomial at τ modulo ℓ."""
+    return int(nmod_poly([residue_of(c, ell) for c in p.coeffs()], ell)(tau))
 
 
 def _gains(plant: ParametricPlant, rng: random.Random, bound: int) -> list[list[list[int]]]:
@@ -336,7 +337,7 @@ def _chi(plant: ParametricPlant, gains: list[list[list[int]]]) -> Any:
 
 
 def _expanded(table: tuple[Rows, int, int]) -> list[list[Any]]:
-    delta = _common(table[0])
+    delta = common_denominator(table[0])
     return [[_in_t(top * (delta // bottom)) for top, bottom in row] for row in table[0]]
 
 
@@ -370,14 +371,14 @@ def _univariate(f: Any) -> fmpq_poly:
     return fmpq_poly([found.get(i, 0) for i in range(max(found, default=-1) + 1)])
 
 
-def _monic(value: Any) -> fmpq_poly:
+def monic(value: Any) -> fmpq_poly:
     p = fmpq_poly([rational(c) for c in listed(value)])
     demand(len(listed(value)) == p.degree() + 1 > 1, "expected a polynomial of degree at least 1")
     demand(p.leading_coefficient() == 1, "expected a monic polynomial")
     return p
 
 
-def _is_outside(q: fmpq_poly, discs: Any, ends: tuple[Any, Any]) -> bool:
+def is_outside(q: fmpq_poly, discs: Any, ends: tuple[Any, Any]) -> bool:
     """Whether the discs hold the roots, and no real root is in the range."""
     low, high = ends
 
@@ -400,11 +401,7 @@ def parametric_sentence(claim: Any, plant: ParametricPlant) -> str:
     """The sentence of the kind."""
     t = plant.parameter
     delta = polynomial_text(plant.denominators[0], t)
-    start = f"for every complex {t} at which all entries are defined"
-    if claim["outside"]:
-        ends = ["infinity" if end is None else number(end) for end in plant.range]
-        where = ", ".join(_roots_text(entry, t) for entry in claim["outside"])
-        start += f", except at {where}, none of which is real and between {ends[0]} and {ends[1]}"
+    start = where_text(claim, plant)
     modes = ", ".join(_mode_text(p, t) for p in claim["generic"]) or "1"
     scaled = "" if delta == "1" else f", multiplied by {delta},"
     start += (
@@ -414,8 +411,19 @@ def parametric_sentence(claim: Any, plant: ParametricPlant) -> str:
     return "; ".join([start, *(_value_text(e, t) for e in claim["exceptional"]), "no others"])
 
 
-def _roots_text(entry: Any, t: str) -> str:
-    q = polynomial_text(_monic(entry["value"]), t)
+def where_text(claim: Any, plant: ParametricPlant) -> str:
+    """The values that a claim is about."""
+    t = plant.parameter
+    start = f"for every complex {t} at which all entries are defined"
+    if claim["outside"]:
+        ends = ["infinity" if end is None else number(end) for end in plant.range]
+        where = ", ".join(roots_text(entry, t) for entry in claim["outside"])
+        start += f", except at {where}, none of which is real and between {ends[0]} and {ends[1]}"
+    return start
+
+
+def roots_text(entry: Any, t: str) -> str:
+    q = polynomial_text(monic(entry["value"]), t)
     return f"the roots of {q}, one in each of the discs {discs(entry['roots'])}"
 
 
@@ -440,6 +448,6 @@ def _value_text(entry: Any, t: str) -> str:
         for mode in entry["modes"]
     )
     return (
-        f"at {_roots_text(entry, t)}, real ones where the disc is centered on the real axis, and "
+        f"at {roots_text(entry, t)}, real ones where the disc is centered on the real axis, and "
         f"only there, and there besides those of {modes}"
     )

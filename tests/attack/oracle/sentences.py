@@ -8,6 +8,7 @@ from typing import Any
 from flint import fmpq
 
 from .parametric import parametric_sentence
+from .parametric_rank import rank_sentence
 from .reading import decimal, listed, matrix, polynomial, rational
 from .systems import System
 from .words import (
@@ -282,6 +283,7 @@ SENTENCES: dict[str, Any] = {
         f"its neighbor graph is {_not(claim['strongly_connected'])}strongly connected"
     ),
     "parametric_fixed_spectrum": parametric_sentence,
+    "parametric_rank": rank_sentence,
     "pencil_rank": _pencil_rank,
     "setpoint": _setpoint,
     "shared_dimensions": _dimensions,

@@ -1,0 +1,206 @@
+"""Ranks of matrices of polynomials in a parameter, for all its values."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from mcexact.answer.evidence import RootDisc
+from mcexact.answer.parametric_fixed_spectrum import OutsideValue, meets
+from mcexact.answer.parametric_rank import (
+    ControllabilityMatrix,
+    Kernel,
+    LowerRank,
+    ParametricRank,
+    SetpointMatrix,
+    TransferColumn,
+    TwoMinors,
+)
+from mcexact.derived.modular_system import generator
+from mcexact.derived.polynomial_system import PolynomialSystem
+from mcexact.errors import InternalError
+from mcexact.exact import two_variables
+from mcexact.exact.enclosures import root_discs
+from mcexact.exact.function_kernels import Kernel as Columns
+from mcexact.exact.function_kernels import entries_of, matrix_of
+from mcexact.exact.location import is_discrete
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.modular import primes
+from mcexact.exact.parameter_matrices import (
+    ZERO,
+    determinant,
+    determinant_modulo,
+    generic_kernel,
+    kernel_modulo,
+    product,
+)
+from mcexact.exact.polynomial import Polynomial
+from mcexact.model.parametric import ParametricSystem
+
+Named = SetpointMatrix | ControllabilityMatrix | TransferColumn
+_BITS = 61
+_DRAWS = 60
+
+
+def parametric_rank(system: ParametricSystem, matrix: Named) -> ParametricRank:
+    """Decide the rank of a matrix for all values of a parameter.
+
+    Parameters
+    ----------
+    system : ParametricSystem
+        With one parameter.
+    matrix : SetpointMatrix, ControllabilityMatrix or TransferColumn
+
+    Notes
+    -----
+    Exact, for every complex value at which all entries are defined.  The roots of one minor of full
+    order are the candidates; each irreducible factor is decided modulo a prime in which it has a
+    root, and what is lost there is proved by a kernel over its number field.  That no other value
+    counts is proved by a second, drawn minor modulo a prime.
+    """
+    return _Search(PolynomialSystem(system), matrix).found()
+
+
+class _Search:
+    """One minor, what is lost at its roots, and another minor that has no other root in common."""
+
+    def __init__(self, system: PolynomialSystem, matrix: Named) -> None:
+        self.system, self.matrix = system, matrix
+        self.rng = generator(system.system, "parametric_rank")
+        self.rows = matrix_named(system, matrix)
+        self.ncols = len(self.rows[0]) if self.rows else _columns(system, matrix)
+        self.M = matrix_of(self.rows, self.ncols)
+        self.stream = primes(self.rng.getrandbits(64), _BITS)
+
+    def found(self) -> ParametricRank:
+        """The answer."""
+        above, beside = self._pivots()
+        rank, bounds = len(above), self.system.system.ranges[0]
+        minor = determinant(self.M.take(rows=above, cols=beside))
+        factors = [q for q, _ in _polynomial(minor).factor()]
+        undefined = [q for q in factors if q in self.system.poles]
+        lost = [
+            q for q in factors if q not in self.system.poles and self._rank_at(q._rational) < rank
+        ]
+        discs = {q: tuple(RootDisc(d.re, d.im, d.radius) for d in root_discs(q)) for q in lost}
+        outside = [
+            q
+            for q in lost
+            if bounds != (None, None) and not any(meets(disc, bounds) for disc in discs[q])
+        ]
+        exceptional = [q for q in lost if q not in outside]
+        kernels = [self._kernel(kernel_modulo(self.rows, self.ncols, q)) for q in exceptional]
+        ranks = [self.ncols - len(kernel.pivots) for kernel in kernels]
+        rest = two_variables.freed(minor, [q._rational for q in [*lost, *undefined]])
+        full = rank == min(len(self.rows), self.ncols)
+        ell, X_, Y = self._drawn(rank, rest, list(zip(exceptional, ranks, strict=True)))
+        return ParametricRank(
+            self.system.system,
+            matrix=self.matrix,
+            rank=rank,
+            exceptional=tuple(
+                LowerRank(q, discs[q], r) for q, r in zip(exceptional, ranks, strict=True)
+            ),
+            outside=tuple(OutsideValue(q, discs[q]) for q in outside),
+            evidence=TwoMinors(
+                kernel=None if full else self._kernel(generic_kernel(self.rows, self.ncols)),
+                rows=above,
+                columns=beside,
+                modulus=ell,
+                compressions=(X_, Y),
+                exceptional=tuple(kernels),
+                undefined=tuple(undefined),
+            ),
+        )
+
+    def _pivots(self) -> tuple[tuple[int, ...], tuple[int, ...]]:
+        """Rows and columns of a minor of full order that is not 0."""
+        ell = next(ell for ell in self.stream if self.M.denominator % ell)
+        value = self.M.at_residue(self.rng.randrange(ell), ell)
+        columns = tuple(value.rref()[1])
+        return tuple(value.take(cols=columns).T.rref()[1]), columns
+
+    def _rank_at(self, q: Any) -> int:
+        """The rank at a root of q modulo a prime, which is nearly always that at a root of q."""
+        for ell in self.stream:
+            if self.M.denominator % ell == 0 or int(q.denom()) % ell == 0:
+                continue
+            for root, _ in two_variables.residues(q, ell).roots():
+                return self.M.at_residue(int(root), ell).rank()
+        raise InternalError("no prime has a root of the polynomial")
+
+    def _kernel(self, found: Columns) -> Kernel:
+        pivots, vectors = found
+        rows = [[v[i][0] for v in vectors] for i in range(self.ncols)]
+        return Kernel(matrix_of(rows, len(vectors)), pivots)
+
+    def _drawn(
+        self, rank: int, rest: Any, values: list[tuple[Polynomial, int]]
+    ) -> tuple[int, Matrix, Matrix]:
+        """A prime, and X and Y whose minors have no other root in common with the first one."""
+        for attempt in range(1, _DRAWS):
+            ell = next(self.stream)
+            known = [rest, *(q._rational for q, _ in values)]
+            if self.M.denominator % ell == 0 or any(int(p.denom()) % ell == 0 for p in known):
+                continue
+            X_, Y = (
+                Matrix.from_integers(
+                    [[self.rng.randint(-attempt, attempt) for _ in range(c)] for _ in range(r)],
+                    ncols=c,
+                )
+                for r, c in ((rank, len(self.rows)), (self.ncols, rank))
+            )
+            small = X_ @ self.M @ Y
+            corners = [(q, small.take(rows=range(r), cols=range(r))) for q, r in values]
+            pairs = [(rest, small), *((q._rational, corner) for q, corner in corners)]
+            if all(
+                two_variables.is_coprime_modulo(p, determinant_modulo(M, ell), ell)
+                for p, M in pairs
+            ):
+                return ell, X_, Y
+        raise InternalError("no drawn minors have a root in common where the rank is less")
+
+
+def _polynomial(p: Any) -> Polynomial:
+    return two_variables.polynomials([p])[0]
+
+
+def _columns(system: PolynomialSystem, matrix: Named) -> int:
+    """The columns of a matrix without rows."""
+    if isinstance(matrix, TransferColumn):
+        return 1
+    chosen = matrix.channels if isinstance(matrix, ControllabilityMatrix) else system.system.names
+    width = sum(
+        M.ncols for M, name in zip(system.B, system.system.names, strict=True) if name in chosen
+    )
+    return width * (matrix.blocks if isinstance(matrix, ControllabilityMatrix) else 1)
+
+
+def matrix_named(system: PolynomialSystem, matrix: Named) -> list[list[Any]]:
+    """The rows of a matrix, made from A', B_i' and C_i', as polynomials of flint."""
+    names = system.system.names
+    A, zero = entries_of(system.A), ZERO
+    B, C = [entries_of(M) for M in system.B], [entries_of(M) for M in system.C]
+    if isinstance(matrix, ControllabilityMatrix):
+        chosen = [B[i] for i, name in enumerate(names) if name in matrix.channels]
+        power = [[entry for M in chosen for entry in M[k]] for k in range(system.n)]
+        rows: list[list[Any]] = [[] for _ in range(system.n)]
+        for _ in range(matrix.blocks):
+            rows = [row + more for row, more in zip(rows, power, strict=True)]
+            power = product(A, power)
+        return rows
+    if isinstance(matrix, TransferColumn):
+        power, outputs = B[names.index(matrix.source)], C[names.index(matrix.to)]
+        found = []
+        for _ in range(system.n):
+            columns = zip(*product(outputs, power), strict=True)
+            found += [[entry] for column in columns for entry in column]
+            power = product(A, power)
+        return found
+    shift = system.scale._rational if is_discrete(system.system.time) else zero
+    width = sum(M.ncols for M in system.B)
+    upper = [
+        [entry - shift if i == j else entry for j, entry in enumerate(row)]
+        + [entry for M in B for entry in M[i]]
+        for i, row in enumerate(A)
+    ]
+    return upper + [[*row, *[zero] * width] for M in C for row in M]

@@ -1,0 +1,142 @@
+"""Answer: the rank of a matrix made from a plant, for every value of a parameter."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from mcexact.answer.parametric_fixed_spectrum import OutsideValue, ParameterValue, in_parameter
+from mcexact.answer.protocol import Answer, Part, answer, claim, shown, witness
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.polynomial_matrix import PolynomialMatrix
+from mcexact.model.parametric import ParametricSystem
+
+
+@dataclass(frozen=True)
+class SetpointMatrix(Part):
+    """[A, B; C, 0], in discrete time [A − I, B; C, 0], with all channels."""
+
+    name: str = "setpoint"
+
+
+@dataclass(frozen=True)
+class ControllabilityMatrix(Part):
+    """[B_T, A B_T, …, A^(k−1) B_T].
+
+    Attributes
+    ----------
+    channels : tuple of str
+        T.
+    blocks : int
+        k.
+    """
+
+    channels: tuple[str, ...]
+    blocks: int
+    name: str = "controllability"
+
+
+@dataclass(frozen=True)
+class TransferColumn(Part):
+    """The column of all entries of C_i A^k B_j, k < n, which is 0 iff C_i (xI − A)⁻¹ B_j is.
+
+    Attributes
+    ----------
+    source : str
+        Channel j.
+    to : str
+        Channel i.
+    """
+
+    source: str = field(metadata={"key": "from"})
+    to: str
+    name: str = "transfer"
+
+
+@dataclass(frozen=True)
+class LowerRank(ParameterValue):
+    """Values of the parameter at which the rank is less.
+
+    Attributes
+    ----------
+    rank : int
+        The rank there.
+    """
+
+    rank: int
+
+
+@dataclass(frozen=True)
+class Kernel(Part):
+    """Independent columns that the matrix annihilates; its rows ``pivots`` are c(t) I."""
+
+    columns: PolynomialMatrix
+    pivots: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class TwoMinors(Part):
+    """Evidence that the rank is no larger, and less at the values named alone.
+
+    Attributes
+    ----------
+    kernel : Kernel or None
+        None if the rank is full.
+    rows, columns : tuples of int
+        They form a minor of order r that is not 0.
+    modulus : int
+        ℓ.
+    compressions : two of Matrix
+        X and Y: det(X M Y), of order r, has modulo ℓ no other root in common with the minor.
+    exceptional : tuple of Kernel
+        One for each value, modulo it.
+    undefined : tuple of Polynomial
+        Roots of the minor at which an entry is undefined.
+    """
+
+    kernel: Kernel | None
+    rows: tuple[int, ...]
+    columns: tuple[int, ...]
+    modulus: int
+    compressions: tuple[Matrix, Matrix]
+    exceptional: tuple[Kernel, ...]
+    undefined: tuple[Polynomial, ...]
+
+
+@answer("parametric_rank")
+class ParametricRank(Answer):
+    """The rank of a matrix M for every complex value of the parameter at which it is defined.
+
+    Attributes
+    ----------
+    matrix : SetpointMatrix, ControllabilityMatrix or TransferColumn
+        How M is made.
+    rank : int
+        r, the rank at almost all values.
+    exceptional : tuple of LowerRank
+        All values at which the rank is less, and the rank there.
+    outside : tuple of OutsideValue
+        Values of which nothing is claimed, because none is real and in the range assumed.
+    evidence : TwoMinors
+    """
+
+    about: ParametricSystem  # type: ignore[assignment]
+    matrix: SetpointMatrix | ControllabilityMatrix | TransferColumn = claim("matrix")
+    rank: int = claim("rank")
+    exceptional: tuple[LowerRank, ...] = claim("exceptional values")
+    outside: tuple[OutsideValue, ...] = claim("values out of range")
+    evidence: TwoMinors = witness(whole=True)
+
+    @property
+    @shown("in words")
+    def words(self) -> tuple[str, ...]:
+        """The rank for almost all values, and at which it is less, in the parameter's name."""
+        t = self.about.parameters[0]
+        told = [f"rank {self.rank} for almost every {t}"]
+        for each in self.exceptional:
+            told.append(f"rank {each.rank} where {in_parameter(each.value, t)} = 0")
+        return tuple(told)
+
+    def in_range(self) -> tuple[LowerRank, ...]:
+        """The exceptional values with a root in the range that is assumed of the parameter."""
+        return tuple(each for each in self.exceptional if each.inside(self.about.ranges[0]))
