@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from mcexact.cli import options
+from mcexact.cli.parameters import parameter_value
 
 if TYPE_CHECKING:
     from mcexact.exact.floats import Rounding
@@ -45,6 +46,14 @@ def sizes(text: str) -> tuple[int, ...]:
 )
 @click.option("--inputs", type=sizes, metavar="SIZES", help="Columns of a stacked B per channel.")
 @click.option("--outputs", type=sizes, metavar="SIZES", help="Rows of a stacked C per channel.")
+@click.option(
+    "--at",
+    type=parameter_value,
+    multiple=True,
+    metavar="NAME=VALUE",
+    help="Of a system with parameters: write the system at this value of a parameter, such as "
+    "t=1/3.  Repeatable, once for each parameter.",
+)
 @options.as_json
 @options.work_limits
 @options.file_limits
@@ -54,7 +63,8 @@ def command(file: str, output: Path | None, **given: Any) -> None:
     Arrays are named A, B_1, C_1, B_2, C_2 and so on; or A, and the stacked B and C, with the sizes
     of the channels in inputs and outputs; in MATLAB B and C may be cells. Optional are time,
     sample_time, names, neighbors (row i marks whose messages agent i receives), delays, name and
-    source. Nothing is lost: numbers that the output cannot hold are an error.
+    source. Nothing is lost: numbers that the output cannot hold are an error. A system with
+    parameters is written as JSON, which YAML is too, or with --at in every kind.
     """
     from mcexact.cli.files import require_other, require_writable
     from mcexact.cli.folders import require_replaceable, write_folder
@@ -91,19 +101,19 @@ def _converted(
     from mcexact.errors import InputError
     from mcexact.exact.rational import Limits
     from mcexact.model.formats.files import system_files
-    from mcexact.model.formats.recognize import read_any
+    from mcexact.model.formats.reading import Reading
+    from mcexact.model.formats.recognize import read_plant
+    from mcexact.model.parametric import ParametricSystem
 
     place, data = plant
     rounding: Rounding | None = given["rounding"]
     with InputError.inside(place):
-        system = read_any(
-            data,
-            place,
-            limits=Limits(**limits),
-            rounding=rounding,
-            inputs=given["inputs"],
-            outputs=given["outputs"],
-        )
+        how = Reading(Limits(**limits), rounding, given["inputs"], given["outputs"])
+        system = read_plant(data, place, how)
+        if given["at"]:
+            if not isinstance(system, ParametricSystem):
+                raise InputError("found a system without parameters: leave out --at")
+            system = system.at(dict(given["at"]))
     with InputError.inside(target):
         return system_files(
             system, target, rounding=_used(rounding, target), nearest=given["nearest"]

@@ -47,10 +47,11 @@ def system_in(place: str, data: bytes, limits: Mapping[str, int]) -> MultiChanne
         If it is malformed.
     """
     from mcexact.exact.rational import Limits
+    from mcexact.model.formats.reading import Reading
     from mcexact.model.formats.recognize import read_any
 
     with InputError.inside(place):
-        return read_any(data, place, limits=Limits(**limits))
+        return read_any(data, place, Reading(Limits(**limits)))
 
 
 def require_other(output: Path | None, *inputs: str | None) -> None:

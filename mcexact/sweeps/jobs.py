@@ -14,6 +14,7 @@ from mcexact.derived.variants import Variant
 from mcexact.errors import InputError, LimitReached, McexactError, OtherFormat, UsageError
 from mcexact.exact.rational import DEFAULT_LIMITS, Limits
 from mcexact.model.canonical import canonical, sha256
+from mcexact.model.formats.reading import Reading
 from mcexact.model.formats.recognize import read_any
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import digest, system_text
@@ -60,7 +61,7 @@ class Job:
         """
         if isinstance(self.source, Draw):
             return drawn_system(self.source)
-        return read_any(self.source, self.name, limits=self.limits)
+        return read_any(self.source, self.name, Reading(self.limits))
 
 
 def job(

@@ -3,12 +3,14 @@
 import itertools
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 from mcexact.model import gallery
-from mcexact.model.formats.files import load_system, save_system
+from mcexact.model.formats.files import load_parametric_system, load_system, save_system
+from mcexact.model.parametric import ParametricSystem
 from tests.cli.calling import call
 from tests.model.formats.hostile import mat
 
@@ -93,3 +95,46 @@ def test_a_file_of_another_program_gets_a_hint(text: str, tmp_path: Path) -> Non
     status, _, said = call("analyze", str(path))
     assert status == 3 and "Expecting value" not in said
     assert "a system file is JSON ('mcexact sample --template' prints one), .yaml, .mat" in said
+
+
+PARAMETRIC = "gallery:quadruple-tank-parametric"
+
+
+@pytest.mark.parametrize("name", ["plant.json", "plant.yaml"])
+def test_a_system_with_parameters_is_written_and_read_again(tmp_path: Path, name: str) -> None:
+    first, again = tmp_path / name, tmp_path / "again.json"
+    assert call("convert", PARAMETRIC, "-o", str(first)) == (0, "", "")
+    assert call("convert", str(first), "-o", str(again)) == (0, "", "")
+    assert load_parametric_system(again) == load_parametric_system(PARAMETRIC)
+
+
+@pytest.mark.parametrize("name", ["plant.mat", "plant.npz", "folder"])
+def test_letters_are_no_arrays(tmp_path: Path, name: str) -> None:
+    status, _, err = call("convert", PARAMETRIC, "-o", str(tmp_path / name))
+    assert status == 3 and "or give values, --at gamma1=1/3" in err
+
+
+@pytest.mark.parametrize("name", ["plant.json", "plant.npz", "folder"])
+def test_values_make_it_a_system_of_every_kind(tmp_path: Path, name: str) -> None:
+    values = {"gamma1": "1/2", "gamma2": "0.25"}
+    plant = ParametricSystem([["gamma1"]], [[["gamma2"]]], [[[1]]], parameters=list(values))
+    save_system(plant, tmp_path / "letters.json")
+    at = [f"--at={letter}={value}" for letter, value in values.items()]
+    path = str(tmp_path / name)
+    assert call("convert", str(tmp_path / "letters.json"), *at, "-o", path) == (0, "", "")
+    rounding: Any = "dyadic" if name.endswith(".npz") else None
+    assert load_system(path, rounding=rounding) == plant.at(values)
+
+
+@pytest.mark.parametrize(
+    ("file", "at", "said"),
+    [
+        (PARAMETRIC, ["gamma1=1"], "expected a value of the parameter 'gamma2'"),
+        (PARAMETRIC, ["t=1"], "unknown parameter 't'"),
+        ("gallery:quadruple-tank-pminus", ["t=1"], "without parameters: leave out --at"),
+        (PARAMETRIC, ["gamma1"], "expected NAME=VALUE, such as t=1/3, found 'gamma1'"),
+    ],
+)
+def test_values_that_do_not_fit_are_refused(file: str, at: list[str], said: str) -> None:
+    status, _, err = call("convert", file, *(f"--at={each}" for each in at))
+    assert status in (2, 3) and said in err

@@ -1,6 +1,7 @@
 """System files of other programs: MATLAB, numpy, folders of .csv files and YAML, read and written.
 
 =============  =============================================================================
+`reading`      what every reader is told: limits, rounding, sizes of channels
 `parts`        the matrices, names and texts that such a file has, and the system of them
 `arrays`       arrays of floats and integers to exact matrices, and back without loss
 `mat`          files of MATLAB, version 5 (``save -v7``)

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 from mcexact.errors import InputError
 from mcexact.exact.floats import Rounding, matrix_from_float, matrix_to_float
 from mcexact.exact.matrix import Matrix
-from mcexact.exact.rational import DEFAULT_LIMITS, Limits, decimal_or_quotient
+from mcexact.exact.rational import Limits, decimal_or_quotient
 from mcexact.exact.rows import common_width, is_sparse_array
+from mcexact.model.formats.reading import Reading
 from mcexact.model.matrix_entry import as_matrix, require_shape
 from mcexact.model.matrix_json import LONGEST_SIDE, read_number
 
@@ -18,21 +18,6 @@ HOW = (
     "'mcexact convert FILE --rounding decimal -o plant.json'"
 )
 _WHOLE = 2**53
-
-
-@dataclass(frozen=True)
-class Rounded:
-    """How floats in a file become exact numbers, and how much is read.
-
-    Attributes
-    ----------
-    rounding : {"decimal", "dyadic"}, optional
-        Without it, a float is accepted only if it is an integer.
-    limits : Limits
-    """
-
-    rounding: Rounding | None = None
-    limits: Limits = DEFAULT_LIMITS
 
 
 def require_sides(sides: Any, where: str) -> None:
@@ -56,7 +41,7 @@ def require_sides(sides: Any, where: str) -> None:
 
 
 def exact_matrix(
-    value: Any, where: str, rounded: Rounded, nrows: int | None = None, ncols: int | None = None
+    value: Any, where: str, reading: Reading, nrows: int | None = None, ncols: int | None = None
 ) -> Matrix:
     """Convert a table of a file to an exact matrix of an expected shape.
 
@@ -65,7 +50,7 @@ def exact_matrix(
     value : array, sparse array, or list of rows of texts
         An array of texts has numbers in the grammar of system files.
     where : str
-    rounded : Rounded
+    reading : Reading
     nrows, ncols : int, optional
         The expected shape, which a table without rows and columns takes if it can be empty.
 
@@ -77,12 +62,12 @@ def exact_matrix(
     if isinstance(value, Matrix):
         M = value
     elif isinstance(value, list) or value.dtype.kind == "U":
-        M = _of_texts(value if isinstance(value, list) else value.tolist(), where, rounded.limits)
+        M = _of_texts(value if isinstance(value, list) else value.tolist(), where, reading.limits)
         if not isinstance(value, list) and value.size == 0:
             M = Matrix.zeros(*value.shape)
     else:
         require_sides(value.shape, where)
-        M = _of_numbers(value, where, rounded)
+        M = _of_numbers(value, where, reading)
     if M.shape == (0, 0) and (not nrows or not ncols):
         return Matrix.zeros(nrows or 0, ncols or 0)
     return require_shape(M, where, nrows, ncols)
@@ -101,13 +86,13 @@ def _of_texts(rows: list[list[str]], where: str, limits: Limits) -> Matrix:
     )
 
 
-def _of_numbers(value: Any, where: str, rounded: Rounded) -> Matrix:
+def _of_numbers(value: Any, where: str, reading: Reading) -> Matrix:
     """Convert an array of numbers; integers are exact in every form."""
     kind = value.dtype.kind
     if kind == "b":
         value = value.astype(int)
-    elif kind == "f" and rounded.rounding is not None:
-        return matrix_from_float(value, rounded.rounding, where=where)
+    elif kind == "f" and reading.rounding is not None:
+        return matrix_from_float(value, reading.rounding, where=where)
     elif kind == "f":
         _require_integers(value, where)
         return matrix_from_float(value, "dyadic", where=where)

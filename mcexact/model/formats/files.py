@@ -14,6 +14,7 @@ from mcexact.model.formats.csv_folder import csv_texts
 from mcexact.model.formats.mat import mat_bytes
 from mcexact.model.formats.npz import npz_bytes
 from mcexact.model.formats.parts import parts_of
+from mcexact.model.formats.reading import Reading
 from mcexact.model.formats.recognize import read_any, read_input, read_plant
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
@@ -55,14 +56,8 @@ def load_system(
     """
     InputError.require(limits, Limits, "limits")
     with InputError.inside(place_of(path)):
-        return read_any(
-            read_input(path, limits),
-            os.fspath(path),
-            limits=limits,
-            rounding=rounding,
-            inputs=inputs,
-            outputs=outputs,
-        )
+        reading = Reading(limits, rounding, inputs, outputs)
+        return read_any(read_input(path, limits), os.fspath(path), reading)
 
 
 def load_parametric_system(
@@ -89,7 +84,7 @@ def load_parametric_system(
     ('gamma1', 'gamma2')
     """
     with InputError.inside(place_of(path)):
-        found = read_plant(read_input(path, limits), os.fspath(path), limits)
+        found = read_plant(read_input(path, limits), os.fspath(path), Reading(limits))
         if not isinstance(found, ParametricSystem):
             raise InputError("found a system without parameters, which load_system reads")
         return found
@@ -108,7 +103,7 @@ def save_system(
     ----------
     system : MultiChannelSystem or ParametricSystem
         A derived system is written with its own matrices, as a plant.  A system with parameters is
-        written as JSON, which `load_parametric_system` reads.
+        written as JSON, which YAML is too, and `load_parametric_system` reads it.
     path : path
         Its end says the kind: .json, .mat, .npz, .yaml or .yml; a name without one is a folder for
         .csv files.  Other ends are JSON.
@@ -152,10 +147,11 @@ def system_files(
     place_of(path)
     suffix = os.path.splitext(path)[1].lower()
     if isinstance(system, ParametricSystem):
-        if suffix != ".json":
+        if suffix in (".mat", ".npz") or is_folder(path):
             raise InputError(
-                f"a system with parameters is written as JSON: choose a name that ends in .json, "
-                f"or write the system at values, plant.at({{{system.parameters[0]!r}: …}})"
+                "a system with parameters is written as JSON: choose a name that ends in .json or "
+                f".yaml, or give values, --at {system.parameters[0]}=1/3, which is "
+                f"plant.at({{{system.parameters[0]!r}: …}}) in Python"
             )
         return system_text(system).encode("ascii")
     InputError.require(system, MultiChannelSystem, "system")

@@ -10,7 +10,8 @@ from typing import Any
 from mcexact.errors import InputError
 from mcexact.exact.location import is_discrete
 from mcexact.exact.matrix import Matrix
-from mcexact.model.formats.arrays import Rounded, exact_matrix
+from mcexact.model.formats.arrays import exact_matrix
+from mcexact.model.formats.reading import Reading
 from mcexact.model.names import nearest, quoted
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.stacked import split_by_sizes
@@ -56,19 +57,13 @@ def require_known(names: Iterable[str], what: str) -> None:
             raise InputError(f"unknown {what} {quoted(name)}{hint}")
 
 
-def system_of(
-    parts: Parts,
-    rounded: Rounded,
-    sizes: tuple[Sequence[int] | None, Sequence[int] | None] = (None, None),
-) -> MultiChannelSystem:
+def system_of(parts: Parts, reading: Reading) -> MultiChannelSystem:
     """Make the system that a file describes.
 
     Parameters
     ----------
     parts : Parts
-    rounded : Rounded
-    sizes : (sequence of int, sequence of int)
-        The numbers of inputs and outputs of the channels, if B and C are stacked.
+    reading : Reading
 
     Raises
     ------
@@ -77,12 +72,12 @@ def system_of(
     """
 
     def matrix(name: str, nrows: int | None, ncols: int | None) -> Matrix:
-        return exact_matrix(parts.tables[name], name, rounded, nrows, ncols)
+        return exact_matrix(parts.tables[name], name, reading, nrows, ncols)
 
     if "A" not in parts.tables:
         raise InputError("the matrix A is missing")
     A = matrix("A", None, None)
-    B, C = _channels(parts, matrix, A.nrows, sizes)
+    B, C = _channels(parts, matrix, A.nrows, (reading.inputs, reading.outputs))
     names = parts.names if parts.names is not None else [str(k + 1) for k in range(len(B))]
     if "D" in parts.tables and not matrix("D", None, None).is_zero():
         raise InputError("expected zeros: outputs are y_i = C_i x, without feedthrough", where="D")
@@ -101,13 +96,15 @@ def system_of(
 
 
 Read = Callable[[str, int | None, int | None], Matrix]
+Sizes = tuple[Sequence[int] | None, Sequence[int] | None]
+"""The numbers of inputs and of outputs of the channels, if B and C are stacked."""
 
 
 def _channels(
     parts: Parts,
     matrix: Read,
     n: int,
-    sizes: tuple[Sequence[int] | None, Sequence[int] | None],
+    sizes: Sizes,
 ) -> tuple[list[Matrix], list[Matrix]]:
     """Read B_i and C_i, which are given one by one or stacked."""
     found = {(m[1], int(m[2])) for name in parts.tables if (m := NUMBERED.fullmatch(name))}
@@ -128,7 +125,7 @@ def _stacked(
     parts: Parts,
     matrix: Read,
     n: int,
-    sizes: tuple[Sequence[int] | None, Sequence[int] | None],
+    sizes: Sizes,
 ) -> tuple[list[Matrix], list[Matrix]]:
     """Read B and C, which the channels share by their sizes."""
     split = []

@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import os
 import shlex
-from collections.abc import Sequence
 from typing import Any
 
 from mcexact.errors import InputError
-from mcexact.exact.floats import Rounding
 from mcexact.exact.rational import DEFAULT_LIMITS, Limits
 from mcexact.model import gallery
 from mcexact.model.formats import csv_folder, mat, npz
 from mcexact.model.formats.archive import members
-from mcexact.model.formats.arrays import Rounded
 from mcexact.model.formats.parts import Parts, system_of
+from mcexact.model.formats.reading import AS_TYPED, Reading
 from mcexact.model.formats.yaml_text import read_yaml
 from mcexact.model.json_text import parse, read_bytes, require_short_numbers, require_start
 from mcexact.model.parametric import ParametricSystem
@@ -61,15 +59,7 @@ def read_input(path: str | os.PathLike[str], limits: Limits = DEFAULT_LIMITS) ->
     return read_bytes(path, limits)
 
 
-def read_any(
-    data: bytes,
-    place: str,
-    *,
-    limits: Limits = DEFAULT_LIMITS,
-    rounding: Rounding | None = None,
-    inputs: Sequence[int] | None = None,
-    outputs: Sequence[int] | None = None,
-) -> MultiChannelSystem:
+def read_any(data: bytes, place: str, reading: Reading = AS_TYPED) -> MultiChannelSystem:
     """Read the system in a file of any known kind.
 
     Parameters
@@ -78,22 +68,18 @@ def read_any(
         As `read_input` returns them.
     place : str
         The name of the file, of which the end counts for texts.
-    limits : Limits, optional
-    rounding : {"decimal", "dyadic"}, optional
-        How floats become exact; without it, only integers are accepted among floats.
-    inputs, outputs : sequences of int, optional
-        The sizes of the channels, where B and C are stacked and the file does not say.
+    reading : Reading, optional
 
     Raises
     ------
     InputError
         If it is malformed, or of another kind; the message says what to do.
     """
-    suffix = os.path.splitext(place)[1].lower()
+    suffix, limits = os.path.splitext(place)[1].lower(), reading.limits
     parts = _parts(data, suffix, limits)
     if parts is not None:
         try:
-            return system_of(parts, Rounded(rounding, limits), (inputs, outputs))
+            return system_of(parts, reading)
         except InputError as error:  # a command in a hint can be copied
             error.message = error.message.replace("convert FILE", f"convert {shlex.quote(place)}")
             raise
@@ -103,7 +89,7 @@ def read_any(
 
 
 def read_plant(
-    data: bytes, place: str, limits: Limits = DEFAULT_LIMITS
+    data: bytes, place: str, reading: Reading = AS_TYPED
 ) -> MultiChannelSystem | ParametricSystem:
     """Read the system in a file, with parameters where the file names some.
 
@@ -111,7 +97,7 @@ def read_plant(
     ----------
     data : bytes
     place : str
-    limits : Limits, optional
+    reading : Reading, optional
         As `read_any` takes them.
 
     Raises
@@ -119,9 +105,9 @@ def read_plant(
     InputError
         If it is malformed, or of another kind; the message says what to do.
     """
-    suffix = os.path.splitext(place)[1].lower()
+    suffix, limits = os.path.splitext(place)[1].lower(), reading.limits
     if _parts(data, suffix, limits) is not None:
-        return read_any(data, place, limits=limits)
+        return read_any(data, place, reading)
     document = _document(data, suffix, limits)
     parametric = isinstance(document, dict) and "parameters" in document
     system = (read_parametric_document if parametric else read_document)(document, limits)
