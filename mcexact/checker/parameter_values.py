@@ -23,6 +23,8 @@ def values_left_out(outside: Json, poles: Json, system: ParametricSystem) -> lis
 
     Those of the claim have no root in the range that is assumed; where those of the witness vanish,
     an entry is undefined.
+
+    Open: see ``proofs/OPEN.md``.
     """
     found = []
     low, high = system.range
