@@ -12,11 +12,11 @@ from mcexact.synthesis.design import Design
 from mcexact.synthesis.optimum.aims import MARGIN
 from mcexact.synthesis.request import Progress, Request, Warned
 
-_HALVINGS = 2
+_HALVINGS, _MORE_HALVINGS = 2, 4
 
 
 def at_a_robust_rate(request: Request, design: Callable[[Request], Design]) -> Design:
-    """Design for a request, and for half and a quarter of its rate if this was chosen.
+    """Design for a request, and for half and a quarter of its rate and so on if this was chosen.
 
     Parameters
     ----------
@@ -39,10 +39,13 @@ def at_a_robust_rate(request: Request, design: Callable[[Request], Design]) -> D
     -----
     The sensible rate is that of one controller for all agents; agents that know less than it can be
     too slow for half of it.  Where already this controller is fragile, a search that aims at a
-    margin can find a robust one for a slower rate all the same.
+    margin can find a robust one for a slower rate all the same.  Where it is robust, and no loop
+    that was found is, an eighth and a sixteenth of the rate are tried, too.
     """
     best, failed = None, None
-    for trial in range(_HALVINGS + 1):
+    for trial in range(_MORE_HALVINGS + 1):
+        if trial > _HALVINGS and (best is None or not _is_robust_for_all(best)):
+            break
         asked = request
         if trial:
             request.tell("a slower rate")
@@ -79,6 +82,13 @@ def _margin(made: Design) -> float:
     """The margin of a controller that was searched, 0 for others."""
     found = made.parts.get("optimum")
     return 0.0 if found is None else float(found.figures.margin)
+
+
+def _is_robust_for_all(made: Design) -> bool:
+    """Whether one controller for all agents has the margin that designs aim at."""
+    found = made.parts.get("optimum")
+    central = None if found is None else found.central
+    return central is not None and bool(central.margin >= MARGIN)
 
 
 def _is_final(made: Design) -> bool:

@@ -22,10 +22,13 @@ def made() -> Design:
     return design_decentralized(PLANT, rate="1/4")
 
 
-def with_margin(asked: Request, margin: float, searched: bool = True) -> Design:
-    """A design whose loop has a margin, by a search or not."""
+def with_margin(
+    asked: Request, margin: float, searched: bool = True, central: float = 0.1
+) -> Design:
+    """A design whose loop has a margin, by a search or not, and that of one controller for all."""
     found = made().parts["optimum"]
-    found = replace(found, figures=replace(found.figures, margin=margin))
+    for_all = replace(found.central, margin=central)
+    found = replace(found, figures=replace(found.figures, margin=margin), central=for_all)
     parts = {**made().parts, "optimum": found} if searched else {}
     return replace(made(), region=asked.region, notes=asked.notes, parts=parts)
 
@@ -53,6 +56,18 @@ def test_a_fragile_loop_becomes_slower(margins, searched, kept):
     assert not left and slowed.region.edge == chosen.region.edge / 2**kept
     [note] = slowed.notes
     assert note.startswith(chosen.notes[0]) and ("no faster loop" in note) == bool(kept)
+
+
+@pytest.mark.parametrize(
+    ("margins", "kept"),
+    [([0.02, 0.06, 0.1, 0.35], 3), ([0.02, 0.06, 0.1, 0.2, 0.25], 4), ([0.1, 0.2, 0.3], 2)],
+)
+def test_it_becomes_slower_still_where_one_controller_for_all_is_robust(
+    margins: list[float], kept: int
+) -> None:
+    chosen, left = request_for(PLANT), list(margins)
+    slowed = at_a_robust_rate(chosen, lambda asked: with_margin(asked, left.pop(0), central=0.7))
+    assert not left and slowed.region.edge == chosen.region.edge / 2**kept
 
 
 @pytest.mark.parametrize("fails", [0, 1, 2])
