@@ -1,4 +1,4 @@
-"""Fixed modes for all values of a parameter, against enumeration at points and modulo primes.
+"""Answers for all values of a parameter, against enumeration at points and modulo primes.
 
 Run as ``python -m tests.campaigns.parametric COUNT FIRST``; every certificate is checked as well.
 """
@@ -9,10 +9,32 @@ import collections
 import random
 import sys
 from fractions import Fraction
+from typing import Any
 
-from mcexact import check, fixed_spectrum
-from tests.oracle.parametric import disagreements
+from mcexact import (
+    NeighborGraph,
+    ParametricSystem,
+    check,
+    controllability_indices,
+    extended_system,
+    fixed_spectrum,
+    joint_controllability,
+    joint_observability,
+    setpoint_solvability,
+    transfer_graph,
+)
+from mcexact.derived.extended import Share
+from mcexact.errors import InputError
+from tests.oracle import enumeration
+from tests.oracle.parametric import (
+    claimed_radical,
+    disagreements,
+    fixed_radical,
+    says_nothing,
+    values,
+)
 from tests.oracle.parametric_draws import drawn_parametric
+from tests.oracle.parametric_ranks import rank_disagreements, rank_of
 
 POINTS = 40
 
@@ -48,15 +70,81 @@ def examined(number: int, count: int = POINTS) -> tuple[list[str], dict[str, int
     return wrong, {key: int(value) for key, value in seen.items()}
 
 
+def companions(number: int, count: int = POINTS) -> tuple[list[str], dict[str, int]]:
+    """What is wrong about the other answers about a drawn system, and what was found."""
+    rng = random.Random(number)
+    system = drawn_parametric(rng)
+    chosen = rng.sample(system.names, rng.randint(1, system.m))
+    lost = joint_controllability(system, chosen), joint_observability(system, chosen)
+    ranks = [
+        setpoint_solvability(system),
+        rng.choice(controllability_indices(system, chosen)),
+        *rng.sample(list(transfer_graph(system).certificates), 1),
+    ]
+    graph = NeighborGraph(
+        system.names,
+        [[j for j in range(system.m) if rng.random() < 0.4] for _ in range(system.m)],
+    )
+    sizes = [rng.choice((0, 0, 1)) for _ in system.names]
+    share: Share = rng.choice(("outputs+states", "states"))
+    shared = fixed_spectrum(extended_system(system, sizes, share, graph))
+    verdicts = [(check(each, system), each) for each in (*lost, *ranks, shared)]
+    wrong = [v.line() for v, _ in verdicts if v.verdict != "VALID"]
+    drawn = points(rng, count)
+    for rank in ranks:
+        exact = [each.exact for each in rank.exceptional if each.exact is not None]
+        wrong += rank_disagreements(rank, [*drawn, *exact], (211, 241))
+    for found, dual in zip(lost, (False, True), strict=True):
+        exact = [each.exact for each in found.exceptional if each.exact is not None]
+        wrong += _wrongly_lost(system, found, chosen, dual, [*drawn, *exact])
+    exact = [each.exact for each in shared.exceptional if each.exact is not None]
+    for t in [*drawn[::8], *exact]:
+        try:
+            there = extended_system(system.at({"t": t}), sizes, share, graph)
+        except InputError:
+            continue
+        plain = enumeration.plain(there)
+        want = fixed_radical((plain.A, plain.B, plain.C))
+        if not says_nothing(shared, t) and want != claimed_radical(shared, t):
+            wrong.append(f"sharing {sizes} of {share} at t = {t}: {want}")
+    seen = {
+        "controllability or observability lost somewhere": sum(bool(f.exceptional) for f in lost),
+        "ranks that drop somewhere": sum(bool(f.exceptional) for f in ranks),
+        "shared dimensions that are not enough somewhere": bool(shared.exceptional),
+        "and enough everywhere": not (shared.exceptional or shared.generic),
+    }
+    return wrong, {key: int(value) for key, value in seen.items()}
+
+
+def _wrongly_lost(
+    system: ParametricSystem, found: Any, chosen: list[str], dual: bool, where: list[Fraction]
+) -> list[str]:
+    """Where Kalman's rank and an answer on controllability or observability differ."""
+    matrix = {"name": "controllability", "channels": chosen, "blocks": max(system.n, 1)}
+    wrong = []
+    for t in where:
+        plain = values(system, t)
+        if plain is None or says_nothing(found, t):
+            continue
+        if dual:
+            A, B, C = plain
+            turned = [[[row[k] for row in M] for k in range(system.n)] for M in C]
+            plain = [list(column) for column in zip(*A, strict=True)], turned, B
+        whole = rank_of(matrix, plain, system.names, 0, system.time) == system.n
+        if whole is (claimed_radical(found, t).degree() > 0):
+            wrong.append(f"{chosen} {'observe' if dual else 'control'} at t = {t}: {whole}")
+    return wrong
+
+
 def main(count: int, first: int) -> int:
     """Examine so many drawn systems, and print what was found."""
     total: collections.Counter[str] = collections.Counter()
     for number in range(first, first + count):
-        wrong, seen = examined(number)
-        total.update(seen)
-        for what in wrong:
-            print(f"system {number}: {what}", flush=True)
-        total["disagreements"] += len(wrong)
+        for wrong, seen in (examined(number), companions(number)):
+            total.update(seen)
+            for what in wrong:
+                print(f"system {number}: {what}", flush=True)
+            total["disagreements"] += len(wrong)
     print(", ".join(f"{value} {key}" for key, value in total.items()))
     return int(total["disagreements"] > 0)
 

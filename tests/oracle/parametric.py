@@ -130,7 +130,8 @@ def claimed_radical(found: Any, t: Fraction | int, ell: int = 0) -> Any:
     return result / result[result.degree()]
 
 
-def _said_nothing(found: Any, t: Fraction | int, ell: int = 0) -> bool:
+def says_nothing(found: Any, t: Fraction | int, ell: int = 0) -> bool:
+    """Whether a value is out of the range that is assumed."""
     for each in found.outside:
         value = sum(_residue(c, ell) * t**k for k, c in enumerate(each.value.coefficients))
         if (value % ell if ell else value) == 0:
@@ -143,7 +144,7 @@ def disagreements(system: Any, found: Any, points: Sequence[Fraction | int]) -> 
     wrong = []
     for t in points:
         plain = values(system, t)
-        if plain is not None and not _said_nothing(found, t):
+        if plain is not None and not says_nothing(found, t):
             want = fixed_radical(plain)
             if want != claimed_radical(found, t):
                 wrong.append(f"t = {t}: {want}, claimed {claimed_radical(found, t)}")
@@ -161,7 +162,7 @@ def disagreements(system: Any, found: Any, points: Sequence[Fraction | int]) -> 
 
 def _differs(system: Any, found: Any, t: int, ell: int) -> bool:
     plain = values(system, t, ell)
-    if plain is None or _said_nothing(found, t, ell):
+    if plain is None or says_nothing(found, t, ell):
         return False
     want, claimed = fixed_radical(plain, ell), claimed_radical(found, t, ell)
     # a claimed polynomial may have multiple roots modulo a prime

@@ -23,6 +23,7 @@ from mcexact import (
 from mcexact.errors import InputError, UsageError
 from mcexact.model.parametric_file import read_parametric_system
 from tests.answer.test_golden import PORTS, with_a_parameter
+from tests.campaigns.parametric import companions
 from tests.oracle.parametric_draws import drawn_parametric
 
 EXAMPLE = with_a_parameter([[1, 0, 0], ["t", 1, 0], [0, 1, 1]], PORTS)
@@ -54,6 +55,11 @@ def test_what_is_lost_at_a_value_is_lost_by_the_plant_there(number: int) -> None
         for ask, names, found in answers:
             if lost_at(found, value) is not None:
                 assert (ask(there, names).dimension < there.n) is lost_at(found, value)
+
+
+@pytest.mark.parametrize("number", (3, 5))
+def test_elimination_at_points_finds_the_same(number: int) -> None:
+    assert companions(number, 8)[0] == []
 
 
 def test_the_certificate_is_about_the_plant_that_was_asked(tmp_path: Path) -> None:
