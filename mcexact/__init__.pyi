@@ -40,6 +40,9 @@ from .analysis.structure.exceptional_gains import exceptional_gains as exception
 from .analysis.structure.setpoint import setpoint_solvability as setpoint_solvability
 from .analysis.structure.transfer_graph import transfer_graph as transfer_graph
 from .answer.assignability import Assignability as Assignability
+from .answer.box_controllable import BoxControllability as BoxControllability
+from .answer.box_fixed import BoxFixedModes as BoxFixedModes
+from .answer.box_stable import BoxStability as BoxStability
 from .answer.check import check as check
 from .answer.closed_loop_spectrum import ClosedLoopSpectrum as ClosedLoopSpectrum
 from .answer.codec import save_certificate as save_certificate

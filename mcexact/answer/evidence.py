@@ -164,3 +164,52 @@ class RateInterval(Part):
 
     lower: str
     upper: str
+
+
+@dataclass(frozen=True)
+class ComplexMatrix(Part):
+    """A matrix of complex numbers (re + i·im) / denominator, by integers.
+
+    Attributes
+    ----------
+    denominator : int
+    re, im : tuple of tuples of int
+        Rows.
+    """
+
+    denominator: int
+    re: tuple[tuple[int, ...], ...]
+    im: tuple[tuple[int, ...], ...]
+
+
+@dataclass(frozen=True)
+class ExteriorDiscs(Part):
+    """Discs that contain every eigenvalue of every member of a box.
+
+    Attributes
+    ----------
+    Y, T : ComplexMatrix
+        Y(λI − A)T is strictly diagonally dominant for every member A, unless λ is in a disc.
+    discs : tuple of RootDisc
+        One for each row; they may overlap.
+    """
+
+    Y: ComplexMatrix
+    T: ComplexMatrix
+    discs: tuple[RootDisc, ...]
+
+
+@dataclass(frozen=True)
+class InverseFrame(Part):
+    """V about (cE − Z)⁻¹ for a pencil λE − Z, and weights w > 0 of the rows.
+
+    It proves that the pencil is regular for |λ − c| ≤ ρ and all Z within radii D, wherever
+    Σ_j |I − V(cE − Z)|_ij w_j + (|V|Dw)_i + ρ(|V|Ew)_i < w_i in every row i.
+    """
+
+    V: ComplexMatrix
+    w: tuple[int, ...]
+
+
+Cover = tuple[tuple[int | None, ...], ...]
+"""For each exterior disc, in preorder: the position of a frame, or None for a cut into four."""

@@ -1,7 +1,5 @@
 """Construction ``closed_loop``: the plant and the programs of its agents, as one matrix."""
 
-from itertools import accumulate
-
 from .arithmetic import Matrix, stack
 from .budget import spend, table
 from .controller import MAPS, read_controller
@@ -26,34 +24,76 @@ def closed_loop(system: System, step: dict[str, Json], place: str) -> System:
     agents = controller["agents"]
     fits = controller["time"] == system.time and [a["name"] for a in agents] == system.names
     require(fits, "subject", place, "expected a controller for these agents and this time")
+    programs = programs_of(system, agents, place)
+    order = signals_of(system, agents, programs)
+    reads = rows_that_read(order)
+    x = reads["X", 0, 0]
+    reads |= {("y", j, 0): C_j @ x for j, C_j in enumerate(system.C)}
+    inputs = [mapped(programs[i][2], reads, B_i.ncols, x.ncols) for i, B_i in enumerate(system.B)]
+    A = stack(rows_of_states(system, programs, order, reads, inputs), x.ncols)
+    blocks, text = tuple(width for _, width in order[: 2 * m + 1]), canonical_json(controller)
+    words = f"the closed loop with the controller with {with_digest(text)}"
+    alone = System(system.time, [], A, [], [], words=system.words)
+    return prefixed(words, alone, blocks=blocks, controller=digest_of(text))
+
+
+def programs_of(system: System, agents: list[Json], place: str) -> list[list[Terms]]:
+    """The signals that the three maps of each agent use."""
+    return [_terms(system, agents, i, place) for i in range(system.m)]
+
+
+def signals_of(
+    system: System, agents: list[Json], programs: list[list[Terms]]
+) -> list[tuple[Signal, int]]:
+    """The signals that make up the state of the loop, with their widths."""
+    m = system.m
     width = {what: [agent[key] for agent in agents] for what, key in STATES}
     width |= {"X": [system.n], "y": [C_j.nrows for C_j in system.C]}
-    terms = [_terms(system, agents, i, place) for i in range(m)]
-    used = {signal for maps in terms for found in maps for signal, _ in found}
+    used = {signal for maps in programs for found in maps for signal, _ in found}
     spend(30 * m * len(used))
     order: list[Signal] = [("X", 0, 0), *((what, j, 0) for j in range(m) for what in "xz")]
     for what, j in ((what, j) for j in range(m) for what in "xy"):
         oldest = max((age for w, k, age in used if (w, k) == (what, j)), default=0)
         spend(500 * oldest)
         order += [(what, j, age + 1) for age in range(oldest)]
-    widths = [width[what][j] for what, j, _ in order]
-    total, starts = sum(widths), accumulate(widths, initial=0)
+    return [((what, j, age), width[what][j]) for what, j, age in order]
+
+
+def rows_that_read(order: list[tuple[Signal, int]]) -> dict[Signal, Matrix]:
+    """For each signal, the matrix that takes it out of all of them."""
+    total, start, reads = sum(width for _, width in order), 0, {}
     spend(table(total, total))
-    reads = {s: Matrix.unit_rows(total, *part) for s, *part in zip(order, starts, widths)}  # noqa: B905
-    reads |= {("y", j, 0): C_j @ reads["X", 0, 0] for j, C_j in enumerate(system.C)}
+    for signal, width in order:
+        reads[signal] = Matrix.unit_rows(total, start, width)
+        start += width
+    return reads
 
-    def computed(i: int, k: int, nrows: int) -> Matrix:
-        return sum((M @ reads[s] for s, M in terms[i][k]), Matrix.zeros(nrows, total))
 
-    rows = [system.A @ reads["X", 0, 0]]
-    for i, B_i in enumerate(system.B):
-        rows[0] += B_i @ computed(i, 2, B_i.ncols)
-        rows += [computed(i, 0, width["x"][i]), computed(i, 1, width["z"][i])]
-    rows += [reads[what, j, age - 1] for what, j, age in order if age]
-    A, blocks, text = stack(rows, total), tuple(widths[: 2 * m + 1]), canonical_json(controller)
-    words = f"the closed loop with the controller with {with_digest(text)}"
-    alone = System(system.time, [], A, [], [], words=system.words)
-    return prefixed(words, alone, blocks=blocks, controller=digest_of(text))
+def mapped(terms: Terms, reads: dict[Signal, Matrix], nrows: int, ncols: int) -> Matrix:
+    """What a map computes of all signals."""
+    return sum((M @ reads[signal] for signal, M in terms), Matrix.zeros(nrows, ncols))
+
+
+def rows_of_states(
+    system: System,
+    programs: list[list[Terms]],
+    order: list[tuple[Signal, int]],
+    reads: dict[Signal, Matrix],
+    inputs: list[Matrix],
+    one: int = 1,
+) -> list[Matrix]:
+    """What follows on each signal of the state; ``inputs`` are the u_i in terms of all signals.
+
+    A message follows on the younger one ``one`` times: with 0, only what is uncertain is left.
+    """
+    x = reads["X", 0, 0]
+    rows = [sum((B_i @ u_i for B_i, u_i in zip(system.B, inputs, strict=True)), system.A @ x)]
+    for (what, j, age), width in order[1:]:
+        if age:
+            rows.append(reads[what, j, age - 1].times(one))
+        else:
+            rows.append(mapped(programs[j]["xz".index(what)], reads, width, x.ncols))
+    return rows
 
 
 def _terms(system: System, agents: list[Json], i: int, place: str) -> list[Terms]:

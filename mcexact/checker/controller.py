@@ -5,7 +5,8 @@ from .arithmetic import Matrix
 from .budget import current, limited
 from .reading import Json, Limits, fields, integer, items, malformed, shown, string
 from .statement import canonical_json, digest_of
-from .system import System, parse_file, read_matrix
+from .system import System, parse_file
+from .system_matrices import read_matrix
 
 MAPS = ("shared_update", "private_update", "input")
 USED = ("outputs", "shared", "private", "reference")

@@ -4,7 +4,7 @@ import re
 from fractions import Fraction
 from itertools import zip_longest
 
-from . import system
+from . import system_matrices
 from .arithmetic import Polynomial, poly_divide, poly_product, stripped
 from .budget import fractions, limbs_of, spend
 from .reading import Json, Limits, malformed, shown
@@ -21,8 +21,8 @@ LONGEST, DEEPEST = 100_000, 50
 
 def function(value: Json, place: str, parameter: str, limits: Limits | None) -> Function:
     """An entry: a number, or an expression."""
-    if type(value) is not str or system.NUMBER.fullmatch(value):
-        found = Fraction(system.number(value, place, limits))
+    if type(value) is not str or system_matrices.NUMBER.fullmatch(value):
+        found = Fraction(system_matrices.number(value, place, limits))
         return stripped([found]), [Fraction(1)]
     if len(value) > LONGEST:
         malformed(place, f"expected at most {LONGEST} characters")
@@ -123,7 +123,9 @@ class _Reader:
             return [Fraction(0), Fraction(1)], [Fraction(1)]
         if not token[:1].isdigit():
             malformed(self.place, f"expected a number or the parameter, found {shown(token)}")
-        return stripped([Fraction(system.number(token, self.place, self.limits))]), [Fraction(1)]
+        return stripped([Fraction(system_matrices.number(token, self.place, self.limits))]), [
+            Fraction(1)
+        ]
 
     def limit(self, degree: int) -> None:
         """Stop where a degree is too large."""

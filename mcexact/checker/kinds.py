@@ -20,11 +20,12 @@ T = TypeVar("T")
 
 # fmt: off
 STEMS = (
-    "assignability", "closed_loop_spectrum", "common_dimension", "communication",
-    "complementary_subsystem", "completeness", "controllability", "controllability_indices",
-    "deficiency", "distributed_observer", "exceptional_gains", "fixed_spectrum", "neighbor_graph",
-    "parametric_fixed_spectrum", "parametric_rank", "pencil_rank", "setpoint",
-    "shared_dimensions", "single_channel_gains", "stability", "transfer_graph",
+    "assignability", "box_controllable", "box_fixed", "box_stable", "closed_loop_spectrum",
+    "common_dimension", "communication", "complementary_subsystem", "completeness",
+    "controllability", "controllability_indices", "deficiency", "distributed_observer",
+    "exceptional_gains", "fixed_spectrum", "neighbor_graph", "parametric_fixed_spectrum",
+    "parametric_rank", "pencil_rank", "setpoint", "shared_dimensions", "single_channel_gains",
+    "stability", "transfer_graph",
 )
 # fmt: on
 

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 
 from . import reading, sentences_analysis, sentences_design, sentences_sharing
+from .boxes import at_values, system_of
 from .budget import Budget, current, limited, spend
 from .expectation import DIGEST, Expectation, same
 from .kinds import KINDS, Found, Verdict, attempt, check_document, refusal
@@ -178,11 +179,12 @@ class Evidence:
         words, steps = f"the plant {self.expected.system}", document["subject"]
         given = document["system"]
         given = self.expected.named(given) if type(given) is str else given
-        plant = replace(read_plant(given), words=words)
+        known = replace(read_plant(given), words=words)
+        plant, kind = at_values(known), document["kind"]
         own = same(steps[: len(self.base)], self.base)
         path = tuple(step["construction"] for step in steps[len(self.base) :]) if own else None
-        system = read_subject(steps, plant)
-        sentence = KINDS[document["kind"]].statement(document["claim"], system)
+        system = system_of(steps, known, kind)
+        sentence = KINDS[kind].statement(document["claim"], system)
         said = f"For {system.words}: {sentence}"
         return Premise(name, document, plant, system, plant, said, path)
 

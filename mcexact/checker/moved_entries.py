@@ -4,6 +4,7 @@ from dataclasses import replace
 
 from . import budget
 from .arithmetic import Matrix
+from .boxes import system_of
 from .parametric_system import ONE, ParametricSystem, Table, cleared_tables
 from .reading import Json, incomplete, items, malformed
 from .subject import CONSTRUCTIONS, read_subject
@@ -64,6 +65,6 @@ def subject_of(
     if parametric != kind.startswith("parametric_"):
         about = "without" if parametric else "with"
         malformed("system", f"the kind {kind} is about plants {about} parameters")
-    return (
-        moved(steps, plant) if isinstance(plant, ParametricSystem) else read_subject(steps, plant)
-    )
+    if isinstance(plant, ParametricSystem):
+        return moved(steps, plant)
+    return system_of(steps, plant, kind)

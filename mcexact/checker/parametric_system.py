@@ -10,7 +10,9 @@ from .arithmetic import Matrix, Polynomial, poly_divide, poly_product
 from .expressions import PARAMETER, Function, common_divisor, function, function_text
 from .reading import Json, Limits, fields, incomplete, integer, items, malformed, printable, string
 from .statement import canonical_json, digest_of
-from .system import System, canonical, number, parse_file, read_plant, read_system
+from .system import System, canonical, parse_file, read_plant, read_system
+from .system_matrices import number
+from .uncertainty import as_typed
 
 Layers = list[Matrix]
 """The coefficients of a matrix of polynomials in the parameter, constant term first."""
@@ -76,7 +78,7 @@ def plant_of_file(data: bytes, limits: Limits) -> Json:
             malformed("format", 'expected a system file, "format": "mcexact-system/1"')
         if has_parameters(document):
             return read_parametric(document, limits).document
-        return canonical(read_system(document, limits))
+        return canonical(read_system(document, limits, as_typed(data, document, limits)))
 
 
 def has_parameters(value: Json) -> bool:

@@ -11,7 +11,8 @@ from .sentences_analysis import FIXED_DYNAMIC, SETPOINT, controls
 from .sentences_sharing import demands
 from .statement import counted
 from .subject import read_subject
-from .system import System, read_matrix
+from .system import System
+from .system_matrices import read_matrix
 
 UNCONTROLLABLE = "controllability.uncontrollable_modes"
 NO_FIXED = "extended_bound.extended_no_fixed, extended_bound.extended_states_no_fixed"

@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING, Any
 
 from . import budget
 from .arithmetic import Matrix, Polynomial
-from .system import System, canonical, rows_of
+from .system import System, canonical
+from .system_matrices import rows_of
 
 if TYPE_CHECKING:
     from .parametric_system import ParametricSystem

@@ -28,6 +28,7 @@ from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.shown import LINE, escaped
 from tests.answer.test_golden import answers, of_a_parameter
+from tests.checker.box_plants import ALL as ABOUT_BOXES
 
 FORMAT = Path(home.__file__).with_name("FORMAT.md").read_text(encoding="utf-8")
 _ELIDED = re.compile(r"… \d+ more|\(degree \d+\)|\d+×\d+ matrix|about -?\d[.\d]*(e[+-]\d+)?")
@@ -60,6 +61,7 @@ def about(name: str) -> tuple[tuple[str, Answer], ...]:
     if name == "liu2020-3ch-no-communication":
         found += mcexact.design_observer(plant, rate=1).certificates.items()
         found += [(each.kind, each) for _, each in of_a_parameter()]
+        found += [(name, answer_of(document)) for name, document in ABOUT_BOXES.items()]
     return tuple(found)
 
 

@@ -24,8 +24,11 @@ def meaning(document: Mapping[str, Any]) -> str:
     """One text for each meaning of a readable document."""
     steps = [_step(document, k) for k in range(len(document["subject"]))]
     claim = dict(document["claim"])
-    if document["kind"] == "stability" and claim["bound"] is None:
+    if document["kind"] in ("stability", "box_stable") and claim["bound"] is None:
         claim["bound"] = int(document["system"]["time"] == "discrete")  # what null stands for
+    if claim.get("gain_radii") is not None:
+        inner = subject_of(document, len(steps) - 1)
+        claim["gain_radii"] = _agents(inner, claim["gain_radii"])
     parts = (document["kind"], _plant(document["system"]), steps, _plain(claim, ""))
     return _text(parts)
 
@@ -43,7 +46,9 @@ def _plant(value: Mapping[str, Any]) -> Any:
         for name, B, C in zip(plant.names, plant.B, plant.C, strict=True)
     ]
     delays = sorted([i, j, steps] for (i, j), steps in plant.delays.items())
-    return [plant.time, _matrix(plant.A), channels, plant.heard, delays]
+    A, B, C = plant.radii or (plant.A * 0, [M * 0 for M in plant.B], [M * 0 for M in plant.C])
+    radii = [_matrix(A), *map(_matrix, (*B, *C))]
+    return [plant.time, _matrix(plant.A), channels, plant.heard, delays, radii]
 
 
 def _matrix(M: Any) -> Any:
@@ -54,17 +59,19 @@ def _step(document: Mapping[str, Any], k: int) -> Any:
     step = document["subject"][k]
     if step["construction"] != "closed_loop":
         return _plain(step, "")
-    system = subject_of(document, k)
-    agents = [
+    return ["closed_loop", _agents(subject_of(document, k), step["controller"])]
+
+
+def _agents(system: Any, controller: Any) -> Any:
+    return [
         [
             agent.shared,
             agent.private,
             {label: _map(parts) for label, parts in agent.maps.items()},
             sorted([i, steps] for i, steps in agent.hold.items() if steps),
         ]
-        for agent in read_agents(system, step["controller"])
+        for agent in read_agents(system, controller)
     ]
-    return ["closed_loop", agents]
 
 
 def _map(parts: Mapping[tuple[str, int], Any]) -> Any:

@@ -19,7 +19,15 @@ STEMS = sorted(path.stem for path in FOLDER.glob("*.py"))
 SENTENCES = {stem for stem in STEMS if stem.startswith("sentence")} | {"manifest"}
 SPOKEN = {"__init__", "__main__", "command", "controller", "expectation", "kinds", "reading"}
 SPOKEN |= {"allowance", "expressions", "parametric_system", "statement", "system"}
-NO_RULE = {*SPOKEN, "budget", "packed_rows", "sparse", "sparse_step"} | SENTENCES
+SPOKEN |= {"system_matrices", "uncertainty"}
+NO_RULE = {
+    *SPOKEN,
+    "budget",
+    "complex_matrices",
+    "packed_rows",
+    "sparse",
+    "sparse_step",
+} | SENTENCES
 """What reads, starts, speaks, counts and packs numbers.
 
 Every other file holds a rule, or evidence of several."""

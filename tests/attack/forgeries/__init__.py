@@ -10,11 +10,24 @@ import random
 
 from ..draws.plants import Document
 from ..mutators import SMALL_MODULI, other_modulus
-from . import gains, loops, modes, parametric, parametric_rank, sharing, structure, subjects
+from . import (
+    boxes,
+    gains,
+    loops,
+    modes,
+    parametric,
+    parametric_rank,
+    sharing,
+    structure,
+    subjects,
+)
 from .anything import altered
 
 FORGERS = {
     "assignability": structure.ASSIGNABILITY,
+    "box_controllable": boxes.COVERED,
+    "box_fixed": boxes.FIXED,
+    "box_stable": boxes.STABLE,
     "closed_loop_spectrum": loops.SPECTRUM,
     "common_dimension": sharing.COMMON,
     "communication": sharing.LINKS,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from . import fixed, loops, parametric, parametric_rank, sharing, structure
+from . import boxes, fixed, loops, parametric, parametric_rank, sharing, structure
 from .constructions import subject_of
 from .reading import Unspecified, demand, record
 
@@ -13,6 +13,9 @@ TRUE, FALSE, UNDECIDED = "true", "false", "undecided"
 
 KINDS: Mapping[str, Callable[[Any, Any, Any], bool]] = {
     "assignability": structure.assignability,
+    "box_controllable": boxes.controllable,
+    "box_fixed": boxes.fixed,
+    "box_stable": boxes.stable,
     "closed_loop_spectrum": loops.closed_loop_spectrum,
     "common_dimension": sharing.common_dimension,
     "communication": sharing.communication,
@@ -49,7 +52,8 @@ def judge(document: Mapping[str, Any]) -> tuple[str, str]:
         demand(with_parameter == kind.startswith("parametric_"), "expected another sort of plant")
         if system.n > MOST_STATES or system.m > 6:
             return UNDECIDED, f"{system.n} states, {system.m} channels"
-        hint = document if kind == "distributed_observer" else document["witness"]
+        whole = kind == "distributed_observer" or kind.startswith("box_")
+        hint = document if whole else document["witness"]
         holds = KINDS[kind](document["claim"], hint, system)
     except Unspecified as error:
         return FALSE, f"not as the format says: {error}"

@@ -15,7 +15,7 @@ from .roots import damped, inside
 from .systems import System
 
 
-def _bound(value: Any, time: str) -> fmpq | None:
+def bound_of(value: Any, time: str) -> fmpq | None:
     """A rate of at least 0, or a radius above 0 and at most 1."""
     if value is None:
         return None
@@ -27,7 +27,7 @@ def _bound(value: Any, time: str) -> fmpq | None:
 def stability(claim: Any, witness: Any, system: System) -> bool:
     """Where the roots of χ_A are."""
     found = record(claim, "bound", "stable", optional=("damping", "largest_modulus"))
-    bound, p = _bound(found["bound"], system.time), system.A.charpoly()
+    bound, p = bound_of(found["bound"], system.time), system.A.charpoly()
     held = inside(p, system.time, bound)
     if len(found) > 2:
         demand(system.time == "continuous", "expected limits in continuous time alone")
@@ -72,7 +72,7 @@ def distributed_observer(claim: Any, document: Mapping[str, Any], system: System
     feedback = fmpq_mat(n, n, [v for row in moved[:n] for v in row[:n]]).charpoly()
     size = total - n
     error = fmpq_mat(size, size, [v for row in moved[n:] for v in row[n:]]).charpoly()
-    bound = _bound(found["bound"], system.time)
+    bound = bound_of(found["bound"], system.time)
     given = [polynomial(found[key], monic=True) for key in ("feedback", "error")]
     if given != [feedback, error]:
         return False

@@ -255,6 +255,25 @@ def _single(claim: Any, system: System) -> str:
     )
 
 
+MEMBERS = "for all values within their radii"
+
+
+def _box_controllable(claim: Any, system: System) -> str:
+    bound = claim["bound"]
+    beyond = "" if bound is None else f" of {_region(bound, system.time, 'at least')}"
+    named = channels(claim["channels"])
+    return f"{MEMBERS}, the channels {named} together control every mode{beyond}"
+
+
+def _box_stable(claim: Any, system: System) -> str:
+    gains, radii = "", claim["gain_radii"]
+    if radii is not None:
+        within = "for all gains of the controller within the radii with"
+        gains = f", and {within} {digested(radii)}"
+    region = _region(claim["bound"], system.time)
+    return f"{MEMBERS}{gains}, every eigenvalue of A has {region}"
+
+
 def _transfer_graph(claim: Any, system: System) -> str:
     parts = _joined([channels(c) for c in listed(claim["components"])])
     return (
@@ -266,6 +285,11 @@ def _transfer_graph(claim: Any, system: System) -> str:
 
 SENTENCES: dict[str, Any] = {
     "assignability": _assignability,
+    "box_controllable": _box_controllable,
+    "box_fixed": lambda claim, system: (
+        f"{MEMBERS}, there is {_freedom(claim['bound'], system.time)}"
+    ),
+    "box_stable": _box_stable,
     "closed_loop_spectrum": lambda claim, system: (
         f"the characteristic polynomial of A is {polynomial_text(claim['polynomial'])}"
     ),

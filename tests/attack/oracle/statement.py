@@ -25,7 +25,11 @@ def statement(document: Mapping[str, Any]) -> str:
     """The line of a true certificate."""
     system = subject_of(document)
     words = system_words(document)
-    sentence = SENTENCES[document["kind"]](document["claim"], system)
+    claim = document["claim"]
+    if claim.get("gain_radii") is not None:
+        inner = subject_of(document, len(document["subject"]) - 1)
+        claim = {**claim, "gain_radii": _controller(claim["gain_radii"], inner)}
+    sentence = SENTENCES[document["kind"]](claim, system)
     return f"For {words} ({_sizes(system)}): {sentence}"
 
 
@@ -47,7 +51,20 @@ def plant_digest(document: Mapping[str, Any]) -> str:
         for (i, j), steps in plant.delays.items():
             delays.setdefault(plant.names[i], {})[plant.names[j]] = steps
         table["delays"] = delays
+    if plant.radii is not None:
+        A, *ports = plant.radii
+        forms: dict[str, Any] = {"A": _listed(A)}
+        for key, matrices in zip("BC", ports, strict=True):
+            pairs = zip(plant.names, map(_listed, matrices), strict=True)
+            forms[key] = {label: form for label, form in pairs if form}
+        table["uncertainty"] = {"absolute": {key: form for key, form in forms.items() if form}}
     return sha256(json_text(table))
+
+
+def _listed(M: Any) -> Any:
+    """The radii of a matrix by their positions; nothing if there is none."""
+    found = [[i, j, v] for i, row in enumerate(M.tolist()) for j, v in enumerate(row) if v != 0]
+    return {"shape": [M.nrows(), M.ncols()], "entries": found} if found else None
 
 
 def _table(M: Any) -> Any:
@@ -67,6 +84,8 @@ def _sizes(system: System) -> str:
 def system_words(document: Mapping[str, Any]) -> str:
     """The plant and its constructions."""
     text, before = f"the plant {plant_digest(document)}", False
+    if "uncertainty" in document["system"] and not document["kind"].startswith("box_"):
+        text += " at its nominal values"
     for k, step in enumerate(document["subject"]):
         words = _words(step, subject_of(document, k))
         if words.endswith("of: "):

@@ -10,10 +10,13 @@ from typing import Any
 from flint import fmpq_mat
 
 from . import algebra
-from .reading import demand, integer, listed, place, record, table, text
+from .reading import demand, integer, listed, place, rational, record, table, text
 
 HIDDEN = ("Cc", "Cf", "Cs", "Zl", "Zp")
 """The Unicode categories of characters that do not print."""
+
+Radii = tuple[fmpq_mat, list[fmpq_mat], list[fmpq_mat]]
+"""Of A, of all B_i and of all C_i."""
 
 
 @dataclass(frozen=True)
@@ -26,6 +29,8 @@ class System:
         N_i for each i, with i in it, in the order of the channels; None without neighbor graph.
     delays : mapping
         d_ij under (i, j), where it is not 0.
+    radii : matrices, optional
+        Of A, of all B_i and of all C_i; None where all entries are certain.
     """
 
     time: str
@@ -35,6 +40,7 @@ class System:
     C: tuple[fmpq_mat, ...]
     heard: tuple[tuple[int, ...], ...] | None = None
     delays: Mapping[tuple[int, int], int] = field(default_factory=dict)
+    radii: Radii | None = None
 
     @property
     def n(self) -> int:
@@ -68,7 +74,7 @@ class System:
 
 def read_plant(value: Any) -> System:
     """The user's plant."""
-    found = record(value, "time", "A", "channels", optional=("neighbors", "delays"))
+    found = record(value, "time", "A", "channels", optional=("neighbors", "delays", "uncertainty"))
     demand(found["time"] in ("continuous", "discrete"), "expected a time domain")
     A = table(found["A"], None, None)
     n = A.nrows()
@@ -80,7 +86,41 @@ def read_plant(value: Any) -> System:
     C = tuple(table(c["C"], None, n) for c in channels)
     heard = _graph(found["neighbors"], names) if "neighbors" in found else None
     delays = _delays(found["delays"], names, heard) if "delays" in found else {}
-    return System(found["time"], A, names, B, C, heard, delays)
+    radii = None
+    if "uncertainty" in found:
+        radii = _radii(record(found["uncertainty"], "absolute")["absolute"], names, A, B, C)
+    return System(found["time"], A, names, B, C, heard, delays, radii)
+
+
+def _radii(value: Any, names: Sequence[str], A: fmpq_mat, B: Any, C: Any) -> Radii:
+    """The radii, of which those that are 0 are left out."""
+    found = record(value, optional=("A", "B", "C"))
+    demand(bool(found) and all(found.values()), "expected no empty part")
+    ports = [
+        [_listed_radii(part.get(name), M) for name, M in zip(names, matrices, strict=True)]
+        for part, matrices in (
+            (record(found.get("B", {}), optional=names), B),
+            (record(found.get("C", {}), optional=names), C),
+        )
+    ]
+    return _listed_radii(found.get("A"), A), ports[0], ports[1]
+
+
+def _listed_radii(value: Any, nominal: fmpq_mat) -> fmpq_mat:
+    """The radii of one matrix, by their positions."""
+    M = fmpq_mat(nominal.nrows(), nominal.ncols())
+    if value is not None:
+        found = record(value, "shape", "entries")
+        shape = [integer(side, 0) for side in listed(found["shape"], 2)]
+        demand(shape == [M.nrows(), M.ncols()], "expected the shape of the matrix")
+        entries = [listed(entry, 3) for entry in listed(found["entries"])]
+        places = [(integer(i, 0), integer(j, 0)) for i, j, _ in entries]
+        demand(bool(places) and places == sorted(set(places)), "expected sorted positions")
+        for (i, j), (_, _, radius) in zip(places, entries, strict=True):
+            demand(i < M.nrows() and j < M.ncols(), "expected positions inside")
+            M[i, j] = rational(radius)
+            demand(M[i, j] > 0, "expected a radius above 0")
+    return M
 
 
 def require_names(names: Sequence[str]) -> None:

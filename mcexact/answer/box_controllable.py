@@ -1,0 +1,57 @@
+"""Answer: channels control every plant in a box."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from mcexact.answer.evidence import ComplexMatrix, Cover, ExteriorDiscs
+from mcexact.answer.protocol import Answer, Part, answer, claim, witness
+from mcexact.exact.location import StabilityRegion
+
+
+@dataclass(frozen=True)
+class RightInverseFrame(Part):
+    """R about a right inverse of [cI − A, −B_T] at some c, and weights w > 0 of its rows.
+
+    Attributes
+    ----------
+    R : ComplexMatrix
+        n + p_T rows and n columns.
+    w : tuple of int
+    """
+
+    R: ComplexMatrix
+    w: tuple[int, ...]
+
+
+@answer("box_controllable")
+class BoxControllability(Answer):
+    """A set of channels controls every mode of every member of a box, or all outside of a region.
+
+    About the dual of a system it says what the channels observe.
+
+    Attributes
+    ----------
+    channels : tuple of str
+        T, in the order of the system.
+    bound : Fraction or None
+        None: (A, B_T) is controllable for every member.  A rate ≥ 0 or a radius in (0, 1]: every
+        member has its uncontrollable modes in this region.
+    exterior : ExteriorDiscs
+        Where the eigenvalues of all members are.
+    frames : tuple of RightInverseFrame
+    cover : tuple of tuples of int or None
+        Discs and squares that cover the exterior discs, each with the frame that proves it.
+    """
+
+    channels: tuple[str, ...] = claim()
+    bound: Fraction | None = claim("uncontrollable modes only in the region of")
+    exterior: ExteriorDiscs = witness()
+    frames: tuple[RightInverseFrame, ...] = witness()
+    cover: Cover = witness()
+
+    @property
+    def region(self) -> StabilityRegion | None:
+        """The region in which members may have uncontrollable modes, if any."""
+        return None if self.bound is None else StabilityRegion.of(self.about.time, bound=self.bound)

@@ -1,0 +1,36 @@
+"""Kind ``box_controllable``: channels control every member of a box; ``proofs/boxes.md``."""
+
+from .arithmetic import beside
+from .boxes import ALL, Box
+from .covers import require_covered
+from .evidence import inputs
+from .exterior_discs import exterior_discs
+from .reading import Json, fields, items, names
+from .region import inside, read_bound
+from .regular_discs import Pencil, right_inverse
+from .statement import channel_set
+
+
+def check(claim: Json, witness: Json, box: Box) -> None:
+    """Check that [λI − A, B_T] has full rank at every λ, outside of the region, for all members.
+
+    Theorem ``joint_controllability.controllable_hautus``.
+    """
+    listed, limit = fields(claim, "claim", "channels", "bound")
+    channels, bound = names(listed, "claim.channels", box.names), read_bound(limit, box)
+    exterior, frames, cover = fields(witness, "witness", "exterior", "frames", "cover")
+    discs = exterior_discs(exterior, "witness.exterior", box.A, box.radii.A)
+    Z, D = (beside([each.A, inputs(each, channels)], box.n) for each in (box, box.radii))
+    found = []
+    for k, entry in enumerate(items(frames, "witness.frames")):
+        where = f"witness.frames[{k}]"
+        R, w = fields(entry, where, "R", "w")
+        found.append(right_inverse(R, w, where, Pencil(Z, D, box.n)))
+    require_covered(cover, "witness.cover", discs, box.outside(bound), found)
+
+
+def statement(claim: Json, box: Box) -> str:
+    """What the channels control."""
+    channels, bound = channel_set(claim["channels"]), claim["bound"]
+    where = "" if bound is None else f" of {inside(bound, box).replace('below', 'at least')}"
+    return f"{ALL}, the channels {channels} together control every mode{where}"

@@ -1,0 +1,72 @@
+"""Certificates about boxes of drawn plants, whose channels each move a state of their own."""
+
+from __future__ import annotations
+
+import random
+from fractions import Fraction
+
+from tests.checker.box_maker import controllable, fixed, stable
+from tests.checker.box_plants import LOOP, gains, programs, radii_of_first
+from tests.checker.handmade import plant
+
+from .plants import Document, number
+
+SMALL = (0, 0, Fraction(1, 8), Fraction(-1, 4))
+RADII = (0, 0, Fraction(1, 20), Fraction(1, 10))
+DUAL: Document = {"construction": "dual"}
+
+
+def drawn_box(rng: random.Random, diagonal: tuple[Fraction | int, ...], time: str) -> Document:
+    """A plant of two states, nearly diagonal, some of whose entries are uncertain."""
+    values = [[rng.choice(SMALL) for _ in range(2)] for _ in range(2)]
+    for i in range(2):
+        values[i][i] = rng.choice(diagonal)
+    ports = [([[1], [0]], [[1, 0]]), ([[rng.choice(SMALL)], [1]], [[0, 1]])]
+    written = [([[number(x) for x in row] for row in B], C) for B, C in ports]
+    found = plant([[number(x) for x in row] for row in values], *written, time=time)
+    doubts = {"A": drawn_radii(rng, 2, 2)}
+    for key, shape in (("B", (2, 1)), ("C", (1, 2))):
+        listed = {name: drawn_radii(rng, *shape) for name in ("1", "2")}
+        doubts[key] = {name: form for name, form in listed.items() if form}
+    if any(doubts.values()):
+        found["uncertainty"] = {"absolute": {key: part for key, part in doubts.items() if part}}
+    return found
+
+
+def drawn_radii(rng: random.Random, nrows: int, ncols: int) -> Document | None:
+    """The radii of a matrix, None if all are 0."""
+    cells = ((i, j, rng.choice(RADII)) for i in range(nrows) for j in range(ncols))
+    entries = [[i, j, number(radius)] for i, j, radius in cells if radius]
+    return {"shape": [nrows, ncols], "entries": entries} if entries else None
+
+
+def drawn_about_a_box(rng: random.Random, kind: str) -> Document | None:
+    """A true certificate of a kind, or None where its maker finds none."""
+    time = rng.choice(("continuous", "discrete"))
+    try:
+        if kind == "box_stable":
+            return drawn_stable(rng, time)
+        bound = rng.choice((None, None, 0 if time == "continuous" else 1))
+        found = drawn_box(rng, (-1, 1, 2, Fraction(1, 2)), time)
+        if kind == "box_fixed":
+            x = rng.choice((2, 3, -3))
+            return fixed(found, [gains((x, 1), (x, 1))], bound=bound)
+        steps = (DUAL,) if rng.random() < 0.5 else ()
+        return controllable(found, ["1", "2"], *steps, bound=bound)
+    except ArithmeticError:
+        return None
+
+
+def drawn_stable(rng: random.Random, time: str) -> Document:
+    """About a plant that is stable, or about a loop with it."""
+    if time == "discrete":
+        found = drawn_box(rng, (Fraction(-1, 4), Fraction(1, 4)), time)
+        return stable(found, ["1/8", "1/4", "1/2", "3/4", 1, "4/3", 2, 4, 8])
+    found = drawn_box(rng, (-1, -2), time)
+    if rng.random() < 0.5:
+        return stable(found, ["1/2", 1, 2, 4], growth=[1, 1])
+    radius = rng.choice(("1/100", "1/50"))
+    radii = programs(time, radii_of_first(radius, "1/100"), {"input": {}})["controller"]
+    points = ["1/4", "1/2", "3/4", 1, "3/2", 2, 3, 4, 5, 6, 8]
+    given = rng.choice((None, radii))
+    return stable(found, points, LOOP, growth=[2, 2, 2], gain_radii=given)

@@ -1,0 +1,160 @@
+"""Forgeries about boxes."""
+
+from __future__ import annotations
+
+import random
+from fractions import Fraction
+from typing import Any
+
+from ..draws.plants import Document, number
+
+Forged = Document | None
+
+
+def radii_grown(rng: random.Random, document: Document) -> Forged:
+    """Every radius is many times as large."""
+    doubts = document["system"].get("uncertainty")
+    if doubts is None:
+        return None
+    factor = rng.choice((2, 10, 40))
+    parts = doubts["absolute"]
+    for key, part in parts.items():
+        for M in [part] if key == "A" else part.values():
+            for entry in M["entries"]:
+                entry[2] = number(factor * Fraction(entry[2]))
+    return document
+
+
+def radius_added(rng: random.Random, document: Document) -> Forged:
+    """An entry of A is uncertain that was not."""
+    A = document["system"]["A"]
+    if not isinstance(A, list) or not A:
+        return None
+    parts = document["system"].setdefault("uncertainty", {"absolute": {}})["absolute"]
+    listed = parts.setdefault("A", {"shape": [len(A), len(A)], "entries": []})["entries"]
+    place = [rng.randrange(len(A)), rng.randrange(len(A))]
+    listed[:] = sorted([*(e for e in listed if e[:2] != place), [*place, rng.choice((1, 3))]])
+    return document
+
+
+def channel_cut(rng: random.Random, document: Document) -> Forged:
+    """A channel measures nothing, or something else: its radius reaches 0."""
+    channel = rng.choice(document["system"]["channels"])
+    rows = channel[rng.choice("BC")]
+    if not isinstance(rows, list):
+        return None
+    for row in rows:
+        row[:] = [0] * len(row)
+    return document
+
+
+def disc_shrunk(rng: random.Random, document: Document) -> Forged:
+    """An exterior disc is smaller, or elsewhere."""
+    discs = document["witness"].get("exterior", {}).get("discs")
+    if not discs:
+        return None
+    disc = rng.choice(discs)
+    disc[rng.choice(("radius", "re", "im"))] = rng.choice(("0", "0.01", "-5", "7"))
+    if rng.random() < 0.5:
+        document["witness"]["cover"][discs.index(disc)] = []
+    return document
+
+
+def matrix_cleared(rng: random.Random, document: Document) -> Forged:
+    """Y, T, V or R is 0."""
+    witness = document["witness"]
+    found: list[Any] = [frame[key] for frame in witness["frames"] for key in "VR" if key in frame]
+    found += [witness["exterior"][key] for key in "YT"] if "exterior" in witness else []
+    if not found:
+        return None
+    M = rng.choice(found)
+    for part in ("re", "im"):
+        M[part] = [[0] * len(row) for row in M[part]]
+    return document
+
+
+def weights_changed(rng: random.Random, document: Document) -> Forged:
+    """Weights are 0, negative or very uneven."""
+    frames = document["witness"]["frames"]
+    if not frames:
+        return None
+    for frame in frames:
+        frame["w"] = [rng.choice((0, -1, 1, 10**6)) for _ in frame["w"]]
+    return document
+
+
+def gains_exchanged(rng: random.Random, document: Document) -> Forged:
+    """A channel acts on what another one measures, or no gains are behind a frame."""
+    witness = document["witness"]
+    if not witness.get("gains"):
+        return None
+    if rng.random() < 0.5:
+        given = rng.choice(witness["gains"])
+        given["X"] = [{"denominator": 1, "entries": [[3, 3]]} for _ in given["X"]]
+        return document
+    for frame in witness["frames"]:
+        frame["gains"] = None
+    return document
+
+
+def nodes_left_out(rng: random.Random, document: Document) -> Forged:
+    """Nodes of the cover are missing, or another frame stands there."""
+    cover = document["witness"].get("cover")
+    if not cover:
+        return None
+    k = rng.randrange(len(cover))
+    count = len(document["witness"]["frames"])
+    cover[k] = rng.choice(([], cover[k][:1], [rng.randrange(count + 1) for _ in cover[k]]))
+    return document
+
+
+def border_cut_off(rng: random.Random, document: Document) -> Forged:
+    """Segments of the border are missing, or their points are elsewhere."""
+    witness = document["witness"]
+    if "points" not in witness or len(witness["points"]) < 2:
+        return None
+    how = rng.randrange(4)
+    if how == 0:
+        del witness["points"][-1], witness["segments"][-1]
+    elif how == 1:
+        witness["points"][0], witness["points"][1] = witness["points"][1], witness["points"][0]
+    elif how == 2:
+        witness["segments"] = [0] * len(witness["segments"])
+    else:
+        witness["growth"] = None if rng.random() < 0.5 else [1, *[10**6] * 3]
+    return document
+
+
+def bound_moved(rng: random.Random, document: Document) -> Forged:
+    """Another region, or all modes."""
+    document["claim"]["bound"] = rng.choice((None, 0, 1, 3, "1/3", "1/9", -1))
+    return document
+
+
+def unstable_nominal(rng: random.Random, document: Document) -> Forged:
+    """The values themselves are unstable, and the border is as far away."""
+    A = document["system"]["A"]
+    if "nominal" not in document["witness"] or not isinstance(A, list):
+        return None
+    for row in A:
+        row[:] = [number(-2 * Fraction(entry)) for entry in row]
+    return document
+
+
+def gain_radii_grown(rng: random.Random, document: Document) -> Forged:
+    """The radii of the gains are larger, or negative."""
+    radii = document["claim"].get("gain_radii")
+    if not radii:
+        return None
+    value = rng.choice((1, 5, 20, "-1/100"))
+    for agent in radii["agents"]:
+        for outputs in (agent[label].get("outputs", {}) for label in ("private_update", "input")):
+            for name in outputs:
+                outputs[name] = [[value] * len(row) for row in outputs[name]]
+    return document
+
+
+ANY = (radii_grown, radius_added, channel_cut, matrix_cleared, weights_changed, bound_moved)
+COVERED = (*ANY, disc_shrunk, nodes_left_out)
+FIXED = (*COVERED, gains_exchanged)
+STABLE = (*ANY, border_cut_off, unstable_nominal, gain_radii_grown)

@@ -1,0 +1,225 @@
+"""Certificates about boxes of tiny plants, made slowly with rational numbers alone.
+
+Every cell that has to be proved gets a frame of its own, from the exact inverse at its center.
+"""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Callable, Iterator
+from fractions import Fraction
+from operator import mul
+from typing import Any
+
+from mcexact.checker.arithmetic import beside
+from mcexact.checker.box_fixed import augmented
+from mcexact.checker.box_stable import segments_of
+from mcexact.checker.boxes import Box, system_of
+from mcexact.checker.covers import ROOT_2, Cell
+from mcexact.checker.evidence import inputs
+from mcexact.checker.loop_pencil import loop_pencil
+from mcexact.checker.regular_discs import Pencil, Regular, left_inverse, right_inverse
+from mcexact.checker.system import read_plant
+from tests.checker.handmade import Document, certificate
+
+Rows = list[list[Fraction]]
+Node = int | None
+Frames = Iterator[tuple[Document, Regular]]
+DENOMINATOR = 2**16
+DEEPEST = 5
+
+
+def fractions(M: Any) -> Rows:
+    """The rows of a matrix of the checker."""
+    return [[Fraction(entry, M.denominator) for entry in row] for row in M.rows]
+
+
+def solved(M: Rows, R: Rows) -> Rows:
+    """The X with M X = R, M square and not singular."""
+    n = len(M)
+    rows = [[*m, *r] for m, r in zip(M, R, strict=True)]
+    for k in range(n):
+        pivot = next((i for i in range(k, n) if rows[i][k]), None)
+        if pivot is None:
+            raise ArithmeticError("a singular matrix")
+        rows[k], rows[pivot] = rows[pivot], rows[k]
+        rows[k] = [entry / rows[k][k] for entry in rows[k]]
+        for i in range(n):
+            if i != k and rows[i][k]:
+                rows[i] = [a - rows[i][k] * b for a, b in zip(rows[i], rows[k], strict=True)]
+    return [row[n:] for row in rows]
+
+
+def in_reals(re: Rows, im: Rows) -> Rows:
+    """[re, −im; im, re]."""
+    above = [[*x, *(-v for v in y)] for x, y in zip(re, im, strict=True)]
+    return above + [[*y, *x] for x, y in zip(re, im, strict=True)]
+
+
+def rounded(M: Rows, nrows: int, ncols: int) -> Document:
+    """The complex matrix of the first columns of [re, …; im, …]."""
+    whole = [[round(entry * DENOMINATOR) for entry in row[:ncols]] for row in M]
+    return {"denominator": DENOMINATOR, "re": whole[:nrows], "im": whole[nrows:]}
+
+
+def unit(size: int) -> Rows:
+    """The identity matrix."""
+    return [[Fraction(i == j) for j in range(size)] for i in range(size)]
+
+
+def shifted(pencil: Pencil, re: Fraction, im: Fraction) -> Rows:
+    """cE − Z in reals."""
+    Z, n = fractions(pencil.Z), pencil.dynamic
+    real = [[(re if i == j < n else 0) - z for j, z in enumerate(row)] for i, row in enumerate(Z)]
+    imaginary = [
+        [im if i == j < n else Fraction(0) for j in range(len(row))] for i, row in enumerate(Z)
+    ]
+    return in_reals(real, imaginary)
+
+
+def inverse_at(pencil: Pencil, re: Fraction, im: Fraction) -> Document:
+    """V, about the inverse of cE − Z."""
+    M = shifted(pencil, re, im)
+    return rounded(solved(M, unit(len(M))), len(M) // 2, len(M) // 2)
+
+
+def right_inverse_at(pencil: Pencil, re: Fraction, im: Fraction) -> Document:
+    """R, about the right inverse of least squares of cE − Z."""
+    M = shifted(pencil, re, im)
+    turned = [list(column) for column in zip(*M, strict=True)]
+    gram = [[sum(map(mul, x, y)) for y in M] for x in M]
+    back = solved(gram, unit(len(M)))
+    R = [[sum(map(mul, x, y)) for y in zip(*back, strict=True)] for x in turned]
+    return rounded(R, pencil.Z.ncols, pencil.dynamic)
+
+
+def gershgorin(box: Box) -> Document:
+    """The discs of the rows of A, by Y = T = I."""
+    n = box.n
+    A, D, one = fractions(box.A), fractions(box.radii.A), unit(n)
+    identity = {"denominator": 1, "re": [list(map(int, row)) for row in one], "im": [[0] * n] * n}
+    discs = []
+    for i in range(n):
+        spread = sum((abs(A[i][j]) for j in range(n) if j != i), sum(D[i], Fraction(0)))
+        radius = (int(spread * 10**4) + 1) / 10**4
+        discs.append({"re": decimal(A[i][i]), "im": "0", "radius": decimal(Fraction(str(radius)))})
+    return {"Y": identity, "T": identity, "discs": discs}
+
+
+def decimal(value: Fraction) -> str:
+    """A decimal of at most six digits behind its point."""
+    sign, scaled = "-" if value < 0 else "", abs(value) * 10**6
+    assert scaled.denominator == 1
+    return f"{sign}{int(scaled) // 10**6}.{int(scaled) % 10**6:06d}"
+
+
+def covered(
+    exterior: Document,
+    outside: Callable[[Cell], bool],
+    frames_at: Callable[[Fraction, Fraction], Frames],
+) -> tuple[list[Document], list[list[Node]]]:
+    """Frames, and the nodes of every disc: a cell is cut where its own frame does not do.
+
+    ``frames_at`` gives frames about a center, each with what decides by it.
+    """
+    frames: list[Document] = []
+    cover = []
+    for disc in exterior["discs"]:
+        cells = [(Cell(*(Fraction(disc[key]) for key in ("re", "im", "radius")), False), 0)]
+        nodes: list[Node] = []
+        while cells:
+            cell, depth = cells.pop()
+            if outside(cell):
+                continue
+            for frame, regular in _all_of(frames_at, cell):
+                if regular(cell.re, cell.im, cell.size * (ROOT_2 if cell.square else 1)):
+                    nodes.append(len(frames))
+                    frames.append(frame)
+                    break
+            else:
+                if depth == DEEPEST:
+                    raise ArithmeticError("no cover found")
+                nodes.append(None)
+                cells += [(part, depth + 1) for part in cell.parts()]
+        cover.append(nodes)
+    return frames, cover
+
+
+def _all_of(frames_at: Callable[[Fraction, Fraction], Frames], cell: Cell) -> Frames:
+    """The frames about the center of a cell, up to one whose pencil is singular there."""
+    with contextlib.suppress(ArithmeticError):
+        yield from frames_at(cell.re, cell.im)
+
+
+def subject_of(plant: Document, kind: str, steps: tuple[Document, ...]) -> Any:
+    """The box that a certificate is about."""
+    return system_of(list(steps), read_plant(plant), kind)
+
+
+def fixed(plant: Document, gains: list[Document], *steps: Document, bound: Any = None) -> Document:
+    """A certificate that no member has a fixed mode, each cell with the first gains that do.
+
+    After the gains, no gains are tried: then the cell holds no eigenvalue.
+    """
+    box = subject_of(plant, "box_fixed", steps)
+    exterior = gershgorin(box)
+    pencils = [augmented(each, "", box) for each in gains]
+    pencils.append(Pencil(box.A, box.radii.A, box.n))
+
+    def frames_at(re: Fraction, im: Fraction) -> Frames:
+        for k, pencil in enumerate(pencils):
+            V, w = inverse_at(pencil, re, im), [1] * pencil.Z.nrows
+            number = k if k < len(gains) else None
+            yield {"gains": number, "V": V, "w": w}, left_inverse(V, w, "", pencil)
+
+    limit = None if bound is None else Fraction(bound)
+    frames, cover = covered(exterior, box.outside(limit), frames_at)
+    witness = {"exterior": exterior, "gains": gains, "frames": frames, "cover": cover}
+    return certificate("box_fixed", plant, {"bound": bound}, witness, *steps)
+
+
+def controllable(
+    plant: Document, channels: list[str], *steps: Document, bound: Any = None
+) -> Document:
+    """A certificate that channels control every mode of every member."""
+    box = subject_of(plant, "box_controllable", steps)
+    T = [box.names.index(name) for name in channels]
+    Z, D = (beside([each.A, inputs(each, T)], box.n) for each in (box, box.radii))
+    pencil, exterior, w = Pencil(Z, D, box.n), gershgorin(box), [1] * box.n
+
+    def frames_at(re: Fraction, im: Fraction) -> Frames:
+        R = right_inverse_at(pencil, re, im)
+        yield {"R": R, "w": w}, right_inverse(R, w, "", pencil)
+
+    limit = None if bound is None else Fraction(bound)
+    frames, cover = covered(exterior, box.outside(limit), frames_at)
+    witness = {"exterior": exterior, "frames": frames, "cover": cover}
+    return certificate(
+        "box_controllable", plant, {"channels": channels, "bound": bound}, witness, *steps
+    )
+
+
+def stable(
+    plant: Document,
+    points: list[Any],
+    *steps: Document,
+    bound: Any = None,
+    gain_radii: Any = None,
+    growth: list[int] | None = None,
+) -> Document:
+    """A certificate that every member is stable, with a frame for each segment."""
+    box = subject_of(plant, "box_stable", steps)
+    pencil = loop_pencil(box, gain_radii)
+    limit = Fraction(box.time == "discrete") if bound is None else Fraction(bound)
+    frames = []
+    for re, im, _ in segments_of(box.time, limit, [Fraction(point) for point in points]):
+        frames.append({"V": inverse_at(pencil, re, im), "w": [1] * pencil.Z.nrows})
+    witness = {
+        "nominal": {"method": "polynomial"},
+        "points": points,
+        "growth": growth,
+        "segments": list(range(len(frames))),
+        "frames": frames,
+    }
+    claim = {"bound": bound, "gain_radii": gain_radii}
+    return certificate("box_stable", plant, claim, witness, *steps)

@@ -1,0 +1,164 @@
+"""Certificates about boxes, small enough to be followed with a pencil."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from tests.checker.box_maker import controllable, fixed, stable
+from tests.checker.handmade import Document, listed, matrix, plant
+
+DUAL = {"construction": "dual"}
+
+
+def uncertain(A: Any, B: Any = None, C: Any = None) -> Document:
+    """The uncertainty of a plant: the radii of A, and those of some B_i and C_i, by rows."""
+    parts = {"A": listed(A, len(A))} if A else {}
+    for key, given in (("B", B), ("C", C)):
+        if given:
+            parts[key] = {name: listed(M, len(M[0])) for name, M in given.items()}
+    return {"absolute": parts}
+
+
+def gains(*pairs: tuple[int, int]) -> Document:
+    """X and W of channels with one input and one output each."""
+    return {"X": [matrix([x]) for x, _ in pairs], "W": [matrix([w]) for _, w in pairs]}
+
+
+RADII = uncertain([["1/10", 0], [0, "1/20"]], {"1": [["1/20"], [0]]}, {"2": [[0, "1/20"]]})
+PAIR = plant(
+    [[1, "1/4"], ["1/4", -1]],
+    ([[1], [0]], [[1, 0]]),
+    ([[0], [1]], [[0, 1]]),
+    uncertainty=RADII,
+)
+"""Two modes, about 1 and −1, each with a channel of its own."""
+SAMPLED = plant(
+    [["3/2", "1/4"], ["1/4", "1/2"]],
+    ([[1], [0]], [[1, 0]]),
+    ([[0], [1]], [[0, 1]]),
+    time="discrete",
+    uncertainty=RADII,
+)
+CALM = plant(
+    [[-2, "1/4"], ["1/4", -1]],
+    ([[1], [0]], [[1, 0]]),
+    ([[0], [1]], [[0, 1]]),
+    neighbors={"1": ["2"], "2": []},
+    uncertainty=RADII,
+)
+DAMPED = plant(
+    [["1/2", "1/8"], ["1/8", "-1/4"]],
+    ([[1], [0]], [[1, 0]]),
+    ([[0], [1]], [[0, 1]]),
+    time="discrete",
+    neighbors={"1": ["2"], "2": ["1"]},
+    delays={"1": {"2": 2}},
+    uncertainty=RADII,
+)
+TURNING = plant(
+    [[0, -1], [1, 0]], ([[1], [0]], [[1, 0]]), uncertainty=uncertain([[0, "1/10"], [0, 0]])
+)
+"""Two modes about ±i: the exterior discs overlap, and the lower half is skipped."""
+CERTAIN = plant([[1]], ([[1]], [[1]]))
+NOTHING = plant([], ([], []))
+
+
+def programs(time: str, first: Document, second: Document) -> Document:
+    """A construction of two agents, the first one with a private state, the second one without."""
+    agents = [
+        {"name": "1", "shared": 0, "private": 1, **first},
+        {
+            "name": "2",
+            "shared": 0,
+            "private": 0,
+            "shared_update": {},
+            "private_update": {},
+            **second,
+        },
+    ]
+    return {"construction": "closed_loop", "controller": {"time": time, "agents": agents}}
+
+
+def first(update: Any, state: Any, own: Any) -> Document:
+    """z' = update y + state z, u = z / 2 + own y."""
+    return {
+        "shared_update": {},
+        "private_update": {"outputs": {"1": [[update]]}, "private": [[state]]},
+        "input": {"outputs": {"1": [[own]]}, "private": [["1/2"]]},
+    }
+
+
+def radii_of_first(update: Any, own: Any) -> Document:
+    return {
+        "shared_update": {},
+        "private_update": {"outputs": {"1": [[update]]}},
+        "input": {"outputs": {"1": [[own]]}},
+    }
+
+
+LOOP = programs("continuous", first(1, -2, -1), {"input": {"outputs": {"2": [[-1]]}}})
+GAIN_RADII = programs("continuous", radii_of_first("1/50", "1/100"), {"input": {}})["controller"]
+DELAYED = programs(
+    "discrete",
+    {
+        "shared_update": {},
+        "private_update": {"outputs": {"2": [["1/8"]]}, "private": [["1/4"]]},
+        "input": {"private": [["1/4"]]},
+    },
+    {"input": {"outputs": {"1": [["1/8"]], "2": [["1/8"]]}}},
+)
+DELAYED_RADII = programs(
+    "discrete",
+    {"shared_update": {}, "private_update": {"outputs": {"2": [["1/100"]]}}, "input": {}},
+    {"input": {"outputs": {"1": [["1/100"]]}}},
+)["controller"]
+
+FIXED = fixed(PAIR, [gains((3, 1), (3, 1))])
+STABILIZABLE = fixed(PAIR, [gains((3, 1), (3, 1))], bound=0)
+SAMPLED_FIXED = fixed(SAMPLED, [gains((3, 1), (3, 1))], bound="15/16")
+OVERLAPPING = fixed(TURNING, [gains((3, 1)), gains((-3, 1))])
+EXTENDED = fixed(
+    {**CALM, "neighbors": {"1": ["2"], "2": ["1"]}},
+    [{"X": [matrix([2, 0]), matrix([0, 2])], "W": [matrix([1]), matrix([1])]}],
+    {"construction": "augmented_outputs"},
+    bound="1/2",
+)
+ONE_PLANT = fixed(CERTAIN, [gains((2, 1))])
+NO_STATES = fixed(NOTHING, [{"X": [matrix()], "W": [matrix()]}])
+CONTROLLABLE = controllable(PAIR, ["1", "2"])
+OBSERVABLE = controllable(PAIR, ["1", "2"], DUAL)
+STABILIZABLE_BY_1 = controllable(PAIR, ["1"], bound=0)
+DETECTABLE = controllable(SAMPLED, ["1"], DUAL, bound="7/8")
+STABLE = stable(CALM, [1, 2, 4], growth=[1, 1])
+SAMPLED_STABLE = stable(DAMPED, ["1/4", "1/2", 1, 2, 4], bound="7/8")
+LOOP_STABLE = stable(
+    CALM,
+    ["1/2", 1, "3/2", 2, 3, 4, 5, 6, 8],
+    LOOP,
+    growth=[2, 2, 2],
+    gain_radii=GAIN_RADII,
+    bound="1/8",
+)
+DELAYED_STABLE = stable(
+    DAMPED,
+    ["1/8", "1/4", "3/8", "1/2", "3/4", 1, "4/3", 2, "8/3", 4, 8],
+    DELAYED,
+    gain_radii=DELAYED_RADII,
+)
+ALL = {
+    "no fixed mode": FIXED,
+    "stabilizable": STABILIZABLE,
+    "stabilizable, sampled": SAMPLED_FIXED,
+    "overlapping discs": OVERLAPPING,
+    "outputs of neighbors": EXTENDED,
+    "a plant that is certain": ONE_PLANT,
+    "no states": NO_STATES,
+    "controllable": CONTROLLABLE,
+    "observable": OBSERVABLE,
+    "stabilizable by one channel": STABILIZABLE_BY_1,
+    "detectable": DETECTABLE,
+    "stable": STABLE,
+    "stable, sampled": SAMPLED_STABLE,
+    "stable loop": LOOP_STABLE,
+    "stable loop with messages": DELAYED_STABLE,
+}

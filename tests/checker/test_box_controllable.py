@@ -1,0 +1,82 @@
+"""The rule of ``box_controllable``: channels control every member of a box."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.checker.box_plants import (
+    ALL,
+    CONTROLLABLE,
+    DETECTABLE,
+    OBSERVABLE,
+    STABILIZABLE_BY_1,
+)
+from tests.checker.handmade import checked, without
+from tests.checker.tables import accepts, rejects
+
+KIND = "box_controllable"
+OF_THIS_KIND = [(name, each) for name, each in ALL.items() if each["kind"] == KIND]
+
+test_what_is_made_is_proved = accepts(OF_THIS_KIND)
+
+FRAME = "witness.frames.0"
+test_what_proves_less_is_refused = rejects(
+    [
+        ("a channel fewer", CONTROLLABLE, ("claim.channels", ["1"]), "MALFORMED"),
+        ("the channels in another order", CONTROLLABLE, ("claim.channels", ["2", "1"])),
+        ("an unknown channel", CONTROLLABLE, ("claim.channels", ["3"]), "MALFORMED"),
+        ("R is 0", CONTROLLABLE, (f"{FRAME}.R.re", [[0, 0]] * 4), "INVALID"),
+        ("R has a row less", CONTROLLABLE, (f"{FRAME}.R.re", [[0, 0]] * 3), "MALFORMED"),
+        ("a weight is 0", CONTROLLABLE, (f"{FRAME}.w", [1, 0]), "MALFORMED"),
+        ("as many weights as rows of R", CONTROLLABLE, (f"{FRAME}.w", [1] * 4), "MALFORMED"),
+        (
+            "the radii of A are larger",
+            CONTROLLABLE,
+            ("system.uncertainty.absolute.A.entries", [[0, 0, 1], [1, 1, 1]]),
+            "INVALID",
+        ),
+        (
+            "the radii of B are larger",
+            CONTROLLABLE,
+            ("system.uncertainty.absolute.B.1.entries", [[0, 0, 2]]),
+            "INVALID",
+        ),
+        (
+            "the radii of C are larger, about the dual",
+            OBSERVABLE,
+            ("system.uncertainty.absolute.C.2.entries", [[0, 1, 2]]),
+            "INVALID",
+        ),
+        ("there is no bound", STABILIZABLE_BY_1, ("claim.bound", None), "INVALID"),
+        ("the bound is larger", STABILIZABLE_BY_1, ("claim.bound", 2), "INVALID"),
+        ("the radius is smaller", DETECTABLE, ("claim.bound", "1/2"), "INVALID"),
+        ("a node is true", CONTROLLABLE, ("witness.cover.0.0", True), "MALFORMED"),
+        ("a disc is not covered", CONTROLLABLE, ("witness.cover.0", []), "INVALID"),
+        ("a disc shrinks", CONTROLLABLE, ("witness.exterior.discs.0.radius", "0.2"), "INVALID"),
+    ]
+)
+
+
+def test_the_radii_of_what_is_not_used_do_not_matter() -> None:
+    """About the plant those of C, and about its dual those of B."""
+    for document, key in ((CONTROLLABLE, "C"), (OBSERVABLE, "B")):
+        parts = document["system"]["uncertainty"]["absolute"]
+        kept = {name: part for name, part in parts.items() if name != key}
+        system = {**document["system"], "uncertainty": {"absolute": kept}}
+        assert checked({**document, "system": system}).verdict == "VALID"
+
+
+def test_the_statement_says_which_modes_are_controlled() -> None:
+    begin = "for all values within their radii, the channels "
+    for document, said in (
+        (CONTROLLABLE, '{"1", "2"} together control every mode'),
+        (STABILIZABLE_BY_1, '{"1"} together control every mode of real part at least 0'),
+        (DETECTABLE, '{"1"} together control every mode of modulus at least 7/8'),
+    ):
+        assert checked(document).statement.endswith(f"time): {begin}{said}")
+    assert checked(OBSERVABLE).statement.startswith("For the dual of: the plant ")
+
+
+@pytest.mark.parametrize("part", ["exterior", "frames", "cover"])
+def test_every_part_of_the_witness_is_needed(part: str) -> None:
+    assert checked(without(CONTROLLABLE, f"witness.{part}")).verdict == "MALFORMED"
