@@ -18,7 +18,8 @@ WITNESS = ("kernel", "rows", "columns", "modulus", "compressions", "exceptional"
 def check(claim: Json, witness: Json, system: ParametricSystem) -> None:
     """Check kernels, and two minors without common roots but those of the values named.
 
-    Theorem ``arithmetic.no_common_root``.  Open: see ``proofs/OPEN.md``.
+    Theorems ``parametric_rank.rank_at_most``, ``parametric_rank.rank_at_root``,
+    ``parametric_rank.rank_at_least``, ``parametric_rank.rank_kept``.  Open: see ``proofs/OPEN.md``.
     """
     keys = ("matrix", "rank", "exceptional", "outside")
     name, size, listed, left_out = fields(claim, "claim", *keys)
