@@ -4,75 +4,64 @@ import json
 import sys
 from fractions import Fraction
 
+MAPS = ("shared_update", "private_update", "input")
+
 
 def rebuilt(plant, controller):
-    """The matrix of the closed loop."""
-    agents, channels = controller["agents"], plant["channels"]
-    names, n = [agent["name"] for agent in agents], len(plant["A"])
-    delays = plant.get("delays", {})
-
-    def matrix(rows):
-        return [[Fraction(entry) for entry in row] for row in rows]
-
-    def times(M, N, width):
-        return [
-            [sum((a * N[k][c] for k, a in enumerate(row)), Fraction()) for c in range(width)]
-            for row in M
-        ]
+    """The matrix of the closed loop, column by column: one step from each unit vector."""
+    agents = {agent["name"]: agent for agent in controller["agents"]}
+    channels = dict(zip(agents, plant["channels"]))
 
     def age(kind, j, i):
         """How old a signal of agent j is when agent i uses it."""
-        link = delays.get(names[i], {}).get(names[j], 0)
-        return link + (agents[j].get("hold", {}).get(names[i], 0) if kind == "shared" else 0)
+        link = plant.get("delays", {}).get(i, {}).get(j, 0)
+        return link + (agents[j].get("hold", {}).get(i, 0) if kind == "shared" else 0)
 
-    used = {(kind, names.index(name)): 0 for kind in ("shared", "outputs") for name in names}
-    for i, agent in enumerate(agents):
-        for part in ("shared_update", "private_update", "input"):
+    def times(M, v):
+        return [sum(Fraction(entry) * x for entry, x in zip(row, v)) for row in M]
+
+    def plus(v, w):
+        return [a + b for a, b in zip(v, w)]
+
+    sizes = {"x": len(plant["A"])}
+    for i, agent in agents.items():
+        sizes |= {("shared", i, 0): agent["shared"], ("private", i, 0): agent["private"]}
+    for j in agents:
+        for kind, size in (("shared", agents[j]["shared"]), ("outputs", len(channels[j]["C"]))):
+            uses = [i for i, a in agents.items() if any(j in a[p].get(kind, {}) for p in MAPS)]
+            oldest = max((age(kind, j, i) for i in uses), default=0)
+            sizes |= {(kind, j, old): size for old in range(1, oldest + 1)}
+
+    def step(state):
+        """The derivatives, or the values after one step."""
+        signals = state | {("outputs", j, 0): times(channels[j]["C"], state["x"]) for j in agents}
+
+        def value(i, part, size):
+            terms, total = agents[i][part], [0] * size
+            used = [(terms["private"], ("private", i, 0))] if "private" in terms else []
             for kind in ("shared", "outputs"):
-                for name in agent[part].get(kind, {}):
-                    j = names.index(name)
-                    used[kind, j] = max(used[kind, j], age(kind, j, i))
-    sizes: dict = {("x",): n}
-    for j, agent in enumerate(agents):
-        sizes |= {("shared", j, 0): agent["shared"], ("private", j, 0): agent["private"]}
-    for j, agent in enumerate(agents):
-        for kind, size in (("shared", agent["shared"]), ("outputs", len(channels[j]["C"]))):
-            sizes |= {(kind, j, old): size for old in range(1, used[kind, j] + 1)}
-    N = sum(sizes.values())
+                used += [(M, (kind, j, age(kind, j, i))) for j, M in terms.get(kind, {}).items()]
+            for M, key in used:
+                total = plus(total, times(M, signals[key]))
+            return total
 
-    def signal(key):
-        """The rows that make a signal of the loop's state."""
-        if key[0] == "outputs" and key[2] == 0:
-            return times(matrix(channels[key[1]]["C"]), signal(("x",)), N)
-        start = sum(size for other, size in list(sizes.items())[: list(sizes).index(key)])
-        return [[Fraction(c == start + r) for c in range(N)] for r in range(sizes[key])]
+        after = {"x": times(plant["A"], state["x"])}
+        for i, agent in agents.items():
+            for row in channels[i]["B"][:1]:
+                after["x"] = plus(after["x"], times(channels[i]["B"], value(i, "input", len(row))))
+            for kind in ("shared", "private"):
+                after[kind, i, 0] = value(i, f"{kind}_update", agent[kind])
+        for kind, j, old in [key for key in sizes if key not in after]:
+            after[kind, j, old] = signals[kind, j, old - 1]
+        return [x for key in sizes for x in after[key]]
 
-    def value(i, part, height):
-        """A map of agent i over the loop's state."""
-        terms, total = agents[i][part], [[Fraction()] * N for _ in range(height)]
-        parts = [
-            (M, (kind, names.index(name), age(kind, names.index(name), i)))
-            for kind in ("shared", "outputs")
-            for name, M in terms.get(kind, {}).items()
-        ]
-        parts += [(terms["private"], ("private", i, 0))] if "private" in terms else []
-        for M, key in parts:
-            added = times(matrix(M), signal(key), N)
-            total = [[a + b for a, b in zip(*rows)] for rows in zip(total, added)]
-        return total
-
-    loop = times(matrix(plant["A"]), signal(("x",)), N)
-    for i, channel in enumerate(channels):
-        B = matrix(channel["B"])
-        added = times(B, value(i, "input", len(B[0]) if B else 0), N)
-        loop = [[a + b for a, b in zip(*rows)] for rows in zip(loop, added)]
-    for i, agent in enumerate(agents):
-        loop += value(i, "shared_update", agent["shared"]) + value(
-            i, "private_update", agent["private"]
+    columns = []
+    for k in range(sum(sizes.values())):
+        unit = (Fraction(c == k) for c in range(sum(sizes.values())))
+        columns.append(
+            step({key: [next(unit) for _ in range(size)] for key, size in sizes.items()})
         )
-    for kind, j, old in [key for key in sizes if len(key) == 3 and key[2]]:
-        loop += signal((kind, j, old - 1))
-    return loop
+    return list(zip(*columns))
 
 
 if __name__ == "__main__":
