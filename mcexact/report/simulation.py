@@ -13,6 +13,7 @@ from mcexact.report.figures import simulation_pictures, simulation_png
 from mcexact.report.plant import shown_plant
 from mcexact.report.text import Table
 from mcexact.report.trajectory import shown_times, trajectory_csv
+from mcexact.simulation.envelope import LARGEST
 from mcexact.simulation.run import SimulatedLoop
 from mcexact.simulation.trajectory import SIGNALS, as_float
 
@@ -49,6 +50,11 @@ class SimulationReport:
             between = f"between {found.rate.lower} and {found.rate.upper}"
             size = found.rate.lower if found.rate.lower == found.rate.upper else between
             lines.append(f"the closed loop is {stable}stable; its {what} is {size}")
+        if run.loop.dimension > LARGEST:
+            lines.append(
+                f"the loop has {run.loop.dimension} states: beyond {LARGEST} nothing is proved "
+                "here, and `mcexact certify` decides stability"
+            )
         if run.note is not None:
             lines.append(run.note)
         return lines

@@ -19,8 +19,8 @@ from mcexact.exact.location import StabilityRegion, is_discrete, steady_point
 from mcexact.exact.matrix import Matrix
 from mcexact.simulation.trajectory import Trajectory
 
-LARGEST = 40
-"""The largest number of states of a loop for which an envelope is computed."""
+LARGEST = 80
+"""The most states of a loop whose spectrum and envelope are computed: seconds at this size."""
 
 
 @dataclass(frozen=True)

@@ -9,11 +9,8 @@ from mcexact.analysis.stability.closed_loop_spectrum import closed_loop_spectrum
 from mcexact.answer.loop_spectrum import LoopSpectrum
 from mcexact.model.controller import Controller
 from mcexact.model.system import MultiChannelSystem
-from mcexact.simulation.envelope import Envelope, proved_envelope
+from mcexact.simulation.envelope import LARGEST, Envelope, proved_envelope
 from mcexact.simulation.trajectory import Trajectory, simulate
-
-# Beyond this size the exact characteristic polynomial takes too long.
-_LARGEST_SPECTRUM = 60
 
 
 @dataclass(frozen=True)
@@ -51,7 +48,7 @@ def simulated_loop(
     """
     run = simulate(system, controller, **options)
     spectrum = None
-    if run.loop.dimension <= _LARGEST_SPECTRUM:
+    if run.loop.dimension <= LARGEST:
         spectrum = closed_loop_spectrum(run.loop.matrix, system.time)
     return SimulatedLoop(
         system.name or "simulation",

@@ -15,6 +15,7 @@ from mcexact.model.system import MultiChannelSystem
 from mcexact.report.figures import simulation_pictures, simulation_png
 from mcexact.report.simulation import SimulationReport
 from mcexact.report.trajectory import shown_times, trajectory_csv
+from mcexact.simulation.envelope import LARGEST
 from mcexact.simulation.run import simulated_loop
 from mcexact.simulation.trajectory import simulate
 from tests.report.strict_html import external_addresses
@@ -60,6 +61,17 @@ def test_floats_are_written_with_all_their_digits():
     rows = list(csv.reader(io.StringIO(trajectory_csv(run))))
     assert [float(row[0]) for row in rows[1:]] == [0.0, 0.5, 1.0]
     assert float(rows[2][1]) == run.snapshots[1].plant[0]
+
+
+@pytest.mark.parametrize("states", [LARGEST, LARGEST + 1])
+def test_a_loop_too_large_for_proofs_is_called_so(states: int) -> None:
+    A = [[Fraction(int(i == j), 2) for j in range(states)] for i in range(states)]
+    plant = MultiChannelSystem(A, [[[1]] * states], [[[1] * states]], time="discrete")
+    controller = Controller("discrete", "", (AgentProgram("1", 0, 0),))
+    done = simulated_loop(plant, controller, horizon=1, arithmetic="float")
+    said = f"the loop has {states} states: beyond {LARGEST} nothing is proved here"
+    assert any(said in fact for fact in SimulationReport(done).facts()) == (states > LARGEST)
+    assert (done.spectrum is None) == (done.envelope is None) == (states > LARGEST)
 
 
 def test_norms_and_rows():
