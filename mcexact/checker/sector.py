@@ -76,8 +76,7 @@ def turned(p: Polynomial, zeta: Fraction) -> Polynomial:
     (numbers, _), d, a, b = cleared(p), len(p) - 1, zeta.numerator, zeta.denominator
     h, one, longest = b**2 - a**2, 2 * budget.limbs([b]), budget.limbs(numbers)
     most = longest + d * one + 1
-    budget.spend(budget.products(4 * d + 1, most, one) + budget.products(2 * d + 2, most, longest))
-    budget.spend(budget.products(4 * d + 2, 2 * most, 2 * one) + budget.table(6, d + 1, most))
+    budget.spend(budget.products(4 * d + 4, most, most) + budget.table(6, d + 1, most))
     U, V, u, v = list[int](), list[int](), 1, 0
     for c in reversed(numbers):
         U.insert(0, c * u)

@@ -39,6 +39,14 @@ def chain(n: int, last: int) -> list[list[int]]:
     return [[(last if i == n - 1 else 1) * (i == j + 1) for j in range(n)] for i in range(n)]
 
 
+def decaying(n: int) -> list[list[int]]:
+    """A chain with the eigenvalue -1."""
+    return [
+        [-1 if i == j else entry for j, entry in enumerate(row)]
+        for i, row in enumerate(chain(n, 1))
+    ]
+
+
 def stable(system: dict[str, Any], *subject: dict[str, Any], **claim: Any) -> dict[str, Any]:
     """The claim that every eigenvalue is stable, by the characteristic polynomial."""
     return certificate("stability", system, {**STABLE, **claim}, LOCATE, *subject)
@@ -155,6 +163,9 @@ TINY = [0] * 1500 + [f"1/{2**13900}", 1]
 POINTS = [[i, 0, "1e-1000"] for i in range(300)]
 
 HEAVY: dict[str, dict[str, Any]] = {
+    "a damping ratio of many digits": stable(
+        plant(decaying(30), port(30)), damping=f"1/{10**3000}"
+    ),
     "an extension by 400 states": stable(
         plant([[0]], port(1), **heard(1)), step("extended", share="states", dimensions=[400])
     ),
@@ -259,6 +270,7 @@ EXPECTED = {
 """The verdicts and codes of those that the default decides; the others are INCOMPLETE."""
 
 FINISHED: dict[str, dict[str, Any]] = {
+    "a damping ratio of 40 digits": stable(plant(decaying(8), port(8)), damping=f"1/{10**40}"),
     "an extension by 30 states": stable(
         plant([[0]], port(1), **heard(1)), step("extended", share="states", dimensions=[30])
     ),

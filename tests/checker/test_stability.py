@@ -73,6 +73,10 @@ THREE = matrix([1, 0, 0], [0, 1, 0], [0, 0, 1])
 FOUR = matrix([1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1])
 
 
+def diagonal(*entries: int) -> Document:
+    return matrix(*([e if i == j else 0 for j in range(4)] for i, e in enumerate(entries)))
+
+
 def side(P: Document) -> Document:
     return {"P": P, "R": P, "R2": P}
 
@@ -106,6 +110,9 @@ IN_A_REGION = certificate(
             }
         ],
     },
+)
+UNSTABLE_IN_DISCRETE_TIME = certificate(
+    "stability", loop([[2]], time="discrete"), claim(False), POLYNOMIAL
 )
 NOT_DAMPED = certificate(
     "stability",
@@ -144,6 +151,13 @@ ACCEPTED = [
     ("no states", certificate("stability", loop([]), claim(True), POLYNOMIAL)),
     ("a damping ratio", DAMPED),
     ("a damping ratio near its own", changed(DAMPED, ("claim.damping", "599/1000"))),
+    ("a damping ratio of one state by a form", certificate(
+        "stability", loop([[-1]]), limited(True, damping="1/2"), {
+            "method": "lyapunov",
+            "transformation": None,
+            "blocks": [{**ALONE, "damping": {"P": matrix([3, 0], [0, 1]), "R": UNIT, "R2": UNIT}}],
+        }
+    )),
     ("exactly its damping ratio is not met", changed(
         DAMPED, ("claim.damping", "3/5"), ("claim.stable", False)
     )),
@@ -227,6 +241,69 @@ REJECTED = [
     ),
     ("exactly its largest modulus", WITHIN, ("claim.largest_modulus", 5)),
     ("a largest modulus of 0", WITHIN, ("claim.largest_modulus", 0), "INVALID"),
+    (
+        "a largest modulus of 0 that is not met",
+        TOO_FAST,
+        [("witness", POLYNOMIAL), ("claim.largest_modulus", 0)],
+        "INVALID",
+    ),
+    (
+        "a negative largest modulus that is not met",
+        TOO_FAST,
+        [("witness", POLYNOMIAL), ("claim.largest_modulus", -1)],
+        "INVALID",
+    ),
+    ("a damping ratio of 1 that is not met", NOT_DAMPED, ("claim.damping", 1), "INVALID"),
+    ("a damping ratio above 1 that is not met", NOT_DAMPED, ("claim.damping", "3/2"), "INVALID"),
+    ("a damping ratio of 0 that is not met", NOT_DAMPED, ("claim.damping", 0), "INVALID"),
+    (
+        "a limit in discrete time that is not met",
+        UNSTABLE_IN_DISCRETE_TIME,
+        ("claim.largest_modulus", 1),
+        "INVALID",
+    ),
+    (
+        "a damping ratio in discrete time that is not met",
+        UNSTABLE_IN_DISCRETE_TIME,
+        ("claim.damping", "1/2"),
+        "INVALID",
+    ),
+    (
+        "a fast rotation, and a form that falls for [M, M/3; M, M]",
+        IN_A_REGION,
+        [("system.A", [[-1, 10], [-10, -1]]), ("claim.bound", 0), ("claim.largest_modulus", 100)],
+        "INVALID",
+    ),
+    (
+        "the border of a damping ratio, and a form that falls less fast than at -1",
+        IN_A_REGION,
+        [
+            ("claim.damping", "3/5"),
+            ("witness.blocks.0.damping.P", diagonal(16, 16, 9, 9)),
+            ("witness.blocks.0.damping.R2", diagonal(2, 2, 3, 3)),
+        ],
+        "INVALID",
+    ),
+    (
+        "the border of a damping ratio, and a form that falls for a smaller one",
+        IN_A_REGION,
+        [
+            ("claim.damping", "3/5"),
+            ("witness.blocks.0.damping.P", diagonal(41, 41, 9, 9)),
+            ("witness.blocks.0.damping.R2", diagonal(1, 1, 2, 2)),
+        ],
+        "INVALID",
+    ),
+    (
+        "the border of a damping ratio, and a form that falls for nearly it",
+        IN_A_REGION,
+        [
+            ("claim.damping", "3/5"),
+            ("witness.blocks.0.damping.P", diagonal(1000, 1000, 459, 459)),
+            ("witness.blocks.0.damping.R2", diagonal(2, 2, 3, 3)),
+        ],
+        "INVALID",
+    ),
     (
         "limits in vain, for a rate that is not met",
         IN_A_REGION,
