@@ -3,6 +3,16 @@
 from . import plot as plot
 from .analysis.analyze import Analysis as Analysis
 from .analysis.analyze import analyze as analyze
+from .analysis.boxes.box_controllable import box_controllability as box_controllability
+from .analysis.boxes.box_controllable import box_observability as box_observability
+from .analysis.boxes.box_fixed import box_fixed_modes as box_fixed_modes
+from .analysis.boxes.box_fixed import box_stabilizability as box_stabilizability
+from .analysis.boxes.box_stable import box_stability as box_stability
+from .analysis.boxes.largest_box import LargestUncertainty as LargestUncertainty
+from .analysis.boxes.largest_box import largest_uncertainty as largest_uncertainty
+from .analysis.boxes.largest_loop_box import (
+    largest_loop_uncertainty as largest_loop_uncertainty,
+)
 from .analysis.engine.parametric_structure import ParametricCompleteness as ParametricCompleteness
 from .analysis.engine.parametric_structure import ParametricTransferGraph as ParametricTransferGraph
 from .analysis.fixed_modes.assignability import assignability as assignability

@@ -12,6 +12,7 @@ from typing import Any, NoReturn
 
 from mcexact.analysis.questions import QUESTIONS, Question
 from mcexact.answer.account import Account, ShownByAccount
+from mcexact.answer.protocol import Answer
 from mcexact.answer.rules import ANALYSIS, with_own
 from mcexact.answer.sentence import Given, Sentences
 from mcexact.arguments import one_of, several, told
@@ -72,6 +73,7 @@ class Analysis(ShownByAccount):
         self.information = information
         self._arguments: dict[str, Any] = {
             "neighbors": plant.neighbors,
+            "uncertainty": plant.plant.uncertainty,
             "subset": subset,
             "channel": channel,
             "channels": None if channel is None else [channel],
@@ -138,6 +140,11 @@ class Analysis(ShownByAccount):
             raise UsageError(
                 asked.format("messages between neighbors")
                 + ", and this system names no neighbors: add 'neighbors' to the file"
+            )
+        if needed == "uncertainty":
+            raise UsageError(
+                asked.format("every plant within the radii of its entries")
+                + ", and every entry of this system is certain: add 'uncertainty' to the file"
             )
         argument = needed.removesuffix("s")
         meant = {"subset": "a set of channels", "channel": "one channel"}[argument]
@@ -212,13 +219,25 @@ class Analysis(ShownByAccount):
     def _given(self, question: Question) -> tuple[list[Any], dict[str, Any]]:
         """Return what a question is asked about, and the answers to others that it uses."""
         arguments = [getattr(self, question.about)]
-        if question.needs not in {"", "neighbors"}:
+        if question.needs not in {"", "neighbors", "uncertainty"}:
             arguments.append(self._arguments[question.needs])
         reused = {key: self[other] for key, other in question.reuses.items()}
         for key, other in question.shares.items():
             if other in self._asked and not isinstance(self._answer(other), LimitReached):
                 reused[key] = self._answer(other)
         return arguments, reused
+
+    def know(self, name: str, answer: Answer) -> None:
+        """Use an answer that was found elsewhere, about the same system, for a question.
+
+        Raises
+        ------
+        UsageError
+            If there is no such question, or the system lacks something that it needs.
+        """
+        self._require_known(name)
+        self._found[name], self._seconds[name] = answer, 0.0
+        self._asked.add(name)
 
     def decided(self) -> dict[str, Any]:
         """Return the answers to all questions asked, with several answers to one numbered."""

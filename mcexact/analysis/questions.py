@@ -25,9 +25,10 @@ class Question:
     about : {"system", "plant", "lifted", "held"}
         The plant; the system of the agents, which is the plant or the plant with the outputs that
         they receive; or the plant with sub-states shared over links with delays.
-    needs : {"", "neighbors", "subset", "channel", "channels"}
-        What the question needs: a neighbor graph, a set of channels or a channel.  The last three
-        values name the function's second argument; ``channels`` is a list of one channel.
+    needs : {"", "neighbors", "uncertainty", "subset", "channel", "channels"}
+        What the question needs: a neighbor graph, radii of entries, a set of channels or a channel.
+        The last three values name the function's second argument; ``channels`` is a list of one
+        channel.
     unbidden : bool
         Whether it is asked by default; NP-hard and slow questions are not.
     option : str
@@ -229,6 +230,22 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
             )
             for name, file, kind, option, help in _SHARING
             for share, stem in SHARES.items()
+        },
+        **{
+            name: Question(
+                f"boxes.{home}:{name}",
+                f"whether {said} for every plant within the radii of the entries",
+                needs="uncertainty",
+                reuses={"spectrum": "fixed_spectrum"} if home == "box_fixed" else {},
+                kind=home,
+                dual=name == "box_observability",
+            )
+            for name, home, said in (
+                ("box_fixed_modes", "box_fixed", "no mode is fixed"),
+                ("box_stabilizability", "box_fixed", "a controller of its own stabilizes,"),
+                ("box_controllability", "box_controllable", "the channels control every mode,"),
+                ("box_observability", "box_controllable", "the channels observe every mode,"),
+            )
         },
         "minimal_communication": Question(
             "sharing.communication:minimal_communication",

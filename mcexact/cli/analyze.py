@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -65,6 +66,21 @@ def _also(function: Callable[..., int]) -> Callable[..., int]:
     help="Also decide this question, by its name in --json, such as one that is left out of large "
     "systems. May be repeated.",
 )
+@options.uncertainty
+@click.option(
+    "--largest-uncertainty",
+    is_flag=True,
+    help="Search the largest part by which entries may differ such that no plant has a fixed mode, "
+    "and a plant near it that has one.",
+)
+@click.option(
+    "--effort",
+    type=options.seconds,
+    default=10.0,
+    show_default=True,
+    metavar="SECONDS",
+    help="With --largest-uncertainty: about how long to search; the work is counted and not timed.",
+)
 @click.option(
     "--assert",
     "asserted",
@@ -82,6 +98,9 @@ def command(
     subset: str | None,
     channel: str | None,
     named: tuple[str, ...],
+    uncertainty: Fraction | None,
+    largest_uncertainty: bool,
+    effort: float,
     asserted: str | None,
     html: Path | None,
     latex: bool,
@@ -100,6 +119,8 @@ def command(
     from mcexact.cli.running import Run
     from mcexact.model.atomic import write_text
 
+    if largest_uncertainty and uncertainty is not None:
+        raise click.UsageError("--largest-uncertainty searches the part: leave out --uncertainty")
     run = Run(given)
     require_page(html, run.certificates, file)
     also = [option for option in _ALSO if given[option.replace("-", "_")]]
@@ -111,6 +132,7 @@ def command(
         also,
         {"information": information, "subset": _named(subset), "channel": channel},
         named,
+        (uncertainty, effort if largest_uncertainty else None),
         html is not None,
         latex,
         run.system_by_digest,
@@ -170,18 +192,22 @@ def _answer(
     also: list[str],
     question: dict[str, Any],
     named: tuple[str, ...],
+    uncertain: tuple[Fraction | None, float | None],
     with_page: bool,
     with_latex: bool,
     system_by_digest: bool,
 ) -> dict[str, Any]:
     """Decide and format the answer, in the child process."""
     from mcexact.analysis.analyze import analyze
+    from mcexact.cli import uncertainty
     from mcexact.cli.files import system_in
     from mcexact.cli.running import told
     from mcexact.report.account import in_lines, latex, tables
 
-    system = system_in(*plant, limits)
+    system, largest = uncertainty.of(system_in(*plant, limits), *uncertain)
     found = analyze(system, also=[*asked_by(*also), *named], **question)
+    if largest is not None and largest.proof is not None:
+        found.know("box_fixed_modes", largest.proof)
     account = found.account
     page = None
     if with_page:
@@ -189,9 +215,13 @@ def _answer(
 
         page = account_page(account)
     return told(account, system_by_digest) | {
-        "json": found.to_dict(),
-        "words": in_lines(account.sentences, _LINES_OF_WORDS),
-        "tables": (*tables(account.sentences, most_modes=_MODES), *_effort(found.effort())),
+        "json": found.to_dict() | uncertainty.view(largest),
+        "words": uncertainty.lead(account) + in_lines(account.sentences, _LINES_OF_WORDS),
+        "tables": (
+            *uncertainty.tables(largest),
+            *tables(account.sentences, most_modes=_MODES),
+            *_effort(found.effort()),
+        ),
         "latex": latex(account) if with_latex else "",
         "page": page,
     }

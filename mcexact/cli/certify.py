@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import click
@@ -42,7 +43,16 @@ rounded_output = click.option(
     "--round-gains",
     type=click.IntRange(min=1, max=1000),
     metavar="DIGITS",
-    help="Certify the controller with every entry rounded to this many significant digits.",
+    help="Certify the controller with every entry rounded to this many significant digits, and say "
+    "how many digits are safe, whichever way they are rounded.",
+)
+@options.uncertainty
+@click.option(
+    "--gains",
+    type=options.part,
+    metavar="PART",
+    help="Also decide about every controller whose entries differ by at most this part of their "
+    "moduli, such as 1%.",
 )
 @aiming.weights
 @rounded_output
@@ -112,6 +122,7 @@ def _certified(
 ) -> dict[str, Any]:
     """Decide and format the answer, in the child process."""
     from mcexact.answer.formats import count
+    from mcexact.cli import uncertainty
     from mcexact.cli.assessing import assessed
     from mcexact.cli.files import system_in
     from mcexact.cli.running import told
@@ -130,10 +141,11 @@ def _certified(
     from mcexact.synthesis.loop_assessment import assessed_loop
     from mcexact.synthesis.optimum.loop_figures import rounded_controller
 
-    system = system_in(*plant, limits)
+    part, gains = wanted.pop("uncertainty"), wanted.pop("gains")
+    system, _ = uncertainty.of(system_in(*plant, limits), part, None)
     with InputError.inside(program[0]):
         controller = read_controller(program[1], Limits(**limits))
-        digits, notes = wanted.pop("round_gains"), tuple[str, ...]()
+        digits, notes, typed = wanted.pop("round_gains"), tuple[str, ...](), controller
         if digits is not None:
             controller = rounded_controller(controller, digits)
             notes = (f"the verdict is about the controller rounded to {count(digits, 'digit')}",)
@@ -149,8 +161,12 @@ def _certified(
             loop, found.region, certified=found.stable, weights=weighed, notes=notes
         )
     account = account_of_verdict(found, largest=wanted["largest"])
+    loops = uncertainty.loops(system, controller, found, gains)
+    account = replace(account, answers={**account.answers, **loops.answers})
+    if digits is not None:
+        loops = loops.with_digits(uncertainty.digits_of(system, typed, found, digits))
     figures = Table(BASIS, (), tuple(assessment.rows()))
-    shown = (*tables(account.sentences), figures)
+    shown = (*loops.tables(), *tables(account.sentences), figures)
     bound = None if found.bound is None else str(found.bound)
     return (
         told(account, system_by_digest)
@@ -167,6 +183,7 @@ def _certified(
                 warnings=list(controller.warnings_for(system)),
                 rounded_to_digits=digits,
                 eigenvalue_outside=None if outside is None else outside.to_dict(),
+                **loops.view,
                 assessment=assessment.to_dict(),
             ),
             "controller": controller_text(controller),

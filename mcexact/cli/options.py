@@ -29,6 +29,22 @@ def rational(text: str) -> Fraction:
         raise click.BadParameter(error.message) from None
 
 
+def part(text: str) -> Fraction:
+    """Parse a part of something, as a number from 0 on or as a percentage.
+
+    Examples
+    --------
+    >>> part("0.1%"), part("1/50")
+    (Fraction(1, 1000), Fraction(1, 50))
+    """
+    found = rational(text.removesuffix("%").rstrip())
+    if found < 0:
+        raise click.BadParameter(
+            f"expected a part from 0 on, such as 0.1% or 1/1000, found '{text}'"
+        )
+    return found / 100 if text.endswith("%") else found
+
+
 def count(text: str) -> int:
     """Parse an integer that is written in digits alone; other texts raise a ValueError."""
     if not (text.isascii() and text.isdigit()):
@@ -55,6 +71,14 @@ rate = click.option(
 
 radius = click.option(
     "--radius", type=rational, help="In discrete time: every modulus is below RADIUS."
+)
+
+uncertainty = click.option(
+    "--uncertainty",
+    type=part,
+    metavar="PART",
+    help="Also decide about every plant whose entries differ by at most this part of their moduli, "
+    "such as 0.1% or 1/1000. It replaces the uncertainty that the file gives.",
 )
 
 arithmetic = click.option(

@@ -229,8 +229,10 @@ class Controller(Shown):
         A controller can run on every plant with the same shapes, but it was designed for one of
         them.
         """
-        found = digest(system)
-        if self.system in ("", found):
+        found, plant = digest(system), system.plant
+        # A controller for the nominal values is one for the box around them.
+        nominal = found if plant.uncertainty is None else digest(plant.with_uncertainty(None))
+        if self.system in ("", found, nominal):
             return ()
         return (
             f"the controller was made for another plant, of digest {self.system[:12]}…, "

@@ -150,6 +150,71 @@ class ClosedLoop:
         return result
 
 
+class LoopPencil(ClosedLoop):
+    """The matrix Z0 of the pencil λE − Z0 of a closed loop whose y_j and u_j are signals, too.
+
+    In the order of the loop's state, then of all y_j, then of all u_j, and without delays,
+
+        Z0 = [A, 0, 0, B; 0, L_z, L_y, 0; C, 0, −I, 0; 0, K_z, K_y, −I],   E = diag(I, I, 0, 0).
+
+    Every entry of the plant and of the controller is in one place, and is multiplied by no other.
+    """
+
+    @cached_property
+    def blocks(self) -> Mapping[tuple[str, int, int], tuple[int, int]]:
+        """Those of the loop, and then ("y_", j, 0) and ("u_", j, 0)."""
+        found = dict(super().blocks)
+        position = sum(size for _, size in found.values())
+        signals = [("y_", j, self.given.q(j)) for j in range(self.given.m)]
+        signals += [("u_", j, self.given.p(j)) for j in range(self.given.m)]
+        for kind, j, size in signals:
+            found[kind, j, 0] = (position, size)
+            position += size
+        return found
+
+    @property
+    def states(self) -> int:
+        """The dimension of the loop's state."""
+        m = self.given.m
+        return self.dimension - sum(self.given.p(j) + self.given.q(j) for j in range(m))
+
+    def pick(self, kind: str, j: int = 0, delta: int = 0) -> Matrix:
+        """Return the rows that select a block."""
+        start, size = self.blocks[kind, j, delta]
+        before, after = Matrix.zeros(size, start), self.dimension - start - size
+        return hstack([before, Matrix.identity(size), Matrix.zeros(size, after)])
+
+    @cached_property
+    def matrix(self) -> Matrix:
+        """Z0."""
+        return self.with_entries(self.given, self.controller, 1)
+
+    def with_entries(self, plant: MultiChannelSystem, controller: Controller, one: int) -> Matrix:
+        """Put the entries of another plant and controller of the same shapes into the places of Z0.
+
+        Parameters
+        ----------
+        plant : MultiChannelSystem
+        controller : Controller
+        one : int
+            What stands for 1 in identities: 0 with radii, as these are certain.
+        """
+        agents, m = controller.agents, self.given.m
+        rows = [plant.A @ self.pick("x")]
+        for j in range(m):
+            rows[0] = rows[0] + plant.B(j) @ self.pick("u_", j)
+        for i, agent in enumerate(agents):
+            rows.append(self.rows(agent.shared_update, i, agent.shared))
+            rows.append(self.rows(agent.private_update, i, agent.private))
+        for j, (b, a) in enumerate(self.oldest):
+            rows += [self.pick("x_", j, delta) * one for delta in range(b)]
+            rows += [self.pick("y_", j, delta) * one for delta in range(a)]
+        rows += [plant.C(j) @ self.pick("x") - self.pick("y_", j) * one for j in range(m)]
+        for i, agent in enumerate(agents):
+            rows.append(self.rows(agent.input, i, plant.p(i)) - self.pick("u_", i) * one)
+        return vstack(rows, ncols=self.dimension)
+
+
 def closed_loop(
     system: MultiChannelSystem, controller: Controller, graph: NeighborGraph | None = None
 ) -> ClosedLoop:

@@ -10,6 +10,7 @@ from mcexact.answer.schema import Schema, kinds, view_schema
 from mcexact.report.file_schemas import agents, sweep_record
 from mcexact.report.schema_terms import (
     FLOAT,
+    NUMBER,
     TEXT,
     TIME,
     WHOLE,
@@ -112,14 +113,31 @@ def certify() -> Schema:
             "rounded_to_digits": some(WHOLE),
             "eigenvalue_outside": some(record({"re": TEXT, "im": TEXT, "radius": TEXT})),
             "assessment": ASSESSMENT,
-        }
+        },
+        {
+            "every_loop": record({"certified": YES, "region": TEXT}),
+            "safe_digits": record({"safe": some(WHOLE), "too_few": some(WHOLE)}),
+        },
     )
 
 
 def analyze() -> Schema:
     """The JSON of `mcexact analyze`."""
     question = record({"question": TEXT, "outcome": TEXT, "seconds": some(FLOAT)}, {"reason": TEXT})
-    return _account({"information": {"enum": ["own", "outputs"]}, "questions": rows(question)})
+    largest = record(
+        {
+            "property": TEXT,
+            "relative": YES,
+            "lower": NUMBER,
+            "upper": some(TEXT),
+            "failing": some({"type": "object"}),
+            "channels": some(rows(TEXT)),
+        }
+    )
+    return _account(
+        {"information": {"enum": ["own", "outputs"]}, "questions": rows(question)},
+        {"largest_uncertainty": largest},
+    )
 
 
 def simulate() -> Schema:

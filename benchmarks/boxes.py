@@ -1,0 +1,208 @@
+"""What is proved for every plant in a box, of published plants, and how long it takes.
+
+Run as ``python -m benchmarks.boxes [PART …] [FOLDER]``, with a folder of further system files.
+Parts are
+
+``members``   at 0.1 % of every entry: no fixed mode for any member, or stabilizable, for each plant
+``largest``   the largest proved part, and a plant that fails, for each plant
+``drawn``     members of proved boxes, decided exactly, and boxes with a planted fixed mode
+``size``      how the time of the checker grows with the number of states
+
+Writes rows to the standard output.  Seconds are those of the processor.
+"""
+
+from __future__ import annotations
+
+import os
+import random
+import statistics
+import sys
+import time
+from collections.abc import Callable
+from fractions import Fraction
+from functools import partial
+from pathlib import Path
+from typing import Any, TypeVar
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+import numpy as np
+
+from mcexact import (
+    Box,
+    MultiChannelSystem,
+    box_fixed_modes,
+    box_stabilizability,
+    check,
+    fixed_spectrum,
+    gallery,
+    largest_uncertainty,
+    load_system,
+)
+from mcexact.answer.codec import encode
+from mcexact.derived.drawn.choices import SeededChoices
+from mcexact.derived.drawn.systems import system_with_fixed_mode
+from mcexact.errors import LimitReached
+
+T = TypeVar("T")
+
+PART = Fraction(1, 1000)
+_MOST_STATES = 30
+_SMALL = 12
+_EFFORT = 30.0
+
+
+def main(arguments: list[str]) -> None:
+    """Measure the parts asked for, by default all."""
+    folders = [each for each in arguments if Path(each).is_dir()]
+    asked = [each for each in arguments if each not in folders] or list(PARTS)
+    plants = {name: gallery(name) for name in gallery()}
+    for folder in folders:
+        for file in sorted(Path(folder).glob("*.json")):
+            plants[file.stem] = load_system(file)
+    for name in asked:
+        PARTS[name](plants)
+
+
+def timed(work: Callable[[], T]) -> tuple[T | None, float]:
+    """A result and its seconds; None if no proof was found."""
+    began = time.process_time()
+    try:
+        found = work()
+    except LimitReached:
+        found = None
+    return found, time.process_time() - began
+
+
+def members(plants: dict[str, MultiChannelSystem]) -> None:
+    """Print for each plant what is proved at 0.1 %, or why nothing can be."""
+    counts = {"no fixed mode": 0, "stabilizable": 0, "neither": 0}
+    print("plant | n | m | proved for every member | seconds to find | seconds to check")
+    for name, plant in plants.items():
+        if plant.n > _MOST_STATES:
+            continue
+        system = Box.relative(plant, PART).system
+        spectrum = fixed_spectrum(plant)
+        proof, seconds = timed(partial(box_fixed_modes, system, spectrum=spectrum))
+        told = "no fixed mode"
+        if proof is None:
+            proof, more = timed(partial(box_stabilizability, system, spectrum=spectrum))
+            seconds, told = seconds + more, "stabilizable"
+        checking = 0.0
+        if proof is None:
+            told = "neither" if spectrum.stabilizable else "neither: the plant itself fails"
+        else:
+            verdict, checking = timed(partial(check, proof))
+            told = told if verdict is not None and verdict.valid else "REJECTED"
+        counts[told.partition(":")[0]] += 1
+        print(
+            f"{name} | {plant.n} | {plant.m} | {told} | {seconds:.2f} | {checking:.3f}", flush=True
+        )
+    print(counts)
+
+
+def largest(plants: dict[str, MultiChannelSystem]) -> None:
+    """Print for each plant the two ends of the largest uncertainty."""
+    ratios = []
+    print("plant | n | proved | fails within | ratio | seconds to find | seconds to check")
+    for name, plant in plants.items():
+        if not 0 < plant.n <= _SMALL:
+            continue
+        found, seconds = timed(partial(largest_uncertainty, plant, effort=_EFFORT))
+        if found is None:
+            continue
+        checking, ratio = 0.0, ""
+        if found.proof is not None:
+            verdict, checking = timed(partial(check, found.proof))
+            if verdict is None or not verdict.valid:
+                print(f"{name}: REJECTED")
+        if found.upper and found.lower:
+            ratios.append(float(found.upper / found.lower))
+            ratio = f"{ratios[-1]:.2f}"
+        upper = "–" if found.upper is None else f"{float(found.upper):.3g}"
+        print(
+            f"{name} | {plant.n} | {float(found.lower):.3g} | {upper} | {ratio} | {seconds:.1f} | "
+            f"{checking:.3f}",
+            flush=True,
+        )
+    print(f"median ratio {statistics.median(ratios):.2f} of {len(ratios)}")
+
+
+def drawn(plants: dict[str, MultiChannelSystem], count: int = 10_000) -> None:
+    """Decide drawn members of proved boxes exactly, and look for proofs about planted ones."""
+    proved = []
+    for plant in plants.values():
+        if not 0 < plant.n <= _SMALL:
+            continue
+        for part in (PART, Fraction(1, 20)):
+            box = Box.relative(plant, part)
+            proof, _ = timed(partial(box_fixed_modes, box.system))
+            if proof is not None:
+                proved.append(box)
+    rng, contradicted = random.Random(0), 0
+    for k in range(count):
+        member = proved[k % len(proved)].member(rng, vertex=k % 3 == 0)
+        contradicted += not fixed_spectrum(member).empty
+    print(f"{count} members of {len(proved)} proved boxes: {contradicted} have a fixed mode")
+    certified = 0
+    for k in range(count // 20):
+        planted = system_with_fixed_mode(SeededChoices(k), 4, 2).system
+        inner = Box.relative(planted, Fraction(1, 50))
+        proof, _ = timed(
+            lambda inner=inner: box_fixed_modes(Box(inner.member(rng), inner.radii).system)
+        )
+        certified += proof is not None
+    print(f"{count // 20} boxes with a planted member: {certified} certified")
+
+
+def size(plants: dict[str, MultiChannelSystem]) -> None:
+    """Print how long finding and checking take for rings of coupled subsystems."""
+    print("n | m | part | seconds to find | seconds to check | squares | bytes")
+    for n, m, part in ((5, 1, 1e-3), (20, 5, 1e-4), (60, 10, 1e-5), (200, 20, 1e-6)):
+        system = Box.relative(ring(n, m), Fraction(str(part))).system
+        proof, seconds = timed(partial(box_fixed_modes, system, starts=1))
+        if proof is None:
+            print(f"{n} | {m} | {part:g} | no proof in {seconds:.1f}", flush=True)
+            continue
+        verdict, checking = timed(partial(check, proof))
+        told = "?" if verdict is None else verdict.verdict
+        squares = sum(map(len, proof.cover))
+        print(
+            f"{n} | {m} | {part:g} | {seconds:.2f} | {checking:.2f} {told} | {squares} | "
+            f"{len(encode(proof))}",
+            flush=True,
+        )
+
+
+def ring(n: int, m: int) -> MultiChannelSystem:
+    """Subsystems in a ring, each coupled to its two neighbors, with entries of three decimals."""
+    rng, k = np.random.default_rng(1), n // m
+    A = np.zeros((n, n))
+    B, C = [], []
+    for i in range(m):
+        own = slice(i * k, (i + 1) * k)
+        A[own, own] = rng.standard_normal((k, k))
+        for j in {(i + 1) % m, (i - 1) % m} - {i}:
+            A[own, j * k : (j + 1) * k] += 0.3 * rng.standard_normal((k, k))
+        b, c = np.zeros((n, 1)), np.zeros((1, n))
+        b[own, 0], c[0, own] = rng.standard_normal(k), rng.standard_normal(k)
+        B.append(b)
+        C.append(c)
+
+    def rounded(M: Any) -> Any:
+        return np.round(M, 3)
+
+    return MultiChannelSystem.from_float(
+        rounded(A), [rounded(b) for b in B], [rounded(c) for c in C], rounding="decimal"
+    )
+
+
+PARTS: dict[str, Callable[[dict[str, MultiChannelSystem]], None]] = {
+    "members": members,
+    "largest": largest,
+    "drawn": drawn,
+    "size": size,
+}
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

@@ -1,0 +1,272 @@
+"""Whether a plant in a box has a fixed mode, by gains of its own for each part of the plane."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from mcexact.analysis.boxes.cover import Cover, Outside
+from mcexact.analysis.boxes.exterior import exterior
+from mcexact.analysis.boxes.float_pencils import FloatBox, Pencil, gain_pencil
+from mcexact.analysis.boxes.gain_search import best_gains, exact_gains
+from mcexact.analysis.boxes.one_thread import one_thread
+from mcexact.analysis.boxes.radii import radii_of
+from mcexact.analysis.boxes.regular_discs import Frames, Point
+from mcexact.answer.box_fixed import BoxFixedModes, PencilFrame, PencilGains
+from mcexact.answer.evidence import ExteriorDiscs
+from mcexact.answer.fixed_spectrum import FixedSpectrum
+from mcexact.errors import LimitReached
+from mcexact.exact.floats import to_float
+from mcexact.exact.location import StabilityRegion
+from mcexact.model.system import MultiChannelSystem
+from mcexact.model.uncertainty import Radii
+
+_MOST_SQUARES = 3000
+_NEAREST = 4
+_OWN_GAINS_AT = (3, 6, 10, 15)
+"""A square that fails at one of these depths gets gains of its own."""
+_MOST_OWN = 12
+_NEVER_ENOUGH = 1e30
+_REUSED = 8.0
+"""Gains that suffice for so many times the radii at a mode are used there again."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Known:
+    """Gains that were found at a point, with their pencil; None stands for λI − A."""
+
+    point: complex
+    gains: PencilGains | None
+    pencil: Pencil
+
+
+@dataclass
+class FixedModeSearch:
+    """The search for evidence about one system, which keeps its gains for other radii.
+
+    Attributes
+    ----------
+    system : MultiChannelSystem
+    radii : Radii
+    starts : int
+        How many local searches for gains there are at most at a point.
+    most_squares : int
+        The most discs and squares of a cover.
+    tested : int
+        How many were tested so far.
+    """
+
+    system: MultiChannelSystem
+    radii: Radii
+    starts: int = 4
+    most_squares: int = _MOST_SQUARES
+    known: list[_Known] = field(default_factory=list)
+    rng: np.random.Generator = field(default_factory=lambda: np.random.default_rng(0))
+    tested: int = 0
+
+    def __post_init__(self) -> None:
+        self.box = FloatBox.of(self.system, self.radii)
+        self.alone = _Known(0j, None, self._pencil(None))
+
+    def _pencil(self, gains: PencilGains | None) -> Pencil:
+        X, W = (None, None) if gains is None else (gains.X, gains.W)
+        return gain_pencil(self.system, self.radii, self.box.scale, X, W)
+
+    def learn(self, point: complex, growth: float) -> float:
+        """Search gains for a point, and return how far the radii can grow there with them."""
+        best = best_gains(self.box, point, self.rng, starts=self.starts, target=growth)
+        if best is None:
+            return 0.0
+        gains = PencilGains(*exact_gains(best[1]))
+        self.known.append(_Known(point, gains, self._pencil(gains)))
+        return self.known[-1].pencil.margin(point)
+
+    def prepare(self, growth: float, outside: Outside) -> float:
+        """Learn gains for all modes, and return how far the radii can grow at each of them."""
+        least = np.inf
+        for mode in self.box.modes():
+            # A mode well inside of the region is left out, as its disc will be.
+            if outside.covers(mode):
+                continue
+            best = max((each.pencil.margin(mode) for each in self.known), default=0.0)
+            if best <= _REUSED * growth:
+                best = max(best, self.learn(mode, growth))
+            least = min(least, best)
+        return float(least)
+
+    def improve(self, outside: Outside, rounds: int) -> float:
+        """Search more gains where the radii can grow least, and return how far they can grow."""
+        least = 0.0
+        for k in range(rounds + 1):
+            modes = [mode for mode in self.box.modes() if not outside.covers(mode)]
+            best = [(max(e.pencil.margin(mode) for e in self.known), mode) for mode in modes]
+            if not best or not self.known:
+                return np.inf
+            least, mode = min(best, key=lambda each: each[0])
+            if k < rounds:
+                self.learn(mode, _NEVER_ENOUGH)
+        return float(least)
+
+    def cover(self, growth: Fraction, bound: Fraction | None) -> BoxFixedModes | None:
+        """Evidence for radii that are multiplied by a factor; None if there is none.
+
+        The answer is about the radii of the system: with another factor it is a witness only.
+        """
+        radii = self.radii
+        found = exterior(self.box, self.system.A, radii.A, self.rng, growth)
+        if found is None:
+            return None
+        leaves = _Leaves(self, growth)
+        cover = Cover(leaves.test, Outside(self.system.time, bound), self.most_squares)
+        trees = cover.of(found.discs)
+        self.tested += cover.tested
+        if trees is None:
+            return None
+        gains = list(dict.fromkeys(g for g in leaves.gains if g is not None))
+        frames = tuple(
+            PencilFrame(None if g is None else gains.index(g), V.evidence(), w)
+            for g, (V, w) in zip(leaves.gains, leaves.frames.evidence, strict=True)
+        )
+        discs = ExteriorDiscs(found.Y.evidence(), found.T.evidence(), found.discs)
+        return BoxFixedModes(self.system, bound, discs, tuple(gains), frames, trees)
+
+
+@dataclass
+class _Leaves:
+    """The tests of discs for one factor of the radii, and the evidence that passed them."""
+
+    search: FixedModeSearch
+    growth: Fraction
+    frames: Frames = field(default_factory=Frames)
+    gains: list[PencilGains | None] = field(default_factory=list)
+    own: int = 0
+
+    def test(self, c: Point, rho: Fraction, depth: int) -> int | None:
+        """The position of a frame that shows a disc to be free of fixed modes."""
+        k = self.frames.one_for(c, rho)
+        if k is not None:
+            return k
+        near = complex(to_float(c[0]), to_float(c[1]))
+        size = to_float(rho)
+        ranked = sorted(self.search.known, key=lambda each: _distance(each.point, near))
+        for each in [*ranked[:_NEAREST], self.search.alone]:
+            k = self._made(each, c, near, rho, size)
+            if k is not None:
+                return k
+        if depth in _OWN_GAINS_AT and self.own < _MOST_OWN:
+            self.own += 1
+            if self.search.learn(near, 2 * float(self.growth)) > float(self.growth):
+                return self._made(self.search.known[-1], c, near, rho, size)
+        return None
+
+    def _made(
+        self, each: _Known, c: Point, near: complex, rho: Fraction, size: float
+    ) -> int | None:
+        proposed = each.pencil.proposal(near, size, self.growth)
+        k = None if proposed is None else self.frames.added(proposed, c, rho)
+        if k is not None:
+            self.gains.append(each.gains)
+        return k
+
+
+def _distance(point: complex, near: complex) -> float:
+    return min(abs(point - near), abs(point.conjugate() - near))
+
+
+def box_fixed_modes(
+    system: MultiChannelSystem,
+    *,
+    bound: Any = None,
+    starts: int = 4,
+    spectrum: FixedSpectrum | None = None,
+) -> BoxFixedModes:
+    """Prove that no plant in a box has a fixed mode, or none outside of a region.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        A plant with radii, such as ``Box.relative(plant, "1/1000").system``, or a system that
+        constructions made from one.
+    bound : rational, optional
+        A rate from 0 on, or a radius up to 1: fixed modes inside of this region are allowed.
+    starts : int
+        How many local searches for gains there are at most at a point.
+    spectrum : FixedSpectrum, optional
+        The fixed modes of the nominal plant, if they are known: with one of them no proof is
+        searched.
+
+    Raises
+    ------
+    LimitReached
+        If no proof was found, which proves nothing.
+
+    Notes
+    -----
+    Proposed in floating point, and tested exactly: one square after the other, in integers.  The
+    gains with which a mode is moved are searched for each part of the plane.
+
+    Examples
+    --------
+    >>> from mcexact import Box
+    >>> plant = MultiChannelSystem([[0, 1], [-2, -3]], [[[0], [1]]], [[[1, 0]]])
+    >>> box_fixed_modes(Box.relative(plant, "1/100").system).bound is None
+    True
+    >>> box_fixed_modes(Box.absolute(plant, B=[[[0], [1]]]).system)
+    Traceback (most recent call last):
+        ...
+    mcexact.errors.LimitReached: no proof was found that no plant in the box has a fixed mode
+    """
+    limit = None if bound is None else StabilityRegion.of(system.time, bound=bound).edge
+    if spectrum is not None:
+        _require_moved(spectrum, limit)
+    with one_thread():
+        search = FixedModeSearch(system, radii_of(system), starts)
+        least = search.prepare(1.0, Outside(system.time, limit))
+        found = search.cover(Fraction(1), limit) if least > 1 else None
+    if found is None:
+        where = "" if limit is None else " outside of the region"
+        raise LimitReached(f"no proof was found that no plant in the box has a fixed mode{where}")
+    return found
+
+
+def _require_moved(spectrum: FixedSpectrum, limit: Fraction | None) -> None:
+    """End the search if the nominal plant itself fails."""
+    if limit is None and not spectrum.empty:
+        raise LimitReached("the plant itself has a fixed mode, at its nominal values")
+    if limit is not None and not spectrum.stabilizable:
+        raise LimitReached("the plant itself is not stabilizable, at its nominal values")
+
+
+def box_stabilizability(
+    system: MultiChannelSystem, *, spectrum: FixedSpectrum | None = None
+) -> BoxFixedModes:
+    """Prove that each plant in a box is stabilized by a decentralized controller of its own.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    spectrum : FixedSpectrum, optional
+        As for `box_fixed_modes`.
+
+    Raises
+    ------
+    LimitReached
+        If no proof was found, which proves nothing.
+
+    Notes
+    -----
+    No member has a fixed mode in the closed right half-plane, or of modulus 1 or more.  One
+    controller for all members is a matter of `box_stability`.
+
+    Examples
+    --------
+    >>> from mcexact import Box
+    >>> plant = MultiChannelSystem([[1, 0], [0, -2]], [[[1], [0]]], [[[1, 0]]])
+    >>> box_stabilizability(Box.relative(plant, "1/100").system).bound
+    Fraction(0, 1)
+    """
+    edge = StabilityRegion(system.time).edge
+    return box_fixed_modes(system, bound=edge, spectrum=spectrum)

@@ -1,0 +1,340 @@
+"""Whether a controller keeps every plant in a box stable: no eigenvalue crosses the border.
+
+The nominal loop is stable, the box is connected, and the loop's pencil is regular for every member
+along the whole border of the region.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from math import lcm
+from typing import Any
+
+import numpy as np
+
+from mcexact.analysis.boxes.float_pencils import Pencil, perron
+from mcexact.analysis.boxes.one_thread import one_thread
+from mcexact.analysis.boxes.regular_discs import Frames, Point, modulus_above, whole_weights
+from mcexact.analysis.stability.stability import certify_stability
+from mcexact.answer.box_stable import BoxStability
+from mcexact.answer.evidence import InverseFrame
+from mcexact.answer.stability import LyapunovMethod, PolynomialMethod
+from mcexact.errors import InternalError, LimitReached
+from mcexact.exact.floats import matrix_to_float, to_float
+from mcexact.exact.location import StabilityRegion
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.rational import as_fraction
+from mcexact.model.box import Box
+from mcexact.model.controller import AgentProgram, Controller, LinearMap
+from mcexact.model.loop import ClosedLoop, LoopPencil, closed_loop
+from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem
+from mcexact.model.uncertainty import moduli
+
+_MOST_SEGMENTS = 4000
+_SHORTEST = Fraction(1, 10**12)
+"""The part of the whole border below which a segment is not cut again."""
+
+
+def with_gains(controller: Controller, of: Callable[[Matrix], Matrix]) -> Controller:
+    """The controller with a function of each matrix of gains in its place, without set-points."""
+
+    def made(each: LinearMap) -> LinearMap:
+        return LinearMap(
+            {j: of(M) for j, M in each.outputs.items()},
+            {j: of(M) for j, M in each.shared.items()},
+            None if each.private is None else of(each.private),
+        ).without_zeros()
+
+    def program(agent: AgentProgram) -> AgentProgram:
+        first, second, third = map(made, agent.maps())
+        return replace(agent, shared_update=first, private_update=second, input=third)
+
+    return replace(controller, agents=tuple(map(program, controller.agents)))
+
+
+def gain_radii(controller: Controller, part: Any) -> Controller:
+    """The radii of all entries of a controller that are a part of their moduli, as a controller.
+
+    Examples
+    --------
+    >>> from mcexact.model.local_controllers import local_controllers
+    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    >>> [agent] = gain_radii(local_controllers(plant, [[[-3]]]), "1/100").agents
+    >>> agent.input.outputs[0][0, 0]
+    Fraction(3, 100)
+    """
+    factor = as_fraction(part, where="gains")
+    return with_gains(controller, lambda M: moduli(M) * factor)
+
+
+def digit_radii(controller: Controller, digits: int) -> Controller:
+    """The radii by which rounding to significant digits moves the entries of a controller at most.
+
+    Examples
+    --------
+    >>> from mcexact.model.local_controllers import local_controllers
+    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    >>> [agent] = digit_radii(local_controllers(plant, [[["-31.4"]]]), 2).agents
+    >>> agent.input.outputs[0][0, 0]
+    Fraction(1, 2)
+    """
+
+    def half_units(M: Matrix) -> Matrix:
+        entries = (
+            (i, j, _half_unit(abs(Fraction(x, M.denominator)), digits)) for i, j, x in M.nonzero()
+        )
+        return Matrix.from_entries(M.shape, entries)
+
+    return with_gains(controller, half_units)
+
+
+def _half_unit(x: Fraction, digits: int) -> Fraction:
+    """Half a unit of a significant digit of a number above 0."""
+    bits = x.numerator.bit_length() - x.denominator.bit_length()
+    e = int(bits * 0.30103)
+    while Fraction(10) ** e > x:
+        e -= 1
+    while Fraction(10) ** (e + 1) <= x:
+        e += 1
+    return Fraction(10) ** (e - digits + 1) / 2
+
+
+@dataclass
+class StabilitySearch:
+    """The search for evidence about one loop, for several factors of all radii.
+
+    Attributes
+    ----------
+    loop : ClosedLoop
+        Of a plant, whose radii are those of the box.
+    region : StabilityRegion
+    radii : Controller or None
+        The radii of the gains, as a controller; None if they are certain.
+    """
+
+    loop: ClosedLoop
+    region: StabilityRegion
+    radii: Controller | None = None
+
+    def __post_init__(self) -> None:
+        from scipy.linalg import matrix_balance
+
+        box = Box(self.loop.given)
+        signals = LoopPencil(self.loop.given, self.loop.controller, self.loop.graph)
+        spread = box.radii
+        plant = MultiChannelSystem(spread.A, spread.B, spread.C, time=self.loop.given.time)
+        gains = self.radii or gain_radii(self.loop.controller, 0)
+        D = signals.with_entries(plant, gains, 0)
+        Z0 = signals.matrix
+        _, (s, _) = matrix_balance(matrix_to_float(Z0), permute=False, separate=True)
+        self.pencil = Pencil(Z0, D, signals.states, s)
+
+    def margins(self) -> list[tuple[float, complex]]:
+        """About how far the radii can grow at points of the border, the least first.
+
+        The least is an upper limit of what can be proved, and itself proves nothing.
+        """
+        Z0, _, _ = self.pencil.balanced
+        N, edge = self.pencil.n, to_float(self.region.edge)
+        S = Z0[N:, N:]
+        M = Z0[:N, :N] - Z0[:N, N:] @ np.linalg.solve(S, Z0[N:, :N]) if len(S) else Z0[:N, :N]
+        values = np.linalg.eigvals(M)
+        if self.region.discrete:
+            angles = np.concatenate([np.abs(np.angle(values)), np.linspace(0, np.pi, 100)])
+            points = [edge * np.exp(1j * angle) for angle in angles]
+        else:
+            top = max(np.abs(values).max(initial=1e-6), 1e-12)
+            spread = np.geomspace(
+                max(np.abs(values).min(initial=top), 1e-6 * top) / 10, 10 * top, 100
+            )
+            heights = np.concatenate([[0.0], np.abs(values), np.abs(values.imag), spread])
+            points = [complex(-edge, height) for height in heights]
+        margins = ((self.pencil.margin(complex(point)), complex(point)) for point in points)
+        return sorted(margins, key=lambda each: each[0])
+
+    def border(self, growth: Fraction) -> BoxStability | None:
+        """Evidence for radii that are multiplied by a factor; None if there is none."""
+        nominal = certify_stability(self.loop.system, self.region)
+        if not nominal.stable:
+            return None
+        evidence = nominal.evidence
+        if not isinstance(evidence, (PolynomialMethod, LyapunovMethod)):
+            raise InternalError("a stable loop has another proof than its own two")
+        far = None if self.region.discrete else _growth(self.pencil, growth)
+        if far is None and not self.region.discrete:
+            return None
+        frames = Frames()
+        segment, last = _arc(self.region.edge), Fraction(2)
+        if far is not None:
+            segment, last = _interval(self.region.edge), far[0]
+
+        def test(a: Fraction, b: Fraction) -> int | None:
+            c, rho = segment(a, b)
+            k = frames.one_for(c, rho)
+            if k is not None:
+                return k
+            near = complex(to_float(c[0]), to_float(c[1]))
+            proposed = self.pencil.proposal(near, to_float(rho), growth)
+            return None if proposed is None else frames.added(proposed, c, rho)
+
+        found = _segments(test, last)
+        if found is None:
+            return None
+        ends = [b for _, b, _ in found]
+        points = ends if far is not None else [_tangent(b) for b in ends[:-1]]
+        return BoxStability(
+            self._about(growth),
+            self.region.bound,
+            None if self.radii is None else _scaled(self.radii, growth).document(),
+            evidence,
+            tuple(points),
+            None if far is None else far[1],
+            tuple(k for _, _, k in found),
+            tuple(InverseFrame(V.evidence(), w) for V, w in frames.evidence),
+        )
+
+    def _about(self, growth: Fraction) -> MultiChannelSystem:
+        """The loop of the box whose radii are multiplied by a factor."""
+        if growth == 1:
+            return self.loop.system
+        return replace(self.loop, given=Box(self.loop.given).scaled(growth).system).system
+
+
+def _scaled(radii: Controller, growth: Fraction) -> Controller:
+    return radii if growth == 1 else gain_radii(radii, growth)
+
+
+def _segments(
+    test: Callable[[Fraction, Fraction], int | None], last: Fraction
+) -> list[tuple[Fraction, Fraction, int]] | None:
+    """Cut [0, last] into intervals that pass a test, each with what the test returns."""
+    left = [(Fraction(0), last)]
+    found: list[tuple[Fraction, Fraction, int]] = []
+    tested = 0
+    while left:
+        a, b = left.pop()
+        tested += 1
+        k = test(a, b)
+        if k is not None:
+            found.append((a, b, k))
+            continue
+        if tested > _MOST_SEGMENTS or b - a < _SHORTEST * last:
+            return None
+        middle = b / 4 if a == 0 and b > 4 else (a + b) / 2 if b < 4 * a or a == 0 else 2 * a
+        left += [(middle, b), (a, middle)]
+    return found
+
+
+def _interval(rate: Fraction) -> Callable[[Fraction, Fraction], tuple[Point, Fraction]]:
+    """The disc whose diameter is the segment from a to b of the line Re λ = −rate."""
+    return lambda a, b: ((-rate, (a + b) / 2), (b - a) / 2)
+
+
+def _arc(radius: Fraction) -> Callable[[Fraction, Fraction], tuple[Point, Fraction]]:
+    """The disc whose diameter is the chord between two points of the upper half circle."""
+
+    def point(a: Fraction) -> Point:
+        if a == 2:
+            return -radius, Fraction(0)
+        t = _tangent(a)
+        return radius * (1 - t * t) / (1 + t * t), radius * 2 * t / (1 + t * t)
+
+    def disc(a: Fraction, b: Fraction) -> tuple[Point, Fraction]:
+        p, q = point(a), point(b)
+        x, y = (p[0] - q[0]) / 2, (p[1] - q[1]) / 2
+        d = lcm(x.denominator, y.denominator) << 32
+        size = Fraction(modulus_above(int(x * d), int(y * d)), d)
+        return ((p[0] + q[0]) / 2, (p[1] + q[1]) / 2), size
+
+    return disc
+
+
+def _tangent(a: Fraction) -> Fraction:
+    """The tangent of half the angle, for a from 0 to 1 itself, and above 1 that of 1/(2 − a)."""
+    return a if a <= 1 else 1 / (2 - a)
+
+
+def _growth(pencil: Pencil, growth: Fraction) -> tuple[Fraction, tuple[int, ...]] | None:
+    """A number R, and weights of the states by which no member has an eigenvalue of modulus ≥ R."""
+    Z0, D, _ = pencil.balanced
+    top, N = np.abs(Z0) + float(growth) * D, pencil.n
+    X = np.vstack([np.eye(N), np.zeros((len(top) - N, N))])
+    for i in range(N, len(top)):
+        X[i] = top[i, :i] @ X[:i]
+    H = top[:N] @ X
+    if not N or not np.all(np.isfinite(H)):
+        return (Fraction(1), ()) if not N else None
+    w = np.maximum(perron(H, 20)[1], 1e-6)
+    g = whole_weights(w * pencil.scale[:N])
+    return _least_radius(pencil, growth, g), g
+
+
+def _least_radius(pencil: Pencil, growth: Fraction, g: tuple[int, ...]) -> Fraction:
+    """An integer R above Σ_j (|Z0| + D)_ij g_j / g_i for every dynamic row i."""
+    most = moduli(pencil.Z0) + pencil.D * growth
+    rows, d = most.numerators, most.denominator
+    sizes = [Fraction(x) for x in g]
+    for row in rows[pencil.n :]:
+        sizes.append(sum((x * y for x, y in zip(row, sizes, strict=False) if x), Fraction(0)) / d)
+    ratios: list[Fraction] = []
+    for i, row in enumerate(rows[: pencil.n]):
+        ratios.append(
+            sum((x * y for x, y in zip(row, sizes, strict=True) if x), Fraction(0)) / d / g[i]
+        )
+    return Fraction(int(max(ratios)) + 1)
+
+
+def box_stability(
+    system: MultiChannelSystem,
+    controller: Controller,
+    graph: NeighborGraph | None = None,
+    *,
+    rate: Any = None,
+    radius: Any = None,
+    gains: Any = None,
+) -> BoxStability:
+    """Prove that one controller keeps every plant in a box stable, or fast enough.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        A plant with radii, such as ``Box.relative(plant, "1/100").system``.
+    controller : Controller
+    graph : NeighborGraph, optional
+        Overrides ``system.neighbors``.
+    rate, radius : rational, optional
+        A rate in continuous time, a radius in discrete time; by default stability is proved.
+    gains : rational or Controller, optional
+        The radii of the controller's entries: a part of their moduli, such as "1/100", or a
+        controller that has radii as its entries.  By default the gains are certain.
+
+    Raises
+    ------
+    LimitReached
+        If no proof was found, which proves nothing.
+
+    Examples
+    --------
+    >>> from mcexact.model.local_controllers import local_controllers
+    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    >>> gain = local_controllers(plant, [[[-3]]])
+    >>> str(box_stability(Box.relative(plant, "1/10").system, gain, rate="1/2").bound)
+    '1/2'
+    >>> box_stability(Box.relative(plant, "6/10").system, gain)
+    Traceback (most recent call last):
+        ...
+    mcexact.errors.LimitReached: no proof was found that every loop in the box has Re λ < 0
+    """
+    region = StabilityRegion.of(system.time, rate, radius)
+    radii = (
+        gains if gains is None or isinstance(gains, Controller) else gain_radii(controller, gains)
+    )
+    with one_thread():
+        search = StabilitySearch(closed_loop(system, controller, graph), region, radii)
+        found = search.border(Fraction(1))
+    if found is None:
+        raise LimitReached(f"no proof was found that every loop in the box has {region}")
+    return found

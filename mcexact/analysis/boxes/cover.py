@@ -1,0 +1,119 @@
+"""The cover of discs by a tree of squares, each of which passes a test of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from mcexact.analysis.boxes.regular_discs import Point
+from mcexact.answer.evidence import RootDisc
+from mcexact.exact.enclosures import exact_decimal
+from mcexact.exact.location import is_discrete
+
+SQUARE = Fraction(1414214, 1000000)
+"""A number above √2: a square of half side h is inside of the disc of radius √2 h."""
+_MOST_CUTS = 24
+
+Test = Callable[[Point, Fraction, int], int | None]
+"""Of a center, a radius and a depth, the index of evidence for the disc."""
+
+
+@dataclass(frozen=True)
+class Outside:
+    """What a claim does not speak of: the lower half-plane, and what lies inside of a region.
+
+    Attributes
+    ----------
+    time : str
+    bound : Fraction or None
+        A rate or a radius; None if the claim is about all complex numbers.
+    """
+
+    time: str
+    bound: Fraction | None
+
+    def covers(self, mode: complex) -> bool:
+        """Whether a number and what is near it is outside."""
+        c = Fraction(mode.real), Fraction(mode.imag)
+        return self.bound is not None and self.disc(c, Fraction(abs(mode) / 1000))
+
+    def disc(self, c: Point, r: Fraction) -> bool:
+        """Whether a disc is outside."""
+        re, im = c
+        if im + r < 0:
+            return True
+        if self.bound is None:
+            return False
+        if not is_discrete(self.time):
+            return re + r < -self.bound
+        return self.bound > r and re**2 + im**2 < (self.bound - r) ** 2
+
+    def square(self, c: Point, h: Fraction) -> bool:
+        """Whether a square of half side h is outside."""
+        re, im = c
+        if im + h < 0:
+            return True
+        if self.bound is None:
+            return False
+        if not is_discrete(self.time):
+            return re + h < -self.bound
+        return (abs(re) + h) ** 2 + (abs(im) + h) ** 2 < self.bound**2
+
+
+@dataclass
+class Cover:
+    """The trees over discs, and how many squares were tested.
+
+    Attributes
+    ----------
+    test : function
+    outside : Outside
+    limit : int
+        The most discs and squares that are tested.
+    """
+
+    test: Test
+    outside: Outside
+    limit: int
+    tested: int = field(default=0)
+
+    def of(self, discs: tuple[RootDisc, ...]) -> tuple[tuple[int | None, ...], ...] | None:
+        """The tree over each disc, in preorder; None if a square cannot be covered."""
+        found = []
+        for disc in discs:
+            c = exact_decimal(disc.re), exact_decimal(disc.im)
+            radius = exact_decimal(disc.radius)
+            tree: list[int | None] = []
+            if not self.outside.disc(c, radius) and not self._disc(c, radius, tree):
+                return None
+            found.append(tuple(tree))
+        return tuple(found)
+
+    def _disc(self, c: Point, radius: Fraction, tree: list[int | None]) -> bool:
+        return self._leaf(c, radius, 0, tree) or self._cut(c, radius, 0, tree)
+
+    def _leaf(self, c: Point, rho: Fraction, depth: int, tree: list[int | None]) -> bool:
+        self.tested += 1
+        k = self.test(c, rho, depth)
+        if k is not None:
+            tree.append(k)
+        return k is not None
+
+    def _cut(self, c: Point, h: Fraction, depth: int, tree: list[int | None]) -> bool:
+        """Cut a square of half side h into four, each of which is a leaf or is cut again."""
+        if depth == _MOST_CUTS or self.tested >= self.limit:
+            return False
+        tree.append(None)
+        q = h / 2
+        for x in (-q, q):
+            for y in (-q, q):
+                part = c[0] + x, c[1] + y
+                if self.outside.square(part, q):
+                    continue
+                if not (
+                    self._leaf(part, q * SQUARE, depth + 1, tree)
+                    or self._cut(part, q, depth + 1, tree)
+                ):
+                    return False
+        return True

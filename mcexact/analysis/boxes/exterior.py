@@ -1,0 +1,173 @@
+"""Discs that contain all eigenvalues of all members: Gershgorin's, in coordinates T.
+
+For G = YT, H = Y A0 T and e = |Y| D_A |T| 1, no member has an eigenvalue λ with |λ − a_i| > rad_i
+for every i if s_i = |G_ii| − Σ_{j≠i} |G_ij| > 0 and rad_i s_i > Σ_j |a_i G_ij − H_ij| + e_i.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from mcexact.analysis.boxes.float_pencils import Complex, FloatBox, Floats, perron
+from mcexact.analysis.boxes.regular_discs import ComplexRows, dyadic, modulus_above
+from mcexact.answer.evidence import RootDisc
+from mcexact.exact.enclosures import decimal
+from mcexact.exact.matrix import Matrix
+
+_PERTURBATIONS = (0.0, 1e-11, 1e-8, 1e-6, 1e-4, 1e-2)
+"""Eigenvectors of a matrix that is not diagonalizable are taken of one so close to it."""
+_FINE = 2.0**-18
+_WELL = 1e6
+_MOST_DIGITS = 60
+_SQUARINGS = 40
+
+
+@dataclass(frozen=True)
+class Exterior:
+    """Y and T, and the disc of each row."""
+
+    Y: ComplexRows
+    T: ComplexRows
+    discs: tuple[RootDisc, ...]
+
+
+def exterior(
+    box: FloatBox, A: Matrix, D: Matrix, rng: np.random.Generator, growth: Fraction = Fraction(1)
+) -> Exterior | None:
+    """Compute the discs for radii that are multiplied by a factor; None if there are none.
+
+    Parameters
+    ----------
+    box : FloatBox
+        In whose coordinates eigenvectors are computed.
+    A, D : Matrix, n × n
+        The nominal matrix and its radii.
+    rng : numpy.random.Generator
+    growth : Fraction
+    """
+    s = box.scale
+    if not box.n:
+        none = ComplexRows.of(Matrix.zeros(0, 0))
+        return Exterior(none, none, ())
+    for Y, T, centers in _coordinates(box, rng, float(growth)):
+        fine_Y = np.maximum(np.abs(Y), 2.0**-16 * np.abs(Y).max(axis=1, initial=1e-290)[:, None])
+        fine_T = np.maximum(np.abs(T), 2.0**-16 * np.abs(T).max(axis=0, initial=1e-290)[None, :])
+        exact_Y = dyadic(Y / s[None, :], _FINE * fine_Y / s[None, :])
+        exact_T = dyadic(T * s[:, None], _FINE * fine_T * s[:, None])
+        discs = _discs(exact_Y, exact_T, A, D * growth, centers)
+        if discs is not None:
+            return Exterior(exact_Y, exact_T, discs)
+    return None
+
+
+def _coordinates(
+    box: FloatBox, rng: np.random.Generator, growth: float
+) -> list[tuple[Complex, Complex, Complex]]:
+    """Y, T and the centers in balanced coordinates, those with the smallest radii first."""
+    A, n = box.A, box.n
+    found: list[tuple[float, Any, Any, Any]] = []
+    for T in _candidates(A, box.DA, rng):
+        try:
+            Y = np.linalg.inv(T)
+        except np.linalg.LinAlgError:
+            continue
+        H = Y @ A @ T
+        centers = np.diag(H).copy()
+        size_Y, size_T = np.abs(Y), np.abs(T)
+        spread = np.abs(H - np.diag(centers)) + growth * (size_Y @ box.DA @ size_T)
+        rounding = 1e-12 * (size_Y @ np.abs(A) @ size_T)
+        if not np.all(np.isfinite(spread + rounding)):
+            continue
+        for w in (np.ones(n), perron(spread, _SQUARINGS)[1]):
+            weight = np.maximum(w, 1e-12)
+            total = float((((spread + rounding) @ weight) / weight).sum())
+            found.append((total, Y / weight[:, None], T * weight[None, :], centers))
+    found.sort(key=lambda each: each[0])
+    return [(Y, T, centers) for _, Y, T, centers in found]
+
+
+def _candidates(A: Floats, D: Floats, rng: np.random.Generator) -> Iterator[Any]:
+    """Bases in which A is nearly diagonal, or in which it is triangular.
+
+    Those of single blocks leave zeros of a block triangular matrix where they are: weights then
+    make what couples the blocks as small as one likes.
+    """
+    from scipy.linalg import schur
+    from scipy.sparse.csgraph import connected_components
+
+    n, size = len(A), float(np.linalg.norm(A))
+    yield np.eye(n)
+    count, block = connected_components(np.abs(A) + D > 0, connection="strong")
+    if count > 1:
+        whole = np.zeros((n, n), dtype=complex)
+        for k in range(count):
+            own = np.ix_(block == k, block == k)
+            whole[own] = np.linalg.eig(A[own])[1]
+        yield whole
+    yield schur(A, output="complex")[1]
+    for part in _PERTURBATIONS:
+        noise = part * rng.standard_normal((n, n))
+        near = A * (1 + noise) + part * size / max(n, 1) * rng.standard_normal((n, n))
+        T = np.linalg.eig(near)[1]
+        yield T
+        if part == 0 and np.linalg.cond(T) < _WELL:
+            return
+
+
+def _discs(
+    Y: ComplexRows, T: ComplexRows, A: Matrix, D: Matrix, centers: Complex
+) -> tuple[RootDisc, ...] | None:
+    """The discs with radii as small as the exact matrices allow, rounded up to three digits."""
+    G, H = Y @ T, Y @ (ComplexRows.of(A) @ T)
+    ones = Matrix.from_integers([[1]] * len(centers), 1, 1)
+    e = Y.moduli() @ (D @ (T.moduli() @ ones))
+    d = math.lcm(G.denominator, H.denominator)
+    (G_re, G_im), (H_re, H_im) = G.integers(d), H.integers(d)
+    found = []
+    for i, a in enumerate(centers):
+        others = sum(
+            modulus_above(x, y)
+            for j, (x, y) in enumerate(zip(G_re[i], G_im[i], strict=True))
+            if j != i
+        )
+        slack = math.isqrt(G_re[i][i] ** 2 + G_im[i][i] ** 2) - others
+        if slack <= 0:
+            return None
+        row = G_re[i], G_im[i], H_re[i], H_im[i]
+        spread = e[i, 0] * d
+        # The center is rounded to a small part of the radius, which is first taken at the float.
+        first = (_distance(row, Fraction(float(a.real)), Fraction(float(a.imag))) + spread) / slack
+        digits = _digits(first)
+        re, im = (round(Fraction(float(x)) * 10**digits) for x in (a.real, a.imag))
+        unit = Fraction(1, 10**digits)
+        radius = (_distance(row, re * unit, im * unit) + spread) / slack
+        above = math.ceil(radius * 10**digits * (1 + Fraction(1, 10**6))) + 1
+        found.append(RootDisc(decimal(re, digits), decimal(im, digits), decimal(above, digits)))
+    return tuple(found)
+
+
+def _distance(
+    row: tuple[list[int], list[int], list[int], list[int]], re: Fraction, im: Fraction
+) -> Fraction:
+    """An upper limit of Σ_j |a G_ij − H_ij|, in units of the common denominator."""
+    d = math.lcm(re.denominator, im.denominator)
+    a, b = int(re * d), int(im * d)
+    total = sum(
+        modulus_above(a * p - b * q - d * r, a * q + b * p - d * s)
+        for p, q, r, s in zip(*row, strict=True)
+    )
+    return Fraction(total, d)
+
+
+def _digits(radius: Fraction) -> int:
+    """The decimal places with which a radius has about three digits."""
+    if radius <= 0:
+        return _MOST_DIGITS
+    size = math.log10(radius.numerator) - math.log10(radius.denominator)
+    return min(max(3 - math.floor(size), 0), _MOST_DIGITS)

@@ -1,0 +1,341 @@
+"""How far data may be from their values: a largest certified box, and a plant that fails."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import Any, Literal, get_args
+
+from mcexact.analysis.boxes.box_controllable import ControllabilitySearch
+from mcexact.analysis.boxes.box_fixed import FixedModeSearch
+from mcexact.analysis.boxes.cover import Outside
+from mcexact.analysis.boxes.failing_plants import FailingPlant, failing_plant, tried_sets
+from mcexact.analysis.boxes.one_thread import one_thread
+from mcexact.analysis.boxes.radii import radii_of
+from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
+from mcexact.analysis.structure.controllability import joint_controllability
+from mcexact.answer.protocol import Answer
+from mcexact.answer.reading import constructed
+from mcexact.derived.dual import dual
+from mcexact.errors import InputError, UsageError
+from mcexact.exact.floats import to_float
+from mcexact.exact.location import StabilityRegion
+from mcexact.model.box import Box
+from mcexact.model.system import MultiChannelSystem
+from mcexact.plot.uncertainty import uncertainty
+from mcexact.shown import Shown
+
+Property = Literal["no fixed mode", "stabilizable", "controllable", "observable"]
+
+_STEPS = 14
+_CLOSE = 1.03
+_LEAST = 1e-12
+"""A computed largest factor below this is reported as 0."""
+_SQUARES, _GAINS, _TRIES = 2000, 50, 4
+"""For a second of effort: how many squares are tested, how many of them a search for gains counts
+for, and how many sets and modes are tried for a plant that fails."""
+_MOST_TRIES = 40
+_NEVER_ENOUGH = 1e30
+_MORE_GAINS = 4
+
+
+@dataclass(frozen=True, repr=False)
+class LargestUncertainty(Shown):
+    """A box for which a property is proved, and a plant outside of it that lacks the property.
+
+    Attributes
+    ----------
+    wanted : str
+        The property.
+    relative : bool
+        Whether factors are parts of the moduli of entries; otherwise they are multiples of the
+        radii that the plant has.
+    lower : Fraction
+        The factor for which every member has the property; 0 if none is proved.
+    proof : Answer or None
+        The answer that proves it.
+    upper : Fraction or None
+        The factor within which a plant lacks it; None if none was found.
+    failing : MultiChannelSystem or None
+        That plant.
+    refutation : Answer or None
+        The exact answer about it.
+    channels : tuple of str or None
+        The channels whose outputs do not show the mode that is fixed there.
+    """
+
+    wanted: str
+    relative: bool
+    lower: Fraction
+    proof: Answer | None
+    upper: Fraction | None
+    failing: MultiChannelSystem | None
+    refutation: Answer | None
+    channels: tuple[str, ...] | None
+
+    def explain(self) -> str:
+        """Say in plain words up to where the property is proved, and where it fails."""
+        unit = " of each entry" if self.relative else " times the radii"
+        proved = f"{self.wanted}: for every plant within {_number(self.lower, self.relative)}{unit}"
+        if not self.lower:
+            proved = f"{self.wanted}: not proved for any box"
+        if self.upper is None:
+            return f"{proved}; no plant that fails was found"
+        return f"{proved}; not for a plant within {_number(self.upper, self.relative)}{unit}"
+
+    def rows(self) -> Iterator[tuple[str, str]]:
+        """Yield labels and texts: the property, and up to where it is proved and where it fails."""
+        unit = "" if self.relative else " times the radii"
+        yield "property", self.wanted
+        proved = f"within {_number(self.lower, self.relative)}{unit}" if self.lower else "no box"
+        yield "proved for every plant", proved
+        near = "not found" if self.upper is None else f"{_number(self.upper, self.relative)}{unit}"
+        yield "a plant fails within", near
+        if self.channels is not None and self.upper is not None:
+            yield "channels that do not show it", ", ".join(self.channels) or "none"
+
+    def _labeled(self) -> Iterator[tuple[str, Any]]:
+        """Yield the property, the factors, and the plant that fails."""
+        yield from self.rows()
+        if self.failing is not None:
+            yield "plant that fails", self.failing
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain data."""
+        from mcexact.exact.rational import written
+
+        return {
+            "property": self.wanted,
+            "relative": self.relative,
+            "lower": written(self.lower),
+            "upper": None if self.upper is None else _above(self.upper),
+            "failing": None if self.failing is None else self.failing.to_dict(),
+            "channels": None if self.channels is None else list(self.channels),
+        }
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draw the proved part in blue, and where a plant fails in red.
+
+        Parameters
+        ----------
+        ax : axes of matplotlib, optional
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+        """
+        return uncertainty(self, ax)
+
+    def __repr__(self) -> str:
+        return f"LargestUncertainty({self.explain()})"
+
+
+def _number(factor: Fraction, relative: bool) -> str:
+    """A factor with three digits, as a percentage if it is relative."""
+    value = to_float(factor) * (100 if relative else 1)
+    return f"{value:.3g}{' %' if relative else ''}"
+
+
+def _above(factor: Fraction) -> str:
+    """A factor rounded up to about six digits, as text."""
+    digits = 6
+    while factor * 10**digits < 10**5 and digits < 40:
+        digits += 1
+    return f"{-(-factor.numerator * 10**digits // factor.denominator)}e-{digits}"
+
+
+def largest_uncertainty(
+    system: MultiChannelSystem,
+    wanted: Property = "no fixed mode",
+    *,
+    effort: float = 10.0,
+) -> LargestUncertainty:
+    """Search the largest box of plants with a property, and the nearest plant without it.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        A plant.  If it has radii, boxes are multiples of these; otherwise each radius is a part of
+        the modulus of its entry, and zeros are certain.
+    wanted : {"no fixed mode", "stabilizable", "controllable", "observable"}
+        By decentralized linear time-invariant control, each member by a controller of its own.
+    effort : float
+        About the seconds that the search may take; its work is counted and not timed.
+
+    Returns
+    -------
+    LargestUncertainty
+        Both ends are proved: the lower one for every member of the box, the upper one by a plant
+        that fails.  Which ends are found depends on the processor and on the effort.
+
+    Raises
+    ------
+    UsageError
+        If the property is another one, or the system is a derived one.
+
+    Notes
+    -----
+    For "stabilizable" no plant that fails is searched.
+
+    Examples
+    --------
+    >>> plant = MultiChannelSystem([[1, 0], [0, 2]], [[[1], [1]]], [[[1, 1]]])
+    >>> found = largest_uncertainty(plant)
+    >>> found.relative, 0.1 < found.lower < found.upper < 0.5
+    (True, True)
+    """
+    InputError.require(system, MultiChannelSystem, "system")
+    if wanted not in get_args(Property):
+        known = ", ".join(map(repr, get_args(Property)))
+        raise UsageError(f"expected one of {known}, found {wanted!r}", where="wanted")
+    if system.subject:
+        raise UsageError("the box is that of a plant, and not of a derived system")
+    relative = system.uncertainty is None
+    unit = Box.relative(system, 1).system if relative else system
+    with one_thread():
+        return two_sided(_searches(unit, wanted), wanted, relative, effort)
+
+
+def two_sided(search: Search, wanted: str, relative: bool, effort: float) -> LargestUncertainty:
+    """Search both ends; see `largest_uncertainty`."""
+    lower, proof = _largest(search, _SQUARES * effort)
+    near = search.failing(min(1 + int(_TRIES * effort), _MOST_TRIES))
+    failing, refutation = None, None
+    if near is not None:
+        failing, refutation = near.plant, search.refuted(near.plant)
+    return LargestUncertainty(
+        wanted,
+        relative,
+        lower,
+        proof,
+        None if near is None or refutation is None else near.distance,
+        failing if refutation is not None else None,
+        refutation,
+        None if near is None else near.channels,
+    )
+
+
+@dataclass
+class Search:
+    """What is proved for one factor of the radii, and a plant that fails.
+
+    Attributes
+    ----------
+    capacity : callable
+        About how far the radii can grow.
+    proof : callable
+        The answer for a factor of the radii, or None.
+    refuted : callable
+        The exact answer about a plant that fails, or None.
+    failing : callable
+        A plant that fails, found with so many tries.
+    work : callable
+        The work done so far.
+    """
+
+    capacity: Callable[[], float]
+    proof: Callable[[Fraction], Answer | None]
+    refuted: Callable[[MultiChannelSystem], Answer | None]
+    failing: Callable[[int], FailingPlant | None]
+    work: Callable[[], float]
+
+
+def _searches(unit: MultiChannelSystem, wanted: str) -> Search:
+    """The search for one property."""
+    if wanted in ("controllable", "observable"):
+        return _controllability(unit, wanted)
+    edge = StabilityRegion(unit.time).edge
+    bound = edge if wanted == "stabilizable" else None
+    search = FixedModeSearch(unit, radii_of(unit))
+
+    def failing(tries: int) -> FailingPlant | None:
+        if bound is not None:
+            return None
+        return failing_plant(unit, search.radii, tried_sets(unit.m), tries)
+
+    def refuted(plant: MultiChannelSystem) -> Answer | None:
+        found = fixed_spectrum(plant)
+        return None if found.empty else found
+
+    def capacity() -> float:
+        outside = Outside(unit.time, bound)
+        least = search.prepare(_NEVER_ENOUGH, outside)
+        return search.improve(outside, _MORE_GAINS) if search.known else least
+
+    return Search(
+        capacity,
+        lambda growth: _about(search.cover(growth, bound), growth),
+        refuted,
+        failing,
+        lambda: search.tested + _GAINS * len(search.known),
+    )
+
+
+def _controllability(unit: MultiChannelSystem, wanted: str) -> Search:
+    system = dual(unit) if wanted == "observable" else unit
+    radii, every = radii_of(system), tuple(range(unit.m))
+    search = ControllabilitySearch(system, radii, every)
+
+    def failing(tries: int) -> FailingPlant | None:
+        found = failing_plant(system, radii, [()], tries)
+        if found is None or system is unit:
+            return found
+        turned = dual(found.plant)
+        plant = MultiChannelSystem(
+            turned.A, turned.B, turned.C, time=unit.time, names=unit.names, neighbors=unit.neighbors
+        )
+        return replace(found, plant=plant)
+
+    def refuted(plant: MultiChannelSystem) -> Answer | None:
+        found = joint_controllability(plant if system is unit else dual(plant))
+        return None if found.controllable else found
+
+    return Search(
+        lambda: search.capacity(Outside(unit.time, None)),
+        lambda growth: _about(search.cover(growth, None), growth),
+        refuted,
+        failing,
+        lambda: search.tested,
+    )
+
+
+def _about(found: Answer | None, growth: Fraction) -> Answer | None:
+    """The same answer, about the box whose radii are multiplied by the factor."""
+    if found is None:
+        return None
+    plant = Box(found.about.plant).scaled(growth).system
+    return replace(found, about=constructed(plant, found.about.subject))
+
+
+def _largest(search: Search, work: float) -> tuple[Fraction, Answer | None]:
+    """Bisect for the largest factor of the radii with a proof."""
+    high = search.capacity()
+    low, best = Fraction(0), None
+    if not high > _LEAST:
+        return low, best
+    high, begun = min(high, 1e6), search.work()
+    x = 0.97 * high
+    for step in range(_STEPS):
+        growth = _short(x)
+        found = search.proof(growth) if growth > 0 else None
+        if found is None:
+            high = x
+        else:
+            low, best = growth, found
+        if search.work() - begun > work or (low and high < _CLOSE * low) or high < _LEAST:
+            break
+        x = (float(low) * high) ** 0.5 if low else high * (0.5 if step < 3 else 0.1)
+    return low, best
+
+
+def _short(x: float) -> Fraction:
+    """A number with three significant digits, rounded down."""
+    if not x > 0:
+        return Fraction(0)
+    exponent = 0
+    while x * 10**exponent < 100:
+        exponent += 1
+    while x * 10.0**exponent >= 1000:
+        exponent -= 1
+    return Fraction(int(x * 10.0**exponent)) / Fraction(10) ** exponent

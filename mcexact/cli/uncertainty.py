@@ -1,0 +1,153 @@
+"""What commands say about every plant whose entries are within their radii."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from mcexact.analysis.boxes.largest_box import LargestUncertainty
+    from mcexact.answer.account import Account
+    from mcexact.answer.stability import StabilityVerdict
+    from mcexact.model.controller import Controller
+    from mcexact.model.system import MultiChannelSystem
+    from mcexact.report.text import Table
+
+_ALL = ("box_fixed_modes", "box_stabilizability", "box_controllability", "box_observability")
+
+
+def of(
+    system: MultiChannelSystem, part: Fraction | None, effort: float | None
+) -> tuple[MultiChannelSystem, LargestUncertainty | None]:
+    """The system with the radii that are asked for, and the search for the largest ones.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    part : Fraction or None
+        The part of the moduli of entries that the radii are.
+    effort : float or None
+        The seconds for the search; None if it is not asked for.
+    """
+    from mcexact.model.box import Box
+
+    if effort is not None:
+        from mcexact.analysis.boxes.largest_box import largest_uncertainty
+
+        found = largest_uncertainty(system, effort=effort)
+        return (system if found.proof is None else found.proof.about.plant), found
+    return (system if part is None else Box.relative(system, part).system), None
+
+
+def lead(account: Account) -> str:
+    """The answers for every plant within the radii, in the checker's words, before all others."""
+    from mcexact.report.text import WIDTH, wrapped
+
+    known = [name for name in _ALL if name in account.answers]
+    if "box_fixed_modes" in known and "box_stabilizability" in known:
+        # A plant without fixed modes is stabilizable.
+        known.remove("box_stabilizability")
+    if not known:
+        return ""
+    said = [line for name in known for line in wrapped(account.answers[name].explain(), WIDTH)]
+    return "\n".join([*said, "", "At the nominal values:", ""])
+
+
+def view(found: LargestUncertainty | None) -> dict[str, Any]:
+    """The search as a part of the JSON of an answer."""
+    return {} if found is None else {"largest_uncertainty": found.to_dict()}
+
+
+def tables(found: LargestUncertainty | None) -> tuple[Table, ...]:
+    """The search as a table."""
+    from mcexact.report.text import Table
+
+    if found is None:
+        return ()
+    rows = [(label, str(value)) for label, value in found.rows()]
+    return (Table("largest uncertainty", (), tuple(rows)),)
+
+
+@dataclass(frozen=True)
+class Loops:
+    """What is proved about all loops of a box.
+
+    Attributes
+    ----------
+    rows : tuple of (str, str)
+        Labels and texts.
+    answers : mapping
+        The proof, by the name of its certificate.
+    view : mapping
+        Plain data.
+    """
+
+    rows: tuple[tuple[str, str], ...] = ()
+    answers: Mapping[str, Any] = field(default_factory=dict)
+    view: Mapping[str, Any] = field(default_factory=dict)
+
+    def tables(self) -> tuple[Table, ...]:
+        """The table, if there is something to say."""
+        from mcexact.report.text import Table
+
+        return (Table("every loop in the box", (), self.rows),) if self.rows else ()
+
+    def with_digits(self, other: Loops) -> Loops:
+        """The same with rows and data about digits."""
+        return replace(self, rows=self.rows + other.rows, view={**self.view, **other.view})
+
+
+def loops(
+    system: MultiChannelSystem,
+    controller: Controller,
+    found: StabilityVerdict,
+    gains: Fraction | None,
+) -> Loops:
+    """Whether every loop within the radii of plant and gains is in the region of a verdict.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    controller : Controller
+    found : StabilityVerdict
+        About the nominal loop.
+    gains : Fraction or None
+        The radii of the gains, as a part of their moduli.
+    """
+    from mcexact.analysis.boxes.box_stable import box_stability
+    from mcexact.errors import LimitReached
+
+    if system.uncertainty is None and gains is None:
+        return Loops()
+    said = [] if system.uncertainty is None else [("plant", system.uncertainty.explain())]
+    said += [] if gains is None else [("gains", f"within {float(100 * gains):g} %")]
+    proof = None
+    if found.stable:
+        given: dict[str, Any] = {found.region.word: found.bound}
+        try:
+            proof = box_stability(system, controller, gains=gains, **given)
+        except LimitReached:
+            proof = None
+    told = "not proved" if proof is None else f"proved: {found.region}"
+    rows = (*said, ("eigenvalues of every loop", told))
+    view = {"every_loop": {"certified": proof is not None, "region": str(found.region)}}
+    return Loops(rows, {} if proof is None else {"box_stability": proof}, view)
+
+
+def digits_of(
+    system: MultiChannelSystem, controller: Controller, found: StabilityVerdict, most: int
+) -> Loops:
+    """How many digits of the gains are safe, and how many are too few."""
+    from mcexact.answer.formats import count
+    from mcexact.synthesis.safe_digits import safe_digits
+
+    region: dict[str, Any] = {found.region.word: found.bound}
+    known = safe_digits(system, controller, most=most, **region)
+    safe = "none proved" if known.safe is None else f"{count(known.safe, 'digit')}, however rounded"
+    few = (
+        "none found" if known.unsafe is None else f"{count(known.unsafe, 'digit')}, to the nearest"
+    )
+    view = {"safe_digits": {"safe": known.safe, "too_few": known.unsafe}}
+    return Loops((("digits of the gains that are safe", safe), ("too few", few)), {}, view)

@@ -1,0 +1,51 @@
+"""How far data may be from their values: the proved part, and where a plant fails."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from mcexact.exact.floats import to_float
+from mcexact.plot.canvas import BLUE, GRAY, RED, one_axis
+
+
+def uncertainty(found: Any, ax: Any = None) -> Any:
+    """Draw up to which uncertainty a property is proved, and within which a plant lacks it.
+
+    Parameters
+    ----------
+    found : LargestUncertainty
+        Or another object with ``lower``, ``upper``, ``relative`` and ``wanted``.
+    ax : matplotlib.axes.Axes, optional
+        By default those of a new figure.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Notes
+    -----
+    Blue: proved for every plant.  Gray: nothing is known.  Red: there is a plant that fails.  Where
+    both ends are above 0 the scale is logarithmic.
+    """
+    axis = one_axis(ax, 5.4, 1.6)
+    scale = 100 if found.relative else 1
+    low = scale * to_float(found.lower)
+    high = None if found.upper is None else scale * to_float(found.upper)
+    ends = [end for end in (low, high) if end]
+    right = 2 * max(ends, default=1.0)
+    left = min(ends) / 4 if low and high else 0.0
+    if low:
+        axis.barh(0, low - left, left=left, height=0.5, color=BLUE, label="proved for every plant")
+    if high is not None:
+        axis.barh(0, high - low, left=low or left, height=0.5, color=GRAY, alpha=0.35, label="open")
+        axis.barh(0, right - high, left=high, height=0.5, color=RED, label="a plant fails")
+    if low and high:
+        axis.set_xscale("log")
+    axis.set_xlim(left, right)
+    axis.set_ylim(-0.5, 0.5)
+    axis.set_yticks([])
+    axis.set_xlabel("part of each entry, in %" if found.relative else "multiple of the radii")
+    axis.set_title(found.wanted, fontsize="medium")
+    if ends:
+        axis.legend(fontsize="small", frameon=False, ncols=3, loc="upper center")
+    return axis.figure

@@ -1,0 +1,128 @@
+"""No plant in a box has a fixed mode: what is proved holds for drawn members."""
+
+from __future__ import annotations
+
+import random
+from fractions import Fraction
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mcexact import Box, MultiChannelSystem, check, dual, fixed_spectrum, gallery, testing
+from mcexact.analysis.boxes.box_fixed import box_fixed_modes, box_stabilizability
+from mcexact.analysis.boxes.radii import radii_of
+from mcexact.answer.box_fixed import BoxFixedModes
+from mcexact.derived.extended import extended_system
+from mcexact.derived.feedback import feedback
+from mcexact.errors import LimitReached, UsageError
+from mcexact.exact.matrix import Matrix
+from mcexact.model.uncertainty import Radii
+
+
+def found(system: MultiChannelSystem, stable: bool = False) -> BoxFixedModes | None:
+    """The proof, if there is one."""
+    try:
+        return box_stabilizability(system) if stable else box_fixed_modes(system)
+    except LimitReached:
+        return None
+
+
+@pytest.mark.parametrize(
+    ("name", "part"),
+    [
+        ("compleib-ac1", "2/5"),
+        ("compleib-dis5", "1/10"),
+        ("quadruple-tank-pminus", "1/1000"),
+        ("liu2020-3ch-extended-n1", "1/1000"),
+        ("farina-three-rooms", "1/1000"),
+    ],
+)
+def test_no_member_of_a_box_around_a_published_plant_has_a_fixed_mode(name: str, part: str) -> None:
+    box = Box.relative(gallery(name), part)
+    proof = box_fixed_modes(box.system)
+    assert check(proof, box.system).verdict == "VALID"
+    rng = random.Random(1)
+    for k in range(10):
+        assert fixed_spectrum(box.member(rng, vertex=k % 2 == 0)).empty
+
+
+def test_each_member_is_stabilized_where_what_is_fixed_is_stable() -> None:
+    box = Box.relative(gallery("siljak-two-subsystems-farina"), "1/1000")
+    assert found(box.system) is None
+    proof = box_stabilizability(box.system)
+    assert proof.bound == 0 and check(proof, box.system).verdict == "VALID"
+    assert fixed_spectrum(box.member(random.Random(2))).stabilizable
+
+
+def test_a_radius_is_the_region_in_discrete_time() -> None:
+    plant = MultiChannelSystem([["1/2", 0], [0, 2]], [[[0], [1]]], [[[0, 1]]], time="discrete")
+    proof = box_stabilizability(Box.relative(plant, "1/100").system)
+    assert proof.bound == 1 and check(proof).verdict == "VALID"
+    closer = box_fixed_modes(Box.relative(plant, "1/100").system, bound="3/5")
+    assert closer.bound == Fraction(3, 5) and check(closer).verdict == "VALID"
+    with pytest.raises(LimitReached, match="has a fixed mode outside of the region"):
+        box_fixed_modes(Box.relative(plant, "1/100").system, bound="2/5")
+
+
+@given(testing.systems(max_states=3, max_channels=2), st.sampled_from(["1/1000", "1/20", "1/2"]))
+@settings(max_examples=12)
+def test_members_of_certified_boxes_have_no_fixed_mode(drawn: testing.Drawn, part: str) -> None:
+    box = Box.relative(drawn.system, part)
+    proof, stable = found(box.system), found(box.system, stable=True)
+    for answer in (proof, stable):
+        assert answer is None or check(answer, box.system).verdict == "VALID"
+    members = [box.nominal, *(box.member(random.Random(k), vertex=bool(k)) for k in range(2))]
+    for member in members if proof is not None or stable is not None else []:
+        spectrum = fixed_spectrum(member)
+        assert proof is None or spectrum.empty
+        assert stable is None or spectrum.stabilizable
+
+
+@given(testing.systems_with_fixed_mode(max_states=4), st.integers(0, 10**6))
+@settings(max_examples=12)
+def test_a_box_with_a_planted_fixed_mode_is_never_certified(
+    drawn: testing.Drawn, seed: int
+) -> None:
+    """The center is moved, so that the member with the fixed mode is anywhere in the box."""
+    planted = drawn.system
+    inner = Box.relative(planted, "1/50")
+    center = inner.member(random.Random(seed))
+    outer = Box(center, inner.radii)
+    assert outer.contains(planted)
+    assert found(outer.system) is None
+
+
+def test_a_plant_without_states_or_radii_is_a_box() -> None:
+    empty = MultiChannelSystem([], [[]], [[]])
+    assert check(box_fixed_modes(empty)).verdict == "VALID"
+    certain = gallery("quadruple-tank-pminus")
+    assert check(box_fixed_modes(certain)).verdict == "VALID"
+    single = MultiChannelSystem([[0, 1], [0, 0]], [[[0], [1]]], [[[1, 0]]])
+    assert check(box_fixed_modes(Box.relative(single, "1/2").system)).verdict == "VALID"
+
+
+def test_the_answer_is_about_derived_systems_as_well() -> None:
+    plant = Box.relative(gallery("liu2020-3ch-no-communication"), "1/1000").system
+    assert found(plant) is None
+    ring = {"1": ["2"], "2": ["3"], "3": ["1"]}
+    extended = extended_system(plant.with_neighbors(ring), (1, 1, 1))
+    assert check(box_fixed_modes(extended)).verdict == "VALID"
+
+
+def test_constructions_that_copy_entries_copy_their_radii() -> None:
+    plant = MultiChannelSystem([[1, 2], [0, 3]], [[[4], [5]]], [[[6, 0]]])
+    box = Box.relative(plant, "1/2")
+    assert radii_of(box.system) == box.radii
+    turned = radii_of(dual(box.system))
+    assert turned == Radii(box.radii.A.T, [box.radii.C[0].T], [box.radii.B[0].T])
+    twice = extended_system(box.system.with_neighbors({}), (1,), share="states")
+    assert radii_of(twice).A.take([0, 1], [0, 1]) == box.radii.A
+    assert radii_of(twice).A[2, 2] == 0
+    assert radii_of(plant).is_zero()
+
+
+def test_radii_of_what_is_computed_are_refused() -> None:
+    plant = Box.relative(MultiChannelSystem([[1]], [[[1]]], [[[1]]]), "1/2").system
+    with pytest.raises(UsageError, match="'feedback' computes with uncertain entries"):
+        box_fixed_modes(feedback(plant, [Matrix.from_rows([[1]])]))

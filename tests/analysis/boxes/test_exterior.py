@@ -1,0 +1,73 @@
+"""Discs that contain the eigenvalues of all members, and the squares that cover them."""
+
+from __future__ import annotations
+
+import random
+from fractions import Fraction
+
+import numpy as np
+from hypothesis import given, settings
+
+from mcexact import Box, MultiChannelSystem, testing
+from mcexact.analysis.boxes.cover import Cover, Outside
+from mcexact.analysis.boxes.exterior import exterior
+from mcexact.analysis.boxes.float_pencils import FloatBox
+from mcexact.analysis.boxes.regular_discs import Point
+from mcexact.answer.evidence import RootDisc
+
+
+@given(testing.systems(min_states=1, max_states=4))
+@settings(max_examples=15)
+def test_eigenvalues_of_members_are_in_the_discs(drawn: testing.Drawn) -> None:
+    box = Box.relative(drawn.system, "1/10")
+    found = exterior(
+        FloatBox.of(box.system, box.radii), box.system.A, box.radii.A, np.random.default_rng(0)
+    )
+    if found is None:
+        return
+    for k in range(3):
+        member = box.member(random.Random(k), vertex=bool(k))
+        for value in np.linalg.eigvals(member.A.to_numpy()):
+            # Multiple eigenvalues are computed with large errors.
+            assert any(
+                abs(value - complex(float(disc.re), float(disc.im))) <= float(disc.radius) + 1e-2
+                for disc in found.discs
+            )
+
+
+def test_a_chain_of_integrators_has_small_discs() -> None:
+    """Its structure keeps all eigenvalues at 0, however long the chain."""
+    A = [[0, 1, 0], [0, 0, 1], [0, 0, 0]]
+    box = Box.relative(MultiChannelSystem(A, [[[0], [0], [1]]], [[[1, 0, 0]]]), "1/2")
+    found = exterior(
+        FloatBox.of(box.system, box.radii), box.system.A, box.radii.A, np.random.default_rng(0)
+    )
+    assert found is not None and max(float(disc.radius) for disc in found.discs) < 1e-2
+
+
+def test_squares_are_cut_until_they_pass_and_those_outside_are_left_out() -> None:
+    asked: list[Point] = []
+
+    def small(c: Point, rho: Fraction, depth: int) -> int | None:
+        asked.append(c)
+        return depth if rho < Fraction(1, 2) else None
+
+    disc = RootDisc("0", "0", "0.5")
+    whole = Cover(small, Outside("continuous", None), 100)
+    assert whole.of((disc, RootDisc("0", "-2", "0.5"))) == ((None, 1, 1, 1, 1), ())
+    assert whole.tested == len(asked) == 5 and all(c[1] <= Fraction(1, 4) for c in asked)
+    right = Cover(small, Outside("continuous", Fraction(0)), 100)
+    assert right.of((RootDisc("0", "1", "0.5"),)) == ((None, 1, 1, 1, 1),)
+    shifted = Cover(small, Outside("continuous", Fraction(1, 4)), 100)
+    assert shifted.of((RootDisc("-0.6", "1", "0.5"),)) == ((None, 1, 1),)
+    assert Cover(small, Outside("continuous", None), 3).of((disc, RootDisc("9", "0", "4"))) is None
+
+
+def test_what_lies_inside_of_a_circle_is_outside_of_the_claim() -> None:
+    inside = Outside("discrete", Fraction(1))
+    origin, half = (Fraction(0), Fraction(0)), (Fraction(1, 2), Fraction(0))
+    assert inside.disc(origin, Fraction(9, 10)) and not inside.disc(origin, Fraction(1))
+    assert inside.disc(half, Fraction(2, 5)) and not inside.disc(half, Fraction(1, 2))
+    assert inside.square(origin, Fraction(7, 10)) and not inside.square(origin, Fraction(3, 4))
+    assert not Outside("discrete", None).square(origin, Fraction(1, 10))
+    assert Outside("discrete", None).square((Fraction(0), Fraction(-2)), Fraction(1))

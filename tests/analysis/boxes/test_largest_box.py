@@ -1,0 +1,108 @@
+"""The largest certified box, and a plant near it that fails: both ends are exact."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any
+
+import pytest
+import scipy.linalg
+import scipy.optimize  # noqa: F401
+from hypothesis import given, settings
+
+from mcexact import (
+    Box,
+    MultiChannelSystem,
+    check,
+    dual,
+    fixed_spectrum,
+    gallery,
+    joint_controllability,
+    largest_uncertainty,
+    testing,
+)
+from mcexact.analysis.boxes.failing_plants import failing_plant, tried_sets
+from mcexact.analysis.boxes.one_thread import one_thread
+from mcexact.analysis.boxes.rank_drops import rational_point
+from mcexact.errors import UsageError
+
+EFFORT = 0.5
+TWO_MODES = MultiChannelSystem([[1, 0], [0, 2]], [[[1], [1]]], [[[1, 1]]])
+
+
+def test_both_ends_are_proved() -> None:
+    """Modes 1 and 2 meet where each moves by a third."""
+    found = largest_uncertainty(TWO_MODES, effort=EFFORT)
+    assert found.proof is not None and found.upper is not None and found.failing is not None
+    assert Fraction(1, 10) < found.lower < Fraction(1, 3) <= found.upper < Fraction(2, 5)
+    assert check(found.proof, Box.relative(TWO_MODES, found.lower).system).verdict == "VALID"
+    assert not fixed_spectrum(found.failing).empty
+    assert Box.relative(TWO_MODES, found.upper).contains(found.failing)
+    assert found.refutation is not None and check(found.refutation, found.failing).valid
+    assert found.relative and "no fixed mode" in found.explain()
+    assert found.to_dict()["upper"] is not None and "fails within" in found._repr_html_()
+
+
+def test_radii_of_the_plant_are_the_units() -> None:
+    plant = Box.absolute(TWO_MODES, A=[[1, 0], [0, 1]]).system
+    found = largest_uncertainty(plant, effort=EFFORT)
+    assert not found.relative and found.upper is not None
+    assert Fraction(1, 5) < found.lower < Fraction(1, 2) <= found.upper < Fraction(3, 5)
+    assert "times the radii" in found.explain()
+
+
+@pytest.mark.parametrize("wanted", ["controllable", "observable", "stabilizable"])
+def test_other_properties_have_ends_of_their_own(wanted: Any) -> None:
+    plant = MultiChannelSystem([[1, 0], [0, 2]], [[[1], [1]]], [[[1, 3]]])
+    found = largest_uncertainty(plant, wanted, effort=EFFORT)
+    assert found.wanted == wanted and found.proof is not None and found.lower > Fraction(1, 20)
+    assert check(found.proof, Box.relative(plant, found.lower).system).valid
+    if wanted == "stabilizable":
+        assert found.upper is None and "no plant that fails was found" in found.explain()
+    else:
+        assert found.failing is not None and found.upper is not None
+        seen = found.failing if wanted == "controllable" else dual(found.failing)
+        assert not joint_controllability(seen).controllable
+        assert Box.relative(plant, found.upper).contains(found.failing)
+
+
+def test_a_plant_that_fails_itself_has_no_box() -> None:
+    found = largest_uncertainty(gallery("davison-aghdam-miller-2020-p27"), effort=EFFORT)
+    assert found.lower == 0 and found.proof is None
+    assert "not proved for any box" in found.explain() and found.to_dict()["lower"] == 0
+
+
+def test_requests_that_make_no_sense_are_refused() -> None:
+    with pytest.raises(UsageError, match=r"wanted: expected one of 'no fixed mode', .*, found 'x'"):
+        largest_uncertainty(TWO_MODES, "x")  # type: ignore[arg-type]
+    with pytest.raises(UsageError, match="of a plant, and not of a derived system"):
+        largest_uncertainty(dual(TWO_MODES))
+
+
+@given(testing.systems(min_states=1, max_states=3, max_channels=2))
+@settings(max_examples=4)
+def test_a_plant_that_fails_is_exactly_at_its_distance(drawn: testing.Drawn) -> None:
+    plant = drawn.system
+    unit = Box.relative(plant, 1)
+    with one_thread():
+        found = failing_plant(plant, unit.radii, tried_sets(plant.m), 4)
+    if found is None:
+        return
+    assert not fixed_spectrum(found.plant).empty
+    assert unit.scaled(found.distance).contains(found.plant)
+    assert not found.distance or not unit.scaled(found.distance * Fraction(99, 100)).contains(
+        found.plant
+    )
+
+
+def test_few_channels_have_all_sets_and_many_the_simplest() -> None:
+    assert [len(tried_sets(m)) for m in range(1, 6)] == [2, 4, 8, 16, 32]
+    assert len(tried_sets(7)) == 16
+
+
+@pytest.mark.parametrize("point", [0.6 + 0.8j, -0.3 + 0.4j, 0.5 + 0j])
+def test_a_rational_point_keeps_to_its_circle(point: complex) -> None:
+    re, im = rational_point(point, "circle")
+    size = Fraction(abs(point)).limit_denominator(10**6)
+    assert re**2 + im**2 == size**2 and abs(complex(re, im) - point) < 1e-5
+    assert rational_point(point, "plane") == rational_point(point, "line")

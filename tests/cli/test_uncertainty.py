@@ -1,0 +1,101 @@
+"""What commands say about every plant whose entries are within their radii."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from mcexact import MultiChannelSystem, local_controllers, save_controller, save_system
+from mcexact.cli.options import part
+from tests.cli.calling import call
+from tests.report.schemas import faults
+
+PLANT = MultiChannelSystem(
+    [["-0.5", 1], ["0.1", 0]], [[[1], [0]], [[0], [1]]], [[[1, 0]], [[0, 1]]], names=["a", "b"]
+)
+FIXED = MultiChannelSystem([[-1, 0], [0, 2]], [[[0], [1]]], [[[0, 1]]])
+
+
+@pytest.fixture
+def plant(tmp_path: Path) -> str:
+    """The file of a plant."""
+    save_system(PLANT, tmp_path / "plant.json")
+    return str(tmp_path / "plant.json")
+
+
+@pytest.fixture
+def gains(tmp_path: Path) -> str:
+    """The file of a controller for it."""
+    save_controller(local_controllers(PLANT, [[[-2]], [["-1.234"]]]), tmp_path / "gains.json")
+    return str(tmp_path / "gains.json")
+
+
+def test_analyze_leads_with_what_holds_for_every_plant(plant: str, tmp_path: Path) -> None:
+    status, out, _ = call(
+        "analyze", plant, "--uncertainty", "0.1%", "--certificates", str(tmp_path / "proofs")
+    )
+    assert status == 0 and "VALID" in out
+    first, _, rest = out.partition("At the nominal values:")
+    assert "for all values within their radii" in " ".join(first.split())
+    assert "No mode is fixed" in rest
+    assert (tmp_path / "proofs" / "box_fixed_modes.json").is_file()
+    status, out, _ = call("analyze", plant)
+    assert status == 0 and "radii" not in out
+
+
+def test_analyze_reads_the_uncertainty_of_the_file(tmp_path: Path) -> None:
+    document = PLANT.to_dict() | {"uncertainty": {"relative": "1/100"}}
+    path = tmp_path / "plant.json"
+    path.write_text(json.dumps(document))
+    status, out, _ = call("analyze", str(path), "--json")
+    found = json.loads(out)
+    assert status == 0 and found["box_fixed_modes"]["bound"] is None
+    assert not faults("analyze", found)
+    assert found["box_stabilizability"]["bound"] in (0, "0")
+
+
+def test_a_plant_that_fails_at_its_nominal_values_leaves_the_question_open(tmp_path: Path) -> None:
+    save_system(FIXED, tmp_path / "fixed.json")
+    status, out, _ = call("analyze", str(tmp_path / "fixed.json"), "--uncertainty", "1/100")
+    said = " ".join(out.split())
+    assert status == 0 and "the plant itself has a fixed mode, at its nominal values" in said
+    assert "no mode of real part at least 0" in said
+
+
+def test_analyze_searches_the_largest_uncertainty(plant: str) -> None:
+    status, out, _ = call("analyze", plant, "--largest-uncertainty", "--effort", "1", "--json")
+    found = json.loads(out)
+    assert status == 0 and found["largest_uncertainty"]["relative"] is True
+    assert not faults("analyze", found) and "box_fixed_modes" in found
+    status, _, err = call("analyze", plant, "--largest-uncertainty", "--uncertainty", "1%")
+    assert status == 2 and "leave out --uncertainty" in err
+
+
+def test_certify_is_about_every_plant_and_all_gains(plant: str, gains: str) -> None:
+    status, out, err = call("certify", plant, gains, "--uncertainty", "1%", "--gains", "1%")
+    assert status == 0 and "made for another plant" not in err
+    assert "proved: Re λ < 0" in out and "within 1 %" in out
+    status, out, _ = call("certify", plant, gains, "--uncertainty", "300%", "--json")
+    found = json.loads(out)
+    assert status == 0 and found["certified"] and not found["every_loop"]["certified"]
+    assert not faults("certify", found)
+
+
+def test_certify_says_how_many_digits_are_safe(plant: str, gains: str) -> None:
+    status, out, _ = call("certify", plant, gains, "--round-gains", "3", "--json")
+    found = json.loads(out)
+    assert status == 0 and found["safe_digits"] == {"safe": 1, "too_few": None}
+    assert not faults("certify", found)
+    status, out, _ = call("certify", plant, gains, "--round-gains", "3")
+    assert "1 digit, however rounded" in out
+
+
+def test_a_part_is_a_number_or_a_percentage() -> None:
+    assert part("0.1%") == part("1/1000") == part("1e-3") == part("0.1 %")
+    from click import BadParameter
+
+    for text in ("-1", "x", "%", "1%%"):
+        with pytest.raises(BadParameter):
+            part(text)
