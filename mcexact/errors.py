@@ -10,8 +10,14 @@ from importlib.util import find_spec
 from typing import Any
 
 
-def place_of(path: str | os.PathLike[str]) -> str:
+def place_of(path: str | os.PathLike[str], advice: str = "") -> str:
     """What messages call a file.
+
+    Parameters
+    ----------
+    path : path
+    advice : str, optional
+        The end of the message for something else.
 
     Raises
     ------
@@ -19,7 +25,9 @@ def place_of(path: str | os.PathLike[str]) -> str:
         If it is no name of a file.
     """
     if not isinstance(path, (str, os.PathLike)):
-        raise InputError(f"expected the name of a file, found {type(path).__name__}", where="path")
+        raise InputError(
+            f"expected the name of a file, found {type(path).__name__}{advice}", where="path"
+        )
     return "standard input" if os.fspath(path) == "-" else os.fspath(path)
 
 

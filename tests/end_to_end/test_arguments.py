@@ -26,7 +26,8 @@ NAMES |= {"FLOATS": FLOATS, "FRAME": FRAME}
 
 SAID: dict[str, str] = {
     # Files.
-    "mcexact.load_system([1])": "path: expected the name of a file, found list",
+    "mcexact.load_system([1])": "path: expected the name of a file, found list; matrices make a "
+    "system with MultiChannelSystem(A, B, C)",
     "mcexact.load_controller(None)": "path: expected the name of a file, found NoneType",
     "mcexact.load_certificate(FRAME)": "path: expected the name of a file, found DataFrame",
     "mcexact.load_parametric_system(3)": "path: expected the name of a file, found int",

@@ -55,7 +55,8 @@ def load_system(
     4
     """
     InputError.require(limits, Limits, "limits")
-    with InputError.inside(place_of(path)):
+    made_by = "; matrices make a system with MultiChannelSystem(A, B, C)"
+    with InputError.inside(place_of(path, made_by)):
         reading = Reading(limits, rounding, inputs, outputs)
         return read_any(read_input(path, limits), os.fspath(path), reading)
 
