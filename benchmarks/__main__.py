@@ -19,7 +19,15 @@ from typing import Any
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
-from benchmarks import bad_inputs, commands, fixed_spectrum, matrices, networks, start_up
+from benchmarks import (
+    bad_inputs,
+    commands,
+    fixed_spectrum,
+    matrices,
+    networks,
+    parameters,
+    start_up,
+)
 from benchmarks.fixed_spectrum import Row
 from benchmarks.kept_rows import ROWS, chosen, kept, measured
 from mcexact.crosschecks.records import libraries_here
@@ -60,6 +68,11 @@ PARTS: Mapping[str, Callable[[], Iterator[Row]]] = {
         networks.absence_rows, "building", 100_000, 10_000, limit=300
     ),
     **{f"command {name}": partial(commands.command_rows, name) for name in commands.COMMANDS},
+    **{
+        f"parameters {kind} {n} states": partial(parameters.rows, kind, n)
+        for kind, sizes in parameters.SIZES.items()
+        for n in sizes
+    },
     "matrices": matrices.rows,
     "start-up": start_up.rows,
     "refusals": bad_inputs.rows,
