@@ -218,6 +218,30 @@ FALSE: dict[str, tuple[Any, str]] = {
         ),
         "rank",
     ),
+    "a block that is much too small": (
+        changed(
+            MOVING,
+            ("witness.generic.0.W.coefficients", [[[1, 0, 0, 0], [0, 1, 0, 0]]]),
+            ("witness.generic.0.column_pivots", [0, 1]),
+        ),
+        "rank",
+    ),
+    "outputs that see what grows with x alone": (
+        changed(MOVING, ("witness.generic.0.channels_T", [])),
+        "identity",
+    ),
+    "an identity up to the second power of x": (
+        changed(MOVING, ("witness.generic.0.U.2.coefficients.0.0.0", -3)),
+        "identity",
+    ),
+    "an identity up to the third power of x": (
+        changed(MOVING, ("claim.generic.0.3", [5, -2])),
+        "identity",
+    ),
+    "pivots that depend on x alone": (
+        changed(MOVING, ("witness.generic.0.U.1.coefficients.0.3.0", 1)),
+        "pivots",
+    ),
     "pivots that are no identity": (
         changed(POLES, ("witness.generic.0.row_pivots", [1, 3])),
         "pivots",
