@@ -275,6 +275,23 @@ FALSE: dict[str, tuple[Any, str]] = {
         ),
         "pivots",
     ),
+    "pivots at a value that are -1": (
+        changed(
+            TWO,
+            (
+                f"{PROOF}.modes.0.W.coefficients",
+                [
+                    [
+                        [-e for e in row]
+                        for row in TWO["witness"]["exceptional"][0]["modes"][0]["W"][
+                            "coefficients"
+                        ][0]
+                    ]
+                ],
+            ),
+        ),
+        "pivots",
+    ),
     "pivots at a value that are 1 + t": (
         changed(SETTLED, ("witness.exceptional.1.modes.0.W.coefficients", grown(SETTLED))),
         "pivots",
