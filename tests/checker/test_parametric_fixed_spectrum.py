@@ -35,6 +35,7 @@ def test_the_statements_say_what_is_fixed_and_where() -> None:
     assert "are the roots x of 1; at the roots of t, one in each of the discs {0 +- 0}" in said
     assert 'of x + (-1), where [xI - A, B; C, 0], C the outputs of {"2", "3"}' in said
     assert "multiplied by t + 1, are the roots x of x; " in checked(POLES).statement
+    assert "multiplied by t - 2, are the roots x of x^4" in checked(MOVING).statement
     ranged = checked(RANGED).statement
     assert "defined, except at the roots of t^3 - 2, one in each" in ranged
     assert "none of which is real and between 0 and 1, the" in ranged
