@@ -40,7 +40,7 @@ def problems(count: int, folder: Path) -> list[str]:
 
     path = folder / "cluster.jsonl"
     with LocalCluster(
-        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=":0"
     ) as cluster:
         process = sweeping(count, path, "--scheduler", cluster.scheduler_address)
         while process.poll() is None and len(records(path)) < count // 2:

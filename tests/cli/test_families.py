@@ -97,7 +97,7 @@ def test_a_cluster_decides_by_the_address_of_its_scheduler(tmp_path: Path) -> No
     distributed = pytest.importorskip("distributed")
     results = tmp_path / "r.jsonl"
     with distributed.LocalCluster(
-        n_workers=2, threads_per_worker=1, processes=False, dashboard_address=None
+        n_workers=2, threads_per_worker=1, processes=False, dashboard_address=":0"
     ) as cluster:
         address = cluster.scheduler_address
         asked = ("sweep", "--draws", "6", "--scheduler", address, "-o", str(results), "--json")

@@ -480,7 +480,7 @@ def test_large_sparse_systems_stay_sparse_in_files():
 
 
 def test_sparse_arrays_of_floats_and_of_a_wrong_shape_are_refused():
-    eye = scipy.sparse.eye_array(3)
+    eye = scipy.sparse.csr_array(np.eye(3))
     with pytest.raises(FloatRefused, match="A: found an array of float64"):
         MultiChannelSystem(eye, [[[1]] * 3], [[[1] * 3]])
     system = MultiChannelSystem.from_float(eye, [[[1]] * 3], [[[1] * 3]], rounding="decimal")

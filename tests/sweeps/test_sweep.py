@@ -245,7 +245,7 @@ def test_jobs_are_made_when_there_is_room_for_them() -> None:
 def test_an_executor_of_dask_decides_too() -> None:
     distributed = pytest.importorskip("distributed")
     with distributed.Client(
-        n_workers=1, threads_per_worker=1, processes=False, dashboard_address=None
+        n_workers=1, threads_per_worker=1, processes=False, dashboard_address=":0"
     ) as client:
         with pytest.raises(UsageError, match=r"client\.get_executor\(\)"):
             sweep(DRAWS, executor=client)

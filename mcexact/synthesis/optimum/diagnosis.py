@@ -266,6 +266,8 @@ def slow_modes(system: MultiChannelSystem, region: StabilityRegion) -> tuple[Slo
     The distance is searched for the modes that agents control or observe least, in terms of their
     eigenvectors: for all of a small plant, and for a few of a large one.
     """
+    if not system.n:
+        return ()  # SciPy 1.11 refuses a matrix without entries
     A = matrix_to_float(system.A)
     B = [matrix_to_float(system.B(i)) for i in range(system.m)]
     C = [matrix_to_float(system.C(i)) for i in range(system.m)]

@@ -64,7 +64,7 @@ def npz(**changed: Any) -> bytes:
     """An archive of numpy with some arrays changed, or left out if they are None."""
     stream: Any = io.BytesIO()
     arrays = {key: value for key, value in (GOOD | changed).items() if value is not None}
-    np.savez(stream, allow_pickle=True, **arrays)
+    np.savez(stream, **arrays)
     return stream.getvalue()
 
 
