@@ -113,6 +113,8 @@ def regulated_covariance(model: Model, F: Floats) -> Floats | None:
     M S + S M' + W = 0 (discrete time: M S M' − S + W = 0) with M = A + B F.
     """
     closed = model.A + model.B @ F
+    if not closed.size:
+        return closed  # SciPy 1.11 refuses a matrix without entries
     try:
         if model.discrete:
             S = solve_discrete_lyapunov(closed, model.W)
