@@ -125,7 +125,8 @@ def covered(
     frames: list[Document] = []
     cover = []
     for disc in exterior["discs"]:
-        cells = [(Cell(*(Fraction(disc[key]) for key in ("re", "im", "radius")), False), 0)]
+        re, im, radius = (Fraction(disc[key]) for key in ("re", "im", "radius"))
+        cells = [(Cell(re, im, radius, False), 0)]
         nodes: list[Node] = []
         while cells:
             cell, depth = cells.pop()

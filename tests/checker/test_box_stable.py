@@ -206,7 +206,10 @@ def test_segments_are_on_the_border_and_leave_no_gap() -> None:
         reached = im + rho
     assert reached == 3
     arcs = segments_of("discrete", radius, ends)
-    edge = [(radius * (1 - t * t) / (1 + t * t), 2 * radius * t / (1 + t * t)) for t in [0, *ends]]
+    edge = [
+        (radius * (1 - t * t) / (1 + t * t), 2 * radius * t / (1 + t * t))
+        for t in [Fraction(0), *ends]
+    ]
     edge.append((-radius, Fraction(0)))
     for (re, im, rho), p, q in zip(arcs, edge, edge[1:], strict=False):
         for x, y in (p, q):

@@ -23,7 +23,7 @@ def rebuilt(plant, controller):
     def plus(v, w):
         return [a + b for a, b in zip(v, w)]
 
-    sizes = {"x": len(plant["A"])}
+    sizes: dict = {"x": len(plant["A"])}
     for i, agent in agents.items():
         sizes |= {("shared", i, 0): agent["shared"], ("private", i, 0): agent["private"]}
     for j in agents:
@@ -45,7 +45,7 @@ def rebuilt(plant, controller):
                 total = plus(total, times(M, signals[key]))
             return total
 
-        after = {"x": times(plant["A"], state["x"])}
+        after: dict = {"x": times(plant["A"], state["x"])}
         for i, agent in agents.items():
             for row in channels[i]["B"][:1]:
                 after["x"] = plus(after["x"], times(channels[i]["B"], value(i, "input", len(row))))

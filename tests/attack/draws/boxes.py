@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 from fractions import Fraction
+from typing import Any
 
 from tests.checker.box_maker import controllable, fixed, stable
 from tests.checker.box_plants import LOOP, gains, programs, radii_of_first
@@ -21,7 +22,7 @@ def drawn_box(rng: random.Random, diagonal: tuple[Fraction | int, ...], time: st
     values = [[rng.choice(SMALL) for _ in range(2)] for _ in range(2)]
     for i in range(2):
         values[i][i] = rng.choice(diagonal)
-    ports = [([[1], [0]], [[1, 0]]), ([[rng.choice(SMALL)], [1]], [[0, 1]])]
+    ports: list[Any] = [([[1], [0]], [[1, 0]]), ([[rng.choice(SMALL)], [1]], [[0, 1]])]
     written = [([[number(x) for x in row] for row in B], C) for B, C in ports]
     found = plant([[number(x) for x in row] for row in values], *written, time=time)
     doubts = {"A": drawn_radii(rng, 2, 2)}
