@@ -45,7 +45,7 @@ HARMLESS: dict[str, str] = {
     ),
     "reading.py: names: type(entry) is not str or entry not in place_of": RAISES,
     "region.py: claimed_cost: absence is None": UNREAD,
-    "system.py: number: not good or abs(int(exponent)) > (limits or Limits).exponent": CANONICAL,
+    "system_matrices.py: number: not good or abs(int(exponent)) > (limits or Limits).exponent": CANONICAL,
     "deficiency.py: check: coefficients is None": UNREAD,
     "deficiency.py: check: subspace is None": UNREAD,
     "controller.py: read_controller: not agents": (
@@ -95,7 +95,7 @@ HARMLESS: dict[str, str] = {
     "single_channel_gains.py: check: cyclic or b is None": UNREAD,
     "stability.py: check: block.stop <= M.nrows": RAISES,
     "subject.py: read_subject: not isinstance(step, dict) or type(step.get('construction')) is not str": RAISES,
-    "system.py: read_matrix: integer(i, place) >= r or integer(j, place) >= c or (i, j) in cells": LARGE,
+    "system_matrices.py: read_matrix: integer(i, place) >= r or integer(j, place) >= c or (i, j) in cells": LARGE,
     "system.py: _with_graph: len(set(found)) < len(found)": CANONICAL,
     "transfer_graph.py: read_arcs: type(end) is not str or end not in known": RAISES,
     "transfer_graph.py: require_arcs: k < system.n": (
