@@ -8,7 +8,7 @@ Parts are
 ``drawn``     members of proved boxes, decided exactly, and boxes with a planted fixed mode
 ``size``      how the time of the checker grows with the number of states
 
-Writes rows to the standard output.  Seconds are those of the processor.
+Writes tables in Markdown to the standard output.  Seconds are those of the processor.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ T = TypeVar("T")
 PART = Fraction(1, 1000)
 _MOST_STATES = 30
 _SMALL = 12
-_EFFORT = 30.0
+_EFFORT = 10.0
 
 
 def main(arguments: list[str]) -> None:
@@ -77,7 +77,7 @@ def timed(work: Callable[[], T]) -> tuple[T | None, float]:
 def members(plants: dict[str, MultiChannelSystem]) -> None:
     """Print for each plant what is proved at 0.1 %, or why nothing can be."""
     counts = {"no fixed mode": 0, "stabilizable": 0, "neither": 0}
-    print("plant | n | m | proved for every member | seconds to find | seconds to check")
+    heading("At 0.1 % of every entry", "plant", "n", "m", "every member", "s to find", "s to check")
     for name, plant in plants.items():
         if plant.n > _MOST_STATES:
             continue
@@ -104,7 +104,10 @@ def members(plants: dict[str, MultiChannelSystem]) -> None:
 def largest(plants: dict[str, MultiChannelSystem]) -> None:
     """Print for each plant the two ends of the largest uncertainty."""
     ratios = []
-    print("plant | n | proved | fails within | ratio | seconds to find | seconds to check")
+    heading(
+        "The largest part of every entry",
+        "plant", "n", "proved", "fails within", "ratio", "s to find", "s to check",
+    )  # fmt: skip
     for name, plant in plants.items():
         if not 0 < plant.n <= _SMALL:
             continue
@@ -120,12 +123,9 @@ def largest(plants: dict[str, MultiChannelSystem]) -> None:
             ratios.append(float(found.upper / found.lower))
             ratio = f"{ratios[-1]:.2f}"
         upper = "–" if found.upper is None else f"{float(found.upper):.3g}"
-        print(
-            f"{name} | {plant.n} | {float(found.lower):.3g} | {upper} | {ratio} | {seconds:.1f} | "
-            f"{checking:.3f}",
-            flush=True,
-        )
-    print(f"median ratio {statistics.median(ratios):.2f} of {len(ratios)}")
+        low = f"{float(found.lower):.3g}"
+        row(name, plant.n, low, upper, ratio, f"{seconds:.1f}", f"{checking:.3f}")
+    print(f"\nMedian ratio {statistics.median(ratios):.2f} of {len(ratios)}.\n")
 
 
 def drawn(plants: dict[str, MultiChannelSystem], count: int = 10_000) -> None:
@@ -143,7 +143,8 @@ def drawn(plants: dict[str, MultiChannelSystem], count: int = 10_000) -> None:
     for k in range(count):
         member = proved[k % len(proved)].member(rng, vertex=k % 3 == 0)
         contradicted += not fixed_spectrum(member).empty
-    print(f"{count} members of {len(proved)} proved boxes: {contradicted} have a fixed mode")
+    print("## Drawn members\n")
+    print(f"{count} members of {len(proved)} proved boxes: {contradicted} have a fixed mode.")
     certified = 0
     for k in range(count // 20):
         planted = system_with_fixed_mode(SeededChoices(k), 4, 2).system
@@ -152,26 +153,35 @@ def drawn(plants: dict[str, MultiChannelSystem], count: int = 10_000) -> None:
             lambda inner=inner: box_fixed_modes(Box(inner.member(rng), inner.radii).system)
         )
         certified += proof is not None
-    print(f"{count // 20} boxes with a planted member: {certified} certified")
+    print(f"{count // 20} boxes with a planted fixed mode: {certified} certified.\n")
 
 
 def size(plants: dict[str, MultiChannelSystem]) -> None:
     """Print how long finding and checking take for rings of coupled subsystems."""
-    print("n | m | part | seconds to find | seconds to check | squares | bytes")
+    heading("Rings of subsystems", "n", "m", "part", "s to find", "s to check", "squares", "bytes")
     for n, m, part in ((5, 1, 1e-3), (20, 5, 1e-4), (60, 10, 1e-5), (200, 20, 1e-6)):
         system = Box.relative(ring(n, m), Fraction(str(part))).system
         proof, seconds = timed(partial(box_fixed_modes, system, starts=1))
         if proof is None:
-            print(f"{n} | {m} | {part:g} | no proof in {seconds:.1f}", flush=True)
+            row(n, m, f"{part:g}", f"no proof in {seconds:.1f}", "", "", "")
             continue
         verdict, checking = timed(partial(check, proof))
         told = "?" if verdict is None else verdict.verdict
         squares = sum(map(len, proof.cover))
-        print(
-            f"{n} | {m} | {part:g} | {seconds:.2f} | {checking:.2f} {told} | {squares} | "
-            f"{len(encode(proof))}",
-            flush=True,
-        )
+        checked = f"{checking:.2f} {told}"
+        row(n, m, f"{part:g}", f"{seconds:.2f}", checked, squares, len(encode(proof)))
+
+
+def heading(title: str, *columns: str) -> None:
+    """Print a title, and the names of the columns of a table."""
+    print(f"## {title}\n")
+    row(*columns)
+    row(*["---"] * len(columns))
+
+
+def row(*cells: object) -> None:
+    """Print a row of a table."""
+    print("| " + " | ".join(map(str, cells)) + " |", flush=True)
 
 
 def ring(n: int, m: int) -> MultiChannelSystem:
