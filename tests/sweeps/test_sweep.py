@@ -91,7 +91,7 @@ def controllability_of_one_channel(job: Job) -> Outcome:
 
 def test_every_question_is_answered_as_it_is_one_by_one() -> None:
     system = gallery.load("liu2020-3ch-no-communication")
-    [record] = sweep([system], QUESTIONS)
+    [record] = sweep([system], list(QUESTIONS))
     assert (record.system, record.digest) == (
         {"n": 3, "m": 3, "time": "continuous"},
         digest(system),
