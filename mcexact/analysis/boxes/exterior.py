@@ -23,6 +23,7 @@ from mcexact.exact.matrix import Matrix
 _PERTURBATIONS = (0.0, 1e-11, 1e-8, 1e-6, 1e-4, 1e-2)
 """Eigenvectors of a matrix that is not diagonalizable are taken of one so close to it."""
 _FINE = 2.0**-18
+_PARTS = (1e-1, 1e-2, 1e-3)
 _WELL = 1e6
 _MOST_DIGITS = 60
 _SQUARINGS = 40
@@ -70,7 +71,7 @@ def _coordinates(
     box: FloatBox, rng: np.random.Generator, growth: float
 ) -> list[tuple[Complex, Complex, Complex]]:
     """Y, T and the centers in balanced coordinates, those with the smallest radii first."""
-    A, n = box.A, box.n
+    A = box.A
     found: list[tuple[float, Any, Any, Any]] = []
     for T in _candidates(A, box.DA, rng):
         try:
@@ -84,12 +85,28 @@ def _coordinates(
         rounding = 1e-12 * (size_Y @ np.abs(A) @ size_T)
         if not np.all(np.isfinite(spread + rounding)):
             continue
-        for w in (np.ones(n), perron(spread, _SQUARINGS)[1]):
-            weight = np.maximum(w, 1e-12)
+        for weight in _weights(spread, np.abs(centers)):
             total = float((((spread + rounding) @ weight) / weight).sum())
             found.append((total, Y / weight[:, None], T * weight[None, :], centers))
     found.sort(key=lambda each: each[0])
     return [(Y, T, centers) for _, Y, T, centers in found]
+
+
+def _weights(spread: Floats, sizes: Floats) -> Iterator[Floats]:
+    """Weights w > 0 for which the sums of spread_ij w_j / w_i, the radii, are small."""
+    n = len(spread)
+    yield np.ones(n)
+    yield np.maximum(perron(spread, _SQUARINGS)[1], 1e-12)
+    own = np.diag(spread)
+    for part in _PARTS:
+        # Where a solution is positive, each radius is below the disc's own part and this target.
+        target = part * np.maximum(sizes, 1e-6 * sizes.max(initial=1e-290))
+        try:
+            w = np.linalg.solve(np.diag(target) - (spread - np.diag(own)), target)
+        except np.linalg.LinAlgError:
+            continue
+        if np.all(np.isfinite(w)) and np.all(w > 0):
+            yield w / w.max()
 
 
 def _candidates(A: Floats, D: Floats, rng: np.random.Generator) -> Iterator[Any]:

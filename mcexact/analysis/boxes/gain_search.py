@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 
 import numpy as np
 import numpy.typing as npt
 
 from mcexact.analysis.boxes.float_pencils import FloatBox, Floats, perron
-from mcexact.exact.floats import dyadic_matrix
 from mcexact.exact.matrix import Matrix
 
 Gains = tuple[tuple[Floats, ...], tuple[Floats, ...]]
@@ -104,11 +104,19 @@ def exact_gains(gains: Gains) -> tuple[tuple[Matrix, ...], tuple[Matrix, ...]]:
         both = np.hstack([X, W])
         top = np.abs(both).max(axis=1, initial=0.0)
         both = both / np.exp2(np.floor(np.log2(np.maximum(top, 1e-290))))[:, None]
-        exact = dyadic_matrix(both, _GAIN_BITS)
+        exact = Matrix.from_rows([[_short(x) for x in row] for row in both.tolist()], both.shape[1])
         q = X.shape[1]
         X_exact.append(exact.take(cols=range(q)))
         W_exact.append(exact.take(cols=range(q, q + W.shape[1])))
     return tuple(X_exact), tuple(W_exact)
+
+
+def _short(x: float) -> Fraction:
+    """A number with some significant bits."""
+    mantissa, exponent = np.frexp(x)
+    return Fraction(round(float(mantissa) * 2**_GAIN_BITS)) * Fraction(2) ** (
+        int(exponent) - _GAIN_BITS
+    )
 
 
 def _start(box: FloatBox, shape: _Shape, rng: np.random.Generator) -> Floats:

@@ -45,6 +45,17 @@ def test_a_chain_of_integrators_has_small_discs() -> None:
     assert found is not None and max(float(disc.radius) for disc in found.discs) < 1e-2
 
 
+def test_what_couples_blocks_in_one_direction_does_not_make_their_discs_larger() -> None:
+    """The slow mode is known to a thousandth, however strongly a fast one drives it."""
+    A = [[-1, 0], [100, "-1/100000"]]
+    box = Box.relative(MultiChannelSystem(A, [[[1], [0]]], [[[0, 1]]]), "1/1000")
+    found = exterior(
+        FloatBox.of(box.system, box.radii), box.system.A, box.radii.A, np.random.default_rng(0)
+    )
+    assert found is not None
+    assert min(float(disc.radius) for disc in found.discs) < 1e-6
+
+
 def test_squares_are_cut_until_they_pass_and_those_outside_are_left_out() -> None:
     asked: list[Point] = []
 
