@@ -15,7 +15,8 @@ MOST_ROWS = 60
 
 _STYLE = """\
 .mcexact { --good: #2a9a4f; --bad: #d8502f; --line: rgba(128, 128, 128, 0.45);
-  --panel: rgba(128, 128, 128, 0.12); --accent: #3f86d2; color: inherit; overflow-x: auto; }
+  --panel: rgba(128, 128, 128, 0.12); --accent: #3f86d2; color: inherit; overflow-x: auto;
+  padding-top: 0.35em; }
 .mcexact table { border-collapse: collapse; margin: 0.3em 0; color: inherit; }
 .mcexact caption { caption-side: top; text-align: left; font-weight: 600; color: inherit;
   padding: 0.2em 0; }
