@@ -15,7 +15,9 @@ ONCE := HYPOTHESIS_PROFILE=$(or $(HYPOTHESIS_PROFILE),ci) OPENBLAS_NUM_THREADS=$
 
 demo: $(CORE)
 	$(BIN)/mcexact demo
+	@echo
 	$(BIN)/mcexact analyze $(GALLERY)/liu2020-3ch-no-communication.json
+	@echo
 	$(BIN)/mcexact analyze $(GALLERY)/quadruple-tank-pminus.json
 	@echo
 	@echo "The command mcexact is in .venv/bin. This line puts it on your path:"
