@@ -13,6 +13,10 @@ from .analysis.boxes.largest_box import largest_uncertainty as largest_uncertain
 from .analysis.boxes.largest_loop_box import (
     largest_loop_uncertainty as largest_loop_uncertainty,
 )
+from .analysis.engine.parametric_sharing import ParametricSharing as ParametricSharing
+from .analysis.engine.parametric_sharing import (
+    shared_dimensions_for_every_value as shared_dimensions_for_every_value,
+)
 from .analysis.engine.parametric_structure import ParametricCompleteness as ParametricCompleteness
 from .analysis.engine.parametric_structure import ParametricTransferGraph as ParametricTransferGraph
 from .analysis.fixed_modes.assignability import assignability as assignability

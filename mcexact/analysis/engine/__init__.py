@@ -15,6 +15,7 @@ This folder answers no question by itself.  The other folders of `analysis` impo
 `parametric_control`     the same for what channels do not control or observe
 `parametric_minors`      ranks of matrices of polynomials in a parameter
 `parametric_structure`   the transfer graph and completeness by such ranks
+`parametric_sharing`     the least dimensions that agents must share for every value
 `zero_blocks`            proofs that a mode is fixed for all values, or at some
 `reachability`           the transfer graph modulo a prime, and zero transfers
 `sparse_reachability`    the transfer graph of large sparse systems
@@ -41,6 +42,10 @@ from mcexact.analysis.engine.one_channel import MODULI, best_sequences
 from mcexact.analysis.engine.parametric_control import parametric_controllability
 from mcexact.analysis.engine.parametric_minors import parametric_rank
 from mcexact.analysis.engine.parametric_modes import parametric_fixed_spectrum
+from mcexact.analysis.engine.parametric_sharing import (
+    ParametricSharing,
+    shared_dimensions_for_every_value,
+)
 from mcexact.analysis.engine.parametric_structure import (
     ParametricCompleteness,
     ParametricTransferGraph,
@@ -96,6 +101,7 @@ __all__ = [
     "Node",
     "Obstruction",
     "ParametricCompleteness",
+    "ParametricSharing",
     "ParametricTransferGraph",
     "QuadraticForm",
     "StateBlock",
@@ -127,6 +133,7 @@ __all__ = [
     "quadratic_form",
     "reachable_pairs",
     "separated_instability",
+    "shared_dimensions_for_every_value",
     "sparse_powers",
     "state_blocks",
     "strong_components",
