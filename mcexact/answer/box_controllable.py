@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
 from mcexact.answer.evidence import ComplexMatrix, Cover, ExteriorDiscs
 from mcexact.answer.protocol import Answer, Part, answer, claim, witness
+from mcexact.answer.sentence import Claim, Given, Rulebook
+from mcexact.answer.template import Sentence, Template
 from mcexact.exact.location import StabilityRegion
 
 
@@ -55,3 +58,26 @@ class BoxControllability(Answer):
     def region(self) -> StabilityRegion | None:
         """The region in which members may have uncontrollable modes, if any."""
         return None if self.bound is None else StabilityRegion.of(self.about.time, bound=self.bound)
+
+
+_HAUTUS = "joint_controllability.controllable_hautus"
+_LABEL = "within the radii"
+CONTROLLABLE = Template(
+    "members-controllable", "every plant is controllable by all channels together", _HAUTUS, _LABEL
+)
+OBSERVABLE = Template(
+    "members-observable", "every plant is observable by all channels together", _HAUTUS, _LABEL
+)
+RULES = Rulebook()
+
+
+@RULES.rule("table", CONTROLLABLE)
+def _controllable(box_controllability: Claim, given: Given) -> Iterator[Sentence]:
+    if box_controllability.bound is None and len(box_controllability.channels) == given.m:
+        yield CONTROLLABLE()
+
+
+@RULES.rule("table", OBSERVABLE)
+def _observable(box_observability: Claim, given: Given) -> Iterator[Sentence]:
+    if box_observability.bound is None and len(box_observability.channels) == given.m:
+        yield OBSERVABLE()

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
 from mcexact.answer.evidence import ComplexMatrix, Cover, ExteriorDiscs
 from mcexact.answer.protocol import Answer, Part, answer, claim, witness
+from mcexact.answer.sentence import Claim, Rulebook
+from mcexact.answer.template import Sentence, Template
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 
@@ -78,3 +81,30 @@ class BoxFixedModes(Answer):
     def region(self) -> StabilityRegion | None:
         """The region in which members may have fixed modes, if any."""
         return None if self.bound is None else StabilityRegion.of(self.about.time, bound=self.bound)
+
+
+NOTHING_FIXED = Template(
+    "members-nothing-fixed",
+    "no plant has a fixed mode",
+    "boxes.regular_not_fixed",
+    "within the radii",
+)
+STABILIZABLE = Template(
+    "members-stabilizable",
+    "every plant is stabilizable by a decentralized linear time-invariant controller of its own",
+    "S. H. Wang and E. J. Davison 1973",
+    "within the radii",
+)
+RULES = Rulebook()
+
+
+@RULES.rule("table", NOTHING_FIXED)
+def _nothing_fixed(box_fixed_modes: Claim) -> Iterator[Sentence]:
+    if box_fixed_modes.bound is None:
+        yield NOTHING_FIXED()
+
+
+@RULES.rule("table", STABILIZABLE)
+def _stabilizable(box_stabilizability: Claim) -> Iterator[Sentence]:
+    if box_stabilizability.bound is not None:
+        yield STABILIZABLE()

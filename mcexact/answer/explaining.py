@@ -25,6 +25,11 @@ def question_of(answer: Answer) -> str:
     if answer.kind == "controllability":
         whose = "joint" if len(claim["channels"]) == answer.about.m else "channel"
         return f"{whose}_{'observability' if dual else 'controllability'}"
+    if answer.kind == "box_fixed":
+        return "box_fixed_modes" if claim["bound"] is None else "box_stabilizability"
+    if answer.kind == "box_controllable":
+        whole = claim["bound"] is None and len(claim["channels"]) == answer.about.m
+        return f"box_{'observability' if dual else 'controllability'}" if whole else ""
     if answer.kind == "controllability_indices":
         return "observability_indices" if dual else "controllability_indices"
     if answer.kind in {"shared_dimensions", "common_dimension"}:

@@ -6,7 +6,13 @@ import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 
-from . import reading, sentences_analysis, sentences_design, sentences_sharing
+from . import (
+    reading,
+    sentences_analysis,
+    sentences_boxes,
+    sentences_design,
+    sentences_sharing,
+)
 from .boxes import at_values, system_of
 from .budget import Budget, current, limited, spend
 from .expectation import DIGEST, Expectation, same
@@ -18,7 +24,7 @@ from .system import read_plant
 
 __all__ = ["NAME", "RULES", "manifest_verdicts", "verdicts_of"]
 
-TOPICS = (sentences_analysis, sentences_sharing, sentences_design)
+TOPICS = (sentences_analysis, sentences_sharing, sentences_design, sentences_boxes)
 """The modules of the rules that do not belong to one kind."""
 FORMAT = "mcexact-manifest/1"
 NAME = "manifest.json"

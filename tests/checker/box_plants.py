@@ -145,6 +145,17 @@ DELAYED_STABLE = stable(
     DELAYED,
     gain_radii=DELAYED_RADII,
 )
+TWICE = plant(
+    [[1]], ([[1]], [[1]]), ([[2]], [[1]]), uncertainty=uncertain([["1/10"]], {"2": [["1/10"]]})
+)
+OF_ONE_PLANT = [
+    fixed(TWICE, [gains((2, 1), (2, 1))]),
+    fixed(TWICE, [gains((2, 1), (2, 1))], bound=0),
+    controllable(TWICE, ["1", "2"]),
+    controllable(TWICE, ["1", "2"], DUAL),
+    controllable(TWICE, ["2"]),
+    controllable(TWICE, ["1", "2"], DUAL, bound=0),
+]
 ALL = {
     "no fixed mode": FIXED,
     "stabilizable": STABILIZABLE,

@@ -47,6 +47,7 @@ from tests.checker import (
     test_setpoint,
     test_single_channel_gains,
 )
+from tests.checker.box_plants import OF_ONE_PLANT
 from tests.checker.handmade import Document
 from tests.checker.test_fixed_spectrum import UNEVEN
 
@@ -379,6 +380,7 @@ def pool() -> Iterator[tuple[str, list[Document]]]:
     yield from tracking()
     within = gallery.load("movable-by-periodic-gains")
     yield "within", list(told(lambda: fixed_spectrum(within), lambda: assignability(within)))
+    yield "boxes", OF_ONE_PLANT
     yield "uneven", [UNEVEN, *analyses(uneven())]
     of_loops: dict[str, list[Document]] = {}
     for _, listed in [*design.IMPLIED, *design.DENIED]:

@@ -36,6 +36,7 @@ from mcexact.model.system import MultiChannelSystem
 from tests.answer.asking import asked as asking
 from tests.answer.test_sentences import drawn, question
 from tests.attack.forgeries.joined import factors_joined
+from tests.checker.box_plants import OF_ONE_PLANT
 from tests.checker.handmade import Document, changed
 from tests.checker.manifests import manifest, one, said, sentence, write
 from tests.checker.test_complementary_subsystem import TWICE
@@ -113,7 +114,7 @@ OPPOSITE = [
 ]
 ALWAYS = {
     *("spectrum-moved", "spectrum-moved-between", "picture-transfer-graph", "complete"),
-    *("pencil-row", "subsystem-normal-rank", "subsystem-remnant"),
+    *("pencil-row", "subsystem-normal-rank", "subsystem-remnant", "members-stabilizable"),
     *("allocate-proof", "allocate-cost-proof", "allocate-links-proof"),
 }
 """What holds of every certificate of its kind: the words say what it is that holds."""
@@ -138,6 +139,7 @@ def test_each_rule_is_implied_by_some_certificates_and_not_by_all(tmp_path: Path
     evidence += [{"a": changed(BLIND, ("claim.channels", ["1"]))}]
     evidence += [{"a": changed(CUT, ("claim.property", "both"))}]
     evidence += [{"a": document(least)} for least in infeasible()]
+    evidence += [{"a": each} for each in OF_ONE_PLANT]
     dual = changed(CUT, ("claim.property", "observable"), ("witness.side", "observable"))
     implied, denied = (dict[str, set[Any]]((key, set()) for key in RULES) for _ in range(2))
     for number, documents in enumerate([*evidence, {"a": dual}]):
