@@ -10,7 +10,7 @@ from tests.checker.box_maker import controllable, fixed, stable
 from tests.checker.box_plants import LOOP, gains, programs, radii_of_first
 from tests.checker.handmade import plant
 
-from .plants import Document, number
+from .plants import Document, number, table
 
 SMALL = (0, 0, Fraction(1, 8), Fraction(-1, 4))
 RADII = (0, 0, Fraction(1, 20), Fraction(1, 10))
@@ -23,8 +23,9 @@ def drawn_box(rng: random.Random, diagonal: tuple[Fraction | int, ...], time: st
     for i in range(2):
         values[i][i] = rng.choice(diagonal)
     ports: list[Any] = [([[1], [0]], [[1, 0]]), ([[rng.choice(SMALL)], [1]], [[0, 1]])]
-    written = [([[number(x) for x in row] for row in B], C) for B, C in ports]
-    found = plant([[number(x) for x in row] for row in values], *written, time=time)
+    written = [(table([[number(x) for x in row] for row in B], 1), table(C, 2)) for B, C in ports]
+    A = table([[number(x) for x in row] for row in values], 2)
+    found = plant(A, *written, time=time)
     doubts = {"A": drawn_radii(rng, 2, 2)}
     for key, shape in (("B", (2, 1)), ("C", (1, 2))):
         listed = {name: drawn_radii(rng, *shape) for name in ("1", "2")}

@@ -9,7 +9,7 @@ from tests.attack.oracle.constructions import subject_of
 from tests.attack.oracle.moved_entries import MOVING
 from tests.attack.oracle.reading import Unspecified
 
-from .plants import NAMES, Document, number
+from .plants import NAMES, Document, number, table
 from .subjects import drawn_step
 
 ENTRIES = (
@@ -58,7 +58,7 @@ def drawn_moves(rng: random.Random, plant: Document, largest: int = 5) -> list[D
     A = plant["A"]
     bare = {
         "time": plant["time"],
-        "A": [[0] * len(A) for _ in A],
+        "A": table([[0] * len(A) for _ in A], len(A)),
         "channels": [{**c, "B": _zeros(c["B"]), "C": _zeros(c["C"])} for c in plant["channels"]],
         "neighbors": {c["name"]: [] for c in plant["channels"]},
     }
@@ -78,4 +78,4 @@ def drawn_moves(rng: random.Random, plant: Document, largest: int = 5) -> list[D
 
 
 def _zeros(M: Document | list[list[object]]) -> object:
-    return M if isinstance(M, dict) else [[0] * len(row) for row in M]
+    return M if isinstance(M, dict) else table([[0] * len(row) for row in M], len(M[0]) if M else 0)
