@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, Literal
 
+from mcexact.arguments import one_of
 from mcexact.derived.feedback import checked_gains
 from mcexact.errors import Impossible, InputError, LimitReached, McexactError, UsageError
 from mcexact.exact.floats import Rounding
@@ -118,6 +119,7 @@ def design_observer(
 H_ij let one agent control and observe all estimation errors
     """
     InputError.require(system, MultiChannelSystem, "system")
+    one_of(order, (None, "least", "low"), "order")
     system, graph = with_graph(system, graph)
     request = request_for(system, agent, spectrum, rate, radius, arithmetic, progress)
     sizes = [system.n] * system.m

@@ -81,7 +81,7 @@ SAID: dict[str, str] = {
     "mcexact.shared_dimension_bound(LINKED, share='all')": 'share: expected "outputs+states" or ',
     "mcexact.minimal_communication(PLANT, share=3)": 'share: expected "outputs", "outputs+states"',
     "mcexact.design_extended(LINKED, rate=1, network='lift')": 'network: expected "extended", "li',
-    "mcexact.design_observer(LINKED, rate=1, order=1)": 'order: expected "least", found 1',
+    "mcexact.design_observer(LINKED, rate=1, order=1)": 'order: expected "least" or "low", found 1',
     "mcexact.design_setpoint(PLANT, rate=1, method=1)": 'method: expected "observer" or "extended',
     "mcexact.design_decentralized(PLANT, rate=1, arithmetic=FLOATS)": 'arithmetic: expected "exac',
     "mcexact.certify_controller(PLANT, CONTROLLER, method='routh')": 'method: expected "polynomia',

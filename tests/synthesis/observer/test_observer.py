@@ -145,7 +145,7 @@ def test_a_wrong_length_is_an_error_that_states_the_right_one():
     [
         ({"radius": 1}, "a radius is for discrete time"),
         ({"rate": 1, "agent": "4"}, "no channel"),
-        ({"rate": 1, "order": "most"}, 'expected order "least"'),
+        ({"rate": 1, "order": "most"}, 'order: expected "least" or "low"'),
     ],
 )
 def test_arguments_that_make_no_sense_are_wrong_usage(options, message):
