@@ -159,7 +159,7 @@ schemas: $(STAMP)
 	$(BIN)/python -m mcexact.report.schema
 
 # All JSON of all commands about every published plant, against these schemas: half an hour.
-# NAMES='quadruple-tank-pminus' tries some.
+# NAMES='quadruple-tank-pminus' tries some. What build/schemas.jsonl holds is not tried again.
 schemas-everywhere: $(STAMP)
 	$(BIN)/python -m tests.campaigns.schemas $(NAMES)
 
