@@ -94,6 +94,11 @@ SAID: dict[str, str] = {
     "mcexact.completeness(PLANT, spectrum=[1])": "spectrum: expected a FixedSpectrum, found list",
     "mcexact.assignability(PLANT, graph=[1])": "graph: expected a TransferGraph, found list",
     "next(mcexact.parameter_grid(PLANT, {'t': [1]}))": "plant: expected a ParametricSystem",
+    "mcexact.box_controllability([[1]])": "system: expected a MultiChannelSystem, found list",
+    "mcexact.box_observability([[1]])": "system: expected a MultiChannelSystem, found list",
+    "mcexact.box_fixed_modes(FLOATS)": "system: expected a MultiChannelSystem, found ndarray",
+    "mcexact.box_stabilizability(FRAME)": "system: expected a MultiChannelSystem, found DataF",
+    "mcexact.box_stability(PLANT, [[1]])": "controller: expected a Controller, found list",
     # Graphs.
     "NeighborGraph.ring('abc')": "names: expected a list of names, or a number of agents, found",
     "NeighborGraph.ring(-1)": "names: expected a number of agents >= 0, found -1",

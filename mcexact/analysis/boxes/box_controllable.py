@@ -27,7 +27,7 @@ from mcexact.analysis.boxes.regular_discs import (
 from mcexact.answer.box_controllable import BoxControllability, RightInverseFrame
 from mcexact.answer.evidence import ExteriorDiscs
 from mcexact.derived.dual import dual
-from mcexact.errors import LimitReached
+from mcexact.errors import InputError, LimitReached
 from mcexact.exact.blocks import hstack
 from mcexact.exact.floats import to_float
 from mcexact.exact.location import StabilityRegion
@@ -235,6 +235,7 @@ def box_controllability(
         ...
     mcexact.errors.LimitReached: no proof was found that every plant in the box is controllable
     """
+    InputError.require(system, MultiChannelSystem, "system")
     chosen = range(system.m) if channels is None else system.indices(channels)
     limit = None if bound is None else StabilityRegion.of(system.time, bound=bound).edge
     with one_thread():
@@ -272,4 +273,5 @@ def box_observability(
     >>> box_observability(Box.relative(plant, "1/10").system).subject
     ({'construction': 'dual'},)
     """
+    InputError.require(system, MultiChannelSystem, "system")
     return box_controllability(dual(system), channels, bound=bound)

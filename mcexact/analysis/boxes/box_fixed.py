@@ -18,7 +18,7 @@ from mcexact.analysis.boxes.regular_discs import Frames, Point
 from mcexact.answer.box_fixed import BoxFixedModes, PencilFrame, PencilGains
 from mcexact.answer.evidence import ExteriorDiscs
 from mcexact.answer.fixed_spectrum import FixedSpectrum
-from mcexact.errors import LimitReached
+from mcexact.errors import InputError, LimitReached
 from mcexact.exact.floats import to_float
 from mcexact.exact.location import StabilityRegion
 from mcexact.model.system import MultiChannelSystem
@@ -219,6 +219,7 @@ def box_fixed_modes(
         ...
     mcexact.errors.LimitReached: no proof was found that no plant in the box has a fixed mode
     """
+    InputError.require(system, MultiChannelSystem, "system")
     limit = None if bound is None else StabilityRegion.of(system.time, bound=bound).edge
     if spectrum is not None:
         _require_moved(spectrum, limit)
@@ -268,5 +269,6 @@ def box_stabilizability(
     >>> box_stabilizability(Box.relative(plant, "1/100").system).bound
     Fraction(0, 1)
     """
+    InputError.require(system, MultiChannelSystem, "system")
     edge = StabilityRegion(system.time).edge
     return box_fixed_modes(system, bound=edge, spectrum=spectrum)

@@ -21,7 +21,7 @@ from mcexact.analysis.stability.stability import certify_stability
 from mcexact.answer.box_stable import BoxStability
 from mcexact.answer.evidence import InverseFrame
 from mcexact.answer.stability import LyapunovMethod, PolynomialMethod
-from mcexact.errors import InternalError, LimitReached
+from mcexact.errors import InputError, InternalError, LimitReached
 from mcexact.exact.floats import matrix_to_float, to_float
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
@@ -328,6 +328,8 @@ def box_stability(
         ...
     mcexact.errors.LimitReached: no proof was found that every loop in the box has Re λ < 0
     """
+    InputError.require(system, MultiChannelSystem, "system")
+    InputError.require(controller, Controller, "controller")
     region = StabilityRegion.of(system.time, rate, radius)
     radii = (
         gains if gains is None or isinstance(gains, Controller) else gain_radii(controller, gains)
