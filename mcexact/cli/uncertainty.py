@@ -42,7 +42,7 @@ def of(
 
 
 def lead(account: Account) -> str:
-    """The answers for every plant within the radii, in the checker's words, before all others."""
+    """The sentences about every plant within the radii, before all others."""
     from mcexact.report.text import WIDTH, wrapped
 
     known = [name for name in _ALL if name in account.answers]
