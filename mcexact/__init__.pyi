@@ -19,13 +19,13 @@ from .analysis.engine.parametric_sharing import (
 )
 from .analysis.engine.parametric_structure import ParametricCompleteness as ParametricCompleteness
 from .analysis.engine.parametric_structure import ParametricTransferGraph as ParametricTransferGraph
+from .analysis.exceptional_hypersurfaces import (
+    exceptional_hypersurfaces as exceptional_hypersurfaces,
+)
 from .analysis.fixed_modes.assignability import assignability as assignability
 from .analysis.fixed_modes.completeness import completeness as completeness
 from .analysis.fixed_modes.error_gains import ErrorGains as ErrorGains
 from .analysis.fixed_modes.error_gains import error_gains as error_gains
-from .analysis.fixed_modes.exceptional_hypersurfaces import (
-    exceptional_hypersurfaces as exceptional_hypersurfaces,
-)
 from .analysis.fixed_modes.fixed_spectrum import fixed_spectrum as fixed_spectrum
 from .analysis.fixed_modes.pencil import pencil_rank as pencil_rank
 from .analysis.fixed_modes.pencil import pencil_ranks as pencil_ranks
@@ -78,6 +78,7 @@ from .answer.exceptional_hypersurfaces import Hypersurface as Hypersurface
 from .answer.fixed_spectrum import FixedFactor as FixedFactor
 from .answer.fixed_spectrum import FixedSpectrum as FixedSpectrum
 from .answer.neighbor_graph import NeighborGraphVerdict as NeighborGraphVerdict
+from .answer.parametric_analysis import ParametricAnalysis as ParametricAnalysis
 from .answer.parametric_fixed_spectrum import ExceptionalValue as ExceptionalValue
 from .answer.parametric_fixed_spectrum import ParametricFixedSpectrum as ParametricFixedSpectrum
 from .answer.parametric_rank import LowerRank as LowerRank

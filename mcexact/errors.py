@@ -98,9 +98,12 @@ class InputError(McexactError, ValueError):
         if not isinstance(value, kind):
             article = "an" if kind.__name__[0] in "AEIO" else "a"
             advice = getattr(kind, "_made_by", "")
+            advice = getattr(value, "_becomes", {}).get(kind.__name__) or (
+                advice and f"make one with {advice}"
+            )
             raise InputError(
                 f"expected {article} {kind.__name__}, found {type(value).__name__}"
-                f"{advice and f'; make one with {advice}'}",
+                f"{advice and f'; {advice}'}",
                 where=where,
             )
 

@@ -6,14 +6,16 @@ word-size primes where this suffices for a proof, and arithmetic over Q for the 
 certificates.  Floating point only proposes integer solutions of covering programs, and Lyapunov
 matrices.
 
-===============  ==========================================================================
-`analyze`        all questions about one system, each decided once
-`questions`      the table of questions
-`accounts`       the least dimensions beside the bound, or the links to add, in sentences
-`engine`         the algorithms that several decisions use
-`structure`      controllability, indices, transfer graph, set-points, subsystems
-`fixed_modes`    fixed modes, completeness, assignability, and gains
-`sharing`        the least that agents must share
-`stability`      the location of the eigenvalues of a closed loop
-===============  ==========================================================================
+===========================  ==============================================================
+`analyze`                    all questions about one system, each decided once
+`questions`                  the table of questions
+`parametric_analysis`        the questions that are decided for all values of parameters
+`exceptional_hypersurfaces`  what is fixed for several parameters, and where more is
+`accounts`                   least dimensions beside the bound, or links to add, in words
+`engine`                     the algorithms that several decisions use
+`structure`                  controllability, indices, transfer graph, set-points, subsystems
+`fixed_modes`                fixed modes, completeness, assignability, and gains
+`sharing`                    the least that agents must share
+`stability`                  the location of the eigenvalues of a closed loop
+===========================  ==============================================================
 """

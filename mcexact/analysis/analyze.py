@@ -8,16 +8,19 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from typing import Any, NoReturn
+from typing import Any, NoReturn, overload
 
+from mcexact.analysis.parametric_analysis import parametric_analysis
 from mcexact.analysis.questions import QUESTIONS, Question
 from mcexact.answer.account import Account, ShownByAccount
+from mcexact.answer.parametric_analysis import ParametricAnalysis
 from mcexact.answer.protocol import Answer
 from mcexact.answer.rules import ANALYSIS, with_own
 from mcexact.answer.sentence import Given, Sentences
 from mcexact.arguments import one_of, several, told
 from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.exact.rational import written
+from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 from mcexact.plot.graphs import structure
 
@@ -354,6 +357,7 @@ def _written(bound: Fraction | None) -> Any:
     return None if bound is None else written(bound)
 
 
+@overload
 def analyze(
     plant: MultiChannelSystem,
     questions: Iterable[str] | None = None,
@@ -362,12 +366,29 @@ def analyze(
     information: str = "own",
     subset: Sequence[str] | None = None,
     channel: str | None = None,
-) -> Analysis:
+) -> Analysis: ...
+
+
+@overload
+def analyze(plant: ParametricSystem) -> ParametricAnalysis: ...
+
+
+def analyze(
+    plant: MultiChannelSystem | ParametricSystem,
+    questions: Iterable[str] | None = None,
+    *,
+    also: Iterable[str] = (),
+    information: str = "own",
+    subset: Sequence[str] | None = None,
+    channel: str | None = None,
+) -> Analysis | ParametricAnalysis:
     """Answer questions about a system, by default all that apply and are cheap.
 
     Parameters
     ----------
-    plant : MultiChannelSystem
+    plant : MultiChannelSystem or ParametricSystem
+        With parameters the fixed modes, joint controllability and joint observability are decided
+        for all values, and other questions are asked about ``plant.at({…})``.
     questions : iterable of str, optional
         Names of questions, which `dir` of the result lists; an NP-hard question is asked only by
         name.
@@ -383,8 +404,8 @@ def analyze(
 
     Returns
     -------
-    Analysis
-        The answers, each of which is decided when it is first used.
+    Analysis or ParametricAnalysis
+        The answers, each of which is decided when it is first used, or with parameters at once.
 
     Raises
     ------
@@ -400,6 +421,14 @@ def analyze(
     >>> sorted(found.minimal_communication.added)
     [('1', '2')]
     """
+    if isinstance(plant, ParametricSystem):
+        if questions is not None or [*also] or subset is not None or channel is not None or (
+            information != "own"
+        ):  # fmt: skip
+            raise UsageError(
+                "these questions are about systems without parameters: give values with .at({…})"
+            )
+        return parametric_analysis(plant)
     made = Analysis(plant, questions, information=information, subset=subset, channel=channel)
     named = {*several(also, "also")}
     for name in sorted(named):

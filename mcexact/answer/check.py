@@ -141,15 +141,16 @@ def about_plant(text: str) -> Expectation:
     return Expectation(system=sha256(text), plant=plant, size=len(text))
 
 
-def recheck(files: Mapping[str, str], plant: str) -> dict[str, Found]:
-    """Verify certificates about one plant, and the sentences of their manifest.
+def recheck(files: Mapping[str, str], plant: str | Mapping[str, str]) -> dict[str, Found]:
+    """Verify certificates, and the sentences of their manifest.
 
     Parameters
     ----------
     files : mapping from names to texts
         Certificates, and perhaps a manifest, whose sentences are then verified.
-    plant : str
-        The plant as the ``system`` object of a certificate.
+    plant : str or mapping
+        The plant as the ``system`` object of a certificate; or of each certificate its own, where
+        there is no manifest.
 
     Returns
     -------
@@ -163,7 +164,7 @@ def recheck(files: Mapping[str, str], plant: str) -> dict[str, Found]:
         can be trusted.
     """
     size, verdicts = max(map(len, files.values()), default=0), {}
-    for about, found in _verdicts(files, about_plant(plant), _limits(size)):
+    for about, found in _verdicts(files, plant, _limits(size)):
         if found.verdict not in {"VALID", "IMPLIED", "INCOMPLETE"} or found.code == "rule":
             [what] = about.values()
             raise InternalError(
@@ -176,13 +177,15 @@ def recheck(files: Mapping[str, str], plant: str) -> dict[str, Found]:
 
 
 def _verdicts(
-    files: Mapping[str, str], expected: Expectation, limits: Limits
+    files: Mapping[str, str], plant: str | Mapping[str, str], limits: Limits
 ) -> Iterator[tuple[dict[str, str], Found]]:
     """Return the verdicts on the certificates and on the sentences of the manifest."""
-    if NAME in files:
-        yield from verdicts_of(lambda name: files[name or NAME].encode(), expected, limits)
+    if NAME in files and isinstance(plant, str):
+        known = about_plant(plant)
+        yield from verdicts_of(lambda name: files[name or NAME].encode(), known, limits)
         return
     for name, text in files.items():
+        expected = about_plant(plant if isinstance(plant, str) else plant[name])
         yield {"file": name}, check_document(text.encode("ascii"), expected, limits)
 
 

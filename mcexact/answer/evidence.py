@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Any
 
 from mcexact.answer.protocol import Part
 from mcexact.exact.matrix import Matrix
@@ -154,6 +155,24 @@ class RootDisc(Part):
     re: str
     im: str
     radius: str
+
+    def to_sympy(self) -> Any:
+        """The real numbers in the disc, as an ``Interval`` of sympy; empty if there are none.
+
+        Examples
+        --------
+        >>> RootDisc("1.5", "0", "0.25").to_sympy()
+        Interval(5/4, 7/4)
+        >>> RootDisc("0", "1", "0.25").to_sympy()
+        EmptySet
+        """
+        import sympy
+
+        re, im, radius = map(sympy.Rational, (self.re, self.im, self.radius))
+        if abs(im) > radius:
+            return sympy.S.EmptySet
+        half = radius if not im else sympy.sqrt(radius**2 - im**2)
+        return sympy.Interval(re - half, re + half)
 
 
 @dataclass(frozen=True)

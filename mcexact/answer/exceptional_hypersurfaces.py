@@ -7,11 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any
 
 from mcexact.answer.mode_words import blame, polynomial_in_x
 from mcexact.answer.parametric_fixed_spectrum import ParametricFixedSpectrum
-from mcexact.exact.rational_function import RationalFunction
+from mcexact.exact.rational import rational_latex, rational_text
+from mcexact.exact.rational_function import RationalFunction, parameter_latex
 from mcexact.model.parametric import ParametricSystem
 from mcexact.shown import LINE, Shown, escaped, fitting
 
@@ -68,8 +70,23 @@ class Hypersurface(Shown):
         symbols = sympy.symbols(self.polynomial.parameters)
         return sympy.Poly(self.polynomial.to_sympy(), *symbols, domain="QQ")
 
+    @property
+    def value(self) -> tuple[str, Fraction] | None:
+        """The parameter and its value, if the condition is that one has this value."""
+        occurring = self.polynomial.occurring
+        if len(occurring) != 1:
+            return None
+        [name] = occurring
+        s = RationalFunction.parameter("s", ("s",))
+        values = [s if name == each else s * 0 for each in self.polynomial.parameters]
+        p = self.polynomial.substituted(values, s * 0).polynomials()[0]
+        return None if p.degree > 1 else (name, -p.coefficients[0] / p.leading)
+
     def __str__(self) -> str:
-        return f"{self.polynomial} = 0"
+        if self.value is None:
+            return f"{self.polynomial} = 0"
+        name, value = self.value
+        return f"{name} = {rational_text(value)}"
 
     def __repr__(self) -> str:
         return fitting(f"Hypersurface({str(self)!r}, channels={self.channels})")
@@ -79,7 +96,10 @@ class Hypersurface(Shown):
         yield "channels", str(self.channels)
 
     def _latex(self) -> str:
-        return f"{self.polynomial.latex()} = 0"
+        if self.value is None:
+            return f"{self.polynomial.latex()} = 0"
+        name, value = self.value
+        return f"{parameter_latex(name)} = {rational_latex(value)}"
 
 
 @dataclass(frozen=True, repr=False)
@@ -126,11 +146,11 @@ class ExceptionalHypersurfaces(Shown):
         told = [
             f"the roots of {mode_in_x(p)} for almost all values of {named}" for p in self.generic
         ] or [f"no mode for almost all values of {named}"]
-        told += [f"another mode where {each}: {self._why(each)}" for each in self.hypersurfaces]
+        told += [f"another mode where {each}: {self.why(each)}" for each in self.hypersurfaces]
         told += [f"proved for every value of s: {each}" for each in self.lines]
         return (*told, "not decided: values at which several conditions meet")
 
-    def _why(self, each: Hypersurface) -> str:
+    def why(self, each: Hypersurface) -> str:
         """Which channels cause that a mode is fixed there."""
         return ", or ".join(blame(s, self.about.names) for s in each.channels)
 
@@ -158,7 +178,7 @@ class ExceptionalHypersurfaces(Shown):
         generic = "; ".join(map(mode_in_x, self.generic)) or "no mode"
         yield "fixed for almost all values", generic
         for each in self.hypersurfaces:
-            yield f"also where {each}", self._why(each)
+            yield f"also where {each}", self.why(each)
         for entry in self.undefined_at:
             yield "undefined where", f"{entry} = 0"
         for each_line in self.lines:
@@ -166,7 +186,7 @@ class ExceptionalHypersurfaces(Shown):
 
     def _latex(self) -> str:
         rows = r" \\ ".join(
-            rf"{each._latex()} & \text{{{escaped(self._why(each))}}}" for each in self.hypersurfaces
+            rf"{each._latex()} & \text{{{escaped(self.why(each))}}}" for each in self.hypersurfaces
         )
         return rf"\begin{{array}}{{ll}} {rows} \end{{array}}" if rows else r"\emptyset"
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -9,9 +10,12 @@ from typing import Any
 from mcexact.answer.evidence import RootDisc, ZeroBlock
 from mcexact.answer.mode_words import blame, polynomial_in_x
 from mcexact.answer.protocol import Answer, Part, answer, claim, shown, witness
+from mcexact.errors import InputError
 from mcexact.exact.enclosures import exact_decimal
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.rational import as_fraction, rational_text
+from mcexact.exact.shortened import rounded
 from mcexact.model.parametric import ParametricSystem, Range
 
 ModePolynomial = tuple[Polynomial, ...]
@@ -33,6 +37,10 @@ class ExceptionalMode(Part):
     polynomial: ModePolynomial
     channels: tuple[str, ...]
 
+    def to_sympy(self, parameter: Any = "t") -> Any:
+        """The polynomial as a ``sympy.Poly`` in x over the polynomials in the parameter."""
+        return mode_in_sympy(self.polynomial, parameter)
+
 
 @dataclass(frozen=True)
 class ParameterValue(Part):
@@ -48,6 +56,21 @@ class ParameterValue(Part):
 
     value: Polynomial
     roots: tuple[RootDisc, ...]
+
+    def to_sympy(self) -> list[Any]:
+        """All values exactly: rational numbers, or instances of ``CRootOf``.
+
+        Examples
+        --------
+        >>> from mcexact import ParametricSystem, fixed_spectrum
+        >>> plant = ParametricSystem([[1]], [[["t^3 - 2"]]], [[[1]]], parameters=["t"])
+        >>> fixed_spectrum(plant).exceptional[0].to_sympy()[0]
+        CRootOf(x**3 - 2, 0)
+        """
+        import sympy
+
+        p = self.value.to_sympy()
+        return [sympy.CRootOf(p, k, radicals=False) for k in range(self.value.degree)]
 
     @property
     def exact(self) -> Fraction | None:
@@ -100,6 +123,41 @@ def mode_text(p: ModePolynomial, t: str) -> str:
     'x^2 + 2*x - t'
     """
     return polynomial_in_x([in_parameter(c, t) for c in p])
+
+
+def value_text(q: Polynomial, roots: Sequence[RootDisc], t: str) -> str:
+    """Where a polynomial in the parameter is 0: its rational root, or all real ones about.
+
+    Examples
+    --------
+    >>> value_text(Polynomial.of("-1/2", 1), [], "t")
+    't = 1/2'
+    >>> from mcexact.exact.enclosures import root_discs
+    >>> q = Polynomial.of(-2, 0, 1)
+    >>> value_text(q, [RootDisc(d.re, d.im, d.radius) for d in root_discs(q)], "t")
+    't^2 - 2 = 0 (t about -1.41421, 1.41421)'
+    """
+    if q.degree == 1:
+        return f"{t} = {rational_text(-q.coefficients[0] / q.leading)}"
+    real = [disc.re for disc in roots if exact_decimal(disc.im) == 0]
+    listed = ", ".join(rounded(exact_decimal(each)) for each in real)
+    told = f"{t} about {listed}" if real else f"no real {t}"
+    return f"{in_parameter(q, t)} = 0 ({told})"
+
+
+def mode_in_sympy(p: ModePolynomial, parameter: Any = "t") -> Any:
+    """A polynomial in x whose coefficients depend on the parameter, as a ``sympy.Poly`` in x.
+
+    Examples
+    --------
+    >>> mode_in_sympy((Polynomial.of(0, -1), Polynomial.of(1)), "k")
+    Poly(x - k, x, domain='QQ[k]')
+    """
+    import sympy
+
+    t = sympy.Symbol(parameter) if isinstance(parameter, str) else parameter
+    descending = [c.to_sympy(t).as_expr() for c in reversed(p)]
+    return sympy.Poly(descending, sympy.Symbol("x"), domain=sympy.QQ[t])
 
 
 def meets(disc: RootDisc, bounds: Range) -> bool:
@@ -217,12 +275,110 @@ class ParametricFixedSpectrum(Answer):
         told = [f"the roots of {mode_text(p, t)}{scaled} for every {t}" for p in self.generic]
         for each in self.exceptional:
             modes = " and ".join(
-                f"{mode_text(mode.polynomial, t)}{scaled} "
-                f"({blame(mode.channels, self.about.names)})"
+                f"{mode_text(mode.polynomial, t)}{scaled}"
+                + (f" ({why})" if (why := self.because(mode)) else "")
                 for mode in each.modes
             )
-            told.append(f"the roots of {modes} where {in_parameter(each.value, t)} = 0")
+            told.append(f"the roots of {modes} where {value_text(each.value, each.roots, t)}")
         return tuple(told) or (f"no mode is fixed for any {t}",)
+
+    def at(self, value: Any) -> tuple[Polynomial, ...]:
+        """What is fixed at one value of the parameter.
+
+        Parameters
+        ----------
+        value : exact number
+            As entries of a system are given.
+
+        Returns
+        -------
+        tuple of Polynomial
+            The monic irreducible polynomials whose roots are the fixed modes, as
+            ``fixed_spectrum(plant.at({…}))`` finds them.
+
+        Raises
+        ------
+        InputError
+            If an entry is undefined there, or nothing is claimed of values out of the range.
+
+        Examples
+        --------
+        >>> from mcexact import ParametricSystem, fixed_spectrum
+        >>> plant = ParametricSystem([["t"]], [[["t - 2"]]], [[[1]]], parameters=["t"])
+        >>> found = fixed_spectrum(plant)
+        >>> [str(p) for p in found.at(2)], found.at("1/2")
+        (['x - 2'], ())
+        """
+        t, told = as_fraction(value, where="value"), self.about.parameters_in_words[0]
+        if any(q(t) == 0 for q in self.undefined_at):
+            raise InputError(f"an entry is undefined at {rational_text(t)}", where="value")
+        if any(each.value(t) == 0 for each in self.outside):
+            raise InputError(f"only {told} is decided, found {rational_text(t)}", where="value")
+        here = [each for each in self.exceptional if each.value(t) == 0]
+        fixed = [*self.generic, *(mode.polynomial for each in here for mode in each.modes)]
+        found = {
+            q.monic()
+            for p in fixed
+            for q, _ in Polynomial.from_coefficients([c(t) for c in p])
+            .scale(self.scale(t))
+            .factor()
+        }
+        return tuple(sorted(found, key=lambda q: (q.degree, q.coefficients)))
+
+    def to_sympy(self) -> dict[Any, list[Any]]:
+        """The modes at the exceptional values as polynomials of sympy, and with True the generic.
+
+        Examples
+        --------
+        >>> from mcexact import ParametricSystem, fixed_spectrum
+        >>> plant = ParametricSystem(
+        ...     [["t", 0], [0, 3]], [[[0], ["t - 1/2"]]], [[[1, 1]]], parameters=["t"]
+        ... )
+        >>> fixed_spectrum(plant).to_sympy()
+        {True: [Poly(x - t, x, domain='QQ[t]')], 1/2: [Poly(x - 3, x, domain='QQ[t]')]}
+        """
+        [t] = self.about.parameters
+        found: dict[Any, list[Any]] = {True: [mode_in_sympy(p, t) for p in self.generic]}
+        for each in self.exceptional:
+            found |= {root: [mode.to_sympy(t) for mode in each.modes] for root in each.to_sympy()}
+        return found
+
+    @property
+    def rows(self) -> tuple[tuple[str, str, str], ...]:
+        """Where, the polynomials in x of the modes, and why these are fixed there."""
+        [t] = self.about.parameters
+        scaled = "" if self.scale.degree < 1 else f", divided by {in_parameter(self.scale, t)}"
+        ranged = "" if self.about.ranges[0] == (None, None) else " (in range)"
+        found = [(f"every {t}", mode_text(p, t) + scaled, "") for p in self.generic]
+        for each in self.exceptional:
+            where = value_text(each.value, each.roots, t) + ranged
+            found += [
+                (where, mode_text(mode.polynomial, t) + scaled, self.because(mode))
+                for mode in each.modes
+            ]
+        for left in self.outside:
+            where = f"{value_text(left.value, left.roots, t)} (out of range)"
+            assumed = f"{self.about.parameters_in_words[0]} is assumed"
+            found.append((where, "not decided", assumed))
+        for q in self.undefined_at:
+            found.append((f"{in_parameter(q, t)} = 0", "undefined", "a denominator is 0"))
+        return tuple(found)
+
+    def explain(self) -> str:
+        """Say in plain words what is fixed for every value, and what else at which."""
+        return "\n".join(self.words)
+
+    def _labeled(self) -> Iterator[tuple[str, Any]]:
+        """Yield where, and what is fixed there."""
+        for where, modes, why in self.rows or ((self.words[0], "", ""),):
+            yield where, f"{modes}: {why}" if why else modes
+
+    def because(self, mode: ExceptionalMode) -> str:
+        """Which channels cause that a mode is fixed; empty if the answer is about some together."""
+        made = self.about.subject
+        if made and made[-1]["construction"] == "full_output":
+            return ""
+        return blame(mode.channels, self.about.names)
 
     def plot(self, ax: Any = None, **options: Any) -> Any:
         """Draw the modes against the parameter; see `mcexact.plot.parameter_modes`."""

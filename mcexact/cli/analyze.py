@@ -12,6 +12,7 @@ import click
 from mcexact.analysis.questions import QUESTIONS, asked_by
 from mcexact.cli import options
 from mcexact.cli.failures import DEFINITE_NO
+from mcexact.cli.parameters import parameter_value
 
 if TYPE_CHECKING:
     from mcexact.analysis.analyze import Effort
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
 
 _LINES_OF_WORDS = 5
 _MODES = 6
+_FIXED = ("factors", "generic", "exceptional", "hypersurfaces")
+"""What the fixed spectrum says of modes, without and with parameters."""
 _LONG = 10.0
 """The seconds from which on a question is listed with its time."""
 _ASKED = {question.option: question.help for question in reversed([*QUESTIONS.values()])}
@@ -82,6 +85,15 @@ def _also(function: Callable[..., int]) -> Callable[..., int]:
     help="With --largest-uncertainty: about how long to search; the work is counted and not timed.",
 )
 @click.option(
+    "--at",
+    "at",
+    type=parameter_value,
+    multiple=True,
+    metavar="NAME=VALUE",
+    help="Of a system with parameters: give a parameter a value, such as t=1/3.  May be repeated; "
+    "without values for all of them, the others stay, and the answers are about all their values.",
+)
+@click.option(
     "--assert",
     "asserted",
     type=click.Choice(["no-fixed-modes"]),
@@ -101,6 +113,7 @@ def command(
     uncertainty: Fraction | None,
     largest_uncertainty: bool,
     effort: float,
+    at: tuple[tuple[str, Fraction], ...],
     asserted: str | None,
     html: Path | None,
     latex: bool,
@@ -111,6 +124,9 @@ def command(
     These are: which modes are fixed under every linear time-invariant decentralized control, which
     channels cause that, whether the system can be stabilized, joint controllability with its
     indices, the transfer graph, completeness, and the parts into which the spectrum splits.
+
+    Of a system with parameters: which modes are fixed, uncontrollable and unobservable for all
+    values, and at which values others are.  With --at all questions are asked about one value.
     """
 
     from mcexact.cli import output
@@ -133,6 +149,7 @@ def command(
         {"information": information, "subset": _named(subset), "channel": channel},
         named,
         (uncertainty, effort if largest_uncertainty else None),
+        dict(at),
         html is not None,
         latex,
         run.system_by_digest,
@@ -156,8 +173,10 @@ def command(
 
     about = f"the answers about {plant[0]}"
     run.conclude(answer, show, about=about, write=write).require_complete()
-    if asserted == "no-fixed-modes" and answer["json"]["fixed_spectrum"]["factors"]:
-        return DEFINITE_NO
+    if asserted == "no-fixed-modes":
+        spectrum = answer["json"]["fixed_spectrum"]
+        if any(spectrum.get(key) for key in _FIXED):
+            return DEFINITE_NO
     return 0
 
 
@@ -193,6 +212,7 @@ def _answer(
     question: dict[str, Any],
     named: tuple[str, ...],
     uncertain: tuple[Fraction | None, float | None],
+    at: dict[str, Fraction],
     with_page: bool,
     with_latex: bool,
     system_by_digest: bool,
@@ -200,11 +220,18 @@ def _answer(
     """Decide and format the answer, in the child process."""
     from mcexact.analysis.analyze import analyze
     from mcexact.cli import uncertainty
-    from mcexact.cli.files import system_in
+    from mcexact.cli.files import plant_in
+    from mcexact.cli.parameters import for_all_values
     from mcexact.cli.running import told
+    from mcexact.model.parametric import ParametricSystem
     from mcexact.report.account import in_lines, latex, tables
 
-    system, largest = uncertainty.of(system_in(*plant, limits), *uncertain)
+    given = plant_in(*plant, limits, at)
+    if isinstance(given, ParametricSystem):
+        other = {**question, "information": question["information"] != "own"}
+        asked = (*other.values(), *also, *named, *uncertain)
+        return for_all_values(given, any(map(bool, asked)), with_page, with_latex, system_by_digest)
+    system, largest = uncertainty.of(given, *uncertain)
     found = analyze(system, also=[*asked_by(*also), *named], **question)
     if largest is not None and largest.proof is not None:
         found.know("box_fixed_modes", largest.proof)

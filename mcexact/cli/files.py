@@ -13,7 +13,10 @@ from mcexact.errors import InputError, MissingExtra
 from mcexact.errors import place_of as place_of
 
 if TYPE_CHECKING:
+    from fractions import Fraction
+
     from mcexact.cli.deadline import Deadline
+    from mcexact.model.parametric import ParametricSystem
     from mcexact.model.system import MultiChannelSystem
 
 
@@ -52,6 +55,43 @@ def system_in(place: str, data: bytes, limits: Mapping[str, int]) -> MultiChanne
 
     with InputError.inside(place):
         return read_any(data, place, Reading(Limits(**limits)))
+
+
+def plant_in(
+    place: str, data: bytes, limits: Mapping[str, int], at: Mapping[str, Fraction]
+) -> MultiChannelSystem | ParametricSystem:
+    """Read a system, with parameters as far as these are given no values.
+
+    Raises
+    ------
+    InputError
+        If it is malformed, or a value is that of no parameter.
+    """
+    from mcexact.exact.rational import Limits
+    from mcexact.model.formats.reading import Reading
+    from mcexact.model.formats.recognize import read_plant
+
+    with InputError.inside(place):
+        return valued(read_plant(data, place, Reading(Limits(**limits))), at)
+
+
+def valued(
+    system: MultiChannelSystem | ParametricSystem, at: Mapping[str, Fraction]
+) -> MultiChannelSystem | ParametricSystem:
+    """Give values to some parameters of a system.
+
+    Raises
+    ------
+    InputError
+        If it has no parameters, or a value is that of no parameter.
+    """
+    from mcexact.model.parametric import ParametricSystem
+
+    if not at:
+        return system
+    if not isinstance(system, ParametricSystem):
+        raise InputError("found a system without parameters: leave out --at")
+    return system.with_values(at)
 
 
 def require_other(output: Path | None, *inputs: str | None) -> None:

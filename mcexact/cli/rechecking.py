@@ -54,7 +54,7 @@ class Rechecked:
 
 def rechecked(
     files: Mapping[str, str],
-    plant: str,
+    plant: str | Mapping[str, str],
     *,
     doing: str,
     deadline: Deadline,
@@ -66,8 +66,9 @@ def rechecked(
     ----------
     files : mapping from names to texts
         The certificates, and the manifest of the sentences, if there is one.
-    plant : str
-        The plant that all certificates must be about, as their object ``system``.
+    plant : str or mapping
+        The plant that all certificates must be about, as their object ``system``; or of each its
+        own.
     doing : str
         A description of the work, for progress.
     deadline : Deadline

@@ -43,6 +43,8 @@ _NUMBER = re.compile(
     r"|(?P<whole>[0-9]+)(?:\.(?P<decimals>[0-9]+))?(?:[eE](?P<exponent>[+-]?[0-9]+))?)",
     re.ASCII,
 )
+_PARAMETRIC = "a system with parameters is a ParametricSystem(A, B, C, parameters=[…])"
+_EXPRESSION = re.compile(r"-?[A-Za-z][0-9]?|(?=.*[A-Za-z])(?=.*[*^]).*")
 _GRAMMAR = 'an integer, a decimal such as "-0.25" or "1e-3", or a quotient such as "1/3"'
 TWO_WAYS_IN = (
     "a float is not exact: write the number as an integer, a Fraction or a string such as "
@@ -180,6 +182,11 @@ MultiChannelSystem.from_float(..., rounding="decimal" | "dyadic")
     if type(entry) is Fraction and type(entry.numerator) is type(entry.denominator) is int:
         return entry
     if isinstance(entry, str):
+        if _EXPRESSION.fullmatch(entry):
+            raise InputError(
+                f"expected {_GRAMMAR}, found the expression {_shown(entry)}; {_PARAMETRIC}",
+                where=where,
+            )
         return parse_rational(entry, where=where)
     kind = type(entry)
     if isinstance(entry, bool) or kind.__name__ in ("bool_", "bool"):
@@ -197,7 +204,7 @@ MultiChannelSystem.from_float(..., rounding="decimal" | "dyadic")
     if getattr(entry, "free_symbols", None):
         raise InputError(
             f"expected a rational number, found the expression {_shown(str(entry))} with symbols; "
-            "a system with parameters is a ParametricSystem(A, B, C, parameters=[…])",
+            f"{_PARAMETRIC}",
             where=where,
         )
     raise InputError(

@@ -87,6 +87,13 @@ class RationalFunction:
         return bool(self.numerator.is_constant() and self.denominator.is_constant())
 
     @cached_property
+    def occurring(self) -> tuple[str, ...]:
+        """The parameters that occur in it."""
+        degrees = zip(self.numerator.degrees(), self.denominator.degrees(), strict=True)
+        pairs = zip(self.parameters, degrees, strict=False)
+        return tuple(name for name, both in pairs if max(map(int, both)) > 0)
+
+    @cached_property
     def value(self) -> Fraction:
         """The rational number that it is; 0 if it is none."""
         return _number(self.numerator) if self.is_constant else Fraction(0)

@@ -19,7 +19,7 @@ from mcexact.model.expression import checked_parameter
 from mcexact.model.function_entry import as_function, as_functions
 from mcexact.model.matrix_entry import require_square
 from mcexact.model.matrix_json import matrix_json
-from mcexact.model.names import checked_text, quoted
+from mcexact.model.names import checked_text, nearest, quoted
 from mcexact.model.system import Construction, MultiChannelSystem
 from mcexact.model.system_forms import SystemForms
 
@@ -90,6 +90,14 @@ class ParametricSystem(ByChannel[FunctionMatrix], SystemForms):
     mcexact.errors.FloatRefused: A[0][0]: a float is not exact: ...
     """
 
+    _made_by: ClassVar[str] = (
+        "ParametricSystem(A, B, C, parameters=[t]), or with load_parametric_system(file)"
+    )
+    _becomes: ClassVar[dict[str, str]] = {
+        "MultiChannelSystem": "give values to its parameters, plant.at({…}); `analyze`, "
+        "`fixed_spectrum` and joint controllability are decided for all values"
+    }
+    """What an error says to a caller who gives this in place of something else."""
     neighbors: ClassVar[None] = None
     sample_time: ClassVar[None] = None
     uncertainty: ClassVar[None] = None
@@ -152,19 +160,22 @@ class ParametricSystem(ByChannel[FunctionMatrix], SystemForms):
         """The constructions that lead to this system, of which there is none."""
         return ()
 
-    def at(self, values: Mapping[Any, Any]) -> MultiChannelSystem:
+    def at(self, values: Any) -> MultiChannelSystem:
         """The system at a value of every parameter.
 
         Parameters
         ----------
-        values : mapping
-            An exact number for each parameter, by symbol or name.
+        values : mapping, or exact number
+            An exact number for each parameter, by symbol or name; a number alone is the value of
+            the only parameter.
 
         Raises
         ------
         InputError
             If a value is missing or unknown, or an entry is undefined there.
         """
+        if len(self.parameters) == 1 and not isinstance(values, Mapping):
+            values = {self.parameters[0]: values}
         given = _by_name(values, self.parameters, "values")
         missing = [name for name in self.parameters if name not in given]
         if missing:
@@ -179,6 +190,33 @@ class ParametricSystem(ByChannel[FunctionMatrix], SystemForms):
             time=self.time,
             names=self.names,
         )
+
+    def with_values(self, values: Mapping[Any, Any]) -> MultiChannelSystem | ParametricSystem:
+        """The system at values of some parameters, as a function of the others with their ranges.
+
+        Parameters
+        ----------
+        values : mapping
+            Exact numbers, by symbol or name; with one for each parameter this is `at`.
+
+        Raises
+        ------
+        InputError
+            If a parameter is unknown, or an entry is undefined.
+
+        Examples
+        --------
+        >>> plant = ParametricSystem([["a + b"]], [[[1]]], [[[1]]], parameters=["a", "b"])
+        >>> print(plant.with_values({"a": "1/2"}).A[0, 0])
+        b + 1/2
+        """
+        given = _by_name(values, self.parameters, "values")
+        left = {
+            name: bounds
+            for name, bounds in zip(self.parameters, self.ranges, strict=True)
+            if name not in given
+        }
+        return self.along(given, [*left], left) if left else self.at(given)
 
     def along(
         self,
@@ -307,13 +345,17 @@ def _by_name(given: Mapping[Any, Any], known: tuple[str, ...], where: str) -> di
     """The values of a mapping whose keys are symbols or names of parameters."""
     if not isinstance(given, Mapping):
         raise InputError(
-            f"expected a mapping from parameters, such as {{'t': …}}, found {told(given)}",
+            f"expected a mapping from parameters, such as {{{known[0]!r}: …}}, found {told(given)}",
             where=where,
         )
     found = {str(key): value for key, value in given.items()}
     for name in found:
         if name not in known:
-            raise InputError(f"unknown parameter {quoted(name)}", where=where)
+            raise InputError(
+                f"unknown parameter {quoted(name)}{nearest(name, known)}; "
+                f"the parameters are {', '.join(known)}",
+                where=where,
+            )
     return found
 
 

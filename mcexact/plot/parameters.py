@@ -143,7 +143,7 @@ _STYLES = [(color, style) for style in ("-", "--", ":") for color in (RED, BLUE,
 def _span(bounds: Sequence[Any], marks: Sequence[float]) -> tuple[float, float]:
     """The values to draw: the range, with room for what is found where it has no end."""
     low, high = bounds
-    inside = [float(low)] * (low is not None) + [float(high)] * (high is not None) + [*marks]
+    inside = [*(float(end) for end in bounds if end is not None), *marks]
     reach = max([float(_REACH), *(x - min(inside) for x in inside)]) / 3 if inside else 3.0
     least, most = min(inside, default=0.0) - reach, max(inside, default=0.0) + reach
     return least if low is None else float(low), most if high is None else float(high)

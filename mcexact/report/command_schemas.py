@@ -6,6 +6,7 @@ do not know.
 
 from __future__ import annotations
 
+from mcexact.answer.parametric_analysis import LABELS
 from mcexact.answer.schema import Schema, kinds, view_schema
 from mcexact.report.file_schemas import agents, sweep_record
 from mcexact.report.schema_terms import (
@@ -137,6 +138,25 @@ def analyze() -> Schema:
     return _account(
         {"information": {"enum": ["own", "outputs"]}, "questions": rows(question)},
         {"largest_uncertainty": largest},
+    )
+
+
+def analyze_parameters() -> Schema:
+    """Answers about a system with parameters, for all values."""
+    row = record({"where": TEXT, "modes": TEXT, "because": TEXT}, closed=True)
+    answer = record({"rows": rows(row), "certificates": rows(TEXT)})
+    ends = rows(some(NUMBER), minItems=2, maxItems=2)
+    return record(
+        named("mcexact-parametric-analysis/1")
+        | {
+            "system": _SYSTEM_IN_SHORT,
+            "parameters": table(record({}, {"range": ends}, closed=True)),
+            "answer": rows(TEXT),
+            "re_checked": SENTENCES["re_checked"],
+            **dict.fromkeys(LABELS, answer),
+        },
+        closed=True,
+        says="where which modes are fixed, for all values of parameters",
     )
 
 

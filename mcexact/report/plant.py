@@ -7,9 +7,12 @@ from itertools import islice
 from typing import Any
 
 from mcexact.answer.formats import count
+from mcexact.exact.function_matrix import FunctionMatrix
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.rational import decimal_or_quotient
+from mcexact.exact.rational_function import RationalFunction
 from mcexact.exact.shortened import rounded
+from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import digest
 from mcexact.report.mathml import matrix
@@ -20,12 +23,12 @@ the same for channels."""
 _LONGEST = 9
 
 
-def shown_plant(system: MultiChannelSystem) -> dict[str, Any]:
+def shown_plant(system: MultiChannelSystem | ParametricSystem) -> dict[str, Any]:
     """Return what a page shows of a system.
 
     Parameters
     ----------
-    system : MultiChannelSystem
+    system : MultiChannelSystem or ParametricSystem
 
     Returns
     -------
@@ -35,7 +38,10 @@ def shown_plant(system: MultiChannelSystem) -> dict[str, Any]:
     """
     shown = _first(system.m)
     # Columns beside columns and rows beside rows take the least room.
-    named = [("A", system.A), *((f"B_{k + 1}", system.B(k)) for k in range(shown))]
+    named: list[tuple[str, Any]] = [
+        ("A", system.A),
+        *((f"B_{k + 1}", system.B(k)) for k in range(shown)),
+    ]
     named += [(f"C_{k + 1}", system.C(k)) for k in range(shown)]
     listed = {name: M for name, M in named if _is_listed(M)}
     drawn = [(name, M) for name, M in named if name not in listed]
@@ -49,7 +55,7 @@ def shown_plant(system: MultiChannelSystem) -> dict[str, Any]:
     if shown < system.m:
         notes.append(f"Of {system.m} channels the first {shown} are shown.")
     corners = [(name, _corner(M)) for name, M in drawn]
-    entries = [x for _, M in corners for row in M.rows() for x in row]
+    entries = [x for _, M in corners for row in M.tolist() for x in row]
     entries += [M[i, j] for M in listed.values() for i, j, _ in M.nonzero()]
     if not all(map(_is_short, entries)):
         notes.append("Numbers with ≈ are rounded; the system file has them exactly.")
@@ -64,8 +70,10 @@ def shown_plant(system: MultiChannelSystem) -> dict[str, Any]:
     }
 
 
-def _is_listed(M: Matrix) -> bool:
+def _is_listed(M: Matrix | FunctionMatrix) -> bool:
     """Whether a matrix is large and has so few entries that these say more than a corner."""
+    if isinstance(M, FunctionMatrix):
+        return False
     return max(M.shape) > LARGEST and next(islice(M.nonzero(), CUT, None), None) is None
 
 
@@ -75,7 +83,7 @@ def _entries(M: Matrix) -> str:
     return f"0 except for {', '.join(texts)}" if texts else "0"
 
 
-def _facts(system: MultiChannelSystem) -> tuple[tuple[str, str], ...]:
+def _facts(system: MultiChannelSystem | ParametricSystem) -> tuple[tuple[str, str], ...]:
     names = ", ".join(system.names[: _first(system.m)])
     more = ", …" if _first(system.m) < system.m else ""
     rows = [
@@ -83,7 +91,9 @@ def _facts(system: MultiChannelSystem) -> tuple[tuple[str, str], ...]:
         ("states", str(system.n)),
         ("channels", f"{system.m}: {names}{more}"),
     ]
-    if system.neighbors is not None:
+    if isinstance(system, ParametricSystem):
+        rows.append(("parameters", ", ".join(system.parameters_in_words)))
+    elif system.neighbors is not None:
         edges = sum(1 for j, i in system.neighbors.edges() if i != j)
         rows.append(("links between agents", count(edges, "link")))
     rows.append(("source", system.source or "not stated in the system file"))
@@ -96,14 +106,14 @@ def _first(number: int) -> int:
     return number if number <= LARGEST else CUT
 
 
-def _corner(M: Matrix) -> Matrix:
+def _corner(M: Any) -> Any:
     rows, columns = map(_first, M.shape)
     return M.take(rows=range(rows), cols=range(columns))
 
 
-def _texts(corner: Matrix, whole: Matrix) -> list[list[str]]:
+def _texts(corner: Any, whole: Any) -> list[list[str]]:
     """The entries of a corner as texts, with dots where the matrix goes on."""
-    texts = [[_short(entry) for entry in row] for row in corner.rows()]
+    texts = [[_short(entry) for entry in row] for row in corner.tolist()]
     if corner.ncols < whole.ncols:
         texts = [[*row, "⋯"] for row in texts]
     if corner.nrows < whole.nrows:
@@ -111,10 +121,12 @@ def _texts(corner: Matrix, whole: Matrix) -> list[list[str]]:
     return texts
 
 
-def _is_short(x: Fraction) -> bool:
-    return len(str(decimal_or_quotient(x))) <= _LONGEST
+def _is_short(x: Fraction | RationalFunction) -> bool:
+    return isinstance(x, RationalFunction) or len(str(decimal_or_quotient(x))) <= _LONGEST
 
 
-def _short(x: Fraction) -> str:
-    """A number exactly if that is short, otherwise rounded."""
+def _short(x: Fraction | RationalFunction) -> str:
+    """A number exactly if that is short, otherwise rounded; a function as its text."""
+    if isinstance(x, RationalFunction):
+        return str(x)
     return str(decimal_or_quotient(x)) if _is_short(x) else f"≈{rounded(x)}"

@@ -29,6 +29,10 @@ DOCUMENTS = {
     "manifest": (files.manifest, "manifests: sentences with the certificates that imply them"),
     "sweep-record": (files.sweep_record, "the lines of the file that a sweep writes"),
     "analyze": (commands.analyze, "mcexact analyze --json"),
+    "analyze-parameters": (
+        commands.analyze_parameters,
+        "mcexact analyze --json about a system with parameters",
+    ),
     "allocate": (commands.allocate, "mcexact allocate --json"),
     "design": (commands.design, "mcexact design … --json, also where no controller exists"),
     "certify": (commands.certify, "mcexact certify --json"),

@@ -1,4 +1,5 @@
 from .boxes import members as members
+from .parameters import parametric_systems as parametric_systems
 from .printing import Drawn as Drawn
 from .strategies import HypothesisChoices as HypothesisChoices
 from .strategies import incomplete_systems as incomplete_systems

@@ -16,6 +16,7 @@ from mcexact import (
     gallery,
     load_parametric_system,
     load_system,
+    minimal_communication,
     save_system,
 )
 from mcexact.errors import FloatRefused, InputError, LimitReached, UsageError
@@ -276,3 +277,25 @@ def test_the_gallery_has_plants_with_parameters_by_name() -> None:
 def test_a_system_with_parameters_is_written_as_json_alone(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="a name that ends"):
         save_system(scalar("t"), tmp_path / "plant.mat")
+
+
+@pytest.mark.parametrize("entry", ["t", "-k", "a1", "1/2 + 3*t", "t^2"])
+def test_a_text_with_letters_names_the_system_with_parameters(entry: str) -> None:
+    with pytest.raises(InputError, match="ParametricSystem"):
+        MultiChannelSystem([[entry]], [[[1]]], [[[1]]])
+
+
+def test_what_needs_numbers_says_how_to_give_values() -> None:
+    with pytest.raises(InputError, match=r"plant.at\(\{…\}\)"):
+        minimal_communication(scalar("t"))  # type: ignore[arg-type]
+
+
+def test_one_parameter_takes_a_number_alone_and_some_take_values() -> None:
+    assert scalar("t^2").at("1/2") == scalar("t^2").at({t: "1/2"})
+    two = scalar("a + b", [a, b], assume={b: (0, 1)})
+    with pytest.raises(InputError, match="expected a mapping"):
+        two.at(1)
+    left = two.with_values({a: 2})
+    assert isinstance(left, ParametricSystem)
+    assert (str(left.A[0, 0]), left.ranges) == ("b + 2", ((0, 1),))
+    assert two.with_values({a: 2, b: 1}) == two.at({a: 2, b: 1})

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 
 from mcexact import (
@@ -40,12 +42,19 @@ def test_modes_fixed_for_every_value_are_drawn_and_the_range_is_kept() -> None:
     assert axis.get_xlim() == (0.0, 5.0)
 
 
+@pytest.mark.parametrize("ends", [(None, None), (0, None), (None, 9)])
+def test_without_a_range_all_exceptional_values_are_drawn(ends: tuple[Any, Any]) -> None:
+    plant = ParametricSystem([[1]], [[["t - 7"]]], [[[1]]], parameters=["t"], assume={"t": ends})
+    low, high = fixed_spectrum(plant).plot().axes[0].get_xlim()
+    assert low < 7 < high and ends in ((None, None), (low, None), (None, high))
+
+
 def test_hypersurfaces_of_two_parameters_are_curves() -> None:
     found = exceptional_hypersurfaces(load_parametric_system("gallery:quadruple-tank-parametric"))
     figure = found.plot()
     [axis] = figure.axes
     _, labels = axis.get_legend_handles_labels()
-    assert labels == ["gamma1 - 1 = 0", "gamma2 - 1 = 0"]
+    assert labels == ["gamma1 = 1", "gamma2 = 1"]
     paths = [path for drawn in axis.collections for path in drawn.get_paths() if len(path.vertices)]
     assert all(1 in path.vertices[0].round(9) for path in paths) and len(paths) == 2
 

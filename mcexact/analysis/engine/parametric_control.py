@@ -38,7 +38,7 @@ def parametric_controllability(
     --------
     >>> plant = ParametricSystem([[1, "t"], [0, 2]], [[[0], [1]]], [[[1, 0]]], parameters=["t"])
     >>> print(*parametric_controllability(plant).words)
-    the roots of x - 1 (no channel controls it) where t = 0
+    the roots of x - 1 where t = 0
     """
     chosen = system.names if channels is None else tuple(channels)
 

@@ -74,8 +74,8 @@ def parametric_fixed_spectrum(system: ParametricSystem) -> ParametricFixedSpectr
     >>> found.generic
     ()
     >>> print(*found.words, sep="\\n")
-    the roots of x - t (no channel controls it) where t^2 + t - 4 = 0
-    the roots of x - 2 (no channel controls it) where t^2 - 2 = 0
+    the roots of x - t (no channel controls it) where t^2 + t - 4 = 0 (t about -2.56155, 1.56155)
+    the roots of x - 2 (no channel controls it) where t^2 - 2 = 0 (t about -1.41421, 1.41421)
     """
     return _Search(PolynomialSystem(system), generator(system, "parametric_fixed_spectrum")).found()
 

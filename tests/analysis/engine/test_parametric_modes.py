@@ -63,7 +63,7 @@ def test_the_words_name_the_parameter() -> None:
     plant = ParametricSystem(A, [[[0], [1], [2]]], [[[1, 1, 0]]], parameters=["k"])
     assert fixed_spectrum(plant).words == (
         "the roots of x - 1 divided by k for every k",
-        "the roots of x - 1/2 divided by k (no channel controls it) where k - 1/2 = 0",
+        "the roots of x - 1/2 divided by k (no channel controls it) where k = 1/2",
     )
 
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import Any
 
+from mcexact.analysis.engine import parametric_controllability
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.answer.exceptional_hypersurfaces import (
     ExceptionalHypersurfaces,
@@ -17,8 +18,10 @@ from mcexact.answer.parametric_fixed_spectrum import ParametricFixedSpectrum
 from mcexact.derived.modular_system import generator
 from mcexact.errors import InputError, InternalError
 from mcexact.exact import several_variables
+from mcexact.exact.function_matrix import FunctionMatrix
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational_function import RationalFunction
+from mcexact.model.function_entry import as_functions
 from mcexact.model.parametric import ParametricSystem
 
 _DRAWS = 60
@@ -55,13 +58,70 @@ def exceptional_hypersurfaces(system: ParametricSystem) -> ExceptionalHypersurfa
     >>> [str(each) for each in found.hypersurfaces]
     ['a = 0', 'a - b = 0', 'a^2 - a*b - 1 = 0']
     """
-    return _Search(system, generator(system, "exceptional_hypersurfaces")).found()
+    InputError.require(system, ParametricSystem, "system")
+    rng = generator(system, "exceptional_hypersurfaces")
+    return _Search(system, system, fixed_spectrum, rng).found()
+
+
+def controllability_hypersurfaces(
+    system: ParametricSystem, *, observed: bool = False
+) -> ExceptionalHypersurfaces:
+    """Decide which modes no channel controls for almost all values, and where others are not.
+
+    Parameters
+    ----------
+    system : ParametricSystem
+    observed : bool
+        Whether the question is about observability.
+
+    Raises
+    ------
+    LimitReached
+        If a degree exceeds a limit.
+    """
+    rng = generator(system, "controllability_hypersurfaces")
+
+    def decide(line: ParametricSystem) -> ParametricFixedSpectrum:
+        return parametric_controllability(line, observed=observed)
+
+    return _Search(system, _with_full_ports(system, observed), decide, rng).found()
+
+
+def _with_full_ports(system: ParametricSystem, observed: bool) -> ParametricSystem:
+    """The system of one channel with all inputs and x as output, or all outputs and input x."""
+    one = [[int(i == j) for j in range(system.n)] for i in range(system.n)]
+    identity = as_functions(one, "identity", system.parameters, system.n).matrix()
+    if observed:
+        outputs = tuple(row for M in system.C for row in M.rows)
+        B, C = identity, FunctionMatrix(outputs, system.n)
+    else:
+        inputs = tuple(sum((M.rows[i] for M in system.B), ()) for i in range(system.n))
+        B, C = FunctionMatrix(inputs, sum(p for p, _ in system.sizes)), identity
+    return ParametricSystem(system.A, [B], [C], parameters=system.parameters, time=system.time)
 
 
 class _Search:
-    """Draws gains, then lines, until what gains leave is what is fixed along the lines."""
+    """Draws gains, then lines, until what gains leave is what is fixed along the lines.
 
-    def __init__(self, system: ParametricSystem, rng: random.Random) -> None:
+    Parameters
+    ----------
+    about : ParametricSystem
+        The system of the answer.
+    system : ParametricSystem
+        That whose fixed modes are looked for.
+    decide : callable
+        Answers the question about ``about`` along a line.
+    rng : random.Random
+    """
+
+    def __init__(
+        self,
+        about: ParametricSystem,
+        system: ParametricSystem,
+        decide: Callable[[ParametricSystem], ParametricFixedSpectrum],
+        rng: random.Random,
+    ) -> None:
+        self.about, self.decide = about, decide
         self.system, self.rng, self.names = system, rng, system.parameters
         parts = [system.A, *(M for c in system.channels for M in (c.B, c.C))]
         rows, denominators = zip(
@@ -85,7 +145,7 @@ class _Search:
         else:
             raise InternalError("no drawn gains leave the fixed modes alone")
         return ExceptionalHypersurfaces(
-            self.system,
+            self.about,
             tuple(several_variables.coefficients(p, self.names) for p in generic),
             tuple(
                 Hypersurface(h, tuple(sorted(sets)))
@@ -134,7 +194,7 @@ class _Search:
             at = self._line(3 + attempt)
             met = {h: _factors(h, at) for h in candidates}
             try:
-                answer = fixed_spectrum(self.system.along(at, _ALONG))
+                answer = self.decide(self.about.along(at, _ALONG))
             except InputError:
                 continue
             found = _confirmed(answer, met)

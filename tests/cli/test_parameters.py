@@ -1,0 +1,104 @@
+"""Systems with parameters on the command line: for all values, at some, and from what is wrong."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from tests.cli.calling import call
+from tests.report.schemas import faults
+
+PLANT = {
+    "format": "mcexact-system/1",
+    "time": "continuous",
+    "parameters": {"t": {"range": [0, 1]}},
+    "A": [["-1", 0], ["4*t^2 - 1", "-2"]],
+    "channels": [{"B": [[1], [0]], "C": [[0, 1]]}],
+}
+TWO = {
+    **PLANT,
+    "parameters": {"a": {}, "b": {"range": [0, None]}},
+    "A": [["-a", 0], ["a*b - 1", "-2"]],
+}
+
+
+@pytest.fixture
+def file(tmp_path: Path) -> str:
+    """A plant with one parameter."""
+    path = tmp_path / "plant.json"
+    path.write_text(json.dumps(PLANT))
+    return str(path)
+
+
+def test_analyze_answers_for_every_value_with_what_is_in_range(file: str, tmp_path: Path) -> None:
+    folder = tmp_path / "certificates"
+    page = tmp_path / "page.html"
+    status, out, _ = call("analyze", file, "--certificates", str(folder), "--html", str(page))
+    assert status == 0
+    assert "For almost every value of t no mode is fixed." in out
+    assert "A mode is fixed where t = 1/2." in out
+    assert "t = 1/2 (in range)" in out and "t = -1/2 (out of range)" in out
+    assert "3 certificates re-checked by the independent checker: VALID" in out
+    text = page.read_text()
+    assert "For almost every value of t no mode is fixed." in text and "t in [0, 1]" in text
+    for certificate in sorted(folder.iterdir()):
+        status, said, _ = call("check", str(certificate), "--system", file)
+        assert status == 0 and said.startswith("VALID")
+
+
+def test_the_json_is_as_its_schema_says(file: str, tmp_path: Path) -> None:
+    status, out, _ = call("analyze", file, "--json")
+    found = json.loads(out)
+    assert status == 0 and faults("analyze-parameters", found) == []
+    assert found["parameters"] == {"t": {"range": [0, 1]}}
+    assert found["fixed_spectrum"]["rows"][0]["where"] == "t = 1/2 (in range)"
+    several = tmp_path / "two.json"
+    several.write_text(json.dumps(TWO))
+    status, out, _ = call("analyze", str(several), "--json")
+    found = json.loads(out)
+    assert status == 0 and faults("analyze-parameters", found) == []
+    where = [row["where"] for row in found["fixed_spectrum"]["rows"]]
+    assert where[0] == "a*b - 1 = 0" and found["re_checked"]["valid"] == 6
+
+
+def test_values_make_the_plant_of_which_all_questions_are_asked(file: str, tmp_path: Path) -> None:
+    status, out, _ = call("analyze", file, "--at", "t=1/2")
+    assert status == 0 and "the 2 roots of x^2 + 3*x + 2" in out
+    several = tmp_path / "two.json"
+    several.write_text(json.dumps(TWO))
+    status, out, _ = call("analyze", str(several), "--at", "a=2")
+    assert status == 0 and "A mode is fixed where b = 1/2." in out
+
+
+def test_fixed_modes_at_some_value_fail_an_assertion_that_there_are_none(file: str) -> None:
+    assert call("analyze", file, "--assert", "no-fixed-modes")[0] == 1
+    assert call("analyze", file, "--at", "t=1", "--assert", "no-fixed-modes")[0] == 0
+
+
+def test_latex_has_the_plant_and_the_conditions(file: str) -> None:
+    status, out, _ = call("analyze", file, "--latex")
+    assert status == 0 and "4 t^{2} - 1" in out and r"\text{t = 1/2 (in range)}" in out
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (["--at", "u=1"], "unknown parameter 'u'"),
+        (["--at", "t"], "expected NAME=VALUE"),
+        (["--at", "t=half"], "expected an integer"),
+        (["--channel", "1"], "--at NAME=VALUE"),
+        (["--also", "completeness"], "--at NAME=VALUE"),
+    ],
+)
+def test_what_cannot_be_answered_says_what_to_give(
+    file: str, options: list[str], said: str
+) -> None:
+    status, _, told = call("analyze", file, *options)
+    assert status != 0 and said in told
+
+
+def test_a_plant_without_parameters_takes_no_values() -> None:
+    status, _, told = call("analyze", "gallery:quadruple-tank-pminus", "--at", "t=1")
+    assert status != 0 and "leave out --at" in told
