@@ -95,6 +95,6 @@ def statement(claim: Json, box: Box) -> str:
     bound = int(box.time == "discrete") if limit is None else limit
     gains = ""
     if radii is not None:
-        given = canonical_json(read_controller(radii, "claim.gain_radii", box.plant))
+        given = canonical_json(read_controller(radii, "claim.gain_radii"))
         gains = f", and for all gains of the controller within the radii with {with_digest(given)}"
     return f"{ALL}{gains}, every eigenvalue of A has {inside(bound, box)}"

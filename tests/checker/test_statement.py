@@ -85,7 +85,8 @@ def subject_of(document: Document) -> System:
 
 # Nothing is lost.
 
-UNUSED = {
+UNUSED: dict[str, tuple[str, Any, set[str]]] = {
+    "box_stable": ("gain_radii", None, {"gain_radii"}),
     "common_dimension": ("feasible", False, {"dimension"}),
     "communication": ("feasible", False, {"added", "cost"}),
     "communication by outputs": ("share", "outputs", {"dimensions"}),
@@ -93,7 +94,9 @@ UNUSED = {
     "shared_dimensions": ("feasible", False, {"dimensions", "cost"}),
     "single_channel_gains": ("exists", False, {"cyclic", "indices"}),
 }
-"""Keys that are null, or false, where another key has a value: nothing else is VALID."""
+"""Keys that are null, or false, where another key has a value: nothing else is VALID.
+
+Radii that are null are not replaced: a number is no controller, and stops the sentence."""
 
 
 def others(value: Any, names: list[str]) -> list[Any]:
@@ -165,7 +168,9 @@ def same_meaning(claim: Any, mutant: Any, system: System) -> bool:
     """Whether matrices are the same numbers, or a bound of stability is null and was 0 or 1."""
     if "M" in claim and isinstance(mutant["M"], dict) and mutant["M"].get("denominator"):
         return meaning(claim) == meaning(mutant)
-    if claim.keys() != {"bound", "stable"} or claim["stable"] is not mutant["stable"]:
+    others = [{key: v for key, v in each.items() if key != "bound"} for each in (claim, mutant)]
+    of_loops = claim.keys() in ({"bound", "stable"}, {"bound", "gain_radii"})
+    if not of_loops or canonical_json(others[0]) != canonical_json(others[1]):
         return False
     default = int(system.time == "discrete")
     bounds = [default if each["bound"] is None else each["bound"] for each in (claim, mutant)]
