@@ -95,10 +95,8 @@ def members(plants: dict[str, MultiChannelSystem]) -> None:
             verdict, checking = timed(partial(check, proof))
             told = told if verdict is not None and verdict.valid else "REJECTED"
         counts[told.partition(":")[0]] += 1
-        print(
-            f"{name} | {plant.n} | {plant.m} | {told} | {seconds:.2f} | {checking:.3f}", flush=True
-        )
-    print(counts)
+        row(name, plant.n, plant.m, told, f"{seconds:.2f}", f"{checking:.3f}")
+    print("\n" + ", ".join(f"{count} {told}" for told, count in counts.items()) + ".\n")
 
 
 def largest(plants: dict[str, MultiChannelSystem]) -> None:
