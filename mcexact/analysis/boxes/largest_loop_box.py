@@ -12,6 +12,7 @@ from mcexact.analysis.boxes.one_thread import one_thread
 from mcexact.analysis.boxes.rank_drops import Freedom, Uncertain
 from mcexact.analysis.stability.stability import certify_stability
 from mcexact.answer.protocol import Answer
+from mcexact.errors import InputError
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.model.box import Box
@@ -62,6 +63,7 @@ def largest_loop_uncertainty(
     >>> 0.2 < found.lower < found.upper < 0.4
     True
     """
+    InputError.require(system, MultiChannelSystem, "system")
     region = StabilityRegion.of(system.time, rate, radius)
     relative = system.uncertainty is None
     unit = Box.relative(system, 1).system if relative else system

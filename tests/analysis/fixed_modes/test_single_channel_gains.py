@@ -121,7 +121,7 @@ def test_without_states_everything_is_reached() -> None:
 
 def test_bad_questions_are_refused() -> None:
     system = MultiChannelSystem([[0]], [[[1]]], [[[1]]])
-    with pytest.raises(UsageError, match="expected one of controllable, observable, both"):
+    with pytest.raises(UsageError, match='want: expected "controllable", "observable" or "both"'):
         single_channel_gains(system, want="stable")  # type: ignore[arg-type]
     with pytest.raises(UsageError, match="available only with both properties"):
         single_channel_gains(system, want="observable", cyclic=True)
