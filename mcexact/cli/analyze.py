@@ -218,6 +218,8 @@ def _answer(
     system_by_digest: bool,
 ) -> dict[str, Any]:
     """Decide and format the answer, in the child process."""
+    from dataclasses import replace
+
     from mcexact.analysis.analyze import analyze
     from mcexact.cli import uncertainty
     from mcexact.cli.files import plant_in
@@ -241,6 +243,7 @@ def _answer(
         from mcexact.report.account_page import account_page
 
         page = account_page(account)
+        page = replace(page, answer=(*uncertainty.leading(account), *page.answer))
     return told(account, system_by_digest) | {
         "json": found.to_dict() | uncertainty.view(largest),
         "words": uncertainty.lead(account) + in_lines(account.sentences, _LINES_OF_WORDS),

@@ -41,18 +41,23 @@ def of(
     return (system if part is None else Box.relative(system, part).system), None
 
 
-def lead(account: Account) -> str:
+def leading(account: Account) -> tuple[str, ...]:
     """The sentences about every plant within the radii, before all others."""
-    from mcexact.report.text import WIDTH, wrapped
-
     known = [name for name in _ALL if name in account.answers]
     if "box_fixed_modes" in known and "box_stabilizability" in known:
         # A plant without fixed modes is stabilizable.
         known.remove("box_stabilizability")
-    if not known:
-        return ""
-    said = [line for name in known for line in wrapped(account.answers[name].explain(), WIDTH)]
-    return "\n".join([*said, "", "At the nominal values:", ""])
+    said = [account.answers[name].explain() for name in known]
+    return (*said, "At the nominal values:") if said else ()
+
+
+def lead(account: Account) -> str:
+    """The same as lines of text."""
+    from mcexact.report.text import WIDTH, wrapped
+
+    *said, last = leading(account) or ("",)
+    lines = [line for each in said for line in wrapped(each, WIDTH)]
+    return "\n".join([*lines, "", last, ""]) if last else ""
 
 
 def view(found: LargestUncertainty | None) -> dict[str, Any]:

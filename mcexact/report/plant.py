@@ -96,6 +96,9 @@ def _facts(system: MultiChannelSystem | ParametricSystem) -> tuple[tuple[str, st
     elif system.neighbors is not None:
         edges = sum(1 for j, i in system.neighbors.edges() if i != j)
         rows.append(("links between agents", count(edges, "link")))
+    if system.uncertainty is not None:
+        told = "every entry is within its radius, which the system file says"
+        rows.append(("uncertainty", f"{told}; the matrices are those of the nominal values"))
     rows.append(("source", system.source or "not stated in the system file"))
     rows.append(("SHA-256 of the system", digest(system)))
     return tuple(rows)

@@ -45,6 +45,17 @@ def test_analyze_leads_with_what_holds_for_every_plant(plant: str, tmp_path: Pat
     assert status == 0 and "radii" not in out
 
 
+def test_the_page_leads_with_it_too_and_says_which_matrices_it_shows(
+    plant: str, tmp_path: Path
+) -> None:
+    page = tmp_path / "page.html"
+    status, _, said = call("analyze", plant, "--uncertainty", "0.1%", "--html", str(page))
+    assert status == 0, said
+    first, found, rest = page.read_text("utf-8").partition("<p>At the nominal values:</p>")
+    assert found and "for all values within their radii" in first and "No mode is fixed" in rest
+    assert "the matrices are those of the nominal values" in rest
+
+
 def test_analyze_reads_the_uncertainty_of_the_file(tmp_path: Path) -> None:
     document = PLANT.to_dict() | {"uncertainty": {"relative": "1/100"}}
     path = tmp_path / "plant.json"
