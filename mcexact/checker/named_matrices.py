@@ -4,7 +4,7 @@ from . import layered
 from .arithmetic import Matrix, beside, stack
 from .budget import counted
 from .parametric_system import Layers, ParametricSystem
-from .reading import Json, fields, integer, malformed, names, require, shown
+from .reading import Json, fields, integer, malformed, names, require, shown, string
 from .statement import channel_set, quoted
 
 KEYS = {"setpoint": (), "controllability": ("channels", "blocks"), "transfer": ("from", "to")}
@@ -68,6 +68,7 @@ def _layer(part: Layers, k: int) -> Matrix:
 
 def named_text(value: Json, system: ParametricSystem) -> str:
     """A matrix in words."""
+    string(value["name"], "claim.matrix.name", *KEYS)
     if value["name"] == "setpoint":
         shift = " - I" if system.time == "discrete" else ""
         return f"[A{shift}, B; C, 0], B and C those of all channels,"
