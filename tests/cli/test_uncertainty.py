@@ -52,7 +52,11 @@ def test_the_page_leads_with_it_too_and_says_which_matrices_it_shows(
     status, _, said = call("analyze", plant, "--uncertainty", "0.1%", "--html", str(page))
     assert status == 0, said
     first, found, rest = page.read_text("utf-8").partition("<p>At the nominal values:</p>")
-    assert found and "for all values within their radii" in first and "No mode is fixed" in rest
+    assert (
+        found
+        and "within the radii: no plant has a fixed mode" in first
+        and "No mode is fixed" in rest
+    )
     assert "the matrices are those of the nominal values" in rest
 
 
