@@ -52,6 +52,7 @@ def about(name: str) -> tuple[tuple[str, Answer], ...]:
         question
         for question, each in QUESTIONS.items()
         if each.about in {"system", "plant"}
+        and each.needs != "uncertainty"
         and (question != "complementary_subsystem" or plant.m > 1)
     ]
     first = plant.names[0]
@@ -199,7 +200,7 @@ def keys_of(part: type[Part]) -> set[str]:
 def test_the_format_has_the_keys_of_every_kind(kind: str) -> None:
     made, documents = kind_named(kind), list(objects(FORMAT))
     section = FORMAT.partition(f"### `{kind}`\n")[2].partition("\n### ")[0]
-    claim, _, witness = section.partition("\nwitness")
+    claim, _, witness = f"\n{section}".partition("\nclaim ")[2].partition("\nwitness")
     assert next(objects(claim)) == {key_of(each) for each in fields_of(made, "claim")}
     hints: Mapping[str, Any] = typing.get_type_hints(made)
     of_witness = fields_of(made, "witness")

@@ -80,7 +80,7 @@ CALLS: dict[str, tuple[Callable[[], Any], type[McexactError], tuple[str, ...]]] 
     "B171 a python-control system, whose floats nobody says how to read": (
         lambda: from_statespace(control.ss(0.5, 1, 1, 0), [(0, 0)], rounding=None),
         InputError,
-        ("statespace.A[0][0]", "decimal", "dyadic"),
+        ("rounding", "decimal", "dyadic"),
     ),
     "B189 a cluster's client in place of its executor": (
         lambda: next(sweep([], executor=object())),  # type: ignore[arg-type]
