@@ -199,7 +199,7 @@ def test_the_line_of_an_analysis_is_short() -> None:
 @pytest.mark.parametrize(
     "call",
     [
-        lambda plant: mcexact.analyze("plant.json"),  # type: ignore[arg-type]
+        lambda plant: mcexact.analyze("plant.json"),  # type: ignore[call-overload]
         lambda plant: mcexact.analyze(None, information="outputs"),
         lambda plant: mcexact.certify_controller(plant, None),
         lambda plant: mcexact.save_certificate(3, "answer.json"),  # type: ignore[arg-type]
