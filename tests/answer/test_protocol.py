@@ -18,6 +18,7 @@ import mcexact
 from mcexact import answer as home
 from mcexact.analysis.questions import QUESTIONS
 from mcexact.answer.codec import encode
+from mcexact.answer.parametric_fixed_spectrum import ParametricFixedSpectrum
 from mcexact.answer.protocol import KINDS, Answer, Part, fields_of, key_of, kind_named
 from mcexact.answer.reading import answer_of
 from mcexact.answer.showing import fitted
@@ -26,7 +27,7 @@ from mcexact.errors import UsageError
 from mcexact.model import gallery
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.shown import LINE, escaped
+from mcexact.shown import LINE, words
 from tests.answer.test_golden import answers, of_a_parameter
 from tests.checker.box_plants import ALL as ABOUT_BOXES
 
@@ -129,9 +130,12 @@ def test_everything_that_is_shown_is_in_every_form(name: str) -> None:
         assert found.claim().keys() <= found.to_dict().keys()
         html, latex = found._repr_html_(), found._repr_latex_()
         assert latex.startswith("$") and latex.endswith("$")
-        for _, label, _ in entries:
+        labels = [label for _, label, _ in entries]
+        if isinstance(found, ParametricFixedSpectrum):  # a row for each mode, and where it is fixed
+            labels = [where for where, _, _ in found.rows] or list(found.words)
+        for label in labels:
             assert f"<tr><th>{escape(label)}</th>" in html
-            assert rf"\text{{{escaped(label)}}} & " in latex
+            assert f"{words(label)} & " in latex
         assert list(found.to_row()) == ["kind", "system", *(key for key, _, _ in entries)]
 
 
