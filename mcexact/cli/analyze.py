@@ -200,9 +200,11 @@ def _effort(taken: Sequence[Effort]) -> tuple[Table, ...]:
         for each in taken
         if each.seconds >= _LONG or each.outcome != "decided"
     ]
-    note = "Decide a question that is left out by --also and its name."
+    left_out = any(each.outcome == "left out" for each in taken)
+    note = "Decide a question that is left out by --also and its name." if left_out else ""
     columns = ("question", "seconds", "outcome")
-    return (Table("questions that took long", columns, tuple(rows), note),) if rows else ()
+    title = "questions that are open or took long"
+    return (Table(title, columns, tuple(rows), note),) if rows else ()
 
 
 def _answer(
@@ -243,7 +245,15 @@ def _answer(
         from mcexact.report.account_page import account_page
 
         page = account_page(account)
-        page = replace(page, answer=(*uncertainty.leading(account), *page.answer))
+        more = (*uncertainty.tables(largest), *_effort(found.effort()))
+        page = replace(
+            page,
+            answer=(*uncertainty.leading(account), *page.answer),
+            tables=(
+                *page.tables,
+                *(replace(each, title=each.title.capitalize()) for each in more),
+            ),
+        )
     return told(account, system_by_digest) | {
         "json": found.to_dict() | uncertainty.view(largest),
         "words": uncertainty.lead(account) + in_lines(account.sentences, _LINES_OF_WORDS),

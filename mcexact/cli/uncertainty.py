@@ -42,13 +42,16 @@ def of(
 
 
 def leading(account: Account) -> tuple[str, ...]:
-    """The sentences about every plant within the radii, before all others."""
+    """How large the radii are, and the sentences about every plant within them."""
+    from mcexact.report.plant import radii_in_words
+
     known = [name for name in _ALL if name in account.answers]
     if "box_fixed_modes" in known and "box_stabilizability" in known:
         # A plant without fixed modes is stabilizable.
         known.remove("box_stabilizability")
     said = [account.answers[name].explain() for name in known]
-    return (*said, "At the nominal values:") if said else ()
+    radii = f"radii: {radii_in_words(account.given.system)}"
+    return (radii, *said, "At the nominal values:") if said else ()
 
 
 def lead(account: Account) -> str:
@@ -123,10 +126,11 @@ def loops(
     """
     from mcexact.analysis.boxes.box_stable import box_stability
     from mcexact.errors import LimitReached
+    from mcexact.report.plant import radii_in_words
 
     if system.uncertainty is None and gains is None:
         return Loops()
-    said = [] if system.uncertainty is None else [("plant", system.uncertainty.explain())]
+    said = [] if system.uncertainty is None else [("plant", radii_in_words(system))]
     said += [] if gains is None else [("gains", f"within {float(100 * gains):g} %")]
     proof = None
     if found.stable:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from fractions import Fraction
 from itertools import islice
 from typing import Any
@@ -21,6 +22,8 @@ LARGEST, CUT = 12, 8
 """Up to how many rows and columns a matrix is shown whole, and how many are shown of a larger one;
 the same for channels."""
 _LONGEST = 9
+_SINGLE = re.compile(r"\((\w+(?:\^\d+)?)\)")
+"""A number, a parameter or its power in parentheses, which it does not need."""
 
 
 def shown_plant(system: MultiChannelSystem | ParametricSystem) -> dict[str, Any]:
@@ -97,11 +100,39 @@ def _facts(system: MultiChannelSystem | ParametricSystem) -> tuple[tuple[str, st
         edges = sum(1 for j, i in system.neighbors.edges() if i != j)
         rows.append(("links between agents", count(edges, "link")))
     if system.uncertainty is not None:
-        told = "every entry is within its radius, which the system file says"
+        told = radii_in_words(system)
         rows.append(("uncertainty", f"{told}; the matrices are those of the nominal values"))
     rows.append(("source", system.source or "not stated in the system file"))
     rows.append(("SHA-256 of the system", digest(system)))
     return tuple(rows)
+
+
+def radii_in_words(system: MultiChannelSystem) -> str:
+    """How many entries of a system are uncertain, and how large a part of them the radii are.
+
+    Examples
+    --------
+    >>> from mcexact import Box
+    >>> plant = MultiChannelSystem([[4]], [[[1]]], [[[0]]])
+    >>> radii_in_words(Box.relative(plant, "1/1000").system)
+    '2 entries are uncertain, by at most 0.1 %'
+    >>> radii_in_words(Box.absolute(plant, A=[[1]], C=[[["1/3"]]]).system)
+    '2 entries are uncertain, some of which are 0, by at most 1'
+    """
+    radii = system.uncertainty
+    if radii is None or radii.is_zero():
+        return "no entry is uncertain"
+    values = (system.A, *system.B, *system.C)
+    pairs = [
+        (Fraction(r, R.denominator), abs(M[i, j]))
+        for M, (_, R) in zip(values, radii.matrices(), strict=True)
+        for i, j, r in R.nonzero()
+    ]
+    if all(value for _, value in pairs):
+        largest = _short(max(100 * radius / value for radius, value in pairs)) + " %"
+        return f"{radii.explain()}, by at most {largest}"
+    largest = _short(max(radius for radius, _ in pairs))
+    return f"{radii.explain()}, some of which are 0, by at most {largest}"
 
 
 def _first(number: int) -> int:
@@ -131,5 +162,5 @@ def _is_short(x: Fraction | RationalFunction) -> bool:
 def _short(x: Fraction | RationalFunction) -> str:
     """A number exactly if that is short, otherwise rounded; a function as its text."""
     if isinstance(x, RationalFunction):
-        return str(x)
+        return _SINGLE.sub(r"\1", str(x))
     return str(decimal_or_quotient(x)) if _is_short(x) else f"≈{rounded(x)}"

@@ -58,6 +58,23 @@ def test_the_page_leads_with_it_too_and_says_which_matrices_it_shows(
         and "No mode is fixed" in rest
     )
     assert "the matrices are those of the nominal values" in rest
+    assert all("7 entries are uncertain, by at most 0.1 %" in each for each in (first, rest))
+
+
+def test_the_page_names_what_is_open_and_the_largest_uncertainty(tmp_path: Path) -> None:
+    save_system(FIXED, tmp_path / "fixed.json")
+    page = tmp_path / "page.html"
+    fixed = str(tmp_path / "fixed.json")
+    assert call("analyze", fixed, "--uncertainty", "1/100", "--html", str(page))[0] == 0
+    said = page.read_text("utf-8")
+    assert "Questions that are open or took long" in said
+    assert "the plant itself has a fixed mode, at its nominal values" in said
+    assert "every plant in the box is observable" in said
+    search = ("--largest-uncertainty", "--effort", "1")
+    save_system(PLANT, tmp_path / "plant.json")
+    plant = str(tmp_path / "plant.json")
+    assert call("analyze", plant, *search, "--html", str(page))[0] == 0
+    assert "Largest uncertainty" in page.read_text("utf-8")
 
 
 def test_analyze_reads_the_uncertainty_of_the_file(tmp_path: Path) -> None:

@@ -6,6 +6,7 @@ from fractions import Fraction
 
 import pytest
 
+from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import digest
 from mcexact.report.plant import CUT, LARGEST, shown_plant
@@ -54,6 +55,18 @@ def test_of_many_channels_some_are_shown_and_said_to_be() -> None:
 def test_long_numbers_are_rounded_and_said_to_be() -> None:
     shown = shown_plant(plant_of(1, entry=Fraction(10**20 + 1, 3 * 10**20)))
     assert "≈0.333333" in str(shown["matrices"][0]) and "≈" in shown["notes"][0]
+
+
+def test_functions_of_parameters_have_no_parentheses_that_they_do_not_need() -> None:
+    plant = ParametricSystem(
+        [["1/t", "(1 + t)/t^2"], ["1/(1 + t)", "1/(2*t)"]],
+        [[[1], [0]]],
+        [[[1, 0]]],
+        parameters=["t"],
+    )
+    shown = str(shown_plant(plant))
+    assert "1/t" in shown and "(t + 1)/t^2" in shown and "1/(t + 1)" in shown
+    assert "(1)" not in shown and "(t^2)" not in shown
 
 
 def test_the_date_is_that_of_reproducible_builds(monkeypatch: pytest.MonkeyPatch) -> None:

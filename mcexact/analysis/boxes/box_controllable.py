@@ -272,6 +272,13 @@ def box_observability(
     >>> plant = MultiChannelSystem([[0, 1], [-2, -3]], [[[0], [1]]], [[[1, 0]]])
     >>> box_observability(Box.relative(plant, "1/10").system).subject
     ({'construction': 'dual'},)
+    >>> box_observability(Box.absolute(plant, C=[[[1, 0]]]).system)
+    Traceback (most recent call last):
+        ...
+    mcexact.errors.LimitReached: no proof was found that every plant in the box is observable
     """
     InputError.require(system, MultiChannelSystem, "system")
-    return box_controllability(dual(system), channels, bound=bound)
+    try:
+        return box_controllability(dual(system), channels, bound=bound)
+    except LimitReached:
+        raise LimitReached("no proof was found that every plant in the box is observable") from None
