@@ -8,6 +8,9 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+from mcexact.analysis.boxes.box_controllable import box_controllability
+from mcexact.analysis.boxes.box_fixed import box_fixed_modes
+from mcexact.analysis.boxes.box_stable import box_stability
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.structure.exceptional_gains import exceptional_gains
 from mcexact.analysis.structure.setpoint import setpoint_solvability
@@ -15,7 +18,9 @@ from mcexact.answer.codec import save_certificate
 from mcexact.cli import main
 from mcexact.exact.matrix import Matrix
 from mcexact.model import gallery
+from mcexact.model.box import Box
 from mcexact.model.formats.files import save_system
+from mcexact.model.local_controllers import local_controllers
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
@@ -79,6 +84,14 @@ def write_all(folder: Path) -> None:
     place.mkdir()
     save_certificate(fixed_spectrum(free), place / "parametric_fixed_spectrum.json")
     save_certificate(setpoint_solvability(free), place / "parametric_rank.json")
+    unstable = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    near = Box.relative(unstable, "1/10").system
+    place = folder / "with-radii"
+    place.mkdir()
+    save_certificate(box_fixed_modes(near), place / "box_fixed.json")
+    save_certificate(box_controllability(near), place / "box_controllable.json")
+    kept = box_stability(near, local_controllers(unstable, [[[-3]]]))
+    save_certificate(kept, place / "box_stable.json")
 
 
 def with_graph(plant: MultiChannelSystem) -> MultiChannelSystem:
