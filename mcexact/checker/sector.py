@@ -73,10 +73,10 @@ def turned(p: Polynomial, zeta: Fraction) -> Polynomial:
 
     Theorems ``sector.damping_rule``, ``sector.damping_by_integers``.
     """
-    (numbers, _), d, a, b = cleared(p), len(p) - 1, zeta.numerator, zeta.denominator
-    h, one, longest = b**2 - a**2, 2 * budget.limbs([b]), budget.limbs(numbers)
-    most = longest + d * one + 1
-    budget.spend(budget.products(4 * d + 4, most, most) + budget.table(6, d + 1, most))
+    (numbers, _), a, b = cleared(p), zeta.numerator, zeta.denominator
+    h, longest = b**2 - a**2, budget.limbs(numbers) + 2 * len(p) * budget.limbs([b])
+    units = budget.products(4 * len(p), longest, longest)
+    budget.spend(units + budget.table(6, len(p), longest))
     U, V, u, v = list[int](), list[int](), 1, 0
     for c in reversed(numbers):
         U.insert(0, c * u)

@@ -39,6 +39,7 @@ from mcexact.checker.location import in_region, is_hurwitz, is_schur
 from mcexact.checker.manifest import verdicts_of
 from mcexact.checker.neighbor_graph import components
 from mcexact.checker.reading import Refused
+from mcexact.checker.sector import turned
 from mcexact.checker.system import read_system_file
 from mcexact.errors import InputError
 from tests import effort
@@ -358,6 +359,10 @@ LEAST = {
     "a polynomial moved by a rate": (
         lambda: in_region(STRANGE, "continuous", Fraction(1)),
         60**2 * 100,
+    ),
+    "a polynomial turned by a damping ratio": (
+        lambda: turned([*FACTORS[:2], Fraction(1)], Fraction(10**300, 10**300 + 1)),
+        80_000,
     ),
     "a product of strange denominators": (lambda: poly_product(STRANGE, STRANGE), 60**2 * 2000),
     "a division of strange denominators": (

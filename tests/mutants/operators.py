@@ -57,7 +57,7 @@ GUARDS = {"frozen", "strict"}
 
 SQUARE = {
     "absence", "characteristic_polynomial", "closed_loop_spectrum", "exceptional_gains",
-    "quadratic_forms", "stability",
+    "quadratic_forms", "sector", "stability",
 }  # fmt: skip
 """The files in which only square matrices are called A, A_F or M, so that they have as many rows
 as columns."""
