@@ -83,10 +83,23 @@ write_pages(Path(__file__).parent)
 def plain_bars(
     app: Sphinx, what: str, name: str, obj: object, options: object, lines: list[str]
 ) -> None:
-    """Keep |λ| and K* from being read as markup: docstrings here are plain text."""
+    """Keep |λ| and K* from being read as markup: docstrings here are plain text.
+
+    Examples with what they print, and blocks that are drawn after ``::``, are no markup anyway.
+    """
+    example, drawn = False, None
     for k, line in enumerate(lines):
-        if "``" not in line and ">>>" not in line:
+        if not line.strip():
+            example = False
+            continue
+        indent = len(line) - len(line.lstrip())
+        if drawn is not None and indent <= drawn:
+            drawn = None
+        example = example or line.lstrip().startswith(">>>")
+        if drawn is None and not example and "``" not in line:
             lines[k] = re.sub(r"(?<!\\)([|*])", r"\\\1", line)
+        if drawn is None and line.rstrip().endswith("::"):
+            drawn = indent
 
 
 def setup(app: Sphinx) -> None:

@@ -74,7 +74,8 @@ def test_the_page_names_what_is_open_and_the_largest_uncertainty(tmp_path: Path)
     save_system(PLANT, tmp_path / "plant.json")
     plant = str(tmp_path / "plant.json")
     assert call("analyze", plant, *search, "--html", str(page))[0] == 0
-    assert "Largest uncertainty" in page.read_text("utf-8")
+    said = page.read_text("utf-8")
+    assert "Largest uncertainty" in said and "the mode that is fixed there" in said
 
 
 def test_analyze_reads_the_uncertainty_of_the_file(tmp_path: Path) -> None:

@@ -15,6 +15,7 @@ from mcexact.analysis.boxes.one_thread import one_thread
 from mcexact.analysis.boxes.radii import radii_of
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.structure.controllability import joint_controllability
+from mcexact.answer.mode_words import blame
 from mcexact.answer.protocol import Answer
 from mcexact.answer.reading import constructed
 from mcexact.derived.dual import dual
@@ -92,8 +93,9 @@ class LargestUncertainty(Shown):
         yield "proved for every plant", proved
         near = "not found" if self.upper is None else f"{_number(self.upper, self.relative)}{unit}"
         yield "a plant fails within", near
-        if self.channels is not None and self.upper is not None:
-            yield "channels that do not show it", ", ".join(self.channels) or "none"
+        told = self.wanted == "no fixed mode"
+        if told and self.channels is not None and self.failing is not None:
+            yield "the mode that is fixed there", blame(self.channels, self.failing.names)
 
     def _labeled(self) -> Iterator[tuple[str, Any]]:
         """Yield the property, the factors, and the plant that fails."""
