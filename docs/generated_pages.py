@@ -121,8 +121,9 @@ def gallery_page() -> str:
     ]
     for each in published():
         if each.parameters:
-            size = f"{each.n} states, {each.m} channels, parameters {', '.join(each.parameters)}"
-            lines += [f"`{each.name}`", f": {size}. {each.shows.capitalize()}.", ""]
+            word = "parameter" if len(each.parameters) == 1 else "parameters"
+            size = f"{each.n} states, {each.m} channels, {word} {', '.join(each.parameters)}"
+            lines += [f"`{each.name}`", f": {size}. {each.shows[:1].upper()}{each.shows[1:]}.", ""]
             lines += [f"  {each.source}", ""]
     return "\n".join(lines)
 

@@ -15,8 +15,8 @@ ROOTS = [-1, "-1+2i"]
 PAIRS: list[Any] = ["-1", {"re": -1, "im": "2"}]
 COEFFICIENTS = [5, 7, 3, 1]
 _HEAD = (
-    "Examples for --spectrum, as text or in a file; the numbers are as many as the degree, and a "
-    "pair counts twice:"
+    "Examples for --spectrum, as text or in a file; the numbers are as many as the\n"
+    "degree, and a pair counts twice:"
 )
 _LIST = re.compile(r"[-+0-9./eEij,\s]*[0-9ij][-+0-9./eEij,\s]*", re.ASCII)
 
@@ -74,8 +74,8 @@ def spectrum_examples(*keys: str, parts: bool = False) -> str:
     Examples
     --------
     >>> print(spectrum_examples("closed_loop").removeprefix("\\b\\n"))
-    Examples for --spectrum, as text or in a file; the numbers are as many as the degree, and a \
-pair counts twice:
+    Examples for --spectrum, as text or in a file; the numbers are as many as the
+    degree, and a pair counts twice:
       '-1, -1+2i'
           the root -1 and the pair -1 ± 2i
       {"closed_loop": [-1, "-1+2i"]}
