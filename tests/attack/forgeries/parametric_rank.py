@@ -5,6 +5,7 @@ from __future__ import annotations
 import random
 
 from ..draws.plants import Document
+from .parametric import congruent_value
 
 Forged = Document | None
 
@@ -22,21 +23,6 @@ def value_left_out(rng: random.Random, document: Document) -> Forged:
         witness["undefined"].append(entry["value"])
     elif where == 2:
         claim["outside"].append({"value": entry["value"], "roots": entry["roots"]})
-    return document
-
-
-def congruent_value(rng: random.Random, document: Document) -> Forged:
-    """A value is moved by a multiple of the modulus."""
-    claim, ell = document["claim"], document["witness"]["modulus"]
-    if not claim["exceptional"]:
-        return None
-    entry = rng.choice(claim["exceptional"])
-    if isinstance(entry["value"][0], int):
-        entry["value"][0] += rng.choice((ell, -ell))
-        entry["roots"] = [
-            {**disc, "re": f"{-entry['value'][0]}", "im": "0", "radius": "0"}
-            for disc in entry["roots"]
-        ]
     return document
 
 
