@@ -24,7 +24,7 @@ LABELS = {
 """The questions, with what their answers are about."""
 _VERBS = {"fixed_spectrum": "fixed", "joint_controllability": "uncontrollable",
           "joint_observability": "unobservable"}  # fmt: skip
-COLUMNS = ("where", "the roots of", "because")
+COLUMNS = ("where", "modes: the roots of", "because")
 _OPEN = (
     "This is proved along the lines that are listed. What is fixed where several conditions meet "
     "is not decided."
@@ -154,4 +154,4 @@ def _rows_of_several(answer: ExceptionalHypersurfaces, blamed: bool) -> Iterator
     for q in answer.undefined_at:
         yield f"{q} = 0", "undefined", "a denominator is 0"
     for line in answer.lines:
-        yield str(line), "proved along this line", "by a certificate for every s"
+        yield str(line), "", "proved along this line by a certificate, for every s"

@@ -12,7 +12,7 @@ import click
 from mcexact.analysis.questions import QUESTIONS, asked_by
 from mcexact.cli import options
 from mcexact.cli.failures import DEFINITE_NO
-from mcexact.cli.parameters import parameter_value
+from mcexact.cli.parameters import at_values
 
 if TYPE_CHECKING:
     from mcexact.analysis.analyze import Effort
@@ -84,14 +84,10 @@ def _also(function: Callable[..., int]) -> Callable[..., int]:
     metavar="SECONDS",
     help="With --largest-uncertainty: about how long to search; the work is counted and not timed.",
 )
-@click.option(
-    "--at",
-    "at",
-    type=parameter_value,
-    multiple=True,
-    metavar="NAME=VALUE",
-    help="Of a system with parameters: give a parameter a value, such as t=1/3.  May be repeated; "
-    "without values for all of them, the others stay, and the answers are about all their values.",
+@at_values(
+    "give a parameter a value",
+    "May be repeated; without values for all of them, the others stay, and the answers are about "
+    "all their values.",
 )
 @click.option(
     "--assert",

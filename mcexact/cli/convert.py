@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from mcexact.cli import options
-from mcexact.cli.parameters import parameter_value
+from mcexact.cli.parameters import at_values
 
 if TYPE_CHECKING:
     from mcexact.exact.floats import Rounding
@@ -46,14 +46,7 @@ def sizes(text: str) -> tuple[int, ...]:
 )
 @click.option("--inputs", type=sizes, metavar="SIZES", help="Columns of a stacked B per channel.")
 @click.option("--outputs", type=sizes, metavar="SIZES", help="Rows of a stacked C per channel.")
-@click.option(
-    "--at",
-    type=parameter_value,
-    multiple=True,
-    metavar="NAME=VALUE",
-    help="Of a system with parameters: write the system at this value of a parameter, such as "
-    "t=1/3.  Repeatable, once for each parameter.",
-)
+@at_values("write the system at this value of a parameter", "Repeat it for each parameter.")
 @options.as_json
 @options.work_limits
 @options.file_limits

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
@@ -11,6 +12,8 @@ from mcexact.cli import options
 
 if TYPE_CHECKING:
     from mcexact.model.parametric import ParametricSystem
+
+F = TypeVar("F", bound=Callable[..., Any])
 
 
 def parameter_value(text: str) -> tuple[str, Fraction]:
@@ -25,6 +28,17 @@ def parameter_value(text: str) -> tuple[str, Fraction]:
     if not (name.strip() and equals and value.strip()):
         raise click.BadParameter(f"expected NAME=VALUE, such as t=1/3, found '{text}'")
     return name.strip(), options.rational(value.strip())
+
+
+def at_values(use: str, more: str) -> Callable[[F], F]:
+    """Return the option for values of parameters, whose help says their use, and more."""
+    return click.option(
+        "--at",
+        type=parameter_value,
+        multiple=True,
+        metavar="NAME=VALUE",
+        help=f"Of a system with parameters: {use}, such as t=1/3.  {more}",
+    )
 
 
 def for_all_values(

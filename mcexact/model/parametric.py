@@ -189,6 +189,8 @@ class ParametricSystem(ByChannel[FunctionMatrix], SystemForms):
             [C.constants() for C in parts[self.m + 1 :]],
             time=self.time,
             names=self.names,
+            name=self.name,
+            source=self.source,
         )
 
     def with_values(self, values: Mapping[Any, Any]) -> MultiChannelSystem | ParametricSystem:
@@ -262,6 +264,8 @@ class ParametricSystem(ByChannel[FunctionMatrix], SystemForms):
             assume=assume,
             time=self.time,
             names=self.names,
+            name=self.name,
+            source=self.source,
         )
 
     def generic(self, seed: int = 0) -> MultiChannelSystem:

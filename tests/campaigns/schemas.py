@@ -55,6 +55,22 @@ def commands(plant: str, folder: Path) -> Iterator[tuple[str, tuple[str, ...]]]:
         yield "system", ("c2d", plant, "--step", "1/10", *LIMIT)
 
 
+def commands_for_all_values(plant: str, folder: Path) -> Iterator[tuple[str, tuple[str, ...]]]:
+    """The same about a plant with parameters."""
+    evidence = folder / "evidence"
+    yield "analyze-parameters", ("analyze", plant, "--certificates", str(evidence), *LIMIT)
+    for certificate in sorted(evidence.glob("*.json")):
+        yield "check", ("check", str(certificate))
+    yield "system", ("convert", plant)
+    known = gallery.load_parametric(plant.removeprefix("gallery:"))
+    values = [f"--at={name}=1/7" for name in known.parameters]
+    yield "system", ("convert", plant, *values)
+    yield "analyze", ("analyze", plant, *values, *LIMIT)
+    grid = [f"--grid={name}=1/7:6/7:2" for name in known.parameters]
+    records = ("-o", str(folder / "records.jsonl"), "--workers", "1")
+    yield "sweep", ("sweep", plant, *grid, *records, *LIMIT)
+
+
 def seconds() -> float:
     """The time of the processor that finished commands took."""
     return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
@@ -63,12 +79,16 @@ def seconds() -> float:
 def tried(name: str, folder: Path) -> dict[str, Any]:
     """What is not as a schema says, for one plant, and how long and with which status."""
     (folder / "plant.json").write_text(gallery.text(name), encoding="utf-8")
-    plant = gallery.load(name)
-    linked = plant if plant.neighbors else plant.with_neighbors(NeighborGraph.ring(plant.names))
-    save_system(linked, folder / "ring.json")
+    asked = commands
+    if name in gallery.parametric_names():
+        asked = commands_for_all_values
+    else:
+        plant = gallery.load(name)
+        linked = plant if plant.neighbors else plant.with_neighbors(NeighborGraph.ring(plant.names))
+        save_system(linked, folder / "ring.json")
     problems: list[str] = []
     took: dict[str, tuple[float, int]] = {}
-    for schema, arguments in commands(f"gallery:{name}", folder):
+    for schema, arguments in asked(f"gallery:{name}", folder):
         began = seconds()
         done = run(*arguments, "--json")
         command = " ".join(arguments[: 2 if schema == "design" else 1])
@@ -104,7 +124,7 @@ def main(names: list[str]) -> int:
     """Try some published plants, or all of them; the status is 1 if something is wrong."""
     FILE.parent.mkdir(parents=True, exist_ok=True)
     found = known()
-    for name in names or gallery.names():
+    for name in names or (*gallery.names(), *gallery.parametric_names()):
         if name not in found:
             with tempfile.TemporaryDirectory() as folder:
                 found[name] = tried(name, Path(folder))

@@ -299,3 +299,10 @@ def test_one_parameter_takes_a_number_alone_and_some_take_values() -> None:
     assert isinstance(left, ParametricSystem)
     assert (str(left.A[0, 0]), left.ranges) == ("b + 2", ((0, 1),))
     assert two.with_values({a: 2, b: 1}) == two.at({a: 2, b: 1})
+
+
+def test_name_and_source_stay_at_values_and_along_lines() -> None:
+    plant = scalar("a*t", (a, t), name="two letters", source="made up")
+    for made in (plant.at({a: 1, t: 2}), plant.with_values({a: 1}), plant.along({"a": "s", t: 1})):
+        assert (made.name, made.source) == ("two letters", "made up")
+    assert "two letters" not in json.dumps(plant.along({"a": "s", "t": 1}).document())

@@ -76,6 +76,16 @@ def test_answers_are_as_their_schemas_say(tmp_path: Path) -> None:
     assert faults("system", json.loads(Path(plant).read_text())) == []
 
 
+def test_answers_for_all_values_are_as_their_schemas_say(tmp_path: Path) -> None:
+    plant, folder = "gallery:two-areas-parametric", tmp_path / "made"
+    asked("analyze-parameters", "analyze", plant, "--certificates", str(folder))
+    for path in folder.glob("*.json"):
+        assert faults("certificate", json.loads(path.read_text())) == [], path.name
+        asked("check", "check", str(path))
+    asked("system", "convert", plant)
+    asked("system", "convert", plant, "--at", "T=1")
+
+
 def test_the_least_sharing_is_as_its_schema_says(tmp_path: Path) -> None:
     folder = tmp_path / "made"
     asked("allocate", "allocate", small(tmp_path), "--certificates", str(folder))
