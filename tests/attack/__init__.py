@@ -1,6 +1,7 @@
 """A campaign of mutants and forgeries against the checker, judged by an oracle of its own.
 
     python -m tests.attack 500000        # some ten minutes on two idle processors
+    python -m tests.attack 10000 --kinds parametric_fixed_spectrum parametric_rank
     python -m tests.attack --only 1234   # one try again, with its document
     python -m tests.attack 100000 --weakened FILE   # without each condition of the checker in turn
 

@@ -7,7 +7,7 @@ import multiprocessing
 import signal
 import sys
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -19,7 +19,7 @@ from .oracle.judge import TRUE, UNDECIDED, judge
 from .oracle.statement import statement
 from .oracle.words import sha256
 from .report import Report
-from .tries import SIZE, Batch, Try, drawn_batch, tries
+from .tries import ORDER, Batch, Try, batch_numbers, drawn_batch, tries
 
 SECONDS = 20.0
 """Of processor time, after which a check is given up; an honest one takes milliseconds."""
@@ -147,26 +147,26 @@ def misstated(document: Mapping[str, Any], verdict: Verdict, report: Report) -> 
     return ""
 
 
-def _share(first: int, step: int, batches: int) -> Report:
-    """The batches first, first + step, … as one process runs them."""
+def _share(numbers: Sequence[int]) -> Report:
+    """Some batches as one process runs them."""
     report, start = Report(), time.process_time()
-    for number in range(first, batches, step):
+    for number in numbers:
         run_batch(number, report)
     report.seconds = time.process_time() - start
     return report
 
 
-def run(count: int, processes: int = 2) -> Report:
-    """At least so many tries, in several processes."""
-    batches = -(-count // SIZE)
+def run(count: int, processes: int = 2, kinds: Collection[str] = ORDER) -> Report:
+    """At least so many tries about some kinds, in several processes."""
+    numbers = batch_numbers(count, kinds)
     report = Report()
     if processes == 1:
-        report.add(_share(0, 1, batches))
+        report.add(_share(numbers))
         return report
     # many small shares, so that a report is there soon and no process waits long for the others
-    shares = min(batches, processes * 16)
+    shares = min(len(numbers), processes * 16)
     with multiprocessing.get_context("fork").Pool(processes) as pool:
-        jobs = [pool.apply_async(_share, (k, shares, batches)) for k in range(shares)]
+        jobs = [pool.apply_async(_share, (numbers[k::shares],)) for k in range(shares)]
         seen: list[Any] = []
         for job in jobs:
             report.add(job.get())

@@ -19,7 +19,7 @@ from tests.attack.oracle.constructions import CONSTRUCTIONS as KNOWN
 from tests.attack.oracle.judge import KINDS as JUDGED
 from tests.attack.oracle.judge import TRUE, judge
 from tests.attack.report import Report
-from tests.attack.tries import SIZE, drawn_batch, tries
+from tests.attack.tries import ORDER, SIZE, batch_numbers, drawn_batch, tries
 from tests.checker.handmade import VALID
 
 
@@ -71,6 +71,14 @@ def test_a_try_is_repeated_alone(number: int) -> None:
     assert alone.number == number
     again = run_batch(number // SIZE, Report(), number)
     assert again == alone
+
+
+def test_some_kinds_are_tried_alone_by_the_same_numbers() -> None:
+    kinds = ("parametric_rank", "setpoint")
+    numbers = batch_numbers(3 * SIZE + 1, kinds)
+    assert [ORDER[number % len(ORDER)] for number in numbers] == [*kinds, *kinds]
+    assert numbers[0] == ORDER.index("parametric_rank")
+    assert batch_numbers(1) == [0]
 
 
 def test_a_batch_is_the_same_every_time() -> None:

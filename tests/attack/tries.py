@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import random
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -63,6 +64,12 @@ class Try:
     focus: str | None
     mutator: str
     document: Any
+
+
+def batch_numbers(count: int, kinds: Collection[str] = ORDER) -> list[int]:
+    """The first batches about these kinds that have so many tries together."""
+    turns = (number for number in itertools.count() if ORDER[number % len(ORDER)] in kinds)
+    return list(itertools.islice(turns, -(-count // SIZE)))
 
 
 def drawn_batch(number: int) -> Batch:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import multiprocessing
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import groupby
 from typing import Any
@@ -17,7 +17,7 @@ from typing import Any
 from .campaign import checked, judged, parsed
 from .conditions import GATES, Site, weakened_checker
 from .oracle.judge import FALSE, TRUE
-from .tries import SIZE, Try, drawn_batch, tries
+from .tries import ORDER, Try, batch_numbers, drawn_batch, tries
 
 
 @dataclass
@@ -77,25 +77,27 @@ def attempt(made: Try, holes: Holes, batch: Any) -> None:
         holes.true[GATES.open] += 1
 
 
-def _share(first: int, step: int, batches: int) -> Holes:
+def _share(numbers: Sequence[int]) -> Holes:
     holes = Holes()
     weakened_checker()
-    for number in range(first, batches, step):
+    for number in numbers:
         batch = drawn_batch(number)
         for made in tries(number, batch):
             attempt(made, holes, batch)
     return holes
 
 
-def search(count: int, processes: int = 2) -> tuple[list[Site], Holes]:
-    """Leave out conditions in so many tries."""
-    batches, holes = -(-count // SIZE), Holes()
+def search(
+    count: int, processes: int = 2, kinds: Collection[str] = ORDER
+) -> tuple[list[Site], Holes]:
+    """Leave out conditions in so many tries about some kinds."""
+    numbers, holes = batch_numbers(count, kinds), Holes()
     weakened_checker()
     if processes == 1:
-        return GATES.sites, _share(0, 1, batches)
-    shares = min(batches, processes * 16)
+        return GATES.sites, _share(numbers)
+    shares = min(len(numbers), processes * 16)
     with multiprocessing.get_context("fork").Pool(processes) as pool:
-        jobs = [pool.apply_async(_share, (k, shares, batches)) for k in range(shares)]
+        jobs = [pool.apply_async(_share, (numbers[k::shares],)) for k in range(shares)]
         for job in jobs:
             holes.add(job.get())
     return GATES.sites, holes
