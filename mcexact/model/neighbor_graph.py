@@ -8,7 +8,8 @@ from functools import cached_property
 from typing import Any
 
 from mcexact.arguments import several
-from mcexact.errors import FloatRefused, InputError, UsageError
+from mcexact.errors import InputError, UsageError
+from mcexact.model.message_delays import agent_position, checked_delays
 from mcexact.model.names import checked_name, checked_names, nearest, quoted
 from mcexact.model.networkx_links import links_of
 from mcexact.shown import LINE, Shown
@@ -75,40 +76,10 @@ class NeighborGraph(Shown):
         for i, heard in enumerate(neighbors):
             where = f"neighbors[{i}]"
             listed = several(heard, where, "positions")
-            sets.append(tuple(sorted({i, *(_position(j, m, where) for j in listed)})))
+            sets.append(tuple(sorted({i, *(agent_position(j, m, where) for j in listed)})))
         object.__setattr__(self, "names", names)
         object.__setattr__(self, "neighbors", tuple(sets))
-        object.__setattr__(self, "delays", self._checked_delays(delays))
-
-    def _checked_delays(
-        self, delays: Iterable[tuple[int, int, int]]
-    ) -> tuple[tuple[int, int, int], ...]:
-        """Sort the delays and drop those of 0; refuse a delay that is not on an edge."""
-        found: dict[tuple[int, int], int] = {}
-        for k, late in enumerate(several(delays, "delays", "triples (i, j, d)")):
-            triple = several(late, f"delays[{k}]", "the two positions and the delay")
-            if len(triple) != 3:
-                raise InputError(f"expected (i, j, d), found {late!r}", where=f"delays[{k}]")
-            i, j, delay = triple
-            i, j = _position(i, self.m, "delays"), _position(j, self.m, "delays")
-            where = f"delays[{quoted(self.names[i])}][{quoted(self.names[j])}]"
-            if isinstance(delay, bool) or not isinstance(delay, int) or delay < 0:
-                kind = FloatRefused if isinstance(delay, float) else InputError
-                raise kind(f"expected an integer >= 0, found {delay!r}", where=where)
-            if (i, j) in found:
-                raise InputError("expected one delay, found two", where=where)
-            if delay and i == j:
-                raise InputError(
-                    "expected 0: an agent has its own signals without delay", where=where
-                )
-            if j not in self.neighbors[i]:
-                raise InputError(
-                    f"there is no such link: list {quoted(self.names[j])} among the neighbors "
-                    f"of {quoted(self.names[i])}, or remove the delay",
-                    where=where,
-                )
-            found[i, j] = delay
-        return tuple(sorted((i, j, d) for (i, j), d in found.items() if d))
+        object.__setattr__(self, "delays", checked_delays(delays, names, sets))
 
     @classmethod
     def from_names(
@@ -301,8 +272,8 @@ class NeighborGraph(Shown):
         """
         sets = [set(heard) for heard in self.neighbors]
         for j, i in added:
-            _position(j, self.m, "edges")
-            sets[_position(i, self.m, "edges")].add(j)
+            agent_position(j, self.m, "edges")
+            sets[agent_position(i, self.m, "edges")].add(j)
         return NeighborGraph(self.names, sets, self.delays)
 
     def is_strongly_connected(self) -> bool:
@@ -376,13 +347,6 @@ def _agents(names: Sequence[str] | int) -> tuple[Any, ...]:
             raise InputError(f"expected a number of agents >= 0, found {names}", where="names")
         return tuple(str(i + 1) for i in range(names))
     return several(names, "names", "names, or a number of agents")
-
-
-def _position(value: object, m: int, where: str) -> int:
-    """Check and return the position of an agent."""
-    if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value < m:
-        raise InputError(f"expected positions of agents 0 … {m - 1}, found {value!r}", where=where)
-    return value
 
 
 def graph_for(
