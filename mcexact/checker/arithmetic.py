@@ -11,11 +11,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from itertools import chain
-from operator import mul
 from typing import Any
 
 from . import budget
 from .budget import build, counted, spend
+from .packed_rows import integer_product
 
 Polynomial = list[Any]
 """Coefficients, constant term first: Fractions over Q, integers modulo ℓ."""
@@ -152,8 +152,7 @@ def product(A: Rows, B: Rows, ncols: int, ell: int = 0) -> Rows:
     if ell:
         a = budget.limbs([ell])
         build(len(A) + 1, ncols, a, a, len(B) + 4)
-    columns: Iterable[Any] = list(zip(*B, strict=True)) if B else [()] * ncols
-    rows = [[sum(map(mul, row, column)) for column in columns] for row in A]
+    rows = integer_product(A, B, ncols)
     return [[entry % ell for entry in row] for row in rows] if ell else rows
 
 

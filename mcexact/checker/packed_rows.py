@@ -1,14 +1,19 @@
-"""Rows and polynomials modulo ℓ as long integers, with slots for their entries."""
+"""Rows and polynomials as long integers, with slots for their entries."""
 
 from collections.abc import Iterable, Sequence
 from functools import cache
 from operator import mul
+from typing import Any
 
 from . import budget
 from .budget import spend
 
 SMALL = 64
 """Up to this modulus a residue is a byte, and rows with equal coefficients are added up first."""
+
+Table = Sequence[Sequence[int]]
+FEW, LONG = 16, 64
+"""Fewer rows, and entries of more bytes, are multiplied one by one."""
 
 
 class PackedRows:
@@ -92,6 +97,29 @@ class Combination:
     def is_zero(self) -> bool:
         """Whether the sum so far is 0."""
         return not any(self.row)
+
+
+def integer_product(A: Table, B: Table, ncols: int) -> list[list[int]]:
+    """A·B over the integers; long rows of short entries are added up as long integers."""
+    size = (_bits(A) + _bits(B) + len(B).bit_length()) // 8 + 1
+    if min(len(A), len(B), ncols) < FEW or size > LONG:
+        columns: Iterable[Any] = list(zip(*B, strict=True)) if B else [()] * ncols
+        return [[sum(map(mul, row, column)) for column in columns] for row in A]
+    # what is added to every entry keeps slots from borrowing of each other
+    half = 1 << (8 * size - 1)
+    halves = _packed([half] * ncols, size)
+    rows = [_packed([entry + half for entry in row], size) - halves for row in B]
+    slots, found = range(0, ncols * size, size), []
+    for u in A:
+        total = sum([factor * row for factor, row in zip(u, rows, strict=True) if factor], halves)
+        data = total.to_bytes(ncols * size, "little")
+        found.append([int.from_bytes(data[k : k + size], "little") - half for k in slots])
+    return found
+
+
+def _bits(M: Table) -> int:
+    """The bits of the longest entry."""
+    return max((max(map(int.bit_length, row), default=0) for row in M), default=0)
 
 
 def convolution(f: Sequence[int], g: Sequence[int], ell: int) -> list[int]:

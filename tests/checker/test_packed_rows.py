@@ -8,11 +8,14 @@ import pytest
 
 from mcexact.checker.budget import Budget, limited
 from mcexact.checker.packed_rows import (
+    FEW,
+    LONG,
     SMALL,
     Combination,
     PackedRows,
     byte_sum,
     convolution,
+    integer_product,
     most_addends,
     multiples,
 )
@@ -159,3 +162,36 @@ def test_a_combination_is_charged_row_by_row(ell: int, units: int) -> None:
         total = Combination(1000, ell)
         for _ in range(4):
             total.add(1, [0] * 1000)
+
+
+@pytest.mark.parametrize("bits", [1, 8, 29, 60, 4 * LONG - 8, 4 * LONG, 5 * LONG])
+@pytest.mark.parametrize(
+    "shape",
+    [
+        (FEW, FEW, FEW),
+        (FEW, 31, FEW),
+        (FEW + 9, FEW, FEW + 3),
+        (FEW - 1, 40, FEW),
+        (FEW, FEW - 1, FEW),
+        (20, 20, 1),
+    ],
+)
+def test_products_of_integers_are_those_of_rows_and_columns(
+    shape: tuple[int, int, int], bits: int
+) -> None:
+    rng, (nrows, inner, ncols), most = random.Random(bits), shape, 2**bits - 1
+    drawn = [rng.randint(-most, most) for _ in range(50)]
+    for entries in ([-most, most], [most], [0, 0, 0, -1, most], drawn):
+        A = [[rng.choice(entries) for _ in range(inner)] for _ in range(nrows)]
+        B = [[-rng.choice(entries) for _ in range(ncols)] for _ in range(inner)]
+        expected = [
+            [sum(row[k] * B[k][j] for k in range(inner)) for j in range(ncols)] for row in A
+        ]
+        assert integer_product(A, B, ncols) == expected
+
+
+def test_products_of_empty_matrices_are_zero() -> None:
+    assert integer_product([], [], 3) == []
+    assert integer_product([[], []], [], 3) == [[0] * 3] * 2
+    assert integer_product([[]] * FEW, [], FEW) == [[0] * FEW] * FEW
+    assert integer_product([[1]], [[]], 0) == [[]]

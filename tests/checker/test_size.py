@@ -39,7 +39,7 @@ PARAMETERS = {"expressions", "parametric_system"}
 """What the rules about plants with a parameter rest on: their entries and their reader."""
 RULES = sorted({path.stem for path in FILES} - FRONT - SHARED - SENTENCES - PARAMETERS - BOXES)
 """One rule a file: a kind, a construction, or a piece of evidence that several kinds use."""
-MOST = 5764
+MOST = 5782
 """The lines of code of the checker, of all files of its folder, as :func:`lines_of_code` counts.
 
 It is what was reached: it falls with the checker, and who raises it says what that buys."""
@@ -77,9 +77,9 @@ def test_a_rule_takes_at_most_100_lines(stem: str) -> None:
     assert lines_of_code(FOLDER / f"{stem}.py") <= 100
 
 
-def test_what_all_rules_share_takes_at_most_1100_lines() -> None:
+def test_what_all_rules_share_takes_at_most_1120_lines() -> None:
     shared = {stem: lines_of_code(FOLDER / f"{stem}.py") for stem in sorted(SHARED)}
-    assert sum(shared.values()) <= 1100, shared
+    assert sum(shared.values()) <= 1120, shared
 
 
 def test_plants_with_a_parameter_take_at_most_290_lines() -> None:
