@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from typing import Any
 
 from mcexact.errors import InputError, UsageError
@@ -99,3 +99,34 @@ def one_of(
         texts = [f'"{option}"' for option in options if option is not None]
         listed = " or ".join(filter(None, (", ".join(texts[:-1]), texts[-1])))
         raise kind(f"expected {listed}, found {told(value)}", where=where)
+
+
+def telling(progress: Callable[[str], None] | None) -> Callable[[str], None]:
+    """Return the function that is told of each step, or one that does nothing.
+
+    Parameters
+    ----------
+    progress : callable or None
+
+    Raises
+    ------
+    UsageError
+        If it is something else.
+
+    Examples
+    --------
+    >>> telling(print)("search")
+    search
+    >>> telling(None)("search")
+    >>> telling(True)
+    Traceback (most recent call last):
+        ...
+    mcexact.errors.UsageError: progress: expected a function, such as print, found True
+    """
+    if progress is None:
+        return lambda _: None
+    if not callable(progress):
+        raise UsageError(
+            f"expected a function, such as print, found {told(progress)}", where="progress"
+        )
+    return progress

@@ -84,13 +84,14 @@ def command(file: str, **given: Any) -> int:
     set of communication links for which no mode is fixed.
     """
 
-    from mcexact.cli.files import require_page
+    from mcexact.cli.files import require_apart, require_page
     from mcexact.cli.rechecking import Rechecked
     from mcexact.cli.running import Run, show_tables
     from mcexact.model.atomic import write_text
 
     run, html = Run(given), given.pop("html")
     require_page(html, run.certificates, file)
+    require_apart(html, run.certificates)
     plant = run.read(file)
     answer = run.result(
         _answer,

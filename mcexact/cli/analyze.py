@@ -126,7 +126,7 @@ def command(
     """
 
     from mcexact.cli import output
-    from mcexact.cli.files import require_page
+    from mcexact.cli.files import require_apart, require_page
     from mcexact.cli.rechecking import Rechecked
     from mcexact.cli.running import Run
     from mcexact.model.atomic import write_text
@@ -135,6 +135,7 @@ def command(
         raise click.UsageError("--largest-uncertainty searches the part: leave out --uncertainty")
     run = Run(given)
     require_page(html, run.certificates, file)
+    require_apart(html, run.certificates)
     also = [option for option in _ALSO if given[option.replace("-", "_")]]
     plant = run.read(file)
     answer = run.result(

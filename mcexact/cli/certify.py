@@ -67,7 +67,13 @@ def command(file: str, controller: str, **given: Any) -> int:
     lies outside, if the loop is small. A warning is given if the controller was designed for
     another plant. The first line says whether to install the controller.
     """
-    from mcexact.cli.files import place_of, require_other, require_page, require_writable
+    from mcexact.cli.files import (
+        place_of,
+        require_apart,
+        require_other,
+        require_page,
+        require_writable,
+    )
     from mcexact.cli.output import emit, emit_tables
     from mcexact.cli.rechecking import Rechecked
     from mcexact.cli.running import Run
@@ -79,8 +85,8 @@ def command(file: str, controller: str, **given: Any) -> int:
         raise click.UsageError("-o writes the rounded controller: give --round-gains, too")
     require_other(output, file, controller, weights)
     require_writable(output, run.certificates)
-    written = None if output is None else str(output)
-    require_page(html, run.certificates, file, controller, weights, written)
+    require_page(html, run.certificates, file, controller, weights)
+    require_apart(output, html, run.certificates)
     about = place_of(controller)
     programs = run.read(file), run.read(controller), None if weights is None else run.read(weights)
     answer = run.result(
@@ -142,7 +148,8 @@ def _certified(
     from mcexact.synthesis.optimum.loop_figures import rounded_controller
 
     part, gains = wanted.pop("uncertainty"), wanted.pop("gains")
-    system, _ = uncertainty.of(system_in(*plant, limits), part, None)
+    typed_plant = system_in(*plant, limits)
+    system, _ = uncertainty.of(typed_plant, part, None)
     with InputError.inside(program[0]):
         controller = read_controller(program[1], Limits(**limits))
         digits, notes, typed = wanted.pop("round_gains"), tuple[str, ...](), controller
@@ -180,7 +187,7 @@ def _certified(
                 states=found.about.n,
                 blocks=list(found.blocks),
                 largest=bound if wanted["largest"] else None,
-                warnings=list(controller.warnings_for(system)),
+                warnings=list(controller.warnings_for(typed_plant)),
                 rounded_to_digits=digits,
                 eigenvalue_outside=None if outside is None else outside.to_dict(),
                 **loops.view,

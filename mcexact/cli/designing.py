@@ -61,7 +61,7 @@ def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any
     wanted : mapping
         Further keyword arguments of the function.
     """
-    from mcexact.cli.files import require_other, require_page, require_writable
+    from mcexact.cli.files import require_apart, require_other, require_page, require_writable
     from mcexact.cli.output import emit, emit_tables
     from mcexact.cli.rechecking import Rechecked
     from mcexact.cli.running import Run
@@ -73,8 +73,8 @@ def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any
     output, html = given["output"], given["html"]
     require_other(output, file, spectrum, weights)
     require_writable(output, run.certificates)
-    written = None if output is None else str(output)
-    require_page(html, run.certificates, file, spectrum, weights, written)
+    require_page(html, run.certificates, file, spectrum, weights)
+    require_apart(output, html, run.certificates)
     extra = (
         None if spectrum is None else read_spectrum(spectrum, run),
         None if weights is None else run.read(weights),

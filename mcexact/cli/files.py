@@ -109,10 +109,37 @@ def require_other(output: Path | None, *inputs: str | None) -> None:
             )
 
 
+def require_apart(*outputs: Path | None) -> None:
+    """Refuse one file for two results, of which only one would be left.
+
+    Raises
+    ------
+    InputError
+        If two names are those of one place, whether or not there is anything yet.
+    """
+    given = [each for each in outputs if each is not None]
+    for k, output in enumerate(given):
+        if any(_is_place(output, other) for other in given[:k]):
+            raise InputError(
+                "two results would be written there: choose another name for one of them",
+                where=str(output),
+            )
+
+
 def _is_same(output: Path, file: str) -> bool:
     try:
         return output.is_file() and output.samefile(file)
     except OSError:
+        return False
+
+
+def _is_place(output: Path, other: Path) -> bool:
+    """Whether two names are those of one file, one folder, or one that can be made."""
+    try:
+        if output.exists() and not (output.is_file() or output.is_dir()):
+            return False  # a stream, such as /dev/null
+        return os.path.realpath(output) == os.path.realpath(other)
+    except (OSError, ValueError):
         return False
 
 
@@ -171,7 +198,7 @@ def require_page(page: Path | None, folder: Path | None, *inputs: str | None) ->
     folder : Path or None
         The folder for certificates.
     *inputs : str or None
-        Files that are read or written by the same command.
+        Files that are read by the same command.
 
     Raises
     ------

@@ -79,7 +79,7 @@ def command(file: str, controller: str, **given: Any) -> None:
     stable and nothing changes after the start, bounds on the outputs are proved, too; their
     certificate is checked, and --certificates writes it.
     """
-    from mcexact.cli.files import require_drawable, require_other, require_writable
+    from mcexact.cli.files import require_apart, require_drawable, require_other, require_writable
     from mcexact.cli.output import emit_tables
     from mcexact.cli.rechecking import Rechecked
     from mcexact.cli.running import Run
@@ -92,6 +92,7 @@ def command(file: str, controller: str, **given: Any) -> None:
         raise click.UsageError(f"expected a file that ends in .csv, .png or .html, found {output}")
     require_other(output, file, controller)
     require_writable(output, run.certificates)
+    require_apart(output, run.certificates)
     require_drawable(output if suffix in (".png", ".html") else None)
     wanted = given | {
         "initial": _numbers(given["initial"], "--initial"),

@@ -98,7 +98,7 @@ def command(
     """
     from functools import partial
 
-    from mcexact.cli.files import directory, require_other, require_writable
+    from mcexact.cli.files import directory, require_apart, require_other, require_writable
     from mcexact.cli.output import emit_json, emit_tables
     from mcexact.derived.drawn.draw import Draw
     from mcexact.errors import InputError
@@ -120,8 +120,9 @@ def command(
         raise click.UsageError("there are no systems to sweep over: name files, or give --draws N")
     asked = tuple(name for name in QUESTIONS if name in (questions or {"fixed_spectrum"}))
     require_writable(output, certificates)
-    require_other(html, *listed.paths, None if output is None else str(output))
+    require_other(html, *listed.paths)
     require_writable(html, certificates)
+    require_apart(output, html, certificates)
     limited = timeout is not None or max_memory is not None
     if limited and scheduler is not None:
         raise click.UsageError("limits on time and memory hold here: leave them out on a cluster")

@@ -224,7 +224,7 @@ class Controller(Shown):
         )
 
     def warnings_for(self, system: MultiChannelSystem) -> tuple[str, ...]:
-        """Return a warning if the controller was made for another plant, else None.
+        """Return a warning if the controller was made for another plant.
 
         A controller can run on every plant with the same shapes, but it was designed for one of
         them.

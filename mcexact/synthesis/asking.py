@@ -8,6 +8,7 @@ from typing import Any
 
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.answer.fixed_spectrum import FixedSpectrum
+from mcexact.arguments import telling
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.location import StabilityRegion
 from mcexact.model.system import MultiChannelSystem
@@ -68,7 +69,7 @@ def request_for(
     if spectrum is not None or rate is not None or radius is not None:
         given = Request.of(system, agent, spectrum, rate, radius, arithmetic, progress)
         return _limited(given, aims)
-    (progress or (lambda _: None))("the sensible rate")
+    telling(progress)("the sensible rate")
     about = controlled or system
     weights = Weights.of(system, aims.weights)
     if controlled is not None:

@@ -18,7 +18,7 @@ from mcexact.answer.evidence import RootDisc
 from mcexact.answer.rules import VERDICT
 from mcexact.answer.sentence import Given
 from mcexact.answer.stability import StabilityVerdict
-from mcexact.arguments import one_of
+from mcexact.arguments import one_of, telling
 from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.exact.floats import matrix_to_float, to_float
 from mcexact.exact.location import StabilityRegion
@@ -113,7 +113,7 @@ def certify_controller(
     InputError.require(system, MultiChannelSystem, "system")
     InputError.require(controller, Controller, "controller")
     one_of(method, (None, *get_args(Method)), "method")
-    tell = progress or (lambda _: None)
+    tell = telling(progress)
     region = StabilityRegion.of(system.time, rate, radius).limited(damping, largest_modulus)
     if largest and region.bound is not None:
         raise UsageError("give either a rate (radius) or `largest`, not both")

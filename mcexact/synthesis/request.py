@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Literal, get_args
 
-from mcexact.arguments import one_of
+from mcexact.arguments import one_of, telling
 from mcexact.errors import UsageError
 from mcexact.exact.location import StabilityRegion
 from mcexact.model.system import MultiChannelSystem
@@ -65,7 +65,8 @@ class Request:
         ------
         UsageError
             If there is no spectrum, rate or radius; if floating point gets a spectrum; if the agent
-            or the arithmetic is unknown; or as in `StabilityRegion.of`.
+            or the arithmetic is unknown; if ``progress`` is no function; or as in
+            `StabilityRegion.of`.
         """
         region = StabilityRegion.of(system.time, rate, radius)
         if spectrum is None and region.bound is None:
@@ -79,4 +80,4 @@ class Request:
                 "arithmetic"
             )
         carrier = None if agent is None else system.index(agent)
-        return cls(region, carrier, spectrum, arithmetic, progress or (lambda _: None))
+        return cls(region, carrier, spectrum, arithmetic, telling(progress))

@@ -161,3 +161,8 @@ def test_help_is_in_groups_and_hides_the_limits_on_files() -> None:
     ]
     assert "Reading:" not in short and "--max-depth" not in short
     assert "--max-depth" in whole and "--max-order" in short
+
+
+def test_radii_are_asked_of_the_loop() -> None:
+    asked = run("certify", "--help").stdout.partition("Limits and help:")[0]
+    assert "--uncertainty PART" in asked and "--gains PART" in asked

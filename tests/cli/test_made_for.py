@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from mcexact.model.box import Box
 from mcexact.model.controller_file import load_controller, save_controller
 from mcexact.model.formats.files import save_system
 from mcexact.model.system import MultiChannelSystem
@@ -59,3 +60,14 @@ def test_another_neighbor_graph_makes_another_plant(folder: Path) -> None:
     done = run("certify", str(folder / "linked.json"), str(folder / "controller.json"))
     assert done.status == 0
     assert done.messages[0].startswith(WARNING)
+
+
+def test_other_radii_make_no_other_plant(folder: Path) -> None:
+    """A controller for a file with radii is one for the same file with those of an option."""
+    doubtful = Box.relative(plant("1"), "1/100").system
+    save_system(doubtful, folder / "doubtful.json")
+    where = str(folder / "own.controller.json")
+    file = str(folder / "doubtful.json")
+    assert run("design", "decentralized", file, "--rate=1", "-o", where).status == 0
+    done = run("certify", file, where, "--uncertainty", "2%")
+    assert (done.status, done.messages) == (0, [])

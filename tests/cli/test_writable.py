@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from mcexact.cli import main
-from mcexact.cli.files import require_writable
+from mcexact.cli.files import require_apart, require_writable
 from mcexact.errors import InputError, LimitReached
 from mcexact.model.formats.files import save_system
 from mcexact.model.system import MultiChannelSystem
@@ -158,3 +158,37 @@ def test_output_that_cannot_be_written_ends_with_74(
         monkeypatch.undo()
         [line] = capsys.readouterr().err.splitlines()
         assert line.startswith("mcexact: standard output: cannot be written: ")
+
+
+TWICE = {
+    "design": ("design", "decentralized", "PLANT", "--rate=1", "-o", "FILE", "--html", "FILE"),
+    "certify": (
+        *("certify", "PLANT", "PLANT", "--round-gains", "3", "-o", "FILE"),
+        *("--html", "FILE"),
+    ),
+    "sweep": ("sweep", "PLANT", "-o", "FILE", "--html", "FILE"),
+    "analyze": ("analyze", "PLANT", "--html", "FOLDER", "--certificates", "FOLDER"),
+    "allocate": ("allocate", "PLANT", "--html", "FOLDER", "--certificates", "FOLDER"),
+    "simulate": ("simulate", "PLANT", "PLANT", "-o", "FILE.csv", "--certificates", "FILE.csv"),
+}
+
+
+@pytest.mark.parametrize("arguments", TWICE.values(), ids=TWICE.keys())
+def test_two_results_do_not_go_to_one_place(
+    ended: Ended, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, arguments: tuple[str, ...]
+) -> None:
+    begun = working(monkeypatch)
+    place = tmp_path / "place"
+    (place / "results").mkdir(parents=True)
+    status, told = ended(arguments, place)
+    assert (status, begun) == (3, [])
+    assert "two results would be written there" in told
+
+
+def test_one_place_has_two_names(tmp_path: Path) -> None:
+    (tmp_path / "folder").mkdir()
+    (tmp_path / "link").symlink_to("folder")
+    with pytest.raises(InputError, match="two results would be written there"):
+        require_apart(tmp_path / "folder" / "new.json", None, tmp_path / "link" / "new.json")
+    require_apart(tmp_path / "folder" / "new.json", tmp_path / "folder" / "other.json", None)
+    require_apart(Path(os.devnull), Path(os.devnull))

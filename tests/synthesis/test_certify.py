@@ -12,6 +12,7 @@ from mcexact.model.local_controllers import local_controllers
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis import certify as certifying
 from mcexact.synthesis.certify import certify_controller, enclosed_outside
+from mcexact.synthesis.decentralized import design_decentralized
 from mcexact.synthesis.distributed_observer import design_observer
 from mcexact.synthesis.gate import Proposal, certify
 from tests.synthesis.three_channels import three_channels
@@ -118,3 +119,14 @@ def test_the_gate_lets_no_slow_loop_through():
     ) as refusal:
         certify(PLANT, Proposal(STATIC), StabilityRegion("continuous", Fraction(2)))
     assert_valid(refusal.value.certificate)
+
+
+@pytest.mark.parametrize("progress", [True, "print", 3])
+def test_what_is_told_of_steps_has_to_be_a_function(progress):
+    told = "progress: expected a function, such as print, found "
+    with pytest.raises(UsageError, match=told):
+        design_decentralized(PLANT, progress=progress)
+    with pytest.raises(UsageError, match=told):
+        design_decentralized(PLANT, rate=1, progress=progress)
+    with pytest.raises(UsageError, match=told):
+        certify_controller(PLANT, STATIC, progress=progress)
