@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
+from . import budget
 from .arithmetic import Matrix
 from .covers import Cell
 from .reading import Json, incomplete
@@ -13,13 +14,6 @@ from .subject import read_subject
 from .system import System
 from .uncertainty import read_radii
 
-# fmt: off
-COPYING = {
-    "arcs", "augmented_outputs", "dual", "extended", "full_output", "held", "integrators",
-    "lifted", "merged", "restricted",
-}
-# fmt: on
-"""The constructions that only copy entries beside zeros and ones."""
 LOOP = "closed_loop"
 ALL = "for all values within their radii"
 """The words with which a statement about a box begins."""
@@ -64,34 +58,60 @@ def box_of(steps: Json, plant: System, kind: str) -> Box:
     """
     center = read_subject(steps, plant)
     looped = kind == "box_stable" and [step["construction"] for step in steps[-1:]] == [LOOP]
-    copied = steps[:-1] if looped else steps
-    for k, step in enumerate(copied):
-        if step["construction"] not in COPYING:
-            message = f"{step['construction']} does more than copy entries"
+    computed = steps[:-1] if looped else steps
+    for k, step in enumerate(computed):
+        if step["construction"] == LOOP:
+            message = "a closed loop is the last construction, for the kind box_stable alone"
             incomplete("construction", f"subject[{k}]", message)
-    radii = _radii(copied, plant)
+    radii = _radii(computed, plant)
     if not looped:
         return Box(**vars(center), radii=radii)
-    inside = Box(**vars(read_subject(copied, plant)), radii=radii)
+    inside = Box(**vars(read_subject(computed, plant)), radii=radii)
     return Box(**vars(center), plant=inside, programs=steps[-1]["controller"])
 
 
 def _radii(steps: Json, plant: System) -> System:
-    """The radii of what is made: that of the radii, without the ones that are made."""
-    nominal = [plant.A, *plant.B, *plant.C]
-    found = read_radii(plant.uncertainty, plant.names, nominal)
-    made, empty = (
-        read_subject(steps, replace(plant, A=A, B=rest[: plant.m], C=rest[plant.m :]))
-        for A, *rest in (found, [M.times(0) for M in found])
-    )
-    B, C = (
-        [M - M_0 for M, M_0 in zip(*pair, strict=True)]
-        for pair in ((made.B, empty.B), (made.C, empty.C))
-    )
-    return replace(made, A=made.A - empty.A, B=B, C=C)
+    """The radii of what is made: by how much larger absolute values make it larger.
+
+    Each construction adds and multiplies; it is applied to absolute values, those of gains too,
+    and to the same with the radii added.
+    """
+    radii = read_radii(plant.uncertainty, plant.names, [plant.A, *plant.B, *plant.C])
+    A, *ports = radii
+    D = replace(plant, A=A, B=ports[: plant.m], C=ports[plant.m :])
+    if not steps:
+        return D
+    low = _sizes(plant)
+    high = _combined(low, D, 1)
+    for step in steps:
+        sizes = [_of_sizes(step)]
+        low, high = (_sizes(read_subject(sizes, each)) for each in (low, high))
+    return _combined(high, low, -1)
+
+
+def _of_sizes(step: Json) -> Json:
+    """A construction that was applied already, with the absolute values of its gains."""
+    if "gains" not in step:
+        return step
+    sizes = [{**F, "entries": [[*map(abs, row)] for row in F["entries"]]} for F in step["gains"]]
+    return {**step, "gains": sizes}
+
+
+def _combined(first: System, second: System, factor: int) -> System:
+    """The entries of the first system and so many times those of the second one."""
+    parts = ((first.A, *first.B, *first.C), (second.A, *second.B, *second.C))
+    A, *ports = (M + N.times(factor) for M, N in zip(*parts, strict=True))
+    return replace(first, A=A, B=ports[: first.m], C=ports[first.m :])
+
+
+def _sizes(system: System) -> System:
+    """The absolute values of all entries."""
+    A, *ports = map(absolute, (system.A, *system.B, *system.C))
+    return replace(system, A=A, B=ports[: system.m], C=ports[system.m :])
 
 
 def absolute(M: Matrix) -> Matrix:
     """The absolute values of all entries."""
+    budget.spend(budget.table(M.nrows, M.ncols, M.limbs))
     rows = [[abs(entry) for entry in row] for row in M.rows]
     return Matrix(rows, M.ncols, M.denominator)

@@ -2,22 +2,30 @@
 
 from __future__ import annotations
 
+import random
+from dataclasses import replace
+from fractions import Fraction
+from math import lcm
 from typing import Any
 
 import pytest
 
-from mcexact.checker.boxes import COPYING, absolute
+from mcexact.checker.arithmetic import Matrix
+from mcexact.checker.boxes import LOOP as CLOSED
+from mcexact.checker.boxes import absolute
 from mcexact.checker.reading import Refused
-from mcexact.checker.subject import CONSTRUCTIONS
+from mcexact.checker.subject import CONSTRUCTIONS, read_subject
 from tests.checker.box_maker import fractions, subject_of
-from tests.checker.box_plants import CALM, CERTAIN, DAMPED, LOOP, PAIR
-from tests.checker.handmade import matrix
+from tests.checker.box_plants import CALM, CERTAIN, DAMPED, LOOP, PAIR, uncertain
+from tests.checker.handmade import matrix, plant
 
 STEPS: dict[str, Any] = {
     "arcs": {"added": [["1", "2"]]},
     "augmented_outputs": {},
     "dual": {},
+    "error": {"gains": [matrix([-2, 1], denominator=3), matrix([0, -1])]},
     "extended": {"share": "outputs+states", "dimensions": [1, 1]},
+    "feedback": {"gains": [matrix([-3], denominator=2), matrix([5])]},
     "full_output": {"channel": "2"},
     "held": {"dimensions": [1, 1]},
     "integrators": {},
@@ -32,11 +40,11 @@ def nonzero(M: Any) -> list[tuple[int, int, Any]]:
     return [(i, j, x) for i, row in enumerate(fractions(M)) for j, x in enumerate(row) if x]
 
 
-@pytest.mark.parametrize("name", sorted(COPYING))
+@pytest.mark.parametrize("name", sorted({*STEPS} - {"error", "feedback"}))
 def test_a_copy_of_an_entry_has_its_radius_and_all_else_is_certain(name: str) -> None:
-    plant = DAMPED if name in ("held", "lifted") else CALM
-    box = subject_of(plant, "box_fixed", ({"construction": name, **STEPS[name]},))
-    plain = subject_of(plant, "box_fixed", ())
+    start = DAMPED if name in ("held", "lifted") else CALM
+    box = subject_of(start, "box_fixed", (step_of(name),))
+    plain = subject_of(start, "box_fixed", ())
     known = {x for M in (plain.radii.A, *plain.radii.B, *plain.radii.C) for *_, x in nonzero(M)}
     pairs = zip((box.A, *box.B, *box.C), (box.radii.A, *box.radii.B, *box.radii.C), strict=True)
     for M, D in pairs:
@@ -54,17 +62,68 @@ def test_what_is_measured_as_a_whole_is_certain() -> None:
     assert nonzero(dual.radii.B[1]) == [(1, 0, fractions(box.radii.A)[1][1])]
 
 
-@pytest.mark.parametrize("name", sorted(set(CONSTRUCTIONS) - COPYING))
-def test_what_computes_with_entries_is_not_known(name: str) -> None:
-    steps: dict[str, Any] = {
-        "feedback": {"gains": [matrix([1]), matrix([1])]},
-        "error": {"gains": [matrix([1, 0]), matrix([0, 1])]},
-        "closed_loop": {"controller": LOOP["controller"]},
-    }
-    step = {"construction": name, **steps[name]}
+def corner(M: Any, D: Any, rng: random.Random) -> Matrix:
+    """A matrix all of whose entries are at an end of their interval."""
+    both = zip(fractions(M), fractions(D), strict=True)
+    rows = [[x + rng.choice((-1, 1)) * r for x, r in zip(*each, strict=True)] for each in both]
+    d = lcm(*(x.denominator for row in rows for x in row))
+    return Matrix([[int(x * d) for x in row] for row in rows], M.ncols, d)
+
+
+def step_of(name: str) -> dict[str, Any]:
+    """A construction with its parameters."""
+    return {"construction": name, **STEPS[name]}
+
+
+@pytest.mark.parametrize(
+    "names", [[name] for name in STEPS] + [["feedback", "error"], ["error", "dual"]], ids="-".join
+)
+def test_what_is_made_of_a_member_is_within_the_radii_of_what_is_made(names: list[str]) -> None:
+    start = DAMPED if {"held", "lifted"} & set(names) else CALM
+    plain, steps = subject_of(start, "box_fixed", ()), [step_of(name) for name in names]
+    box = subject_of(start, "box_fixed", tuple(steps))
+    reached = False
+    for seed in range(12):
+        rng = random.Random(seed)
+        A, *ports = (
+            corner(M, D, rng)
+            for M, D in zip(
+                (plain.A, *plain.B, *plain.C),
+                (plain.radii.A, *plain.radii.B, *plain.radii.C),
+                strict=True,
+            )
+        )
+        member = replace(plain, A=A, B=ports[: plain.m], C=ports[plain.m :])
+        made = read_subject(steps, member)
+        whole = zip(
+            (made.A, *made.B, *made.C),
+            (box.A, *box.B, *box.C),
+            (box.radii.A, *box.radii.B, *box.radii.C),
+            strict=True,
+        )
+        for M, M0, D in whole:
+            for row, center, radii in zip(*map(fractions, (M, M0, D)), strict=True):
+                away = [abs(x - y) for x, y in zip(row, center, strict=True)]
+                assert all(x <= r for x, r in zip(away, radii, strict=True))
+                reached |= any(x == r > 0 for x, r in zip(away, radii, strict=True))
+    assert reached
+
+
+def test_the_radius_of_a_product_is_that_of_both_factors_at_their_ends() -> None:
+    one = plant([[5]], ([[2]], [[3]]), uncertainty=uncertain([[1]], {"1": [["1/2"]]}))
+    one["uncertainty"]["absolute"]["C"] = uncertain(None, None, {"1": [["1/3"]]})["absolute"]["C"]
+    step = {"construction": "feedback", "gains": [matrix([-7])]}
+    box = subject_of(one, "box_fixed", (step,))
+    assert fractions(box.A) == [[5 - 42]]
+    assert fractions(box.radii.A) == [[1 + 7 * (Fraction(5, 2) * Fraction(10, 3) - 6)]]
+    assert fractions(box.radii.B[0]) == [[Fraction(1, 2)]]
+
+
+def test_a_loop_is_known_as_the_last_construction_alone() -> None:
     with pytest.raises(Refused) as refused:
-        subject_of(CALM, "box_fixed", (step,))
-    assert refused.value.args[:3] == ("INCOMPLETE", "construction", "subject[0]")
+        subject_of(CALM, "box_fixed", (step_of("dual"), LOOP))
+    assert refused.value.args[:3] == ("INCOMPLETE", "construction", "subject[1]")
+    assert {*STEPS, CLOSED} == {*CONSTRUCTIONS}
 
 
 def test_a_loop_is_the_last_construction_of_a_claim_about_stability_alone() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 
 import pytest
@@ -13,10 +14,17 @@ from mcexact import Box, MultiChannelSystem, check, dual, fixed_spectrum, galler
 from mcexact.analysis.boxes.box_fixed import box_fixed_modes, box_stabilizability
 from mcexact.analysis.boxes.radii import radii_of
 from mcexact.answer.box_fixed import BoxFixedModes
+from mcexact.derived.augmented_outputs import augmented_outputs
+from mcexact.derived.error_system import error_system
 from mcexact.derived.extended import extended_system
-from mcexact.derived.feedback import feedback
+from mcexact.derived.feedback import feedback, full_output
+from mcexact.derived.integrators import setpoint_system
+from mcexact.derived.merged import merged
+from mcexact.derived.restricted import restricted
 from mcexact.errors import LimitReached, UsageError
 from mcexact.exact.matrix import Matrix
+from mcexact.model.local_controllers import local_controllers
+from mcexact.model.loop import closed_loop
 from mcexact.model.uncertainty import Radii
 
 
@@ -122,7 +130,73 @@ def test_constructions_that_copy_entries_copy_their_radii() -> None:
     assert radii_of(plant).is_zero()
 
 
-def test_radii_of_what_is_computed_are_refused() -> None:
+def matrices_of(system: MultiChannelSystem) -> list[Matrix]:
+    """A, all B_i and all C_i."""
+    return [system.A, *(c.B for c in system.channels), *(c.C for c in system.channels)]
+
+
+def fed_back(plant: MultiChannelSystem) -> MultiChannelSystem:
+    """With gains of both signs."""
+    gains = [
+        [[Fraction((-1) ** (i + j) * (i + 2 * j + 1), 2) for j in range(q)] for i in range(p)]
+        for p, q in ((plant.p(k), plant.q(k)) for k in range(plant.m))
+    ]
+    return feedback(plant, gains)
+
+
+CONSTRUCTIONS: dict[str, Callable[[MultiChannelSystem], MultiChannelSystem]] = {
+    "augmented_outputs": augmented_outputs,
+    "dual": dual,
+    "error": lambda plant: error_system(plant, [[[1, -2]], [["-1/2", 0]]]),
+    "extended": lambda plant: extended_system(plant, (1, 2)),
+    "feedback": fed_back,
+    "full_output": lambda plant: full_output(plant, 1),
+    "integrators": setpoint_system,
+    "merged": lambda plant: merged(plant, [["1", "2"]]),
+    "restricted": lambda plant: restricted(plant, ["2"]),
+}
+PAIRS = [
+    ("feedback", "error"),
+    ("error", "feedback"),
+    ("error", "dual"),
+    ("augmented_outputs", "feedback"),
+    ("feedback", "feedback"),
+]
+UNCERTAIN = MultiChannelSystem(
+    [[1, -2], ["1/2", 3]],
+    [[[1], [-1]], [[0], [2]]],
+    [[[1, 0]], [["-1/4", 1]]],
+    neighbors={"1": ["2"], "2": ["1"]},
+)
+
+
+@pytest.mark.parametrize("names", [*([name] for name in CONSTRUCTIONS), *PAIRS], ids="-".join)
+def test_what_constructions_make_of_members_is_within_their_radii(names: Sequence[str]) -> None:
+    made = Box.relative(UNCERTAIN, "1/10").system
+    box = Box(made)
+    members = [box.member(random.Random(k), vertex=k < 6) for k in range(8)]
+    for name in names:
+        made = CONSTRUCTIONS[name](made)
+        members = [CONSTRUCTIONS[name](member) for member in members]
+    radii = radii_of(made)
+    for member in members:
+        whole = zip(matrices_of(member), matrices_of(made), radii.matrices(), strict=True)
+        for M, M0, (_, D) in whole:
+            pairs = zip((M - M0).rows(), D.rows(), strict=True)
+            assert all(abs(x) <= d for rows in pairs for x, d in zip(*rows, strict=True))
+
+
+def test_radii_of_a_product_are_those_of_its_factors_together() -> None:
+    plant = MultiChannelSystem([[5]], [[[2]]], [[[3]]])
+    box = Box.absolute(plant, A=[[1]], B=[[["1/2"]]], C=[[["1/3"]]])
+    radii = radii_of(feedback(box.system, [[[-7]]]))
+    assert radii.A[0, 0] == 1 + 7 * (Fraction(5, 2) * Fraction(10, 3) - 6)
+    proof = box_fixed_modes(feedback(box.system, [[["-1/7"]]]))
+    assert check(proof, box.system).verdict == "VALID"
+
+
+def test_radii_of_a_loop_are_a_matter_of_its_stability() -> None:
     plant = Box.relative(MultiChannelSystem([[1]], [[[1]]], [[[1]]]), "1/2").system
-    with pytest.raises(UsageError, match="'feedback' computes with uncertain entries"):
-        box_fixed_modes(feedback(plant, [Matrix.from_rows([[1]])]))
+    loop = closed_loop(plant, local_controllers(plant, [[[-3]]])).system
+    with pytest.raises(UsageError, match="radii of a closed loop are a matter of box_stability"):
+        box_fixed_modes(loop)

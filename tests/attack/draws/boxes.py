@@ -8,13 +8,17 @@ from typing import Any
 
 from tests.checker.box_maker import controllable, fixed, stable
 from tests.checker.box_plants import LOOP, gains, programs, radii_of_first
-from tests.checker.handmade import plant
+from tests.checker.handmade import matrix, plant
 
 from .plants import Document, number, table
 
 SMALL = (0, 0, Fraction(1, 8), Fraction(-1, 4))
 RADII = (0, 0, Fraction(1, 20), Fraction(1, 10))
 DUAL: Document = {"construction": "dual"}
+FED_BACK: Document = {
+    "construction": "feedback",
+    "gains": [matrix([-1], denominator=8), matrix([1], denominator=4)],
+}
 
 
 def drawn_box(rng: random.Random, diagonal: tuple[Fraction | int, ...], time: str) -> Document:
@@ -52,8 +56,9 @@ def drawn_about_a_box(rng: random.Random, kind: str) -> Document | None:
         found = drawn_box(rng, (-1, 1, 2, Fraction(1, 2)), time)
         if kind == "box_fixed":
             x = rng.choice((2, 3, -3))
-            return fixed(found, [gains((x, 1), (x, 1))], bound=bound)
-        steps = (DUAL,) if rng.random() < 0.5 else ()
+            steps: tuple[Document, ...] = (FED_BACK,) if rng.random() < 0.3 else ()
+            return fixed(found, [gains((x, 1), (x, 1))], *steps, bound=bound)
+        steps = rng.choice(((), (DUAL,), (FED_BACK,), (FED_BACK, DUAL)))
         return controllable(found, ["1", "2"], *steps, bound=bound)
     except ArithmeticError:
         return None
