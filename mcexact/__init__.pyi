@@ -75,6 +75,7 @@ from .answer.exceptional_hypersurfaces import (
     ExceptionalHypersurfaces as ExceptionalHypersurfaces,
 )
 from .answer.exceptional_hypersurfaces import Hypersurface as Hypersurface
+from .answer.exceptional_hypersurfaces import RankHypersurfaces as RankHypersurfaces
 from .answer.fixed_spectrum import FixedFactor as FixedFactor
 from .answer.fixed_spectrum import FixedSpectrum as FixedSpectrum
 from .answer.neighbor_graph import NeighborGraphVerdict as NeighborGraphVerdict

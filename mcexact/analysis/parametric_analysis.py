@@ -5,10 +5,7 @@ from __future__ import annotations
 from functools import partial
 from typing import Any
 
-from mcexact.analysis.exceptional_hypersurfaces import (
-    controllability_hypersurfaces,
-    exceptional_hypersurfaces,
-)
+from mcexact.analysis.exceptional_hypersurfaces import exceptional_hypersurfaces
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.analysis.structure.controllability import (
     joint_controllability,
@@ -24,8 +21,8 @@ _ONE: dict[str, Any] = {
 }
 _SEVERAL: dict[str, Any] = {
     "fixed_spectrum": exceptional_hypersurfaces,
-    "joint_controllability": controllability_hypersurfaces,
-    "joint_observability": partial(controllability_hypersurfaces, observed=True),
+    "joint_controllability": partial(exceptional_hypersurfaces, question="joint_controllability"),
+    "joint_observability": partial(exceptional_hypersurfaces, question="joint_observability"),
 }
 
 

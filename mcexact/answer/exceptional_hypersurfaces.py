@@ -1,4 +1,4 @@
-"""The fixed modes of a system with several parameters: for almost all values, and on which others.
+"""What holds for almost all values of several parameters, and on which hypersurfaces more.
 
 This is no kind of certificate: the answers for one parameter along lines are.
 """
@@ -8,30 +8,38 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
+from typing import Any, Generic, TypeVar
 
 from mcexact.answer.mode_words import blame, polynomial_in_x
 from mcexact.answer.parametric_fixed_spectrum import ParametricFixedSpectrum
+from mcexact.answer.parametric_rank import (
+    ControllabilityMatrix,
+    ParametricRank,
+    SetpointMatrix,
+    TransferColumn,
+)
 from mcexact.exact.rational import rational_latex, rational_text
 from mcexact.exact.rational_function import RationalFunction, parameter_latex
 from mcexact.model.parametric import ParametricSystem
 from mcexact.shown import LINE, Shown, escaped, fitting
 
+A = TypeVar("A", ParametricFixedSpectrum, ParametricRank)
+
 
 @dataclass(frozen=True, repr=False)
-class Line(Shown):
-    """A line through the space of the parameters, and what is fixed along it.
+class Line(Shown, Generic[A]):
+    """A line through the space of the parameters, and what is decided along it.
 
     Attributes
     ----------
     at : mapping
         For each parameter its value, a function of s.
-    answer : ParametricFixedSpectrum
+    answer : ParametricFixedSpectrum or ParametricRank
         The answer for every value of s, which is a certificate.
     """
 
     at: Mapping[str, RationalFunction]
-    answer: ParametricFixedSpectrum
+    answer: A
 
     def __str__(self) -> str:
         return ", ".join(f"{name} = {value}" for name, value in self.at.items())
@@ -46,7 +54,7 @@ class Line(Shown):
 
 @dataclass(frozen=True, repr=False)
 class Hypersurface(Shown):
-    """Where a polynomial in the parameters is 0, a mode is fixed that is not for other values.
+    """Where a polynomial in the parameters is 0, more is fixed, or a rank is less.
 
     Attributes
     ----------
@@ -54,14 +62,19 @@ class Hypersurface(Shown):
         Irreducible; its coefficients are coprime integers.
     channels : tuple of tuples of str
         Sets s of channels whose pencils lose rank where the lines meet the hypersurface.
+    rank : int or None
+        The rank there; None if the question is about modes.
     """
 
     polynomial: RationalFunction
-    channels: tuple[tuple[str, ...], ...]
+    channels: tuple[tuple[str, ...], ...] = ()
+    rank: int | None = None
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain data."""
-        return {"polynomial": str(self.polynomial), "channels": [[*s] for s in self.channels]}
+        more = {"channels": [[*s] for s in self.channels]} if self.rank is None else {}
+        rank = {} if self.rank is None else {"rank": self.rank}
+        return {"polynomial": str(self.polynomial), **more, **rank}
 
     def to_sympy(self) -> Any:
         """The polynomial as a ``sympy.Poly`` in the parameters."""
@@ -89,11 +102,15 @@ class Hypersurface(Shown):
         return f"{name} = {rational_text(value)}"
 
     def __repr__(self) -> str:
-        return fitting(f"Hypersurface({str(self)!r}, channels={self.channels})")
+        told = f"channels={self.channels}" if self.rank is None else f"rank={self.rank}"
+        return fitting(f"Hypersurface({str(self)!r}, {told})")
 
     def _labeled(self) -> Iterator[tuple[str, Any]]:
         yield "where", str(self)
-        yield "channels", str(self.channels)
+        if self.rank is None:
+            yield "channels", str(self.channels)
+        else:
+            yield "rank", str(self.rank)
 
     def _latex(self) -> str:
         if self.value is None:
@@ -103,25 +120,19 @@ class Hypersurface(Shown):
 
 
 @dataclass(frozen=True, repr=False)
-class ExceptionalHypersurfaces(Shown):
-    """What is fixed for almost all values of several parameters, and on which hypersurfaces more.
+class Hypersurfaces(Shown, Generic[A]):
+    """What holds for almost all values of several parameters, and on which hypersurfaces more.
 
-    Along each line all of this is proved by a certificate: what is fixed there for almost all
-    values, and that the values at which more is fixed are those on the hypersurfaces.  If nothing
-    is fixed at one point, then nothing is for almost all values.  That a hypersurface is
-    exceptional between the lines, and generic modes beyond them, are computed and not certified.
-    Of what only happens where two conditions meet, such as both of two entries being 0, nothing is
-    said.
+    Along each line all of this is proved by a certificate: what holds there for almost all values,
+    and that the exceptional values are those on the hypersurfaces.  That a hypersurface is
+    exceptional between the lines is computed and not certified.  Of what only happens where two
+    conditions meet, such as both of two entries being 0, nothing is said.
 
     Attributes
     ----------
     about : ParametricSystem
-    generic : tuple of tuples of RationalFunction
-        The irreducible polynomials in x whose roots are fixed for almost all values, each by its
-        coefficients, constant first, which are polynomials in the parameters.  The modes are these
-        roots divided by the denominator of A.
     hypersurfaces : tuple of Hypersurface
-        The polynomials in the parameters where another mode is fixed.
+        The polynomials in the parameters that are exceptional.
     undefined_at : tuple of RationalFunction
         The polynomials at whose roots an entry is undefined.
     lines : tuple of Line
@@ -129,56 +140,73 @@ class ExceptionalHypersurfaces(Shown):
     """
 
     about: ParametricSystem
-    generic: tuple[tuple[RationalFunction, ...], ...]
     hypersurfaces: tuple[Hypersurface, ...]
     undefined_at: tuple[RationalFunction, ...]
-    lines: tuple[Line, ...]
+    lines: tuple[Line[A], ...]
 
     @property
-    def certificates(self) -> dict[str, ParametricFixedSpectrum]:
+    def certificates(self) -> dict[str, A]:
         """The certificates, each about the system along a line."""
-        return {f"fixed_spectrum_line_{k}": each.answer for k, each in enumerate(self.lines, 1)}
+        return {f"line_{k}": each.answer for k, each in enumerate(self.lines, 1)}
+
+    @property
+    def exceptional(self) -> tuple[Hypersurface, ...]:
+        """The hypersurfaces, by the name that exceptional values of one parameter have."""
+        return self.hypersurfaces
+
+    @property
+    def exceptional_at(self) -> tuple[RationalFunction, ...]:
+        """The polynomials of the hypersurfaces."""
+        return tuple(each.polynomial for each in self.hypersurfaces)
+
+    def of_almost_all(self) -> tuple[str, ...]:
+        """What holds for almost all values."""
+        raise NotImplementedError
+
+    def there(self, each: Hypersurface) -> tuple[str, str]:
+        """What holds on a hypersurface, and why."""
+        raise NotImplementedError
 
     @property
     def words(self) -> tuple[str, ...]:
-        """What is fixed for almost all values, on which hypersurfaces more, and what is proved."""
+        """What holds for almost all values, what else on hypersurfaces, and what is proved."""
         named = ", ".join(self.about.parameters)
-        told = [
-            f"the roots of {mode_in_x(p)} for almost all values of {named}" for p in self.generic
-        ] or [f"no mode for almost all values of {named}"]
-        told += [f"another mode where {each}: {self.why(each)}" for each in self.hypersurfaces]
-        told += [f"proved for every value of s: {each}" for each in self.lines]
+        told: list[str] = []
+        told += [f"{each} for almost all values of {named}" for each in self.of_almost_all()]
+        for each in self.hypersurfaces:
+            what, why = self.there(each)
+            told.append(f"{what} where {each}" + (f": {why}" if why else ""))
+        told += [f"proved for every value of s: {line}" for line in self.lines]
         return (*told, "not decided: values at which several conditions meet")
-
-    def why(self, each: Hypersurface) -> str:
-        """Which channels cause that a mode is fixed there."""
-        return ", or ".join(blame(s, self.about.names) for s in each.channels)
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain data."""
         return {
             "parameters": list(self.about.parameters),
-            "generic": [[str(c) for c in p] for p in self.generic],
+            **self._generic(),
             "hypersurfaces": [each.to_dict() for each in self.hypersurfaces],
             "undefined_at": [str(each) for each in self.undefined_at],
             "lines": [{name: str(value) for name, value in each.at.items()} for each in self.lines],
             "in_words": list(self.words),
         }
 
+    def _generic(self) -> dict[str, Any]:
+        raise NotImplementedError
+
     def explain(self) -> str:
-        """Say in plain words what is fixed where, one condition a line."""
+        """Say in plain words what holds where, one condition a line."""
         return "\n".join(self.words)
 
     def __repr__(self) -> str:
         shown = "; ".join(map(str, self.hypersurfaces)) or "none"
-        text = f"ExceptionalHypersurfaces({len(self.generic)} generic, exceptional: {shown}"
+        generic = "; ".join(self.of_almost_all())
+        text = f"{type(self).__name__}({generic}, exceptional: {shown}"
         return f"{fitting(text, LINE - 1)})"
 
     def _labeled(self) -> Iterator[tuple[str, Any]]:
-        generic = "; ".join(map(mode_in_x, self.generic)) or "no mode"
-        yield "fixed for almost all values", generic
+        yield "for almost all values", "; ".join(self.of_almost_all())
         for each in self.hypersurfaces:
-            yield f"also where {each}", self.why(each)
+            yield f"where {each}", ": ".join(filter(None, self.there(each)))
         for entry in self.undefined_at:
             yield "undefined where", f"{entry} = 0"
         for each_line in self.lines:
@@ -186,7 +214,8 @@ class ExceptionalHypersurfaces(Shown):
 
     def _latex(self) -> str:
         rows = r" \\ ".join(
-            rf"{each._latex()} & \text{{{escaped(self.why(each))}}}" for each in self.hypersurfaces
+            rf"{each._latex()} & \text{{{escaped(': '.join(filter(None, self.there(each))))}}}"
+            for each in self.hypersurfaces
         )
         return rf"\begin{{array}}{{ll}} {rows} \end{{array}}" if rows else r"\emptyset"
 
@@ -195,6 +224,69 @@ class ExceptionalHypersurfaces(Shown):
         from mcexact.plot.parameters import hypersurfaces
 
         return hypersurfaces(self, ax, **options)
+
+
+@dataclass(frozen=True, repr=False)
+class ExceptionalHypersurfaces(Hypersurfaces[ParametricFixedSpectrum]):
+    """What is fixed for almost all values of several parameters, and on which hypersurfaces more.
+
+    If nothing is fixed at one point of a line, then nothing is for almost all values; generic modes
+    beyond the lines are computed and not certified.
+
+    Attributes
+    ----------
+    generic : tuple of tuples of RationalFunction
+        The irreducible polynomials in x whose roots are fixed for almost all values, each by its
+        coefficients, constant first, which are polynomials in the parameters.  The modes are these
+        roots divided by the denominator of A.
+    """
+
+    generic: tuple[tuple[RationalFunction, ...], ...]
+
+    def of_almost_all(self) -> tuple[str, ...]:
+        """The polynomials in x whose roots are fixed."""
+        return tuple(f"the roots of {mode_in_x(p)}" for p in self.generic) or ("no mode",)
+
+    def there(self, each: Hypersurface) -> tuple[str, str]:
+        """That another mode is fixed, and which channels cause it."""
+        return "another mode", ", or ".join(blame(s, self.about.names) for s in each.channels)
+
+    def _generic(self) -> dict[str, Any]:
+        return {"generic": [[str(c) for c in p] for p in self.generic]}
+
+
+@dataclass(frozen=True, repr=False)
+class RankHypersurfaces(Hypersurfaces[ParametricRank]):
+    """The rank of a matrix for almost all values of several parameters, and where it is less.
+
+    The rank at one point of a line is proved, and no larger one is anywhere if it is full.
+
+    Attributes
+    ----------
+    matrix : SetpointMatrix, ControllabilityMatrix or TransferColumn
+        How it is made.
+    rank : int
+        The rank for almost all values.
+    """
+
+    matrix: SetpointMatrix | ControllabilityMatrix | TransferColumn
+    rank: int
+
+    @property
+    def said(self) -> tuple[object, ...]:
+        """The ranks, and where they are, to compare with those of another matrix."""
+        return self.rank, {(each.polynomial, each.rank) for each in self.hypersurfaces}
+
+    def of_almost_all(self) -> tuple[str, ...]:
+        """The rank."""
+        return (f"rank {self.rank}",)
+
+    def there(self, each: Hypersurface) -> tuple[str, str]:
+        """The lower rank."""
+        return f"rank {each.rank}", ""
+
+    def _generic(self) -> dict[str, Any]:
+        return {"matrix": self.matrix.to_dict(), "rank": self.rank}
 
 
 def mode_in_x(p: tuple[RationalFunction, ...]) -> str:

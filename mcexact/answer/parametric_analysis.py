@@ -150,7 +150,8 @@ def _rows_of_several(answer: ExceptionalHypersurfaces, blamed: bool) -> Iterator
     for p in answer.generic:
         yield "almost all values", mode_in_x(p), ""
     for each in answer.hypersurfaces:
-        yield str(each), "another mode", answer.why(each) if blamed else ""
+        what, why = answer.there(each)
+        yield str(each), what, why if blamed else ""
     for q in answer.undefined_at:
         yield f"{q} = 0", "undefined", "a denominator is 0"
     for line in answer.lines:

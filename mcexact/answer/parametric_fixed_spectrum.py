@@ -257,6 +257,11 @@ class ParametricFixedSpectrum(Answer):
         return tuple(sorted(found, key=lambda q: (q.degree, q.coefficients)))
 
     @property
+    def exceptional_at(self) -> tuple[Polynomial, ...]:
+        """The irreducible polynomials at whose roots another mode is fixed."""
+        return tuple(each.value for each in self.exceptional)
+
+    @property
     def settled(self) -> tuple[Polynomial, ...]:
         """Values at which a multiplicity may be larger, but nothing more is fixed."""
         return tuple(each.value for each in self.evidence.settled)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from mcexact.answer.parametric_fixed_spectrum import OutsideValue, ParameterValue, in_parameter
+from mcexact.answer.parametric_fixed_spectrum import OutsideValue, ParameterValue, value_text
 from mcexact.answer.protocol import Answer, Part, answer, claim, shown, witness
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
@@ -128,13 +128,23 @@ class ParametricRank(Answer):
     evidence: TwoMinors = witness(whole=True)
 
     @property
+    def exceptional_at(self) -> tuple[Polynomial, ...]:
+        """The irreducible polynomials at whose roots the rank is less."""
+        return tuple(each.value for each in self.exceptional)
+
+    @property
+    def said(self) -> tuple[object, ...]:
+        """The ranks, and where they are, to compare with those of another matrix."""
+        return self.rank, {(each.value, each.rank) for each in self.exceptional}, self.outside
+
+    @property
     @shown("in words")
     def words(self) -> tuple[str, ...]:
         """The rank for almost all values, and at which it is less, in the parameter's name."""
         t = self.about.parameters[0]
         told = [f"rank {self.rank} for almost every {t}"]
         for each in self.exceptional:
-            told.append(f"rank {each.rank} where {in_parameter(each.value, t)} = 0")
+            told.append(f"rank {each.rank} where {value_text(each.value, each.roots, t)}")
         return tuple(told)
 
     def in_range(self) -> tuple[LowerRank, ...]:

@@ -71,6 +71,43 @@ def characteristic(M: Rows, parameters: tuple[str, ...]) -> Any:
     return found
 
 
+def value(f: Any, point: Sequence[Any]) -> Any:
+    """The value of a polynomial without x at a point."""
+    return f(*point, 0)
+
+
+def determinant(M: Rows, parameters: tuple[str, ...]) -> Any:
+    """The determinant up to its sign, by elimination without fractions (Bareiss).
+
+    The shortest entry is the pivot, wherever it stands.
+
+    Examples
+    --------
+    >>> a, b, _ = ring(("a", "b")).gens()
+    >>> str(determinant([[a, b], [b, a]], ("a", "b")).factor()[1][0][0])
+    'a + b'
+    """
+    rows = [list(row) for row in M]
+    before = ring(parameters).constant(1)
+    for _ in range(len(M) - 1):
+        places = [(len(e), i, j) for i, row in enumerate(rows) for j, e in enumerate(row) if e]
+        if not places:
+            return ring(parameters).constant(0)
+        _, i, j = min(places)
+        top = rows.pop(i)
+        pivot = top[j]
+        rows = [
+            [
+                (pivot * entry - row[j] * above) / before
+                for k, (entry, above) in enumerate(zip(row, top, strict=True))
+                if k != j
+            ]
+            for row in rows
+        ]
+        before = pivot
+    return rows[0][0] if rows else before
+
+
 def degree(f: Any) -> int:
     """The degree in x."""
     return max(int(f.degrees()[-1]), 0)

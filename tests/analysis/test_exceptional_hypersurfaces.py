@@ -14,6 +14,8 @@ from mcexact import (
     exceptional_hypersurfaces,
     fixed_spectrum,
     load_parametric_system,
+    observability_indices,
+    setpoint_solvability,
 )
 from mcexact.errors import UsageError
 from mcexact.exact.polynomial import Polynomial
@@ -148,3 +150,92 @@ def solutions(h: RationalFunction, a: Fraction) -> list[Fraction]:
     b = RationalFunction.parameter("b", ("b",))
     at = h.substituted([b * 0 + a, b], b * 0).polynomials()[0]
     return [-q.coefficients[0] for q, _ in at.factor() if q.degree == 1] if at else []
+
+
+TANK = load_parametric_system("gallery:quadruple-tank-parametric")
+
+
+def test_set_points_of_the_quadruple_tank_fail_where_the_shares_add_up_to_1() -> None:
+    found = exceptional_hypersurfaces(TANK, "setpoint")
+    assert found.rank == 6
+    assert [(str(h), h.rank) for h in found.hypersurfaces] == [("gamma1 + gamma2 - 1 = 0", 5)]
+    assert "rank 5 where gamma1 + gamma2 - 1 = 0" in found.words
+    assert repr(found) == "RankHypersurfaces(rank 6, exceptional: gamma1 + gamma2 - 1 = 0)"
+    assert found.to_dict()["hypersurfaces"] == [{"polynomial": "gamma1 + gamma2 - 1", "rank": 5}]
+    for each in found.lines:
+        assert check(each.answer, TANK.along(each.at)).valid
+    for gamma1 in ("1/3", 0, 2):
+        there = TANK.at({"gamma1": gamma1, "gamma2": 1 - Fraction(gamma1)})
+        assert not setpoint_solvability(there).solvable
+
+
+def test_edges_vanish_where_a_valve_sends_nothing() -> None:
+    graph = exceptional_hypersurfaces(TANK, "transfer_graph")
+    lost = {pair: [str(h) for h in values] for pair, values in graph.lost.items()}
+    assert len(graph.arcs) == 4 and len(graph.certificates) == 8
+    assert lost == {
+        ("1", "1"): ["gamma1 = 0"],
+        ("1", "2"): ["gamma1 = 1"],
+        ("2", "1"): ["gamma2 = 1"],
+        ("2", "2"): ["gamma2 = 0"],
+    }
+    complete = exceptional_hypersurfaces(TANK, "completeness")
+    assert complete.generic
+    assert [str(h) for h in complete.exceptional] == ["gamma1 - 1", "gamma2 - 1"]
+
+
+def test_controllability_is_about_the_channels_that_are_named() -> None:
+    alone = exceptional_hypersurfaces(TANK, "channel_controllability", channels=["1"])
+    assert len(alone.generic) == 1
+    assert [str(h) for h in alone.hypersurfaces] == ["gamma1 = 0", "gamma1 = 1"]
+    observed = exceptional_hypersurfaces(TANK, "joint_observability")
+    assert not observed.generic and not observed.hypersurfaces
+    with pytest.raises(UsageError, match="about all channels"):
+        exceptional_hypersurfaces(TANK, "setpoint", channels=["1"])  # type: ignore[call-overload]
+    with pytest.raises(UsageError, match="fixed_spectrum"):
+        exceptional_hypersurfaces(TANK, "fixed_modes")  # type: ignore[call-overload]
+
+
+def drawn(rng: random.Random, time: str) -> ParametricSystem:
+    """A plant of three states and two channels with entries in a and b."""
+    entries = ["0", "1", "a", "b", "a - b", "a*b + 1"]
+
+    def table(r: int, c: int) -> list[list[str]]:
+        return [[rng.choice(entries) for _ in range(c)] for _ in range(r)]
+
+    B, C = ([table(*size) for _ in range(2)] for size in ((3, 1), (1, 3)))
+    return ParametricSystem(table(3, 3), B, C, parameters=["a", "b"], time=time)
+
+
+@pytest.mark.parametrize("time", ["continuous", "discrete"])
+def test_ranks_of_drawn_plants_agree_with_those_at_points(time: str) -> None:
+    rng, on = random.Random(11), 0
+    for _ in range(3):
+        plant = drawn(rng, time)
+        steady = exceptional_hypersurfaces(plant, "setpoint")
+        blocks = exceptional_hypersurfaces(plant, "observability_indices")
+        for _ in range(3):
+            at = {name: Fraction(rng.randint(-99, 99), 7) for name in ("a", "b")}
+            assert setpoint_solvability(plant.at(at)).rank == steady.rank
+            assert ranks_at(plant, at, len(blocks)) == tuple(each.rank for each in blocks)
+        for each in steady.hypersurfaces:
+            for a in (Fraction(rng.randint(10, 99), 7) for _ in range(2)):
+                for b in solutions(each.polynomial, a):
+                    assert setpoint_solvability(plant.at({"a": a, "b": b})).rank == each.rank
+                    on += 1
+    assert on > 1
+
+
+def ranks_at(plant: ParametricSystem, at: dict[str, Any], blocks: int) -> tuple[int, ...]:
+    """The ranks of [C; CA; …] with up to so many blocks, at a point."""
+    ranks = list(observability_indices(plant.at(at)).ranks)
+    return tuple((ranks + [ranks[-1]] * blocks)[:blocks])
+
+
+def test_a_matrix_that_is_0_has_no_exceptional_values() -> None:
+    idle = ParametricSystem([["a", 1], [0, "b"]], [[[0], [0]]], [[["a", 0]]], parameters=["a", "b"])
+    graph = exceptional_hypersurfaces(idle, "transfer_graph")
+    assert graph.arcs == () and graph.lost == {}
+    none = ParametricSystem([], [[]], [[]], parameters=["a", "b"])
+    assert exceptional_hypersurfaces(none, "setpoint").rank == 0
+    assert [each.rank for each in exceptional_hypersurfaces(none, "controllability_indices")] == [0]

@@ -14,6 +14,10 @@ This folder answers no question by itself.  The other folders of `analysis` impo
 `parametric_modes`       what is fixed for all values of a parameter, and where more is
 `parametric_control`     the same for what channels do not control or observe
 `parametric_minors`      ranks of matrices of polynomials in a parameter
+`mode_hypersurfaces`     what is fixed for almost all values of several parameters
+`rank_hypersurfaces`     ranks of matrices of polynomials in several parameters
+`parameter_lines`        lines along which both are proved
+`named_matrices`         these matrices, made from those of a system
 `parametric_structure`   the transfer graph and completeness by such ranks
 `parametric_sharing`     the least dimensions that agents must share for every value
 `zero_blocks`            proofs that a mode is fixed for all values, or at some
@@ -37,6 +41,10 @@ from mcexact.analysis.engine.covering import (
     minimize,
 )
 from mcexact.analysis.engine.lyapunov import QuadraticForm, quadratic_form
+from mcexact.analysis.engine.mode_hypersurfaces import (
+    controllability_hypersurfaces,
+    mode_hypersurfaces,
+)
 from mcexact.analysis.engine.obstructions import Decision, Obstruction, decide
 from mcexact.analysis.engine.one_channel import MODULI, best_sequences
 from mcexact.analysis.engine.parametric_control import parametric_controllability
@@ -52,6 +60,7 @@ from mcexact.analysis.engine.parametric_structure import (
     parametric_completeness,
     parametric_transfer_graph,
 )
+from mcexact.analysis.engine.rank_hypersurfaces import rank_for_all_values, rank_hypersurfaces
 from mcexact.analysis.engine.rate import located
 from mcexact.analysis.engine.reachability import (
     Edge,
@@ -111,6 +120,7 @@ __all__ = [
     "bounded_blocks",
     "branch_tree",
     "completed_blocks",
+    "controllability_hypersurfaces",
     "decide",
     "edge_modulus",
     "evidence",
@@ -123,6 +133,7 @@ __all__ = [
     "measured_blocks",
     "measured_system",
     "minimize",
+    "mode_hypersurfaces",
     "modes_left",
     "obstruction_modulo",
     "parametric_completeness",
@@ -131,6 +142,8 @@ __all__ = [
     "parametric_rank",
     "parametric_transfer_graph",
     "quadratic_form",
+    "rank_for_all_values",
+    "rank_hypersurfaces",
     "reachable_pairs",
     "separated_instability",
     "shared_dimensions_for_every_value",

@@ -4,17 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
+from mcexact.analysis.engine.named_matrices import Entries, Named
 from mcexact.answer.evidence import RootDisc
 from mcexact.answer.parametric_fixed_spectrum import OutsideValue, meets
-from mcexact.answer.parametric_rank import (
-    ControllabilityMatrix,
-    Kernel,
-    LowerRank,
-    ParametricRank,
-    SetpointMatrix,
-    TransferColumn,
-    TwoMinors,
-)
+from mcexact.answer.parametric_rank import Kernel, LowerRank, ParametricRank, TwoMinors
 from mcexact.derived.modular_system import generator
 from mcexact.derived.polynomial_system import PolynomialSystem
 from mcexact.errors import InternalError
@@ -36,7 +29,6 @@ from mcexact.exact.parameter_matrices import (
 from mcexact.exact.polynomial import Polynomial
 from mcexact.model.parametric import ParametricSystem
 
-Named = SetpointMatrix | ControllabilityMatrix | TransferColumn
 _BITS = 61
 _DRAWS = 60
 
@@ -66,8 +58,8 @@ class _Search:
     def __init__(self, system: PolynomialSystem, matrix: Named) -> None:
         self.system, self.matrix = system, matrix
         self.rng = generator(system.system, "parametric_rank")
-        self.rows = matrix_named(system, matrix)
-        self.ncols = len(self.rows[0]) if self.rows else _columns(system, matrix)
+        entries = _entries(system)
+        self.rows, self.ncols = entries.matrix(matrix), entries.columns(matrix)
         self.M = matrix_of(self.rows, self.ncols)
         self.stream = primes(self.rng.getrandbits(64), _BITS)
 
@@ -164,43 +156,15 @@ def _polynomial(p: Any) -> Polynomial:
     return two_variables.polynomials([p])[0]
 
 
-def _columns(system: PolynomialSystem, matrix: Named) -> int:
-    """The columns of a matrix without rows."""
-    if isinstance(matrix, TransferColumn):
-        return 1
-    chosen = matrix.channels if isinstance(matrix, ControllabilityMatrix) else system.system.names
-    width = sum(
-        M.ncols for M, name in zip(system.B, system.system.names, strict=True) if name in chosen
+def _entries(system: PolynomialSystem) -> Entries:
+    """The entries of A', B_i' and C_i' as polynomials of flint."""
+    return Entries(
+        names=system.system.names,
+        A=entries_of(system.A),
+        B=[entries_of(M) for M in system.B],
+        C=[entries_of(M) for M in system.C],
+        widths=[M.ncols for M in system.B],
+        shift=system.scale._rational if is_discrete(system.system.time) else ZERO,
+        zero=ZERO,
+        product=product,
     )
-    return width * (matrix.blocks if isinstance(matrix, ControllabilityMatrix) else 1)
-
-
-def matrix_named(system: PolynomialSystem, matrix: Named) -> list[list[Any]]:
-    """The rows of a matrix, made from A', B_i' and C_i', as polynomials of flint."""
-    names = system.system.names
-    A, zero = entries_of(system.A), ZERO
-    B, C = [entries_of(M) for M in system.B], [entries_of(M) for M in system.C]
-    if isinstance(matrix, ControllabilityMatrix):
-        chosen = [B[i] for i, name in enumerate(names) if name in matrix.channels]
-        power = [[entry for M in chosen for entry in M[k]] for k in range(system.n)]
-        rows: list[list[Any]] = [[] for _ in range(system.n)]
-        for _ in range(matrix.blocks):
-            rows = [row + more for row, more in zip(rows, power, strict=True)]
-            power = product(A, power)
-        return rows
-    if isinstance(matrix, TransferColumn):
-        power, outputs = B[names.index(matrix.source)], C[names.index(matrix.to)]
-        found = []
-        for _ in range(system.n):
-            columns = zip(*product(outputs, power), strict=True)
-            found += [[entry] for column in columns for entry in column]
-            power = product(A, power)
-        return found
-    shift = system.scale._rational if is_discrete(system.system.time) else zero
-    width = sum(M.ncols for M in system.B)
-    upper = [
-        [entry - shift if i == j else entry for j, entry in enumerate(row)]
-        + [entry for M in B for entry in M[i]]
-        for i, row in enumerate(A)
-    ]
-    return upper + [[*row, *[zero] * width] for M in C for row in M]

@@ -1,39 +1,42 @@
-"""The transfer graph, and completeness, for all values of a parameter."""
+"""The transfer graph, and completeness, for all values of one parameter or several."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import networkx as nx
 
-from mcexact.analysis.engine.parametric_minors import parametric_rank
+from mcexact.analysis.engine.mode_hypersurfaces import mode_hypersurfaces
+from mcexact.analysis.engine.parameter_lines import Along, in_order
 from mcexact.analysis.engine.parametric_modes import parametric_fixed_spectrum
+from mcexact.analysis.engine.rank_hypersurfaces import rank_for_all_values
+from mcexact.answer.exceptional_hypersurfaces import ExceptionalHypersurfaces, RankHypersurfaces
 from mcexact.answer.parametric_fixed_spectrum import ParametricFixedSpectrum
-from mcexact.answer.parametric_rank import (
-    LowerRank,
-    ParametricRank,
-    TransferColumn,
-)
+from mcexact.answer.parametric_rank import ParametricRank, TransferColumn
 from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.rational_function import RationalFunction
 from mcexact.model.parametric import ParametricSystem
 
 Pair = tuple[str, str]
+Surface = Polynomial | RationalFunction
+"""A polynomial in the parameters, at whose roots something is lost."""
 
 
 @dataclass(frozen=True)
 class ParametricTransferGraph:
-    """The transfer graph for all values of a parameter.
+    """The transfer graph for all values of a parameter, or for almost all of several.
 
     Attributes
     ----------
-    columns : mapping of (str, str) to ParametricRank
+    columns : mapping of (str, str) to ParametricRank or RankHypersurfaces
         For each pair (j, i) of channels the rank, 1 or 0, of the column of all entries of
         C_i A^k B_j, k < n.
     """
 
-    columns: Mapping[Pair, ParametricRank]
+    columns: Mapping[Pair, Any]
 
     @property
     def arcs(self) -> tuple[Pair, ...]:
@@ -41,21 +44,26 @@ class ParametricTransferGraph:
         return tuple(pair for pair, found in self.columns.items() if found.rank)
 
     @property
-    def lost(self) -> dict[Pair, tuple[LowerRank, ...]]:
+    def lost(self) -> dict[Pair, tuple[Any, ...]]:
         """The values at which an edge vanishes, for the edges for which there are some."""
         return {pair: each.exceptional for pair, each in self.columns.items() if each.exceptional}
 
     @property
-    def certificates(self) -> tuple[ParametricRank, ...]:
-        """The answers that prove it."""
-        return tuple(self.columns.values())
+    def certificates(self) -> tuple[Along, ...]:
+        """The answers that prove it, with several parameters those along lines."""
+        return tuple(proof for each in self.columns.values() for proof in _proofs(each))
 
-    def strongly_connected(self, without: Polynomial | None = None) -> bool:
+    @property
+    def lost_at(self) -> tuple[Surface, ...]:
+        """The polynomials at whose roots an edge vanishes."""
+        return tuple({q: None for each in self.columns.values() for q in each.exceptional_at})
+
+    def strongly_connected(self, without: Surface | None = None) -> bool:
         """Whether the edges for almost every value, or for the roots of a polynomial, connect."""
         graph = nx.DiGraph()
         graph.add_nodes_from({name for pair in self.columns for name in pair})
         for pair in self.arcs:
-            if all(each.value != without for each in self.columns[pair].exceptional):
+            if without not in self.columns[pair].exceptional_at:
                 graph.add_edge(*pair)
         return bool(nx.is_strongly_connected(graph))
 
@@ -73,7 +81,7 @@ def parametric_transfer_graph(system: ParametricSystem) -> ParametricTransferGra
     """
     return ParametricTransferGraph(
         {
-            (j, i): parametric_rank(system, TransferColumn(j, i))
+            (j, i): rank_for_all_values(system, TransferColumn(j, i))
             for j in system.names
             for i in system.names
         }
@@ -82,15 +90,15 @@ def parametric_transfer_graph(system: ParametricSystem) -> ParametricTransferGra
 
 @dataclass(frozen=True)
 class ParametricCompleteness:
-    """For which values of a parameter no mode is fixed and the transfer graph connects.
+    """For which values of parameters no mode is fixed and the transfer graph connects.
 
     Attributes
     ----------
-    spectrum : ParametricFixedSpectrum
+    spectrum : ParametricFixedSpectrum or ExceptionalHypersurfaces
     graph : ParametricTransferGraph
     """
 
-    spectrum: ParametricFixedSpectrum
+    spectrum: ParametricFixedSpectrum | ExceptionalHypersurfaces
     graph: ParametricTransferGraph
 
     @property
@@ -99,23 +107,45 @@ class ParametricCompleteness:
         return not self.spectrum.generic and self.graph.strongly_connected()
 
     @cached_property
-    def exceptional(self) -> tuple[Polynomial, ...]:
-        """The values at which it is not, if it is for almost every one."""
+    def exceptional(self) -> tuple[Surface, ...]:
+        """The polynomials at whose roots it is not, if it is for almost every value."""
         if not self.generic:
             return ()
-        found = {each.value for each in self.spectrum.exceptional}
-        lost = {each.value for values in self.graph.lost.values() for each in values}
-        found |= {q for q in lost if not self.graph.strongly_connected(q)}
-        return tuple(sorted(found, key=lambda q: (q.degree, q.coefficients)))
+        cut = [q for q in self.graph.lost_at if not self.graph.strongly_connected(q)]
+        found = {*self.spectrum.exceptional_at, *cut}
+        surfaces = in_order([q for q in found if isinstance(q, RationalFunction)])
+        values = [q for q in found if isinstance(q, Polynomial)]
+        return (*surfaces, *sorted(values, key=lambda q: (q.degree, q.coefficients)))
 
     @property
-    def certificates(self) -> tuple[ParametricFixedSpectrum | ParametricRank, ...]:
-        """The answers that prove it."""
-        return self.spectrum, *self.graph.certificates
+    def certificates(self) -> tuple[Along, ...]:
+        """The answers that prove it, with several parameters those along lines."""
+        return *_proofs(self.spectrum), *self.graph.certificates
 
 
-def parametric_completeness(system: ParametricSystem) -> ParametricCompleteness:
-    """Decide for which values of a parameter a plant is complete."""
-    return ParametricCompleteness(
-        parametric_fixed_spectrum(system), parametric_transfer_graph(system)
-    )
+def _proofs(
+    found: Along | ExceptionalHypersurfaces | RankHypersurfaces,
+) -> tuple[Along, ...]:
+    """The certificates of an answer: itself, or with several parameters those along lines."""
+    if isinstance(found, ParametricFixedSpectrum | ParametricRank):
+        return (found,)
+    return tuple(found.certificates.values())
+
+
+def parametric_completeness(
+    system: ParametricSystem,
+    spectrum: ParametricFixedSpectrum | ExceptionalHypersurfaces | None = None,
+    graph: ParametricTransferGraph | None = None,
+) -> ParametricCompleteness:
+    """Decide for which values of parameters a plant is complete.
+
+    Parameters
+    ----------
+    system : ParametricSystem
+    spectrum, graph : optional
+        What is fixed, and the transfer graph, if they are known already.
+    """
+    if spectrum is None:
+        one = len(system.parameters) == 1
+        spectrum = (parametric_fixed_spectrum if one else mode_hypersurfaces)(system)
+    return ParametricCompleteness(spectrum, graph or parametric_transfer_graph(system))

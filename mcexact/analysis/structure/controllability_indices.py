@@ -13,7 +13,6 @@ from mcexact.answer.controllability_indices import ControllabilityIndices
 from mcexact.answer.parametric_rank import ParametricRank
 from mcexact.derived.dual import dual
 from mcexact.derived.modular_system import generator, residue_systems
-from mcexact.derived.moved_entries import moved
 from mcexact.errors import InputError, InternalError
 from mcexact.exact.blocks import hstack, vstack
 from mcexact.exact.linear_algebra import solve_nonsingular
@@ -116,7 +115,7 @@ def observability_indices(
         T, names of channels, by default all.
     """
     if isinstance(system, ParametricSystem):
-        return parametric_indices(moved(system, dual), channels)
+        return parametric_indices(system, channels, observed=True)
     InputError.require(system, MultiChannelSystem, "system")
     return controllability_indices(dual(system), channels)
 

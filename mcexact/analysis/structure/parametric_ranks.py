@@ -1,12 +1,18 @@
-"""Set-points and controllability indices for all values of a parameter."""
+"""Set-points and controllability indices for all values of one parameter or several."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from typing import TypeVar
 
-from mcexact.analysis.engine import parametric_rank
+from mcexact.analysis.engine import parametric_rank, rank_for_all_values, rank_hypersurfaces
+from mcexact.answer.exceptional_hypersurfaces import RankHypersurfaces
 from mcexact.answer.parametric_rank import ControllabilityMatrix, ParametricRank, SetpointMatrix
+from mcexact.derived.dual import dual
+from mcexact.derived.moved_entries import moved
 from mcexact.model.parametric import ParametricSystem
+
+R = TypeVar("R", ParametricRank, RankHypersurfaces)
 
 
 def parametric_setpoints(system: ParametricSystem) -> ParametricRank:
@@ -17,15 +23,28 @@ def parametric_setpoints(system: ParametricSystem) -> ParametricRank:
     >>> plant = ParametricSystem([[-1]], [[["1 - t"]]], [[[1]]], parameters=["t"])
     >>> found = parametric_setpoints(plant)
     >>> found.words
-    ('rank 2 for almost every t', 'rank 1 where t - 1 = 0')
+    ('rank 2 for almost every t', 'rank 1 where t = 1')
     """
     return parametric_rank(system, SetpointMatrix())
 
 
+def setpoint_rank(system: ParametricSystem) -> ParametricRank | RankHypersurfaces:
+    """The same for one parameter or several."""
+    return rank_for_all_values(system, SetpointMatrix())
+
+
 def parametric_indices(
-    system: ParametricSystem, channels: Iterable[str] | None = None
+    system: ParametricSystem, channels: Iterable[str] | None = None, *, observed: bool = False
 ) -> tuple[ParametricRank, ...]:
     """The ranks of [B_T, A B_T, …, A^(k−1) B_T] for k = 1, 2, …, until none grows at any value.
+
+    Parameters
+    ----------
+    system : ParametricSystem
+    channels : iterable of str, optional
+        T, by default all.
+    observed : bool
+        Whether they are those of the dual system.
 
     Returns
     -------
@@ -33,14 +52,31 @@ def parametric_indices(
         One for each k; the last two say the same unless the last k is n, so that no rank grows
         further at any value.
     """
+    about = moved(system, dual) if observed else system
+    return _growing(about, channels, lambda matrix: parametric_rank(about, matrix))
+
+
+def indices_for_all_values(
+    system: ParametricSystem, channels: Iterable[str] | None = None, *, observed: bool = False
+) -> tuple[ParametricRank | RankHypersurfaces, ...]:
+    """The same for one parameter or several."""
+    if len(system.parameters) == 1:
+        return parametric_indices(system, channels, observed=observed)
+    return _growing(
+        system, channels, lambda matrix: rank_hypersurfaces(system, matrix, observed=observed)
+    )
+
+
+def _growing(
+    system: ParametricSystem,
+    channels: Iterable[str] | None,
+    decide: Callable[[ControllabilityMatrix], R],
+) -> tuple[R, ...]:
+    """The answers for more and more blocks, until two say the same."""
     chosen = system.names if channels is None else system.named(system.indices(channels))
-    found: list[ParametricRank] = []
+    found: list[R] = []
     for k in range(1, max(system.n, 1) + 1):
-        found.append(parametric_rank(system, ControllabilityMatrix(chosen, k)))
-        if k > 1 and _said(found[-1]) == _said(found[-2]):
+        found.append(decide(ControllabilityMatrix(chosen, k)))
+        if k > 1 and found[-1].said == found[-2].said:
             break
     return tuple(found)
-
-
-def _said(found: ParametricRank) -> tuple[object, ...]:
-    return found.rank, {(each.value, each.rank) for each in found.exceptional}, found.outside

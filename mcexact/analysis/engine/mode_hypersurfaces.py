@@ -1,0 +1,151 @@
+"""Where a mode of a system with several parameters is fixed that is not for almost all values."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from mcexact.analysis.engine.parameter_lines import DRAWS, confirming_lines, in_order, poles
+from mcexact.analysis.engine.parametric_control import parametric_controllability
+from mcexact.analysis.engine.parametric_modes import parametric_fixed_spectrum
+from mcexact.answer.exceptional_hypersurfaces import ExceptionalHypersurfaces, Hypersurface
+from mcexact.answer.parametric_fixed_spectrum import ParametricFixedSpectrum
+from mcexact.derived.modular_system import generator
+from mcexact.errors import InternalError
+from mcexact.exact import several_variables
+from mcexact.exact.function_matrix import FunctionMatrix
+from mcexact.exact.rational_function import RationalFunction
+from mcexact.model.function_entry import as_functions
+from mcexact.model.parametric import ParametricSystem
+
+
+def mode_hypersurfaces(system: ParametricSystem) -> ExceptionalHypersurfaces:
+    """Decide what is fixed for almost all values of several parameters, and where more is."""
+    rng = generator(system, "exceptional_hypersurfaces")
+    return _Search(system, system, parametric_fixed_spectrum, rng).found()
+
+
+def controllability_hypersurfaces(
+    system: ParametricSystem, channels: Iterable[str] | None = None, *, observed: bool = False
+) -> ExceptionalHypersurfaces:
+    """Decide which modes channels do not control for almost all values, and where others.
+
+    Parameters
+    ----------
+    system : ParametricSystem
+    channels : iterable of str, optional
+        By default all.
+    observed : bool
+        Whether the question is about observability.
+    """
+    chosen = system.names if channels is None else system.named(system.indices(channels))
+    rng = generator(system, "controllability_hypersurfaces")
+
+    def decide(line: ParametricSystem) -> ParametricFixedSpectrum:
+        return parametric_controllability(line, chosen, observed)
+
+    return _Search(system, _with_full_ports(system, chosen, observed), decide, rng).found()
+
+
+def _with_full_ports(
+    system: ParametricSystem, chosen: tuple[str, ...], observed: bool
+) -> ParametricSystem:
+    """The system of one channel with some inputs and x as output, or some outputs and input x."""
+    one = [[int(i == j) for j in range(system.n)] for i in range(system.n)]
+    identity = as_functions(one, "identity", system.parameters, system.n).matrix()
+    named = [channel for channel in system.channels if channel.name in chosen]
+    if observed:
+        outputs = tuple(row for channel in named for row in channel.C.rows)
+        B, C = identity, FunctionMatrix(outputs, system.n)
+    else:
+        inputs = tuple(sum((channel.B.rows[i] for channel in named), ()) for i in range(system.n))
+        B, C = FunctionMatrix(inputs, sum(channel.B.ncols for channel in named)), identity
+    return ParametricSystem(system.A, [B], [C], parameters=system.parameters, time=system.time)
+
+
+class _Search:
+    """Draws gains, then lines, until what gains leave is what is fixed along the lines.
+
+    Parameters
+    ----------
+    about : ParametricSystem
+        The system of the answer.
+    system : ParametricSystem
+        That whose fixed modes are looked for.
+    decide : callable
+        Answers the question about ``about`` along a line.
+    rng : random.Random
+    """
+
+    def __init__(
+        self,
+        about: ParametricSystem,
+        system: ParametricSystem,
+        decide: Callable[[ParametricSystem], ParametricFixedSpectrum],
+        rng: random.Random,
+    ) -> None:
+        self.about, self.decide = about, decide
+        self.system, self.rng, self.names = system, rng, system.parameters
+        parts = [system.A, *(M for c in system.channels for M in (c.B, c.C))]
+        rows = [several_variables.cleared(M, self.names)[0] for M in parts]
+        self.A, self.B, self.C = rows[0], rows[1::2], rows[2::2]
+        self.poles = poles(parts, self.names)
+        self.chi = several_variables.characteristic(self.A, self.names)
+
+    def found(self) -> ExceptionalHypersurfaces:
+        """The answer."""
+        for attempt in range(DRAWS):
+            generic, candidates = self._candidates(1 + attempt)
+            degree = sum(map(several_variables.degree, generic))
+
+            def is_generic(answer: ParametricFixedSpectrum, degree: int = degree) -> bool:
+                return sum(len(p) - 1 for p in answer.generic) == degree
+
+            made = confirming_lines(self.about, self.decide, is_generic, candidates, self.rng)
+            if made is not None:
+                break
+        else:
+            raise InternalError("no drawn gains leave the fixed modes alone")
+        lines, confirmed = made
+        sets = {
+            h: {mode.channels for value in values for mode in value.modes}
+            for h, values in confirmed.items()
+        }
+        return ExceptionalHypersurfaces(
+            about=self.about,
+            hypersurfaces=tuple(
+                Hypersurface(h, channels=tuple(sorted(sets[h]))) for h in in_order(sets)
+            ),
+            undefined_at=tuple(in_order(self.poles)),
+            lines=lines,
+            generic=tuple(several_variables.coefficients(p, self.names) for p in generic),
+        )
+
+    def _loop(self, size: int) -> Any:
+        """det(xI − A − Σ B_i F_i C_i) for drawn gains of this size."""
+        inside = several_variables.ring(self.names)
+        zero, closed = inside.constant(0), self.A
+        for B_i, C_i, (p, q) in zip(self.B, self.C, self.system.sizes, strict=True):
+            if p and q and self.system.n:
+                F = [
+                    [inside.constant(self.rng.randint(-size, size)) for _ in range(q)]
+                    for _ in range(p)
+                ]
+                gained = several_variables.product(B_i, F, zero)
+                closed = several_variables.total(
+                    closed, several_variables.product(gained, C_i, zero)
+                )
+        return several_variables.characteristic(closed, self.names)
+
+    def _candidates(self, size: int) -> tuple[list[Any], list[RationalFunction]]:
+        """What drawn gains leave, and where more is common to what they move."""
+        psi = [self.chi, self._loop(size), self._loop(size)]
+        common = several_variables.common_divisor(psi)
+        generic = [p for p in several_variables.factors(common) if several_variables.degree(p)]
+        for p in generic:
+            psi = [several_variables.without(f, p) for f in psi]
+        left, first, second = map(several_variables.factors, psi)
+        in_both = several_variables.resultant_factors(left, first, self.names)
+        in_both &= several_variables.resultant_factors(left, [*second, *generic], self.names)
+        return generic, [h for h in in_both if h not in self.poles]

@@ -1,0 +1,115 @@
+"""Lines through the space of several parameters, along which candidates are confirmed by proofs."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable, Collection, Mapping, Sequence
+from fractions import Fraction
+from typing import Any
+
+from mcexact.answer.exceptional_hypersurfaces import A, Line
+from mcexact.answer.parametric_fixed_spectrum import ParametricFixedSpectrum
+from mcexact.answer.parametric_rank import ParametricRank
+from mcexact.errors import InputError
+from mcexact.exact import several_variables
+from mcexact.exact.function_matrix import FunctionMatrix
+from mcexact.exact.polynomial import Polynomial
+from mcexact.exact.rational_function import RationalFunction
+from mcexact.model.parametric import ParametricSystem
+
+DRAWS = 60
+"""How often gains or minors are drawn."""
+_LINES = 2
+"""The number of lines along which the answer is proved."""
+_ALONG = ("s",)
+Along = ParametricFixedSpectrum | ParametricRank
+Confirmed = dict[RationalFunction, list[Any]]
+"""The exceptional values of all lines on each hypersurface."""
+
+
+def confirming_lines(
+    about: ParametricSystem,
+    decide: Callable[[ParametricSystem], A],
+    is_generic: Callable[[A], bool],
+    candidates: Sequence[RationalFunction],
+    rng: random.Random,
+) -> tuple[tuple[Line[A], ...], Confirmed] | None:
+    """Draw lines along which the candidates are the exceptional values, or some of them are.
+
+    Parameters
+    ----------
+    about : ParametricSystem
+    decide : callable
+        Answers the question about the system along a line, with a proof.
+    is_generic : callable
+        Whether an answer says for almost all values of a line what holds for almost all values.
+    candidates : sequence of RationalFunction
+    rng : random.Random
+
+    Returns
+    -------
+    tuple or None
+        The lines, and the candidates that are exceptional; None if lines disagree.
+    """
+    lines: list[Line[A]] = []
+    confirmed: Confirmed = {}
+    for attempt in range(_LINES + 2):
+        at = _line(about, rng, 3 + attempt)
+        met = {h: _values(h, at) for h in candidates}
+        try:
+            answer = decide(about.along(at, _ALONG))
+        except InputError:
+            continue
+        found = _confirmed(answer, met)
+        if found is None or not is_generic(answer):
+            continue
+        if lines and found.keys() != confirmed.keys():
+            return None
+        for h, values in found.items():
+            confirmed.setdefault(h, []).extend(values)
+        lines.append(Line(at, answer))
+        if len(lines) == _LINES:
+            return tuple(lines), confirmed
+    return None
+
+
+def poles(parts: Collection[FunctionMatrix], names: tuple[str, ...]) -> set[RationalFunction]:
+    """The irreducible factors of the denominators of matrices."""
+    return {
+        several_variables.in_parameters(q, names)
+        for M in parts
+        for q in several_variables.factors(several_variables.cleared(M, names)[1])
+    }
+
+
+def in_order(surfaces: Collection[RationalFunction]) -> list[RationalFunction]:
+    """Polynomials in parameters in a fixed order, those of low degree first."""
+    return sorted(surfaces, key=lambda h: (int(h.numerator.total_degree()), str(h)))
+
+
+def _line(about: ParametricSystem, rng: random.Random, size: int) -> dict[str, RationalFunction]:
+    """A line through a drawn point in a drawn direction."""
+    s = RationalFunction.parameter(*_ALONG, _ALONG)
+    slopes = [k for k in range(-size, size + 1) if k]
+    return {name: rng.choice(slopes) * s + rng.randint(-size, size) for name in about.parameters}
+
+
+def _values(h: RationalFunction, at: Mapping[str, RationalFunction]) -> set[Polynomial]:
+    """The values at which a line meets a hypersurface, as monic irreducible polynomials."""
+    values = [at[name] for name in h.parameters]
+    met = h.substituted(values, RationalFunction.constant(0, _ALONG)).polynomials()[0]
+    return {q * (Fraction(1) / q.leading) for q, _ in met.factor()} if met else set()
+
+
+def _confirmed(answer: Along, met: Mapping[RationalFunction, set[Polynomial]]) -> Confirmed | None:
+    """The candidates that are exceptional; None if they are not all that is."""
+    found = {each.value: each for each in answer.exceptional}
+    if found.keys() - set().union(*met.values()):
+        return None
+    confirmed: Confirmed = {}
+    for h, values in met.items():
+        if not values or 0 < len(values & found.keys()) < len(values):
+            return None
+        if values <= found.keys():
+            confirmed[h] = [found[q] for q in values]
+    return confirmed
