@@ -9,6 +9,7 @@ USERS = "about files or wishes of a user, which no certificate reaches; tests/ch
 LARGE = (
     "large matrices alone list their entries, and are not drawn here; tests/checker has its tests"
 )
+REPEATED = "what is refused here is refused a few lines later as well, for another reason"
 CANONICAL = "the object `system` has to be equal to its canonical form as well"
 
 # The keys are conditions as they stand in the checker.
@@ -46,6 +47,19 @@ HARMLESS: dict[str, str] = {
     "reading.py: names: type(entry) is not str or entry not in place_of": RAISES,
     "region.py: claimed_cost: absence is None": UNREAD,
     "system_matrices.py: number: not good or abs(int(exponent)) > (limits or Limits).exponent": CANONICAL,
+    "expressions.py: __init__: match is None": RAISES,
+    "expressions.py: whole: self.tokens": CANONICAL,
+    "expressions.py: sum: self.depth > DEEPEST": CANONICAL,
+    "expressions.py: product: not c": RAISES,
+    "expressions.py: power: not digits.isdigit() or len(digits) > 9": CANONICAL,
+    "expressions.py: atom: not self.take(')')": CANONICAL,
+    "expressions.py: atom: not token[:1].isdigit()": REPEATED,
+    "named_matrices.py: named_matrix: type(name) is not str or name not in KEYS": RAISES,
+    "parametric_rank.py: check: r <= min(nrows, ncols)": "no minor has more rows or columns",
+    "parametric_rank.py: check: kernel is None": UNREAD,
+    "parametric_system.py: plant_of_file: not isinstance(document, dict) or document.get('format') != 'mcexact-system/1'": USERS,
+    "parametric_system.py: read_parametric: not isinstance(known, dict) or not known": RAISES,
+    "parametric_system.py: _table: integer(i, place) >= r or integer(j, place) >= c or (i, j) in seen": CANONICAL,
     "deficiency.py: check: coefficients is None": UNREAD,
     "deficiency.py: check: subspace is None": UNREAD,
     "controller.py: read_controller: not agents": (

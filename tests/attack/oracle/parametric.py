@@ -112,6 +112,7 @@ def _table(value: Any, t: str, nrows: int | None, ncols: int | None) -> tuple[Ro
 def _function(value: Any, t: str) -> tuple[fmpq_poly, fmpq_poly]:
     """A rational, or the canonical text of a function that is not constant."""
     one = fmpq_poly([1])
+    demand(not isinstance(value, str) or len(value) <= 100_000, "expected a shorter text")
     if not isinstance(value, str) or re.fullmatch(r"-?[0-9/]+", value):
         return fmpq_poly([rational(value)]), one
     quotient = QUOTIENT.fullmatch(value)
@@ -225,7 +226,7 @@ def _right_at(
             continue
         for mode in listed(entry["modes"]):
             told = record(mode, "polynomial", "channels")
-            p = _at(_bivariate(told["polynomial"]), tau, ell)
+            p = _at(_bivariate(told["polynomial"], value.degree()), tau, ell)
             s = positions(told["channels"], plant.names)
             lost = all(_rank(plant, s, f, tau, ell) < plant.n for f, _ in p.factor()[1])
             if p.gcd(known).degree() > 0 or not lost:
@@ -345,9 +346,10 @@ def _in_t(p: fmpq_poly) -> Any:
     return RING.from_dict({(i, 0): c for i, c in enumerate(p.coeffs()) if c != 0})
 
 
-def _bivariate(value: Any) -> Any:
-    """A polynomial in x and t, monic in x of degree ≥ 1."""
+def _bivariate(value: Any, below: int | None = None) -> Any:
+    """A polynomial in x and t, monic in x of degree ≥ 1, of a degree in t below some number."""
     parts = [[rational(c) for c in listed(part)] for part in listed(value)]
+    demand(below is None or all(len(part) <= below for part in parts), "expected smaller degrees")
     demand(all(not part or part[-1] != 0 for part in parts), "expected no zeros at the end")
     demand(len(parts) > 1 and parts[-1] == [1], "expected a polynomial that is monic in x")
     return RING.from_dict(

@@ -170,11 +170,6 @@ def _matrix(value: Any, plant: ParametricPlant) -> tuple[Rows, int]:
     return rows, 1
 
 
-def _expanded(rows: Any) -> Rows:
-    delta = common_denominator(rows)
-    return [[top * (delta // bottom) for top, bottom in row] for row in rows]
-
-
 def rank_sentence(claim: Any, plant: ParametricPlant) -> str:
     """The sentence of the kind."""
     matrix = claim["matrix"]

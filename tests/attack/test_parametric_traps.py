@@ -1,0 +1,125 @@
+"""Traps about parameters: what each condition and each short-cut would let pass is false."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from fractions import Fraction
+from functools import partial, reduce
+from itertools import chain
+from typing import Any
+
+import pytest
+
+from mcexact import MultiChannelSystem, fixed_spectrum
+from mcexact.analysis.engine.parametric_modes import parametric_fixed_spectrum
+from mcexact.answer import codec
+from mcexact.checker import check_document, moved_modes, parametric_rank
+from mcexact.checker.arithmetic import cleared, poly_modulo
+from mcexact.checker.two_variables import characteristic, without
+from mcexact.model.parametric_file import read_parametric_system
+from tests.attack.campaign import judged
+from tests.attack.conditions import GATES, weakened_checker
+from tests.attack.forgeries.parametric_traps import RANKS, SPECTRA
+from tests.attack.oracle.judge import FALSE
+
+TRAPS = {**SPECTRA, **RANKS}
+DIVIDED = ("ℓ divides the denominator of a value", "ℓ divides the denominator of a root of a minor")
+
+
+@pytest.mark.parametrize("trap", TRAPS)
+def test_every_trap_is_false(trap: str) -> None:
+    assert judged(TRAPS[trap])[0] == FALSE
+
+
+@pytest.mark.parametrize("trap", sorted(TRAPS.keys() - set(DIVIDED)))
+def test_every_trap_is_closed_by_one_condition(trap: str) -> None:
+    check = weakened_checker().check_document
+    GATES.open = None
+    assert check(TRAPS[trap]).verdict in ("INVALID", "MALFORMED")
+    GATES.open = GATES.last
+    found = check(TRAPS[trap])
+    GATES.open = None
+    assert found.verdict == "VALID", found.line()
+
+
+def divided_out(ell: int, q: Any, f: Any) -> tuple[int, Any]:
+    """The short-cut: f modulo ℓ, divided by q modulo ℓ as often as it goes."""
+    f, q, times = poly_modulo(f, ell), poly_modulo(q, ell), 0
+    while True:
+        rest, quotient = list(f), []
+        while len(rest) >= len(q):
+            quotient.insert(0, rest[-1])
+            shift = len(rest) - len(q)
+            rest = [c - rest[-1] * q[k - shift] * (k >= shift) for k, c in enumerate(rest[:-1])]
+        if any(c % ell for c in rest) or len(f) < len(q):
+            return times, f
+        f, times = [c % ell for c in quotient], times + 1
+
+
+def multiple_modulo(f: Any, ell: int) -> Any:
+    """The short-cut: what is left of an integer multiple modulo ℓ, whatever its degree becomes."""
+    numbers, _ = cleared([Fraction(c) for c in f])
+    return poly_modulo([Fraction(c) for c in numbers], ell)
+
+
+def divided_characteristic(A: Any, ell: int = 0) -> Any:
+    """The short-cut: det(xI − A_G) modulo ℓ without the powers of x, which is generic."""
+    found = characteristic(A, ell)
+    return reduce(without, [[[], [1]]], found) if ell else found
+
+
+SHORT_CUTS: list[tuple[str, Any, str, Callable[..., Any]]] = [
+    (
+        "a value is divided out modulo ℓ, with one that is congruent to it",
+        moved_modes,
+        "exponent",
+        partial(divided_out, 7),
+    ),
+    (
+        "a value is divided out of a minor modulo ℓ",
+        parametric_rank,
+        "exponent",
+        partial(divided_out, 7),
+    ),
+    (DIVIDED[0], moved_modes, "poly_modulo", multiple_modulo),
+    (DIVIDED[1], parametric_rank, "poly_modulo", multiple_modulo),
+    (
+        "powers of a generic polynomial are divided out modulo ℓ",
+        moved_modes,
+        "characteristic",
+        divided_characteristic,
+    ),
+]
+
+
+@pytest.mark.parametrize(
+    ("trap", "module", "name", "short_cut"), SHORT_CUTS, ids=[row[0] for row in SHORT_CUTS]
+)
+def test_a_short_cut_would_accept_what_is_false(
+    trap: str, module: Any, name: str, short_cut: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert check_document(TRAPS[trap]).verdict == "INVALID"
+    monkeypatch.setattr(module, name, short_cut)
+    found = check_document(TRAPS[trap])
+    assert found.verdict == "VALID", found.line()
+
+
+def test_gains_of_a_companion_matrix_move_what_constant_gains_do_not() -> None:
+    """The plant of the trap with [0, 2; 1, 0] for t."""
+    zero, one, T = [[0, 0], [0, 0]], [[1, 0], [0, 1]], [[0, 2], [1, 0]]
+
+    def rows(*parts: Any) -> Any:
+        return [[*chain(*row)] for part in parts for row in zip(*part, strict=True)]
+
+    restricted = MultiChannelSystem(
+        rows((T, zero, zero), (zero, T, one), (zero, one, T)),
+        [rows((zero,), (one,), (zero,)), rows((one,), (zero,), (zero,))],
+        [rows((one, zero, zero)), rows((zero, one, zero))],
+    )
+    assert not fixed_spectrum(restricted).factors
+    document = SPECTRA["scalars are restricted to a companion matrix"]
+    system = {"format": "mcexact-system/1", **document["system"]}
+    plant = read_parametric_system(json.dumps(system))
+    [exceptional] = codec.document(parametric_fixed_spectrum(plant))["claim"]["exceptional"]
+    assert exceptional["value"] == [-2, 0, 1]
