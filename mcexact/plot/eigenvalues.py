@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any
 
 from mcexact.errors import UsageError
@@ -16,6 +17,10 @@ from mcexact.exact.polynomial import Polynomial
 from mcexact.plot.canvas import BLUE, GRAY, LIGHT, RED, legend_below, one_axis
 
 _WIDE, _POWERS, _TICKS = 100.0, 3, 5
+_NEAR = 3
+"""So many times the largest eigenvalue, a circle is still in the picture."""
+_SAMPLES = [10 ** (-each / 50) for each in range(401)]
+"""From 1 to 10⁻⁸."""
 _SEEN = 1 / 200
 """The part of the picture's width from which on a disc is seen."""
 
@@ -87,7 +92,7 @@ def eigenvalues(
     region: StabilityRegion | None = None,
     title: str = "eigenvalues",
 ) -> Any:
-    """Draw eigenvalues, the stability region in gray and the edge of the region as a dashed line.
+    """Draw eigenvalues, the stability region in gray and the edges of the region as dashed lines.
 
     Parameters
     ----------
@@ -115,9 +120,9 @@ def eigenvalues(
     """
     axis = one_axis(ax)
     points = points_of(found)
-    discrete = is_discrete(time if region is None else region.time)
-    edge = None if region is None or region.bound is None else to_float(region.edge)
-    draw_places(axis, [each.place for each in points], discrete=discrete, edge=edge)
+    draw_places(
+        axis, [each.place for each in points], time if region is None else region.time, region
+    )
     axis.set_title(title, fontsize="medium")
     _draw_discs(axis, points)
     for each in points:
@@ -133,24 +138,28 @@ def eigenvalues(
 
 
 def draw_places(
-    axis: Any, places: Sequence[complex], *, discrete: bool, edge: float | None
+    axis: Any, places: Sequence[complex], time: str, region: StabilityRegion | None
 ) -> None:
-    """Draw crosses, the stability region in gray, and the edge of a region as a dashed line.
+    """Draw crosses, the stability region in gray, and the edges of a region as dashed lines.
 
     Parameters
     ----------
     axis : matplotlib.axes.Axes
     places : sequence of complex
         Infinities and NaN are left out.
-    discrete : bool
-    edge : float or None
-        The radius of the region, or minus the real part of its edge; None draws none.
+    time : {"continuous", "discrete"}
+    region : StabilityRegion or None
+        None draws no edges.
     """
     finite = [each for each in places if cmath.isfinite(each)]
-    if discrete:
+    edge = None if region is None else to_float(region.edge)
+    if is_discrete(time):
         _draw_disc(axis, edge, finite)
     else:
-        _draw_half_plane(axis, edge, finite)
+        limits = {} if region is None else region.limits
+        corners = [-size, size * 1j] if (size := circle_near(finite, limits)) else []
+        _draw_half_plane(axis, edge, [*finite, *corners])
+        _draw_limits(axis, limits)
     axis.plot(
         [each.real for each in finite],
         [each.imag for each in finite],
@@ -163,6 +172,18 @@ def draw_places(
     axis.set_ylabel("imaginary part")
     if axis.get_xscale() == "linear":
         axis.locator_params(axis="x", nbins=_TICKS)
+
+
+def circle_near(places: Sequence[complex], limits: Mapping[str, Fraction]) -> float:
+    """The largest modulus whose circle is in a picture of these places; 0 if there is none.
+
+    Examples
+    --------
+    >>> [circle_near([-2], {"largest_modulus": Fraction(each)}) for each in (5, 50)]
+    [5.0, 0.0]
+    """
+    size = to_float(limits.get("largest_modulus", Fraction(0)))
+    return size if size <= _NEAR * max(map(abs, places), default=1.0) else 0.0
 
 
 def _draw_disc(axis: Any, edge: float | None, places: Sequence[complex]) -> None:
@@ -204,6 +225,32 @@ def _draw_half_plane(axis: Any, edge: float | None, places: Sequence[complex]) -
         axis.axvline(-edge, color=RED, linestyle="--", linewidth=1)
     axis.set_xlim(*limits)
     axis.set_ylim(-height, height)
+
+
+def _draw_limits(axis: Any, limits: Mapping[str, Fraction]) -> None:
+    """The two rays of a damping ratio, and the half circle of a largest modulus."""
+    reach = max(map(abs, (*axis.get_xlim(), *axis.get_ylim())))
+    if "damping" in limits:
+        ratio = to_float(limits["damping"])
+        slope = math.sqrt(1 - ratio**2) / ratio
+        steps = [-2 * reach * each for each in reversed(_SAMPLES)]
+        for side in (-slope, slope):
+            _draw_dashed(axis, [(0.0, 0.0), *((x, side * x) for x in steps)])
+    if "largest_modulus" in limits:
+        radius = to_float(limits["largest_modulus"])
+        # Samples are dense where the circle meets an axis, which may be logarithmic.
+        first = [(-radius * each, radius * math.sqrt(1 - each**2)) for each in _SAMPLES]
+        second = [(-y, -x) for x, y in reversed(first)]
+        upper = sorted(first + second, reverse=True)
+        _draw_dashed(axis, [*upper, *((x, -y) for x, y in reversed(upper))])
+
+
+def _draw_dashed(axis: Any, points: Sequence[tuple[float, float]]) -> None:
+    """A dashed curve, which does not change what is in the picture."""
+    limits = axis.get_xlim(), axis.get_ylim()
+    axis.plot(*zip(*points, strict=True), color=RED, linestyle="--", linewidth=1)
+    axis.set_xlim(*limits[0])
+    axis.set_ylim(*limits[1])
 
 
 def _decades(least: float, largest: float) -> list[float]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any, Protocol
 
+from mcexact.exact.location import StabilityRegion
 from mcexact.plot.canvas import (
     BLUE,
     GRAY,
@@ -25,9 +26,7 @@ class LoopCurves(Protocol):
     """What the pictures show."""
 
     @property
-    def discrete(self) -> bool: ...
-    @property
-    def edge(self) -> float: ...
+    def region(self) -> StabilityRegion: ...
     @property
     def eigenvalues(self) -> list[complex]: ...
     def keeps(self, eigenvalue: complex) -> bool: ...
@@ -76,16 +75,16 @@ def _panel(ax: Any, title: str) -> Any:
 
 
 def poles(curves: LoopCurves, ax: Any = None) -> Any:
-    """Draw the eigenvalues, and the edge of the region that was asked for."""
+    """Draw the eigenvalues, and the edges of the region that was asked for."""
     axis = _panel(ax, "Eigenvalues")
-    draw_places(axis, curves.eigenvalues, discrete=curves.discrete, edge=curves.edge)
+    draw_places(axis, curves.eigenvalues, curves.region.time, curves.region)
     return axis.figure
 
 
 def sensitivity(curves: LoopCurves, ax: Any = None) -> Any:
     """Draw the complementary sensitivity at all inputs together, over the frequency."""
     axis = _panel(ax, "Robustness at the inputs")
-    unit = "radians per step" if curves.discrete else "radians per unit of time"
+    unit = "radians per step" if curves.region.discrete else "radians per unit of time"
     axis.plot(curves.frequencies, curves.sensitivity, color=BLUE)
     axis.axhline(_FRAGILE, color=RED, linestyle="--", linewidth=1)
     axis.annotate(
@@ -95,7 +94,7 @@ def sensitivity(curves: LoopCurves, ax: Any = None) -> Any:
     seen = [*curves.sensitivity, _FRAGILE]
     axis.set_ylim(max(min(seen), 1e-4 * max(seen)) / 1.3, 1.6 * max(seen))
     _logarithmic(axis.yaxis)
-    if not curves.discrete:
+    if not curves.region.discrete:
         _logarithmic(axis.xaxis)
     axis.set_xlabel(f"frequency, {unit}")
     axis.set_ylabel("largest singular value of T")
@@ -127,7 +126,7 @@ def _over_time(axis: Any, curves: LoopCurves, values: list[float], label: str) -
     axis.plot(curves.times, values, color=BLUE, drawstyle=_style(curves))
     axis.set_ylim(bottom=0)
     axis.set_xlim(left=0)
-    axis.set_xlabel("steps" if curves.discrete else "time")
+    axis.set_xlabel("steps" if curves.region.discrete else "time")
     axis.set_ylabel(label)
     return axis.figure
 
@@ -140,11 +139,11 @@ def steps(curves: LoopCurves, ax: Any = None) -> Any:
         axis.plot(curves.times, values, label=label, drawstyle=_style(curves))
     axis.axhline(1.0, color=GRAY, linewidth=0.8)
     axis.set_xlim(left=0)
-    axis.set_xlabel("steps" if curves.discrete else "time")
+    axis.set_xlabel("steps" if curves.region.discrete else "time")
     axis.set_ylabel("output after a step of its set-point")
     legend_below(axis, columns=4)
     return axis.figure
 
 
 def _style(curves: LoopCurves) -> str:
-    return "steps-post" if curves.discrete else "default"
+    return "steps-post" if curves.region.discrete else "default"

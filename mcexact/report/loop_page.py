@@ -6,8 +6,10 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from mcexact.answer.account import Account
+from mcexact.exact.floats import to_float
 from mcexact.model.controller import Controller
 from mcexact.plot.canvas import NAMED, PANEL, one_axis
+from mcexact.plot.eigenvalues import circle_near
 from mcexact.plot.loops import LoopCurves, decay, effort, poles, sensitivity, steps
 from mcexact.report.answer_page import AnswerPage
 from mcexact.report.figures import gains_pictures
@@ -69,9 +71,24 @@ def _eigenvalues(curves: LoopCurves) -> Picture:
     count, within = len(curves.eigenvalues), sum(map(curves.keeps, curves.eigenvalues))
     many = f"The {count} eigenvalues" if count != 1 else "The eigenvalue"
     inside = "inside" if within == count else f"{within} of them inside"
-    edge = f"{curves.edge:.4g}" if curves.discrete else f"{0.0 - curves.edge:.3g}"
-    beyond = "the dashed circle of radius" if curves.discrete else "the dashed line at"
-    return _picture(poles, curves, "Eigenvalues", f"{many} of the loop, {inside} {beyond} {edge}.")
+    told = f"{many} of the loop, {inside} {' and '.join(_edges(curves))}."
+    return _picture(poles, curves, "Eigenvalues", told)
+
+
+def _edges(curves: LoopCurves) -> list[str]:
+    """What bounds the region that was asked for, as it is drawn."""
+    region = curves.region
+    edge, limits = to_float(region.edge), region.limits
+    if region.discrete:
+        return [f"the dashed circle of radius {edge:.4g}"]
+    found = [f"the dashed line at {0.0 - edge:.3g}"]
+    if "damping" in limits:
+        found.append(f"the dashed lines of the damping ratio {to_float(limits['damping']):.3g}")
+    if "largest_modulus" in limits:
+        circle = f"circle of radius {to_float(limits['largest_modulus']):.4g}"
+        near = circle_near(curves.eigenvalues, limits)
+        found.append(f"the dashed {circle}" if near else f"the {circle}, beyond the picture")
+    return found
 
 
 def _sensitivity(curves: LoopCurves) -> Picture:

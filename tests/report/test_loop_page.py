@@ -23,7 +23,7 @@ def pictured(plant, gain, region):
 def test_continuous_time_has_a_line_and_discrete_time_a_circle():
     moving = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
     curves, [picture, *_] = pictured(moving, -3, StabilityRegion("continuous", Fraction(1)))
-    assert curves.eigenvalues == [-2] and curves.edge == 1
+    assert curves.eigenvalues == [-2] and curves.region.edge == 1
     [poles] = picture.figure.axes
     shown = [list(x) for x, _ in lines(poles)]
     assert [-2] in shown and [0, 0] in shown and [-1, -1] in shown
@@ -41,6 +41,29 @@ def test_eigenvalues_beyond_the_line_are_not_said_to_be_inside():
     sampled = MultiChannelSystem([["1/2"]], [[[1]]], [[[1]]], time="discrete")
     _, [picture, *_] = pictured(sampled, "1/4", StabilityRegion.of("discrete", radius="1/2"))
     assert "The eigenvalue of the loop, 0 of them inside" in picture.alternative
+
+
+def test_a_damping_ratio_and_a_largest_modulus_are_drawn_and_told():
+    """Eigenvalues −1 ± i, of damping ratio 1/√2, on the inner sides of both edges."""
+    plant = MultiChannelSystem([[0, 1], [-2, -2]], [[[0], [1]]], [[[1, 0]]])
+    region = StabilityRegion("continuous").limited("1/2", 2)
+    curves, [picture, *_] = pictured(plant, 0, region)
+    assert picture.alternative.startswith(
+        "The 2 eigenvalues of the loop, inside the dashed line at 0 and the dashed lines of the "
+        "damping ratio 0.5 and the dashed circle of radius 2."
+    )
+    [axis] = picture.figure.axes
+    edges = [each for each in axis.get_lines() if each.get_linestyle() == "--"]
+    _, upper, lower, circle = ([complex(*each) for each in one.get_xydata()] for one in edges)
+    assert all(abs(-each.real - abs(each) / 2) < 1e-6 for each in upper + lower)
+    assert min(each.imag for each in upper) == 0 == max(each.imag for each in lower)
+    assert all(abs(abs(each) - 2) < 1e-9 and each.real <= 0 for each in circle)
+    assert axis.get_xlim()[0] < -2 and axis.get_ylim()[1] > 2
+    assert [each for each in (-1 + 1j, -0.2 + 1j, -3 + 0j) if curves.keeps(each)] == [-1 + 1j]
+    wide = StabilityRegion("continuous").limited(None, 1000)
+    _, [picture, *_] = pictured(plant, 0, wide)
+    assert "and the circle of radius 1000, beyond the picture" in picture.alternative
+    assert picture.figure.axes[0].get_ylim()[1] < 10
 
 
 def test_eigenvalues_of_different_sizes_are_all_seen():

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import expm
 
-from mcexact.exact.floats import matrix_to_float, to_float
+from mcexact.exact.floats import matrix_to_float
 from mcexact.exact.location import StabilityRegion
 from mcexact.model.loop import ClosedLoop
 from mcexact.synthesis.optimum.kernel import quiet_floats
@@ -31,9 +31,8 @@ class Curves:
 
     Attributes
     ----------
-    discrete : bool
-    edge : float
-        Eigenvalues should have a real part below minus this, or a modulus below it.
+    region : StabilityRegion
+        Where eigenvalues should lie.
     eigenvalues : list of complex
     frequencies, sensitivity : list of float
         The largest singular value of the complementary sensitivity at the inputs of the plant, over
@@ -45,8 +44,7 @@ class Curves:
         with its name.
     """
 
-    discrete: bool
-    edge: float
+    region: StabilityRegion
     eigenvalues: list[complex]
     frequencies: list[float]
     sensitivity: list[float]
@@ -57,7 +55,12 @@ class Curves:
 
     def keeps(self, eigenvalue: complex) -> bool:
         """Whether an eigenvalue lies where it should."""
-        return abs(eigenvalue) < self.edge if self.discrete else eigenvalue.real < -self.edge
+        region, size = self.region, abs(eigenvalue)
+        if region.discrete:
+            return size < region.edge
+        damping, most = region.damping, region.largest_modulus
+        damped = damping is None or -eigenvalue.real > damping * size
+        return eigenvalue.real < -region.edge and damped and (most is None or size < most)
 
 
 def curves_of(loop: ClosedLoop, region: StabilityRegion) -> Curves | None:
@@ -94,8 +97,7 @@ def curves_of(loop: ClosedLoop, region: StabilityRegion) -> Curves | None:
         times, step = _times(M, form)
         powers = [power[:, :n] for power in _powers(step, len(times))]
         return Curves(
-            region.discrete,
-            to_float(region.edge),
+            region,
             form.eigenvalues.tolist(),
             places[order].tolist(),
             response.sizes(points[order]).tolist(),
