@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import lcm
-from typing import Any
+from typing import Any, ClassVar
 
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.matrix import Matrix, from_cells
@@ -61,6 +61,7 @@ class Box(Shown):
     (True, False)
     """
 
+    _becomes: ClassVar[dict[str, str]] = {"MultiChannelSystem": "give the `system` of the box"}
     system: MultiChannelSystem
 
     def __init__(self, system: MultiChannelSystem, radii: Radii | None = None) -> None:

@@ -13,7 +13,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mcexact import Box, Matrix, MultiChannelSystem, Radii, dual, load_system, save_system, testing
+from mcexact import (
+    Box,
+    Matrix,
+    MultiChannelSystem,
+    Radii,
+    box_fixed_modes,
+    dual,
+    load_system,
+    save_system,
+    testing,
+)
 from mcexact.errors import FloatRefused, InputError, UsageError
 from mcexact.model.system_file import (
     canonical_document,
@@ -232,3 +242,9 @@ def test_constructions_keep_the_radii_of_the_plant_alone() -> None:
     turned = dual(system)
     assert turned.uncertainty is None and turned.plant.uncertainty == system.uncertainty
     assert canonical_text(turned) == canonical_text(system)
+
+
+def test_a_box_where_a_system_is_expected_is_told_how_to_give_it() -> None:
+    box = Box.relative(MultiChannelSystem([[1]], [[[1]]], [[[1]]]), "1/10")
+    with pytest.raises(InputError, match="found Box; give the `system` of the box"):
+        box_fixed_modes(box)  # type: ignore[arg-type]
