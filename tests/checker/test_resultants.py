@@ -10,7 +10,6 @@ import pytest
 import sympy
 
 from mcexact.checker.arithmetic import NotAUnit
-from mcexact.checker.interpolation import interpolated
 from mcexact.checker.reading import Refused
 from mcexact.checker.resultants import integer_resultant, residues, resultant
 
@@ -94,10 +93,3 @@ def test_a_coefficient_of_half_the_product_is_positive() -> None:
     assert integer_resultant(g, f, [9]) == [-3]
     with pytest.raises(Refused):
         integer_resultant(f, g, [8])
-
-
-def test_values_are_interpolated_over_q_and_modulo_a_number() -> None:
-    values = [[Fraction(k * k, 2), Fraction(1)] for k in range(3)]
-    assert interpolated(values) == [[0, 0, Fraction(1, 2)], [1]]
-    assert interpolated([[k * k % 7] for k in range(3)], 7) == [[0, 0, 1]]
-    assert interpolated([[0], [0]]) == [[]]

@@ -1,0 +1,120 @@
+"""Matrices that are named in claims, made from a plant with a parameter."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any
+
+import pytest
+
+from mcexact.checker.named_matrices import named_matrix, named_text
+from mcexact.checker.parametric_system import ParametricSystem, read_parametric
+from mcexact.checker.reading import Refused
+from tests.attack.forgeries.parametric_traps import plant
+
+PLANT = plant(
+    [["t", 1], [0, "(1)/(t + 1)"]],
+    ([[1], ["t"]], [[1, 0]]),
+    ([[0, 2], [3, 0]], [[0, "t^2"], [1, 1], ["t", 0]]),
+    ([[], []], {"shape": [0, 2], "entries": []}),
+)
+"""With t = 2, and A times t + 1: [6, 3; 0, 1], B = [1; 2], [0, 2; 3, 0], C = [1, 0], …"""
+SAMPLED = {**PLANT, "time": "discrete"}
+EMPTY = plant([], ([], []))
+
+
+def at_two(value: Any, system: Any = PLANT) -> list[list[Fraction]]:
+    """A matrix at t = 2."""
+    M = named_matrix(value, read(system))
+    nrows, ncols = M[0].nrows, M[0].ncols
+    assert all((layer.nrows, layer.ncols) == (nrows, ncols) for layer in M)
+    return [
+        [
+            sum((Fraction(L.rows[i][j], L.denominator) * 2**k for k, L in enumerate(M)), Fraction())
+            for j in range(ncols)
+        ]
+        for i in range(nrows)
+    ]
+
+
+def read(system: Any) -> ParametricSystem:
+    return read_parametric(system)
+
+
+def test_the_matrix_of_setpoints() -> None:
+    C = [[1, 0, 0, 0, 0], [0, 4, 0, 0, 0], [1, 1, 0, 0, 0], [2, 0, 0, 0, 0]]
+    named = {"name": "setpoint"}
+    assert at_two(named) == [[6, 3, 1, 0, 2], [0, 1, 2, 3, 0], *C]
+    assert at_two(named, SAMPLED) == [[3, 3, 1, 0, 2], [0, -2, 2, 3, 0], *C]
+    assert at_two(named, EMPTY) == []
+
+
+def controllability(channels: list[str], blocks: Any) -> Any:
+    return {"name": "controllability", "channels": channels, "blocks": blocks}
+
+
+def test_the_matrix_of_controllability() -> None:
+    assert at_two(controllability(["1"], 1)) == [[1], [2]]
+    assert at_two(controllability(["1"], 2)) == [[1, 12], [2, 2]]
+    assert at_two(controllability(["1", "2"], 1)) == [[1, 0, 2], [2, 3, 0]]
+    assert at_two(controllability(["2"], 2)) == [[0, 2, 9, 12], [3, 0, 3, 0]]
+    assert at_two(controllability(["3"], 2)) == at_two(controllability([], 1)) == [[], []]
+    assert at_two(controllability(["1"], 1), EMPTY) == []
+
+
+def test_the_column_of_a_transfer() -> None:
+    def column(start: str, end: str) -> Any:
+        return [row[0] for row in at_two({"name": "transfer", "from": start, "to": end})]
+
+    assert column("1", "1") == [1, 12]
+    # C_1 B_2 = [0, 2], C_1 A B_2 = [9, 12]
+    assert column("2", "1") == [0, 2, 9, 12]
+    # C_2 B_1 = [8; 3; 2], C_2 A B_1 = [8; 14; 24]
+    assert column("1", "2") == [8, 3, 2, 8, 14, 24]
+    assert column("2", "2") == [12, 3, 0, 0, 2, 4, 12, 12, 18, 0, 12, 24]
+    assert column("1", "3") == column("3", "1") == []
+
+
+@pytest.mark.parametrize(
+    ("value", "verdict"),
+    [
+        ({"name": "pencil"}, "MALFORMED"),
+        ({"name": ["setpoint"]}, "MALFORMED"),
+        ({}, "MALFORMED"),
+        ("setpoint", "MALFORMED"),
+        ({"name": "setpoint", "blocks": 1}, "MALFORMED"),
+        (controllability(["2", "1"], 1), "MALFORMED"),
+        (controllability(["1"], 0), "MALFORMED"),
+        (controllability(["1"], 3), "INVALID"),
+        ({"name": "transfer", "from": "1", "to": ["2"]}, "MALFORMED"),
+        ({"name": "transfer", "from": "4", "to": "1"}, "MALFORMED"),
+        ({"name": "transfer", "from": "1"}, "MALFORMED"),
+    ],
+)
+def test_another_matrix_is_refused(value: Any, verdict: str) -> None:
+    with pytest.raises(Refused) as found:
+        named_matrix(value, read(PLANT))
+    assert (found.value.verdict, found.value.place) == (verdict, "claim.matrix")
+
+
+def test_one_block_is_allowed_without_states() -> None:
+    with pytest.raises(Refused):
+        named_matrix(controllability(["1"], 2), read(EMPTY))
+    assert len(at_two(controllability(["1"], 2), PLANT)) == 2
+
+
+def test_matrices_have_words() -> None:
+    def said(value: Any, system: Any = PLANT) -> str:
+        return named_text(value, read(system))
+
+    assert said({"name": "setpoint"}) == "[A, B; C, 0], B and C those of all channels,"
+    assert said({"name": "setpoint"}, SAMPLED) == "[A - I, B; C, 0], B and C those of all channels,"
+    assert said(controllability(["1", "3"], 2)) == (
+        '[B, A B, ..., A^(k-1) B], B the inputs of the channels {"1", "3"} and k = 2,'
+    )
+    assert said({"name": "transfer", "from": "1", "to": "2"}) == (
+        'the column of all entries of C A^k B, k < 2, B the inputs of channel "1", C the outputs '
+        'of channel "2",'
+    )
+    with pytest.raises(Refused):
+        said({"name": "pencil"})
