@@ -8,6 +8,7 @@ from functools import cache
 from typing import Any
 
 from mcexact.errors import MissingExtra, UsageError
+from mcexact.exact.location import is_discrete
 
 BLUE, RED, GRAY, LIGHT = "#1f4e79", "#b03a2e", "#888888", "#ebebeb"
 PANEL = 4.4, 3.5
@@ -68,6 +69,29 @@ def several_axes(ax: Any, count: int, width: float = 4.6, height: float = 3.6) -
     if len(found) != count:
         raise UsageError(f"expected {count} axes, found {len(found)}", where="ax")
     return found
+
+
+def elapsed_label(time: str) -> str:
+    """The label of the axis of times."""
+    return "step" if is_discrete(time) else "time"
+
+
+def finished(
+    axis: Any, title: str = "", across: str = "", up: str = "", *, columns: int = 2
+) -> Any:
+    """Write what a picture shows and what its axes count, with the legend below; the figure.
+
+    A legend that the axis has already stays.
+    """
+    if title:
+        axis.set_title(title, fontsize="medium")
+    if across:
+        axis.set_xlabel(across)
+    if up:
+        axis.set_ylabel(up)
+    if axis.get_legend() is None:
+        legend_below(axis, columns)
+    return axis.figure
 
 
 def legend_below(axis: Any, columns: int = 2) -> None:

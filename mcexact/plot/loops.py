@@ -11,8 +11,9 @@ from mcexact.plot.canvas import (
     NAMED,
     PANEL,
     RED,
+    elapsed_label,
     empty_figure,
-    legend_below,
+    finished,
     one_axis,
     plain_label,
     several_axes,
@@ -96,9 +97,7 @@ def sensitivity(curves: LoopCurves, ax: Any = None) -> Any:
     _logarithmic(axis.yaxis)
     if not curves.region.discrete:
         _logarithmic(axis.xaxis)
-    axis.set_xlabel(f"frequency, {unit}")
-    axis.set_ylabel("largest singular value of T")
-    return axis.figure
+    return finished(axis, across=f"frequency, {unit}", up="largest singular value of T")
 
 
 def _logarithmic(axis: Any) -> None:
@@ -126,9 +125,7 @@ def _over_time(axis: Any, curves: LoopCurves, values: list[float], label: str) -
     axis.plot(curves.times, values, color=BLUE, drawstyle=_style(curves))
     axis.set_ylim(bottom=0)
     axis.set_xlim(left=0)
-    axis.set_xlabel("steps" if curves.region.discrete else "time")
-    axis.set_ylabel(label)
-    return axis.figure
+    return finished(axis, across=elapsed_label(curves.region.time), up=label)
 
 
 def steps(curves: LoopCurves, ax: Any = None) -> Any:
@@ -139,10 +136,8 @@ def steps(curves: LoopCurves, ax: Any = None) -> Any:
         axis.plot(curves.times, values, label=label, drawstyle=_style(curves))
     axis.axhline(1.0, color=GRAY, linewidth=0.8)
     axis.set_xlim(left=0)
-    axis.set_xlabel("steps" if curves.region.discrete else "time")
-    axis.set_ylabel("output after a step of its set-point")
-    legend_below(axis, columns=4)
-    return axis.figure
+    told = "output after a step of its set-point"
+    return finished(axis, across=elapsed_label(curves.region.time), up=told, columns=4)
 
 
 def _style(curves: LoopCurves) -> str:

@@ -8,7 +8,7 @@ from typing import Any
 
 from mcexact.errors import UsageError
 from mcexact.exact.floats import to_float
-from mcexact.plot.canvas import BLUE, GRAY, NAMED, RED, legend_below, one_axis, plain_label
+from mcexact.plot.canvas import BLUE, GRAY, NAMED, RED, finished, one_axis, plain_label
 
 _STEPS = 201
 _FINE = 301
@@ -73,12 +73,9 @@ def parameter_modes(
             axis.plot([x] * len(modes), modes, "o", color=RED, markersize=5, label=label)
     axis.axhline(0, color=GRAY, linewidth=0.6, zorder=0.5)
     axis.set_xlim(low, high)
-    axis.set_xlabel(plain_label(t))
-    axis.set_ylabel("real part of the modes")
-    axis.set_title(f"fixed modes against {plain_label(t)}" if title is None else title,
-                   fontsize="medium")  # fmt: skip
-    legend_below(axis)
-    return axis.figure
+    letter = plain_label(t)
+    said = f"fixed modes against {letter}" if title is None else title
+    return finished(axis, said, letter, "real part of the modes")
 
 
 def hypersurfaces(
@@ -130,11 +127,7 @@ def hypersurfaces(
             axis.plot([], [], color=color, linestyle=style, label=label)
     axis.set_xlim(first[0], first[-1])
     axis.set_ylim(second[0], second[-1])
-    axis.set_xlabel(plain_label(names[0]))
-    axis.set_ylabel(plain_label(names[1]))
-    axis.set_title(title, fontsize="medium")
-    legend_below(axis)
-    return axis.figure
+    return finished(axis, title, *map(plain_label, names))
 
 
 _STYLES = [(color, style) for style in ("-", "--", ":") for color in (RED, BLUE, GRAY)]

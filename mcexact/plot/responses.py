@@ -9,7 +9,15 @@ from typing import Any, Protocol
 
 from mcexact.exact.floats import to_float
 from mcexact.exact.location import StabilityRegion, is_discrete
-from mcexact.plot.canvas import GRAY, NAMED, legend_below, one_axis, plain_label, several_axes
+from mcexact.plot.canvas import (
+    GRAY,
+    NAMED,
+    elapsed_label,
+    finished,
+    one_axis,
+    plain_label,
+    several_axes,
+)
 
 _MARKED = 60
 """The largest number of times in discrete time that are marked by dots."""
@@ -75,14 +83,8 @@ def responses(run: Run, ax: Any = None, *, envelope: Bounds | None = None) -> An
         _draw_bounds(upper, run, envelope)
     _draw_curves(lower, run, run.values("inputs"), "inputs")
     for axis in (upper, lower):
-        axis.set_xlabel(elapsed_label(run.time))
-        legend_below(axis, columns=4)
+        finished(axis, across=elapsed_label(run.time), columns=4)
     return upper.figure
-
-
-def elapsed_label(time: str) -> str:
-    """The label of the axis of times."""
-    return "step" if is_discrete(time) else "time"
 
 
 def _draw_curves(axis: Any, run: Run, curves: Mapping[str, list[float]], what: str) -> None:
@@ -186,12 +188,9 @@ def decay(
         bound = [largest * d or math.nan for d in envelope.decay(run.times)]
         axis.plot(times, bound, color=GRAY, linewidth=1.4, label="proved bound")
         axis.set_ylim(top=max(3 * max(shown), min(2 * largest, 1000 * max(shown))))
-    axis.set_xlabel(elapsed_label(run.time))
-    axis.set_title(what, fontsize="medium")
     axis.margins(x=0)
     axis.grid(visible=True, which="major", alpha=0.3)
-    legend_below(axis)
-    return axis.figure
+    return finished(axis, what, elapsed_label(run.time))
 
 
 def _slope(

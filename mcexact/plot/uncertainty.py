@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from mcexact.exact.floats import to_float
-from mcexact.plot.canvas import BLUE, GRAY, RED, one_axis
+from mcexact.plot.canvas import BLUE, GRAY, RED, finished, one_axis
 
 
 def uncertainty(found: Any, ax: Any = None) -> Any:
@@ -27,7 +27,9 @@ def uncertainty(found: Any, ax: Any = None) -> Any:
     Blue: proved for every plant.  Gray: nothing is known.  Red: there is a plant that fails.  Where
     both ends are above 0 the scale is logarithmic.
     """
-    axis = one_axis(ax, 5.4, 1.6)
+    from matplotlib.ticker import FuncFormatter, LogLocator
+
+    axis = one_axis(ax, 5.4, 1.8)
     scale = 100 if found.relative else 1
     low = scale * to_float(found.lower)
     high = None if found.upper is None else scale * to_float(found.upper)
@@ -41,11 +43,16 @@ def uncertainty(found: Any, ax: Any = None) -> Any:
         axis.barh(0, right - high, left=high, height=0.5, color=RED, label="a plant fails")
     if low and high:
         axis.set_xscale("log")
+        for locate, tell, parts in (
+            (axis.xaxis.set_major_locator, axis.xaxis.set_major_formatter, (1.0,)),
+            (axis.xaxis.set_minor_locator, axis.xaxis.set_minor_formatter, (2.0, 5.0)),
+        ):
+            locate(LogLocator(subs=parts))
+            tell(FuncFormatter(lambda value, _: f"{value:g}"))
     axis.set_xlim(left, right)
-    axis.set_ylim(-0.5, 0.5)
+    axis.set_ylim(-0.35, 0.75)
     axis.set_yticks([])
-    axis.set_xlabel("part of each entry, in %" if found.relative else "multiple of the radii")
-    axis.set_title(found.wanted, fontsize="medium")
     if ends:
         axis.legend(fontsize="small", frameon=False, ncols=3, loc="upper center")
-    return axis.figure
+    counted = "part of each entry, in %" if found.relative else "multiple of the radii"
+    return finished(axis, found.wanted, counted)
