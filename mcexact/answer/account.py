@@ -13,6 +13,7 @@ from mcexact.answer import codec
 from mcexact.answer.sentence import MANIFEST, Given, Sentences, manifest
 from mcexact.model.atomic import write_text
 from mcexact.model.canonical import canonical
+from mcexact.model.system_file import digest
 from mcexact.shown import Shown
 
 FORMAT = "mcexact-analysis/1"
@@ -58,12 +59,14 @@ class Account(Shown):
         Parameters
         ----------
         system_by_digest : bool
-            Whether certificates name the plant by its digest alone, as in `codec.encode`.
+            Whether certificates name the plant by its digest alone, as in `codec.encode`; those
+            about a box around it, of which there is no file, contain it.
         """
         texts = self.certificates
         if system_by_digest:
+            own = digest(self.given.system)
             texts = {
-                f"{name}.json": codec.encode(answer, system_by_digest=True)
+                f"{name}.json": codec.encode(answer, system_by_digest=digest(answer.about) == own)
                 for name, answer in self.answers.items()
             }
         told = manifest(self.sentences, texts, self.subject)

@@ -19,7 +19,7 @@ from mcexact.answer.formats import (
 from mcexact.exact.enclosures import exact_decimal
 from mcexact.exact.location import TIMES, StabilityRegion, is_discrete
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.shortened import decimal_number, number, polynomial, rounded
+from mcexact.exact.shortened import decimal_number, number, percent, polynomial, rounded
 from mcexact.shown import escaped
 
 Write = Callable[[Any], str]
@@ -151,6 +151,17 @@ def _combinations(rows: Sequence[Sequence[Fraction]]) -> str:
     return " or ".join(told)
 
 
+def _gains(part: Fraction | None) -> str:
+    """Write by how much gains may differ, and to how many digits they may be rounded then."""
+    if part is None:
+        return ""
+    digits = 1
+    while Fraction(10) ** (1 - digits) / 2 > part:
+        digits += 1
+    rounding = f"{count(digits, 'digit')}, however rounded"
+    return f", with all gains within {percent(part)} of their values ({rounding})"
+
+
 def _arrows(edges: Sequence[tuple[str, str]]) -> str:
     """Write every edge of a graph, as text that replaces a picture."""
     told = [f"{name_text(start)} → {name_text(end)}" for start, end in edges]
@@ -234,6 +245,8 @@ FORMS: dict[str, Write] = {
     "carried": _carried,
     "scope": _scope,
     "shared": _shared,
+    "percent": percent,
+    "gains": _gains,
 }
 
 

@@ -26,7 +26,8 @@ class Expectation:
     Attributes
     ----------
     system : str
-        The digest of the plant; empty for any.
+        The digest of the plant; empty for any.  Where the plant has no radii, a certificate about
+        a box around it is about it, too.
     plant : object
         The plant as in a certificate, which may then name it by its digest; None where only its
         digest is known, or any will do.
@@ -35,7 +36,8 @@ class Expectation:
     controller : str
         The digest of the controller of the loop; empty for any, or for none.
     made_for : str
-        The digest of the plant that the file of the controller names; empty for any.
+        The digest of the plant, without radii, that the file of the controller names; empty for
+        any.
     statement : str
         The digest of the statement; empty for any.
     kind : str
@@ -107,15 +109,22 @@ class Expectation:
             malformed("system", f"expected a system or its SHA-256, found {shown(value)}")
         if self.plant is None:
             reading.incomplete("system", "system", f"give the system of digest {value} (--system)")
-        self.require_plant(value)
+        self._require_system(value, "")
         return self.plant
 
-    def require_plant(self, found: str) -> None:
-        """Stop unless the certificate is about the plant."""
+    def require_plant(self, found: str, values: str) -> None:
+        """Stop unless the certificate is about the plant, or about a box around it.
+
+        ``found`` is the digest of the certificate's plant, ``values`` that of it without radii,
+        which is the one that controllers are made for.
+        """
+        self._require_system(found, values)
+        message = f"about the system of digest {values}, the controller is for {self.made_for}"
+        require(self.made_for in ("", values), "controller", "system", message)
+
+    def _require_system(self, found: str, values: str) -> None:
         message = f"about another system, of digest {found}, not {self.system}"
-        require(self.system in ("", found), "system", "system", message)
-        message = f"about the system of digest {found}, the controller is for {self.made_for}"
-        require(self.made_for in ("", found), "controller", "system", message)
+        require(self.system in ("", found, values), "system", "system", message)
 
     def require_subject(self, steps: Json, found: str) -> None:
         """Stop unless the certificate has the subject, and the controller where one is given."""

@@ -11,7 +11,7 @@ from .arithmetic import NotAUnit
 from .budget import MORE, current, limited
 from .expectation import Expectation
 from .moved_entries import subject_of
-from .parametric_system import ParametricSystem, digest, plant_of
+from .parametric_system import ParametricSystem, digest, digest_of_values, plant_of
 from .reading import Json, Limits, Refused, fields, incomplete, malformed, parse, shown, string
 from .statement import described, digest_of
 
@@ -126,7 +126,7 @@ def check_document(
             plant = plant_of(given)
             budget.times = MORE if isinstance(plant, ParametricSystem) else budget.times
             known = digest(plant)
-            wanted.require_plant(known)
+            wanted.require_plant(known, digest_of_values(plant, known))
             budget.builds = True
             system = subject_of(steps, replace(plant, words=f"the plant {known}"), kind)
             budget.builds = False

@@ -17,6 +17,7 @@ from .boxes import at_values, system_of
 from .budget import Budget, current, limited, spend
 from .expectation import DIGEST, Expectation, same
 from .kinds import KINDS, Found, Verdict, attempt, check_document, refusal
+from .parametric_system import digest_of_values
 from .reading import Json, Limits, Refused, fields, items, malformed, parse, require, shown, string
 from .sentence import RULES, Premise
 from .subject import read_subject
@@ -134,7 +135,8 @@ class Evidence:
         The constructions that lead to the system that the sentences are about.
     limits : Limits
     expected : Expectation
-        The plant, by default that of the first VALID certificate, and the controller of all loops.
+        The plant, by default the values of that of the first VALID certificate, around which others
+        may be about boxes; and the controller of all loops.
     budget : Budget
         The work that all of them may take together.
     verdicts, premises : dict
@@ -164,8 +166,7 @@ class Evidence:
                     document, controller = parse(data, self.limits), verdict.controller_digest
                     if controller:
                         self.expected.require_subject(document["subject"], controller)
-                    self.expected = replace(self.expected, system=verdict.system_digest)
-                    self.premises[name] = self._premise(name, document)
+                    self.premises[name] = self._premise(name, document, verdict.system_digest)
                 return verdict
 
         self.verdicts[name] = attempt(check).inside(name)
@@ -173,19 +174,22 @@ class Evidence:
 
     def make_subject(self) -> None:
         """Make the system that the sentences are about, out of the plant of the certificates."""
-        first = next(iter(self.premises.values()), None)
+        known = sorted(self.premises.values(), key=lambda each: each.plant.uncertainty is not None)
+        first = next(iter(known), None)
         if first is not None:
             with limited(self.budget):
                 meant = read_subject(self.base, first.plant)
-            known = self.premises.items()
-            self.premises = {name: replace(each, meant=meant) for name, each in known}
+            for name, each in self.premises.items():
+                self.premises[name] = replace(each, meant=meant)
 
-    def _premise(self, name: str, document: Json) -> Premise:
+    def _premise(self, name: str, document: Json, digest: str) -> Premise:
         """A certificate that was found VALID."""
-        words, steps = f"the plant {self.expected.system}", document["subject"]
-        given = document["system"]
+        given, steps = document["system"], document["subject"]
         given = self.expected.named(given) if type(given) is str else given
-        known = replace(read_plant(given), words=words)
+        known = replace(read_plant(given), words=f"the plant {digest}")
+        if not self.expected.system:
+            values = digest_of_values(known, digest)
+            self.expected = replace(self.expected, system=values)
         plant, kind = at_values(known), document["kind"]
         own = same(steps[: len(self.base)], self.base)
         path = tuple(step["construction"] for step in steps[len(self.base) :]) if own else None

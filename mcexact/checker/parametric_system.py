@@ -1,7 +1,7 @@
 """Plants whose entries are rational functions of a parameter, and plants of either sort."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
@@ -90,6 +90,13 @@ def digest(plant: System | ParametricSystem) -> str:
     """The SHA-256 of the canonical object of a plant."""
     known = plant.document if isinstance(plant, ParametricSystem) else canonical(plant)
     return digest_of(canonical_json(known))
+
+
+def digest_of_values(plant: System | ParametricSystem, known: str) -> str:
+    """The digest of a plant without its radii; ``known`` is the one with them."""
+    if isinstance(plant, ParametricSystem) or plant.uncertainty is None:
+        return known
+    return digest(replace(plant, uncertainty=None))
 
 
 def read_parametric(value: Json, limits: Limits | None = None) -> ParametricSystem:

@@ -251,7 +251,7 @@ def _answer(
                 *(replace(each, title=each.title.capitalize()) for each in more),
             ),
         )
-    return told(account, system_by_digest) | {
+    return told(account, system_by_digest and system is given) | {
         "json": found.to_dict() | uncertainty.view(largest),
         "words": uncertainty.lead(account) + in_lines(account.sentences, _LINES_OF_WORDS),
         "tables": (

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 import click
@@ -167,16 +166,17 @@ def _certified(
         assessment = assessed_loop(
             loop, found.region, certified=found.stable, weights=weighed, notes=notes
         )
-    account = account_of_verdict(found, largest=wanted["largest"])
     loops = uncertainty.loops(system, controller, found, gains)
-    account = replace(account, answers={**account.answers, **loops.answers})
+    account = account_of_verdict(
+        found, largest=wanted["largest"], every_loop=loops.proof, gains=gains
+    )
     if digits is not None:
         loops = loops.with_digits(uncertainty.digits_of(system, typed, found, digits))
     figures = Table(BASIS, (), tuple(assessment.rows()))
     shown = (*loops.tables(), *tables(account.sentences), figures)
     bound = None if found.bound is None else str(found.bound)
     return (
-        told(account, system_by_digest)
+        told(account, system_by_digest and part is None)
         | assessed(account, assessment, loop, shown, with_page)
         | {
             "json": account.as_json(

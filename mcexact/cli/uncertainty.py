@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from mcexact.analysis.boxes.largest_box import LargestUncertainty
     from mcexact.answer.account import Account
+    from mcexact.answer.box_stable import BoxStability
     from mcexact.answer.stability import StabilityVerdict
     from mcexact.model.controller import Controller
     from mcexact.model.system import MultiChannelSystem
@@ -86,14 +87,13 @@ class Loops:
     ----------
     rows : tuple of (str, str)
         Labels and texts.
-    answers : mapping
-        The proof, by the name of its certificate.
+    proof : BoxStability or None
     view : mapping
         Plain data.
     """
 
     rows: tuple[tuple[str, str], ...] = ()
-    answers: Mapping[str, Any] = field(default_factory=dict)
+    proof: BoxStability | None = None
     view: Mapping[str, Any] = field(default_factory=dict)
 
     def tables(self) -> tuple[Table, ...]:
@@ -139,10 +139,10 @@ def loops(
             proof = box_stability(system, controller, gains=gains, **given)
         except LimitReached:
             proof = None
-    told = "not proved" if proof is None else f"proved: {found.region}"
-    rows = (*said, ("eigenvalues of every loop", told))
+    if proof is None:
+        said.append(("eigenvalues of every loop", f"{found.region} is not proved"))
     view = {"every_loop": {"certified": proof is not None, "region": str(found.region)}}
-    return Loops(rows, {} if proof is None else {"box_stability": proof}, view)
+    return Loops(tuple(said), proof, view)
 
 
 def digits_of(
@@ -159,4 +159,5 @@ def digits_of(
         "none found" if known.unsafe is None else f"{count(known.unsafe, 'digit')}, to the nearest"
     )
     view = {"safe_digits": {"safe": known.safe, "too_few": known.unsafe}}
-    return Loops((("digits of the gains that are safe", safe), ("too few", few)), {}, view)
+    rows = ("digits of the gains that are safe", safe), ("too few", few)
+    return Loops(rows, None, view)

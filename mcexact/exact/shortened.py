@@ -48,6 +48,27 @@ def rounded(x: Fraction) -> str:
         return f"{(Decimal(x.numerator) / Decimal(x.denominator)).normalize():g}"
 
 
+def percent(part: Fraction) -> str:
+    """Format a part that is at least 0 as a percentage with three digits, rounded down.
+
+    Examples
+    --------
+    >>> percent(Fraction(1, 3)), percent(Fraction(1, 200000)), percent(Fraction(123456))
+    ('33.3 %', '0.0005 %', '12300000 %')
+    """
+    value, unit = 100 * part, Fraction(1)
+    if not value:
+        return "0 %"
+    while value / unit >= 1000:
+        unit *= 10
+    while value / unit < 100:
+        unit /= 10
+    digits = Decimal(int(value / unit)).scaleb(
+        len(str(unit.numerator)) - len(str(unit.denominator))
+    )
+    return f"{digits.normalize():f} %"
+
+
 def polynomial(p: Polynomial, limit: int = 60) -> str:
     """Format a polynomial: completely if that is short, otherwise its first and last terms.
 

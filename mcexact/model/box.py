@@ -140,6 +140,27 @@ class Box(Shown):
         return Radii(*_zeros(self.system)) if found is None else found
 
     @property
+    def part(self) -> Fraction | None:
+        """The part of the modulus of each entry that its radius is; None if these differ.
+
+        Examples
+        --------
+        >>> plant = MultiChannelSystem([[2]], [[[1]]], [[[0]]])
+        >>> Box.relative(plant, "1/50").part
+        Fraction(1, 50)
+        >>> Box.absolute(plant, A=[[1]]).part is Box.absolute(plant, C=[[[1]]]).part is None
+        True
+        """
+        found = set()
+        for (_, D), M in zip(self.radii.matrices(), _matrices(self.system), strict=True):
+            radii = {(i, j): Fraction(x, D.denominator) for i, j, x in D.nonzero()}
+            values = {(i, j): Fraction(abs(x), M.denominator) for i, j, x in M.nonzero()}
+            if not radii.keys() <= values.keys():
+                return None
+            found |= {radii.get(place, Fraction(0)) / x for place, x in values.items()}
+        return found.pop() if len(found) == 1 else None
+
+    @property
     def nominal(self) -> MultiChannelSystem:
         """The nominal plant, without radii."""
         return self.system.with_uncertainty(None)

@@ -15,7 +15,7 @@ from mcexact.model.matrix_json import matrix_json
 from mcexact.model.names import quoted
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.model.system_file import digest
+from mcexact.model.system_file import digest_of_values
 from mcexact.shown import Shown, fitting, grid
 
 MAPS = ("shared_update", "private_update", "input")
@@ -227,12 +227,10 @@ class Controller(Shown):
         """Return a warning if the controller was made for another plant.
 
         A controller can run on every plant with the same shapes, but it was designed for one of
-        them.
+        them, and for its nominal values where these are uncertain.
         """
-        found, plant = digest(system), system.plant
-        # A controller for the nominal values is one for the box around them.
-        nominal = found if plant.uncertainty is None else digest(plant.with_uncertainty(None))
-        if self.system in ("", found, nominal):
+        found = digest_of_values(system)
+        if self.system in ("", found):
             return ()
         return (
             f"the controller was made for another plant, of digest {self.system[:12]}…, "

@@ -287,6 +287,22 @@ def digest(system: MultiChannelSystem | ParametricSystem) -> str:
     return known
 
 
+def digest_of_values(system: MultiChannelSystem | ParametricSystem) -> str:
+    """Return the digest of the plant without radii, which controllers name as made for.
+
+    Examples
+    --------
+    >>> from mcexact.model.box import Box
+    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    >>> digest_of_values(Box.relative(plant, "1/100").system) == digest(plant)
+    True
+    """
+    plant = system.plant
+    if isinstance(plant, ParametricSystem) or plant.uncertainty is None:
+        return digest(plant)
+    return digest(plant.with_uncertainty(None))
+
+
 def system_document(system: MultiChannelSystem | ParametricSystem) -> dict[str, Any]:
     """Return the object of a system file as plain data, with quotients as strings."""
     document: dict[str, Any] = {"format": FORMAT}

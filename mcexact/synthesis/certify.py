@@ -14,7 +14,9 @@ from mcexact.analysis.stability.stability import (
     fastest_region,
 )
 from mcexact.answer.account import Account
+from mcexact.answer.box_stable import BoxStability
 from mcexact.answer.evidence import RootDisc
+from mcexact.answer.protocol import Answer
 from mcexact.answer.rules import VERDICT
 from mcexact.answer.sentence import Given
 from mcexact.answer.stability import StabilityVerdict
@@ -24,6 +26,7 @@ from mcexact.exact.floats import matrix_to_float, to_float
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.rational import Entry
 from mcexact.floating.margins import spectral_bound
+from mcexact.model.box import Box
 from mcexact.model.controller import Controller
 from mcexact.model.loop import closed_loop
 from mcexact.model.neighbor_graph import NeighborGraph
@@ -211,7 +214,13 @@ def enclosed_outside(found: StabilityVerdict) -> RootDisc | None:
     return eigenvalue_outside(found.about.A, found.region)
 
 
-def account_of_verdict(found: StabilityVerdict, *, largest: bool = False) -> Account:
+def account_of_verdict(
+    found: StabilityVerdict,
+    *,
+    largest: bool = False,
+    every_loop: BoxStability | None = None,
+    gains: Fraction | None = None,
+) -> Account:
     """Make the account of a verdict on a closed loop.
 
     Parameters
@@ -219,7 +228,15 @@ def account_of_verdict(found: StabilityVerdict, *, largest: bool = False) -> Acc
     found : StabilityVerdict
     largest : bool
         Whether its rate (radius) is the largest (least) that was found.
+    every_loop : BoxStability, optional
+        About all loops of a box around the plant.
+    gains : Fraction, optional
+        The part of their moduli that the radii of the gains are there.
     """
     asked = {"region": found.region, "states": found.about.n, "largest": largest}
-    answers, given = {found.kind: found}, Given(found.about.plant, asked)
+    answers: dict[str, Answer] = {found.kind: found}
+    if every_loop is not None:
+        answers["box_stability"] = every_loop
+        asked |= {"part": Box(every_loop.about.plant).part, "gains": gains}
+    given = Given(found.about.plant, asked)
     return Account(answers, given, VERDICT.sentences(answers, given), found.about.subject[:-1])

@@ -139,6 +139,32 @@ LOOP_STABLE = stable(
     gain_radii=GAIN_RADII,
     bound="1/8",
 )
+PART = plant(
+    [[-1]],
+    ([[2]], [["1/2"]]),
+    uncertainty=uncertain([["1/8"]], {"1": [["1/5"]]}, {"1": [["1/10"]]}),
+)
+"""The entries have the radii 1/8, 1/10 and 1/5 of their moduli."""
+
+
+def proportional(gain: Any) -> Document:
+    """A controller u = gain y."""
+    agent = {
+        "name": "1",
+        "shared": 0,
+        "private": 0,
+        "shared_update": {},
+        "private_update": {},
+        "input": {"outputs": {"1": [[gain]]}},
+    }
+    return {"time": "continuous", "agents": [agent]}
+
+
+IN_PART = {"construction": "closed_loop", "controller": proportional(-1)}
+WAYS = [1, 2, 3, 5]
+PART_STABLE = stable(PART, WAYS, IN_PART, growth=[1], gain_radii=proportional("1/100"))
+PART_CERTAIN = stable(PART, WAYS, IN_PART, growth=[1])
+"""The same, with gains that are certain."""
 DELAYED_STABLE = stable(
     DAMPED,
     ["1/8", "1/4", "3/8", "1/2", "3/4", 1, "4/3", 2, "8/3", 4, 8],

@@ -33,7 +33,11 @@ WHOLE = ("design_", "tracking_")
 """How plants begin of which every certificate is kept."""
 CORE = ("fixed_spectrum", "assignability")
 """Kinds of which every plant has a certificate."""
-FIRST = {"neighbor-graph-connected": "sharing", "design-carrier": "design"}
+FIRST = {
+    "neighbor-graph-connected": "sharing",
+    "design-carrier": "design",
+    "members-nothing-fixed": "boxes",
+}
 """The first rules of topics, in the order of the checker's table; the first is the analysis."""
 
 

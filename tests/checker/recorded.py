@@ -76,7 +76,7 @@ class World:
         for k in range(len(self.certificates)):
             name = self.file(k)
             found.verdicts[name] = Verdict("VALID")
-            found.premises[name] = found._premise(name, self.document(k))
+            found.premises[name] = found._premise(name, self.document(k), expected.system)
         found.make_subject()
         return found
 

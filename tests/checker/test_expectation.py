@@ -15,7 +15,16 @@ from mcexact.checker.expectation import difference
 from mcexact.checker.reading import Refused
 from mcexact.checker.statement import canonical_json, digest
 from mcexact.checker.system import read_plant
-from tests.checker.handmade import FIXED, FREE, PAPER, Document, certificate, changed, checked
+from tests.checker.handmade import (
+    FIXED,
+    FREE,
+    PAPER,
+    Document,
+    certificate,
+    changed,
+    checked,
+    listed,
+)
 from tests.checker.manifests import EVIDENCE, manifest, sentence, write
 from tests.checker.test_closed_loop_spectrum import CONTROLLER, HALF, LOOP, SCALAR
 
@@ -98,6 +107,42 @@ def test_a_controller_for_another_plant_is_invalid() -> None:
     assert (verdict.verdict, verdict.code, verdict.place) == ("INVALID", "controller", "system")
     assert ABOUT in verdict.message
     assert answered(LOOP, controlled({**FILE, "system": ""})).verdict == "VALID"
+
+
+BOX = changed(
+    LOOP, ("system", {**SCALAR, "uncertainty": {"absolute": {"A": listed([["1/8"]], 1)}}})
+)
+WIDER = changed(BOX, ("system.uncertainty.absolute.A.entries", [[0, 0, "1/4"]]))
+"""The same loop, at the nominal values of the box around the plant, and of a wider one."""
+
+
+def about(plant: Document) -> Expectation:
+    """What a system file asks for."""
+    return Expectation().about(text({"format": "mcexact-system/1", **plant}), Limits())
+
+
+def test_a_certificate_about_a_box_around_the_plant_is_about_the_plant() -> None:
+    assert answered(BOX, about(SCALAR)).verdict == "VALID"
+    assert answered(BOX, about(BOX["system"])).verdict == "VALID"
+    for found, asked in ((LOOP, BOX), (WIDER, BOX), (changed(BOX, ("system.A", [[2]])), LOOP)):
+        verdict = answered(found, about(asked["system"]))
+        assert (verdict.code, verdict.place) == ("system", "system")
+    named = {**BOX, "system": digest(read_plant(BOX["system"]))}
+    assert answered(named, about(BOX["system"])).verdict == "VALID"
+    assert answered(named, about(SCALAR)).code == "system"
+
+
+def test_a_controller_is_for_the_values_and_not_for_a_box_around_them() -> None:
+    for found in (LOOP, BOX, WIDER):
+        assert answered(found, controlled()).verdict == "VALID"
+    within = controlled({**FILE, "system": digest(read_plant(BOX["system"]))})
+    verdict = answered(BOX, within)
+    assert (verdict.code, verdict.place) == ("controller", "system")
+    assert f"about the system of digest {ABOUT}, the controller" in verdict.message
+    both = about(BOX["system"]).controlled(text(FILE), Limits())
+    assert answered(BOX, both).verdict == "VALID"
+    named = {**BOX, "system": digest(read_plant(BOX["system"]))}
+    assert answered(named, both).verdict == "VALID"
 
 
 def test_a_loop_has_no_channels_to_close_again() -> None:
@@ -359,3 +404,27 @@ def test_no_one_statement_can_be_expected_of_a_manifest(tmp_path: Any) -> None:
     for expected in (saying(checked(FIXED).statement), claimed(FIXED)):
         ((_, verdict),) = judged(tmp_path, EVIDENCE, [sentence("heading")], expected)
         assert (verdict.verdict, verdict.code) == ("INVALID", "expected")
+
+
+def test_a_manifest_is_about_one_plant_and_boxes_around_it(tmp_path: Any) -> None:
+    evidence = {"a_box": BOX, "plant": LOOP, "wider": WIDER}
+    said = [
+        sentence("heading"),
+        *(sentence("design-assigned", e, evidence=evidence) for e in evidence),
+    ]
+    for expected in (Expectation(), about(SCALAR), controlled()):
+        found = [verdict for _, verdict in judged(tmp_path, evidence, said, expected)]
+        assert [each.verdict for each in found] == ["IMPLIED"] * 4
+        assert f"For the plant {ABOUT} (" in found[0].statement
+    digests = {name: digest(read_plant(each["system"])) for name, each in evidence.items()}
+    assert f"the plant {digests['wider']} at its nominal values" in found[3].statement
+    found = [verdict for _, verdict in judged(tmp_path, evidence, said, about(BOX["system"]))]
+    assert [each.verdict for each in found].count("IMPLIED") == 2
+    assert found[2].verdict == "IMPLIED" and "at its nominal values" in found[2].statement
+    alone = {
+        "a_box": BOX,
+        "wider": changed(WIDER, ("system.A", [[2]]), ("claim.polynomial", [1, 5, 1])),
+    }
+    assert checked(alone["wider"]).verdict == "VALID"
+    ((_, verdict), _) = judged(tmp_path, alone, [sentence("heading")], Expectation())
+    assert (verdict.code, verdict.place) == ("system", "wider.json system")

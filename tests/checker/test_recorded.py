@@ -33,7 +33,6 @@ def test_the_table_is_about_every_rule_and_the_corpus_has_every_kind() -> None:
     assert list(table()) == list(RULES)
     kinds = {each["kind"] for world in WORLDS.values() for each in world.certificates}
     others = {"exceptional_gains", "parametric_fixed_spectrum", "parametric_rank"}
-    others |= {"box_stable"}
     assert kinds | others == set(KINDS)
 
 

@@ -19,14 +19,23 @@ from mcexact.derived.integrators import setpoint_system
 from mcexact.exact.matrix import Matrix
 from mcexact.model.system import MultiChannelSystem
 from tests.checker import test_setpoint
-from tests.checker.handmade import INTEGRATOR, Document, certificate, changed, checked, matrix
+from tests.checker.box_plants import PART_CERTAIN, PART_STABLE
+from tests.checker.box_plants import STABLE as UNCONTROLLED
+from tests.checker.handmade import (
+    INTEGRATOR,
+    Document,
+    certificate,
+    changed,
+    checked,
+    matrix,
+)
 from tests.checker.manifests import one, sentence
 from tests.checker.recorded import compare, keys
 from tests.checker.test_closed_loop_spectrum import LOOP
 from tests.checker.test_distributed_observer import ONE as OBSERVER
 from tests.checker.test_stability import BY_BLOCKS
 
-OF_DESIGNS = ("design-", "certify-", "refused-")
+OF_DESIGNS = ("design-", "certify-", "refused-", "members-in-region")
 """How the keys of these rules begin."""
 
 
@@ -141,6 +150,7 @@ SIZES = (
 )
 OBSERVERS = "design-feedback design-errors"
 REFUSALS = {key: [REFUSED[place]] for keys, place in PLACES.items() for key in keys.split()}
+LOOPS_IN_BOXES = (PART_STABLE, PART_CERTAIN)
 IMPLIED: list[tuple[str, list[Document]]] = [
     (SIZES, [LOOP]),
     (LOOPS, [LOOP]),
@@ -159,6 +169,7 @@ IMPLIED: list[tuple[str, list[Document]]] = [
     ("refused-no-equilibrium", [TWICE_SEEN]),
     ("refused-no-equilibrium refused-no-equilibrium-zero", [VELOCITY]),
     ("refused-mode-of-the-integrators", [document(setpoint_solvability(STILL))]),
+    *(("members-in-region members-in-region-part", [each]) for each in LOOPS_IN_BOXES),
 ]
 DENIED: list[tuple[str, list[Document]]] = [
     (SIZES, [SPECTRUM]),
@@ -179,6 +190,7 @@ DENIED: list[tuple[str, list[Document]]] = [
     *((key, [REFUSED[place]]) for key, places in WRONG.items() for place in places.split()),
     ("refused-no-equilibrium-zero refused-mode-of-the-integrators", [TWICE_SEEN]),
     ("refused-no-equilibrium refused-no-equilibrium-zero", [document(setpoint_solvability(STILL))]),
+    *(("members-in-region members-in-region-part", [each]) for each in (UNCONTROLLED, STABLE)),
     (
         "refused-mode-of-the-integrators refused-no-equilibrium",
         [document(setpoint_solvability(FOUND))],

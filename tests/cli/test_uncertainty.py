@@ -109,11 +109,45 @@ def test_analyze_searches_the_largest_uncertainty(plant: str) -> None:
 def test_certify_is_about_every_plant_and_all_gains(plant: str, gains: str) -> None:
     status, out, err = call("certify", plant, gains, "--uncertainty", "1%", "--gains", "1%")
     assert status == 0 and "made for another plant" not in err
-    assert "proved: Re λ < 0" in out and "within 1 %" in out
+    said = " ".join(out.split())
+    assert "Re λ < 0 for every plant within 1 % of each entry, with all gains within 1 % of" in said
+    assert "(3 digits, however rounded)" in said
+    status, out, _ = call("certify", plant, gains, "--uncertainty", "300%")
+    assert status == 0 and "Re λ < 0 is not proved" in out
     status, out, _ = call("certify", plant, gains, "--uncertainty", "300%", "--json")
     found = json.loads(out)
     assert status == 0 and found["certified"] and not found["every_loop"]["certified"]
     assert not faults("certify", found)
+
+
+def test_a_controller_for_the_plant_is_checked_within_radii_too(plant: str, tmp_path: Path) -> None:
+    controller, folder = str(tmp_path / "controller.json"), tmp_path / "proofs"
+    assert call("design", "decentralized", plant, "--rate", "1/10", "-o", controller)[0] == 0
+    page = str(tmp_path / "page.html")
+    to = ("--certificates", str(folder), "--html", page, "--system-by-digest")
+    status, _, err = call("certify", plant, controller, "--uncertainty", "1%", *to)
+    assert status == 0 and "another plant" not in err
+    said = " ".join((tmp_path / "page.html").read_text("utf-8").split())
+    assert "Re λ &lt; 0 for every plant within 1 % of each entry" in said
+    asked = ("--system", plant, "--controller", controller)
+    status, out, _ = call("check", "--manifest", str(folder), *asked)
+    assert status == 0 and "for all values within their radii, every eigenvalue of A" in out
+    assert "it holds if no entry changes in the plant by more than 1/100 of its modulus" in out
+    for name in ("box_stability", "stability"):
+        assert call("check", str(folder / f"{name}.json"), *asked)[0] == 0
+
+
+def test_a_controller_is_made_for_the_values_of_a_plant_with_radii(tmp_path: Path) -> None:
+    typed, controller = str(tmp_path / "typed.json"), str(tmp_path / "controller.json")
+    Path(typed).write_text(json.dumps(PLANT.to_dict() | {"uncertainty": {"relative": "1/50"}}))
+    assert call("design", "decentralized", typed, "--rate", "1/10", "-o", controller)[0] == 0
+    for radii in ((), ("--uncertainty", "1%")):
+        folder = str(tmp_path / f"proofs{len(radii)}")
+        status, _, err = call("certify", typed, controller, *radii, "--certificates", folder)
+        assert status == 0 and "another plant" not in err
+        assert call("check", "--manifest", folder, "--controller", controller)[0] == 0
+        # The radii of the file are not those that replace them.
+        assert call("check", "--manifest", folder, "--system", typed)[0] == (1 if radii else 0)
 
 
 def test_certify_says_how_many_digits_are_safe(plant: str, gains: str) -> None:

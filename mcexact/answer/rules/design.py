@@ -25,6 +25,22 @@ def about(loop: Claim, region: StabilityRegion) -> bool:
     return bool(loop.bound == region.bound and limits == region.limits)
 
 
+# All loops of a box.
+
+EVERY_LOOP = Rulebook()
+
+
+@EVERY_LOOP.rule("table", say.EVERY_LOOP, say.EVERY_LOOP_PART)
+def _every_loop(box_stability: Claim, given: Given) -> Said:
+    """Where the eigenvalues of all loops are, with the radii as they were asked for."""
+    region = StabilityRegion.of(given.time, bound=box_stability.bound)
+    gains = None if box_stability.gain_radii is None else given.gains
+    if given.part is None:
+        yield say.EVERY_LOOP(region=region, gains=gains)
+    else:
+        yield say.EVERY_LOOP_PART(region=region, part=given.part, gains=gains)
+
+
 # Designs.
 
 
@@ -128,7 +144,7 @@ def _measured(given: Given) -> Said:
     yield say.MEASURED()
 
 
-DESIGN = RULES
+DESIGN = Rulebook([*RULES, *EVERY_LOOP])
 
 # Verdicts.
 
@@ -168,4 +184,4 @@ def _largest(loop: Claim, given: Given) -> Said:
         yield (say.LEAST if given.region.discrete else say.LARGEST)(bound=loop.bound)
 
 
-VERDICT = RULES
+VERDICT = Rulebook([*RULES, *EVERY_LOOP])

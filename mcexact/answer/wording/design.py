@@ -57,5 +57,15 @@ DECIDED_BLOCKS = Template(
     "certify-decided-blocks", "by Lyapunov matrices, blocks of {sizes:list} states", label="decided"
 )
 DECIDED = Template("certify-decided", "{method:decided}", label="decided")
+EVERY_LOOP = Template(
+    "members-in-region",
+    "every eigenvalue of every loop satisfies {region:region}{gains:gains}",
+    label="within the radii",
+)
+EVERY_LOOP_PART = Template(
+    "members-in-region-part",
+    "{region:region} for every plant within {part:percent} of each entry{gains:gains}",
+    label="every eigenvalue of every loop",
+)
 LARGEST = Template("certify-largest", "{bound:number}", label="largest rate found")
 LEAST = Template("certify-least", "{bound:number}", label="least radius found")

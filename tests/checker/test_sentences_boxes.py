@@ -1,0 +1,41 @@
+"""The checker's rules about all members of a box."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from mcexact.checker.sentences_boxes import least, of_plant
+from mcexact.checker.system import read_plant
+from tests.checker.box_plants import LOOP_STABLE, PART_CERTAIN, PART_STABLE
+from tests.checker.handmade import checked, plant
+from tests.checker.recorded import compare, keys
+from tests.checker.test_sentences_design import judged
+
+
+def test_how_far_the_radii_of_a_loop_reach_is_read_off_its_certificate(tmp_path: Path) -> None:
+    for loop, reach in (
+        (
+            PART_STABLE,
+            "in the plant by more than 1/10 and none in the controller by more than 1/100",
+        ),
+        (PART_CERTAIN, "in the plant by more than 1/10"),
+        (LOOP_STABLE, "in the plant by more than 0 and none in the controller by more than 0"),
+    ):
+        name, _, claim = checked(loop).statement.partition(" (")
+        claim = claim.partition("): ")[2]
+        said = judged(tmp_path, "members-in-region", [loop]).statement
+        assert said == f"{name}: {claim} from premise_0.json"
+        said = judged(tmp_path, "members-in-region-part", [loop]).statement
+        told = f"it holds if no entry changes {reach} of its modulus"
+        assert said == f"{name}: {claim}; {told} from premise_0.json"
+
+
+def test_a_plant_of_zeros_has_no_entry_that_changes() -> None:
+    assert least(of_plant(read_plant(plant([[0]], ([[0]], [[0]]))))) == 0
+
+
+@pytest.mark.parametrize("key", keys("boxes"))
+def test_a_rule_answers_as_it_did(key: str) -> None:
+    compare(key)
