@@ -16,7 +16,12 @@ Proof. by rewrite inE. Qed.
 Lemma zero : (1%:M : 'M_1) *m (0%:M - mcA unmoving) *m (1%:M : 'M_1) = 0.
 Proof. by rewrite mul1mx mulmx1 subr0 raddf0. Qed.
 Lemma too_large : (1 < \rank (1%:M : 'M[rat]_1) + \rank (1%:M : 'M[rat]_1))%N.
-Proof. by rewrite mxrank1. Qed.
+Proof.
+have h : rowsub id 1%:M = 1%:M :> 'M[rat]_1 by apply/matrixP => i j; rewrite !mxE.
+have g : colsub id 1%:M = 1%:M :> 'M[rat]_1 by apply/matrixP => i j; rewrite !mxE.
+exact: zero_block_pivots h g (ltnSn 1).
+Qed.
+Definition inst_zero_block_pivots := too_large.
 
 Definition inst_zero_block_rank := zero_block_rank unmoved unseen zero (fun=> 1%:M) too_large.
 Definition inst_zero_block_fixed := zero_block_fixed unmoved unseen zero too_large.

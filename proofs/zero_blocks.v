@@ -36,6 +36,20 @@ Theorem zero_block_rank (F : gains L p q) :
   (n < \rank W + \rank U)%N -> (\rank (lambda%:M - closed_loop S F)%R < n)%N.
 Proof. by move=> big; apply: zero_block_singular big; apply: zero_closed. Qed.
 
+(* The pivots that the checker looks at: the rows of W and the columns of U are independent. *)
+Theorem zero_block_pivots (row_pivots : 'I_u -> 'I_n) (column_pivots : 'I_a -> 'I_n) :
+  rowsub row_pivots U = 1%:M -> colsub column_pivots W = 1%:M ->
+  (n < a + u)%N -> (n < \rank W + \rank U)%N.
+Proof.
+move=> eU eW; suff [-> ->] : \rank W = a /\ \rank U = u by [].
+split; apply/eqP; rewrite eqn_leq ?rank_leq_row ?rank_leq_col /=; last first.
+  by rewrite -[X in (X <= _)%N](mxrank1 L u) -eU; apply/mxrankS/rowsub_sub.
+rewrite -[X in (_ <= X)%N]mxrank_tr -[X in (X <= _)%N](mxrank1 L a).
+have -> : 1%:M = rowsub column_pivots W^T.
+  by rewrite -trmx1 -eW; apply/matrixP => i j; rewrite !mxE.
+by apply/mxrankS/rowsub_sub.
+Qed.
+
 Theorem zero_block_fixed : (n < \rank W + \rank U)%N -> fixed S lambda.
 Proof.
 move=> big F; rewrite /eigenvalue /eigenspace -mxrank_eq0 mxrank_ker subn_eq0 -ltnNge -opprB.

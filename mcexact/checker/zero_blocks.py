@@ -19,8 +19,8 @@ def zero_block(
     the columns ``column_pivots`` of W are c(t) times an identity matrix, with c = 1 modulo q, or
     c ≠ 0 where there is no q.
 
-    Theorems ``zero_blocks.zero_block_det``, ``zero_blocks.zero_block_fixed``,
-    ``zero_blocks.zero_block_pencil``.
+    Theorems ``zero_blocks.zero_block_det``, ``zero_blocks.zero_block_pivots``,
+    ``zero_blocks.zero_block_fixed``, ``zero_blocks.zero_block_pencil``.
     """
     keys = ("channels_T", "U", "W", "row_pivots", "column_pivots")
     chosen, given, listed, rows, columns = fields(value, place, *keys)
