@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping
+from math import inf
+from numbers import Real
 from typing import Any
 
 from mcexact.errors import InputError, UsageError
@@ -130,3 +132,24 @@ def telling(progress: Callable[[str], None] | None) -> Callable[[str], None]:
             f"expected a function, such as print, found {told(progress)}", where="progress"
         )
     return progress
+
+
+def require_seconds(value: Any, where: str) -> None:
+    """Refuse what is no number of seconds.
+
+    Raises
+    ------
+    UsageError
+        If it is negative, not finite, or no number.
+
+    Examples
+    --------
+    >>> require_seconds(2.5, "effort")
+    >>> require_seconds(-1, "effort")
+    Traceback (most recent call last):
+        ...
+    mcexact.errors.UsageError: effort: expected a number of seconds, found -1
+    """
+    good = isinstance(value, Real) and not isinstance(value, bool)
+    if not (good and 0 <= value < inf):
+        raise UsageError(f"expected a number of seconds, found {told(value)}", where=where)

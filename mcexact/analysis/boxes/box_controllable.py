@@ -280,5 +280,6 @@ def box_observability(
     InputError.require(system, MultiChannelSystem, "system")
     try:
         return box_controllability(dual(system), channels, bound=bound)
-    except LimitReached:
-        raise LimitReached("no proof was found that every plant in the box is observable") from None
+    except LimitReached as error:
+        told = error.message.replace("is controllable", "is observable")
+        raise LimitReached(told) from None

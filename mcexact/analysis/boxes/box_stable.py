@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from mcexact.analysis.boxes.float_pencils import Pencil, perron
+from mcexact.analysis.boxes.float_range import require_float_range
 from mcexact.analysis.boxes.one_thread import one_thread
 from mcexact.analysis.boxes.regular_discs import Frames, Point, modulus_above, whole_weights
 from mcexact.analysis.stability.stability import certify_stability
@@ -129,6 +130,7 @@ class StabilitySearch:
         gains = self.radii or gain_radii(self.loop.controller, 0)
         D = signals.with_entries(plant, gains, 0)
         Z0 = signals.matrix
+        require_float_range([Z0], [D])
         _, (s, _) = matrix_balance(matrix_to_float(Z0), permute=False, separate=True)
         self.pencil = Pencil(Z0, D, signals.states, s)
 
@@ -313,6 +315,8 @@ def box_stability(
 
     Raises
     ------
+    InputError
+        If a radius of a gain is negative.
     LimitReached
         If no proof was found, which proves nothing.
 
@@ -334,6 +338,10 @@ def box_stability(
     radii = (
         gains if gains is None or isinstance(gains, Controller) else gain_radii(controller, gains)
     )
+    if radii is not None:
+        entries = (x for M in radii.matrices() for _, _, x in M.nonzero())
+        if any(x < 0 for x in entries):
+            raise InputError("expected radii that are at least 0", where="gains")
     with one_thread():
         search = StabilitySearch(closed_loop(system, controller, graph), region, radii)
         found = search.border(Fraction(1))

@@ -18,6 +18,7 @@ from mcexact.analysis.structure.controllability import joint_controllability
 from mcexact.answer.mode_words import blame
 from mcexact.answer.protocol import Answer
 from mcexact.answer.reading import constructed
+from mcexact.arguments import require_seconds
 from mcexact.derived.dual import dual
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.floats import to_float
@@ -201,6 +202,7 @@ def largest_uncertainty(
 
 def two_sided(search: Search, wanted: str, relative: bool, effort: float) -> LargestUncertainty:
     """Search both ends; see `largest_uncertainty`."""
+    require_seconds(effort, "effort")
     lower, proof = _largest(search, _SQUARES * effort)
     near = search.failing(min(1 + int(_TRIES * effort), _MOST_TRIES))
     failing, refutation = None, None

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+from mcexact.analysis.boxes.float_range import require_float_range
 from mcexact.answer.reading import constructed
 from mcexact.errors import UsageError
 from mcexact.exact.matrix import Matrix
@@ -23,6 +24,8 @@ def radii_of(system: MultiChannelSystem) -> Radii:
 
     Raises
     ------
+    LimitReached
+        If floating point cannot search with the entries.
     UsageError
         If a construction closes a loop: its stability is a matter of `box_stability`.
 
@@ -45,6 +48,7 @@ def radii_of(system: MultiChannelSystem) -> Radii:
     Fraction(31, 2)
     """
     radii = Box(system.plant).radii
+    require_float_range(_matrices(system), (D for _, D in radii.matrices()))
     if not system.subject:
         return radii
     low = _with_entries(system.plant, map(moduli, _matrices(system.plant)))

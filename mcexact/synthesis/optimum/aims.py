@@ -8,7 +8,7 @@ from math import isfinite
 from numbers import Real
 from typing import Any
 
-from mcexact.arguments import told
+from mcexact.arguments import require_seconds, told
 from mcexact.errors import UsageError
 from mcexact.exact.floats import as_requested, to_float
 from mcexact.exact.rational import Entry
@@ -77,7 +77,7 @@ class Aims:
     seeds: int = SEEDS
 
     def __post_init__(self) -> None:
-        for name in ("margin", "largest_gain", "damping", "largest_modulus", "effort"):
+        for name in ("margin", "largest_gain", "damping", "largest_modulus"):
             number = getattr(self, name)
             if isinstance(number, bool) or not isinstance(number, Real):
                 _require(number is None and name != "margin", name, "a number", told(number))
@@ -100,8 +100,7 @@ class Aims:
                 good = type(number) is int and number >= least
                 _require(good, name, f"an integer of at least {least}", number)
         if self.effort is not None:
-            good = 0 <= self.effort and isfinite(self.effort)
-            _require(good, "effort", "a number of seconds", self.effort)
+            require_seconds(self.effort, "effort")
 
     def searched_for(self, request: Request) -> bool:
         """Whether there is a search: no spectrum, no agent with a channel controller, effort."""

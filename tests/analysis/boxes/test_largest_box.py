@@ -106,3 +106,10 @@ def test_a_rational_point_keeps_to_its_circle(point: complex) -> None:
     size = Fraction(abs(point)).limit_denominator(10**6)
     assert re**2 + im**2 == size**2 and abs(complex(re, im) - point) < 1e-5
     assert rational_point(point, "plane") == rational_point(point, "line")
+
+
+@pytest.mark.parametrize("effort", [-1, float("nan"), "a", True, None])
+def test_effort_is_a_number_of_seconds(effort: Any) -> None:
+    plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    with pytest.raises(UsageError, match="effort: expected a number of seconds, found"):
+        largest_uncertainty(plant, effort=effort)
