@@ -286,3 +286,83 @@ have := fix_ F; rewrite /eigenvalue /eigenspace kermx_eq0 row_free_unit -opprB.
 by rewrite unitmxE -scaleN1r detZ unitrM unitrX ?unitrN1//= -unitmxE u.
 Qed.
 End NotFixed.
+
+(* Rule "discs of gains": what is fixed is in an exterior disc of A_F, for any gains F; the same of what channels do
+   not control, with gains from the state. *)
+Section Gains.
+Variable C : numFieldType.
+
+Lemma product_within n p q l (B B' DB : 'M[C]_(n, p)) (F : 'M[C]_(p, q)) (M M' DM : 'M[C]_(q, l)) :
+  (forall i j, `|(B' - B) i j| <= DB i j) -> (forall i j, `|(M' - M) i j| <= DM i j) -> forall i j,
+  `|(B' *m F *m M' - B *m F *m M) i j| <=
+    \sum_k (`|B i k| + DB i k) * (\sum_h `|F k h| * DM h j) + \sum_k DB i k * (\sum_h `|F k h| * `|M h j|).
+Proof.
+move=> hB hM i j.
+have -> : B' *m F *m M' - B *m F *m M = B' *m (F *m (M' - M)) + (B' - B) *m (F *m M).
+  by rewrite !mulmxBr mulmxBl !mulmxA addrA subrK.
+have hB' k : `|B' i k| <= `|B i k| + DB i k.
+  have -> : B' i k = B i k + (B' - B) i k by rewrite !mxE addrCA subrr addr0.
+  by rewrite (le_trans (ler_norm_add _ _))// ler_add2l.
+have hF r (N E : 'M[C]_(q, r)) k h : (forall i j, `|N i j| <= E i j) ->
+    `|(F *m N) k h| <= \sum_l `|F k l| * E l h.
+  move=> small; rewrite mxE (le_trans (ler_norm_sum _ _ _))// ler_sum// => a _.
+  by rewrite normrM ler_wpmul2l.
+rewrite mxE (le_trans (ler_norm_add _ _))// ler_add//.
+  rewrite mxE (le_trans (ler_norm_sum _ _ _))// ler_sum// => k _.
+  by rewrite normrM ler_pmul// hF.
+rewrite mxE (le_trans (ler_norm_sum _ _ _))// ler_sum// => k _.
+rewrite normrM ler_pmul//; have := @hF _ M (\matrix_(a, b) `|M a b|) k j.
+by under eq_bigr do rewrite mxE; apply=> a b; rewrite mxE.
+Qed.
+
+Variables (n m : nat) (p q : 'I_m -> nat) (S S' : multichannel C n p q) (F : forall i, 'M[C]_(p i, q i)).
+Variables (DA : 'M[C]_n) (DB : forall i, 'M[C]_(n, p i)) (DC : forall i, 'M[C]_(q i, n)).
+Hypotheses (wA : forall i j, `|(mcA S' - mcA S) i j| <= DA i j)
+  (wB : forall c i j, `|(mcB S' c - mcB S c) i j| <= DB c i j)
+  (wC : forall c i j, `|(mcC S' c - mcC S c) i j| <= DC c i j).
+
+Definition gains_radii : 'M[C]_n := \matrix_(i, j) (DA i j +
+  \sum_c (\sum_k (`|mcB S c i k| + DB c i k) * (\sum_h `|F c k h| * DC c h j) +
+          \sum_k DB c i k * (\sum_h `|F c k h| * `|mcC S c h j|))).
+
+Theorem gains_within i j : `|(closed_loop S' F - closed_loop S F) i j| <= gains_radii i j.
+Proof.
+rewrite /closed_loop opprD addrACA -sumrB mxE [gains_radii i j]mxE (le_trans (ler_norm_add _ _))// ler_add//.
+rewrite summxE (le_trans (ler_norm_sum _ _ _))// ler_sum// => c _.
+by apply: product_within; [apply: wB | apply: wC].
+Qed.
+
+Section Disc.
+Variables (Y T : 'M[C]_n) (a rad : 'I_n -> C) (lambda : C).
+Let A := closed_loop S F.
+Let G := Y *m T.
+Let H := Y *m A *m T.
+Let e i := \sum_j \sum_l (\sum_k `|Y i k| * gains_radii k l) * `|T l j|.
+Hypotheses (dominant_rows : forall i, 0 < `|G i i| - \sum_(j | j != i) `|G i j|)
+  (large : forall i, \sum_j `|a i * G i j - H i j| + e i < rad i * (`|G i i| - \sum_(j | j != i) `|G i j|)).
+
+Theorem fixed_in_exterior : fixed S' lambda -> exists i, ~~ (rad i < `|lambda - a i|).
+Proof.
+move=> /(_ F) eig; apply: exterior dominant_rows large _; first exact: gains_within.
+move: eig; rewrite /eigenvalue /eigenspace kermx_eq0 row_free_unit -opprB.
+by rewrite unitmxE -scaleN1r detZ unitrM unitrX ?unitrN1//= -unitmxE.
+Qed.
+End Disc.
+End Gains.
+
+(* What inputs do not control no gains from the state move: it is fixed for one channel that measures the state. *)
+Definition measured (C : numFieldType) n p (A : 'M[C]_n) (B : 'M[C]_(n, p)) :
+  multichannel C n (fun _ : 'I_1 => p) (fun _ : 'I_1 => n) := Multichannel A (fun=> B) (fun=> 1%:M).
+
+Theorem uncontrolled_fixed (C : numFieldType) n p (A : 'M[C]_n) (B : 'M[C]_(n, p)) lambda :
+  (\rank (row_mx (lambda%:M - A) (- B)) < n)%N -> fixed (measured A B) lambda.
+Proof.
+move=> low F; have [u nu] : exists2 u : 'rV_n, u != 0 & u *m row_mx (lambda%:M - A) (- B) = 0.
+  have /rowV0Pn[u] : kermx (row_mx (lambda%:M - A) (- B)) != 0.
+    by rewrite -mxrank_eq0 mxrank_ker -lt0n subn_gt0.
+  by move=> /sub_kermxP k nu; exists u.
+rewrite mul_mx_row -[0]row_mx0 => /eq_row_mx[uA uB].
+apply/eigenvalueP; exists u => //; rewrite /closed_loop big_ord1 mulmxDr !mulmxA /=.
+have -> : u *m B = 0 by apply/eqP; rewrite -oppr_eq0 -mulmxN uB.
+by rewrite !mul0mx addr0 -mul_mx_scalar; apply/esym/eqP; rewrite -subr_eq0 -mulmxBr uA.
+Qed.

@@ -74,3 +74,28 @@ by rewrite /pencil_of e e' unitmxE det_ublock det1 mulr1 subr0 det_scalar1 unitr
 Qed.
 Definition inst_near_identity := fun M : 'M[K]_1 => @near_identity K 1 M (fun=> 1) positive.
 Definition inst_dominant := @dominant K 1 1%:M.
+
+(* x' = u, y = x: under u = -y the eigenvalue is within 1/2 of -1 for every input and output within 1/8 of 1. *)
+Notation eighth := (8%:R^-1 : rat).
+Definition driven' : multichannel K 1 one one := Multichannel 0 (fun=> (1 + eighth)%:M) (fun=> (1 + eighth)%:M).
+Definition back (i : 'I_1) : 'M[K]_(one i, one i) := (- 1)%:M.
+Definition radii (i : 'I_1) : 'M[K]_(one i, 1) := eighth%:M.
+Definition radii' (i : 'I_1) : 'M[K]_(1, one i) := eighth%:M.
+Lemma certain : forall i j, `|(mcA driven' - mcA driven) i j| <= (0 : 'M[K]_1) i j.
+Proof. by do 2!apply: ord1_all; rewrite !mxE. Qed.
+Lemma inputs_within : forall c i j, `|(mcB driven' c - mcB driven c) i j| <= radii' c i j.
+Proof. by move=> c; do 2!apply: ord1_all; rewrite !mxE. Qed.
+Lemma outputs_within : forall c i j, `|(mcC driven' c - mcC driven c) i j| <= radii c i j.
+Proof. by move=> c; do 2!apply: ord1_all; rewrite !mxE. Qed.
+Definition inst_gains_within := gains_within back certain inputs_within outputs_within.
+Lemma inst_fixed_in_exterior : ~ fixed driven' 0.
+Proof.
+move=> fix_; have [||i] := fixed_in_exterior (F := back) certain inputs_within outputs_within
+    (Y := 1%:M) (T := 1%:M) (a := fun=> - 1) (rad := fun=> half) _ _ fix_.
+- by apply: ord1_all; rewrite others mulmx1 mxE.
+- apply: ord1_all; rewrite others /closed_loop !mulmx1 mul1mx !big_ord1 !mxE !big_ord1 !mxE /= !big_ord1 !mxE /=. by [].
+by rewrite sub0r opprK normr1.
+Qed.
+
+Lemma inst_uncontrolled_fixed : fixed (measured (0 : 'M[K]_1) (0 : 'M[K]_1)) 0.
+Proof. by apply: uncontrolled_fixed; rewrite raddf0 subr0 oppr0 row_mx0 mxrank0. Qed.

@@ -41,16 +41,18 @@ class BoxControllability(Answer):
     bound : Fraction or None
         None: (A, B_T) is controllable for every member.  A rate ≥ 0 or a radius in (0, 1]: every
         member has its uncontrollable modes in this region.
-    exterior : ExteriorDiscs
-        Where the eigenvalues of all members are.
+    exterior : tuple of ExteriorDiscs
+        Where the eigenvalues of all members are, with gains from the state to the channels or
+        without: what is not controlled is in a disc of each.
     frames : tuple of RightInverseFrame
     cover : tuple of tuples of int or None
-        Discs and squares that cover the exterior discs, each with the frame that proves it.
+        Discs and squares that cover the first discs, each with the frame that proves it, except
+        those that meet none of some others.
     """
 
     channels: tuple[str, ...] = claim()
     bound: Fraction | None = claim("uncontrollable modes only in the region of")
-    exterior: ExteriorDiscs = witness()
+    exterior: tuple[ExteriorDiscs, ...] = witness()
     frames: tuple[RightInverseFrame, ...] = witness()
     cover: Cover = witness()
 

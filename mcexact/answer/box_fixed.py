@@ -63,16 +63,18 @@ class BoxFixedModes(Answer):
         None: no member has a fixed mode.  A rate ≥ 0 (continuous time) or a radius in (0, 1]
         (discrete time): every member has its fixed modes in this region.  With 0, or 1, each
         member is stabilized by a decentralized controller of its own.
-    exterior : ExteriorDiscs
-        Where the eigenvalues of all members are.
+    exterior : tuple of ExteriorDiscs
+        Where the eigenvalues of all members are, with gains or without: what is fixed is in a disc
+        of each.
     gains : tuple of PencilGains
     frames : tuple of PencilFrame
     cover : tuple of tuples of int or None
-        Discs and squares that cover the exterior discs, each with the frame that proves it.
+        Discs and squares that cover the first discs, each with the frame that proves it, except
+        those that meet none of some others.
     """
 
     bound: Fraction | None = claim("fixed modes only in the region of")
-    exterior: ExteriorDiscs = witness()
+    exterior: tuple[ExteriorDiscs, ...] = witness()
     gains: tuple[PencilGains, ...] = witness()
     frames: tuple[PencilFrame, ...] = witness()
     cover: Cover = witness()

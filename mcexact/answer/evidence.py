@@ -203,16 +203,19 @@ class ComplexMatrix(Part):
 
 @dataclass(frozen=True)
 class ExteriorDiscs(Part):
-    """Discs that contain every eigenvalue of every member of a box.
+    """Discs that contain every eigenvalue of A, or of A_F, of every member of a box.
 
     Attributes
     ----------
+    F : tuple of Matrix or None
+        F_i, p_i × q_i, one for each channel; None for A itself.
     Y, T : ComplexMatrix
-        Y(λI − A)T is strictly diagonally dominant for every member A, unless λ is in a disc.
+        Y(λI − A_F)T is strictly diagonally dominant for every member, unless λ is in a disc.
     discs : tuple of RootDisc
         One for each row; they may overlap.
     """
 
+    F: tuple[Matrix, ...] | None
     Y: ComplexMatrix
     T: ComplexMatrix
     discs: tuple[RootDisc, ...]

@@ -1,10 +1,12 @@
 """Kind ``box_controllable``: channels control every member of a box; ``proofs/boxes.md``."""
 
-from .arithmetic import beside
+from dataclasses import replace
+
+from .arithmetic import Matrix, beside
 from .boxes import ALL, Box
 from .covers import require_covered
 from .evidence import inputs
-from .exterior_discs import exterior_discs
+from .exterior_discs import discs_of_gains
 from .reading import Json, fields, items, names
 from .region import inside, read_bound
 from .regular_discs import Pencil, right_inverse
@@ -14,13 +16,17 @@ from .statement import channel_set
 def check(claim: Json, witness: Json, box: Box) -> None:
     """Check that [λI − A, B_T] has full rank at every λ, outside of the region, for all members.
 
-    Theorem ``joint_controllability.controllable_hautus``.
+    Theorems ``joint_controllability.controllable_hautus``, ``boxes.uncontrolled_fixed``.
     """
     listed, limit = fields(claim, "claim", "channels", "bound")
     channels, bound = names(listed, "claim.channels", box.names), read_bound(limit, box)
     exterior, frames, cover = fields(witness, "witness", "exterior", "frames", "cover")
-    discs = exterior_discs(exterior, "witness.exterior", box.A, box.radii.A)
-    Z, D = (beside([each.A, inputs(each, channels)], box.n) for each in (box, box.radii))
+    B, D_B = (inputs(each, channels) for each in (box, box.radii))
+    Z, D = beside([box.A, B], box.n), beside([box.radii.A, D_B], box.n)
+    # what the channels do not control no gains from the state move
+    certain = replace(box.radii, B=[D_B], C=[Matrix.zeros(box.n, box.n)])
+    measured = replace(box, B=[B], C=[Matrix.unit_rows(box.n, 0, box.n)], radii=certain)
+    discs = discs_of_gains(exterior, "witness.exterior", measured)
     found = []
     for k, entry in enumerate(items(frames, "witness.frames")):
         where = f"witness.frames[{k}]"

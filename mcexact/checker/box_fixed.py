@@ -3,7 +3,7 @@
 from .arithmetic import Matrix, beside, diagonal, stack
 from .boxes import ALL, Box, absolute
 from .covers import require_covered
-from .exterior_discs import exterior_discs
+from .exterior_discs import discs_of_gains
 from .reading import Json, fields, integer, items, malformed, matrices
 from .region import no_fixed_mode, read_bound
 from .regular_discs import Pencil, left_inverse
@@ -19,7 +19,7 @@ def check(claim: Json, witness: Json, box: Box) -> None:
     exterior, gains, listed, cover = fields(
         witness, "witness", "exterior", "gains", "frames", "cover"
     )
-    discs = exterior_discs(exterior, "witness.exterior", box.A, box.radii.A)
+    discs = discs_of_gains(exterior, "witness.exterior", box)
     given = enumerate(items(gains, "witness.gains"))
     pencils = [augmented(entry, f"witness.gains[{k}]", box) for k, entry in given]
     alone = Pencil(box.A, box.radii.A, box.n)

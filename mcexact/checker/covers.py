@@ -14,6 +14,9 @@ ROOT_2 = Fraction(1414214, 1000000)
 """More than the square root of 2."""
 
 
+ZERO = Fraction(0)
+
+
 class Cell(NamedTuple):
     """A disc around re + i·im of this radius, or a square of half this side."""
 
@@ -35,6 +38,16 @@ class Cell(NamedTuple):
             return (abs(re) + size) ** 2 + (abs(im) + size) ** 2 < bound**2
         return bound > size and re**2 + im**2 < (bound - size) ** 2
 
+    def meets(self, disc: Disc) -> bool:
+        """Whether it has a point in common with a disc."""
+        re, im, radius = disc
+        x, y, reach = abs(re - self.re), abs(im - self.im), radius + self.size
+        if max(x, y) > reach:
+            return False
+        if self.square:
+            x, y, reach = max(x - self.size, ZERO), max(y - self.size, ZERO), radius
+        return x**2 + y**2 <= reach**2
+
     def parts(self) -> list["Cell"]:
         """Four squares that cover it, in the order in which they are taken from the end."""
         re, im, size, _ = self
@@ -49,26 +62,35 @@ class Cell(NamedTuple):
 def require_covered(
     value: Json,
     place: str,
-    discs: list[Disc],
+    exterior: list[list[Disc]],
     outside: Callable[[Cell], bool],
     frames: Sequence[Regular],
 ) -> None:
-    """Stop unless discs are covered by cells, each of them outside or regular by one frame.
+    """Stop unless all points in a disc of each list are in cells that are regular by one frame.
+
+    The discs of the first list are cut into cells; those that are outside, or that meet no disc of
+    another list, are left out.
 
     Theorem ``boxes.square_in_disc``.
     """
-    for k, nodes in enumerate(items(value, place, len(discs))):
+    first, *others = exterior
+    longest = max((budget.limbs_of(disc) for discs in others for disc in discs), default=0)
+    for k, nodes in enumerate(items(value, place, len(first))):
         where, used = f"{place}[{k}]", 0
-        left = [Cell(*discs[k], False)]
+        left = [(Cell(*first[k], False), others)]
         while left:
-            cell = left.pop()
-            budget.spend(budget.fractions(12, 2 * budget.limbs_of(cell[:3])))
+            cell, near = left.pop()
+            asked = 12 + 3 * sum(map(len, near))
+            budget.spend(budget.fractions(asked, 2 * budget.limbs_of(cell[:3]) + longest))
             if outside(cell):
+                continue
+            near = [[disc for disc in discs if cell.meets(disc)] for discs in near]
+            if not all(near):
                 continue
             require(used < len(items(nodes, where)), "cover", where, "a cell is not covered")
             node, used = nodes[used], used + 1
             if node is None:
-                left += cell.parts()
+                left += [(part, near) for part in cell.parts()]
                 continue
             if integer(node, where) >= len(frames):
                 malformed(where, f"expected null or a position below {len(frames)}")

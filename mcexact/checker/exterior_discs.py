@@ -1,21 +1,56 @@
-"""Discs that contain the spectrum of every member of a box; ``proofs/boxes.md``."""
+"""Discs that contain the spectrum of every member of a box, with gains; ``proofs/boxes.md``."""
 
 import math
 from fractions import Fraction
 
 from . import budget
-from .arithmetic import Matrix
+from .arithmetic import Matrix, beside, stack
+from .boxes import Box, absolute
 from .complex_matrices import complex_matrix, magnitude, magnitudes
-from .reading import Json, decimal, fields, items, require
+from .reading import Json, decimal, fields, items, malformed, matrices, require
 from .root_discs import Disc
 
 
-def exterior_discs(value: Json, place: str, A: Matrix, D: Matrix) -> list[Disc]:
+def discs_of_gains(value: Json, place: str, box: Box) -> list[list[Disc]]:
+    """Lists of discs, each of which contains what is fixed for any member.
+
+    Theorem ``boxes.fixed_in_exterior``.
+    """
+    found = []
+    for k, entry in enumerate(items(value, place)):
+        where = f"{place}[{k}]"
+        F, Y, T, listed = fields(entry, where, "F", "Y", "T", "discs")
+        A, D = (box.A, box.radii.A) if F is None else with_gains(F, f"{where}.F", box)
+        found.append(exterior_discs(Y, T, listed, where, A, D))
+    if not found:
+        malformed(place, "expected the discs of one matrix or more")
+    return found
+
+
+def with_gains(value: Json, place: str, box: Box) -> tuple[Matrix, Matrix]:
+    """A_F = A + Σ B_i F_i C_i, and how far it is from that of any member.
+
+    Theorem ``boxes.gains_within``.
+    """
+    n, radii = box.n, box.radii
+    F = matrices(value, place, [(B.ncols, C.nrows) for B, C in zip(box.B, box.C, strict=True)])
+
+    def after(gains: list[Matrix], outputs: list[Matrix]) -> Matrix:
+        return stack([F_i @ C_i for F_i, C_i in zip(gains, outputs, strict=True)], n)
+
+    B, moved, sizes = beside(box.B, n), beside(radii.B, n), [absolute(F_i) for F_i in F]
+    D = (absolute(B) + moved) @ after(sizes, radii.C)
+    E = moved @ after(sizes, [absolute(C_i) for C_i in box.C])
+    return box.A + B @ after(F, box.C), radii.A + D + E
+
+
+def exterior_discs(
+    Y_given: Json, T_given: Json, listed: Json, place: str, A: Matrix, D: Matrix
+) -> list[Disc]:
     """Discs outside of which Y(λI − A)T is strictly diagonally dominant for every member.
 
     Theorem ``boxes.exterior``.
     """
-    Y_given, T_given, listed = fields(value, place, "Y", "T", "discs")
     n = A.nrows
     Y = complex_matrix(Y_given, f"{place}.Y", n, n)
     T = complex_matrix(T_given, f"{place}.T", n, n)

@@ -7,11 +7,12 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from fractions import Fraction
 from operator import mul
 from typing import Any
 
-from mcexact.checker.arithmetic import beside
+from mcexact.checker.arithmetic import Matrix, beside
 from mcexact.checker.box_fixed import augmented
 from mcexact.checker.box_stable import segments_of
 from mcexact.checker.boxes import Box, system_of
@@ -20,7 +21,7 @@ from mcexact.checker.evidence import inputs
 from mcexact.checker.loop_pencil import loop_pencil
 from mcexact.checker.regular_discs import Pencil, Regular, left_inverse, right_inverse
 from mcexact.checker.system import read_plant
-from tests.checker.handmade import Document, certificate
+from tests.checker.handmade import Document, certificate, matrix
 
 Rows = list[list[Fraction]]
 Node = int | None
@@ -93,17 +94,63 @@ def right_inverse_at(pencil: Pencil, re: Fraction, im: Fraction) -> Document:
     return rounded(R, pencil.Z.ncols, pencil.dynamic)
 
 
-def gershgorin(box: Box) -> Document:
-    """The discs of the rows of A, by Y = T = I."""
+def times(M: Rows, N: Rows) -> Rows:
+    """The product."""
+    return [[sum(map(mul, x, y)) for y in zip(*N, strict=True)] for x in M]
+
+
+def gershgorin(box: Box, F: list[list[list[Any]]] | None = None) -> Document:
+    """The discs of the rows of A, or of A_F for some F_i, by Y = T = I."""
     n = box.n
     A, D, one = fractions(box.A), fractions(box.radii.A), unit(n)
+    for i, F_i in enumerate(F or []):
+        gain = [[Fraction(entry) for entry in row] for row in F_i]
+        B, C, D_B, D_C = (
+            fractions(M) for M in (box.B[i], box.C[i], box.radii.B[i], box.radii.C[i])
+        )
+        # the farthest of |B| + D_B, |F| and |C| + D_C, less what is there without radii
+        most, size = (
+            times([[abs(x) + d for x, d in zip(*pair, strict=True)] for pair in left], right)
+            for left, right in (
+                (zip(B, D_B, strict=True), sizes(gain)),
+                (zip(C, D_C, strict=True), unit(n)),
+            )
+        )
+        around = times(times(sizes(B), sizes(gain)), sizes(C))
+        moved, far = times(times(B, gain), C), times(most, size)
+        A = [[x + y for x, y in zip(*pair, strict=True)] for pair in zip(A, moved, strict=True)]
+        D = [
+            [d + x - y for d, x, y in zip(*rows, strict=True)]
+            for rows in zip(D, far, around, strict=True)
+        ]
     identity = {"denominator": 1, "re": [list(map(int, row)) for row in one], "im": [[0] * n] * n}
     discs = []
     for i in range(n):
         spread = sum((abs(A[i][j]) for j in range(n) if j != i), sum(D[i], Fraction(0)))
         radius = (int(spread * 10**4) + 1) / 10**4
         discs.append({"re": decimal(A[i][i]), "im": "0", "radius": decimal(Fraction(str(radius)))})
-    return {"Y": identity, "T": identity, "discs": discs}
+    written = None if F is None else [eighths(F_i) for F_i in F]
+    return {"F": written, "Y": identity, "T": identity, "discs": discs}
+
+
+def eighths(F: list[list[Any]]) -> Document:
+    """A matrix of gains."""
+    return matrix(*([int(8 * Fraction(entry)) for entry in row] for row in F), denominator=8)
+
+
+def sizes(M: Rows) -> Rows:
+    """The absolute values of all entries."""
+    return [[abs(entry) for entry in row] for row in M]
+
+
+def apart(cell: Cell, disc: Document) -> bool:
+    """Whether a cell has no point in common with a disc."""
+    re, im, radius = (Fraction(disc[key]) for key in ("re", "im", "radius"))
+    if not cell.square:
+        return (re - cell.re) ** 2 + (im - cell.im) ** 2 > (radius + cell.size) ** 2
+    x = min(max(re, cell.re - cell.size), cell.re + cell.size)
+    y = min(max(im, cell.im - cell.size), cell.im + cell.size)
+    return (re - x) ** 2 + (im - y) ** 2 > radius**2
 
 
 def decimal(value: Fraction) -> str:
@@ -114,7 +161,7 @@ def decimal(value: Fraction) -> str:
 
 
 def covered(
-    exterior: Document,
+    exterior: list[Document],
     outside: Callable[[Cell], bool],
     frames_at: Callable[[Fraction, Fraction], Frames],
 ) -> tuple[list[Document], list[list[Node]]]:
@@ -124,13 +171,14 @@ def covered(
     """
     frames: list[Document] = []
     cover = []
-    for disc in exterior["discs"]:
+    for disc in exterior[0]["discs"]:
         re, im, radius = (Fraction(disc[key]) for key in ("re", "im", "radius"))
         cells = [(Cell(re, im, radius, False), 0)]
         nodes: list[Node] = []
         while cells:
             cell, depth = cells.pop()
-            if outside(cell):
+            others = (each["discs"] for each in exterior[1:])
+            if outside(cell) or any(all(apart(cell, d) for d in discs) for discs in others):
                 continue
             for frame, regular in _all_of(frames_at, cell):
                 if regular(cell.re, cell.im, cell.size * (ROOT_2 if cell.square else 1)):
@@ -157,13 +205,20 @@ def subject_of(plant: Document, kind: str, steps: tuple[Document, ...]) -> Any:
     return system_of(list(steps), read_plant(plant), kind)
 
 
-def fixed(plant: Document, gains: list[Document], *steps: Document, bound: Any = None) -> Document:
+def fixed(
+    plant: Document,
+    gains: list[Document],
+    *steps: Document,
+    bound: Any = None,
+    under: tuple[Any, ...] = (None,),
+) -> Document:
     """A certificate that no member has a fixed mode, each cell with the first gains that do.
 
-    After the gains, no gains are tried: then the cell holds no eigenvalue.
+    After the gains, no gains are tried: then the cell holds no eigenvalue.  ``under`` are the F_i
+    of the exterior discs.
     """
     box = subject_of(plant, "box_fixed", steps)
-    exterior = gershgorin(box)
+    exterior = [gershgorin(box, F) for F in under]
     pencils = [augmented(each, "", box) for each in gains]
     pencils.append(Pencil(box.A, box.radii.A, box.n))
 
@@ -180,13 +235,25 @@ def fixed(plant: Document, gains: list[Document], *steps: Document, bound: Any =
 
 
 def controllable(
-    plant: Document, channels: list[str], *steps: Document, bound: Any = None
+    plant: Document,
+    channels: list[str],
+    *steps: Document,
+    bound: Any = None,
+    under: tuple[Any, ...] = (None,),
 ) -> Document:
     """A certificate that channels control every mode of every member."""
     box = subject_of(plant, "box_controllable", steps)
     T = [box.names.index(name) for name in channels]
     Z, D = (beside([each.A, inputs(each, T)], box.n) for each in (box, box.radii))
-    pencil, exterior, w = Pencil(Z, D, box.n), gershgorin(box), [1] * box.n
+    pencil, w, no = Pencil(Z, D, box.n), [1] * box.n, Matrix.zeros(box.n, box.n)
+    inner, doubt = (inputs(each, T) for each in (box, box.radii))
+    whole = replace(
+        box,
+        B=[inner],
+        C=[Matrix.unit_rows(box.n, 0, box.n)],
+        radii=replace(box.radii, B=[doubt], C=[no]),
+    )
+    exterior = [gershgorin(whole, F) for F in under]
 
     def frames_at(re: Fraction, im: Fraction) -> Frames:
         R = right_inverse_at(pencil, re, im)

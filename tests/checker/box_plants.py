@@ -126,9 +126,25 @@ EXTENDED = fixed(
 ONE_PLANT = fixed(CERTAIN, [gains((2, 1))])
 NO_STATES = fixed(NOTHING, [{"X": [matrix()], "W": [matrix()]}])
 CONTROLLABLE = controllable(PAIR, ["1", "2"])
+MOVED = plant(
+    [[1, "1/4"], ["1/4", -1]],
+    ([[2], [0]], [[1, 0]]),
+    ([[0], [1]], [[0, 1]]),
+    uncertainty=uncertain(
+        [["1/10", 0], [0, "1/20"]], {"1": [["1/20"], [0]]}, {"1": [["1/20", 0]], "2": [[0, "1/20"]]}
+    ),
+)
+DISJOINT = fixed(MOVED, [], under=(None, [[[-2]], [[3]]]))
+"""The discs around 1 and −1 and those around −3 and 2 have no point in common."""
+CUT = fixed(
+    MOVED,
+    [gains((-1, 4), (-1, 4))],
+    under=([[["1/4"]], [["-1/4"]]], None, [[["-1/8"]], [[-3]]]),
+)
 OBSERVABLE = controllable(PAIR, ["1", "2"], DUAL)
 STABILIZABLE_BY_1 = controllable(PAIR, ["1"], bound=0)
 DETECTABLE = controllable(SAMPLED, ["1"], DUAL, bound="7/8")
+FED_BACK = controllable(MOVED, ["1", "2"], under=(None, [[[-2, 0], [0, 4]]]))
 STABLE = stable(CALM, [1, 2, 4], growth=[1, 1])
 SAMPLED_STABLE = stable(DAMPED, ["1/4", "1/2", 1, 2, 4], bound="7/8")
 LOOP_STABLE = stable(
@@ -194,6 +210,9 @@ ALL = {
     "observable": OBSERVABLE,
     "stabilizable by one channel": STABILIZABLE_BY_1,
     "detectable": DETECTABLE,
+    "disjoint discs of two matrices": DISJOINT,
+    "discs of three matrices, which meet": CUT,
+    "disjoint discs of two matrices with gains from the state": FED_BACK,
     "stable": STABLE,
     "stable, sampled": SAMPLED_STABLE,
     "stable loop": LOOP_STABLE,

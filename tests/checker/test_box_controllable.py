@@ -8,10 +8,11 @@ from tests.checker.box_plants import (
     ALL,
     CONTROLLABLE,
     DETECTABLE,
+    FED_BACK,
     OBSERVABLE,
     STABILIZABLE_BY_1,
 )
-from tests.checker.handmade import checked, without
+from tests.checker.handmade import checked, matrix, without
 from tests.checker.tables import accepts, rejects
 
 KIND = "box_controllable"
@@ -52,14 +53,26 @@ test_what_proves_less_is_refused = rejects(
         ("the radius is smaller", DETECTABLE, ("claim.bound", "1/2"), "INVALID"),
         ("a node is true", CONTROLLABLE, ("witness.cover.0.0", True), "MALFORMED"),
         ("a disc is not covered", CONTROLLABLE, ("witness.cover.0", []), "INVALID"),
-        ("a disc shrinks", CONTROLLABLE, ("witness.exterior.discs.0.radius", "0.2"), "INVALID"),
+        ("there are no discs", FED_BACK, ("witness.exterior", []), "MALFORMED"),
+        ("discs of one matrix", FED_BACK, ("witness.exterior.1.F", None), "INVALID"),
+        ("gains from the outputs", FED_BACK, ("witness.exterior.1.F.0", matrix([-2], [4]))),
+        ("other gains", FED_BACK, ("witness.exterior.1.F.0", matrix([-1, 0], [0, 4])), "INVALID"),
+        ("gains of channels", FED_BACK, ("witness.exterior.1.F", [matrix([-2, 0])] * 2)),
+        ("channels fewer", FED_BACK, ("claim.channels", ["1"]), "MALFORMED"),
+        (
+            "the radii of B are larger under gains",
+            FED_BACK,
+            ("system.uncertainty.absolute.B.1.entries.0.2", "1/10"),
+            "INVALID",
+        ),
+        ("a disc shrinks", CONTROLLABLE, ("witness.exterior.0.discs.0.radius", "0.2"), "INVALID"),
     ]
 )
 
 
 def test_the_radii_of_what_is_not_used_do_not_matter() -> None:
     """About the plant those of C, and about its dual those of B."""
-    for document, key in ((CONTROLLABLE, "C"), (OBSERVABLE, "B")):
+    for document, key in ((CONTROLLABLE, "C"), (OBSERVABLE, "B"), (FED_BACK, "C")):
         parts = document["system"]["uncertainty"]["absolute"]
         kept = {name: part for name, part in parts.items() if name != key}
         system = {**document["system"], "uncertainty": {"absolute": kept}}

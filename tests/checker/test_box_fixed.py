@@ -8,9 +8,11 @@ from fractions import Fraction
 import pytest
 
 from mcexact.checker.kinds import KINDS
-from tests.checker.box_maker import decimal
+from tests.checker.box_maker import decimal, fixed
 from tests.checker.box_plants import (
     ALL,
+    CUT,
+    DISJOINT,
     EXTENDED,
     FIXED,
     NO_STATES,
@@ -31,7 +33,8 @@ OF_THIS_KIND = [(name, each) for name, each in ALL.items() if each["kind"] == KI
 test_what_is_made_is_proved = accepts(OF_THIS_KIND)
 
 NODE = "witness.cover.0"
-DISC = "witness.exterior.discs.0"
+EXTERIOR, SECOND = "witness.exterior.0", "witness.exterior.1"
+DISC = f"{EXTERIOR}.discs.0"
 FRAME = "witness.frames.0"
 ZEROS = [[0, 0], [0, 0]]
 SWAPPED = OVERLAPPING["witness"]["gains"][::-1]
@@ -48,6 +51,22 @@ def larger(document: Document, factor: int) -> tuple[str, Document]:
         }
         radii[key] = grown[""] if key == "A" else grown
     return "system.uncertainty.absolute", radii
+
+
+def first_alone(document: Document) -> tuple[str, list[Document]]:
+    """The discs of the first matrix."""
+    return "witness.exterior", document["witness"]["exterior"][:1]
+
+
+def without_gains(document: Document) -> tuple[str, Document]:
+    """The discs of the first matrix, which do not say of which."""
+    first = document["witness"]["exterior"][0]
+    return EXTERIOR, {key: part for key, part in first.items() if key != "F"}
+
+
+def radius(key: str, value: str) -> tuple[str, str]:
+    """Another radius of the first uncertain entry."""
+    return f"system.uncertainty.absolute.{key}.entries.0.2", value
 
 
 test_what_proves_less_is_refused = rejects(
@@ -77,17 +96,32 @@ test_what_proves_less_is_refused = rejects(
         ("V has the denominator 0", FIXED, (f"{FRAME}.V.denominator", 0), "MALFORMED"),
         ("V has other imaginary parts", FIXED, (f"{FRAME}.V.im.0", [2**15] * 4), "INVALID"),
         ("V has a row less", FIXED, (f"{FRAME}.V.im", [[0] * 4] * 3), "MALFORMED"),
-        ("Y is 0", FIXED, ("witness.exterior.Y.re", ZEROS), "INVALID"),
-        ("T is 0", FIXED, ("witness.exterior.T.re", ZEROS), "INVALID"),
-        ("Y is singular", FIXED, ("witness.exterior.Y.re", [[1, 1], [1, 1]]), "INVALID"),
-        ("Y mixes the rows", FIXED, ("witness.exterior.Y.re", [[0, 1], [1, 0]]), "INVALID"),
+        ("Y is 0", FIXED, ("witness.exterior.0.Y.re", ZEROS), "INVALID"),
+        ("T is 0", FIXED, ("witness.exterior.0.T.re", ZEROS), "INVALID"),
+        ("Y is singular", FIXED, ("witness.exterior.0.Y.re", [[1, 1], [1, 1]]), "INVALID"),
+        ("Y mixes the rows", FIXED, ("witness.exterior.0.Y.re", [[0, 1], [1, 0]]), "INVALID"),
         ("a disc shrinks", FIXED, (f"{DISC}.radius", "0.1"), "INVALID"),
         ("a disc has no radius", ONE_PLANT, (f"{DISC}.radius", "0"), "INVALID"),
         ("a disc is of negative radius", FIXED, (f"{DISC}.radius", "-0.5"), "INVALID"),
         ("a disc is moved", FIXED, (f"{DISC}.re", "9"), "INVALID"),
         ("a disc is moved up", FIXED, (f"{DISC}.im", "9"), "INVALID"),
         ("a disc is moved below the axis", FIXED, ((f"{DISC}.im", "-9"), (NODE, [])), "INVALID"),
-        ("a disc is missing", FIXED, ("witness.exterior.discs", []), "MALFORMED"),
+        ("a disc is missing", FIXED, ("witness.exterior.0.discs", []), "MALFORMED"),
+        ("there are no discs", FIXED, ("witness.exterior", []), "MALFORMED"),
+        ("discs have no gains", FIXED, without_gains(FIXED), "MALFORMED"),
+        ("discs of one matrix prove nothing", DISJOINT, first_alone(DISJOINT), "INVALID"),
+        ("discs are those of A twice", DISJOINT, (f"{SECOND}.F", None), "INVALID"),
+        ("discs are those of other gains", DISJOINT, (f"{SECOND}.F.1", matrix([2])), "INVALID"),
+        ("discs have the gains of one channel", DISJOINT, (f"{SECOND}.F", [matrix([3])])),
+        ("gains are of all outputs", DISJOINT, (f"{SECOND}.F.0", matrix([3, 3])), "MALFORMED"),
+        ("gains are 0 in the first place", CUT, (f"{EXTERIOR}.F.0", matrix([0])), "INVALID"),
+        ("the radii of A are larger under gains", DISJOINT, radius("A", "1/5"), "INVALID"),
+        ("the radii of B are larger under gains", DISJOINT, radius("B.1", "1/10"), "INVALID"),
+        ("the radii of C are larger under gains", DISJOINT, radius("C.1", "1/10"), "INVALID"),
+        ("a disc under gains is missing", DISJOINT, (f"{SECOND}.discs", []), "MALFORMED"),
+        ("a disc under gains shrinks", DISJOINT, (f"{SECOND}.discs.0.radius", "0.4"), "INVALID"),
+        ("a cell between discs has a node", CUT, ("witness.cover.1", [0]), "MALFORMED"),
+        ("a cell that meets discs has no node", CUT, ("witness.cover.0", []), "INVALID"),
         ("nodes are missing", FIXED, ("witness.cover.1", []), "INVALID"),
         ("a node is missing", FIXED, ("witness.cover.1", FIXED["witness"]["cover"][1][:-1])),
         ("a list of nodes is missing", FIXED, ("witness.cover", [[0]]), "MALFORMED"),
@@ -150,6 +184,14 @@ def test_a_member_with_a_fixed_mode_is_never_overlooked() -> None:
     for W, x in itertools.product([1, 5, -3], [8, -8, 100]):
         edits = ("witness.gains", [{"X": [matrix([x])], "W": [matrix([W])]}])
         assert checked(changed({**found, "system": box}, edits)).verdict != "VALID"
+
+
+def test_what_is_fixed_is_in_a_disc_of_every_matrix() -> None:
+    """−1 is fixed if the second channel measures nothing; its disc meets those of all matrices."""
+    lost = changed(DISJOINT["system"], ("channels.1.C", [[0, 0]]), ("A", [[1, 0], [0, -1]]))
+    for second in ([[-2]], [[3]]), ([[1]], [[100]]), ([[7]], [[-9]]):
+        with pytest.raises(ArithmeticError, match="no cover"):
+            fixed(lost, [gains((3, 1), (3, 1))], under=(None, second, ([[2]], [[2]])))
 
 
 def test_a_disc_is_tested_as_it_is_and_a_square_by_the_disc_around_it() -> None:

@@ -53,10 +53,15 @@ def inverse(re: Fraction, im: Fraction) -> Document:
 def uncontrolled(mode: Any, cover: Any, frames: list[Any], radius: str = "1.1") -> Document:
     """That x' = mode·x without inputs has no fixed mode; frames are for λ − mode, about centers."""
     system = plant([[mode]], ([[0]], [[1]]))
-    exterior = {"Y": UNIT, "T": UNIT, "discs": [{"re": "0", "im": "0", "radius": radius}]}
+    exterior = {
+        "F": None,
+        "Y": UNIT,
+        "T": UNIT,
+        "discs": [{"re": "0", "im": "0", "radius": radius}],
+    }
     shift = Fraction(mode)
     listed = [{"gains": None, "V": inverse(re - shift, im), "w": [1]} for re, im in frames]
-    witness = {"exterior": exterior, "gains": [], "frames": listed, "cover": [cover]}
+    witness = {"exterior": [exterior], "gains": [], "frames": listed, "cover": [cover]}
     return certificate("box_fixed", system, {"bound": None}, witness)
 
 
@@ -73,11 +78,12 @@ def test_what_is_not_below_the_real_axis_is_not_skipped() -> None:
     """±i are fixed, and one disc is around each of them: the lower one alone needs no cover."""
     system = plant([[0, -1], [1, 0]], ([[0], [0]], [[1, 0]]))
     exterior = {
+        "F": None,
         "Y": {"denominator": 2, "re": [[1, 0], [1, 0]], "im": [[0, 1], [0, -1]]},
         "T": {"denominator": 1, "re": [[1, 1], [0, 0]], "im": [[0, 0], [-1, 1]]},
         "discs": [{"re": "0", "im": im, "radius": "0.1"} for im in ("1", "-1")],
     }
-    witness = {"exterior": exterior, "gains": [], "frames": [], "cover": [[], []]}
+    witness = {"exterior": [exterior], "gains": [], "frames": [], "cover": [[], []]}
     document = certificate("box_fixed", system, {"bound": None}, witness)
     assert refused(document, "cover").place == "witness.cover[0]"
 
@@ -86,7 +92,7 @@ def test_a_cell_in_the_region_is_skipped_only_if_all_of_it_is() -> None:
     """The mode 0 is on the border; the disc reaches to 1/2 on its right."""
     document = changed(uncontrolled(0, [], [], "0.5"), ("claim.bound", 0))
     assert refused(document, "cover").place == "witness.cover[0]"
-    inside = changed(document, ("system.A", [[-1]]), ("witness.exterior.discs.0.re", "-1"))
+    inside = changed(document, ("system.A", [[-1]]), ("witness.exterior.0.discs.0.re", "-1"))
     assert checked(inside).verdict == "VALID"
 
 
@@ -100,9 +106,9 @@ def test_a_tiny_radius_is_no_rounding(radius: str | None) -> None:
     # [λ − 1, −b; x, 1] at λ = 1 with b x = 1: its inverse is [1, b; −x, 0]
     x = 10**40
     V = {"denominator": x, "re": [[x, 1], [-x * x, 0]], "im": [[0, 0], [0, 0]]}
-    exterior = {"Y": UNIT, "T": UNIT, "discs": [{"re": "1", "im": "0", "radius": "0.1"}]}
+    exterior = {"F": None, "Y": UNIT, "T": UNIT, "discs": [{"re": "1", "im": "0", "radius": "0.1"}]}
     witness = {
-        "exterior": exterior,
+        "exterior": [exterior],
         "gains": [{"X": [matrix([x])], "W": [matrix([1])]}],
         "frames": [{"gains": 0, "V": V, "w": [1, 2 * x]}],
         "cover": [[0]],
@@ -197,7 +203,7 @@ test_a_frame_proves_the_kind_for_which_it_is_made = rejects(
         ("a boolean for a node", FIXED, ("witness.cover.0.0", False), "MALFORMED"),
         ("a boolean for a segment", STABLE, ("witness.segments.0", False), "MALFORMED"),
         ("a boolean for a weight of growth", STABLE, ("witness.growth.0", True), "MALFORMED"),
-        ("a boolean for a radius", FIXED, ("witness.exterior.discs.0.radius", True), "MALFORMED"),
+        ("a boolean for a radius", FIXED, ("witness.exterior.0.discs.0.radius", True), "MALFORMED"),
     ]
 )
 
@@ -234,9 +240,9 @@ def test_channels_do_not_share_what_they_measure() -> None:
     apart = plant([[0]], ([[1]], [[0]]), ([[0]], [[1]]))
     wide = {"X": [matrix([0, 1]), matrix([0, 0])], "W": [matrix([1]), matrix([1])]}
     V = {"denominator": 1, "re": [[0] * 3] * 3, "im": [[0] * 3] * 3}
-    exterior = {"Y": UNIT, "T": UNIT, "discs": [{"re": "0", "im": "0", "radius": "0.1"}]}
+    exterior = {"F": None, "Y": UNIT, "T": UNIT, "discs": [{"re": "0", "im": "0", "radius": "0.1"}]}
     witness = {
-        "exterior": exterior,
+        "exterior": [exterior],
         "gains": [wide],
         "frames": [{"gains": 0, "V": V, "w": [1] * 3}],
         "cover": [[0]],
@@ -245,3 +251,40 @@ def test_channels_do_not_share_what_they_measure() -> None:
     assert checked(document).verdict == "MALFORMED"
     narrow = changed(document, ("witness.gains.0", gains((1, 1), (1, 1))))
     assert checked(narrow).verdict == "INVALID"
+
+
+@pytest.mark.parametrize("doubtful", ["B", "C"])
+def test_gains_move_nothing_where_an_input_or_an_output_may_be_absent(doubtful: str) -> None:
+    """0 is moved to −2 by u = −2y; it is fixed for the member whose input or output is 0."""
+
+    def about(part: Any, radius: str) -> Document:
+        doubts: Document = {"B": None, "C": None, doubtful: {"1": [[part]]}}
+        system = plant([[0]], ([[1]], [[1]]), uncertainty=uncertain(None, **doubts))
+        around = {"Y": UNIT, "T": UNIT}
+        exterior = [
+            {"F": None, **around, "discs": [{"re": "0", "im": "0", "radius": "0.001"}]},
+            {"F": [matrix([-2])], **around, "discs": [{"re": "-2", "im": "0", "radius": radius}]},
+        ]
+        witness = {"exterior": exterior, "gains": [], "frames": [], "cover": [[]]}
+        return certificate("box_fixed", system, {"bound": None}, witness)
+
+    assert refused(about(1, "1.998"), "disc").place == "witness.exterior[1].discs[0]"
+    assert refused(about(1, "2.001"), "cover").place == "witness.cover[0]"
+    assert checked(about("99/100", "1.981")).verdict == "VALID"
+
+
+def test_a_mode_that_no_gains_move_is_in_discs_of_all_matrices() -> None:
+    """Discs of the same mode are far from each other around their centers, and meet in it."""
+    system = plant([[0]], ([[0]], [[1]]))
+    exterior = [
+        {
+            "F": F,
+            "Y": {"denominator": 1000, "re": [[1000]], "im": [[0]]},
+            "T": UNIT,
+            "discs": [{"re": re, "im": re, "radius": "0.708"}],
+        }
+        for F, re in ((None, "0.5"), ([matrix([7])], "-0.5"), ([matrix([-9])], "0.5"))
+    ]
+    for cover in ([], [None], [None, None]):
+        witness = {"exterior": exterior, "gains": [], "frames": [], "cover": [cover]}
+        refused(certificate("box_fixed", system, {"bound": None}, witness), "cover")

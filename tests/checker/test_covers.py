@@ -64,13 +64,70 @@ def test_every_cell_is_asked_of_its_own_frame() -> None:
 
     discs = [(Fraction(1), Fraction(0), Fraction(4))]
     nodes = [[None, 1, None, 0, 1, 0, 1, 0, 1]]
-    require_covered(nodes, "cover", discs, lambda c: False, [frame(0), frame(1)])
+    require_covered(nodes, "cover", [discs], lambda c: False, [frame(0), frame(1)])
     small = [(0, -2, 1, 1), (1, -2, 3, 1), (0, 0, 1, 1), (1, 0, 3, 1)]
     assert asked == [(1, -1, -2, 2), *small, (0, 3, -2, 2), (1, 3, 2, 2)]
     asked.clear()
-    require_covered([[1]], "cover", discs, lambda c: False, [frame(0), frame(1)])
+    require_covered([[1]], "cover", [discs], lambda c: False, [frame(0), frame(1)])
     assert asked == [(1, 1, 0, 4 / ROOT_2)]
-    require_covered([[]], "cover", discs, lambda c: not c.square, [])
+    require_covered([[]], "cover", [discs], lambda c: not c.square, [])
+
+
+@pytest.mark.parametrize(
+    ("where", "disc", "meets"),
+    [
+        (cell(0, 0, 1, False), (3, 0, 2), True),
+        (cell(0, 0, 1, False), (3, 0, "199/100"), False),
+        (cell(0, 0, 1, False), (0, "-301/100", 2), False),
+        (cell(0, 0, 2, False), (3, 4, 3), True),
+        (cell(0, 0, 2, False), (3, 4, "299/100"), False),
+        (cell(0, 0, 2, False), (-3, -4, 3), True),
+        (cell(0, 0, 2, True), (3, 4, 3), True),
+        (cell(0, 0, 2, True), (5, 6, 5), True),
+        (cell(0, 0, 2, True), (-5, 6, "499/100"), False),
+        (cell(0, 0, 2, True), (5, -6, "499/100"), False),
+        (cell(0, 0, 2, True), (4, 1, 2), True),
+        (cell(0, 0, 2, True), (4, 1, "199/100"), False),
+        (cell(0, 0, 2, True), (-1, 4, 2), True),
+        (cell(0, 0, 2, True), (-1, 4, "199/100"), False),
+        (cell(0, 0, 2, True), (1, 1, "1/100"), True),
+        (cell(1, 2, 5, False), (1, 2, "1/100"), True),
+        (cell("1/2", "1/2", 1, False), ("1/2", "-5/2", 2), True),
+    ],
+)
+def test_a_cell_meets_a_disc_where_they_have_a_point_in_common(
+    where: Cell, disc: tuple[Any, Any, Any], meets: bool
+) -> None:
+    re, im, radius = map(Fraction, disc)
+    assert where.meets((re, im, radius)) == meets
+
+
+def test_cells_that_meet_no_disc_of_another_list_need_no_node() -> None:
+    def disc(re: Any, im: Any, radius: Any) -> tuple[Fraction, Fraction, Fraction]:
+        return Fraction(re), Fraction(im), Fraction(radius)
+
+    first, far, corner = disc(0, 0, 2), disc(9, 0, 1), disc("3/2", "3/2", "1/4")
+    for others, nodes, good in (
+        ([], [0], True),
+        ([[far]], [], True),
+        ([[far]], [0], False),
+        ([[far, corner]], [0], True),
+        ([[far, corner]], [], False),
+        ([[far, corner]], [None, 0], True),
+        ([[far, corner]], [None, None, 0], True),
+        ([[far, corner]], [None, 0, 0], False),
+        ([[corner], [far]], [], True),
+        ([[corner], [disc(0, 0, 1)]], [None, 0], True),
+        ([[corner], [disc(0, 0, "1/2")]], [None, None], True),
+        ([[]], [], True),
+    ):
+        found = True
+        try:
+            discs = [[first], *others]
+            require_covered([nodes], "cover", discs, lambda c: False, [lambda *c: True])
+        except Refused:
+            found = False
+        assert found == good, (others, nodes)
 
 
 @pytest.mark.parametrize(
@@ -93,7 +150,7 @@ def test_a_cover_has_a_node_for_each_cell(nodes: Any, verdict: str) -> None:
     disc = (Fraction(0), Fraction(0), Fraction(1))
     found = "VALID"
     try:
-        require_covered(nodes, "cover", [disc], lambda c: False, [lambda *c: True])
+        require_covered(nodes, "cover", [[disc]], lambda c: False, [lambda *c: True])
     except Refused as refused:
         found = refused.verdict
     assert found == verdict

@@ -9,10 +9,13 @@ from typing import Any
 import pytest
 
 from mcexact.checker.arithmetic import Matrix
-from mcexact.checker.exterior_discs import exterior_discs
+from mcexact.checker.boxes import Box
+from mcexact.checker.exterior_discs import exterior_discs, with_gains
 from mcexact.checker.reading import Refused
 from mcexact.checker.regular_discs import Pencil, left_inverse, right_inverse
+from mcexact.checker.system import System
 from tests.checker.box_maker import decimal
+from tests.checker.handmade import matrix
 
 Complex = list[list[complex]]
 CLEAR = 1e-4
@@ -132,7 +135,7 @@ def test_exterior_discs_are_as_large_as_their_rows_ask_for() -> None:
                 for a, r in zip(centers, needed, strict=True)
             ]
             try:
-                good = bool(exterior_discs({"Y": Y, "T": T, "discs": discs}, "", A, D))
+                good = bool(exterior_discs(Y, T, discs, "", A, D))
             except Refused as refused:
                 good = False
                 assert refused.verdict == "INVALID" or "-" in discs[0]["radius"], refused.args
@@ -140,3 +143,32 @@ def test_exterior_discs_are_as_large_as_their_rows_ask_for() -> None:
             if min(map(abs, slack)) > 0.1 and min(map(abs, needed)) > 0.01:
                 assert good == (factor > 1 and min(slack) > 0), (seed, factor)
     assert (True, 1.1) in seen and (True, 0.9) not in seen
+
+
+def test_the_radii_under_gains_are_reached_where_nothing_cancels() -> None:
+    """In every entry, by the member that is farthest from the center in every entry."""
+    rng, n, sizes = random.Random(5), 3, [(2, 1), (1, 3)]
+
+    def system(d: int) -> System:
+        B, C = [real(rng, n, p, d, 0) for p, _ in sizes], [real(rng, q, n, d, 0) for _, q in sizes]
+        return System("continuous", ["1", "2"], real(rng, n, n, d, 0), B, C)
+
+    for _ in range(20):
+        given, radii = system(2), system(7)
+        moved, none = (
+            {
+                "A": given.A + radii.A.times(factor),
+                "B": [M + D.times(factor) for M, D in zip(given.B, radii.B, strict=True)],
+                "C": [M + D.times(factor) for M, D in zip(given.C, radii.C, strict=True)],
+            }
+            for factor in (1, 0)
+        )
+        F = [matrix(*real(rng, p, q, 1, 0).rows, denominator=3) for p, q in sizes]
+        M, D = with_gains(F, "", Box(**vars(given), radii=radii))
+        far, center = (
+            with_gains(F, "", Box(**{**vars(given), **parts}, radii=system(5)))[0]
+            for parts in (moved, none)
+        )
+        assert center.equals(M) and (far - M).equals(D)
+        negative = [{**F_i, "entries": [[-x for x in r] for r in F_i["entries"]]} for F_i in F]
+        assert with_gains(negative, "", Box(**vars(given), radii=radii))[1].equals(D)

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
 from mcexact.analysis.boxes.cover import Cover, Outside
-from mcexact.analysis.boxes.exterior import exterior
+from mcexact.analysis.boxes.disc_lists import GainBox, disc_lists
 from mcexact.analysis.boxes.float_pencils import FloatBox, Floats, perron, weights
 from mcexact.analysis.boxes.one_thread import one_thread
 from mcexact.analysis.boxes.radii import radii_of
@@ -25,7 +25,6 @@ from mcexact.analysis.boxes.regular_discs import (
     whole_weights,
 )
 from mcexact.answer.box_controllable import BoxControllability, RightInverseFrame
-from mcexact.answer.evidence import ExteriorDiscs
 from mcexact.derived.dual import dual
 from mcexact.errors import InputError, LimitReached
 from mcexact.exact.blocks import hstack
@@ -170,10 +169,24 @@ class ControllabilitySearch:
         left = (mode for mode in self.box.modes() if not outside.covers(mode))
         return min((self.pencil.margin(mode) for mode in left), default=np.inf)
 
+    def state_gains(self) -> GainBox:
+        """The box of gains from the state, which is measured exactly, to the channels."""
+        near, n, chosen = self.box, self.system.n, self.channels
+        B = hstack([self.system.B(i) for i in chosen], nrows=n)
+        D_B = hstack([self.radii.B[i] for i in chosen], nrows=n)
+        C, none = Matrix.identity(n), Matrix.zeros(n, n)
+        floats = replace(
+            near,
+            B=(np.hstack([near.B[i] for i in chosen]),),
+            C=(np.diag(near.scale),),
+        )
+        return GainBox(self.system.A, (B,), (C,), Radii(self.radii.A, [D_B], [none]), floats)
+
     def cover(self, growth: Fraction, bound: Fraction | None) -> BoxControllability | None:
         """Evidence for radii that are multiplied by a factor; None if there is none."""
-        found = exterior(self.box, self.system.A, self.radii.A, self.rng, growth)
-        if found is None:
+        outside = Outside(self.system.time, bound)
+        lists = disc_lists(self.state_gains(), self.rng, growth, outside)
+        if lists is None:
             return None
         frames = Frames()
 
@@ -185,8 +198,8 @@ class ControllabilitySearch:
             proposed = self.pencil.proposal(near, to_float(rho), growth)
             return None if proposed is None else frames.added(proposed, c, rho)
 
-        cover = Cover(test, Outside(self.system.time, bound), self.most_squares)
-        trees = cover.of(found.discs)
+        cover = Cover(test, outside, self.most_squares)
+        trees = cover.of(*(each.discs for each in lists))
         self.tested += cover.tested
         if trees is None:
             return None
@@ -194,7 +207,7 @@ class ControllabilitySearch:
             self.system,
             self.system.named(self.channels),
             bound,
-            ExteriorDiscs(found.Y.evidence(), found.T.evidence(), found.discs),
+            lists,
             tuple(RightInverseFrame(R.evidence(), w) for R, w in frames.evidence),
             trees,
         )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
@@ -9,14 +10,14 @@ from typing import Any
 import numpy as np
 
 from mcexact.analysis.boxes.cover import Cover, Outside
-from mcexact.analysis.boxes.exterior import exterior
+from mcexact.analysis.boxes.disc_lists import MANY, GainBox, disc_lists
 from mcexact.analysis.boxes.float_pencils import FloatBox, Pencil, gain_pencil
 from mcexact.analysis.boxes.gain_search import best_gains, exact_gains
 from mcexact.analysis.boxes.one_thread import one_thread
 from mcexact.analysis.boxes.radii import radii_of
 from mcexact.analysis.boxes.regular_discs import Frames, Point
 from mcexact.answer.box_fixed import BoxFixedModes, PencilFrame, PencilGains
-from mcexact.answer.evidence import ExteriorDiscs
+from mcexact.answer.evidence import ExteriorDiscs, RootDisc
 from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.errors import InputError, LimitReached
 from mcexact.exact.floats import to_float
@@ -84,12 +85,17 @@ class FixedModeSearch:
         self.known.append(_Known(point, gains, self._pencil(gains)))
         return self.known[-1].pencil.margin(point)
 
-    def prepare(self, growth: float, outside: Outside) -> float:
-        """Learn gains for all modes, and return how far the radii can grow at each of them."""
+    def prepare(
+        self, growth: float, outside: Outside, lists: Sequence[ExteriorDiscs] = ()
+    ) -> float:
+        """Learn gains for all modes, and return how far the radii can grow at each of them.
+
+        Modes that are in no disc of one of some lists are left out.
+        """
         least = np.inf
         for mode in self.box.modes():
             # A mode well inside of the region is left out, as its disc will be.
-            if outside.covers(mode):
+            if outside.covers(mode) or not all(_among(mode, each.discs) for each in lists):
                 continue
             best = max((each.pencil.margin(mode) for each in self.known), default=0.0)
             if best <= _REUSED * growth:
@@ -115,13 +121,16 @@ class FixedModeSearch:
 
         The answer is about the radii of the system: with another factor it is a witness only.
         """
-        radii = self.radii
-        found = exterior(self.box, self.system.A, radii.A, self.rng, growth)
-        if found is None:
+        system, outside = self.system, Outside(self.system.time, bound)
+        whole = GainBox(system.A, system.B, system.C, self.radii, self.box)
+        lists = disc_lists(whole, self.rng, growth, outside)
+        if lists is None:
+            return None
+        if len(lists) > 1 and self.prepare(float(growth), outside, lists) <= growth:
             return None
         leaves = _Leaves(self, growth)
-        cover = Cover(leaves.test, Outside(self.system.time, bound), self.most_squares)
-        trees = cover.of(found.discs)
+        cover = Cover(leaves.test, outside, self.most_squares)
+        trees = cover.of(*(each.discs for each in lists))
         self.tested += cover.tested
         if trees is None:
             return None
@@ -130,8 +139,7 @@ class FixedModeSearch:
             PencilFrame(None if g is None else gains.index(g), V.evidence(), w)
             for g, (V, w) in zip(leaves.gains, leaves.frames.evidence, strict=True)
         )
-        discs = ExteriorDiscs(found.Y.evidence(), found.T.evidence(), found.discs)
-        return BoxFixedModes(self.system, bound, discs, tuple(gains), frames, trees)
+        return BoxFixedModes(system, bound, lists, tuple(gains), frames, trees)
 
 
 @dataclass
@@ -170,6 +178,13 @@ class _Leaves:
         if k is not None:
             self.gains.append(each.gains)
         return k
+
+
+def _among(mode: complex, discs: Sequence[RootDisc]) -> bool:
+    return any(
+        abs(mode - complex(float(disc.re), float(disc.im))) <= 1.01 * float(disc.radius)
+        for disc in discs
+    )
 
 
 def _distance(point: complex, near: complex) -> float:
@@ -225,7 +240,9 @@ def box_fixed_modes(
         _require_moved(spectrum, limit)
     with one_thread():
         search = FixedModeSearch(system, radii_of(system), starts)
-        least = search.prepare(1.0, Outside(system.time, limit))
+        # Of a large plant few modes are left where the discs of several matrices meet.
+        few = system.n < MANY
+        least = search.prepare(1.0, Outside(system.time, limit)) if few else np.inf
         found = search.cover(Fraction(1), limit) if least > 1 else None
     if found is None:
         where = "" if limit is None else " outside of the region"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
@@ -15,6 +15,8 @@ SQUARE = Fraction(1414214, 1000000)
 """A number above √2: a square of half side h is inside of the disc of radius √2 h."""
 _MOST_CUTS = 24
 
+Disc = tuple[Point, Fraction]
+"""The center and the radius of a disc."""
 Test = Callable[[Point, Fraction, int], int | None]
 """Of a center, a radius and a depth, the index of evidence for the disc."""
 
@@ -78,20 +80,23 @@ class Cover:
     limit: int
     tested: int = field(default=0)
 
-    def of(self, discs: tuple[RootDisc, ...]) -> tuple[tuple[int | None, ...], ...] | None:
-        """The tree over each disc, in preorder; None if a square cannot be covered."""
+    def of(self, *lists: Sequence[RootDisc]) -> tuple[tuple[int | None, ...], ...] | None:
+        """The tree over each disc of the first list, in preorder; None without a cover.
+
+        Squares that meet no disc of another list are left out.
+        """
+        first, *others = ([_exact(disc) for disc in discs] for discs in lists)
         found = []
-        for disc in discs:
-            c = exact_decimal(disc.re), exact_decimal(disc.im)
-            radius = exact_decimal(disc.radius)
+        for c, radius in first:
             tree: list[int | None] = []
-            if not self.outside.disc(c, radius) and not self._disc(c, radius, tree):
+            near = [[each for each in discs if meets(c, radius, each)] for discs in others]
+            skipped = self.outside.disc(c, radius) or not all(near)
+            if not skipped and not (
+                self._leaf(c, radius, 0, tree) or self._cut(c, radius, 0, tree, near)
+            ):
                 return None
             found.append(tuple(tree))
         return tuple(found)
-
-    def _disc(self, c: Point, radius: Fraction, tree: list[int | None]) -> bool:
-        return self._leaf(c, radius, 0, tree) or self._cut(c, radius, 0, tree)
 
     def _leaf(self, c: Point, rho: Fraction, depth: int, tree: list[int | None]) -> bool:
         self.tested += 1
@@ -100,7 +105,14 @@ class Cover:
             tree.append(k)
         return k is not None
 
-    def _cut(self, c: Point, h: Fraction, depth: int, tree: list[int | None]) -> bool:
+    def _cut(
+        self,
+        c: Point,
+        h: Fraction,
+        depth: int,
+        tree: list[int | None],
+        near: list[list[Disc]],
+    ) -> bool:
         """Cut a square of half side h into four, each of which is a leaf or is cut again."""
         if depth == _MOST_CUTS or self.tested >= self.limit:
             return False
@@ -111,9 +123,30 @@ class Cover:
                 part = c[0] + x, c[1] + y
                 if self.outside.square(part, q):
                     continue
+                left = [
+                    [each for each in discs if meets(part, q, each, square=True)] for discs in near
+                ]
+                if not all(left):
+                    continue
                 if not (
                     self._leaf(part, q * SQUARE, depth + 1, tree)
-                    or self._cut(part, q, depth + 1, tree)
+                    or self._cut(part, q, depth + 1, tree, left)
                 ):
                     return False
         return True
+
+
+def meets(c: Point, size: Fraction, disc: Disc, *, square: bool = False) -> bool:
+    """Whether a disc of this radius, or else a square of this half side, meets a disc."""
+    (re, im), radius = disc
+    x, y = abs(re - c[0]), abs(im - c[1])
+    if max(x, y) > size + radius:
+        return False
+    if not square:
+        return x**2 + y**2 <= (size + radius) ** 2
+    x, y = max(x - size, Fraction(0)), max(y - size, Fraction(0))
+    return x**2 + y**2 <= radius**2
+
+
+def _exact(disc: RootDisc) -> Disc:
+    return (exact_decimal(disc.re), exact_decimal(disc.im)), exact_decimal(disc.radius)

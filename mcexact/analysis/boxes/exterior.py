@@ -22,7 +22,7 @@ from mcexact.exact.matrix import Matrix
 
 _PERTURBATIONS = (0.0, 1e-11, 1e-8, 1e-6, 1e-4, 1e-2)
 """Eigenvectors of a matrix that is not diagonalizable are taken of one so close to it."""
-_FINE = 2.0**-18
+_FINE, _FINEST = 2.0**10, 2.0**-26
 _PARTS = (1e-1, 1e-2, 1e-3)
 _WELL = 1e6
 _MOST_DIGITS = 60
@@ -52,27 +52,56 @@ def exterior(
     rng : numpy.random.Generator
     growth : Fraction
     """
-    s = box.scale
     if not box.n:
         none = ComplexRows.of(Matrix.zeros(0, 0))
         return Exterior(none, none, ())
-    for Y, T, centers in _coordinates(box, rng, float(growth)):
-        fine_Y = np.maximum(np.abs(Y), 2.0**-16 * np.abs(Y).max(axis=1, initial=1e-290)[:, None])
-        fine_T = np.maximum(np.abs(T), 2.0**-16 * np.abs(T).max(axis=0, initial=1e-290)[None, :])
-        exact_Y = dyadic(Y / s[None, :], _FINE * fine_Y / s[None, :])
-        exact_T = dyadic(T * s[:, None], _FINE * fine_T * s[:, None])
-        discs = _discs(exact_Y, exact_T, A, D * growth, centers)
-        if discs is not None:
-            return Exterior(exact_Y, exact_T, discs)
-    return None
+    proposed = (each.exact(box.scale, A, D * growth) for each in coordinates(box, rng, growth))
+    return next((found for found in proposed if found is not None), None)
 
 
-def _coordinates(
-    box: FloatBox, rng: np.random.Generator, growth: float
-) -> list[tuple[Complex, Complex, Complex]]:
-    """Y, T and the centers in balanced coordinates, those with the smallest radii first."""
-    A = box.A
-    found: list[tuple[float, Any, Any, Any]] = []
+@dataclass(frozen=True, eq=False)
+class Coordinates:
+    """Y, T and the discs in floating point, in balanced coordinates.
+
+    Attributes
+    ----------
+    Y, T : ndarray of complex, n × n
+    centers : ndarray of complex, n
+    radii : ndarray of float, n
+    size : ndarray of float, n × n
+        |A|.
+    """
+
+    Y: Complex
+    T: Complex
+    centers: Complex
+    radii: Floats
+    size: Floats
+
+    def exact(self, scale: Floats, A: Matrix, D: Matrix) -> Exterior | None:
+        """Round Y and T, and compute the discs of a matrix exactly; None if there are none.
+
+        No entry of Y or T is finer than what a small part of the radii asks for.
+        """
+        n, Y, T = len(scale), np.abs(self.Y), np.abs(self.T)
+        far, most = np.abs(self.centers)[:, None], np.maximum(self.radii, 1e-290)[:, None]
+        after, before = self.size @ T.sum(axis=1), Y @ self.size
+        heavy_Y = np.maximum((after + far * T.sum(axis=1)) / most, T.sum(axis=1))
+        heavy_T = np.maximum((before + far * Y) / most, Y).max(axis=0)[:, None]
+        unit_Y = np.maximum(_FINE / (n * heavy_Y), _FINEST * Y.max(axis=1)[:, None])
+        unit_T = np.maximum(_FINE / (n * n * heavy_T), _FINEST * T.max(axis=0))
+        exact_Y = dyadic(self.Y / scale[None, :], unit_Y / scale[None, :])
+        exact_T = dyadic(self.T * scale[:, None], unit_T * scale[:, None])
+        discs = _discs(exact_Y, exact_T, A, D, self.centers)
+        return None if discs is None else Exterior(exact_Y, exact_T, discs)
+
+
+def coordinates(
+    box: FloatBox, rng: np.random.Generator, growth: Fraction = Fraction(1)
+) -> list[Coordinates]:
+    """Y, T and the discs in balanced coordinates, those with the smallest radii first."""
+    A, size = box.A, np.abs(box.A)
+    found: list[Coordinates] = []
     for T in _candidates(A, box.DA, rng):
         try:
             Y = np.linalg.inv(T)
@@ -81,15 +110,15 @@ def _coordinates(
         H = Y @ A @ T
         centers = np.diag(H).copy()
         size_Y, size_T = np.abs(Y), np.abs(T)
-        spread = np.abs(H - np.diag(centers)) + growth * (size_Y @ box.DA @ size_T)
-        rounding = 1e-12 * (size_Y @ np.abs(A) @ size_T)
-        if not np.all(np.isfinite(spread + rounding)):
+        spread = np.abs(H - np.diag(centers)) + float(growth) * (size_Y @ box.DA @ size_T)
+        spread += 1e-12 * (size_Y @ size @ size_T)
+        if not np.all(np.isfinite(spread)):
             continue
         for weight in _weights(spread, np.abs(centers)):
-            total = float((((spread + rounding) @ weight) / weight).sum())
-            found.append((total, Y / weight[:, None], T * weight[None, :], centers))
-    found.sort(key=lambda each: each[0])
-    return [(Y, T, centers) for _, Y, T, centers in found]
+            radii = (spread @ weight) / weight
+            turned: tuple[Any, Any] = Y / weight[:, None], T * weight[None, :]
+            found.append(Coordinates(*turned, centers, radii, size))
+    return sorted(found, key=lambda each: float(each.radii.sum()))
 
 
 def _weights(spread: Floats, sizes: Floats) -> Iterator[Floats]:

@@ -82,3 +82,19 @@ def test_what_lies_inside_of_a_circle_is_outside_of_the_claim() -> None:
     assert inside.square(origin, Fraction(7, 10)) and not inside.square(origin, Fraction(3, 4))
     assert not Outside("discrete", None).square(origin, Fraction(1, 10))
     assert Outside("discrete", None).square((Fraction(0), Fraction(-2)), Fraction(1))
+
+
+def test_squares_that_meet_no_disc_of_another_list_are_left_out() -> None:
+    asked: list[Point] = []
+
+    def never(c: Point, rho: Fraction, depth: int) -> int | None:
+        asked.append(c)
+        return 0 if depth else None
+
+    first, corner = RootDisc("0", "0", "2"), RootDisc("1.5", "1.5", "0.25")
+    cover = Cover(never, Outside("continuous", None), 100)
+    assert cover.of((first,), (RootDisc("9", "0", "1"),)) == ((),) and not asked
+    assert cover.of((first,), (RootDisc("9", "0", "1"), corner)) == ((None, 0),)
+    assert asked == [(0, 0), (1, 1)]
+    assert cover.of((first,), (corner,), (RootDisc("0", "0", "0.5"),)) == ((None, 0),)
+    assert cover.of((first,), (corner,), (RootDisc("-1", "-1", "0.9"),)) == ((None,),)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
@@ -14,6 +15,7 @@ from .plants import Document, number, table
 
 SMALL = (0, 0, Fraction(1, 8), Fraction(-1, 4))
 RADII = (0, 0, Fraction(1, 20), Fraction(1, 10))
+GAINS = (0, 1, -3, 5, Fraction(1, 4))
 DUAL: Document = {"construction": "dual"}
 FED_BACK: Document = {
     "construction": "feedback",
@@ -57,11 +59,19 @@ def drawn_about_a_box(rng: random.Random, kind: str) -> Document | None:
         if kind == "box_fixed":
             x = rng.choice((2, 3, -3))
             steps: tuple[Document, ...] = (FED_BACK,) if rng.random() < 0.3 else ()
-            return fixed(found, [gains((x, 1), (x, 1))], *steps, bound=bound)
+            under = drawn_gains(rng, lambda: [[[rng.choice(GAINS)]] for _ in range(2)])
+            return fixed(found, [gains((x, 1), (x, 1))], *steps, bound=bound, under=under)
         steps = rng.choice(((), (DUAL,), (FED_BACK,), (FED_BACK, DUAL)))
-        return controllable(found, ["1", "2"], *steps, bound=bound)
+        under = drawn_gains(rng, lambda: [[[rng.choice(GAINS) for _ in "12"] for _ in "12"]])
+        return controllable(found, ["1", "2"], *steps, bound=bound, under=under)
     except ArithmeticError:
         return None
+
+
+def drawn_gains(rng: random.Random, draw: Callable[[], Any]) -> tuple[Any, ...]:
+    """Of which matrices there are exterior discs: of A, of some A_F, or of several of them."""
+    found = [rng.choice((None, draw())) for _ in range(rng.choice((1, 1, 2, 3)))]
+    return tuple(found)
 
 
 def drawn_stable(rng: random.Random, time: str) -> Document:

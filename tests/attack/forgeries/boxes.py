@@ -50,13 +50,41 @@ def channel_cut(rng: random.Random, document: Document) -> Forged:
 
 def disc_shrunk(rng: random.Random, document: Document) -> Forged:
     """An exterior disc is smaller, or elsewhere."""
-    discs = document["witness"].get("exterior", {}).get("discs")
+    exterior = document["witness"].get("exterior")
+    if not exterior:
+        return None
+    k = rng.randrange(len(exterior))
+    discs = exterior[k]["discs"]
     if not discs:
         return None
     disc = rng.choice(discs)
     disc[rng.choice(("radius", "re", "im"))] = rng.choice(("0", "0.01", "-5", "7"))
-    if rng.random() < 0.5:
+    if k:
+        document["witness"]["cover"] = [[] for _ in exterior[0]["discs"]]
+    elif rng.random() < 0.5:
         document["witness"]["cover"][discs.index(disc)] = []
+    return document
+
+
+def matrix_exchanged(rng: random.Random, document: Document) -> Forged:
+    """Exterior discs are said to be of another matrix, or come twice, and nothing is covered."""
+    exterior = document["witness"].get("exterior")
+    if not exterior:
+        return None
+    given = [entry["F"] for entry in exterior]
+    size = [len(channel["B"][0]) for channel in document["system"]["channels"] if channel["B"]]
+    zeros = [{"denominator": 1, "entries": [[0] * p for _ in range(p)]} for p in size]
+    how = rng.randrange(4)
+    if how == 0:
+        rng.choice(exterior)["F"] = rng.choice((None, zeros, *given))
+    elif how == 1:
+        exterior.append({**rng.choice(exterior), "F": rng.choice((None, zeros, *given))})
+    elif how == 2:
+        del exterior[rng.randrange(len(exterior))]
+    else:
+        exterior.reverse()
+    if exterior:
+        document["witness"]["cover"] = [[] for _ in exterior[0]["discs"]]
     return document
 
 
@@ -64,7 +92,7 @@ def matrix_cleared(rng: random.Random, document: Document) -> Forged:
     """Y, T, V or R is 0."""
     witness = document["witness"]
     found: list[Any] = [frame[key] for frame in witness["frames"] for key in "VR" if key in frame]
-    found += [witness["exterior"][key] for key in "YT"] if "exterior" in witness else []
+    found += [discs[key] for discs in witness.get("exterior", []) for key in "YT"]
     if not found:
         return None
     M = rng.choice(found)
@@ -155,6 +183,6 @@ def gain_radii_grown(rng: random.Random, document: Document) -> Forged:
 
 
 ANY = (radii_grown, radius_added, channel_cut, matrix_cleared, weights_changed, bound_moved)
-COVERED = (*ANY, disc_shrunk, nodes_left_out)
+COVERED = (*ANY, disc_shrunk, matrix_exchanged, nodes_left_out)
 FIXED = (*COVERED, gains_exchanged)
 STABLE = (*ANY, border_cut_off, unstable_nominal, gain_radii_grown)

@@ -1,0 +1,171 @@
+"""Exterior discs of A and of A_F for some gains F: what is fixed is in a disc of each list.
+
+Where the lists have few points in common, little is left for a cover, each leaf of which costs the
+inverse of a pencil.  Without gains a list is that of A.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+import numpy as np
+
+from mcexact.analysis.boxes.cover import Outside
+from mcexact.analysis.boxes.exterior import Coordinates, Exterior, coordinates, exterior
+from mcexact.analysis.boxes.float_pencils import Complex, FloatBox
+from mcexact.answer.evidence import ExteriorDiscs
+from mcexact.exact.blocks import hstack, vstack
+from mcexact.exact.floats import matrix_to_float
+from mcexact.exact.matrix import Matrix
+from mcexact.model.uncertainty import Radii, moduli
+
+MANY = 30
+"""From so many states on, gains are drawn: below, frames are cheap and allow for larger radii."""
+_DRAWS, _MOST_LISTS = 24, 8
+_BITS = 8
+_PARTS = (0.0, 0.6, 0.95)
+_TURNS = np.exp(2j * np.pi * np.arange(8) / 8)
+
+
+@dataclass(frozen=True, eq=False)
+class GainBox:
+    """A, B_i and C_i with their radii, exactly and in floating point.
+
+    Attributes
+    ----------
+    A : Matrix, n × n
+    B, C : tuples of Matrix
+    radii : Radii
+        Those of A, B_i and C_i.
+    near : FloatBox
+    """
+
+    A: Matrix
+    B: tuple[Matrix, ...]
+    C: tuple[Matrix, ...]
+    radii: Radii
+    near: FloatBox
+
+    def of_gains(self, F: Sequence[Matrix], growth: Fraction) -> tuple[Matrix, Matrix]:
+        """A_F = A + Σ B_i F_i C_i, and its radii where those of the box grow."""
+        n, radii = self.A.nrows, self.radii
+        B, D_B = hstack(self.B, nrows=n), hstack([M * growth for M in radii.B], nrows=n)
+        FC = vstack([F_i @ C for F_i, C in zip(F, self.C, strict=True)], ncols=n)
+        sizes = [moduli(F_i) for F_i in F]
+        around = vstack([f @ (D * growth) for f, D in zip(sizes, radii.C, strict=True)], ncols=n)
+        outer = vstack([f @ moduli(C) for f, C in zip(sizes, self.C, strict=True)], ncols=n)
+        D = radii.A * growth + (moduli(B) + D_B) @ around + D_B @ outer
+        return self.A + B @ FC, D
+
+    def near_gains(self, A_F: Matrix, D_F: Matrix) -> FloatBox:
+        """A_F and its radii in balanced coordinates."""
+        s = self.near.scale
+        turned = s[None, :] / s[:, None]
+        return replace(self.near, A=matrix_to_float(A_F) * turned, DA=matrix_to_float(D_F) * turned)
+
+
+@dataclass(frozen=True, eq=False)
+class _Proposal:
+    """The discs of A_F in floating point; F is None for A."""
+
+    F: tuple[Matrix, ...] | None
+    M: Matrix
+    D: Matrix
+    coordinates: Coordinates
+
+    def around(self, points: Complex) -> Complex:
+        """Those points that are in a disc, or near one."""
+        far = np.abs(points[:, None] - self.coordinates.centers[None, :])
+        found: Complex = points[np.any(far <= 1.001 * self.coordinates.radii[None, :], axis=1)]
+        return found
+
+    def points(self, outside: Outside) -> Complex:
+        """Points in all discs of the upper half-plane that are not outside."""
+        found = []
+        for c, r in zip(self.coordinates.centers, self.coordinates.radii, strict=True):
+            disc = (Fraction(float(c.real)), Fraction(float(c.imag))), Fraction(float(r))
+            if not outside.disc(*disc):
+                found += [c + r * part * turn for part in _PARTS for turn in _TURNS]
+        return np.array([p for p in found if p.imag >= 0], dtype=np.complex128)
+
+
+def disc_lists(
+    box: GainBox,
+    rng: np.random.Generator,
+    growth: Fraction,
+    outside: Outside,
+) -> tuple[ExteriorDiscs, ...] | None:
+    """Compute lists of discs, the first of which is to be covered; None if there are none.
+
+    Parameters
+    ----------
+    box : GainBox
+    rng : numpy.random.Generator
+    growth : Fraction
+        The factor of all radii.
+    outside : Outside
+        What need not be covered.
+
+    Notes
+    -----
+    Gains are drawn.  Of those whose discs are small, more are taken as long as they leave fewer of
+    some points that are in discs of all lists so far.
+    """
+    own = exterior(box.near, box.A, box.radii.A, rng, growth)
+    if box.A.nrows < MANY or not box.B:
+        return None if own is None else (_evidence(None, own),)
+    chosen = _chosen(_proposals(box, rng, growth), outside)
+    lists = [(each.F, each.coordinates.exact(box.near.scale, each.M, each.D)) for each in chosen]
+    found = [_evidence(F, made) for F, made in lists if made is not None]
+    if not found and own is not None:
+        found = [_evidence(None, own)]
+    return tuple(found) or None
+
+
+def _evidence(F: tuple[Matrix, ...] | None, found: Exterior) -> ExteriorDiscs:
+    return ExteriorDiscs(F, found.Y.evidence(), found.T.evidence(), found.discs)
+
+
+def _proposals(box: GainBox, rng: np.random.Generator, growth: Fraction) -> list[_Proposal]:
+    """The discs of A, and those of A_F for drawn gains."""
+    found = []
+    for k in range(_DRAWS + 1):
+        F = _drawn(box.near, rng) if k else None
+        M, D = (box.A, box.radii.A * growth) if F is None else box.of_gains(F, growth)
+        proposed = coordinates(box.near_gains(M, D), rng)
+        if proposed:
+            found.append(_Proposal(F, M, D, proposed[0]))
+    return found
+
+
+def _chosen(proposals: list[_Proposal], outside: Outside) -> list[_Proposal]:
+    """The proposal with the smallest discs, and others that leave few of its points."""
+    if not proposals:
+        return []
+    ranked = sorted(proposals, key=lambda each: float((each.coordinates.radii**2).sum()))
+    chosen, left = ranked[:1], ranked[0].points(outside)
+    while len(left) and len(chosen) < _MOST_LISTS:
+        counts = [len(each.around(left)) for each in ranked]
+        best = int(np.argmin(counts))
+        if counts[best] == len(left):
+            break
+        chosen.append(ranked[best])
+        left = ranked[best].around(left)
+    return chosen
+
+
+def _drawn(box: FloatBox, rng: np.random.Generator) -> tuple[Matrix, ...]:
+    """Draw gains of a drawn size, with a few bits each."""
+    size = 10 ** rng.uniform(-1.5, 0.5) * max(float(np.linalg.norm(box.A)), 1e-12)
+    found = []
+    for B, C in zip(box.B, box.C, strict=True):
+        p, q = B.shape[1], C.shape[0]
+        around = max(float(np.linalg.norm(B)) * float(np.linalg.norm(C)), 1e-300)
+        parts = rng.choice([-1, 1], size=(p, q)) * rng.uniform(0.3, 1, size=(p, q))
+        drawn = parts * size / around / np.sqrt(len(box.B))
+        unit = Fraction(2) ** (int(np.floor(np.log2(np.abs(drawn).max(initial=1e-290)))) - _BITS)
+        rows = [[round(x / float(unit)) for x in row] for row in drawn.tolist()]
+        found.append(Matrix.from_integers(rows, 1, q) * unit)
+    return tuple(found)
