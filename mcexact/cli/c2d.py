@@ -49,7 +49,13 @@ def command(file: str, step: Fraction, decimals: int, output: Path | None, **giv
     require_other(output, file)
     require_writable(output)
     plant = run.read(file)
-    text = run.result(_sampled, plant, run.limits, step, decimals, doing=f"sampling {plant[0]}")
+    text, certain = run.result(
+        _sampled, plant, run.limits, step, decimals, doing=f"sampling {plant[0]}"
+    )
+    if not certain:
+        click.echo(
+            "mcexact: warning: the sampled plant is that of the values, without radii", err=True
+        )
     if output is None:
         emit(text)
     else:
@@ -58,10 +64,11 @@ def command(file: str, step: Fraction, decimals: int, output: Path | None, **giv
 
 def _sampled(
     plant: tuple[str, bytes], limits: dict[str, int], step: Fraction, decimals: int
-) -> str:
-    """Sample a system and return its file's text, in the child process."""
+) -> tuple[str, bool]:
+    """Sample a system: its file's text, and whether the plant is certain, in the child process."""
     from mcexact.cli.files import system_in
     from mcexact.model.sampled import c2d
     from mcexact.model.system_file import system_text
 
-    return system_text(c2d(system_in(*plant, limits), step, decimals=decimals))
+    system = system_in(*plant, limits)
+    return system_text(c2d(system, step, decimals=decimals)), system.uncertainty is None

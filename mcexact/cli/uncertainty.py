@@ -51,8 +51,18 @@ def leading(account: Account) -> tuple[str, ...]:
         # A plant without fixed modes is stabilizable.
         known.remove("box_stabilizability")
     said = [account.answers[name].explain() for name in known]
+    if account.given.system.uncertainty is not None and (left := _open(account.answers)):
+        said.append(f"within the radii: open, as no proof was found: {', '.join(left)}")
     radii = f"radii: {radii_in_words(account.given.system)}"
     return (radii, *said, "At the nominal values:") if said else ()
+
+
+def _open(answers: Mapping[str, Any]) -> list[str]:
+    """The questions about every plant within the radii that have no answer."""
+    without = [name for name in _ALL if name not in answers]
+    if "box_stabilizability" in without and "box_fixed_modes" in answers:
+        without.remove("box_stabilizability")
+    return [name.removeprefix("box_").replace("_", " ") for name in without]
 
 
 def lead(account: Account) -> str:

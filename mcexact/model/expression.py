@@ -97,7 +97,7 @@ def parse_expression(
     >>> parse_expression("2 t", ("t",))
     Traceback (most recent call last):
         ...
-    mcexact.errors.InputError: expected an operator in '2 t', found 't'
+    mcexact.errors.InputError: expected an operator in '2 t', found 't'; products are written 2*t
     """
     if _NUMBER.fullmatch(text):
         return RationalFunction.constant(read_number(text, where or "", limits), parameters)
@@ -131,9 +131,9 @@ class _Reader:
             end = match.end()
         return found
 
-    def _refusal(self, expected: str, found: str) -> InputError:
+    def _refusal(self, expected: str, found: str, advice: str = "") -> InputError:
         shown = quoted(found) if found else "its end"
-        return InputError(f"expected {expected} in {quoted(self.text)}, found {shown}")
+        return InputError(f"expected {expected} in {quoted(self.text)}, found {shown}{advice}")
 
     @property
     def next(self) -> str:
@@ -152,7 +152,8 @@ class _Reader:
         """All of the text."""
         result = self.sum()
         if self.next:
-            raise self._refusal("an operator", self.next)
+            isolated = self.next[:1].isalpha() or self.next == "("
+            raise self._refusal("an operator", self.next, "; products are written 2*t" * isolated)
         return result
 
     def sum(self) -> RationalFunction:
@@ -207,4 +208,6 @@ class _Reader:
                     f"the parameters are: {known}"
                 )
             return RationalFunction.parameter(token, self.parameters)
-        raise self._refusal("a number, a parameter or '('", token)
+        twice = token == "*" and self.tokens[self.position - 1 : self.position] == ["*"]
+        advice = "; powers are written t^2" * twice
+        raise self._refusal("a number, a parameter or '('", token, advice)

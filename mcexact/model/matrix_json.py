@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
@@ -37,6 +38,10 @@ LONGEST_SIDE = 2**20
 """The most rows and columns of a sparse matrix; a few bytes must not fill the memory."""
 
 
+_LETTERS = re.compile(r"[A-Za-z0-9_+*/^(). -]*[A-DF-Za-df-z][A-Za-z0-9_+*/^(). -]*")
+"""A text with a letter other than that of an exponent."""
+
+
 def read_number(value: Any, where: str, limits: Limits = DEFAULT_LIMITS) -> Fraction:
     """Read one exact number: an integer, a decimal as typed, or a string "p/q".
 
@@ -49,7 +54,12 @@ def read_number(value: Any, where: str, limits: Limits = DEFAULT_LIMITS) -> Frac
         return Fraction(value)
     if not isinstance(value, str):
         raise InputError(f"expected a number, found {kind_of(value)}", where=where)
-    number = parse_rational(str(value), limits, where=where)
+    try:
+        number = parse_rational(str(value), limits, where=where)
+    except InputError as error:
+        if _LETTERS.fullmatch(value) and value.lower() not in ("nan", "inf", "infinity"):
+            error.message += "; the key `parameters` of a system file makes letters parameters"
+        raise
     # A decimal with an exponent can have more digits when it is written out.
     longest = max(abs(number.numerator), number.denominator)
     # Of the two conditions the first one is quick, and false for nearly all numbers.

@@ -13,7 +13,7 @@ from mcexact.errors import InputError
 from mcexact.exact.matrix import Matrix, from_cells
 from mcexact.exact.rational import Limits, as_fraction, written
 from mcexact.exact.rows import is_sparse_array, rows_of
-from mcexact.model.json_text import expect_object, expect_string
+from mcexact.model.json_text import expect_object, expect_string, kind_of
 from mcexact.model.matrix_entry import as_table, require_shape
 from mcexact.model.matrix_json import read_matrix, read_number
 from mcexact.model.names import quoted
@@ -235,6 +235,11 @@ def read_radii(
         If it is malformed, a radius is negative, or a shape differs.
     """
     where = "uncertainty"
+    if not isinstance(value, dict):
+        raise InputError(
+            f'expected an object such as {{"relative": "1/100"}}, found {kind_of(value)}',
+            where=where,
+        )
     given = expect_object(value, where, (), ("relative", "digits", "absolute"))
     if len(given) != 1:
         raise InputError(

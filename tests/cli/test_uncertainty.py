@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from mcexact import MultiChannelSystem, local_controllers, save_controller, save_system
+from mcexact import Box, MultiChannelSystem, local_controllers, save_controller, save_system
 from mcexact.cli.options import part
 from tests.cli.calling import call
 from tests.report.schemas import faults
@@ -166,3 +166,21 @@ def test_a_part_is_a_number_or_a_percentage() -> None:
     for text in ("-1", "x", "%", "1%%"):
         with pytest.raises(BadParameter):
             part(text)
+
+
+def test_what_is_open_within_the_radii_is_said_first(plant: str) -> None:
+    status, out, _ = call("analyze", plant, "--uncertainty", "200%")
+    first, _, rest = out.partition("At the nominal values:")
+    assert status == 0 and rest
+    assert "radii: 7 entries are uncertain, by at most 200 %" in first
+    assert (
+        "within the radii: open, as no proof was found: fixed modes, stabilizability, "
+        "controllability, observability" in " ".join(first.split())
+    )
+
+
+def test_a_sampled_plant_has_no_radii_and_says_so(tmp_path: Path) -> None:
+    save_system(Box.relative(PLANT, "1/100").system, tmp_path / "box.json")
+    status, out, said = call("c2d", str(tmp_path / "box.json"), "--step", "1/10")
+    assert status == 0 and "uncertainty" not in json.loads(out)
+    assert "warning: the sampled plant is that of the values, without radii" in said
