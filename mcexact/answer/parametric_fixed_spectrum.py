@@ -193,17 +193,28 @@ class SettledValue(Part):
 
 
 @dataclass(frozen=True)
+class CommonDivisor(Part):
+    """A value q, and what divides det(xI − A_E) and det(xI − A_F) there besides generic modes."""
+
+    value: Polynomial
+    divisor: ModePolynomial
+
+
+@dataclass(frozen=True)
 class MovedModes(Part):
     """Evidence of the generic and exceptional modes, and that gains move all others.
 
     Attributes
     ----------
-    gains : two tuples of Matrix
-        F and G.
+    gains : three tuples of Matrix
+        E, F and G.
     modulus : int
         ℓ, modulo which det(xI − A_G) and all resultants with it are computed.
     moduli : tuple of int
-        Modulo these the resultant of what is left of det(xI − A) and det(xI − A_F) is computed.
+        Modulo these the resultant of what is left of det(xI − A_E) and det(xI − A_F) is computed;
+        none if ℓ is enough.
+    common : tuple of CommonDivisor
+        If ℓ is enough, divisors at values, which prove how often these divide the resultant.
     generic : tuple of ZeroBlock
         One for each generic polynomial.
     exceptional : tuple of ExceptionalEvidence
@@ -213,9 +224,10 @@ class MovedModes(Part):
         Roots of that resultant at which an entry is undefined.
     """
 
-    gains: tuple[tuple[Matrix, ...], tuple[Matrix, ...]]
+    gains: tuple[tuple[Matrix, ...], tuple[Matrix, ...], tuple[Matrix, ...]]
     modulus: int
     moduli: tuple[int, ...]
+    common: tuple[CommonDivisor, ...]
     generic: tuple[ZeroBlock, ...]
     exceptional: tuple[ExceptionalEvidence, ...]
     settled: tuple[SettledValue, ...]

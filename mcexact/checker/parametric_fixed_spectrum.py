@@ -11,7 +11,9 @@ from .statement import FIXED, PENCIL, channel_set, polynomial_text
 from .two_variables import read, read_coefficients, text
 from .zero_blocks import zero_block
 
-WITNESS = ("gains", "modulus", "moduli", "generic", "exceptional", "settled", "undefined")
+WITNESS = (
+    "gains", "modulus", "moduli", "common", "generic", "exceptional", "settled", "undefined"
+)  # fmt: skip
 
 
 def check(claim: Json, witness: Json, system: ParametricSystem) -> None:
@@ -20,7 +22,9 @@ def check(claim: Json, witness: Json, system: ParametricSystem) -> None:
     Open: see ``proofs/OPEN.md``.
     """
     whole, listed, left_out = fields(claim, "claim", "generic", "exceptional", "outside")
-    drawn, number, numbers, blocks, local, rest, poles = fields(witness, "witness", *WITNESS)
+    drawn, number, numbers, common, blocks, local, rest, poles = fields(
+        witness, "witness", *WITNESS
+    )
     P = [read(p, f"claim.generic[{k}]") for k, p in enumerate(items(whole, "claim.generic"))]
     for k, block in enumerate(counted(items(blocks, "witness.generic", len(P)))):
         zero_block(block, f"witness.generic[{k}]", system, P[k])
@@ -35,7 +39,7 @@ def check(claim: Json, witness: Json, system: ParametricSystem) -> None:
         moved.require_complete(values[-1], [], divisors, f"{place}.divisors")
     values += values_left_out(left_out, poles, system)
     moduli = [evidence.modulus(ell, "witness.moduli") for ell in items(numbers, "witness.moduli")]
-    moved.require_no_other(values, moduli)
+    moved.require_no_other(values, common, moduli)
 
 
 def _exceptional(

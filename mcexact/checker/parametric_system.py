@@ -196,11 +196,13 @@ def cleared_tables(tables: list[Table]) -> dict[str, Any]:
 def _cleared(table: Table) -> tuple[Layers, Polynomial]:
     """The layers of M, and δ, with M/δ the matrix and δ the least common denominator."""
     rows, ncols = table
+    different = dict.fromkeys(tuple(bottom) for row in rows for _, bottom in row)
     delta: Polynomial = ONE
-    for _, bottom in (entry for row in rows for entry in row):
+    for bottom in map(list, different):
         delta = poly_product(delta, poly_divide(bottom, common_divisor(delta, bottom))[0])
+    factors = {bottom: poly_divide(delta, [*bottom])[0] for bottom in different}
     above = [
-        [poly_product(top, poly_divide(delta, bottom)[0]) if top else [] for top, bottom in row]
+        [poly_product(top, factors[tuple(bottom)]) if top else [] for top, bottom in row]
         for row in rows
     ]
     values = [c for row in above for entry in row for c in entry]

@@ -1,5 +1,9 @@
 """Resultants with respect to x of polynomials in x and t, modulo ℓ and over Q."""
 
+import math
+from fractions import Fraction
+from operator import mul
+
 from . import budget
 from .arithmetic import Polynomial, cleared, inverse, poly_modulo, stripped
 from .interpolation import interpolated
@@ -19,23 +23,48 @@ def resultant(f: Residues, g: Residues, ell: int) -> Polynomial:
 
     Open: see ``proofs/OPEN.md``.
     """
-    many = (len(f) - 1) * max(degree(g), 0) + (len(g) - 1) * max(degree(f), 0) + 1
+    many = degree_bound(f, g) + 1
     values = [
         [_of_values(_at(f, t, ell), _at(g, t, ell), ell)] for t in budget.counted(range(many))
     ]
     return interpolated(values, ell)[0]
 
 
+def degree_bound(f: Bivariate, g: Bivariate) -> int:
+    """A bound for the degree in t of the resultant of f, monic in x, and g.
+
+    It is the product of g(α) over the roots x = α of f, which are series in t at infinity.
+
+    Open: see ``proofs/OPEN.md``.
+    """
+    budget.spend(budget.fractions(len(f) * (len(f) + len(g)), 1))
+    total: float | Fraction = 0
+    for slope, steps in _degrees_of_roots(f):
+        values = (len(c) - 1 + (k and k * slope) for k, c in enumerate(g) if c)
+        total += steps * max(values, default=-math.inf)
+    return int(max(total, 0))
+
+
+def _degrees_of_roots(f: Bivariate) -> list[tuple[Fraction | float, int]]:
+    """The degrees in t of the roots x, each with their number: slopes of the Newton polygon.
+
+    The root 0 has the degree −∞.
+    """
+    found: list[tuple[Fraction | float, int]] = []
+    k = len(f) - 1
+    while k > 0:
+        lines = ((Fraction(len(f[j]) - len(f[k]), k - j), k - j) for j in range(k) if f[j])
+        found.append(max(lines, default=(-math.inf, k)))
+        k -= found[-1][1]
+    return found
+
+
 def _at(f: Residues, t: int, ell: int) -> Polynomial:
-    longest = budget.limbs([ell])
-    budget.spend(budget.reductions(sum(map(len, f)), longest))
-    result = []
-    for c in f:
-        total = 0
-        for entry in reversed(c):
-            total = (total * t + entry) % ell
-        result.append(total)
-    return result
+    budget.spend(budget.reductions(sum(map(len, f)), budget.limbs([ell])))
+    powers = [1]
+    for _ in range(degree(f)):
+        powers.append(powers[-1] * t % ell)
+    return [sum(map(mul, c, powers)) % ell for c in f]
 
 
 def _of_values(f: Polynomial, g: Polynomial, ell: int) -> int:

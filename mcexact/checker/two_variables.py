@@ -60,6 +60,13 @@ def divide(f: Bivariate, g: Bivariate, q: Polynomial | None = None) -> tuple[Biv
     return quotient[::-1], rest if any(rest) else []
 
 
+def difference(f: Bivariate, g: Bivariate) -> Bivariate:
+    """f − g."""
+    length = max(len(f), len(g))
+    first, second = ([*p, *[[]] * (length - len(p))] for p in (f, g))
+    return [_less(a, b) for a, b in zip(first, second, strict=True)]
+
+
 def _less(a: Polynomial, b: Polynomial) -> Polynomial:
     budget.spend(budget.fractions(len(b), budget.limbs_of(a) + budget.limbs_of(b)))
     length = max(len(a), len(b))

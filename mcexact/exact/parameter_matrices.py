@@ -7,12 +7,12 @@ from typing import Any
 import flint
 
 from mcexact.exact.function_kernels import Kernel, Tower, X, line, over_functions
+from mcexact.exact.modular_resultants import interpolated_modulo
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.polynomial_matrix import PolynomialMatrix
 from mcexact.exact.two_variables import (
     degree_bound,
     interpolated,
-    interpolated_modulo,
     points,
     value_at,
 )

@@ -56,7 +56,7 @@ def long_prime(rng: random.Random, bits: int) -> int:
     """Draw a prime with exactly this many bits, more than a machine word has."""
     while True:
         candidate = rng.getrandbits(bits) | 1 << bits - 1 | 1
-        if flint.fmpz(candidate).is_prime():
+        if flint.fmpz(candidate).is_probable_prime() and flint.fmpz(candidate).is_prime():
             return candidate
 
 

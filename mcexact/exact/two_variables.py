@@ -6,6 +6,7 @@ modulo q.
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
@@ -21,6 +22,9 @@ from mcexact.exact.polynomial_matrix import PolynomialMatrix
 
 Coefficient = flint.fmpq_poly
 Bivariate = list[Any]
+
+
+_PRIME, _VALUE = 2**61 - 1, 10**9 + 7
 
 
 @cache
@@ -65,11 +69,28 @@ def split(f: Any) -> Bivariate:
 
 def common_factors(polynomials: Sequence[Bivariate]) -> list[Bivariate]:
     """The irreducible factors of positive degree in x of the greatest common divisor."""
+    if _are_apart_somewhere(polynomials):
+        return []
     common = joined(polynomials[0])
     for f in polynomials[1:]:
         common = common.gcd(joined(f))
     found = [p for p, _ in common.factor()[1] if p.degrees()[1] > 0]
     return sorted(map(split, found), key=lambda p: (len(p), str(p)))
+
+
+def product(f: Bivariate, g: Bivariate) -> Bivariate:
+    """f g, both nonzero."""
+    result = [Coefficient([])] * (len(f) + len(g) - 1)
+    for i, a in enumerate(f):
+        for k, b in enumerate(g):
+            result[i + k] = result[i + k] + a * b
+    return result
+
+
+def difference(f: Bivariate, g: Bivariate) -> Bivariate:
+    """f − g, perhaps with zeros at the end."""
+    zero = Coefficient([])
+    return [a - b for a, b in itertools.zip_longest(f, g, fillvalue=zero)]
 
 
 def divided(f: Bivariate, g: Bivariate, q: Any = None) -> tuple[Bivariate, Bivariate]:
@@ -129,35 +150,6 @@ def resultant(f: Bivariate, g: Bivariate) -> Any:
     return interpolated([at(f, t).resultant(at(g, t)) for t in where], where)
 
 
-def resultant_modulo(f: Bivariate, g: Bivariate, ell: int) -> flint.nmod_poly:
-    """The same modulo a prime that divides no denominator."""
-    many = (len(f) - 1) * degree(g) + (len(g) - 1) * degree(f) + 1
-    first, second = ([residues(c, ell) for c in h] for h in (f, g))
-    values = [
-        int(
-            flint.nmod_poly([int(c(t)) for c in first], ell).resultant(
-                flint.nmod_poly([int(c(t)) for c in second], ell)
-            )
-        )
-        for t in range(many)
-    ]
-    return interpolated_modulo(values, ell)
-
-
-def interpolated_modulo(values: Sequence[int], ell: int) -> flint.nmod_poly:
-    """The polynomial modulo a prime with these values at 0, 1, … (Newton)."""
-    many, slopes = len(values), list(values)
-    for k in range(1, many):
-        f_k = pow(k, -1, ell)
-        slopes = slopes[:k] + [
-            (b - a) * f_k % ell for a, b in zip(slopes[k - 1 :], slopes[k:], strict=False)
-        ]
-    result = flint.nmod_poly([], ell)
-    for t in reversed(range(many)):
-        result = result * flint.nmod_poly([-t % ell, 1], ell) + slopes[t]
-    return result
-
-
 def residues(p: Any, ell: int) -> flint.nmod_poly:
     """A rational polynomial modulo a prime that divides no denominator."""
     scale = pow(int(p.denom()), -1, ell)
@@ -178,8 +170,23 @@ def roots_modulo(q: Any, p: Bivariate, ell: int) -> Iterator[tuple[int, int]]:
 
 
 def are_coprime(first: Bivariate, second: Bivariate) -> bool:
-    """Whether two polynomials have no common factor."""
-    return bool(joined(first).gcd(joined(second)).is_constant())
+    """Whether two polynomials, monic in x, have no common factor."""
+    return _are_apart_somewhere([first, second]) or bool(
+        joined(first).gcd(joined(second)).is_constant()
+    )
+
+
+def _are_apart_somewhere(polynomials: Sequence[Bivariate]) -> bool:
+    """Whether they have no common root at one value of t modulo a prime: then no common factor."""
+    if any(d % _PRIME == 0 for f in polynomials for d in denominators(f)):
+        return False
+    values = [
+        flint.nmod_poly([int(residues(c, _PRIME)(_VALUE)) for c in f], _PRIME) for f in polynomials
+    ]
+    common = values[0]
+    for value in values[1:]:
+        common = common.gcd(value)
+    return bool(common.degree() == 0)
 
 
 def size(f: Bivariate) -> int:

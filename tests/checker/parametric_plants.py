@@ -31,7 +31,11 @@ SETTLED = certified(
     [[[0], [0], [0], [0]], [[0], [0], [-2], [0]]],
     [[[-1, 2, 0, 0], [2, 0, 2, -2]], [[0, -1, 0, -1], [0, 0, 0, 2]]],
 )
-"""0 for every t, 1 at t = 1 and at two irrational values; at t = −3 the multiplicity of 0 grows."""
+"""0 for every t, 1 at t = 1 and at two irrational values, from an exact resultant."""
+GROWN = certified([[0, 0], [0, 0]], [[[0], ["t - 1"]]], [[[1, 1]]])
+"""0 for every t; at t = 1 its multiplicity grows."""
+TANGENT = certified([[2, 1], [0, 1]], [[[1], ["t^2"]]], [[[1, 0]]])
+"""1 at t = 0, where the resultant vanishes twice: it has to be exact."""
 RANGED = certified(
     [[2, 0, -1], [0, 0, -2], ["t", 0, 0]],
     [[[0], ["t^2 - 2"], ["t^3 - 2"]], [[], [], []]],
@@ -63,9 +67,15 @@ EMPTY = certified([], [[]], [[[]]])
 """No states."""
 TWO = certified([[1, 0], [0, 2]], [[["t"], ["t"]]], [[[1, 1]]])
 """Both modes are fixed at t = 0, where nothing is controlled."""
+PAIR = certified([[1, 0], [0, 2]], [[["t"], [0]], [[0], [1]]], [[[1, 1]], [[1, 1]]])
+"""1 at t = 0, where gains of the second channel move 2."""
+SCALAR = certified([[1]], [[["t"]]], [[[1]]])
+"""1 at t = 0."""
 ALL = {
     "paper": PAPER,
     "settled": SETTLED,
+    "grown": GROWN,
+    "tangent": TANGENT,
     "ranged": RANGED,
     "poles": POLES,
     "moving": MOVING,
@@ -73,4 +83,12 @@ ALL = {
     "diagonal": DIAGONAL,
     "empty": EMPTY,
     "two": TWO,
+    "pair": PAIR,
+    "scalar": SCALAR,
 }
+
+
+def exactly(document: Document) -> Document:
+    """The same with an exact resultant, modulo prime numbers of Mersenne."""
+    witness = document["witness"] | {"moduli": [2**521 - 1, 2**607 - 1], "common": []}
+    return document | {"witness": witness}

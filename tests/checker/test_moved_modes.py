@@ -29,8 +29,16 @@ def value(*coefficients: Any) -> list[Fraction]:
 
 
 def moved(system: Any, first: list[Any], second: list[Any], *P: Any, ell: int = ELL) -> MovedModes:
-    """What gains move; one matrix for each channel."""
-    return MovedModes([first, second], ell, list(P), read_parametric(system))
+    """What gains move beside those of 0; one matrix for each channel."""
+    return MovedModes([still(system), first, second], ell, list(P), read_parametric(system))
+
+
+def still(system: Any) -> list[Any]:
+    """Gains of 0."""
+    return [
+        constant(*[[0] * len(channel["C"]) for _ in channel["B"][0]])
+        for channel in system["channels"]
+    ]
 
 
 def refusal(ask: Callable[[], Any]) -> tuple[str, str]:
@@ -63,6 +71,8 @@ def test_loops_are_closed_by_their_gains() -> None:
     other = moved(WIDE, [constant([0], [0]), constant([0, 0, 0])], [F1, F2])
     assert other.moved == other.psi == found.psi
     assert other.chi_G == [[83, 7, 3, 100], [94, 97, 1], [1]]
+    third = MovedModes([[F1, F2], *[still(WIDE)] * 2], ELL, [], read_parametric(WIDE))
+    assert (third.psi, third.moved) == (found.moved, found.psi)
 
 
 def test_generic_polynomials_are_divided_out_one_after_the_other() -> None:
@@ -94,9 +104,9 @@ def test_gains_have_the_shapes_of_the_channels(first: Any, second: Any, code: st
     assert refusal(lambda: moved(WIDE, first, second))[0] == code
 
 
-def test_there_are_two_gains_and_a_modulus() -> None:
+def test_there_are_three_gains_and_a_modulus() -> None:
     system = read_parametric(WIDE)
-    for gains in ([], [[F1, F2]], [[F1, F2]] * 3, None):
+    for gains in ([], [[F1, F2]] * 2, [[F1, F2]] * 4, None):
         assert refusal(partial(MovedModes, gains, ELL, [], system))[0] == "form"
     for ell in (1, 0, -3):
         found = refusal(partial(moved, WIDE, [F1, F2], [F1, F2], ell=ell))
@@ -161,8 +171,10 @@ def test_a_mode_at_a_value_is_no_generic_one() -> None:
     assert new(at("t"), value(0, 1), X) == ("", "")
 
 
-def others(found: MovedModes, *values: Any, moduli: Any = (LARGE,)) -> tuple[str, str]:
-    return refusal(lambda: found.require_no_other(values, list(moduli)))
+def others(
+    found: MovedModes, *values: Any, moduli: Any = (LARGE,), common: Any = ()
+) -> tuple[str, str]:
+    return refusal(lambda: found.require_no_other(values, list(common), list(moduli)))
 
 
 FACTOR, PRODUCT = ("common_factor", "witness"), ("product", "witness.gains")
@@ -200,3 +212,67 @@ def test_polynomials_of_the_second_gains_are_not_divided() -> None:
     assert others(moved(apart, [constant([1])], [constant([7])], X, ell=7)) == FACTOR
     assert others(moved(apart, [constant([1])], [constant([7])], X, ell=7), value(0, 1)) == ("", "")
     assert others(moved(apart, [constant([1])], [constant([2])], X), value(0, 1)) == ("", "")
+
+
+def modular(found: MovedModes, *values: Any, common: Any = ()) -> tuple[str, str]:
+    """What the resultant modulo ℓ alone shows, with values and what divides polynomials there."""
+    named = [{"value": [*map(int, q)], "divisor": divisor} for q, divisor in common]
+    return others(found, *values, moduli=(), common=named)
+
+
+ZERO, ONE, MODE = value(0, 1), value(-1, 1), [[], [1]]
+
+
+def test_a_resultant_modulo_one_number_is_divided_as_often_as_is_proved() -> None:
+    assert modular(at("t")) == modular(at("t"), ZERO) == FACTOR
+    assert modular(at("t"), ZERO, common=[(ZERO, MODE)]) == ("", "")
+    assert modular(at("t^2"), ZERO, common=[(ZERO, MODE)]) == FACTOR
+    assert modular(at("t^2 - t"), ZERO, ONE, common=[(ZERO, MODE)]) == FACTOR
+    assert modular(at("t^2 - t"), ZERO, ONE, common=[(ONE, MODE), (ZERO, MODE)]) == ("", "")
+    assert modular(at("t^2 - t"), value(0, -1, 1), common=[(value(0, -1, 1), MODE)]) == ("", "")
+    assert modular(at("1")) == ("", "")
+    two = moved(
+        plant([[0, 0], [0, 5]], ([["t"], ["t"]], [[1, 1]])), *[[constant([k])] for k in (1, 2)]
+    )
+    assert modular(two, ZERO, common=[(ZERO, MODE)]) == FACTOR
+    assert modular(two, ZERO, common=[(ZERO, [[], [-5], [1]])]) == ("", "")
+
+
+def test_divisors_at_values_are_those_of_both_polynomials() -> None:
+    pair = plant([[0, 0], [1, 5]], ([["t"], [0]], [[1, 1]]), ([[0], [1]], [[1, 1]]))
+    F, G = [constant([2]), constant([3])], [constant([7]), constant([11])]
+    found = moved(pair, F, G)  # (x − 5) x and (x − 8) x at t = 0
+    assert modular(found, ZERO, common=[(ZERO, MODE)]) == ("", "")
+    for divisor in ([[], [-5], [1]], [[], [-8], [1]], [[-1], [1]]):
+        refused = modular(found, ZERO, common=[(ZERO, divisor)])
+        assert refused == ("divisor", "witness.common[0]")
+    assert modular(found, ZERO, common=[(ZERO, [[0, 1], [1]])])[0] == "form"
+    assert modular(found, ZERO, common=[(ZERO, [[1]])])[0] == "form"
+
+
+def test_values_that_are_divided_out_are_named_and_coprime() -> None:
+    found, twice = at("t^2 - t"), [(ZERO, MODE), (ZERO, MODE)]
+    assert modular(found, ZERO, common=[(ZERO, MODE), (ONE, MODE)]) == (
+        "claim",
+        "witness.common[1]",
+    )
+    assert modular(at("t^2"), ZERO, common=twice) == ("common_factor", "witness.common[1]")
+    near = value(-1 - ELL, 1)
+    plain = at(f"t^2 - {2 + ELL}*t + {1 + ELL}")
+    assert modular(plain, ONE, near, common=[(ONE, MODE), (near, MODE)])[0] == "common_factor"
+    assert modular(plain, ONE, common=[(ONE, MODE)]) == FACTOR
+    assert modular(at("t"), value(-1), common=[(value(-1), MODE)])[0] == "form"
+
+
+def test_a_modulus_loses_no_degree() -> None:
+    assert modular(at("7*t + 1", 7)) == ("degree", "witness.gains")
+    assert modular(at("7*t + 1", 14))[0] == "unit"
+    assert modular(at("t", 7, first=7), ZERO, common=[(ZERO, MODE)])[0] == "degree"
+    assert modular(at("t", first=0), ZERO, common=[(ZERO, MODE)])[0] == "degree"
+
+
+def test_moduli_leave_nothing_to_divisors() -> None:
+    common = [{"value": [0, 1], "divisor": MODE}]
+    assert others(at("t"), ZERO, common=common) == ("form", "witness.common")
+    assert others(at("t"), ZERO, moduli=(), common=common) == ("", "")
+    assert others(at("t"), ZERO, moduli=(), common=[{**common[0], "more": 1}])[0] == "form"

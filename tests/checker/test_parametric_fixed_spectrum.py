@@ -13,13 +13,18 @@ from tests.checker.parametric_plants import (
     ALL,
     DIAGONAL,
     EMPTY,
+    GROWN,
     IRRATIONAL,
     MOVING,
+    PAIR,
     PAPER,
     POLES,
     RANGED,
+    SCALAR,
     SETTLED,
+    TANGENT,
     TWO,
+    exactly,
 )
 
 
@@ -27,6 +32,8 @@ from tests.checker.parametric_plants import (
 def test_what_is_found_is_proved(name: str) -> None:
     found = checked(ALL[name])
     assert found.verdict == "VALID", found.line()
+    again = checked(exactly(ALL[name]))
+    assert (again.verdict, again.statement) == ("VALID", found.statement), again.line()
 
 
 def test_the_statements_say_what_is_fixed_and_where() -> None:
@@ -71,14 +78,52 @@ def grown(document: Any) -> Any:
     return [layer, layer]
 
 
-def still(gains: Any) -> Any:
-    """Gains of zeros."""
-    return [{**F, "entries": [[0] * len(row) for row in F["entries"]]} for F in gains]
+def congruent(document: Any, common: Any) -> Any:
+    """The value 0 is said to be out of range, as one that is congruent modulo ℓ."""
+    ell, outside = document["witness"]["modulus"], document["claim"]["outside"]
+    value = {"value": [ell, 1], "roots": [{**ROOT[0], "re": str(-ell)}]}
+    return changed(
+        document,
+        ("claim.exceptional", []),
+        ("witness.exceptional", []),
+        ("witness.common", common),
+        ("claim.outside", [*outside, value]),
+    )
 
 
+def pair(*divisor: list[int]) -> Any:
+    """The pair of modes with the gains 3 and 4 of the second channel, and a divisor at t = 0."""
+    return changed(
+        PAIR,
+        ("witness.gains.0.1.entries", [[3]]),
+        ("witness.gains.1.1.entries", [[4]]),
+        ("witness.common.0.divisor", [*divisor]),
+    )
+
+
+def scalar(*gains: int) -> list[tuple[str, Any]]:
+    """Changes of the first gains of a plant with one input and one output."""
+    return [(f"witness.gains.{k}.0.entries", [[f]]) for k, f in enumerate(gains)]
+
+
+ONCE = {"value": [0, 1], "divisor": [[-1], [1]]}
 FALSE: dict[str, tuple[Any, str]] = {
     "a value is left out": (
+        changed(
+            PAPER, ("claim.exceptional", []), ("witness.exceptional", []), ("witness.common", [])
+        ),
+        "common_factor",
+    ),
+    "a value is left out of the claim alone": (
         changed(PAPER, ("claim.exceptional", []), ("witness.exceptional", [])),
+        "claim",
+    ),
+    "a value is left out of the divisors": (
+        changed(PAPER, ("witness.common", [])),
+        "common_factor",
+    ),
+    "a value is left out of an exact resultant": (
+        changed(exactly(PAPER), ("claim.exceptional", []), ("witness.exceptional", [])),
         "common_factor",
     ),
     "a value is said to be settled": (
@@ -118,21 +163,21 @@ FALSE: dict[str, tuple[Any, str]] = {
         "range",
     ),
     "a value congruent to one in the range is said to be beyond it": (
-        changed(
+        congruent(RANGED, RANGED["witness"]["common"][1:]),
+        "common_factor",
+    ),
+    "a value congruent to one in the range, with its divisor": (
+        congruent(
             RANGED,
-            ("claim.exceptional", []),
-            ("witness.exceptional", []),
-            (
-                "claim.outside",
-                [
-                    *RANGED["claim"]["outside"],
-                    {
-                        "value": [RANGED["witness"]["modulus"], 1],
-                        "roots": [{**ROOT[0], "re": str(-RANGED["witness"]["modulus"])}],
-                    },
-                ],
-            ),
+            [
+                {**RANGED["witness"]["common"][0], "value": [RANGED["witness"]["modulus"], 1]},
+                *RANGED["witness"]["common"][1:],
+            ],
         ),
+        "divisor",
+    ),
+    "a value congruent to one in the range, and an exact resultant": (
+        congruent(exactly(RANGED), []),
         "common_factor",
     ),
     "a generic polynomial that is right at two values": (
@@ -176,6 +221,10 @@ FALSE: dict[str, tuple[Any, str]] = {
     ),
     "a generic mode is left out": (
         changed(MOVING, ("claim.generic", []), ("witness.generic", [])),
+        "degree",
+    ),
+    "a generic mode is left out, and the resultant exact": (
+        changed(exactly(MOVING), ("claim.generic", []), ("witness.generic", [])),
         "product",
     ),
     "another generic mode": (changed(POLES, ("claim.generic.0", [[1], [1]])), "identity"),
@@ -297,32 +346,66 @@ FALSE: dict[str, tuple[Any, str]] = {
         changed(SETTLED, ("witness.exceptional.1.modes.0.W.coefficients", grown(SETTLED))),
         "pivots",
     ),
-    "too few moduli": (changed(PAPER, ("witness.moduli", [])), "modulus"),
-    "a small modulus": (changed(PAPER, ("witness.moduli", [101])), "modulus"),
-    "a modulus of 1": (changed(PAPER, ("witness.moduli", [1])), "modulus"),
+    "no moduli": (changed(TANGENT, ("witness.moduli", [])), "common_factor"),
+    "no moduli, and divisors that are not enough": (
+        changed(TANGENT, ("witness.moduli", []), ("witness.common", [ONCE])),
+        "common_factor",
+    ),
+    "no moduli, and a divisor twice": (
+        changed(TANGENT, ("witness.moduli", []), ("witness.common", [ONCE, ONCE])),
+        "common_factor",
+    ),
+    "a small modulus": (changed(TANGENT, ("witness.moduli", [101])), "modulus"),
+    "a modulus of 1": (changed(TANGENT, ("witness.moduli", [1])), "modulus"),
     "one modulus twice": (
-        changed(PAPER, ("witness.moduli", PAPER["witness"]["moduli"] * 2)),
+        changed(TANGENT, ("witness.moduli", TANGENT["witness"]["moduli"] * 2)),
         "unit",
     ),
-    "the gains 0 and others": (
-        changed(PAPER, ("witness.gains.0", still(PAPER["witness"]["gains"][0]))),
+    "the same gains twice": (
+        changed(PAPER, ("witness.gains.0", PAPER["witness"]["gains"][1])),
+        "degree",
+    ),
+    "the same gains twice, and an exact resultant": (
+        changed(exactly(PAPER), ("witness.gains.0", PAPER["witness"]["gains"][1])),
         "product",
     ),
+    "a modulus that divides the difference of gains": (
+        changed(SCALAR, *scalar(0, 5), ("witness.modulus", 5)),
+        "degree",
+    ),
+    "a modulus that has a factor in common with the difference of gains": (
+        changed(SCALAR, *scalar(0, 5), ("witness.modulus", 10)),
+        "unit",
+    ),
+    "a divisor that divides nothing": (
+        changed(PAPER, ("witness.common.0.divisor", [[5], [1]])),
+        "divisor",
+    ),
+    "a divisor of the first polynomial alone": (pair([5], [-6], [1]), "divisor"),
+    "a divisor of the second polynomial alone": (pair([6], [-7], [1]), "divisor"),
+    "a divisor at a value that is not named": (
+        changed(PAPER, ("witness.common.0.value", [-1, 1])),
+        "claim",
+    ),
     "gains that move nothing": (
-        changed(SETTLED, ("witness.gains.1", still(SETTLED["witness"]["gains"][1]))),
+        changed(SETTLED, ("witness.gains.2", SETTLED["witness"]["gains"][0])),
         "common_factor",
     ),
     "a divisor of nothing": (changed(PAPER, (f"{PROOF}.divisors", [[[5], [1]]])), "divisor"),
     "the generic mode is no divisor": (
-        changed(SETTLED, ("witness.settled.0.divisors", [])),
+        changed(GROWN, ("witness.settled.0.divisors", [])),
         "common_factor",
     ),
-    "a settled value is left out": (changed(SETTLED, ("witness.settled", [])), "common_factor"),
+    "a settled value is left out": (
+        changed(GROWN, ("witness.settled", []), ("witness.common", [])),
+        "common_factor",
+    ),
     "an irrational value is left out": (
         changed(
             IRRATIONAL,
             ("claim.exceptional", IRRATIONAL["claim"]["exceptional"][:1]),
             ("witness.exceptional", IRRATIONAL["witness"]["exceptional"][:1]),
+            ("witness.common", IRRATIONAL["witness"]["common"][:1]),
         ),
         "common_factor",
     ),
@@ -382,7 +465,13 @@ MALFORMED: dict[str, Any] = {
             PAPER["witness"]["exceptional"][0]["modes"][0]["W"]["coefficients"] * 2,
         ),
     ),
-    "one of two gains": changed(PAPER, ("witness.gains", PAPER["witness"]["gains"][:1])),
+    "two of three gains": changed(PAPER, ("witness.gains", PAPER["witness"]["gains"][:2])),
+    "moduli and divisors": changed(PAPER, ("witness.moduli", TANGENT["witness"]["moduli"])),
+    "a divisor without x": changed(PAPER, ("witness.common.0.divisor", [[1]])),
+    "a divisor that is not reduced": changed(
+        PAPER, ("witness.common.0.divisor", [[-1, 1], [], [1]])
+    ),
+    "a divisor at a value without t": changed(PAPER, ("witness.common.0.value", [1])),
     "gains of another shape": changed(PAPER, ("witness.gains.0.0", ZERO)),
     "a key less": without(PAPER, "witness.settled"),
     "a claim less": without(PAPER, "claim.outside"),
@@ -421,6 +510,7 @@ KEPT: dict[str, Any] = {
         PAPER, ("witness.settled", [{"value": [7, 1], "divisors": []}])
     ),
     "poles where nothing happens": changed(POLES, ("witness.undefined", [[1, 1], [1, 1]])),
+    "other gains, and what divides both polynomials": pair([-1], [1]),
     "values beyond a range": changed(
         RANGED,
         (

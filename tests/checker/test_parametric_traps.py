@@ -31,6 +31,11 @@ CODES = {
     "a value is divided out modulo ℓ, with one that is congruent to it": "common_factor",
     "ℓ divides the denominator of a value": "unit",
     "powers of a generic polynomial are divided out modulo ℓ": "common_factor",
+    "a value is divided out modulo ℓ alone, with one that is congruent to it": "common_factor",
+    "ℓ alone divides the denominator of a value": "degree",
+    "a value is divided out once for each time that it is named": "common_factor",
+    "a value is divided out as often as the degree of what divides nothing": "divisor",
+    "a value is divided out that is not named": "claim",
     "scalars are restricted to a companion matrix": "common_factor",
     "a value where nothing is fixed": "claim",
     "the resultant is known modulo too small a number": "modulus",
@@ -79,6 +84,12 @@ OUTER_COLUMNS = [[1, 0], [0, 0], [0, 1]]
 TRUE: dict[str, Document] = {
     "both of two values that are congruent modulo 7": spectrum(
         scalar("t^2 - 9*t + 8"), exceptional=(FIXED_AT_ONE, FIXED_AT_EIGHT)
+    ),
+    "both, each divided out once": spectrum(
+        scalar("t^2 - 9*t + 8"),
+        moduli=(),
+        exceptional=(FIXED_AT_ONE, FIXED_AT_EIGHT),
+        common=(([-1, 1], X), ([-8, 1], X)),
     ),
     "a value whose denominator is a unit": spectrum(
         scalar("7*t - 1"),
@@ -183,7 +194,8 @@ TOGETHER = plant([[0]], ([["t - 1", 1]], [[1]]))
 
 def with_gains(first: list[int], second: list[int]) -> Document:
     """That nothing is fixed for any t, with such gains of two inputs from one output."""
-    found = [[{"denominator": 1, "entries": [[f] for f in F]}] for F in (first, second)]
+    all_gains = [0, 0], first, second
+    found = [[{"denominator": 1, "entries": [[f] for f in F]}] for F in all_gains]
     return changed(spectrum(TOGETHER), ("witness.gains", found))
 
 

@@ -11,7 +11,8 @@ import sympy
 
 from mcexact.checker.arithmetic import NotAUnit
 from mcexact.checker.reading import Refused
-from mcexact.checker.resultants import integer_resultant, residues, resultant
+from mcexact.checker.resultants import degree_bound, integer_resultant, residues, resultant
+from mcexact.checker.two_variables import difference
 
 t = sympy.Symbol("t")
 PRIME = 1000003
@@ -64,6 +65,68 @@ def test_resultants_are_sylvester_s_determinants(seed: int) -> None:
     factor = multiple(f) ** (len(g) - 1) * multiple(g) ** (len(f) - 1)
     whole = integer_resultant(f, g, [PRIME, 2**61 - 1, 2**89 - 1])
     assert whole == ([c * factor for c in expected] if any(expected) else [])
+
+
+X: Any = [1]
+BOUNDS: dict[str, tuple[list[list[Fraction]], list[list[Fraction]], int]] = {
+    "no roots": (polynomial(X), polynomial([0, 0, 1], X), 0),
+    "a root for a constant": (polynomial([0, -1], X), polynomial([0, 0, 0, 1]), 3),
+    "one root each, the larger degree": (polynomial([0, -1], X), polynomial([0, 0, 0, 1], X), 3),
+    "the same the other way round": (polynomial([0, 0, 0, 1], X), polynomial([0, -1], X), 3),
+    "roots of degree 1/2 and a root of degree 1": (
+        polynomial([0, -1], [], X),
+        polynomial([], [0, -1], X),
+        3,
+    ),
+    "three roots of degree 1/3 and two of degree 1/2, rounded down": (
+        polynomial([0, 1], [], [], X),
+        polynomial([0, 1], [], X),
+        3,
+    ),
+    "a root of degree 2/3 at a root of degree 1/2": (
+        polynomial([0, 0, 1], [], [], X),
+        polynomial([0, 1], [], X),
+        4,
+    ),
+    "roots of degrees 1 and -1": (polynomial([1], [0, 1], X), polynomial([3], X), 1),
+    "roots of degrees -1 alone": (polynomial([1], [0, 1], X), polynomial([], X), 0),
+    "the root 0 and a root of degree 1": (polynomial([], [0, 1], X), polynomial([0, 0, 5], X), 4),
+    "the root 0 twice": (polynomial([], [], X), polynomial([1], [0, 0, 0, 1], X), 0),
+    "the root 0 of both": (polynomial([], [0, 1], X), polynomial([], X), 0),
+    "a line above a coefficient": (
+        polynomial([0, 0, 1], [0, 1], X),
+        polynomial([0, 0, 0, 2], [0, 1], X),
+        6,
+    ),
+    "a steep line first": (polynomial([0, 1], [0, 0, 0, 1], X), polynomial([7], X), 3),
+    "nothing": (polynomial([0, 1], X), polynomial(), 0),
+    "zeros": (polynomial([0, 1], X), polynomial([], []), 0),
+}
+
+
+@pytest.mark.parametrize("name", BOUNDS)
+def test_the_degree_is_bounded_by_newton_polygons(name: str) -> None:
+    f, g, expected = BOUNDS[name]
+    assert degree_bound(f, g) == expected
+    if g and g[-1] == [1]:
+        assert len(sylvester(f, g)) - 1 <= degree_bound(f, difference(g, f))
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_the_degree_of_a_resultant_is_within_both_bounds(seed: int) -> None:
+    rng = random.Random(100 + seed)
+    f, g = drawn(rng, 3), drawn(rng, 2)
+    found = len(sylvester(f, g)) - 1
+    assert found <= degree_bound(f, g) <= 3 * 2 + 2 * 2
+    assert found <= degree_bound(f, difference(g, f))
+
+
+def test_the_bound_is_smaller_where_roots_agree_at_infinity() -> None:
+    f, g = polynomial([5, 0, 1], [0, 3], X), polynomial([6, 1, 1], [1, 3], X)
+    assert (degree_bound(f, g), degree_bound(f, difference(g, f))) == (4, 2)
+    assert difference(f, g) == polynomial([-1, -1], [-1], [])
+    assert difference(f, polynomial([5])) == polynomial([0, 0, 1], [0, 3], X)
+    assert difference(polynomial([5]), f) == polynomial([0, 0, -1], [0, -3], [-1])
 
 
 def test_the_last_value_that_a_degree_needs_is_taken() -> None:

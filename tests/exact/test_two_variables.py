@@ -10,7 +10,7 @@ import pytest
 import sympy
 
 from mcexact.errors import InputError, LimitReached
-from mcexact.exact import parameter_field, two_variables
+from mcexact.exact import modular_resultants, parameter_field, two_variables
 from mcexact.exact.function_kernels import Tower, X, line, modulus_at, over_functions
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial_matrix import PolynomialMatrix
@@ -42,7 +42,7 @@ def test_resultants_are_those_of_sympy(seed: int) -> None:
     expected = sympy.Poly(sympy.resultant(as_sympy(f), as_sympy(g), x), t)
     assert sympy.Poly(as_sympy([found]), t) in (expected, -expected)
     ell = 1000003
-    assert two_variables.resultant_modulo(f, g, ell) == two_variables.residues(found, ell)
+    assert modular_resultants.of_rationals(f, g, ell) == two_variables.residues(found, ell)
 
 
 @pytest.mark.parametrize("seed", range(6))

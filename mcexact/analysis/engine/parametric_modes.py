@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import functools
 import math
 import random
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from mcexact.analysis.engine.moving_gains import MovingGains
 from mcexact.analysis.engine.zero_blocks import (
     generic_zero_block,
     responsible_channels,
@@ -15,6 +16,7 @@ from mcexact.analysis.engine.zero_blocks import (
 )
 from mcexact.answer.evidence import RootDisc, ZeroBlock
 from mcexact.answer.parametric_fixed_spectrum import (
+    CommonDivisor,
     ExceptionalEvidence,
     ExceptionalMode,
     ExceptionalValue,
@@ -27,7 +29,7 @@ from mcexact.answer.parametric_fixed_spectrum import (
 from mcexact.derived.modular_system import generator
 from mcexact.derived.polynomial_system import PolynomialSystem
 from mcexact.errors import InternalError
-from mcexact.exact import parameter_field, two_variables
+from mcexact.exact import modular_resultants, parameter_field, two_variables
 from mcexact.exact.enclosures import root_discs
 from mcexact.exact.function_kernels import line
 from mcexact.exact.matrix import Matrix
@@ -38,6 +40,8 @@ from mcexact.exact.two_variables import Bivariate, characteristic, polynomials, 
 from mcexact.model.parametric import ParametricSystem
 
 _DRAWS = 60
+_TRIES = 2
+"""Draws of gains without an exact resultant, which takes most of the work where it is needed."""
 _BITS = 61
 _LONG_BITS = 300
 """The bits of the moduli of the exact resultant."""
@@ -80,12 +84,15 @@ def parametric_fixed_spectrum(system: ParametricSystem) -> ParametricFixedSpectr
     return _Search(PolynomialSystem(system), generator(system, "parametric_fixed_spectrum")).found()
 
 
+_Mode = tuple[Bivariate, tuple[int, ...], ZeroBlock]
+
+
 @dataclass
 class _Candidate:
     """A value q, what is fixed there besides generic modes, and divisors of generic ones."""
 
     q: Any
-    modes: list[tuple[Bivariate, tuple[int, ...], ZeroBlock]]
+    modes: list[_Mode]
     divisors: list[Bivariate]
 
 
@@ -94,34 +101,40 @@ class _Search:
 
     def __init__(self, system: PolynomialSystem, rng: random.Random) -> None:
         self.system, self.rng = system, rng
-        self.chi = characteristic(system.A)
         self.generic: list[tuple[Bivariate, ZeroBlock]] = []
         self.psi: list[Bivariate] = []
         self.gains: list[list[Matrix]] = []
+        self.modes: dict[Polynomial, list[_Mode]] = {}
 
     def found(self) -> ParametricFixedSpectrum:
         """The answer."""
         for attempt in range(_DRAWS):
             if self._draw(1 + attempt):
-                break
-        else:
-            raise InternalError("no drawn gains leave the fixed modes alone")
-        first = two_variables.resultant(self.psi[0], self.psi[1])
-        # det(xI − A_G) keeps its generic factors, so the second resultant has their roots as well
-        others = [self.psi[2], *(p for p, _ in self.generic)]
-        values = self._common_factors(first, others)
+                found = self._answer(exactly=attempt >= _TRIES)
+                if found is not None:
+                    return found
+        raise InternalError("no drawn gains leave the fixed modes alone")
+
+    def _answer(self, *, exactly: bool) -> ParametricFixedSpectrum | None:
+        """The answer; without an exact resultant there may be none for these gains."""
+        values = self._values()
         undefined = [q for q in values if q in self.system.poles]
         rest = [q for q in values if q not in self.system.poles]
         outside = [] if not self._has_range else [q for q in rest if not self._in_range(q)]
         decided = [self._decided(q) for q in rest if q not in outside]
-        modulus, moving = self._moving(first, decided, [*outside, *undefined])
+        moved = self._moved(decided, [*undefined, *outside])
         exceptional = [each for each in decided if each.modes]
         # Small gains can agree at a value where nothing happens: it needs no entry.
-        needed = [each for each in decided if not each.modes and self._is_needed(each, modulus)]
+        needed = [each for each in decided if not each.modes and moved.is_needed(each.q)]
+        named = [each.q for each in [*exceptional, *needed]] + [q._rational for q in undefined]
+        common = moved.common(named, [q._rational for q in outside])
+        if common is None and not exactly:
+            return None
         evidence = MovedModes(
-            gains=(tuple(self.gains[0]), tuple(moving)),
-            modulus=modulus,
-            moduli=self._moduli(),
+            gains=(tuple(self.gains[0]), tuple(self.gains[1]), tuple(moved.gains)),
+            modulus=moved.ell,
+            moduli=self._moduli() if common is None else (),
+            common=tuple(CommonDivisor(_polynomial(q), polynomials(h)) for q, h in common or ()),
             generic=tuple(block for _, block in self.generic),
             exceptional=tuple(
                 ExceptionalEvidence(
@@ -147,17 +160,17 @@ class _Search:
     def _draw(self, size: int) -> bool:
         """Draw gains of this size, and whether what they leave in common is generically fixed."""
         self.gains = [
-            self.system.drawn_gains(lambda: self.rng.randint(-size, size)) for _ in range(2)
+            self.system.drawn_gains(lambda: self.rng.randint(-size, size)) for _ in range(3)
         ]
         loops = [characteristic(self.system.closed(F)) for F in self.gains]
         self.generic = []
-        for p in two_variables.common_factors([self.chi, *loops]):
+        for p in two_variables.common_factors(loops):
             t = self.rng.randrange(10**3, 10**6)
             block = self._generic_block(p, t)
             if block is None:
                 return False
             self.generic.append((p, block))
-        self.psi = [self.chi, *loops]
+        self.psi = loops
         for p, _ in self.generic:
             self.psi = [without(psi, p) for psi in self.psi]
         return all(two_variables.are_coprime(self.psi[0], psi) for psi in self.psi[1:])
@@ -184,29 +197,43 @@ class _Search:
         for psi in self.psi[1:]:
             common = parameter_field.gcd(common, parameter_field.reduced(psi, q), q)
         known = [parameter_field.reduced(g, q) for g, _ in self.generic]
-        found = _Candidate(q, [], self._shared(q, known))
-        for p in parameter_field.factors(common, q):
-            if any(not two_variables.divided(g, p, q)[1] for g in known):
-                continue
-            T = responsible_channels(self.system, q, p, self.rng)
-            if T is not None:
-                block = zero_block(self.system, T, q, p)
-                if block is None:
-                    raise InternalError("a mode that is fixed modulo a prime is not fixed")
-                found.modes.append((p, T, block))
-        return found
+        if value not in self.modes:
+            new = [
+                p
+                for p in parameter_field.factors(common, q)
+                if all(two_variables.divided(g, p, q)[1] for g in known)
+            ]
+            self.modes[value] = [found for p in new if (found := self._mode(q, p)) is not None]
+        return _Candidate(q, self.modes[value], self._shared(q, known))
 
-    def _common_factors(self, first: Any, others: Sequence[Bivariate]) -> list[Polynomial]:
-        """The irreducible factors that a resultant has in common with another one."""
-        found = {
-            q
-            for f in others
-            for q, _ in _factors(first.gcd(two_variables.resultant(self.psi[0], f)))
-        }
+    def _mode(self, q: Any, p: Bivariate) -> _Mode | None:
+        """A mode at the roots of q with its evidence, if it is fixed."""
+        T = responsible_channels(self.system, q, p, self.rng)
+        if T is None:
+            return None
+        block = zero_block(self.system, T, q, p)
+        if block is None:
+            raise InternalError("a mode that is fixed modulo a prime is not fixed")
+        return p, T, block
+
+    def _values(self) -> list[Polynomial]:
+        """Candidates: the irreducible factors that two resultants have in common."""
+        stream = primes(self.rng.getrandbits(64), _BITS)
+        # det(xI − A_G) keeps its generic factors, so the second resultant has their roots as well
+        second = functools.reduce(two_variables.product, (p for p, _ in self.generic), self.psi[2])
+        known = [c for f in (*self.psi, second) for c in f]
+        usable = (ell for ell in stream if self._is_defined(known, ell))
+        common = modular_resultants.common_divisor(self.psi[0], self.psi[1], second, usable)
+        found = {q for q, _ in _polynomial(common).factor()}
         return sorted(found, key=lambda q: (q.degree, q.coefficients))
 
+    def _is_defined(self, known: list[Any], ell: int) -> bool:
+        """Whether a prime divides no denominator."""
+        denominators = two_variables.denominators(known)
+        return self.system.is_defined_modulo(ell) and all(d % ell for d in denominators)
+
     def _shared(self, q: Any, known: list[Bivariate]) -> list[Bivariate]:
-        """Divisors of generic polynomials that divide what is left of det(xI − A)."""
+        """Divisors of generic polynomials that divide what is left of det(xI − A_E)."""
         left, found = parameter_field.reduced(self.psi[0], q), []
         for p in known:
             while len(g := parameter_field.gcd(left, p, q)) > 1:
@@ -214,45 +241,23 @@ class _Search:
                 left = without(left, g, q)
         return found
 
-    def _moving(
-        self, first: Any, decided: list[_Candidate], others: list[Polynomial]
-    ) -> tuple[int, list[Matrix]]:
+    def _moved(self, decided: list[_Candidate], others: list[Polynomial]) -> MovingGains:
         """A prime ℓ, and gains that move all that is not fixed, modulo it."""
         stream = primes(self.rng.getrandbits(64), _BITS)
-        known = [c for psi in self.psi for c in psi] + [each.q for each in decided]
+        values = [*(each.q for each in decided), *(q._rational for q in others)]
+        known = [c for psi in self.psi for c in psi] + values
         for _ in range(_DRAWS):
             ell = next(stream)
-            if not self.system.is_defined_modulo(ell) or any(
-                d % ell == 0 for d in two_variables.denominators(known)
-            ):
+            if not self._is_defined(known, ell):
                 continue
             gains = self.system.drawn_gains(lambda ell=ell: self.rng.randrange(ell))
-            self.loop = characteristic(self.system.closed(gains))
-            if all(self._is_complete(each, ell) for each in decided) and self._no_other(
-                first, decided, others, ell
-            ):
-                return ell, gains
+            moved = MovingGains(self.system, self.psi[0], self.psi[1], gains, ell)
+            if all(
+                moved.is_complete(each.q, [*(mode for mode, _, _ in each.modes), *each.divisors])
+                for each in decided
+            ) and moved.is_nothing_else(values):
+                return moved
         raise InternalError("no drawn gains move all that is not fixed")
-
-    def _is_complete(self, each: _Candidate, ell: int) -> bool:
-        """Whether gains move what is left of det(xI − A) at the roots of q."""
-        left = parameter_field.reduced(self.psi[0], each.q)
-        for p in [*(mode for mode, _, _ in each.modes), *each.divisors]:
-            left = without(left, p, each.q)
-        common = two_variables.resultant_modulo(left, self.loop, ell)
-        return two_variables.is_coprime_modulo(each.q, common, ell)
-
-    def _no_other(
-        self, first: Any, decided: list[_Candidate], others: list[Polynomial], ell: int
-    ) -> bool:
-        """Whether all common roots of both resultants are named."""
-        named = [*(each.q for each in decided), *(q._rational for q in others)]
-        self.other = two_variables.resultant_modulo(self.psi[0], self.loop, ell)
-        return two_variables.is_coprime_modulo(two_variables.freed(first, named), self.other, ell)
-
-    def _is_needed(self, each: _Candidate, ell: int) -> bool:
-        """Whether a settled value is a root of the second resultant as well."""
-        return not two_variables.is_coprime_modulo(each.q, self.other, ell)
 
     def _moduli(self) -> tuple[int, ...]:
         """Primes whose product is above twice the coefficients of the first resultant."""
@@ -280,10 +285,6 @@ class _Search:
 
 def _polynomial(q: Any) -> Polynomial:
     return polynomials([q])[0]
-
-
-def _factors(p: Any) -> list[tuple[Polynomial, int]]:
-    return _polynomial(p).factor()
 
 
 def _discs(q: Polynomial) -> tuple[RootDisc, ...]:

@@ -14,9 +14,10 @@ import flint
 from mcexact import MultiChannelSystem, ParametricSystem, check, fixed_spectrum
 from mcexact.answer.codec import document
 from mcexact.derived.polynomial_system import PolynomialSystem
-from mcexact.exact import two_variables
+from mcexact.exact import modular_resultants, two_variables
 from mcexact.exact.matrix import Matrix
 from tests.checker.handmade import checked
+from tests.checker.parametric_plants import exactly
 from tests.oracle.parametric import fixed_radical
 
 PRIME = 2**61 - 1
@@ -47,7 +48,10 @@ def without_value(plant: ParametricSystem, value: Fraction) -> Any:
     found = copy.deepcopy(document(fixed_spectrum(plant)))
     values = [each["value"] for each in found["claim"]["exceptional"]]
     k = [-Fraction(q[0]) for q in values].index(value)
-    del found["claim"]["exceptional"][k], found["witness"]["exceptional"][k]
+    gone = found["claim"]["exceptional"].pop(k)
+    del found["witness"]["exceptional"][k]
+    common = found["witness"]["common"]
+    found["witness"]["common"] = [each for each in common if each["value"] != gone["value"]]
     return found
 
 
@@ -57,27 +61,29 @@ def test_dividing_values_out_modulo_a_prime_takes_congruent_values_for_one() -> 
     one = flint.fmpq_poly([-1, 1])
     resultants = (
         two_variables.resultant(chi, first),
-        two_variables.resultant_modulo(chi, second, PRIME),
+        modular_resultants.of_rationals(chi, second, PRIME),
     )
     assert left_modulo(resultants[0], one, resultants[1], PRIME)  # 1 alone is accepted
     found = fixed_spectrum(plant)
     assert {each.exact for each in found.exceptional} == {1, 1 + PRIME}
     lie = without_value(plant, Fraction(1 + PRIME))
     lie["witness"]["modulus"] = PRIME
-    assert checked(lie).verdict == "INVALID"
+    assert checked(lie).verdict == checked(exactly(lie)).verdict == "INVALID"
 
 
 def test_a_prime_that_divides_the_denominator_of_a_root_overlooks_it() -> None:
     plant = coupled(f"(t - 1)*({PRIME}*t - 1)")
     chi, first, second = loops(plant, [1], [2])
     resultant = two_variables.resultant(chi, first)
-    modular = two_variables.resultant_modulo(chi, second, PRIME)
+    modular = modular_resultants.of_rationals(chi, second, PRIME)
     assert left_modulo(resultant, flint.fmpq_poly([-1, 1]), modular, PRIME)
     found = fixed_spectrum(plant)
     assert {each.exact for each in found.exceptional} == {1, Fraction(1, PRIME)}
     lie = without_value(plant, Fraction(1, PRIME))
     lie["witness"]["modulus"] = PRIME
     verdict = checked(lie)
+    assert (verdict.verdict, verdict.code) == ("INVALID", "degree")
+    verdict = checked(exactly(lie))
     assert (verdict.verdict, verdict.code) == ("INVALID", "unit")
 
 
@@ -94,7 +100,7 @@ def test_powers_of_a_generic_polynomial_divided_out_modulo_a_prime_take_roots_al
         at_0 //= x
     assert resultant(0) == 0 and at_0.degree() == 0  # so 0 is said not to be exceptional
     assert [each.exact for each in fixed_spectrum(plant).exceptional] == [0]
-    undivided = two_variables.resultant_modulo(left, second, ell)
+    undivided = modular_resultants.of_rationals(left, second, ell)
     assert not two_variables.is_coprime_modulo(flint.fmpq_poly([0, 1]), undivided, ell)
 
 

@@ -149,18 +149,68 @@ def _at(block: Document, t: int) -> Document:
 def small_moduli(rng: random.Random, document: Document) -> Forged:
     """The exact resultant from too few moduli, or from one modulus twice."""
     witness = document["witness"]
+    witness["common"] = []
     witness["moduli"] = rng.choice(
         ([], witness["moduli"][:-1], witness["moduli"] * 2, [7], [witness["modulus"]])
     )
     return value_left_out(rng, document) or document
 
 
+def exact_resultant(rng: random.Random, document: Document) -> Forged:
+    """An exact resultant for one modulo the modulus, and another forgery."""
+    witness = document["witness"]
+    if witness["moduli"]:
+        return None
+    witness["moduli"], witness["common"] = [2**521 - 1, 2**607 - 1, 2**1279 - 1], []
+    other = rng.choice((value_left_out, congruent_value, mode_left_out, other_drawn_gains))
+    return other(rng, document)
+
+
+def divided_too_often(rng: random.Random, document: Document) -> Forged:
+    """A value is left out, and what it leaves in the resultant is divided out all the same."""
+    claim, witness = document["claim"], document["witness"]
+    if not claim["exceptional"] or not witness["common"]:
+        return None
+    gone = rng.choice(claim["exceptional"])["value"]
+    common = witness["common"]
+    kept = [each for each in common if each["value"] != gone]
+    spare = rng.choice(common)
+    ell = witness["modulus"]
+    moved = [*gone]
+    if isinstance(moved[0], int):
+        moved[0] += rng.choice((ell, -ell))
+    k = next(k for k, each in enumerate(claim["exceptional"]) if each["value"] == gone)
+    claim["exceptional"].pop(k)
+    witness["exceptional"].pop(k)
+    witness["common"] = rng.choice(
+        (
+            common,
+            kept,
+            [*kept, *kept],
+            [*kept, {**spare, "value": moved}],
+            [{**each, "divisor": spare["divisor"]} for each in common],
+            [*kept, {"value": moved, "divisor": [[0, 1], [1]]}],
+        )
+    )
+    if rng.random() < 0.5:
+        witness["settled"].append({"value": rng.choice((gone, moved)), "divisors": []})
+    return document
+
+
+def small_prime(rng: random.Random, document: Document) -> Forged:
+    """A small modulus, at which resultants lose their degrees and values meet."""
+    document["witness"]["modulus"] = rng.choice((2, 3, 5, 7, 11, 101, 6, 15))
+    return value_left_out(rng, document) or document
+
+
 def other_drawn_gains(rng: random.Random, document: Document) -> Forged:
     """Both gains alike, or none, which may leave everything where it is."""
     witness = document["witness"]
-    first, second = witness["gains"]
-    zero = [{"denominator": 1, "entries": [[0] * len(r) for r in F["entries"]]} for F in first]
-    witness["gains"] = rng.choice(([second, second], [zero, second], [first, zero], [first, first]))
+    zero = [
+        {"denominator": 1, "entries": [[0] * len(row) for row in F["entries"]]}
+        for F in witness["gains"][0]
+    ]
+    witness["gains"] = [rng.choice((zero, *witness["gains"])) for _ in range(3)]
     return value_left_out(rng, document) or document
 
 
@@ -190,6 +240,10 @@ PARAMETRIC = (
     generic_that_agrees_somewhere,
     mode_everywhere,
     small_moduli,
+    exact_resultant,
+    divided_too_often,
+    divided_too_often,
+    small_prime,
     other_drawn_gains,
     pole_invented,
 )

@@ -50,8 +50,12 @@ def spectrum(
     generic: tuple[Any, ...] = (),
     exceptional: tuple[Any, ...] = (),
     settled: tuple[Any, ...] = (),
+    common: tuple[Any, ...] = (),
 ) -> Document:
-    """A claim about fixed modes; each mode with its proof, each value with those of its modes."""
+    """A claim about fixed modes; each mode with its proof, each value with those of its modes.
+
+    The first gains are 0, and the resultant is exact unless there are no moduli.
+    """
     m = len(system["channels"])
     claim = {
         "generic": [p for p, _ in generic],
@@ -59,9 +63,10 @@ def spectrum(
         "outside": [],
     }
     witness = {
-        "gains": [[constant([gain])] * m for gain in gains],
+        "gains": [[constant([gain])] * m for gain in (0, *gains)],
         "modulus": modulus,
         "moduli": list(moduli),
+        "common": [{"value": value, "divisor": divisor} for value, divisor in common],
         "generic": [proof for _, proof in generic],
         "exceptional": [proof for _, proof in exceptional],
         "settled": list(settled),
@@ -157,7 +162,35 @@ SPECTRA: dict[str, Document] = {
     "scalars are restricted to a companion matrix": spectrum(
         THROUGH_A_ZERO, settled=({"value": [-2, 0, 1], "divisors": []},)
     ),
+    "a value is divided out modulo ℓ alone, with one that is congruent to it": spectrum(
+        scalar("t^2 - 9*t + 8"),
+        modulus=7,
+        moduli=(),
+        exceptional=(FIXED_AT_ONE,),
+        common=(([-1, 1], X),),
+    ),
+    "ℓ alone divides the denominator of a value": spectrum(scalar("7*t - 1"), modulus=7, moduli=()),
     # conditions
+    "a value is divided out once for each time that it is named": spectrum(
+        scalar("t^2 - 9*t + 8"),
+        modulus=7,
+        moduli=(),
+        exceptional=(FIXED_AT_ONE,),
+        common=(([-1, 1], X), ([-1, 1], X)),
+    ),
+    "a value is divided out as often as the degree of what divides nothing": spectrum(
+        scalar("t^2 - 9*t + 8"),
+        modulus=7,
+        moduli=(),
+        exceptional=(FIXED_AT_ONE,),
+        common=(([-1, 1], [[], [], [1]]),),
+    ),
+    "a value is divided out that is not named": spectrum(
+        scalar("t^2 - t"),
+        moduli=(),
+        exceptional=(FIXED_AT_ONE,),
+        common=(([-1, 1], X), ([0, 1], X)),
+    ),
     "a value where nothing is fixed": spectrum(
         scalar("t"),
         exceptional=(
