@@ -30,6 +30,7 @@ from .analysis.fixed_modes.fixed_spectrum import fixed_spectrum as fixed_spectru
 from .analysis.fixed_modes.pencil import pencil_rank as pencil_rank
 from .analysis.fixed_modes.pencil import pencil_ranks as pencil_ranks
 from .analysis.fixed_modes.single_channel_gains import single_channel_gains as single_channel_gains
+from .analysis.parametric_analysis import ParametricAnalysis as ParametricAnalysis
 from .analysis.sharing.allocation import minimal_shared_dimensions as minimal_shared_dimensions
 from .analysis.sharing.allocation import shared_dimension_bound as shared_dimension_bound
 from .analysis.sharing.common_dimension import common_dimension as common_dimension
@@ -79,7 +80,6 @@ from .answer.exceptional_hypersurfaces import RankHypersurfaces as RankHypersurf
 from .answer.fixed_spectrum import FixedFactor as FixedFactor
 from .answer.fixed_spectrum import FixedSpectrum as FixedSpectrum
 from .answer.neighbor_graph import NeighborGraphVerdict as NeighborGraphVerdict
-from .answer.parametric_analysis import ParametricAnalysis as ParametricAnalysis
 from .answer.parametric_fixed_spectrum import ExceptionalValue as ExceptionalValue
 from .answer.parametric_fixed_spectrum import ParametricFixedSpectrum as ParametricFixedSpectrum
 from .answer.parametric_rank import LowerRank as LowerRank

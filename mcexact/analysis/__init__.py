@@ -8,6 +8,7 @@ matrices.
 
 ===========================  ==============================================================
 `analyze`                    all questions about one system, each decided once
+`asking`                     which are asked, how long each takes, and what is left open
 `questions`                  the table of questions
 `parametric_analysis`        the questions that are decided for all values of parameters
 `exceptional_hypersurfaces`  what is fixed for several parameters, and where more is

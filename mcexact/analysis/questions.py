@@ -49,6 +49,8 @@ class Question:
         The kind of the certificate, if it is not the name of the question.
     dual : bool
         Whether the certificate is about the dual system.
+    for_all_values : bool
+        Whether it is decided for all values of parameters as well.
     """
 
     home: str
@@ -64,6 +66,7 @@ class Question:
     shares: Mapping[str, str] = field(default_factory=dict)
     kind: str = ""
     dual: bool = False
+    for_all_values: bool = False
 
     @property
     def module(self) -> str:
@@ -105,6 +108,7 @@ def _joint(
             shares={"spectrum": spectrum} if spectrum else {},
             kind="controllability",
             dual=what == "observ",
+            for_all_values=about == "system",
         )
         for what, verb in (("controll", "control"), ("observ", "observe"))
     }
@@ -138,17 +142,20 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
         "fixed_spectrum": Question(
             "fixed_modes.fixed_spectrum:fixed_spectrum",
             "which modes no linear time-invariant decentralized control moves",
+            for_all_values=True,
         ),
         "completeness": Question(
             "fixed_modes.completeness:completeness",
             "whether any single channel can control and observe everything",
             reuses=_SPECTRUM,
+            for_all_values=True,
         ),
         **{f"joint_{name}": question for name, question in _JOINT.items()},
         "controllability_indices": Question(
             "structure.controllability_indices:controllability_indices",
             "the controllability indices",
             ports="inputs",
+            for_all_values=True,
         ),
         "observability_indices": Question(
             "structure.controllability_indices:observability_indices",
@@ -156,9 +163,12 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
             ports="outputs",
             kind="controllability_indices",
             dual=True,
+            for_all_values=True,
         ),
         "transfer_graph": Question(
-            "structure.transfer_graph:transfer_graph", "which channels' inputs affect which outputs"
+            "structure.transfer_graph:transfer_graph",
+            "which channels' inputs affect which outputs",
+            for_all_values=True,
         ),
         "assignability": Question(
             "fixed_modes.assignability:assignability",
@@ -171,6 +181,7 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
             "whether every output can be held at any value",
             about="plant",
             most=_DENSE,
+            for_all_values=True,
         ),
         "complementary_subsystem": Question(
             "structure.complementary_subsystem:complementary_subsystem",

@@ -23,7 +23,7 @@ from mcexact.exact.rational_function import RationalFunction, parameter_latex
 from mcexact.model.parametric import ParametricSystem
 from mcexact.shown import LINE, Shown, escaped, fitting
 
-A = TypeVar("A", ParametricFixedSpectrum, ParametricRank)
+A = TypeVar("A", bound=ParametricFixedSpectrum | ParametricRank)
 
 
 @dataclass(frozen=True, repr=False)
@@ -163,6 +163,10 @@ class Hypersurfaces(Shown, Generic[A]):
         """What holds for almost all values."""
         raise NotImplementedError
 
+    def worth_a_row(self) -> tuple[str, ...]:
+        """The same, without that nothing does."""
+        return self.of_almost_all()
+
     def there(self, each: Hypersurface) -> tuple[str, str]:
         """What holds on a hypersurface, and why."""
         raise NotImplementedError
@@ -178,6 +182,16 @@ class Hypersurfaces(Shown, Generic[A]):
             told.append(f"{what} where {each}" + (f": {why}" if why else ""))
         told += [f"proved for every value of s: {line}" for line in self.lines]
         return (*told, "not decided: values at which several conditions meet")
+
+    @property
+    def rows(self) -> tuple[tuple[str, str, str], ...]:
+        """Where, what holds there, and why."""
+        found: list[tuple[str, str, str]] = []
+        found += [("almost all values", said, "") for said in self.worth_a_row()]
+        found += [(str(each), *self.there(each)) for each in self.hypersurfaces]
+        found += [(f"{q} = 0", "undefined", "a denominator is 0") for q in self.undefined_at]
+        proved = "proved along this line by a certificate, for every s"
+        return (*found, *((str(line), "", proved) for line in self.lines))
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain data."""
@@ -246,6 +260,10 @@ class ExceptionalHypersurfaces(Hypersurfaces[ParametricFixedSpectrum]):
     def of_almost_all(self) -> tuple[str, ...]:
         """The polynomials in x whose roots are fixed."""
         return tuple(f"the roots of {mode_in_x(p)}" for p in self.generic) or ("no mode",)
+
+    def worth_a_row(self) -> tuple[str, ...]:
+        """The polynomials in x whose roots are fixed, perhaps none."""
+        return self.of_almost_all() if self.generic else ()
 
     def there(self, each: Hypersurface) -> tuple[str, str]:
         """That another mode is fixed, and which channels cause it."""

@@ -172,6 +172,20 @@ def _capital(text: str) -> str:
     return text[0].upper() + text[1:]
 
 
+def _lost(edges: Sequence[tuple[tuple[str, str], Sequence[str]]]) -> str:
+    """Write at which values which edges vanish."""
+    told = [
+        f"{name_text(start)} -> {name_text(end)} vanishes where {_values(where)}"
+        for (start, end), where in edges
+    ]
+    return "; ".join(cut(told, 12))
+
+
+def _values(where: Sequence[str]) -> str:
+    """Write conditions on parameters."""
+    return " or ".join(cut(where, 8))
+
+
 FORMS: dict[str, Write] = {
     "int": str,
     "int or open": lambda value: "open" if value is None else str(value),
@@ -244,6 +258,10 @@ FORMS: dict[str, Write] = {
     "share": choice(**{"outputs+states": "in addition to outputs", "states": "without outputs"}),
     "carried": _carried,
     "scope": _scope,
+    "words": str,
+    "values": _values,
+    "lost": _lost,
+    "another": lambda more: "Another" if more else "A",
     "shared": _shared,
     "percent": percent,
     "gains": _gains,

@@ -12,7 +12,15 @@ from mcexact import answer
 from mcexact.answer import rules
 from mcexact.answer.sentence import Rulebook
 from mcexact.answer.template import Template, templates
-from mcexact.answer.wording import allocation, analysis, design, details, links, refusals
+from mcexact.answer.wording import (
+    allocation,
+    analysis,
+    design,
+    details,
+    links,
+    parameters,
+    refusals,
+)
 
 _OWN = [
     module
@@ -27,6 +35,7 @@ TOPICS: dict[str, tuple[Rulebook, tuple[ModuleType, ...]]] = {
         Rulebook([*rules.ANALYSIS, *(rule for kind in _OWN for rule in kind.RULES)]),
         (analysis, details, *_OWN),
     ),
+    "analyze, with parameters": (rules.PARAMETERS, (parameters,)),
     "allocate": (rules.ALLOCATION, (allocation,)),
     "allocate --links": (rules.LINKS, (links,)),
     "design, certify": (Rulebook([*rules.DESIGN, *rules.VERDICT]), (design,)),

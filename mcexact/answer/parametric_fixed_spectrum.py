@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -145,6 +145,40 @@ def value_text(q: Polynomial, roots: Sequence[RootDisc], t: str) -> str:
     return f"{in_parameter(q, t)} = 0 ({told})"
 
 
+def rows_of_values(
+    found: Any, told: Callable[[Any], Sequence[tuple[str, str]]]
+) -> tuple[tuple[str, str, str], ...]:
+    """The rows of an answer about exceptional values, those out of range, and poles.
+
+    Parameters
+    ----------
+    found : ParametricFixedSpectrum or ParametricRank
+    told : callable
+        What holds at an exceptional value, and why.
+    """
+    [t], [bounds] = found.about.parameters, found.about.ranges
+    ranged = "" if bounds == (None, None) else " (in range)"
+    rows = [
+        (value_text(each.value, each.roots, t) + ranged, what, why)
+        for each in found.exceptional
+        for what, why in told(each)
+    ]
+    assumed = f"{found.about.parameters_in_words[0]} is assumed"
+    for left in found.outside:
+        where = f"{value_text(left.value, left.roots, t)} (out of range)"
+        rows.append((where, "not decided", assumed))
+    for q in poles_of(found.about):
+        rows.append((f"{in_parameter(q, t)} = 0", "undefined", "a denominator is 0"))
+    return tuple(rows)
+
+
+def poles_of(about: ParametricSystem) -> tuple[Polynomial, ...]:
+    """The irreducible polynomials at whose roots an entry of a system is undefined."""
+    parts = [about.A, *(M for c in about.channels for M in (c.B, c.C))]
+    found = {q for M in parts for q, _ in M.reduced[1].factor()}
+    return tuple(sorted(found, key=lambda q: (q.degree, q.coefficients)))
+
+
 def mode_in_sympy(p: ModePolynomial, parameter: Any = "t") -> Any:
     """A polynomial in x whose coefficients depend on the parameter, as a ``sympy.Poly`` in x.
 
@@ -264,9 +298,7 @@ class ParametricFixedSpectrum(Answer):
     @shown("undefined at the roots of")
     def undefined_at(self) -> tuple[Polynomial, ...]:
         """The irreducible polynomials at whose roots an entry is undefined."""
-        parts = [self.about.A, *(M for c in self.about.channels for M in (c.B, c.C))]
-        found = {q for M in parts for q, _ in M.reduced[1].factor()}
-        return tuple(sorted(found, key=lambda q: (q.degree, q.coefficients)))
+        return poles_of(self.about)
 
     @property
     def exceptional_at(self) -> tuple[Polynomial, ...]:
@@ -365,21 +397,17 @@ class ParametricFixedSpectrum(Answer):
         """Where, the polynomials in x of the modes, and why these are fixed there."""
         [t] = self.about.parameters
         scaled = "" if self.scale.degree < 1 else f", divided by {in_parameter(self.scale, t)}"
-        ranged = "" if self.about.ranges[0] == (None, None) else " (in range)"
         found = [(f"every {t}", mode_text(p, t) + scaled, "") for p in self.generic]
-        for each in self.exceptional:
-            where = value_text(each.value, each.roots, t) + ranged
-            found += [
-                (where, mode_text(mode.polynomial, t) + scaled, self.because(mode))
-                for mode in each.modes
-            ]
-        for left in self.outside:
-            where = f"{value_text(left.value, left.roots, t)} (out of range)"
-            assumed = f"{self.about.parameters_in_words[0]} is assumed"
-            found.append((where, "not decided", assumed))
-        for q in self.undefined_at:
-            found.append((f"{in_parameter(q, t)} = 0", "undefined", "a denominator is 0"))
-        return tuple(found)
+        return (
+            *found,
+            *rows_of_values(
+                self,
+                lambda each: [
+                    (mode_text(mode.polynomial, t) + scaled, self.because(mode))
+                    for mode in each.modes
+                ],
+            ),
+        )
 
     def explain(self) -> str:
         """Say in plain words what is fixed for every value, and what else at which."""

@@ -4,7 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from mcexact.answer.parametric_fixed_spectrum import OutsideValue, ParameterValue, value_text
+from mcexact.answer.parametric_fixed_spectrum import (
+    OutsideValue,
+    ParameterValue,
+    rows_of_values,
+    value_text,
+)
 from mcexact.answer.protocol import Answer, Part, answer, claim, shown, witness
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.polynomial import Polynomial
@@ -146,6 +151,13 @@ class ParametricRank(Answer):
         for each in self.exceptional:
             told.append(f"rank {each.rank} where {value_text(each.value, each.roots, t)}")
         return tuple(told)
+
+    @property
+    def rows(self) -> tuple[tuple[str, str, str], ...]:
+        """Where the rank is which."""
+        [t] = self.about.parameters
+        generic = (f"{'almost ' if self.exceptional else ''}every {t}", f"rank {self.rank}", "")
+        return generic, *rows_of_values(self, lambda each: [(f"rank {each.rank}", "")])
 
     def in_range(self) -> tuple[LowerRank, ...]:
         """The exceptional values with a root in the range that is assumed of the parameter."""

@@ -13,7 +13,6 @@ from typing import Any, TypeVar
 from mcexact.answer.protocol import Answer
 from mcexact.answer.template import Sentence, Template
 from mcexact.model.canonical import plain, sha256
-from mcexact.model.system import MultiChannelSystem
 from mcexact.shown import framed
 
 FORMAT = "mcexact-manifest/1"
@@ -33,13 +32,13 @@ class Given:
 
     Attributes
     ----------
-    system : MultiChannelSystem
+    system : MultiChannelSystem or ParametricSystem
         The system, used for its sizes, names, time domain and neighbor graph, not for its matrices.
     asked : mapping
         The user's requests, and how a proof was found.
     """
 
-    system: MultiChannelSystem
+    system: Any
     asked: Mapping[str, Any] = field(default_factory=dict)
 
     def __getattr__(self, name: str) -> Any:

@@ -11,21 +11,28 @@ from . import (
     sentences_analysis,
     sentences_boxes,
     sentences_design,
+    sentences_parameters,
     sentences_sharing,
 )
-from .boxes import at_values, system_of
+from .boxes import at_values
 from .budget import Budget, current, limited, spend
 from .expectation import DIGEST, Expectation, same
 from .kinds import KINDS, Found, Verdict, attempt, check_document, refusal
-from .parametric_system import digest_of_values
+from .moved_entries import constructed, subject_of
+from .parametric_system import ParametricSystem, digest_of_values, plant_of
 from .reading import Json, Limits, Refused, fields, items, malformed, parse, require, shown, string
 from .sentence import RULES, Premise
-from .subject import read_subject
-from .system import read_plant
+from .system import System
 
 __all__ = ["NAME", "RULES", "manifest_verdicts", "verdicts_of"]
 
-TOPICS = (sentences_analysis, sentences_sharing, sentences_design, sentences_boxes)
+TOPICS = (
+    sentences_analysis,
+    sentences_sharing,
+    sentences_design,
+    sentences_boxes,
+    sentences_parameters,
+)
 """The modules of the rules that do not belong to one kind."""
 FORMAT = "mcexact-manifest/1"
 NAME = "manifest.json"
@@ -174,11 +181,11 @@ class Evidence:
 
     def make_subject(self) -> None:
         """Make the system that the sentences are about, out of the plant of the certificates."""
-        known = sorted(self.premises.values(), key=lambda each: each.plant.uncertainty is not None)
+        known = sorted(self.premises.values(), key=lambda each: is_uncertain(each.plant))
         first = next(iter(known), None)
         if first is not None:
             with limited(self.budget):
-                meant = read_subject(self.base, first.plant)
+                meant = constructed(self.base, first.plant)
             for name, each in self.premises.items():
                 self.premises[name] = replace(each, meant=meant)
 
@@ -186,14 +193,14 @@ class Evidence:
         """A certificate that was found VALID."""
         given, steps = document["system"], document["subject"]
         given = self.expected.named(given) if type(given) is str else given
-        known = replace(read_plant(given), words=f"the plant {digest}")
+        known, kind = replace(plant_of(given), words=f"the plant {digest}"), document["kind"]
         if not self.expected.system:
             values = digest_of_values(known, digest)
             self.expected = replace(self.expected, system=values)
-        plant, kind = at_values(known), document["kind"]
+        plant = known if isinstance(known, ParametricSystem) else at_values(known)
         own = same(steps[: len(self.base)], self.base)
         path = tuple(step["construction"] for step in steps[len(self.base) :]) if own else None
-        system = system_of(steps, known, kind)
+        system = subject_of(steps, known, kind)
         sentence = KINDS[kind].statement(document["claim"], system)
         said = f"For {system.words}: {sentence}"
         return Premise(name, document, plant, system, plant, said, path)
@@ -228,6 +235,11 @@ class Evidence:
 
         with limited(self.budget):
             return attempt(check).inside(f"{place} {shown(key)}")
+
+
+def is_uncertain(plant: System | ParametricSystem) -> bool:
+    """Whether entries of a plant have radii."""
+    return isinstance(plant, System) and plant.uncertainty is not None
 
 
 def pointed(document: Json, pointer: str, place: str) -> Json:

@@ -57,6 +57,13 @@ def moved(steps: Json, plant: ParametricSystem) -> ParametricSystem:
     return replace(plant, names=made.names, words=made.words, **parts)
 
 
+def constructed(steps: Json, plant: System | ParametricSystem) -> System | ParametricSystem:
+    """What constructions make from a plant."""
+    return (
+        moved(steps, plant) if isinstance(plant, ParametricSystem) else read_subject(steps, plant)
+    )
+
+
 def subject_of(
     steps: Json, plant: System | ParametricSystem, kind: str
 ) -> System | ParametricSystem:

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from typing import Any
 
 from .reading import require
-from .system import System
 
 Path = tuple[str, ...]
 """The names of the constructions that lead from the manifest's system to a subject."""
@@ -25,7 +24,7 @@ class Premise:
     file : str
     document : dict
         The whole certificate, whose witness has been verified as well.
-    plant, system, meant : System
+    plant, system, meant : System or ParametricSystem
         The plant, the subject that was built from it, and the system that the manifest is about.
     statement : str
         The statement that the checker verified, without the sizes of the system.
@@ -37,9 +36,9 @@ class Premise:
 
     file: str
     document: dict[str, Any]
-    plant: System
-    system: System
-    meant: System
+    plant: Any
+    system: Any
+    meant: Any
     statement: str
     path: Path | None
     pointers: tuple[str, ...] = ()

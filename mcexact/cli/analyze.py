@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
@@ -14,16 +14,10 @@ from mcexact.cli import options
 from mcexact.cli.failures import DEFINITE_NO
 from mcexact.cli.parameters import at_values
 
-if TYPE_CHECKING:
-    from mcexact.analysis.analyze import Effort
-    from mcexact.report.text import Table
-
 _LINES_OF_WORDS = 5
 _MODES = 6
 _FIXED = ("factors", "generic", "exceptional", "hypersurfaces")
 """What the fixed spectrum says of modes, without and with parameters."""
-_LONG = 10.0
-"""The seconds from which on a question is listed with its time."""
 _ASKED = {question.option: question.help for question in reversed([*QUESTIONS.values()])}
 _ALSO = {option: told for option, told in reversed(_ASKED.items()) if option}
 """The options that add questions, from the table of questions, with their help texts."""
@@ -121,8 +115,8 @@ def command(
     channels cause that, whether the system can be stabilized, joint controllability with its
     indices, the transfer graph, completeness, and the parts into which the spectrum splits.
 
-    Of a system with parameters: which modes are fixed, uncontrollable and unobservable for all
-    values, and at which values others are.  With --at all questions are asked about one value.
+    Of a system with parameters most of these are decided for all values, and it is said at which
+    values the answer is another one.  With --at all questions are asked about one value.
     """
 
     from mcexact.cli import output
@@ -184,26 +178,6 @@ def _named(subset: str | None) -> list[str] | None:
     return [name.strip() for name in subset.split(",")] if subset.strip() else []
 
 
-def _effort(taken: Sequence[Effort]) -> tuple[Table, ...]:
-    """A table of the questions that took long, or were not decided, if there are any."""
-    from mcexact.report.text import Table
-
-    rows = [
-        (
-            each.question.replace("_", " "),
-            "–" if each.outcome == "left out" else f"{each.seconds:.1f}",
-            f"{each.outcome}: {each.reason}" if each.reason else each.outcome,
-        )
-        for each in taken
-        if each.seconds >= _LONG or each.outcome != "decided"
-    ]
-    left_out = any(each.outcome == "left out" for each in taken)
-    note = "Decide a question that is left out by --also and its name." if left_out else ""
-    columns = ("question", "seconds", "outcome")
-    title = "questions that are open or took long"
-    return (Table(title, columns, tuple(rows), note),) if rows else ()
-
-
 def _answer(
     plant: tuple[str, bytes],
     limits: dict[str, int],
@@ -221,6 +195,7 @@ def _answer(
 
     from mcexact.analysis.analyze import analyze
     from mcexact.cli import uncertainty
+    from mcexact.cli.effort import effort_tables
     from mcexact.cli.files import plant_in
     from mcexact.cli.parameters import for_all_values
     from mcexact.cli.running import told
@@ -229,9 +204,11 @@ def _answer(
 
     given = plant_in(*plant, limits, at)
     if isinstance(given, ParametricSystem):
-        other = {**question, "information": question["information"] != "own"}
-        asked = (*other.values(), *also, *named, *uncertain)
-        return for_all_values(given, any(map(bool, asked)), with_page, with_latex, system_by_digest)
+        refused = question["information"] != "own" or question["subset"] or any(uncertain)
+        asked, channel = [*asked_by(*also), *named], question["channel"]
+        return for_all_values(
+            given, asked, channel, bool(refused), with_page, with_latex, system_by_digest
+        )
     system, largest = uncertainty.of(given, *uncertain)
     found = analyze(system, also=[*asked_by(*also), *named], **question)
     if largest is not None and largest.proof is not None:
@@ -242,7 +219,7 @@ def _answer(
         from mcexact.report.account_page import account_page
 
         page = account_page(account)
-        more = (*uncertainty.tables(largest), *_effort(found.effort()))
+        more = (*uncertainty.tables(largest), *effort_tables(found.effort()))
         page = replace(
             page,
             answer=(*uncertainty.leading(account), *page.answer),
@@ -257,7 +234,7 @@ def _answer(
         "tables": (
             *uncertainty.tables(largest),
             *tables(account.sentences, most_modes=_MODES),
-            *_effort(found.effort()),
+            *effort_tables(found.effort()),
         ),
         "latex": latex(account) if with_latex else "",
         "page": page,

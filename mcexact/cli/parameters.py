@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -43,7 +43,9 @@ def at_values(use: str, more: str) -> Callable[[F], F]:
 
 def for_all_values(
     system: ParametricSystem,
-    asked: bool,
+    also: Sequence[str],
+    channel: str | None,
+    refused: bool,
     with_page: bool,
     with_latex: bool,
     system_by_digest: bool,
@@ -53,7 +55,10 @@ def for_all_values(
     Parameters
     ----------
     system : ParametricSystem
-    asked : bool
+    also : sequence of str
+        Questions that are asked as well.
+    channel : str or None
+    refused : bool
         Whether something is asked that is only decided for systems without parameters.
     with_page, with_latex, system_by_digest : bool
 
@@ -62,30 +67,33 @@ def for_all_values(
     UsageError
         If something else is asked.
     """
-    from mcexact.analysis.parametric_analysis import parametric_analysis
-    from mcexact.answer import codec
+    from dataclasses import replace
+
+    from mcexact.analysis.parametric_analysis import ParametricAnalysis
+    from mcexact.cli.effort import effort_tables
     from mcexact.errors import UsageError
-    from mcexact.model.system_file import canonical_text
     from mcexact.report.parameters import parameter_latex, parameter_page, parameter_tables
     from mcexact.report.text import WIDTH, wrapped
 
-    if asked:
+    if refused or not ParametricAnalysis.questions.keys() >= {*also}:
         raise UsageError(
             "these questions are about systems without parameters: give values to "
             f"{', '.join(system.parameters)} by --at NAME=VALUE"
         )
-    found = parametric_analysis(system)
-    certificates = {f"{name}.json": each for name, each in found.certificates.items()}
+    found = ParametricAnalysis(system, channel=channel)
+    found.also(also)
+    account, taken = found.account, effort_tables(found.effort())
+    page = parameter_page(account) if with_page else None
+    if page is not None:
+        page = replace(page, tables=(*page.tables, *taken))
+    words = [line for said in account.at("answer") for line in wrapped(said, WIDTH)]
     return {
-        "certificates": {name: codec.encode(each) for name, each in certificates.items()},
-        "files": {
-            name: codec.encode(each, system_by_digest=system_by_digest)
-            for name, each in certificates.items()
-        },
-        "plant": {name: canonical_text(each.about) for name, each in certificates.items()},
+        "certificates": account.certificates,
+        "files": account.files(system_by_digest=system_by_digest),
+        "plant": account.plants,
         "json": found.to_dict(),
-        "words": "".join(f"{line}\n" for said in found.sentences for line in wrapped(said, WIDTH)),
-        "tables": parameter_tables(found),
-        "latex": parameter_latex(found) if with_latex else "",
-        "page": parameter_page(found) if with_page else None,
+        "words": "\n".join(words) + "\n",
+        "tables": (*parameter_tables(account), *taken),
+        "latex": parameter_latex(account) if with_latex else "",
+        "page": page,
     }

@@ -6,7 +6,7 @@ do not know.
 
 from __future__ import annotations
 
-from mcexact.answer.parametric_analysis import LABELS
+from mcexact.answer.parametric_account import LABELS
 from mcexact.answer.schema import Schema, kinds, view_schema
 from mcexact.report.file_schemas import agents, sweep_record
 from mcexact.report.schema_terms import (
@@ -122,9 +122,11 @@ def certify() -> Schema:
     )
 
 
+_QUESTION = record({"question": TEXT, "outcome": TEXT, "seconds": some(FLOAT)}, {"reason": TEXT})
+
+
 def analyze() -> Schema:
     """The JSON of `mcexact analyze`."""
-    question = record({"question": TEXT, "outcome": TEXT, "seconds": some(FLOAT)}, {"reason": TEXT})
     largest = record(
         {
             "property": TEXT,
@@ -136,14 +138,14 @@ def analyze() -> Schema:
         }
     )
     return _account(
-        {"information": {"enum": ["own", "outputs"]}, "questions": rows(question)},
+        {"information": {"enum": ["own", "outputs"]}, "questions": rows(_QUESTION)},
         {"largest_uncertainty": largest},
     )
 
 
 def analyze_parameters() -> Schema:
     """Answers about a system with parameters, for all values."""
-    row = record({"where": TEXT, "modes": TEXT, "because": TEXT}, closed=True)
+    row = record({"where": TEXT, "what": TEXT, "because": TEXT}, closed=True)
     answer = record({"rows": rows(row), "certificates": rows(TEXT)})
     ends = rows(some(NUMBER), minItems=2, maxItems=2)
     return record(
@@ -151,12 +153,13 @@ def analyze_parameters() -> Schema:
         | {
             "system": _SYSTEM_IN_SHORT,
             "parameters": table(record({}, {"range": ends}, closed=True)),
-            "answer": rows(TEXT),
-            "re_checked": SENTENCES["re_checked"],
-            **dict.fromkeys(LABELS, answer),
+            "questions": rows(_QUESTION),
+            "table": rows(rows(TEXT)) | {"description": "labels, and what holds"},
+            **SENTENCES,
         },
+        dict.fromkeys(LABELS, answer),
         closed=True,
-        says="where which modes are fixed, for all values of parameters",
+        says="what holds for all values of parameters, and where something else",
     )
 
 

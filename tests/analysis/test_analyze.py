@@ -113,7 +113,7 @@ def test_every_question_is_listed_with_its_seconds_or_why_it_is_left_out(
     assert [each["question"] for each in told] == list(found.unbidden) == list(found.asked)
     assert all(each["outcome"] == "decided" and each["seconds"] >= 0 for each in told)
     fewer = dict(QUESTIONS) | {"setpoint": replace(QUESTIONS["setpoint"], most=2)}
-    monkeypatch.setattr("mcexact.analysis.analyze.QUESTIONS", fewer)
+    monkeypatch.setattr(Analysis, "questions", fewer)
     small = analyze(PAPER)
     reason = "more than 2 states, of which it needs dense matrices"
     assert small.left_out == {"setpoint": reason}

@@ -48,10 +48,10 @@ def test_an_analysis_has_all_answers_by_attribute() -> None:
     found = analyze(load_parametric_system("gallery:two-areas-parametric"))
     assert found.fixed_spectrum.exceptional[0].exact == 0
     assert found.joint_controllability.exceptional == ()
-    assert "A mode is unobservable where T = 0." in found.explain()
+    assert "jointly observable: every mode, unless T = 0" in found.explain()
     assert "joint_observability" in dir(found) and "T in [0, 5]" in repr(found)
     assert "modes that no channel observes" in found._repr_html_()
-    checked = found.to_dict() | {"re_checked": {"valid": 3, "open": []}}
+    checked = found.to_dict() | {"re_checked": {"valid": 13, "open": []}}
     assert faults("analyze-parameters", checked) == []
 
 
@@ -59,6 +59,8 @@ def test_questions_about_numbers_are_refused_for_letters() -> None:
     import pytest
 
     with pytest.raises(UsageError, match="without parameters"):
-        analyze(PLANT, ["completeness"])  # type: ignore[call-overload]
-    with pytest.raises(AttributeError, match="completeness"):
-        _ = analyze(PLANT).completeness
+        analyze(PLANT, subset=["1"])  # type: ignore[call-overload]
+    with pytest.raises(UsageError, match="no question 'assignability'"):
+        analyze(PLANT, ["assignability"])
+    with pytest.raises(AttributeError, match="assignability"):
+        _ = analyze(PLANT).assignability

@@ -59,8 +59,10 @@ def commands_for_all_values(plant: str, folder: Path) -> Iterator[tuple[str, tup
     """The same about a plant with parameters."""
     evidence = folder / "evidence"
     yield "analyze-parameters", ("analyze", plant, "--certificates", str(evidence), *LIMIT)
-    for certificate in sorted(evidence.glob("*.json")):
-        yield "check", ("check", str(certificate))
+    if (evidence / "manifest.json").exists():
+        yield "check", ("check", "--manifest", str(evidence))
+    else:
+        yield from (("check", ("check", str(each))) for each in sorted(evidence.glob("*.json")))
     yield "system", ("convert", plant)
     known = gallery.load_parametric(plant.removeprefix("gallery:"))
     values = [f"--at={name}=1/7" for name in known.parameters]

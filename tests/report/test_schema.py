@@ -79,9 +79,8 @@ def test_answers_are_as_their_schemas_say(tmp_path: Path) -> None:
 def test_answers_for_all_values_are_as_their_schemas_say(tmp_path: Path) -> None:
     plant, folder = "gallery:two-areas-parametric", tmp_path / "made"
     asked("analyze-parameters", "analyze", plant, "--certificates", str(folder))
-    for path in folder.glob("*.json"):
-        assert faults("certificate", json.loads(path.read_text())) == [], path.name
-        asked("check", "check", str(path))
+    asked("check", "check", "--manifest", str(folder))
+    written(folder)
     asked("system", "convert", plant)
     asked("system", "convert", plant, "--at", "T=1")
 

@@ -12,7 +12,7 @@ from mcexact.analysis.engine.parametric_modes import parametric_fixed_spectrum
 from mcexact.answer.exceptional_hypersurfaces import ExceptionalHypersurfaces, Hypersurface
 from mcexact.answer.parametric_fixed_spectrum import ParametricFixedSpectrum
 from mcexact.derived.modular_system import generator
-from mcexact.errors import InternalError
+from mcexact.errors import LimitReached
 from mcexact.exact import several_variables
 from mcexact.exact.function_matrix import FunctionMatrix
 from mcexact.exact.rational_function import RationalFunction
@@ -106,7 +106,7 @@ class _Search:
             if made is not None:
                 break
         else:
-            raise InternalError("no drawn gains leave the fixed modes alone")
+            raise LimitReached("no drawn gains leave the fixed modes alone")
         lines, confirmed = made
         sets = {
             h: {mode.channels for value in values for mode in value.modes}

@@ -14,7 +14,7 @@ from mcexact.analysis.engine.parameter_lines import Along, in_order
 from mcexact.analysis.engine.parametric_modes import parametric_fixed_spectrum
 from mcexact.analysis.engine.rank_hypersurfaces import rank_for_all_values
 from mcexact.answer.exceptional_hypersurfaces import ExceptionalHypersurfaces, RankHypersurfaces
-from mcexact.answer.parametric_fixed_spectrum import ParametricFixedSpectrum
+from mcexact.answer.parametric_fixed_spectrum import ParametricFixedSpectrum, in_parameter
 from mcexact.answer.parametric_rank import ParametricRank, TransferColumn
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational_function import RationalFunction
@@ -52,6 +52,20 @@ class ParametricTransferGraph:
     def certificates(self) -> tuple[Along, ...]:
         """The answers that prove it, with several parameters those along lines."""
         return tuple(proof for each in self.columns.values() for proof in _proofs(each))
+
+    @property
+    def rows(self) -> tuple[tuple[str, str, str], ...]:
+        """For each pair of channels where it is an edge."""
+        said = {"rank 1": "an edge", "rank 0": "no edge"}
+        return tuple(
+            (where, f"{start} -> {end}: {said.get(what, what)}", why)
+            for (start, end), each in self.columns.items()
+            for where, what, why in each.rows
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain data: the edges for almost every value."""
+        return {"arcs": [[*pair] for pair in self.arcs]}
 
     @property
     def lost_at(self) -> tuple[Surface, ...]:
@@ -116,6 +130,22 @@ class ParametricCompleteness:
         surfaces = in_order([q for q in found if isinstance(q, RationalFunction)])
         values = [q for q in found if isinstance(q, Polynomial)]
         return (*surfaces, *sorted(values, key=lambda q: (q.degree, q.coefficients)))
+
+    @property
+    def rows(self) -> tuple[tuple[str, str, str], ...]:
+        """Where it is complete, in words of the parameters."""
+        names = ", ".join(self.spectrum.about.parameters)
+        some = "almost " if self.exceptional else ""
+        said = "complete" if self.generic else "not complete"
+        found = [(f"{some}every value of {names}", said, "")]
+        for q in self.exceptional:
+            at = str(q) if isinstance(q, RationalFunction) else in_parameter(q, names)
+            found.append((f"{at} = 0", "not complete", ""))
+        return tuple(found)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain data."""
+        return {"complete_for_almost_every_value": self.generic}
 
     @property
     def certificates(self) -> tuple[Along, ...]:

@@ -14,7 +14,7 @@ from mcexact.answer.parametric_rank import ParametricRank
 from mcexact.derived.dual import dual
 from mcexact.derived.modular_system import generator
 from mcexact.derived.moved_entries import moved
-from mcexact.errors import InternalError
+from mcexact.errors import LimitReached
 from mcexact.exact import several_variables
 from mcexact.exact.location import is_discrete
 from mcexact.exact.modular import ModularMatrix, primes
@@ -72,7 +72,7 @@ def rank_hypersurfaces(
         if made is not None:
             break
     else:
-        raise InternalError("no drawn point has the rank of almost all")
+        raise LimitReached("no drawn point has the rank of almost all")
     lines, confirmed = made
     return RankHypersurfaces(
         about=system,

@@ -4,11 +4,21 @@ import sys
 from collections.abc import Mapping
 from typing import Any
 
-from mcexact.answer.rules import allocation, analysis, design, details, links, refusals, sharing
+from mcexact.answer.rules import (
+    allocation,
+    analysis,
+    design,
+    details,
+    links,
+    parameters,
+    refusals,
+    sharing,
+)
 from mcexact.answer.sentence import Rulebook
 
 ANALYSIS = Rulebook([*analysis.RULES, *sharing.RULES, *details.RULES])
 ALLOCATION = allocation.RULES
+PARAMETERS = parameters.RULES
 LINKS = links.RULES
 DESIGN, VERDICT = design.DESIGN, design.VERDICT
 REFUSALS = refusals.RULES

@@ -1,0 +1,216 @@
+"""Answers about a system with parameters by name, with their sentences, rows and certificates."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from html import escape
+from typing import Any
+
+from mcexact.answer import codec
+from mcexact.answer.account import Account
+from mcexact.answer.protocol import Answer
+from mcexact.answer.rules.parameters import RULES
+from mcexact.answer.rules.several_parameters import sentences_of_several
+from mcexact.answer.sentence import Given, Sentences
+from mcexact.model.parametric import ParametricSystem
+from mcexact.model.system_file import canonical_text
+from mcexact.shown import Shown, grid
+
+FORMAT = "mcexact-parametric-analysis/1"
+LABELS = {
+    "fixed_spectrum": "fixed modes",
+    "completeness": "complete",
+    "joint_controllability": "modes that no channel controls",
+    "joint_observability": "modes that no channel observes",
+    "controllability_indices": "ranks of [B, AB, …] with k blocks",
+    "observability_indices": "ranks of [C; CA; …] with k blocks",
+    "transfer_graph": "edges of the transfer graph",
+    "setpoint": "rank of the matrix of equilibria",
+    "channel_controllability": "modes that the channel does not control",
+    "channel_observability": "modes that the channel does not observe",
+}
+"""The questions, with what their answers are about."""
+COLUMNS = ("where", "what", "because")
+MODES = frozenset(name for name in LABELS if name.endswith(("ability", "spectrum")))
+"""The questions about modes, of which a table says more than a sentence."""
+_OPEN = (
+    "Where it is so for almost all values, this is proved along drawn lines; between them, "
+    "conditions are computed and not certified. Where several conditions meet is not decided."
+)
+_PLACES = ("title", "answer", "table")
+Row = tuple[str, str, str]
+
+
+@dataclass(frozen=True, repr=False)
+class ParametricAccount(Shown):
+    """Answers about one system with parameters, for almost all values and at exceptional ones.
+
+    Attributes
+    ----------
+    plant : ParametricSystem
+    answers : mapping
+        The answers by the names of their questions.
+    """
+
+    plant: ParametricSystem
+    answers: Mapping[str, Any]
+
+    @property
+    def several(self) -> bool:
+        """Whether the plant has several parameters: then proofs are about lines."""
+        return len(self.plant.parameters) > 1
+
+    @cached_property
+    def parts(self) -> dict[str, Answer]:
+        """The certificates by name: of several for one question, or along lines, numbered."""
+        found: dict[str, Answer] = {}
+        for name, answer in self.answers.items():
+            if isinstance(answer, Answer):
+                found[name] = answer
+            elif name != "completeness":  # it follows from other answers
+                found |= {f"{name}_{k}": each for k, each in enumerate(_proofs(answer), 1)}
+        return found
+
+    @cached_property
+    def proved(self) -> Account:
+        """The account of one parameter: sentences that follow from certificates by rules."""
+        return Account(self.parts, self._given, RULES.sentences(self.parts, self._given))
+
+    @property
+    def _given(self) -> Given:
+        plant = self.plant
+        asked = {
+            "parameter": ", ".join(plant.parameters),
+            "parameters": ", ".join(plant.parameters_in_words),
+            "outputs": sum(q for _, q in plant.sizes),
+            "scale": None if self.several else plant.A.reduced[1],
+        }
+        return Given(plant, asked)
+
+    @cached_property
+    def sentences(self) -> Sentences:
+        """The sentences; with several parameters those that hold where nothing is left open."""
+        if self.several:
+            return Sentences(sentences_of_several(self.answers, self._given))
+        return self.proved.sentences
+
+    def at(self, *places: str) -> list[str]:
+        """The sentences of a place, with what is left open behind the answer."""
+        told: list[str] = [*self.sentences.at(*places)]
+        return [*told, _OPEN] if self.several and "answer" in places else told
+
+    @property
+    def certificates(self) -> dict[str, str]:
+        """The text of every certificate, keyed by the name of its file."""
+        return {f"{name}.json": codec.encode(each) for name, each in self.parts.items()}
+
+    def manifest(self) -> dict[str, Any]:
+        """Return the sentences with their premises, and the digests of the certificates."""
+        return self.proved.manifest()
+
+    def files(self, *, system_by_digest: bool = False) -> dict[str, str]:
+        """Return the certificates, and with one parameter the manifest, by the names of files."""
+        if not self.several:
+            return self.proved.files(system_by_digest=system_by_digest)
+        return {
+            f"{name}.json": codec.encode(each, system_by_digest=system_by_digest)
+            for name, each in self.parts.items()
+        }
+
+    @property
+    def plants(self) -> str | dict[str, str]:
+        """The plant of all certificates, or with several parameters of each its own."""
+        if not self.several:
+            return canonical_text(self.plant)
+        return {f"{name}.json": canonical_text(each.about) for name, each in self.parts.items()}
+
+    def rows(self, name: str) -> tuple[Row, ...]:
+        """Where what holds by the answer to a question, and why."""
+        answer = self.answers[name]
+        if isinstance(answer, tuple):
+            return tuple(
+                (where, f"k = {k}: {what}", why)
+                for k, each in enumerate(answer, 1)
+                for where, what, why in each.rows
+            )
+        found: tuple[Row, ...] = answer.rows
+        return found
+
+    def as_json(self, **more: Any) -> dict[str, Any]:
+        """Return plain data with an entry for each answer, keyed by its name."""
+        plant = self.plant
+        rules = [] if self.several else self.sentences
+        return {
+            "format": FORMAT,
+            "system": {
+                "name": plant.name,
+                "n": plant.n,
+                "m": plant.m,
+                "time": plant.time,
+                "channels": list(plant.names),
+            },
+            "parameters": plant.document()["parameters"],
+            **more,
+            "answer": self.at("answer"),
+            "table": [[*each.cells] for each in self.sentences.at("table")],
+            "sentences": [
+                {"text": each.line, "rule": each.template.key, "theorem": each.template.theorem}
+                for each in rules
+            ],
+            **{name: self._view(name) for name in self.answers},
+        }
+
+    def _view(self, name: str) -> dict[str, Any]:
+        """The answer to a question with the names of its certificates."""
+        answer = self.answers[name]
+        own = re.compile(rf"{name}(_\d+)?")
+        files = [f"{each}.json" for each in self.parts if own.fullmatch(each)]
+        rows = [dict(zip(COLUMNS, row, strict=True)) for row in self.rows(name)]
+        view = {} if isinstance(answer, tuple) else answer.to_dict()
+        return view | {"rows": rows, "certificates": files}
+
+    def explain(self) -> str:
+        """Say in plain words what was found, one sentence a line."""
+        told = [each.line for each in self.sentences.at("table")]
+        return "\n".join([*self.at("answer"), *told])
+
+    def __repr__(self) -> str:
+        return f"ParametricAccount({len(self.answers)} answers, {len(self.sentences)} sentences)"
+
+    def _labeled(self) -> Iterator[tuple[str, Any]]:
+        yield from (("", said) for said in self.at("answer"))
+        yield from ((each.cells[0], str(each)) for each in self.sentences.at("table"))
+
+    def _html(self) -> str:
+        """Return the sentences and the tables in HTML."""
+        said = "".join(f"<li>{escape(each)}</li>" for each in self.at("answer"))
+        listed = [(each.cells[0], str(each)) for each in self.sentences.at("table")]
+        made = [grid(("", ""), listed, "".join(self.sentences.at("title")))]
+        made += [grid(COLUMNS, self.rows(name), LABELS[name]) for name in self.detailed()]
+        return f'<ul class="said">{said}</ul>' + "".join(made)
+
+    def detailed(self, names: Collection[str] = MODES) -> list[str]:
+        """The questions of which a table says more than a sentence."""
+        return [
+            name
+            for name, answer in self.answers.items()
+            if name in names and self.rows(name) and not (self.several and _says_all(name, answer))
+        ]
+
+
+def _says_all(name: str, answer: Any) -> bool:
+    """Whether a sentence says all of an answer about modes: there are none."""
+    return name in MODES and not (answer.generic or answer.exceptional)
+
+
+def _proofs(answer: Any) -> list[Answer]:
+    """The certificates of an answer that is none itself."""
+    if isinstance(answer, tuple):
+        return [proof for each in answer for proof in _proofs(each)]
+    if isinstance(answer, Answer):
+        return [answer]
+    found = answer.certificates
+    return [*found.values()] if isinstance(found, Mapping) else [*found]

@@ -1,0 +1,105 @@
+"""The sentences of `mcexact analyze` about a plant with parameters."""
+
+from __future__ import annotations
+
+from mcexact.answer.template import Template
+
+_HAUTUS = "joint_controllability.controllable_hautus"
+_RANK = "setpoint.setpoint_rank"
+
+HEADING = Template(
+    "parametric-heading",
+    "{name:name}: {n:count state}, {m:count channel} {names:set}, {time:time} time, "
+    "{parameters:words}",
+)
+
+# The answer in words.
+
+NOTHING_FIXED = Template("parametric-nothing-fixed", "For {every:words} no mode is fixed.")
+FIXED = Template("parametric-fixed", "For {every:words} the roots of {modes:words} are fixed.")
+ANOTHER = Template("parametric-another", "{another:another} mode is fixed where {where:values}.")
+
+# The table of all answers.
+
+
+def _modes(stem: str, label: str, every: str, theorem: str = "") -> tuple[Template, ...]:
+    """The sentences on modes: none for every value, none unless, some, some and others."""
+    return (
+        Template(f"parametric-{stem}-always", f"{every}, for {{every:words}}", theorem, label),
+        Template(f"parametric-{stem}-unless", f"{every}, unless {{where:values}}", theorem, label),
+        Template(
+            f"parametric-{stem}-some",
+            ("" if every == "none" else "all but ") + "the roots of {modes:words}, for "
+            "{every:words}",
+            theorem,
+            label,
+        ),
+        Template(
+            f"parametric-{stem}-more",
+            ("" if every == "none" else "all but ") + "the roots of {modes:words}; "
+            "others, too, where {where:values}",
+            theorem,
+            label,
+        ),
+    )
+
+
+MODES = {
+    "fixed_spectrum": _modes("modes", "fixed modes", "none"),
+    "joint_controllability": _modes("controllable", "jointly controllable", "every mode", _HAUTUS),
+    "joint_observability": _modes("observable", "jointly observable", "every mode", _HAUTUS),
+    "channel_controllability": _modes(
+        "channel-controllable", "controlled by the channel", "every mode", _HAUTUS
+    ),
+    "channel_observability": _modes(
+        "channel-observable", "observed by the channel", "every mode", _HAUTUS
+    ),
+}
+GRAPH = (
+    Template("parametric-graph-always", "{edges:edges}, for {every:words}", label="transfer graph"),
+    Template("parametric-graph-lost", "{edges:edges}; {lost:lost}", label="transfer graph"),
+)
+COMPLETE = (
+    Template("parametric-complete-always", "yes, for {every:words}", label="complete"),
+    Template("parametric-complete-unless", "yes, unless {where:values}", label="complete"),
+    Template("parametric-complete-never", "no, for no value of {t:words}", label="complete"),
+)
+
+
+def _indices(name: str) -> tuple[Template, ...]:
+    """The sentences on indices: for every value, or others at some."""
+    return (
+        Template(
+            f"parametric-{name}-indices-always",
+            "{indices:indices}, for {every:words}",
+            label=f"{name} indices",
+        ),
+        Template(
+            f"parametric-{name}-indices-unless",
+            "{indices:indices}, unless {where:values}",
+            label=f"{name} indices",
+        ),
+    )
+
+
+INDICES = {name: _indices(name) for name in ("controllability", "observability")}
+SETPOINT = (
+    Template(
+        "parametric-setpoint-always",
+        "every set-point has an equilibrium, for {every:words}",
+        _RANK,
+        "set-points",
+    ),
+    Template(
+        "parametric-setpoint-unless",
+        "every set-point has an equilibrium, unless {where:values}",
+        _RANK,
+        "set-points",
+    ),
+    Template(
+        "parametric-setpoint-never",
+        "not every set-point has an equilibrium, for any value of {t:words}",
+        _RANK,
+        "set-points",
+    ),
+)

@@ -1,0 +1,186 @@
+"""What certificates about a plant with a parameter imply, for all of its values."""
+
+from collections.abc import Callable
+
+from .parametric_system import ParametricSystem
+from .reading import Json
+from .sentence import PLANT, Premise, Role, restate, rule
+from .sentences_analysis import HAUTUS, RANK_RULE
+from .statement import described, edge_set, polynomial_text
+
+MODES = Role(("parametric_fixed_spectrum",), PLANT)
+CONTROLLED = Role(MODES.kinds, (("full_output",), ("merged", "full_output")))
+OBSERVED = Role(MODES.kinds, (("dual", "full_output"), ("dual", "merged", "full_output")))
+ALONE = Role(MODES.kinds, (("full_output",), ("restricted", "full_output")))
+SEEN = Role(MODES.kinds, (("dual", "full_output"), ("dual", "restricted", "full_output")))
+STEADY = Role(("parametric_rank",), PLANT)
+RANKS = Role(STEADY.kinds, PLANT, many=True)
+DUAL_RANKS = Role(STEADY.kinds, (("dual",),), many=True)
+
+
+@rule("parametric-heading")
+def _given(known: list[Premise]) -> str:
+    """The sizes of the plant, and its parameter."""
+    plant = known[0].meant
+    known[0].expect(isinstance(plant, ParametricSystem), "the plant has no parameter")
+    low, high = ("infinity" if end is None else str(end) for end in plant.range)
+    return f"For {described(plant)}: its parameter is {plant.parameter}, between {low} and {high}"
+
+
+# Modes: none for every value, none unless, some, some and others.
+
+
+def of_modes(keys: str, role: Role, theorem: str, about: Callable[[Premise], bool]) -> None:
+    """Enter four rules, by whether modes are lost for every value, and others at some."""
+    for key, (whole, more) in zip(keys.split(), WAYS, strict=True):
+
+        def holds(found: Premise, whole: bool = whole, more: bool = more) -> bool:
+            found.expect(about(found), "about other channels")
+            return (bool(found["generic"]), bool(found["exceptional"])) == (whole, more)
+
+        restate(key, role, holds, theorem)
+
+
+WAYS = ((False, False), (False, True), (True, False), (True, True))
+
+
+def together(found: Premise) -> bool:
+    """Whether one channel is left, which has the ports of all."""
+    return bool(found.system.m == 1)
+
+
+def ways(stem: str) -> str:
+    """The keys of the four rules."""
+    return " ".join(f"parametric-{stem}-{way}" for way in ("always", "unless", "some", "more"))
+
+
+of_modes(ways("modes"), MODES, "", lambda found: True)
+of_modes(ways("controllable"), CONTROLLED, HAUTUS, together)
+of_modes(ways("observable"), OBSERVED, HAUTUS, together)
+of_modes(ways("channel-controllable"), ALONE, HAUTUS, together)
+of_modes(ways("channel-observable"), SEEN, HAUTUS, together)
+restate("parametric-nothing-fixed", MODES, lambda found: not found["generic"])
+restate("parametric-fixed", MODES, lambda found: found["generic"])
+restate("parametric-another", MODES, lambda found: found["exceptional"])
+
+
+# The transfer graph and completeness.
+
+Lost = dict[tuple[str, str], list[Json]]
+
+
+def edges(found: list[Premise]) -> Lost:
+    """The edges for almost every value, each with the polynomials at whose roots it vanishes."""
+    decided: Lost = {}
+    for each in found:
+        each.expect(each["matrix"]["name"] == "transfer", "not about the inputs of a channel")
+        j, i = each["matrix"]["from"], each["matrix"]["to"]
+        decided[j, i] = [value["value"] for value in each["exceptional"]]
+    names = found[0].system.names
+    missing = [(j, i) for j in names for i in names if (j, i) not in decided]
+    found[0].expect(not missing, f"nothing is said of the edges {edge_set(missing[:3])}")
+    ranks = {(e["matrix"]["from"], e["matrix"]["to"]): e["rank"] for e in found}
+    return {edge: lost for edge, lost in decided.items() if ranks[edge]}
+
+
+def connected(names: list[str], kept: list[tuple[str, str]]) -> bool:
+    """Whether edges lead from the first channel to all others, and back."""
+    for ends in (kept, [(i, j) for j, i in kept]):
+        reached, new = set[str](), {names[0]}
+        while new:
+            reached |= new
+            new = {i for j, i in ends if j in new} - reached
+        if len(reached) < len(names):
+            return False
+    return True
+
+
+def _graph(keys: str, lost: bool) -> None:
+    @rule(keys, RANKS)
+    def _say(found: list[Premise]) -> str:
+        """The edges for almost every value, and what is proved of each."""
+        kept = edges(found)
+        found[0].expect(any(kept.values()) == lost, "the claim is different")
+        told = "; ".join(each.statement for each in found)
+        return f"{told}; so the transfer graph has almost everywhere the edges {edge_set(kept)}"
+
+
+_graph("parametric-graph-always", False)
+_graph("parametric-graph-lost", True)
+
+
+def complete(spectrum: Premise, found: list[Premise]) -> list[Json] | None:
+    """The polynomials at whose roots the plant is not complete; None if it is for no value."""
+    kept, names = edges(found), spectrum.system.names
+    if spectrum["generic"] or not connected(names, list(kept)):
+        return None
+    where = [value["value"] for value in spectrum["exceptional"]]
+    for q in (q for lost in kept.values() for q in lost):
+        left = [edge for edge, lost in kept.items() if q not in lost]
+        if q not in where and not connected(names, left):
+            where.append(q)
+    return where
+
+
+def _complete(key: str, holds: Callable[[list[Json] | None], bool], told: str) -> None:
+    @rule(key, MODES, RANKS)
+    def _say(spectrum: Premise, found: list[Premise]) -> str:
+        """No fixed mode and a strongly connected transfer graph."""
+        where, t = complete(spectrum, found), spectrum.system.parameter
+        spectrum.expect(holds(where), "the claim is different")
+        parts = "; ".join(each.statement for each in (spectrum, *found))
+        roots = [f"the roots of {polynomial_text(q, t)}" for q in where or []]
+        return f"{parts}; so it is complete {told}{' and '.join(roots)}"
+
+
+_complete("parametric-complete-always", lambda where: where == [], "for every such value")
+_complete("parametric-complete-unless", bool, "for every such value except ")
+_complete("parametric-complete-never", lambda where: where is None, "for no value")
+
+
+# Indices and set-points.
+
+
+def _indices(stem: str, role: Role) -> None:
+    def said(found: list[Premise]) -> bool:
+        """Whether the ranks of all numbers of blocks are known, and whether they change."""
+        n = found[0].system.n
+        found.sort(key=lambda each: int(each["matrix"].get("blocks", 0)))
+        for k, each in enumerate(found, 1):
+            matrix = each["matrix"]
+            right = matrix["name"] == "controllability" and matrix["blocks"] == k
+            each.expect(right, f"not about {k} blocks")
+            each.expect(matrix["channels"] == each.system.names, "not about all channels")
+        last = [_ranks(each) for each in found[-2:]]
+        settled = len(found) >= n or (len(last) == 2 and last[0] == last[1])
+        found[0].expect(settled, "the ranks may grow with more blocks")
+        return any(each["exceptional"] for each in found)
+
+    for way, lost in (("always", False), ("unless", True)):
+
+        @rule(f"parametric-{stem}-indices-{way}", role)
+        def _say(found: list[Premise], lost: bool = lost) -> str:
+            """The ranks block by block."""
+            found[0].expect(said(found) == lost, "the claim is different")
+            return "; ".join(each.statement for each in found)
+
+
+def _ranks(found: Premise) -> Json:
+    listed = sorted([[str(c) for c in e["value"]], e["rank"]] for e in found["exceptional"])
+    return found["rank"], listed, sorted([str(c) for c in e["value"]] for e in found["outside"])
+
+
+_indices("controllability", RANKS)
+_indices("observability", DUAL_RANKS)
+
+
+def solvable(found: Premise) -> bool:
+    """Whether the rank is full for almost every value."""
+    found.expect(found["matrix"]["name"] == "setpoint", "not about equilibria")
+    return bool(found["rank"] == found.system.n + sum(M[0].nrows for M in found.system.C))
+
+
+ALWAYS, UNLESS, NEVER = (f"parametric-setpoint-{way}" for way in ("always", "unless", "never"))
+restate(ALWAYS, STEADY, lambda c: solvable(c) and not c["exceptional"], RANK_RULE)
+restate(UNLESS, STEADY, lambda c: solvable(c) and c["exceptional"], RANK_RULE)
+restate(NEVER, STEADY, lambda c: not solvable(c), RANK_RULE)

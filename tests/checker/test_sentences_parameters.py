@@ -1,0 +1,219 @@
+"""Sentences about a plant with a parameter: each rule says what holds, and refuses all else."""
+
+from __future__ import annotations
+
+import json
+import re
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from mcexact import MultiChannelSystem, ParametricSystem, analyze
+from mcexact.answer.listing import premises_of
+from mcexact.answer.parametric_account import ParametricAccount
+from mcexact.answer.rules import PARAMETERS
+from mcexact.answer.template import templates
+from mcexact.answer.wording import parameters as say
+from mcexact.checker.sentence import RULES
+from tests.checker.manifests import Document, manifest, said, sentence, write
+
+IDENTITY = [[[1], [0]], [[0], [1]]]
+PLANTS = {
+    "tanks": ParametricSystem(
+        [[-1, 0], ["1 - t", -2]],
+        [[["t"], ["1 - t"]], [[0], [1]]],
+        [[[1, 0]], [[0, 1]]],
+        parameters=["t"],
+    ),
+    "ring": ParametricSystem(
+        [[1, "t - 2"], ["t", 2]], IDENTITY, [[[1, 0]], [[0, 1]]], parameters=["t"]
+    ),
+    "constant": ParametricSystem(
+        [[1, 1], [1, 2]], IDENTITY, [[[1, 0]], [[0, 1]]], parameters=["t"], time="discrete"
+    ),
+    "modes": ParametricSystem(
+        [["t", 0, 0], [0, 2, 0], [0, 0, 3]],
+        [[[0], ["t - 1"], [1]]],
+        [[["t - 2", 1, 1]]],
+        parameters=["t"],
+        assume={"t": (0, None)},
+    ),
+    "stuck": ParametricSystem(
+        [[1, 0], [0, "t"]], [[[1], [0]]], [[["t - 2", 0]]], parameters=["t"], assume={"t": (0, 2)}
+    ),
+    "idle": ParametricSystem([["t"]], [[[0]]], [[[0]]], parameters=["t"]),
+    "wide": ParametricSystem(
+        [[0, 1, 0], [0, 0, "t"], [0, 0, 0]],
+        [[[0], [0], [1]], [["t + 3"], [0], [0]]],
+        [[[1, 0, 0]], [[0, 0, 1]]],
+        parameters=["t"],
+        assume={"t": (-1, 1)},
+    ),
+}
+TEMPLATES = list(templates(say))
+
+
+@cache
+def account(name: str) -> ParametricAccount:
+    """All answers about a plant."""
+    return analyze(PLANTS[name], channel=PLANTS[name].names[0]).account
+
+
+@cache
+def evidence(name: str) -> dict[str, Document]:
+    """The certificates, by the stem of their files."""
+    parts = account(name).certificates
+    return {file.removesuffix(".json"): json.loads(text) for file, text in parts.items()}
+
+
+def asked(questions: tuple[str, ...], known: dict[str, Document]) -> list[str]:
+    """The stems of the certificates of some questions."""
+    return [stem for stem in known if re.sub(r"_\d+$", "", stem) in questions]
+
+
+@pytest.mark.parametrize("name", PLANTS)
+def test_a_rule_implies_its_sentence_exactly_where_it_is_said(name: str, tmp_path: Path) -> None:
+    known = evidence(name)
+    told = {each.template.key for each in account(name).sentences}
+    listed = [
+        sentence(each.key, *asked(premises_of(each, PARAMETERS), known), evidence=known)
+        for each in TEMPLATES
+    ]
+    verdicts = said(write(tmp_path, known, manifest(known, listed)))
+    found = {each.key: v.verdict for each, v in zip(TEMPLATES, verdicts, strict=True)}
+    assert found == {each.key: "IMPLIED" if each.key in told else "INVALID" for each in TEMPLATES}
+
+
+def test_every_sentence_is_said_of_some_plant() -> None:
+    told = {each.template.key for name in PLANTS for each in account(name).sentences}
+    assert told == {each.key for each in TEMPLATES}
+
+
+def test_what_the_manifest_of_an_analysis_says_is_implied(tmp_path: Path) -> None:
+    for name, text in account("stuck").files().items():
+        (tmp_path / name).write_text(text)
+    verdicts = said(tmp_path)
+    assert {each.verdict for each in verdicts} == {"IMPLIED"} and len(verdicts) > 8
+
+
+def test_the_words_name_what_is_lost_where(tmp_path: Path) -> None:
+    known = evidence("ring")
+    edges = asked(("transfer_graph",), known)
+    keys = [
+        ("parametric-heading", []),
+        ("parametric-complete-unless", ["fixed_spectrum", *edges]),
+        ("parametric-graph-lost", edges),
+    ]
+    listed = [sentence(key, *premises, evidence=known) for key, premises in keys]
+    first, second, third = said(write(tmp_path, known, manifest(known, listed)))
+    assert "its parameter is t, between infinity and infinity" in first.statement
+    ends = "complete for every such value except the roots of t - 2 and the roots of t"
+    swapped = "complete for every such value except the roots of t and the roots of t - 2"
+    assert ends in second.statement or swapped in second.statement
+    edges_told = '"1" -> "1", "1" -> "2", "2" -> "1", "2" -> "2"'
+    assert f"almost everywhere the edges {{{edges_told}}}" in third.statement
+
+
+EDGES = [f"transfer_graph_{k}" for k in range(1, 5)]
+REFUSED: list[tuple[str, str, list[str], str]] = [
+    ("ring", "parametric-controllable-always", ["fixed_spectrum"], "expected a premise"),
+    ("ring", "parametric-modes-always", ["joint_controllability"], "expected a premise"),
+    ("ring", "parametric-observable-always", ["joint_controllability"], "expected a premise"),
+    ("ring", "parametric-channel-controllable-always", ["joint_controllability"], "a premise"),
+    ("ring", "parametric-graph-lost", EDGES[:3], 'nothing is said of the edges {"2" -> "2"}'),
+    ("ring", "parametric-graph-lost", [*EDGES, "setpoint"], "not about the inputs of a channel"),
+    ("ring", "parametric-complete-unless", ["fixed_spectrum", *EDGES[1:]], "nothing is said"),
+    ("ring", "parametric-complete-unless", ["fixed_spectrum"], "expected a premise"),
+    ("ring", "parametric-setpoint-always", [EDGES[0]], "not about equilibria"),
+    (
+        "wide",
+        "parametric-controllability-indices-unless",
+        ["controllability_indices_2", "controllability_indices_3"],
+        "not about 1 blocks",
+    ),
+    (
+        "wide",
+        "parametric-controllability-indices-unless",
+        ["controllability_indices_1"],
+        "the ranks may grow with more blocks",
+    ),
+    (
+        "wide",
+        "parametric-controllability-indices-unless",
+        ["controllability_indices_1", "controllability_indices_2"],
+        "the ranks may grow with more blocks",
+    ),
+    (
+        "wide",
+        "parametric-controllability-indices-unless",
+        ["controllability_indices_1", "setpoint"],
+        "not about 1 blocks",
+    ),
+    (
+        "wide",
+        "parametric-observability-indices-unless",
+        ["controllability_indices_1"],
+        "expected a premise",
+    ),
+]
+
+
+@pytest.mark.parametrize("name", ["ring", "wide"])
+def test_what_is_not_implied_is_refused_with_its_reason(name: str, tmp_path: Path) -> None:
+    known = evidence(name)
+    rows = [row for row in REFUSED if row[0] == name]
+    listed = [sentence(key, *premises, evidence=known) for _, key, premises, _ in rows]
+    verdicts = said(write(tmp_path, known, manifest(known, listed)))
+    for (_, key, _, reason), verdict in zip(rows, verdicts, strict=True):
+        assert verdict.verdict == "INVALID" and reason in verdict.message, (key, verdict)
+
+
+def test_channels_that_are_merged_in_part_do_not_stand_for_all(tmp_path: Path) -> None:
+    from mcexact.analysis.engine import parametric_fixed_spectrum
+    from mcexact.answer.codec import document
+    from mcexact.derived.feedback import full_output
+    from mcexact.derived.merged import merged
+    from mcexact.derived.moved_entries import moved
+
+    plant = ParametricSystem(
+        [[1, "t"], [0, 2]], [[[0], [1]], [[1], [0]], [[0], [0]]], [[[1, 0]]] * 3, parameters=["t"]
+    )
+
+    def part(plain: MultiChannelSystem) -> MultiChannelSystem:
+        return full_output(merged(plain, [["1", "2"], ["3"]]), 0)
+
+    made = document(parametric_fixed_spectrum(moved(plant, part)))
+    known: dict[str, Any] = {"joint_controllability": json.loads(json.dumps(made))}
+    keys = ["parametric-controllable-always", "parametric-controllable-unless"]
+    listed = [sentence(key, "joint_controllability", evidence=known) for key in keys]
+    for verdict in said(write(tmp_path, known, manifest(known, listed))):
+        assert verdict.verdict == "INVALID" and "about other channels" in verdict.message
+
+
+def test_indices_of_some_channels_do_not_stand_for_all(tmp_path: Path) -> None:
+    from mcexact import controllability_indices
+    from mcexact.answer.codec import document
+
+    found = controllability_indices(PLANTS["wide"], ["1"])
+    known = {
+        f"controllability_indices_{k}": json.loads(json.dumps(document(each)))
+        for k, each in enumerate(found, 1)
+    }
+    listed = [sentence("parametric-controllability-indices-unless", *known, evidence=known)]
+    [verdict] = said(write(tmp_path, known, manifest(known, listed)))
+    assert verdict.verdict == "INVALID" and "not about all channels" in verdict.message
+
+
+def test_a_plant_without_a_parameter_has_none_to_speak_of(tmp_path: Path) -> None:
+    plain = analyze(PLANTS["ring"].at(5), ["fixed_spectrum"])
+    known = {"fixed_spectrum": json.loads(plain.account.certificates["fixed_spectrum.json"])}
+    listed = [sentence("parametric-heading"), sentence("heading")]
+    first, second = said(write(tmp_path, known, manifest(known, listed)))
+    assert first.verdict == "INVALID" and "no parameter" in first.message
+    assert second.verdict == "IMPLIED"
+
+
+def test_every_rule_has_a_sentence() -> None:
+    assert {key for key in RULES if key.startswith("parametric-")} == {t.key for t in TEMPLATES}
