@@ -147,7 +147,7 @@ REFUSED: dict[str, str] = {
     '{"relativ": 1}': r"uncertainty: unknown key 'relativ' \(did you mean 'relative'",
     '{"digits": "typed"}': 'uncertainty.digits: expected "as typed"',
     '{"digits": 3}': "uncertainty.digits: expected a string, found a number",
-    '3': "uncertainty: expected a JSON object, found a number",
+    '3': 'uncertainty: expected an object such as {"relative": "1/100"}, found a number',
     '{"absolute": []}': "uncertainty.absolute: expected a JSON object, found a list",
     '{"absolute": {"A": [[1]]}}': "uncertainty.absolute.A: expected 2 rows, found 1",
     '{"absolute": {"A": [[0, 0], [0, "-1/2"]]}}':
