@@ -38,6 +38,7 @@ CODES = {
     "a value is divided out that is not named": "claim",
     "scalars are restricted to a companion matrix": "common_factor",
     "a value where nothing is fixed": "claim",
+    "a real value in a disc beside the axis": "disc",
     "the resultant is known modulo too small a number": "modulus",
     "the first resultant vanishes, and the second one modulo ℓ nowhere": "product",
     "a zero block without rows": "rank",

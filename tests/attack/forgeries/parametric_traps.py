@@ -201,6 +201,15 @@ SPECTRA: dict[str, Document] = {
             ),
         ),
     ),
+    "a real value in a disc beside the axis": spectrum(
+        scalar("t"),
+        exceptional=(
+            (
+                {**FIXED_AT_ZERO[0], "roots": [{"re": "0", "im": "0.1", "radius": "1"}]},
+                FIXED_AT_ZERO[1],
+            ),
+        ),
+    ),
     "the resultant is known modulo too small a number": spectrum(
         scalar("5*t + 1"), modulus=7, moduli=(5,)
     ),
