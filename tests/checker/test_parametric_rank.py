@@ -55,6 +55,8 @@ OUTSIDE = certified(SetpointMatrix(), [[0]], [[["t - 2"]]], [[["t"]]], (0, 1))
 """t = 2 is out of range."""
 POLE = certified(SetpointMatrix(), [[1]], [[["t - 1"]]], [[["t/(t - 1)"]]])
 """At t = 1 the matrix [1, t − 1; t, 0] has rank 1, and C is undefined."""
+CONSTANT = certified(ControllabilityMatrix(("1",), 1), [["t", 0], [0, 0]], [[[1, 1], [2, 2]]], [[]])
+"""[1, 1; 2, 2] has rank 1 for every t."""
 EMPTY = certified(SetpointMatrix(), [], [[]], [[[]]])
 NO_STATES = certified(ControllabilityMatrix(("1",), 1), [], [[]], [[[]]])
 NOTHING = certified(TransferColumn("1", "1"), [["t"]], [[[]]], [[[1]]])
@@ -62,7 +64,8 @@ NOTHING = certified(TransferColumn("1", "1"), [["t"]], [[[]]], [[[1]]])
 NO_CHANNELS = certified(ControllabilityMatrix((), 1), [["t"]], [[[1]]], [[[1]]])
 ALL = {
     "square": SQUARE, "steps": STEPS, "drops": DROPS, "reached": REACHED, "thin": THIN,
-    "edge": EDGE, "no edge": NO_EDGE, "ranged": RANGED, "outside": OUTSIDE, "pole": POLE,
+    "constant": CONSTANT, "edge": EDGE, "no edge": NO_EDGE, "ranged": RANGED, "outside": OUTSIDE,
+    "pole": POLE,
     "empty": EMPTY, "no states": NO_STATES, "nothing": NOTHING, "no channels": NO_CHANNELS,
 }  # fmt: skip
 
@@ -86,6 +89,7 @@ def test_the_ranks_are_those_that_a_pencil_gives() -> None:
     assert ranks(THIN) == (2, [([-1, 1], 1), ([1, 1], 1)])
     assert ranks(EDGE) == (1, [([0, 1], 0), ([1, 0, 1], 0)])
     assert ranks(NO_EDGE) == (0, [])
+    assert ranks(CONSTANT) == (1, [])
     assert ranks(OUTSIDE) == (2, [([0, 1], 1)])
     assert OUTSIDE["claim"]["outside"][0]["value"] == [-2, 1]
     assert POLE["witness"]["undefined"] == [[-1, 1]] and ranks(POLE) == (2, [([0, 1], 1)])
@@ -197,6 +201,10 @@ FALSE: dict[str, tuple[Any, str]] = {
     ),
     "a minor less": (changed(SQUARE, ("witness.rows", [0])), "rank"),
     "a column less": (changed(SQUARE, ("witness.columns", [0])), "rank"),
+    "a minor of too many rows and columns": (
+        changed(NO_EDGE, ("witness.rows", [0]), ("witness.columns", [0])),
+        "rank",
+    ),
     "a minor that is zero": (changed(DROPS, ("witness.rows", [0, 2])), "product"),
     "compressions that are zero": (
         changed(
@@ -232,6 +240,13 @@ def test_what_is_false_is_invalid(lie: str) -> None:
     assert (found.verdict, found.code) == ("INVALID", code), found.line()
 
 
+def test_a_rank_that_no_minor_can_have_is_refused_where_it_is_claimed() -> None:
+    assert checked(changed(SQUARE, ("claim.rank", 3))).place == "claim.rank"
+    assert checked(changed(THIN, ("claim.rank", 3))).place == "claim.rank"
+    assert checked(changed(DROPS, ("claim.rank", 3))).place == "claim.rank"
+    assert checked(changed(SQUARE, ("witness.rows", [0]))).place == "witness.rows"
+
+
 MALFORMED: dict[str, Any] = {
     "an unknown matrix": changed(SQUARE, ("claim.matrix", {"name": "pencil"})),
     "a matrix without a name": changed(SQUARE, ("claim.matrix", {})),
@@ -251,6 +266,8 @@ MALFORMED: dict[str, Any] = {
     ),
     "no kernel": changed(NO_EDGE, ("witness.kernel", None)),
     "a row twice": changed(SQUARE, ("witness.rows", [0, 0])),
+    "a column that is not there": changed(DROPS, ("witness.columns", [0, 2])),
+    "a row that is not there": changed(THIN, ("witness.rows", [0, 2])),
     "a compression of another shape": changed(
         SQUARE, ("witness.compressions.0.entries", [[1, 0, 0], [0, 1, 0]])
     ),

@@ -62,7 +62,8 @@ def members(document: Mapping[str, Any], gain_radii: Any = None) -> Iterator[Sys
     """The subjects of some members."""
     plant, steps = read_plant(document["system"]), listed(document["subject"])
     last = gain_radii is not None
-    demand(not last or steps[-1].get("construction") == "closed_loop", "expected a closed loop")
+    named = [step.get("construction") for step in steps[-1:]]
+    demand(not last or named == ["closed_loop"], "expected a closed loop")
     for parts in shares():
         system = built(member(plant, parts), steps[: len(steps) - last])
         if last:
