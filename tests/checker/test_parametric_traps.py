@@ -24,6 +24,7 @@ from tests.attack.forgeries.parametric_traps import (
     rank,
     scalar,
     spectrum,
+    with_gains,
 )
 from tests.checker.handmade import Document, changed, checked
 
@@ -37,6 +38,7 @@ CODES = {
     "a value is divided out as often as the degree of what divides nothing": "divisor",
     "a value is divided out that is not named": "claim",
     "scalars are restricted to a companion matrix": "common_factor",
+    "the leading coefficient of a resultant is no unit": "unit",
     "a value where nothing is fixed": "claim",
     "a real value in a disc beside the axis": "disc",
     "the resultant is known modulo too small a number": "modulus",
@@ -193,13 +195,6 @@ TOGETHER = plant([[0]], ([["t - 1", 1]], [[1]]))
 """0 is moved by t − 1 and by 1, which cancel where gains are unlucky."""
 
 
-def with_gains(first: list[int], second: list[int]) -> Document:
-    """That nothing is fixed for any t, with such gains of two inputs from one output."""
-    all_gains = [0, 0], first, second
-    found = [[{"denominator": 1, "entries": [[f] for f in F]}] for F in all_gains]
-    return changed(spectrum(TOGETHER), ("witness.gains", found))
-
-
 @pytest.mark.parametrize(
     ("first", "second", "code"),
     [
@@ -214,7 +209,8 @@ def test_small_gains_that_meet_by_accident_prove_nothing(
     first: list[int], second: list[int], code: str
 ) -> None:
     """The claim is true: other gains have to be drawn."""
-    assert checked(with_gains(first, second)).code == code
+    document = with_gains(spectrum(TOGETHER), [0, 0], first, second)
+    assert checked(document).code == code
 
 
 def test_gains_are_constant() -> None:

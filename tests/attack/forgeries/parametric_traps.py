@@ -75,6 +75,12 @@ def spectrum(
     return _certificate("parametric_fixed_spectrum", system, claim, witness)
 
 
+def with_gains(document: Document, *gains: list[int]) -> Document:
+    """The same with gains of one channel, from one output to several inputs."""
+    document["witness"]["gains"] = [[constant(*[[f] for f in F])] for F in gains]
+    return document
+
+
 def rank(
     system: Document,
     size: int,
@@ -170,6 +176,12 @@ SPECTRA: dict[str, Document] = {
         common=(([-1, 1], X),),
     ),
     "ℓ alone divides the denominator of a value": spectrum(scalar("7*t - 1"), modulus=7, moduli=()),
+    "the leading coefficient of a resultant is no unit": with_gains(
+        spectrum(plant([[0]], ([["7*t + 1", "49*t^2 - 1"]], [[1]])), modulus=49, moduli=()),
+        [0, 0],
+        [1, 0],
+        [0, -1],
+    ),
     # conditions
     "a value is divided out once for each time that it is named": spectrum(
         scalar("t^2 - 9*t + 8"),
