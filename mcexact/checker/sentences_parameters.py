@@ -1,7 +1,10 @@
 """What certificates about a plant with a parameter imply, for all of its values."""
 
 from collections.abc import Callable
+from itertools import combinations
 
+from . import reading
+from .expressions import common_divisor
 from .parametric_system import ParametricSystem
 from .reading import Json
 from .sentence import PLANT, Premise, Role, restate, rule
@@ -109,13 +112,22 @@ _graph("parametric-graph-always", False)
 _graph("parametric-graph-lost", True)
 
 
+def require_apart(values: list[Json], found: Premise) -> None:
+    """Stop if two polynomials have a common root, at which the edges of both would vanish."""
+    known = [reading.polynomial(q, found.file, 1) for q in values]
+    for p, q in combinations(known, 2):
+        found.expect(len(common_divisor(p, q)) == 1, "edges vanish at some roots of a value alone")
+
+
 def complete(spectrum: Premise, found: list[Premise]) -> list[Json] | None:
     """The polynomials at whose roots the plant is not complete; None if it is for no value."""
     kept, names = edges(found), spectrum.system.names
     if spectrum["generic"] or not connected(names, list(kept)):
         return None
     where = [value["value"] for value in spectrum["exceptional"]]
-    for q in (q for lost in kept.values() for q in lost):
+    values = [*{str(q): q for lost in kept.values() for q in lost}.values()]
+    require_apart(values, spectrum)
+    for q in values:
         left = [edge for edge, lost in kept.items() if q not in lost]
         if q not in where and not connected(names, left):
             where.append(q)

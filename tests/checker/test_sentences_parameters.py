@@ -16,6 +16,7 @@ from mcexact.answer.parametric_account import ParametricAccount
 from mcexact.answer.rules import PARAMETERS
 from mcexact.answer.template import templates
 from mcexact.answer.wording import parameters as say
+from mcexact.checker import check_document
 from mcexact.checker.sentence import RULES
 from tests.checker.manifests import Document, manifest, said, sentence, write
 
@@ -217,3 +218,30 @@ def test_a_plant_without_a_parameter_has_none_to_speak_of(tmp_path: Path) -> Non
 
 def test_every_rule_has_a_sentence() -> None:
     assert {key for key in RULES if key.startswith("parametric-")} == {t.key for t in TEMPLATES}
+
+
+def test_values_with_a_common_root_do_not_hide_that_edges_vanish_together(tmp_path: Path) -> None:
+    """For t = 1 the channel 1 reaches no other: 2 not for the roots 1 and 2, 3 not for 1."""
+    plant = ParametricSystem(
+        [[1, 0, 0], [0, 2, 0], [0, 0, 3]],
+        [[[1], [0], [0]], [[0], [1], [0]], [[0], [0], [1]]],
+        [[[1, 1, 1]], [["(t - 1)*(t - 2)", 1, 1]], [["t - 1", 1, 1]]],
+        parameters=["t"],
+    )
+    parts = analyze(plant, ["completeness"]).account.certificates
+    known = {name.removesuffix(".json"): json.loads(text) for name, text in parts.items()}
+    edges = asked(("transfer_graph",), known)
+    keys = ["parametric-complete-always", "parametric-complete-unless"]
+    listed = [sentence(key, "fixed_spectrum", *edges, evidence=known) for key in keys]
+    first, second = said(write(tmp_path, known, manifest(known, listed)))
+    assert (first.verdict, second.verdict) == ("INVALID", "IMPLIED")
+    assert "complete for every such value except the roots of t - 1" in second.statement
+    [edge] = [known[name] for name in edges if len(known[name]["claim"]["exceptional"]) == 2]
+    discs = [each["roots"][0] for each in edge["claim"]["exceptional"]]
+    edge["claim"]["exceptional"] = [{"value": [2, -3, 1], "roots": discs, "rank": 0}]
+    del edge["witness"]["exceptional"][1:]
+    for name in edges:
+        assert check_document(json.dumps(known[name]).encode()).verdict == "VALID"
+    listed = [sentence(key, "fixed_spectrum", *edges, evidence=known) for key in keys]
+    for verdict in said(write(tmp_path, known, manifest(known, listed))):
+        assert verdict.verdict == "INVALID" and "some roots of a value alone" in verdict.message
