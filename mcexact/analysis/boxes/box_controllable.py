@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from mcexact.analysis.boxes.cover import Cover, Outside
-from mcexact.analysis.boxes.disc_lists import GainBox, disc_lists
+from mcexact.analysis.boxes.disc_lists import MANY, GainBox, disc_lists
 from mcexact.analysis.boxes.float_pencils import FloatBox, Floats, perron, weights
 from mcexact.analysis.boxes.one_thread import one_thread
 from mcexact.analysis.boxes.radii import radii_of
@@ -104,7 +104,7 @@ class WidePencil:
         R_1 = R.take(range(n), range(n))
         return RegularDiscs(
             R,
-            ComplexRows.of(Matrix.identity(n)) + ComplexRows.of(self.Z0) @ R,
+            ComplexRows.of(Matrix.identity(n)) + R.after(self.Z0),
             R_1,
             w,
             entries(self.D * growth @ (R.moduli() @ heavy)),
@@ -148,7 +148,7 @@ class ControllabilitySearch:
     radii : Radii
     channels : tuple of int
     most_squares : int
-        The most discs and squares of a cover.
+        The most discs and squares of a cover; there are fewer of a large plant.
     tested : int
         How many were tested so far.
     """
@@ -185,7 +185,9 @@ class ControllabilitySearch:
     def cover(self, growth: Fraction, bound: Fraction | None) -> BoxControllability | None:
         """Evidence for radii that are multiplied by a factor; None if there is none."""
         outside = Outside(self.system.time, bound)
-        lists = disc_lists(self.state_gains(), self.rng, growth, outside)
+        lists = disc_lists(
+            self.state_gains(), self.rng, growth, outside, several=self.system.n >= MANY
+        )
         if lists is None:
             return None
         frames = Frames()
@@ -198,7 +200,7 @@ class ControllabilitySearch:
             proposed = self.pencil.proposal(near, to_float(rho), growth)
             return None if proposed is None else frames.added(proposed, c, rho)
 
-        cover = Cover(test, outside, self.most_squares)
+        cover = Cover(test, outside, self.most_squares * MANY // max(self.system.n, MANY))
         trees = cover.of(*(each.discs for each in lists))
         self.tested += cover.tested
         if trees is None:

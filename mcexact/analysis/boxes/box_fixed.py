@@ -55,7 +55,9 @@ class FixedModeSearch:
     starts : int
         How many local searches for gains there are at most at a point.
     most_squares : int
-        The most discs and squares of a cover.
+        The most discs and squares of a cover; there are fewer of a large plant.
+    several : bool, optional
+        Whether exterior discs are those of several matrices; by default those of large plants are.
     tested : int
         How many were tested so far.
     """
@@ -64,12 +66,15 @@ class FixedModeSearch:
     radii: Radii
     starts: int = 4
     most_squares: int = _MOST_SQUARES
+    several: bool | None = None
     known: list[_Known] = field(default_factory=list)
     rng: np.random.Generator = field(default_factory=lambda: np.random.default_rng(0))
     tested: int = 0
 
     def __post_init__(self) -> None:
         self.box = FloatBox.of(self.system, self.radii)
+        if self.several is None:
+            self.several = self.system.n >= MANY
         self.alone = _Known(0j, None, self._pencil(None))
 
     def _pencil(self, gains: PencilGains | None) -> Pencil:
@@ -123,13 +128,13 @@ class FixedModeSearch:
         """
         system, outside = self.system, Outside(self.system.time, bound)
         whole = GainBox(system.A, system.B, system.C, self.radii, self.box)
-        lists = disc_lists(whole, self.rng, growth, outside)
+        lists = disc_lists(whole, self.rng, growth, outside, several=bool(self.several))
         if lists is None:
             return None
         if len(lists) > 1 and self.prepare(float(growth), outside, lists) <= growth:
             return None
         leaves = _Leaves(self, growth)
-        cover = Cover(leaves.test, outside, self.most_squares)
+        cover = Cover(leaves.test, outside, self.most_squares * MANY // max(self.system.n, MANY))
         trees = cover.of(*(each.discs for each in lists))
         self.tested += cover.tested
         if trees is None:
@@ -241,8 +246,8 @@ def box_fixed_modes(
     with one_thread():
         search = FixedModeSearch(system, radii_of(system), starts)
         # Of a large plant few modes are left where the discs of several matrices meet.
-        few = system.n < MANY
-        least = search.prepare(1.0, Outside(system.time, limit)) if few else np.inf
+        outside = Outside(system.time, limit)
+        least = np.inf if search.several else search.prepare(1.0, outside)
         found = search.cover(Fraction(1), limit) if least > 1 else None
     if found is None:
         where = "" if limit is None else " outside of the region"

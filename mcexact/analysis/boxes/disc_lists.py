@@ -22,8 +22,8 @@ from mcexact.exact.matrix import Matrix
 from mcexact.model.uncertainty import Radii, moduli
 
 MANY = 30
-"""From so many states on, gains are drawn: below, frames are cheap and allow for larger radii."""
-_DRAWS, _MOST_LISTS = 24, 8
+"""From so many states on, gains are drawn; frames are cheap below, and allow for larger radii."""
+_DRAWS, _MOST_LISTS = 32, 10
 _BITS = 8
 _PARTS = (0.0, 0.6, 0.95)
 _TURNS = np.exp(2j * np.pi * np.arange(8) / 8)
@@ -96,6 +96,8 @@ def disc_lists(
     rng: np.random.Generator,
     growth: Fraction,
     outside: Outside,
+    *,
+    several: bool,
 ) -> tuple[ExteriorDiscs, ...] | None:
     """Compute lists of discs, the first of which is to be covered; None if there are none.
 
@@ -107,20 +109,22 @@ def disc_lists(
         The factor of all radii.
     outside : Outside
         What need not be covered.
+    several : bool
+        Whether to draw gains; otherwise there is one list, that of A.
 
     Notes
     -----
     Gains are drawn.  Of those whose discs are small, more are taken as long as they leave fewer of
     some points that are in discs of all lists so far.
     """
-    own = exterior(box.near, box.A, box.radii.A, rng, growth)
-    if box.A.nrows < MANY or not box.B:
-        return None if own is None else (_evidence(None, own),)
-    chosen = _chosen(_proposals(box, rng, growth), outside)
-    lists = [(each.F, each.coordinates.exact(box.near.scale, each.M, each.D)) for each in chosen]
-    found = [_evidence(F, made) for F, made in lists if made is not None]
-    if not found and own is not None:
-        found = [_evidence(None, own)]
+    found: list[ExteriorDiscs] = []
+    if several:
+        for each in _chosen(_proposals(box, rng, growth), outside):
+            made = each.coordinates.exact(box.near.scale, each.M, each.D)
+            found += [] if made is None else [_evidence(each.F, made)]
+    if not found:
+        own = exterior(box.near, box.A, box.radii.A, rng, growth)
+        found = [] if own is None else [_evidence(None, own)]
     return tuple(found) or None
 
 
@@ -136,7 +140,7 @@ def _proposals(box: GainBox, rng: np.random.Generator, growth: Fraction) -> list
         M, D = (box.A, box.radii.A * growth) if F is None else box.of_gains(F, growth)
         proposed = coordinates(box.near_gains(M, D), rng)
         if proposed:
-            found.append(_Proposal(F, M, D, proposed[0]))
+            found.append(_Proposal(F, M, D, min(proposed, key=_area)))
     return found
 
 
@@ -144,7 +148,7 @@ def _chosen(proposals: list[_Proposal], outside: Outside) -> list[_Proposal]:
     """The proposal with the smallest discs, and others that leave few of its points."""
     if not proposals:
         return []
-    ranked = sorted(proposals, key=lambda each: float((each.coordinates.radii**2).sum()))
+    ranked = sorted(proposals, key=lambda each: _area(each.coordinates))
     chosen, left = ranked[:1], ranked[0].points(outside)
     while len(left) and len(chosen) < _MOST_LISTS:
         counts = [len(each.around(left)) for each in ranked]
@@ -156,9 +160,14 @@ def _chosen(proposals: list[_Proposal], outside: Outside) -> list[_Proposal]:
     return chosen
 
 
+def _area(discs: Coordinates) -> float:
+    """The squares of the radii."""
+    return float((discs.radii**2).sum())
+
+
 def _drawn(box: FloatBox, rng: np.random.Generator) -> tuple[Matrix, ...]:
     """Draw gains of a drawn size, with a few bits each."""
-    size = 10 ** rng.uniform(-1.5, 0.5) * max(float(np.linalg.norm(box.A)), 1e-12)
+    size = 10 ** rng.uniform(-1, 0.5) * max(float(np.linalg.norm(box.A)), 1e-12)
     found = []
     for B, C in zip(box.B, box.C, strict=True):
         p, q = B.shape[1], C.shape[0]

@@ -170,7 +170,7 @@ def _discs(
     Y: ComplexRows, T: ComplexRows, A: Matrix, D: Matrix, centers: Complex
 ) -> tuple[RootDisc, ...] | None:
     """The discs with radii as small as the exact matrices allow, rounded up to three digits."""
-    G, H = Y @ T, Y @ (ComplexRows.of(A) @ T)
+    G, H = Y @ T, Y @ T.after(A)
     ones = Matrix.from_integers([[1]] * len(centers), 1, 1)
     e = Y.moduli() @ (D @ (T.moduli() @ ones))
     d = math.lcm(G.denominator, H.denominator)

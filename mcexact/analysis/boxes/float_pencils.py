@@ -158,13 +158,13 @@ class Pencil:
         """The exact test with V and w, of radii that are multiplied by a factor."""
         N = len(w)
         one, heavy = ComplexRows.of(Matrix.identity(N)), column(w)
-        K = one + V @ ComplexRows.of(self.Z0)
+        K = one + V.before(self.Z0)
         E = Matrix.from_entries((N, N), ((i, i, 1) for i in range(self.n)))
         size = V.moduli()
         return RegularDiscs(
             V,
             K,
-            V @ ComplexRows.of(E),
+            V.before(E),
             w,
             entries(size @ (self.D * growth @ heavy)),
             entries(size @ (E @ heavy)),

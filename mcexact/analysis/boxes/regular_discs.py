@@ -67,6 +67,14 @@ class ComplexRows:
             self.re @ other.re - self.im @ other.im, self.re @ other.im + self.im @ other.re
         )
 
+    def before(self, M: Matrix) -> ComplexRows:
+        """The product with a real matrix on the right."""
+        return ComplexRows(self.re @ M, self.im @ M)
+
+    def after(self, M: Matrix) -> ComplexRows:
+        """The product with a real matrix on the left."""
+        return ComplexRows(M @ self.re, M @ self.im)
+
     def __add__(self, other: ComplexRows) -> ComplexRows:
         return ComplexRows(self.re + other.re, self.im + other.im)
 

@@ -16,7 +16,8 @@ from mcexact import (
     check,
     fixed_spectrum,
 )
-from mcexact.analysis.boxes import disc_lists as module
+from mcexact.analysis.boxes import box_controllable, box_fixed
+from mcexact.analysis.boxes import disc_lists as disc_lists_module
 from mcexact.analysis.boxes.cover import Outside
 from mcexact.analysis.boxes.disc_lists import GainBox, disc_lists
 from mcexact.analysis.boxes.float_pencils import FloatBox
@@ -36,14 +37,16 @@ def of_box(box: Box) -> GainBox:
 @pytest.fixture
 def large(monkeypatch: pytest.MonkeyPatch) -> None:
     """Have gains drawn for small plants, too."""
-    monkeypatch.setattr(module, "MANY", 1)
+    monkeypatch.setattr(disc_lists_module, "_DRAWS", 6)
+    for module in (box_fixed, box_controllable):
+        monkeypatch.setattr(module, "MANY", 1)
 
 
 @pytest.mark.usefixtures("large")
 def test_eigenvalues_of_members_under_gains_are_in_the_discs_of_each_list() -> None:
     box = Box.relative(load(PLANT), "1/100")
     whole, outside = of_box(box), Outside("continuous", None)
-    lists = disc_lists(whole, np.random.default_rng(0), Fraction(1), outside)
+    lists = disc_lists(whole, np.random.default_rng(0), Fraction(1), outside, several=True)
     assert lists is not None and len(lists) > 1
     assert sum(each.F is None for each in lists) <= 1
     for k in range(4):
