@@ -19,7 +19,7 @@ from .statement import canonical_json, with_digest
 def check(claim: Json, witness: Json, box: Box) -> None:
     """Check the values themselves, and that no eigenvalue crosses the border of the region.
 
-    Open: see ``proofs/OPEN.md``.
+    Theorems ``box_stable.box_stable_continuous``, ``box_stable.box_stable_discrete``.
     """
     limit, gain_radii = fields(claim, "claim", "bound", "gain_radii")
     given = read_bound(limit, box)
@@ -47,7 +47,10 @@ def check(claim: Json, witness: Json, box: Box) -> None:
 
 
 def segments_of(time: str, bound: Fraction, ends: list[Fraction]) -> list[Disc]:
-    """Discs with the upper half of the border of the region, as far as the last end."""
+    """Discs with the upper half of the border of the region, as far as the last end.
+
+    Theorems ``arcs.upper_line``, ``arcs.upper_half``.
+    """
     points = [Fraction(0), *ends]
     rises = all(a < b for a, b in pairwise(points))
     require(rises, "points", "witness.points", "expected increasing numbers above 0")
@@ -58,13 +61,19 @@ def segments_of(time: str, bound: Fraction, ends: list[Fraction]) -> list[Disc]:
 
 
 def _on_circle(bound: Fraction, t: Fraction) -> tuple[Fraction, Fraction]:
-    """The point of the circle of this radius whose half angle has the tangent t."""
+    """The point of the circle of this radius whose half angle has the tangent t.
+
+    Theorem ``arcs.circle_point``.
+    """
     budget.spend(budget.fractions(8, 3 * budget.limbs_of([bound, t])))
     return bound * (1 - t * t) / (1 + t * t), bound * 2 * t / (1 + t * t)
 
 
 def _arc(p: tuple[Fraction, Fraction], q: tuple[Fraction, Fraction]) -> Disc:
-    """The disc whose diameter is the chord, with the radius rounded up."""
+    """The disc whose diameter is the chord, with the radius rounded up.
+
+    Theorems ``arcs.arc_in_disc``, ``arcs.last_arc_in_disc``.
+    """
     longest = 4 * budget.limbs_of([*p, *q])
     budget.spend(budget.fractions(10, longest) + budget.reductions(1, 2 * longest))
     x, y = (p[0] - q[0]) / 2, (p[1] - q[1]) / 2
