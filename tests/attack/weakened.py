@@ -12,10 +12,12 @@ from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import groupby
+from types import SimpleNamespace
 from typing import Any
 
 from .campaign import checked, judged, parsed
 from .conditions import GATES, Site, weakened_checker
+from .forgeries import TRAPS
 from .oracle.judge import FALSE, TRUE
 from .tries import ORDER, Try, batch_numbers, drawn_batch, tries
 
@@ -87,14 +89,24 @@ def _share(numbers: Sequence[int]) -> Holes:
     return holes
 
 
+def attempt_traps(holes: Holes) -> None:
+    """Check the documents made by hand, which come before all tries."""
+    for k, (name, document) in enumerate(TRAPS.items()):
+        made = Try(k - len(TRAPS), document["kind"], None, name, document)
+        attempt(made, holes, SimpleNamespace(rejected=None))
+    holes.tries = 0
+
+
 def search(
     count: int, processes: int = 2, kinds: Collection[str] = ORDER
 ) -> tuple[list[Site], Holes]:
     """Leave out conditions in so many tries about some kinds."""
     numbers, holes = batch_numbers(count, kinds), Holes()
     weakened_checker()
+    attempt_traps(holes)
     if processes == 1:
-        return GATES.sites, _share(numbers)
+        holes.add(_share(numbers))
+        return GATES.sites, holes
     shares = min(len(numbers), processes * 16)
     with multiprocessing.get_context("fork").Pool(processes) as pool:
         jobs = [pool.apply_async(_share, (numbers[k::shares],)) for k in range(shares)]
@@ -118,7 +130,8 @@ def table(sites: list[Site], holes: Holes, harmless: Mapping[str, str]) -> list[
             refused = holes.refused[k]
             if k in holes.found:
                 number, mutator, why, _ = holes.found[k]
-                said = f"try {number:,}, {mutator}: {why}".replace("|", "\\|")
+                how = f"try {number:,}, {mutator}" if number >= 0 else f"“{mutator}”"
+                said = f"{how}: {why}".replace("|", "\\|")
             else:
                 reason = harmless.get(site.key, "not explained")
                 said = f"none ({holes.alone[k]} accepted and true): {reason}"
@@ -135,7 +148,8 @@ that joins several by `and`, and each `if` that does nothing but refuse a docume
 for {found}; for each of the other {left} the reason stands in its row.
 
 "Refused" counts the tries that the condition was the first to refuse.  The number of a try says how
-many it took, all kinds together; `python -m tests.attack --only K` makes that document again."""
+many it took, all kinds together; `python -m tests.attack --only K` makes that document again.  What
+is in quotation marks is a document made by hand, in `forgeries/`."""
 
 
 def documents(holes: Holes) -> list[str]:

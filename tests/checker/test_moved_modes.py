@@ -231,6 +231,7 @@ def test_a_resultant_modulo_one_number_is_divided_as_often_as_is_proved() -> Non
     assert modular(at("t^2 - t"), ZERO, ONE, common=[(ONE, MODE), (ZERO, MODE)]) == ("", "")
     assert modular(at("t^2 - t"), value(0, -1, 1), common=[(value(0, -1, 1), MODE)]) == ("", "")
     assert modular(at("1")) == ("", "")
+    assert modular(at("t", 4, second=3), ZERO, common=[(ZERO, MODE)]) == ("", "")
     two = moved(
         plant([[0, 0], [0, 5]], ([["t"], ["t"]], [[1, 1]])), *[[constant([k])] for k in (1, 2)]
     )

@@ -43,6 +43,9 @@ CODES = {
     "a real value in a disc beside the axis": "disc",
     "the resultant is known modulo too small a number": "modulus",
     "the first resultant vanishes, and the second one modulo ℓ nowhere": "product",
+    "channels at whose pencil no rank is lost": "claim",
+    "a zero block beside inputs that act": "identity",
+    "a zero block beside outputs that see": "identity",
     "a zero block without rows": "rank",
     "a zero block that vanishes at a root of p": "pivots",
     "one row of W twice": "pivots",
@@ -54,6 +57,8 @@ CODES = {
     "a minor of no rows and no columns": "rank",
     "a minor that is zero beside one that is 1 modulo ℓ": "product",
     "a part of the kernel at a value": "common_factor",
+    "a range upside down": "form",
+    "inputs of another number of states": "form",
     "an entry of too high a degree": "form",
     "an entry that is too long": "form",
 }

@@ -50,6 +50,9 @@ FORGERS = {
     "transfer_graph": structure.GRAPH,
 }
 
+TRAPS: dict[str, Document] = {**parametric_traps.SPECTRA, **parametric_traps.RANKS}
+"""Documents made by hand, which are false and would be accepted without one condition."""
+
 
 def forged(rng: random.Random, document: Document) -> Document:
     """One forgery of the kind, or of any kind."""

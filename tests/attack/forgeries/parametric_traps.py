@@ -36,10 +36,15 @@ def block(
     return {"channels_T": T, "U": U, "W": W, "row_pivots": rows, "column_pivots": columns}
 
 
-def plant(A: Any, *ports: Any, parameter: str = "t") -> Document:
-    """A plant whose channels, pairs of B and C, are named 1, 2, …"""
+def plant(A: Any, *ports: Any, parameter: str = "t", told: Any = None) -> Document:
+    """A plant whose channels, pairs of B and C, are named 1, 2, …, and what is told of its t."""
     channels = [{"name": str(k), "B": B, "C": C} for k, (B, C) in enumerate(ports, start=1)]
-    return {"time": "continuous", "parameters": {parameter: {}}, "A": A, "channels": channels}
+    return {
+        "time": "continuous",
+        "parameters": {parameter: told or {}},
+        "A": A,
+        "channels": channels,
+    }
 
 
 def spectrum(
@@ -228,6 +233,21 @@ SPECTRA: dict[str, Document] = {
     "the first resultant vanishes, and the second one modulo ℓ nowhere": spectrum(
         scalar("7*t + 1"), gains=(0, 1), modulus=7
     ),
+    "channels at whose pencil no rank is lost": spectrum(
+        scalar("t"),
+        exceptional=(
+            (
+                {**FIXED_AT_ZERO[0], "modes": [{"polynomial": X, "channels": ["1"]}]},
+                FIXED_AT_ZERO[1],
+            ),
+        ),
+    ),
+    "a zero block beside inputs that act": spectrum(
+        plant([[0]], ([[1]], [["t"]])), generic=(UNMOVED,)
+    ),
+    "a zero block beside outputs that see": spectrum(
+        plant([[0]], ([["t"]], [[1]])), generic=((X, {**ONE_ROW, "channels_T": []}),)
+    ),
     "a zero block without rows": spectrum(
         FREE, generic=((FIVE, block([], [layers([[]])], layers([]), [], [])),)
     ),
@@ -290,6 +310,12 @@ RANKS: dict[str, Document] = {
                 {"columns": layers([[1], [0]]), "pivots": [0]},
             ),
         ),
+    ),
+    "a range upside down": rank(
+        plant([[0]], ([[1]], [["t"]]), told={"range": [1, 0]}), 1, ([0], [0]), ONE_BY_ONE
+    ),
+    "inputs of another number of states": rank(
+        plant([[0]], ([[1]], [["t"]]), ([[1], [1]], [[1]])), 1, ([0], [0]), ONE_BY_ONE
     ),
     "an entry of too high a degree": rank(
         plant([[0]], ([[1]], [["t^1001"]])), 1, ([0], [0]), ONE_BY_ONE
