@@ -139,6 +139,12 @@ class ParametricAccount(Shown):
         found: tuple[Row, ...] = answer.rows
         return found
 
+    def table(self, name: str) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...]]:
+        """The same with the heads of columns, without the reasons where there are none."""
+        rows = self.rows(name)
+        used = len(COLUMNS) - (not any(why for *_, why in rows))
+        return COLUMNS[:used], tuple(row[:used] for row in rows)
+
     def as_json(self, **more: Any) -> dict[str, Any]:
         """Return plain data with an entry for each answer, keyed by its name."""
         plant = self.plant
@@ -189,7 +195,7 @@ class ParametricAccount(Shown):
         said = "".join(f"<li>{escape(each)}</li>" for each in self.at("answer"))
         listed = [(each.cells[0], str(each)) for each in self.sentences.at("table")]
         made = [grid(("", ""), listed, "".join(self.sentences.at("title")))]
-        made += [grid(COLUMNS, self.rows(name), LABELS[name]) for name in self.detailed()]
+        made += [grid(*self.table(name), LABELS[name]) for name in self.detailed()]
         return f'<ul class="said">{said}</ul>' + "".join(made)
 
     def detailed(self, names: Collection[str] = MODES) -> list[str]:

@@ -329,7 +329,16 @@ class ParametricFixedSpectrum(Answer):
                 for mode in each.modes
             )
             told.append(f"the roots of {modes} where {value_text(each.value, each.roots, t)}")
-        return tuple(told) or (f"no mode is fixed for any {t}",)
+        anywhere = self.about.parameters_in_words[0] if self.outside else t
+        return tuple(told) or (f"no mode is {self._lost} for any {anywhere}",)
+
+    @property
+    def _lost(self) -> str:
+        """What modes are, in a word: those that remain where the whole state is measured."""
+        made = [each["construction"] for each in self.about.subject]
+        if made[-1:] != ["full_output"]:
+            return "fixed"
+        return "unobservable" if "dual" in made else "uncontrollable"
 
     def at(self, value: Any) -> tuple[Polynomial, ...]:
         """What is fixed at one value of the parameter.

@@ -147,7 +147,8 @@ class ParametricRank(Answer):
     def words(self) -> tuple[str, ...]:
         """The rank for almost all values, and at which it is less, in the parameter's name."""
         t = self.about.parameters[0]
-        told = [f"rank {self.rank} for almost every {t}"]
+        every = self.about.parameters_in_words[0] if self.outside else t
+        told = [f"rank {self.rank} for {'almost ' * bool(self.exceptional)}every {every}"]
         for each in self.exceptional:
             told.append(f"rank {each.rank} where {value_text(each.value, each.roots, t)}")
         return tuple(told)

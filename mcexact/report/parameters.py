@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mcexact.answer.exceptional_hypersurfaces import Hypersurfaces
-from mcexact.answer.parametric_account import COLUMNS, LABELS, MODES, ParametricAccount
+from mcexact.answer.parametric_account import LABELS, MODES, ParametricAccount
 from mcexact.plot.parameters import hypersurfaces, parameter_modes
 from mcexact.report.answer_page import AnswerPage
 from mcexact.report.picture import Picture
@@ -25,7 +25,7 @@ def parameter_tables(account: ParametricAccount, *, whole: bool = False) -> tupl
     rows = tuple(each.cells for each in said.at("table"))
     first = (Table("".join(said.at("title")), (), rows),) if rows else ()
     shown = account.detailed(LABELS) if whole else account.detailed(MODES)
-    return (*first, *(Table(LABELS[name], COLUMNS, account.rows(name)) for name in shown))
+    return (*first, *(Table(LABELS[name], *account.table(name)) for name in shown))
 
 
 def parameter_page(account: ParametricAccount) -> AnswerPage:

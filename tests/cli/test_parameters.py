@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from mcexact import ParametricSystem, analyze
 from tests.cli.calling import call
 from tests.report.schemas import faults
 
@@ -131,3 +132,14 @@ def test_questions_that_would_take_long_are_left_out_and_said(tmp_path: Path) ->
 def test_a_plant_without_parameters_takes_no_values() -> None:
     status, _, told = call("analyze", "gallery:quadruple-tank-pminus", "--at", "t=1")
     assert status != 0 and "leave out --at" in told
+
+
+def test_a_table_without_reasons_has_no_column_for_them() -> None:
+    plant = ParametricSystem([[1, 0], [0, "t"]], [[["t - 3"], [1]]], [[[1, 1]]], parameters=["t"])
+    account = analyze(plant, ["fixed_spectrum", "joint_controllability"]).account
+    columns = {name: account.table(name)[0] for name in account.detailed()}
+    assert columns == {
+        "fixed_spectrum": ("where", "what", "because"),
+        "joint_controllability": ("where", "what"),
+    }
+    assert all(len(row) == 2 for row in account.table("joint_controllability")[1])

@@ -16,6 +16,9 @@ from mcexact import (
     check,
     completeness,
     controllability_indices,
+    fixed_spectrum,
+    joint_controllability,
+    joint_observability,
     load_certificate,
     observability_indices,
     save_certificate,
@@ -147,3 +150,13 @@ def test_a_certificate_is_read_back(tmp_path: Path) -> None:
     ):
         save_certificate(found, tmp_path / "found.json")
         assert load_certificate(tmp_path / "found.json", EXAMPLE) == found
+
+
+def test_words_name_the_question_and_the_values_that_are_decided() -> None:
+    plain = ParametricSystem([["t"]], [[[1]]], [[[1]]], parameters=["t"])
+    assert joint_controllability(plain).words == ("no mode is uncontrollable for any t",)
+    assert joint_observability(plain).words == ("no mode is unobservable for any t",)
+    assert setpoint_solvability(plain).words == ("rank 2 for every t",)
+    later = ParametricSystem([["t"]], [[["t"]]], [[[1]]], parameters=["t"], assume={"t": (2, None)})
+    assert fixed_spectrum(later).words == ("no mode is fixed for any t in [2, ∞)",)
+    assert setpoint_solvability(later).words == ("rank 2 for every t in [2, ∞)",)
