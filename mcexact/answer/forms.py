@@ -156,7 +156,7 @@ def _gains(part: Fraction | None) -> str:
     if part is None:
         return ""
     digits = 1
-    while Fraction(10) ** (1 - digits) / 2 > part:
+    while Fraction(10) ** (1 - digits) > part:
         digits += 1
     rounding = f"{count(digits, 'digit')}, however rounded"
     return f", with all gains within {percent(part)} of their values ({rounding})"

@@ -12,7 +12,10 @@ from mcexact.cli import aiming, options
 
 if TYPE_CHECKING:
     from mcexact.exact.rational import Limits
+    from mcexact.model.system import MultiChannelSystem
+    from mcexact.report.text import Table
     from mcexact.synthesis.design import Design
+    from mcexact.synthesis.every_loop import EveryLoop
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -35,6 +38,13 @@ def design_options(
         options.arithmetic,
         click.option("--agent", metavar="NAME", help=agent_help),
         aiming.aims if searches else aiming.weights,
+        click.option(
+            "--box/--no-box",
+            default=True,
+            show_default=True,
+            help="Search a part by which all entries of the plant may differ while every loop is "
+            "stable, or prove it for the uncertainty of FILE; large loops are left out.",
+        ),
         options.controller_output,
         options.page("figures of the loop and all certificates"),
         options.answering,
@@ -84,7 +94,8 @@ def answer(name: str, file: str, given: dict[str, Any], wanted: Mapping[str, Any
     plant = run.read(file)
     done = run.result(
         _designed,
-        *(name, plant, extra, run.limits, keywords, aimed, html is not None, run.system_by_digest),
+        *(name, plant, extra, run.limits, keywords, aimed, given["box"]),
+        *(html is not None, run.system_by_digest),
         doing=f"designing for {plant[0]}",
         telling=True,
     )
@@ -120,6 +131,7 @@ def _designed(
     limits: dict[str, int],
     wanted: dict[str, Any],
     aimed: dict[str, Any],
+    with_box: bool,
     with_page: bool,
     system_by_digest: bool,
     tell: Callable[[str], None],
@@ -171,20 +183,37 @@ def _designed(
             "json": account.as_json(design=name, possible=False, reason=reason),
         }
     _require_readable(found, Limits(**limits))
-    account, assessment = found.account, assess(found, aims)
+    around = found.every_loop() if with_box and found.stable else None
+    account, assessment = found.account_with(around), assess(found, aims)
     figures = measured(
         found.measures(), assessment.rows(), account.sentences, found.region.discrete
     )
     return (
         told(account, system_by_digest)
         | assessed(
-            account, assessment, found.loop.closed, (*tables(account.sentences), figures), with_page
+            account,
+            assessment,
+            found.loop.closed,
+            (*tables(account.sentences), *_box(around, system), figures),
+            with_page,
         )
         | {
             "controller": controller_text(found.controller),
-            "json": account.as_json(**found.to_dict(), assessment=assessment.to_dict()),
+            "json": account.as_json(
+                **found.to_dict(),
+                **({} if around is None else {"every_loop": around.to_dict()}),
+                assessment=assessment.to_dict(),
+            ),
         }
     )
+
+
+def _box(around: EveryLoop | None, system: MultiChannelSystem) -> tuple[Table, ...]:
+    """What is not proved of every loop in a box, and where one fails, as a table."""
+    from mcexact.report.text import Table
+
+    rows = () if around is None else tuple(around.rows(system.uncertainty is None))
+    return (Table("plants near this one", (), rows),) if rows else ()
 
 
 def _require_readable(found: Design, limits: Limits) -> None:

@@ -166,7 +166,9 @@ def digits_of(
     known = safe_digits(system, controller, most=most, **region)
     safe = "none proved" if known.safe is None else f"{count(known.safe, 'digit')}, however rounded"
     few = (
-        "none found" if known.unsafe is None else f"{count(known.unsafe, 'digit')}, to the nearest"
+        "none found"
+        if known.unsafe is None
+        else f"{count(known.unsafe, 'digit')}, rounded up or down so that the loop fails"
     )
     view = {"safe_digits": {"safe": known.safe, "too_few": known.unsafe}}
     rows = ("digits of the gains that are safe", safe), ("too few", few)

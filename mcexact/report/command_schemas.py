@@ -69,6 +69,19 @@ ASSESSMENT = record(
 )
 
 
+EVERY_LOOP = record(
+    {"certified": YES, "region": TEXT},
+    {
+        "part": some(NUMBER),
+        "gains": some(NUMBER),
+        "fails_within": some(NUMBER),
+        "failing": some({"type": "object"}),
+        "reason": some(TEXT),
+    },
+    says="what is proved of all loops in a box around the plant, and a plant whose loop fails",
+)
+
+
 def design() -> Schema:
     """The JSON of `mcexact design`."""
     made = {
@@ -91,7 +104,7 @@ def design() -> Schema:
         )
     }  # fmt: skip
     refused = {"possible": {"const": False}, "reason": TEXT}
-    schema = _account({"design": TEXT}, made | parts | refused)
+    schema = _account({"design": TEXT}, made | parts | refused | {"every_loop": EVERY_LOOP})
     return schema | {
         "if": {"required": ["possible"]},
         "then": {"required": ["reason"]},
@@ -116,7 +129,7 @@ def certify() -> Schema:
             "assessment": ASSESSMENT,
         },
         {
-            "every_loop": record({"certified": YES, "region": TEXT}),
+            "every_loop": EVERY_LOOP,
             "safe_digits": record({"safe": some(WHOLE), "too_few": some(WHOLE)}),
         },
     )

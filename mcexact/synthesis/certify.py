@@ -237,6 +237,6 @@ def account_of_verdict(
     answers: dict[str, Answer] = {found.kind: found}
     if every_loop is not None:
         answers["box_stability"] = every_loop
-        asked |= {"part": Box(every_loop.about.plant).part, "gains": gains}
+        asked |= {"part_of_plant": Box(every_loop.about.plant).part, "part_of_gains": gains}
     given = Given(found.about.plant, asked)
     return Account(answers, given, VERDICT.sentences(answers, given), found.about.subject[:-1])

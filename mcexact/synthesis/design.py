@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import isfinite
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from mcexact.analysis.stability.stability import certify_stability
 from mcexact.answer.account import Account, ShownByAccount
@@ -23,6 +23,9 @@ from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.gate import CertifiedLoop, Proposal, first_certified
 from mcexact.synthesis.request import Arithmetic, Request
+
+if TYPE_CHECKING:
+    from mcexact.synthesis.every_loop import EveryLoop
 
 Method = Literal["decentralized", "observer", "extended"]
 
@@ -104,14 +107,34 @@ class Design(ShownByAccount):
     @property
     def account(self) -> Account:
         """The certificates, with the sentences that follow from them."""
-        facts = {
+        return self.account_with(None)
+
+    def every_loop(self) -> EveryLoop:
+        """Search a proof for all loops in a box around the plant, and a plant whose loop fails.
+
+        Returns
+        -------
+        EveryLoop
+            Where the plant has radii, about all plants within them; otherwise about a part of its
+            entries that is found with little work.
+        """
+        from mcexact.synthesis.every_loop import every_loop
+
+        return every_loop(self.loop.closed, self.region)
+
+    def account_with(self, around: EveryLoop | None) -> Account:
+        """The same certificates, and the one about all loops in a box, if there is one."""
+        facts: dict[str, Any] = {
             "method": self.method,
             "arithmetic": self.arithmetic,
             "region": self.region,
             "order": self.order,
             "bits": self.controller.bit_length(),
         }
-        closed, found = self.loop.closed.system, self.certificates
+        closed, found = self.loop.closed.system, dict(self.certificates)
+        if around is not None and around.proof is not None:
+            found["box_stability"] = around.proof
+            facts |= {"part_of_plant": around.part, "part_of_gains": around.gains}
         given = Given(closed.plant, {**facts, **self.parts})
         return Account(found, given, DESIGN.sentences(found, given), closed.subject[:-1])
 

@@ -9,10 +9,12 @@ from mcexact.analysis.boxes.box_stable import box_stability, digit_radii
 from mcexact.answer.box_stable import BoxStability
 from mcexact.answer.stability import StabilityVerdict
 from mcexact.errors import LimitReached
+from mcexact.exact.location import StabilityRegion
 from mcexact.model.controller import Controller
+from mcexact.model.loop import closed_loop
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
-from mcexact.synthesis.certify import certify_controller
+from mcexact.synthesis.unsafe_rounding import unsafe_rounding
 
 
 @dataclass(frozen=True)
@@ -26,14 +28,17 @@ class SafeDigits:
         proved for no number of digits up to the one asked for.
     proof : BoxStability or None
     unsafe : int or None
-        The largest number of digits with which rounding to the nearest fails; None if there is
-        none.
+        The largest number of digits for which a rounding was found that fails; None if none was.
+    rounded : Controller or None
+        The controller that is rounded so.
     refutation : StabilityVerdict or None
+        The exact verdict on its loop.
     """
 
     safe: int | None
     proof: BoxStability | None
     unsafe: int | None
+    rounded: Controller | None
     refutation: StabilityVerdict | None
 
 
@@ -62,8 +67,9 @@ def safe_digits(
 
     Notes
     -----
-    All gains within half a unit of the last digit are a box, about which `box_stability` has a
-    proof.  A failure is an exact decision about the gains rounded to the nearest.
+    All numbers to which an entry is rounded, up or down, are in a box, about which `box_stability`
+    has a proof.  `unsafe_rounding` searches a rounding with which the loop fails, which is decided
+    exactly; between the two numbers of digits nothing is known.
 
     Examples
     --------
@@ -73,18 +79,20 @@ def safe_digits(
     >>> found.safe, found.unsafe
     (3, 2)
     """
-    region = {"rate": rate, "radius": radius}
-    unsafe, refutation = None, None
+    given: dict[str, Any] = {"rate": rate, "radius": radius}
+    loop = closed_loop(system, controller, graph)
+    region = StabilityRegion.of(system.time, rate, radius)
+    unsafe, found = 0, None
     for digits in range(most, 0, -1):
-        verdict = certify_controller(system, controller, graph, round_gains=digits, **region)
-        if not verdict.stable:
-            unsafe, refutation = digits, verdict
+        found = unsafe_rounding(loop, digits, region)
+        if found is not None:
+            unsafe = digits
             break
-    for digits in range((unsafe or 0) + 1, most + 1):
+    for digits in range(unsafe + 1, most + 1):
         try:
             gains = digit_radii(controller, digits)
-            proof = box_stability(system, controller, graph, gains=gains, **region)
+            proof = box_stability(system, controller, graph, gains=gains, **given)
         except LimitReached:
             continue
-        return SafeDigits(digits, proof, unsafe, refutation)
-    return SafeDigits(None, None, unsafe, refutation)
+        return SafeDigits(digits, proof, unsafe or None, *(found or (None, None)))
+    return SafeDigits(None, None, unsafe or None, *(found or (None, None)))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from fractions import Fraction
 from pathlib import Path
 
 import pytest
@@ -137,6 +138,41 @@ def test_a_controller_for_the_plant_is_checked_within_radii_too(plant: str, tmp_
         assert call("check", str(folder / f"{name}.json"), *asked)[0] == 0
 
 
+def test_a_design_says_for_which_box_it_holds(plant: str, tmp_path: Path) -> None:
+    controller, folder = str(tmp_path / "controller.json"), str(tmp_path / "proofs")
+    asked = ("design", "decentralized", plant, "--rate", "1/10", "-o", controller)
+    page = tmp_path / "page.html"
+    status, out, _ = call(*asked, "--certificates", folder, "--html", str(page), "--json")
+    found = json.loads(out)["every_loop"]
+    assert status == 0 and found["certified"] and found["region"] == "Re λ < 0"
+    assert 0 < Fraction(found["part"]) < Fraction(found["fails_within"]) <= 1
+    assert found["gains"] == "1/100000" and not faults("design", json.loads(out))
+    said = " ".join(page.read_text("utf-8").split())
+    assert "every loop near this one" in said and "6 digits, however rounded" in said
+    assert "Plants near this one" in said or "plants near this one" in said
+    checks = ("check", "--manifest", folder, "--system", plant, "--controller", controller)
+    status, out, _ = call(*checks)
+    assert status == 0 and f"in the plant by more than {found['part']} and none" in out
+    status, out, _ = call(*asked, "--no-box", "--json")
+    assert status == 0 and "every_loop" not in json.loads(out)
+
+
+@pytest.mark.slow
+def test_a_design_is_certified_for_the_box_of_its_file_or_says_that_it_is_not(
+    tmp_path: Path,
+) -> None:
+    for size, told in (("1/100", "every eigenvalue of every loop"), ("3", "is not proved for")):
+        path = str(tmp_path / "typed.json")
+        document = PLANT.to_dict() | {"uncertainty": {"relative": size}}
+        Path(path).write_text(json.dumps(document))
+        to = ("-o", str(tmp_path / "controller.json"))
+        status, out, _ = call("design", "decentralized", path, "--rate", "1/10", *to)
+        said = " ".join(out.split())
+        assert status == 0 and (told in said or "for every plant within 1 % of each entry" in said)
+        assert size == "1/100" or "times the radii" in said
+
+
+@pytest.mark.slow
 def test_a_controller_is_made_for_the_values_of_a_plant_with_radii(tmp_path: Path) -> None:
     typed, controller = str(tmp_path / "typed.json"), str(tmp_path / "controller.json")
     Path(typed).write_text(json.dumps(PLANT.to_dict() | {"uncertainty": {"relative": "1/50"}}))

@@ -72,7 +72,7 @@ def gain_radii(controller: Controller, part: Any) -> Controller:
 
 
 def digit_radii(controller: Controller, digits: int) -> Controller:
-    """The radii by which rounding to significant digits moves the entries of a controller at most.
+    """The radii by which rounding to significant digits, up or down, moves entries at most.
 
     Examples
     --------
@@ -80,27 +80,42 @@ def digit_radii(controller: Controller, digits: int) -> Controller:
     >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
     >>> [agent] = digit_radii(local_controllers(plant, [[["-31.4"]]]), 2).agents
     >>> agent.input.outputs[0][0, 0]
-    Fraction(1, 2)
+    Fraction(3, 5)
     """
 
-    def half_units(M: Matrix) -> Matrix:
-        entries = (
-            (i, j, _half_unit(abs(Fraction(x, M.denominator)), digits)) for i, j, x in M.nonzero()
-        )
+    def moved(x: Fraction) -> Fraction:
+        low, high = rounded_ends(x, digits)
+        return max(x - low, high - x)
+
+    def radii(M: Matrix) -> Matrix:
+        entries = ((i, j, moved(Fraction(x, M.denominator))) for i, j, x in M.nonzero())
         return Matrix.from_entries(M.shape, entries)
 
-    return with_gains(controller, half_units)
+    return with_gains(controller, radii)
 
 
-def _half_unit(x: Fraction, digits: int) -> Fraction:
-    """Half a unit of a significant digit of a number above 0."""
+def rounded_ends(x: Fraction, digits: int) -> tuple[Fraction, Fraction]:
+    """The numbers with so many significant digits next to one that is not 0, below and above.
+
+    Examples
+    --------
+    >>> rounded_ends(Fraction(-314, 10), 2), rounded_ends(Fraction(5), 1)
+    ((Fraction(-32, 1), Fraction(-31, 1)), (Fraction(5, 1), Fraction(5, 1)))
+    """
+    unit = _unit(abs(x), digits)
+    low = x // unit * unit
+    return low, low if low == x else low + unit
+
+
+def _unit(x: Fraction, digits: int) -> Fraction:
+    """One unit of a significant digit of a number above 0."""
     bits = x.numerator.bit_length() - x.denominator.bit_length()
     e = int(bits * 0.30103)
     while Fraction(10) ** e > x:
         e -= 1
     while Fraction(10) ** (e + 1) <= x:
         e += 1
-    return Fraction(10) ** (e - digits + 1) / 2
+    return Fraction(10) ** (e - digits + 1)
 
 
 @dataclass
@@ -114,11 +129,14 @@ class StabilitySearch:
     region : StabilityRegion
     radii : Controller or None
         The radii of the gains, as a controller; None if they are certain.
+    most : int
+        The parts of the border that are tried at most.
     """
 
     loop: ClosedLoop
     region: StabilityRegion
     radii: Controller | None = None
+    most: int = _MOST_SEGMENTS
 
     def __post_init__(self) -> None:
         from scipy.linalg import matrix_balance
@@ -182,7 +200,7 @@ class StabilitySearch:
             proposed = self.pencil.proposal(near, to_float(rho), growth)
             return None if proposed is None else frames.added(proposed, c, rho)
 
-        found = _segments(test, last)
+        found = _segments(test, last, self.most)
         if found is None:
             return None
         ends = [b for _, b, _ in found]
@@ -210,7 +228,7 @@ def _scaled(radii: Controller, growth: Fraction) -> Controller:
 
 
 def _segments(
-    test: Callable[[Fraction, Fraction], int | None], last: Fraction
+    test: Callable[[Fraction, Fraction], int | None], last: Fraction, most: int
 ) -> list[tuple[Fraction, Fraction, int]] | None:
     """Cut [0, last] into intervals that pass a test, each with what the test returns."""
     left = [(Fraction(0), last)]
@@ -223,7 +241,7 @@ def _segments(
         if k is not None:
             found.append((a, b, k))
             continue
-        if tested > _MOST_SEGMENTS or b - a < _SHORTEST * last:
+        if tested > most or b - a < _SHORTEST * last:
             return None
         middle = b / 4 if a == 0 and b > 4 else (a + b) / 2 if b < 4 * a or a == 0 else 2 * a
         left += [(middle, b), (a, middle)]

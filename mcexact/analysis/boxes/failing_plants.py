@@ -9,9 +9,10 @@ from itertools import combinations
 
 import numpy as np
 
-from mcexact.analysis.boxes.rank_drops import Uncertain
+from mcexact.analysis.boxes.rank_drops import Freedom, Uncertain
 from mcexact.exact.blocks import hstack, vstack
-from mcexact.exact.floats import matrix_to_float
+from mcexact.exact.floats import matrix_to_float, to_float
+from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.uncertainty import Radii
@@ -57,6 +58,7 @@ def failing_plant(
     radii: Radii,
     sets: Iterable[tuple[int, ...]],
     tries: int,
+    region: StabilityRegion | None = None,
 ) -> FailingPlant | None:
     """Search a plant near a system with a fixed mode, the pencil of a set s of which loses rank.
 
@@ -69,15 +71,19 @@ def failing_plant(
         The sets s.
     tries : int
         How many sets and modes are tried, those that seem nearest first.
+    region : StabilityRegion, optional
+        The fixed mode is to be on its border, or outside.
     """
-    starts = sorted(_starts(system, radii, sets), key=lambda each: each[0])
+    starts = sorted(_starts(system, radii, sets, region), key=lambda each: each[0])
     best: FailingPlant | None = None
-    for _, s, pencil, point in starts[:tries]:
-        near = pencil.drop(point)
+    for _, s, pencil, point, freedom in starts[:tries]:
+        near = pencil.drop(point, freedom)
+        if near is not None and freedom == "plane" and _is_inside(near.point, region):
+            continue
         limit = None if best is None else best.distance
         if near is None or (limit is not None and near.size >= limit):
             continue
-        made = pencil.exact(near)
+        made = pencil.exact(near, freedom)
         if made is None or (limit is not None and made[1] >= limit):
             continue
         plant = _changed(system, s, made[0])
@@ -85,12 +91,34 @@ def failing_plant(
     return best
 
 
+def _is_inside(point: complex, region: StabilityRegion | None) -> bool:
+    if region is None:
+        return False
+    return (abs(point) if region.discrete else point.real) < to_float(region.limit)
+
+
+def _points(
+    modes: list[complex], region: StabilityRegion | None
+) -> Iterator[tuple[complex, Freedom]]:
+    """Where a search begins: at modes that are not in the region, and at its border near all."""
+    for mode in modes:
+        if not _is_inside(mode, region):
+            yield mode, "plane"
+        if region is not None and region.discrete:
+            yield (mode / abs(mode) if mode else 1.0) * to_float(region.limit), "circle"
+        elif region is not None:
+            yield complex(to_float(region.limit), mode.imag), "line"
+
+
 def _starts(
-    system: MultiChannelSystem, radii: Radii, sets: Iterable[tuple[int, ...]]
-) -> Iterator[tuple[float, tuple[int, ...], Uncertain, complex]]:
-    """The singular values of the pencils of sets at the eigenvalues of A, and what they are of."""
+    system: MultiChannelSystem,
+    radii: Radii,
+    sets: Iterable[tuple[int, ...]],
+    region: StabilityRegion | None,
+) -> Iterator[tuple[float, tuple[int, ...], Uncertain, complex, Freedom]]:
+    """The singular values of the pencils of sets at numbers near eigenvalues, and what of."""
     values = np.linalg.eigvals(matrix_to_float(system.A)) if system.n else np.zeros(0)
-    modes = [complex(value) for value in values if value.imag >= 0]
+    points = [*_points([complex(value) for value in values if value.imag >= 0], region)]
     for s in sets:
         T = [i for i in range(system.m) if i not in s]
         pencil = Uncertain(
@@ -99,8 +127,8 @@ def _starts(
             system.n,
             system.n - 1,
         )
-        for mode in modes:
-            yield pencil.smallest(mode), s, pencil, mode
+        for point, freedom in points:
+            yield pencil.smallest(point), s, pencil, point, freedom
 
 
 def _pencil(A: Matrix, B: list[Matrix], C: list[Matrix]) -> Matrix:
@@ -129,3 +157,56 @@ def _changed(system: MultiChannelSystem, s: tuple[int, ...], change: Matrix) -> 
         names=system.names,
         neighbors=system.neighbors,
     )
+
+
+def severed_plants(
+    system: MultiChannelSystem, radii: Radii, *, inputs: bool = False
+) -> Iterator[FailingPlant]:
+    """Plants whose channels have no inputs or no outputs, the nearer of both, and also A = 0.
+
+    Every mode of these is fixed.  Where radii are parts of the entries, a plant within the whole
+    entries always fails so, if not before.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+    radii : Radii
+        The units in which changes of entries are measured; an entry of radius 0 never vanishes.
+    inputs : bool
+        Whether all channels lose their inputs.
+
+    Examples
+    --------
+    >>> from mcexact.model.box import Box
+    >>> plant = MultiChannelSystem([[2]], [[[1]]], [[[1]]])
+    >>> halves = Box.absolute(plant, B=[[["1/2"]]]).radii
+    >>> [(found.distance, found.plant.B[0].is_zero()) for found in severed_plants(plant, halves)]
+    [(Fraction(2, 1), True)]
+    """
+    B, C, distance = list(system.B), list(system.C), Fraction(0)
+    shown = []
+    for i in range(system.m):
+        ways = [(_whole(B[i], radii.B[i]), B), (None if inputs else _whole(C[i], radii.C[i]), C)]
+        able = [(size, matrices) for size, matrices in ways if size is not None]
+        if not able:
+            return
+        size, matrices = min(able, key=lambda each: each[0])
+        matrices[i] = matrices[i] * 0
+        distance = max(distance, size)
+        shown += [system.names[i]] if matrices is C else []
+    for A, stop in ((system.A, Fraction(0)), (system.A * 0, _whole(system.A, radii.A))):
+        if stop is not None:
+            plant = MultiChannelSystem(
+                A, B, C, time=system.time, names=system.names, neighbors=system.neighbors
+            )
+            yield FailingPlant(plant, max(distance, stop), 0j, tuple(shown))
+
+
+def _whole(M: Matrix, D: Matrix) -> Fraction | None:
+    """The multiple of the radii with which all entries can vanish; None if one is certain."""
+    found = Fraction(0)
+    for i, j, x in M.nonzero():
+        if not D[i, j]:
+            return None
+        found = max(found, Fraction(abs(x), M.denominator) / D[i, j])
+    return found

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any, Literal, get_args
@@ -10,7 +10,12 @@ from typing import Any, Literal, get_args
 from mcexact.analysis.boxes.box_controllable import ControllabilitySearch
 from mcexact.analysis.boxes.box_fixed import FixedModeSearch
 from mcexact.analysis.boxes.cover import Outside
-from mcexact.analysis.boxes.failing_plants import FailingPlant, failing_plant, tried_sets
+from mcexact.analysis.boxes.failing_plants import (
+    FailingPlant,
+    failing_plant,
+    severed_plants,
+    tried_sets,
+)
 from mcexact.analysis.boxes.one_thread import one_thread
 from mcexact.analysis.boxes.radii import radii_of
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
@@ -179,7 +184,8 @@ def largest_uncertainty(
 
     Notes
     -----
-    For "stabilizable" no plant that fails is searched.
+    Plants that fail are found by sequential linear programs, and plants whose channels do nothing
+    fail, too: where radii are parts of the entries, these are within the whole entries.
 
     Examples
     --------
@@ -203,21 +209,30 @@ def largest_uncertainty(
 def two_sided(search: Search, wanted: str, relative: bool, effort: float) -> LargestUncertainty:
     """Search both ends; see `largest_uncertainty`."""
     require_seconds(effort, "effort")
-    lower, proof = _largest(search, _SQUARES * effort)
-    near = search.failing(min(1 + int(_TRIES * effort), _MOST_TRIES))
-    failing, refutation = None, None
-    if near is not None:
-        failing, refutation = near.plant, search.refuted(near.plant)
+    near, refutation = nearest(search, min(1 + int(_TRIES * effort), _MOST_TRIES))
+    beyond = 1e6 if near is None else to_float(near.distance)
+    lower, proof = _largest(search, _SQUARES * effort, beyond)
     return LargestUncertainty(
         wanted,
         relative,
         lower,
         proof,
-        None if near is None or refutation is None else near.distance,
-        failing if refutation is not None else None,
+        None if near is None else near.distance,
+        None if near is None else near.plant,
         refutation,
         None if near is None else near.channels,
     )
+
+
+def nearest(search: Search, tries: int) -> tuple[FailingPlant | None, Answer | None]:
+    """The nearest plant found that fails, and the exact answer about it."""
+    found = search.failing(tries)
+    known = [*([] if found is None else [found]), *search.severed()]
+    for near in sorted(known, key=lambda each: each.distance):
+        refutation = search.refuted(near.plant)
+        if refutation is not None:
+            return near, refutation
+    return None, None
 
 
 @dataclass
@@ -233,7 +248,9 @@ class Search:
     refuted : callable
         The exact answer about a plant that fails, or None.
     failing : callable
-        A plant that fails, found with so many tries.
+        A plant that is thought to fail, found with so many tries.
+    severed : callable
+        Plants that may fail as their channels do nothing.
     work : callable
         The work done so far.
     """
@@ -242,6 +259,7 @@ class Search:
     proof: Callable[[Fraction], Answer | None]
     refuted: Callable[[MultiChannelSystem], Answer | None]
     failing: Callable[[int], FailingPlant | None]
+    severed: Callable[[], Iterable[FailingPlant]]
     work: Callable[[], float]
 
 
@@ -249,18 +267,16 @@ def _searches(unit: MultiChannelSystem, wanted: str) -> Search:
     """The search for one property."""
     if wanted in ("controllable", "observable"):
         return _controllability(unit, wanted)
-    edge = StabilityRegion(unit.time).edge
-    bound = edge if wanted == "stabilizable" else None
+    region = StabilityRegion(unit.time) if wanted == "stabilizable" else None
+    bound = None if region is None else region.edge
     search = FixedModeSearch(unit, radii_of(unit))
 
     def failing(tries: int) -> FailingPlant | None:
-        if bound is not None:
-            return None
-        return failing_plant(unit, search.radii, tried_sets(unit.m), tries)
+        return failing_plant(unit, search.radii, tried_sets(unit.m), tries, region)
 
     def refuted(plant: MultiChannelSystem) -> Answer | None:
         found = fixed_spectrum(plant)
-        return None if found.empty else found
+        return None if found.empty or (region is not None and found.stabilizable) else found
 
     def capacity() -> float:
         outside = Outside(unit.time, bound)
@@ -272,6 +288,7 @@ def _searches(unit: MultiChannelSystem, wanted: str) -> Search:
         lambda growth: _about(search.cover(growth, bound), growth),
         refuted,
         failing,
+        lambda: severed_plants(unit, search.radii),
         lambda: search.tested + _GAINS * len(search.known),
     )
 
@@ -283,11 +300,15 @@ def _controllability(unit: MultiChannelSystem, wanted: str) -> Search:
 
     def failing(tries: int) -> FailingPlant | None:
         found = failing_plant(system, radii, [()], tries)
-        if found is None or system is unit:
+        return None if found is None else turned(found)
+
+    def turned(found: FailingPlant) -> FailingPlant:
+        """The same for the plant of which the system is the dual."""
+        if system is unit:
             return found
-        turned = dual(found.plant)
+        back = dual(found.plant)
         plant = MultiChannelSystem(
-            turned.A, turned.B, turned.C, time=unit.time, names=unit.names, neighbors=unit.neighbors
+            back.A, back.B, back.C, time=unit.time, names=unit.names, neighbors=unit.neighbors
         )
         return replace(found, plant=plant)
 
@@ -300,6 +321,7 @@ def _controllability(unit: MultiChannelSystem, wanted: str) -> Search:
         lambda growth: _about(search.cover(growth, None), growth),
         refuted,
         failing,
+        lambda: (turned(each) for each in severed_plants(system, radii, inputs=True)),
         lambda: search.tested,
     )
 
@@ -312,16 +334,16 @@ def _about(found: Answer | None, growth: Fraction) -> Answer | None:
     return replace(found, about=constructed(plant, found.about.subject))
 
 
-def _largest(search: Search, work: float) -> tuple[Fraction, Answer | None]:
-    """Bisect for the largest factor of the radii with a proof."""
-    high = search.capacity()
+def _largest(search: Search, work: float, beyond: float) -> tuple[Fraction, Answer | None]:
+    """Bisect for the largest factor of the radii with a proof; beyond some factor there is none."""
+    high = min(search.capacity(), beyond) if beyond > 0 else 0.0
     low, best = Fraction(0), None
     if not high > _LEAST:
         return low, best
-    high, begun = min(high, 1e6), search.work()
+    begun = search.work()
     x = 0.97 * high
     for step in range(_STEPS):
-        growth = _short(x)
+        growth = short(x)
         found = search.proof(growth) if growth > 0 else None
         if found is None:
             high = x
@@ -333,8 +355,14 @@ def _largest(search: Search, work: float) -> tuple[Fraction, Answer | None]:
     return low, best
 
 
-def _short(x: float) -> Fraction:
-    """A number with three significant digits, rounded down."""
+def short(x: float) -> Fraction:
+    """A number with three significant digits, rounded down.
+
+    Examples
+    --------
+    >>> short(0.012345), short(-1.0)
+    (Fraction(123, 10000), Fraction(0, 1))
+    """
     if not x > 0:
         return Fraction(0)
     exponent = 0

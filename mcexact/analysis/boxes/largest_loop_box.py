@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
 from mcexact.analysis.boxes.box_stable import StabilitySearch, gain_radii
-from mcexact.analysis.boxes.failing_plants import FailingPlant
+from mcexact.analysis.boxes.failing_plants import FailingPlant, severed_plants
 from mcexact.analysis.boxes.largest_box import LargestUncertainty, Search, two_sided
 from mcexact.analysis.boxes.one_thread import one_thread
 from mcexact.analysis.boxes.rank_drops import Freedom, Uncertain
 from mcexact.analysis.stability.stability import certify_stability
 from mcexact.answer.protocol import Answer
+from mcexact.answer.stability import StabilityVerdict
 from mcexact.errors import InputError
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
@@ -68,11 +70,6 @@ def largest_loop_uncertainty(
     relative = system.uncertainty is None
     unit = Box.relative(system, 1).system if relative else system
     loop = closed_loop(unit, controller, graph)
-    nominal = Box(unit).nominal
-
-    def refuted(plant: MultiChannelSystem) -> Answer | None:
-        found = certify_stability(closed_loop(plant, controller, graph).system, region)
-        return None if found.stable else found
 
     with one_thread():
         search = StabilitySearch(loop, region, gain_radii(controller, 1) if gains else None)
@@ -83,24 +80,33 @@ def largest_loop_uncertainty(
             tested[0] += 100 if found is None else len(found.segments)
             return found
 
-        def failing(tries: int) -> FailingPlant | None:
-            return _failing(search, nominal, tries)
-
         made = Search(
             lambda: min((each for each, _ in search.margins()), default=0.0),
             proof,
-            refuted,
-            failing,
+            lambda plant: refuted_loop(search, plant),
+            lambda tries: failing_loop(search, tries),
+            lambda: severed_plants(unit, Box(unit).radii),
             lambda: tested[0],
         )
         return two_sided(made, f"every eigenvalue satisfies {region}", relative, effort)
 
 
-def _failing(
-    search: StabilitySearch, nominal: MultiChannelSystem, tries: int
-) -> FailingPlant | None:
-    """A plant near the nominal one whose loop has an eigenvalue on the border."""
-    loop = search.loop
+def refuted_loop(search: StabilitySearch, plant: MultiChannelSystem) -> StabilityVerdict | None:
+    """The exact answer that the loop of a plant has an eigenvalue outside; None if it has none."""
+    found = certify_stability(replace(search.loop, given=plant).system, search.region)
+    return None if found.stable else found
+
+
+def failing_loop(search: StabilitySearch, tries: int) -> FailingPlant | None:
+    """A plant near the nominal one whose loop has an eigenvalue on the border.
+
+    Parameters
+    ----------
+    search : StabilitySearch
+    tries : int
+        How many points of the border are tried, those that seem nearest first.
+    """
+    loop, nominal = search.loop, Box(search.loop.given).nominal
     signals = LoopPencil(loop.given, loop.controller, loop.graph)
     spread = Box(loop.given).radii
     plant = MultiChannelSystem(spread.A, spread.B, spread.C, time=loop.given.time)

@@ -34,11 +34,11 @@ EVERY_LOOP = Rulebook()
 def _every_loop(box_stability: Claim, given: Given) -> Said:
     """Where the eigenvalues of all loops are, with the radii as they were asked for."""
     region = StabilityRegion.of(given.time, bound=box_stability.bound)
-    gains = None if box_stability.gain_radii is None else given.gains
-    if given.part is None:
+    gains = None if box_stability.gain_radii is None else given.part_of_gains
+    if given.part_of_plant is None:
         yield say.EVERY_LOOP(region=region, gains=gains)
     else:
-        yield say.EVERY_LOOP_PART(region=region, part=given.part, gains=gains)
+        yield say.EVERY_LOOP_PART(region=region, part=given.part_of_plant, gains=gains)
 
 
 # Designs.

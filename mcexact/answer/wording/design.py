@@ -65,7 +65,7 @@ EVERY_LOOP = Template(
 EVERY_LOOP_PART = Template(
     "members-in-region-part",
     "{region:region} for every plant within {part:percent} of each entry{gains:gains}",
-    label="every eigenvalue of every loop",
+    label="every loop near this one",
 )
 LARGEST = Template("certify-largest", "{bound:number}", label="largest rate found")
 LEAST = Template("certify-least", "{bound:number}", label="least radius found")

@@ -21,7 +21,7 @@ from mcexact import (
     largest_uncertainty,
     testing,
 )
-from mcexact.analysis.boxes.failing_plants import failing_plant, tried_sets
+from mcexact.analysis.boxes.failing_plants import failing_plant, severed_plants, tried_sets
 from mcexact.analysis.boxes.one_thread import one_thread
 from mcexact.analysis.boxes.rank_drops import rational_point
 from mcexact.errors import UsageError
@@ -57,19 +57,56 @@ def test_other_properties_have_ends_of_their_own(wanted: Any) -> None:
     found = largest_uncertainty(plant, wanted, effort=EFFORT)
     assert found.wanted == wanted and found.proof is not None and found.lower > Fraction(1, 20)
     assert check(found.proof, Box.relative(plant, found.lower).system).valid
+    assert found.failing is not None and found.upper is not None
     if wanted == "stabilizable":
-        assert found.upper is None and "no plant that fails was found" in found.explain()
+        assert not fixed_spectrum(found.failing).stabilizable
     else:
-        assert found.failing is not None and found.upper is not None
         seen = found.failing if wanted == "controllable" else dual(found.failing)
         assert not joint_controllability(seen).controllable
-        assert Box.relative(plant, found.upper).contains(found.failing)
+    assert Box.relative(plant, found.upper).contains(found.failing)
 
 
 def test_a_plant_that_fails_itself_has_no_box() -> None:
     found = largest_uncertainty(gallery("davison-aghdam-miller-2020-p27"), effort=EFFORT)
     assert found.lower == 0 and found.proof is None
     assert "not proved for any box" in found.explain() and found.to_dict()["lower"] == 0
+
+
+def test_a_plant_whose_channels_do_nothing_is_within_the_whole_entries() -> None:
+    """Two integrators that see each other: nothing nearer is found to fail."""
+    plant = MultiChannelSystem([[0, 1], [1, 0]], [[[1], [0]], [[0], [1]]], [[[1, 0]], [[0, 1]]])
+    for wanted in ("no fixed mode", "observable"):
+        found = largest_uncertainty(plant, wanted, effort=0.1)
+        assert found.upper is not None and found.failing is not None and found.upper <= 1, wanted
+        assert found.refutation is not None and check(found.refutation).valid
+
+
+def test_channels_lose_what_is_nearer_and_certain_entries_stay() -> None:
+    plant = MultiChannelSystem([[-3]], [[[2]], [[1]]], [[[1]], [[4]]], names=["a", "b"])
+    radii = Box.absolute(plant, A=[[1]], B=[[[1]], [[0]]], C=[[["1/4"]], [[2]]]).radii
+    severed, stopped = severed_plants(plant, radii)
+    assert (severed.distance, severed.channels, severed.plant.A) == (2, ("b",), plant.A)
+    assert severed.plant.B[0].is_zero() and severed.plant.C[1].is_zero()
+    assert (severed.plant.C[0], severed.plant.B[1]) == (plant.C[0], plant.B[1])
+    assert stopped.distance == 3 and stopped.plant.A.is_zero()
+    assert not [*severed_plants(plant, radii, inputs=True)]
+    certain = Box.absolute(plant, B=[[[1]], [[1]]]).radii
+    assert len([*severed_plants(plant, certain)]) == 1
+
+
+@pytest.mark.parametrize("time", ["continuous", pytest.param("discrete", marks=pytest.mark.slow)])
+def test_a_fixed_mode_of_a_plant_that_is_not_stabilizable_is_not_stable(time: str) -> None:
+    """A mode at -2 or 1/2 that one channel hardly controls, and one at 1 or 3/2."""
+    values = ("-2", "1") if time == "continuous" else ("1/2", "3/2")
+    plant = MultiChannelSystem(
+        [[values[0], 0], [0, values[1]]], [[["1/100"], [1]]], [[[1, 1]]], time=time
+    )
+    near = Box.absolute(plant, A=[[1, 0], [0, 1]], B=[[[1], [1]]]).system
+    fixed = largest_uncertainty(near, "no fixed mode", effort=0.2)
+    unstable = largest_uncertainty(near, "stabilizable", effort=0.2)
+    assert fixed.upper is not None and unstable.upper is not None
+    assert fixed.upper <= Fraction(1, 100) < Fraction(1, 5) < unstable.upper <= 1
+    assert unstable.failing is not None and not fixed_spectrum(unstable.failing).stabilizable
 
 
 def test_requests_that_make_no_sense_are_refused() -> None:

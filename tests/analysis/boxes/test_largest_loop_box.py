@@ -48,3 +48,12 @@ def test_loops_in_discrete_time_have_ends_on_the_circle() -> None:
 def test_an_unstable_loop_has_no_box(rate: str | None) -> None:
     found = largest_loop_uncertainty(PLANT, local_controllers(PLANT, [[[-1]]]), rate=rate, effort=1)
     assert found.lower == 0 and found.proof is None
+
+
+def test_a_plant_that_stands_still_is_not_stable_under_any_gains() -> None:
+    """No member with the radii 1 of the entries is nearer: A, and B or C, are 0 there."""
+    plant = MultiChannelSystem([[-1]], [[[1]]], [[[1]]])
+    found = largest_loop_uncertainty(plant, local_controllers(plant, [[[-3]]]), effort=0.1)
+    assert found.upper is not None and found.failing is not None
+    assert Fraction(3, 5) < found.lower < found.upper <= 1
+    assert not certify_controller(found.failing, GAIN).stable

@@ -1,0 +1,192 @@
+"""How far a plant may be from its values before a controller fails, with a small effort."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import Any
+
+from mcexact.analysis.boxes.box_stable import StabilitySearch, gain_radii
+from mcexact.analysis.boxes.failing_plants import FailingPlant, severed_plants
+from mcexact.analysis.boxes.largest_box import short
+from mcexact.analysis.boxes.largest_loop_box import failing_loop, refuted_loop
+from mcexact.analysis.boxes.one_thread import one_thread
+from mcexact.answer.box_stable import BoxStability
+from mcexact.errors import LimitReached
+from mcexact.exact.floats import to_float
+from mcexact.exact.location import StabilityRegion
+from mcexact.exact.rational import written
+from mcexact.exact.shortened import percent
+from mcexact.model.box import Box
+from mcexact.model.loop import ClosedLoop
+from mcexact.shown import Shown
+
+SIX_DIGITS = Fraction(1, 100_000)
+"""By so large a part rounding to six significant digits, up or down, changes a number at most."""
+_PARTS = (0.9, 0.6, 0.3, 0.1)
+"""Parts of what seems to be the largest box that are tried."""
+_POINTS = 2
+_MOST_SIGNALS, _MOST_SEGMENTS, _USUAL = 160, 600, 30
+"""Loops with more states, outputs and inputs are left out; one of the usual number of them is tried
+with so many parts of the border, larger ones with fewer."""
+
+
+@dataclass(frozen=True, repr=False)
+class EveryLoop(Shown):
+    """What is proved for all loops in a box around one loop, and a plant nearby whose loop fails.
+
+    Attributes
+    ----------
+    region : StabilityRegion
+        Where the eigenvalues of all loops are to be.
+    proof : BoxStability or None
+    gains : Fraction or None
+        The part of their moduli by which gains may differ in the proof; None if they are certain.
+    failing : FailingPlant or None
+        A plant whose loop is not stable, with its distance in the radii of the plant, or else as a
+        part of its entries.
+    reason : str
+        Why there is no proof.
+    """
+
+    region: StabilityRegion
+    proof: BoxStability | None
+    gains: Fraction | None
+    failing: FailingPlant | None
+    reason: str = ""
+
+    @property
+    def part(self) -> Fraction | None:
+        """The part of the modulus of each entry of the plant that its radius is in the proof."""
+        return None if self.proof is None else Box(self.proof.about.plant).part
+
+    def rows(self, relative: bool) -> Iterator[tuple[str, str]]:
+        """Yield labels and texts: why there is no proof, and where a plant fails.
+
+        Parameters
+        ----------
+        relative : bool
+            Whether the plant has no radii of its own.
+        """
+        if self.proof is None:
+            yield "eigenvalues of every loop", self.reason
+        if self.failing is not None:
+            distance = self.failing.distance
+            near = f"{to_float(distance):.3g} times the radii"
+            yield "a loop fails", f"within {percent(distance) if relative else near}"
+
+    def _labeled(self) -> Iterator[tuple[str, Any]]:
+        """Yield the proof, and the plant that fails."""
+        yield "every loop", self.reason if self.proof is None else self.proof
+        if self.failing is not None:
+            yield "plant whose loop fails", self.failing.plant
+
+    def explain(self) -> str:
+        """Say in plain words what is proved."""
+        return f"every loop: {self.reason}" if self.proof is None else self.proof.explain()
+
+    def __repr__(self) -> str:
+        return f"EveryLoop({'not proved' if self.proof is None else 'proved'}: {self.region})"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain data."""
+        known, failing = self.part, self.failing
+        return {
+            "certified": self.proof is not None,
+            "region": str(self.region),
+            "part": None if known is None else written(known),
+            "gains": None if self.gains is None else written(self.gains),
+            "fails_within": None if failing is None else written(failing.distance),
+            "failing": None if failing is None else failing.plant.to_dict(),
+            "reason": self.reason or None,
+        }
+
+
+def every_loop(loop: ClosedLoop, region: StabilityRegion) -> EveryLoop:
+    """Search a proof for all loops in a box around one loop, and a plant whose loop fails.
+
+    Parameters
+    ----------
+    loop : ClosedLoop
+        Of a plant.  Where it has radii, these are the box, and the region is tried before mere
+        stability; otherwise a large part of all entries is searched within which every loop is
+        stable.
+    region : StabilityRegion
+        Where the eigenvalues of the loop are.
+
+    Notes
+    -----
+    Little work is done: `largest_loop_uncertainty` finds larger boxes and nearer plants.
+
+    Examples
+    --------
+    >>> from mcexact.model.local_controllers import local_controllers
+    >>> from mcexact.model.loop import closed_loop
+    >>> from mcexact.model.system import MultiChannelSystem
+    >>> plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+    >>> loop = closed_loop(plant, local_controllers(plant, [[[-3]]]))
+    >>> found = every_loop(loop, StabilityRegion("continuous"))
+    >>> 0.2 < found.part < found.failing.distance < 0.3, found.gains == SIX_DIGITS
+    (True, True)
+    """
+    whole = StabilityRegion(loop.given.time)
+    if loop.given.subject:
+        return EveryLoop(whole, None, None, None, "not tried, as the system is a derived one")
+    ports = sum(loop.given.p(i) + loop.given.q(i) for i in range(loop.given.m))
+    size = loop.matrix.nrows + ports
+    if size > _MOST_SIGNALS:
+        return EveryLoop(whole, None, None, None, f"not tried, as the loop has {size} signals")
+    try:
+        return _searched(loop, region, size)
+    except LimitReached as reached:
+        return EveryLoop(whole, None, None, None, f"not tried: {reached.message}")
+
+
+def _searched(loop: ClosedLoop, region: StabilityRegion, size: int) -> EveryLoop:
+    """The same for a loop of a plant that is not too large."""
+    whole, own = StabilityRegion(loop.given.time), loop.given.uncertainty is not None
+    unit = loop.given if own else Box.relative(loop.given, 1).system
+    with one_thread():
+        search = StabilitySearch(replace(loop, given=unit), whole)
+        failing = _failing(search)
+        if own:
+            boxes = [(loop, each) for each in (StabilityRegion(whole.time, region.bound), whole)]
+        else:
+            boxes = [(each, whole) for each in _smaller(search)]
+        for about, wanted in dict.fromkeys(boxes):
+            for gains in (SIX_DIGITS, None):
+                proof = _proof(about, wanted, gains, size)
+                if proof is not None:
+                    return EveryLoop(wanted, proof, gains, failing)
+    box = "every plant within the radii" if own else "any box"
+    return EveryLoop(whole, None, None, failing, f"{whole} is not proved for {box}")
+
+
+def _smaller(search: StabilitySearch) -> Iterator[ClosedLoop]:
+    """The loop with radii that are smaller and smaller parts of the entries."""
+    largest = min((each for each, _ in search.margins()), default=0.0)
+    for times in _PARTS:
+        part = short(times * min(largest, 1e6))
+        if part:
+            yield replace(search.loop, given=Box(search.loop.given).scaled(part).system)
+
+
+def _proof(
+    loop: ClosedLoop, region: StabilityRegion, gains: Fraction | None, size: int
+) -> BoxStability | None:
+    """A proof for the box of the plant, if it is found soon."""
+    most = int(_MOST_SEGMENTS * min(1.0, (_USUAL / size) ** 2))
+    radii = None if gains is None else gain_radii(loop.controller, gains)
+    return StabilitySearch(loop, region, radii, most).border(Fraction(1))
+
+
+def _failing(search: StabilitySearch) -> FailingPlant | None:
+    """A plant nearby whose loop is not stable, which is decided exactly."""
+    found = failing_loop(search, _POINTS)
+    given = search.loop.given
+    known = [*([] if found is None else [found]), *severed_plants(given, Box(given).radii)]
+    for near in sorted(known, key=lambda each: each.distance):
+        if refuted_loop(search, near.plant) is not None:
+            return near
+    return None

@@ -1,0 +1,90 @@
+"""What designs say of every loop in a box around theirs."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+
+from mcexact import Box, MultiChannelSystem, certify_controller, check, local_controllers
+from mcexact.exact.location import StabilityRegion
+from mcexact.model.loop import ClosedLoop, closed_loop
+from mcexact.synthesis.decentralized import design_decentralized
+from mcexact.synthesis.every_loop import SIX_DIGITS, every_loop
+
+PLANT = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
+WHOLE = StabilityRegion("continuous")
+
+
+def loop(plant: MultiChannelSystem = PLANT, gain: str = "-3") -> ClosedLoop:
+    """The loop of a plant with one state and a gain."""
+    return closed_loop(plant, local_controllers(plant, [[[gain]]]))
+
+
+def test_the_box_is_proved_and_a_plant_outside_of_it_fails() -> None:
+    found = every_loop(loop(), WHOLE)
+    assert found.proof is not None and found.part is not None and found.failing is not None
+    assert Fraction(1, 5) < found.part < Fraction(1, 3) < found.failing.distance
+    assert check(found.proof, Box.relative(PLANT, found.part).system).valid
+    assert found.gains == SIX_DIGITS and found.proof.gain_radii is not None
+    assert not certify_controller(found.failing.plant, loop().controller).stable
+    assert dict(found.rows(True)) == {"a loop fails": "within 33.3 %"}
+    view = found.to_dict()
+    assert view["certified"] and view["reason"] is None and view["gains"] == "1/100000"
+    assert "every loop" in found._repr_html_() and repr(found) == "EveryLoop(proved: Re λ < 0)"
+    assert found.explain() == found.proof.explain()
+
+
+def test_the_radii_of_a_plant_are_the_box_and_its_rate_comes_first() -> None:
+    given = Box.absolute(PLANT, A=[["1/2"]]).system
+    found = every_loop(loop(given), StabilityRegion("continuous", Fraction(1)))
+    assert str(found.region) == "Re λ < -1" and found.proof is not None and found.part is None
+    assert found.proof.about.plant == given
+    found = every_loop(loop(given), StabilityRegion("continuous", Fraction(9, 5)))
+    assert str(found.region) == "Re λ < 0" and found.proof is not None
+    assert found.failing is not None and dict(found.rows(False)) == {
+        "a loop fails": "within 4 times the radii"
+    }
+
+
+def test_a_box_that_is_too_large_is_not_proved() -> None:
+    found = every_loop(loop(Box.absolute(PLANT, A=[[3]]).system), WHOLE)
+    assert found.proof is None and found.failing is not None and found.failing.distance < 1
+    assert "Re λ < 0 is not proved for every plant within the radii" in found.explain()
+    assert dict(found.rows(False))["eigenvalues of every loop"] == found.reason
+    assert repr(found) == "EveryLoop(not proved: Re λ < 0)"
+    assert found.to_dict()["part"] is None and "not proved" in found._repr_html_()
+
+
+def test_a_fragile_loop_has_a_small_box_and_an_unstable_one_none() -> None:
+    fragile = every_loop(loop(gain="-1.000000001"), WHOLE)
+    assert fragile.part is not None and fragile.part < Fraction(1, 10**9)
+    assert fragile.gains is None
+    assert every_loop(loop(gain="-1"), WHOLE).proof is None
+
+
+def test_large_loops_are_left_out() -> None:
+    n = 81
+    rows = [[-1 if i == j else 0 for j in range(n)] for i in range(n)]
+    ones = [[1] for _ in range(n)]
+    plant = MultiChannelSystem(rows, [ones], [rows])
+    found = every_loop(closed_loop(plant, local_controllers(plant, [[[0] * n]])), WHOLE)
+    assert found.proof is None and found.reason == "not tried, as the loop has 163 signals"
+
+
+@pytest.mark.parametrize("time", ["continuous", "discrete"])
+def test_a_design_says_for_which_box_it_holds(time: str) -> None:
+    plant = MultiChannelSystem([[2]], [[[1]]], [[[1]]], time=time)
+    design = design_decentralized(plant)
+    around = design.every_loop()
+    account = design.account_with(around)
+    assert around.proof is not None and "box_stability.json" in account.certificates
+    [told] = [each for each in account.sentences if each.template.key == "members-in-region-part"]
+    assert "for every plant within" in told and "6 digits, however rounded" in told
+    assert "box_stability.json" not in design.account.certificates
+
+
+def test_a_loop_with_numbers_that_are_no_floats_is_left_out() -> None:
+    plant = MultiChannelSystem([["-1e400"]], [[[1]]], [[[1]]])
+    found = every_loop(closed_loop(plant, local_controllers(plant, [[[0]]])), WHOLE)
+    assert found.proof is None and found.reason.startswith("not tried: ")
