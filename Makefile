@@ -74,8 +74,9 @@ agreement: $(STAMP)
 absence: $(STAMP)
 	$(BIN)/python -m tests.campaigns.absence $(or $(N),10000)
 
-# Fixed modes for all values of a parameter beside enumeration at 40 points and modulo primes, on 1,000
-# drawn systems: minutes.
+# Fixed modes for all values of a parameter, and what else is decided so, beside enumeration at 40
+# points and modulo primes, on 1,000 drawn systems: a quarter of an hour.  The same command continues
+# after an interruption.
 parameters: $(STAMP)
 	$(BIN)/python -m tests.campaigns.parametric $(or $(N),1000) $(or $(FIRST),0)
 

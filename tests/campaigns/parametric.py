@@ -1,15 +1,22 @@
 """Answers for all values of a parameter, against enumeration at points and modulo primes.
 
-Run as ``python -m tests.campaigns.parametric COUNT FIRST``; every certificate is checked as well.
+Run as ``python -m tests.campaigns.parametric [COUNT [FIRST [FILE]]]``; every certificate is checked
+as well.  Systems in the file (by default ``build/parametric.jsonl``) are not examined again: after
+an interruption the same command goes on.
 """
 
 from __future__ import annotations
 
 import collections
+import itertools
+import json
 import random
 import sys
 from fractions import Fraction
+from pathlib import Path
 from typing import Any
+
+import networkx as nx
 
 from mcexact import (
     NeighborGraph,
@@ -20,9 +27,11 @@ from mcexact import (
     fixed_spectrum,
     joint_controllability,
     joint_observability,
+    observability_indices,
     setpoint_solvability,
     transfer_graph,
 )
+from mcexact.analysis.engine.parametric_structure import parametric_completeness
 from mcexact.derived.extended import Share
 from mcexact.errors import InputError
 from tests.oracle import enumeration
@@ -36,7 +45,10 @@ from tests.oracle.parametric import (
 from tests.oracle.parametric_draws import drawn_parametric
 from tests.oracle.parametric_ranks import rank_disagreements, rank_of
 
+FILE = Path("build") / "parametric.jsonl"
 POINTS = 40
+FIELDS = (211, 241)
+"""The primes at all points modulo which answers are compared as well."""
 
 
 def points(rng: random.Random, count: int) -> list[Fraction]:
@@ -55,7 +67,7 @@ def examined(number: int, count: int = POINTS) -> tuple[list[str], dict[str, int
     verdict = check(found, system)
     wrong = [] if verdict.verdict == "VALID" else [verdict.line()]
     exact = [each.exact for each in found.exceptional if each.exact is not None]
-    wrong += disagreements(system, found, [*points(rng, count), *exact])
+    wrong += disagreements(system, found, [*points(rng, count), *exact], FIELDS)
     seen = {
         "systems": 1,
         "with generic fixed modes": bool(found.generic),
@@ -76,10 +88,12 @@ def companions(number: int, count: int = POINTS) -> tuple[list[str], dict[str, i
     system = drawn_parametric(rng)
     chosen = rng.sample(system.names, rng.randint(1, system.m))
     lost = joint_controllability(system, chosen), joint_observability(system, chosen)
+    edges = transfer_graph(system)
+    indices = rng.choice((controllability_indices, observability_indices))
     ranks = [
         setpoint_solvability(system),
-        rng.choice(controllability_indices(system, chosen)),
-        *rng.sample(list(transfer_graph(system).certificates), 1),
+        rng.choice(indices(system, chosen)),
+        *rng.sample(list(edges.certificates), 1),
     ]
     graph = NeighborGraph(
         system.names,
@@ -93,7 +107,7 @@ def companions(number: int, count: int = POINTS) -> tuple[list[str], dict[str, i
     drawn = points(rng, count)
     for rank in ranks:
         exact = [each.exact for each in rank.exceptional if each.exact is not None]
-        wrong += rank_disagreements(rank, [*drawn, *exact], (211, 241))
+        wrong += rank_disagreements(rank, [*drawn, *exact], FIELDS)
     for found, dual in zip(lost, (False, True), strict=True):
         exact = [each.exact for each in found.exceptional if each.exact is not None]
         wrong += _wrongly_lost(system, found, chosen, dual, [*drawn, *exact])
@@ -107,13 +121,37 @@ def companions(number: int, count: int = POINTS) -> tuple[list[str], dict[str, i
         want = fixed_radical((plain.A, plain.B, plain.C))
         if not says_nothing(shared, t) and want != claimed_radical(shared, t):
             wrong.append(f"sharing {sizes} of {share} at t = {t}: {want}")
+    whole = parametric_completeness(system, graph=edges)
+    wrong += _wrongly_complete(system, whole, drawn[::8])
     seen = {
+        "complete for almost every value": whole.generic,
         "controllability or observability lost somewhere": sum(bool(f.exceptional) for f in lost),
         "ranks that drop somewhere": sum(bool(f.exceptional) for f in ranks),
         "shared dimensions that are not enough somewhere": bool(shared.exceptional),
         "and enough everywhere": not (shared.exceptional or shared.generic),
     }
     return wrong, {key: int(value) for key, value in seen.items()}
+
+
+def _wrongly_complete(system: ParametricSystem, found: Any, where: list[Fraction]) -> list[str]:
+    """Where enumeration and an answer on completeness differ, also where it is lost."""
+    wrong = []
+    exact = [-q.coefficients[0] for q in found.exceptional if q.degree == 1]
+    for t in [*where, *exact]:
+        plain = values(system, t)
+        if plain is None or says_nothing(found.spectrum, t):
+            continue
+        graph = nx.DiGraph()
+        graph.add_nodes_from(system.names)
+        for j, i in itertools.product(system.names, repeat=2):
+            matrix = {"name": "transfer", "from": j, "to": i}
+            if rank_of(matrix, plain, system.names, 0, system.time):
+                graph.add_edge(j, i)
+        complete = fixed_radical(plain).degree() == 0 and nx.is_strongly_connected(graph)
+        said = found.generic and all(q(t) != 0 for q in found.exceptional)
+        if complete is not said:
+            wrong.append(f"completeness at t = {t}: {complete}")
+    return wrong
 
 
 def _wrongly_lost(
@@ -136,18 +174,30 @@ def _wrongly_lost(
     return wrong
 
 
-def main(count: int, first: int) -> int:
-    """Examine so many drawn systems, and print what was found."""
+def main(count: int, first: int, path: Path) -> int:
+    """Examine the drawn systems that are not in the file yet; print what was found in all."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    numbers = range(first, first + count)
+    done: dict[int, Any] = {}
+    if path.exists():
+        rows = map(json.loads, path.read_text(encoding="utf-8").splitlines())
+        done = {row["number"]: row for row in rows}
+    with path.open("a", encoding="utf-8") as file:
+        for number in numbers:
+            if number not in done:
+                (wrong, seen), (more, also) = examined(number), companions(number)
+                done[number] = {"number": number, "wrong": wrong + more, "seen": seen | also}
+                print(json.dumps(done[number]), file=file, flush=True)
     total: collections.Counter[str] = collections.Counter()
-    for number in range(first, first + count):
-        for wrong, seen in (examined(number), companions(number)):
-            total.update(seen)
-            for what in wrong:
-                print(f"system {number}: {what}", flush=True)
-            total["disagreements"] += len(wrong)
+    for number in numbers:
+        total.update(done[number]["seen"])
+        total["disagreements"] += len(done[number]["wrong"])
+        for what in done[number]["wrong"]:
+            print(f"system {number}: {what}")
     print(", ".join(f"{value} {key}" for key, value in total.items()))
     return int(total["disagreements"] > 0)
 
 
 if __name__ == "__main__":
-    sys.exit(main(*map(int, sys.argv[1:3])))
+    count, first, chosen, *_ = [*sys.argv[1:], *["1000", "0", str(FILE)][len(sys.argv) - 1 :]]
+    sys.exit(main(int(count), int(first), Path(chosen)))

@@ -18,6 +18,8 @@ Rows = list[list[Any]]
 Plain = tuple[Rows, list[Rows], list[Rows]]
 """A, B_i and C_i as rows of numbers."""
 PRIMES = (211, 307, 401)
+KNOWN: dict[tuple[int, int], tuple[Any, list[Rows]]] = {}
+"""What is known of a system, which is kept so that no other one gets its address."""
 
 
 def fixed_radical(plain: Plain, ell: int = 0) -> Any:
@@ -87,20 +89,49 @@ def _polynomial(coefficients: Sequence[Any], ell: int) -> Any:
 def values(system: Any, t: Fraction | int, ell: int = 0) -> Plain | None:
     """The matrices at a point, from the expressions of the entries; None where one is undefined."""
 
-    def number(entry: Any) -> Any:
-        top, bottom = ([_residue(c, ell) for c in p.coefficients] for p in entry.polynomials())
-        over, under = (sum(c * t**k for k, c in enumerate(p)) for p in (top, bottom))
-        if (under % ell if ell else under) == 0:
+    def at(p: Sequence[Any]) -> Any:
+        total: Any = 0
+        for c in reversed(p):
+            total = total * t + c
+        return total % ell if ell else total
+
+    def number(entry: tuple[Any, Any]) -> Any:
+        over, under = map(at, entry)
+        if under == 0:
             raise ZeroDivisionError
         return over * pow(under, -1, ell) % ell if ell else Fraction(over) / under
 
     try:
-        A = [[number(e) for e in row] for row in system.A.rows]
-        B = [[[number(e) for e in row] for row in c.B.rows] for c in system.channels]
-        C = [[[number(e) for e in row] for row in c.C.rows] for c in system.channels]
+        A, *ports = [
+            [[number(e) for e in row] for row in rows] for rows in _coefficients(system, ell)
+        ]
     except ZeroDivisionError:
         return None
-    return A, B, C
+    return A, ports[0::2], ports[1::2]
+
+
+def _coefficients(system: Any, ell: int) -> list[Rows]:
+    """A, B_1, C_1, … with each entry as the coefficients of a numerator and of a denominator."""
+    found = KNOWN.get((id(system), ell))
+    if found is None or found[0] is not system:
+        if len(KNOWN) > 100:
+            KNOWN.clear()
+        found = KNOWN[id(system), ell] = system, _converted(system, ell)
+    return found[1]
+
+
+def _converted(system: Any, ell: int) -> list[Rows]:
+    tables = [system.A, *(M for c in system.channels for M in (c.B, c.C))]
+    return [
+        [
+            [
+                tuple([_residue(c, ell) for c in p.coefficients] for p in entry.polynomials())
+                for entry in row
+            ]
+            for row in M.rows
+        ]
+        for M in tables
+    ]
 
 
 def _residue(c: Fraction, ell: int) -> Any:
@@ -139,7 +170,9 @@ def says_nothing(found: Any, t: Fraction | int, ell: int = 0) -> bool:
     return False
 
 
-def disagreements(system: Any, found: Any, points: Sequence[Fraction | int]) -> list[str]:
+def disagreements(
+    system: Any, found: Any, points: Sequence[Fraction | int], primes: Sequence[int] = PRIMES
+) -> list[str]:
     """Where an answer and enumeration differ, at rational points and modulo primes."""
     wrong = []
     for t in points:
@@ -149,7 +182,7 @@ def disagreements(system: Any, found: Any, points: Sequence[Fraction | int]) -> 
             if want != claimed_radical(found, t):
                 wrong.append(f"t = {t}: {want}, claimed {claimed_radical(found, t)}")
     bad = []
-    for ell in PRIMES:
+    for ell in primes:
         try:
             if any(_differs(system, found, t, ell) for t in range(ell)):
                 bad.append(ell)
