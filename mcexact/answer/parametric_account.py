@@ -11,6 +11,7 @@ from typing import Any
 
 from mcexact.answer import codec
 from mcexact.answer.account import Account
+from mcexact.answer.formats import count
 from mcexact.answer.protocol import Answer
 from mcexact.answer.rules.parameters import RULES
 from mcexact.answer.rules.several_parameters import sentences_of_several
@@ -25,8 +26,8 @@ LABELS = {
     "completeness": "complete",
     "joint_controllability": "modes that no channel controls",
     "joint_observability": "modes that no channel observes",
-    "controllability_indices": "ranks of [B, AB, …] with k blocks",
-    "observability_indices": "ranks of [C; CA; …] with k blocks",
+    "controllability_indices": "ranks of [B, AB, …] by the number of blocks",
+    "observability_indices": "ranks of [C; CA; …] by the number of blocks",
     "transfer_graph": "edges of the transfer graph",
     "setpoint": "rank of the matrix of equilibria",
     "channel_controllability": "modes that the channel does not control",
@@ -132,7 +133,7 @@ class ParametricAccount(Shown):
         answer = self.answers[name]
         if isinstance(answer, tuple):
             return tuple(
-                (where, f"k = {k}: {what}", why)
+                (where, f"{count(k, 'block')}: {what}", why)
                 for k, each in enumerate(answer, 1)
                 for where, what, why in each.rows
             )
