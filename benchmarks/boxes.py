@@ -6,7 +6,8 @@ Parts are
 ``members``   at 0.1 % of every entry: no fixed mode for any member, or stabilizable, for each plant
 ``largest``   the largest proved part, and a plant that fails, for each plant
 ``drawn``     members of proved boxes, decided exactly, and boxes with a planted fixed mode
-``size``      how the time of the checker grows with the number of states
+``size``      how the time of the checker grows with the number of states of networks
+``methods``   the largest part that is proved by discs of one matrix and frames, and by several
 
 Writes tables in Markdown to the standard output.  Seconds are those of the processor.
 """
@@ -31,6 +32,7 @@ import numpy as np
 from mcexact import (
     Box,
     MultiChannelSystem,
+    box_controllability,
     box_fixed_modes,
     box_stabilizability,
     check,
@@ -39,8 +41,12 @@ from mcexact import (
     largest_uncertainty,
     load_system,
 )
+from mcexact.analysis.boxes.box_fixed import FixedModeSearch
+from mcexact.analysis.boxes.cover import Outside
+from mcexact.analysis.boxes.radii import radii_of
 from mcexact.answer.codec import encode
 from mcexact.derived.drawn.choices import SeededChoices
+from mcexact.derived.drawn.networks import network_system
 from mcexact.derived.drawn.systems import system_with_fixed_mode
 from mcexact.errors import LimitReached
 
@@ -50,6 +56,27 @@ PART = Fraction(1, 1000)
 _MOST_STATES = 30
 _SMALL = 12
 _EFFORT = 10.0
+SIZES = (
+    ("ring", 5, 1, 1e-3),
+    ("ring", 20, 5, 1e-4),
+    ("ring", 60, 10, 1e-5),
+    ("ring", 60, 10, 1e-4),
+    ("ring", 200, 20, 1e-6),
+    ("ring", 200, 20, 1e-5),
+    ("platoon", 60, 10, 1e-4),
+    ("platoon", 198, 33, 1e-5),
+    ("building", 60, 10, 1e-4),
+    ("building", 200, 20, 1e-6),
+    ("consensus", 60, 10, 1e-4),
+    ("consensus", 200, 20, 1e-6),
+    ("swing-grid", 60, 10, 1e-4),
+    ("swing-grid", 200, 20, 1e-6),
+)
+"""A network, its states and channels, and the part of every entry."""
+CONTROLLED = {("ring", 60, 10, 1e-4), ("ring", 200, 20, 1e-6)}
+"""Those of which it is asked, too, whether all channels control every member."""
+METHODS = ((20, 5, 3, False), (20, 5, 3, True), (60, 10, 4, False), (60, 10, 3, True))
+"""The states and channels of a ring, the first power of ten, and whether by several matrices."""
 
 
 def main(arguments: list[str]) -> None:
@@ -155,19 +182,51 @@ def drawn(plants: dict[str, MultiChannelSystem], count: int = 10_000) -> None:
 
 
 def size(plants: dict[str, MultiChannelSystem]) -> None:
-    """Print how long finding and checking take for rings of coupled subsystems."""
-    heading("Rings of subsystems", "n", "m", "part", "s to find", "s to check", "squares", "bytes")
-    for n, m, part in ((5, 1, 1e-3), (20, 5, 1e-4), (60, 10, 1e-5), (200, 20, 1e-6)):
-        system = Box.relative(ring(n, m), Fraction(str(part))).system
-        proof, seconds = timed(partial(box_fixed_modes, system, starts=1))
-        if proof is None:
-            row(n, m, f"{part:g}", f"no proof in {seconds:.1f}", "", "", "")
-            continue
-        verdict, checking = timed(partial(check, proof))
-        told = "?" if verdict is None else verdict.verdict
-        squares = sum(map(len, proof.cover))
-        checked = f"{checking:.2f} {told}"
-        row(n, m, f"{part:g}", f"{seconds:.2f}", checked, squares, len(encode(proof)))
+    """Print how long finding and checking take for networks of growing size."""
+    heading(
+        "Networks",
+        "network", "n", "m", "part", "s to find", "s to check",
+        "matrices", "frames", "squares", "bytes",
+    )  # fmt: skip
+    for name, n, m, part in SIZES:
+        plant = ring(n, m) if name == "ring" else network_system(SeededChoices(0), name, n, m)
+        system = Box.relative(plant, Fraction(str(part))).system
+        network_row(name, f"{part:g}", system, partial(box_fixed_modes, starts=1))
+        if (name, n, m, part) in CONTROLLED:
+            network_row(f"{name}, controllable", f"{part:g}", system, box_controllability)
+
+
+def network_row(
+    name: str, part: str, system: MultiChannelSystem, question: Callable[..., Any]
+) -> None:
+    """Print what a proof about a network takes."""
+    proof, seconds = timed(partial(question, system))
+    if proof is None:
+        row(name, system.n, system.m, part, f"no proof in {seconds:.1f}", *[""] * 5)
+        return
+    verdict, checking = timed(partial(check, proof))
+    checked = f"{checking:.2f} {'?' if verdict is None else verdict.verdict}"
+    counts = len(proof.exterior), len(proof.frames), sum(map(len, proof.cover))
+    row(name, system.n, system.m, part, f"{seconds:.2f}", checked, *counts, len(encode(proof)))
+
+
+def methods(plants: dict[str, MultiChannelSystem]) -> None:
+    """Print the largest power of ten that is proved as a part, by one matrix or by several."""
+    heading("By one matrix or by several", "ring of n", "m", "discs of", "part", "s to find")
+    for n, m, first, several in METHODS:
+        system = ring(n, m)
+        for k in range(first, 9):
+            part = Fraction(1, 10**k)
+            boxed = Box.relative(system, part).system
+            search = FixedModeSearch(boxed, radii_of(boxed), starts=1, several=several)
+            began = time.process_time()
+            outside = Outside(boxed.time, None)
+            enough = several or search.prepare(1.0, outside) > 1
+            proof = search.cover(Fraction(1), None) if enough else None
+            seconds = time.process_time() - began
+            if proof is not None:
+                row(n, m, "several" if several else "A", f"1e-{k}", f"{seconds:.1f}")
+                break
 
 
 def heading(title: str, *columns: str) -> None:
@@ -210,6 +269,7 @@ PARTS: dict[str, Callable[[dict[str, MultiChannelSystem]], None]] = {
     "largest": largest,
     "drawn": drawn,
     "size": size,
+    "methods": methods,
 }
 
 if __name__ == "__main__":

@@ -23,7 +23,8 @@ from mcexact.model.uncertainty import Radii, moduli
 
 MANY = 30
 """From so many states on, gains are drawn; frames are cheap below, and allow for larger radii."""
-_DRAWS, _MOST_LISTS = 32, 10
+_FIRST_DRAWS, _DRAWS = 6, 32
+_FEW_LISTS, _MOST_LISTS = 3, 10
 _BITS = 8
 _PARTS = (0.0, 0.6, 0.95)
 _TURNS = np.exp(2j * np.pi * np.arange(8) / 8)
@@ -119,7 +120,7 @@ def disc_lists(
     """
     found: list[ExteriorDiscs] = []
     if several:
-        for each in _chosen(_proposals(box, rng, growth), outside):
+        for each in _drawn_and_chosen(box, rng, growth, outside):
             made = each.coordinates.exact(box.near.scale, each.M, each.D)
             found += [] if made is None else [_evidence(each.F, made)]
     if not found:
@@ -132,22 +133,27 @@ def _evidence(F: tuple[Matrix, ...] | None, found: Exterior) -> ExteriorDiscs:
     return ExteriorDiscs(F, found.Y.evidence(), found.T.evidence(), found.discs)
 
 
-def _proposals(box: GainBox, rng: np.random.Generator, growth: Fraction) -> list[_Proposal]:
-    """The discs of A, and those of A_F for drawn gains."""
-    found = []
+def _drawn_and_chosen(
+    box: GainBox, rng: np.random.Generator, growth: Fraction, outside: Outside
+) -> list[_Proposal]:
+    """The discs of A and of A_F for drawn gains, as many as leave few points in all of them."""
+    proposals: list[_Proposal] = []
+    chosen: list[_Proposal] = []
     for k in range(_DRAWS + 1):
         F = _drawn(box.near, rng) if k else None
         M, D = (box.A, box.radii.A * growth) if F is None else box.of_gains(F, growth)
         proposed = coordinates(box.near_gains(M, D), rng)
         if proposed:
-            found.append(_Proposal(F, M, D, min(proposed, key=_area)))
-    return found
+            proposals.append(_Proposal(F, M, D, min(proposed, key=_area)))
+        if k in (_FIRST_DRAWS, _DRAWS) and proposals:
+            chosen, left = _chosen(proposals, outside)
+            if not len(left) and len(chosen) <= _FEW_LISTS:
+                break
+    return chosen
 
 
-def _chosen(proposals: list[_Proposal], outside: Outside) -> list[_Proposal]:
-    """The proposal with the smallest discs, and others that leave few of its points."""
-    if not proposals:
-        return []
+def _chosen(proposals: list[_Proposal], outside: Outside) -> tuple[list[_Proposal], Complex]:
+    """The proposal with the smallest discs, others that leave few of its points, and these."""
     ranked = sorted(proposals, key=lambda each: _area(each.coordinates))
     chosen, left = ranked[:1], ranked[0].points(outside)
     while len(left) and len(chosen) < _MOST_LISTS:
@@ -157,7 +163,7 @@ def _chosen(proposals: list[_Proposal], outside: Outside) -> list[_Proposal]:
             break
         chosen.append(ranked[best])
         left = ranked[best].around(left)
-    return chosen
+    return chosen, left
 
 
 def _area(discs: Coordinates) -> float:

@@ -37,7 +37,7 @@ def of_box(box: Box) -> GainBox:
 @pytest.fixture
 def large(monkeypatch: pytest.MonkeyPatch) -> None:
     """Have gains drawn for small plants, too."""
-    monkeypatch.setattr(disc_lists_module, "_DRAWS", 6)
+    monkeypatch.setattr(disc_lists_module, "_DRAWS", 4)
     for module in (box_fixed, box_controllable):
         monkeypatch.setattr(module, "MANY", 1)
 
@@ -66,11 +66,10 @@ def test_eigenvalues_of_members_under_gains_are_in_the_discs_of_each_list() -> N
 @pytest.mark.usefixtures("large")
 def test_lists_prove_what_is_so_and_nothing_else() -> None:
     plant = load(PLANT)
-    for part in ("1/1000", "1/50"):
-        system = Box.relative(plant, part).system
-        proof = box_fixed_modes(system)
-        assert len(proof.exterior) > 1 and check(proof).valid
-        assert check(box_controllability(system)).valid
+    system = Box.relative(plant, "1/100").system
+    proof = box_fixed_modes(system)
+    assert len(proof.exterior) > 1 and check(proof).valid
+    assert check(box_controllability(system)).valid
     lost = MultiChannelSystem([[1, 0], [1, 2]], [[[0], [1]]], [[[1, 1]]])
     assert not fixed_spectrum(lost).empty
     with pytest.raises(LimitReached, match="no proof"):
