@@ -6,6 +6,7 @@ import itertools
 from fractions import Fraction
 from math import lcm
 from operator import mul
+from typing import Any
 
 import pytest
 
@@ -17,7 +18,7 @@ from mcexact.checker.loop_pencil import loop_pencil
 from mcexact.checker.regular_discs import Pencil
 from mcexact.checker.subject import read_subject
 from mcexact.checker.system import read_plant
-from tests.checker.box_maker import Rows, fractions, solved, subject_of
+from tests.checker.box_maker import Rows, fractions, solved, stable, subject_of
 from tests.checker.box_plants import (
     ALL,
     CALM,
@@ -30,8 +31,9 @@ from tests.checker.box_plants import (
     LOOP_STABLE,
     SAMPLED_STABLE,
     STABLE,
+    uncertain,
 )
-from tests.checker.handmade import Document, changed, checked, without
+from tests.checker.handmade import Document, changed, checked, plant, without
 from tests.checker.tables import accepts, rejects
 
 KIND = "box_stable"
@@ -125,6 +127,7 @@ test_what_proves_less_is_refused = rejects(
             "MALFORMED",
         ),
         ("a segment has no frame", STABLE, ("witness.segments.0", 3), "MALFORMED"),
+        ("a segment is far beyond the frames", STABLE, ("witness.segments.0", 99), "MALFORMED"),
         ("a segment is true", STABLE, ("witness.segments.1", True), "MALFORMED"),
         ("a segment has another frame", LOOP_STABLE, ("witness.segments.8", 0), "INVALID"),
         ("an arc has another frame", SAMPLED_STABLE, ("witness.segments.5", 0), "INVALID"),
@@ -190,10 +193,64 @@ def test_the_pencil_is_that_of_the_loop_and_of_stable_members(
 
 def test_what_is_uncertain_is_what_has_a_radius() -> None:
     """CALM has radii in A, B_1 and C_2; the controller in two of its gains; messages in none."""
-    for plant, step, radii, gains in ((CALM, LOOP, GAIN_RADII, 2), (DAMPED, DELAYED, None, 0)):
-        box = subject_of(plant, KIND, (step,))
+    for system, step, radii, gains in ((CALM, LOOP, GAIN_RADII, 2), (DAMPED, DELAYED, None, 0)):
+        box = subject_of(system, KIND, (step,))
         D = fractions(loop_pencil(box, radii).D)
         assert sum(map(bool, itertools.chain(*D))) == 4 + gains
+
+
+def test_points_that_go_back_are_refused_though_each_segment_is_regular() -> None:
+    """The way to the last point is longer then, and so is nothing that is left out."""
+    further = stable(CALM, [1, 2, 3, 4], growth=[1, 1])["witness"]["frames"][3]
+    witness = {
+        **STABLE["witness"],
+        "points": [1, 2, 4, 3],
+        "segments": [0, 1, 2, 3],
+        "frames": [*STABLE["witness"]["frames"], further],
+    }
+    verdict = checked({**STABLE, "witness": witness})
+    assert (verdict.verdict, verdict.code) == ("INVALID", "points")
+
+
+SWIFT = plant([[-2]], ([[1]], [[1]]), uncertainty=uncertain([[1]]))
+"""x' = ax with a from −3 to −1."""
+SLOW = plant([["-1/2"]], ([[1]], [[1]]))
+FED = plant([[-1]], ([[1]], [["1/2"]]))
+MAPS: Document = {"shared_update": {}, "private_update": {}, "input": {"outputs": {"1": [[-6]]}}}
+AGENT = {"name": "1", "shared": 0, "private": 0, **MAPS}
+FEEDING = {
+    "construction": "closed_loop",
+    "controller": {"time": "continuous", "agents": [AGENT]},
+}
+"""u = −6y, y = x/2: the sizes 1 of x, 1/2 of y and 3 of u make x' as large as 4."""
+
+
+@pytest.mark.parametrize(
+    ("system", "steps", "last", "grows"),
+    [
+        (SWIFT, (), "5/2", True),
+        (SWIFT, (), 3, True),
+        (SWIFT, (), "7/2", False),
+        (FED, (FEEDING,), 3, True),
+        (FED, (FEEDING,), 4, True),
+        (FED, (FEEDING,), "9/2", False),
+        (SLOW, (), None, True),
+        (SLOW, (), "1/2", True),
+        (SLOW, (), 1, False),
+    ],
+)
+def test_growth_is_what_members_and_signals_reach(
+    system: Document, steps: tuple[Document, ...], last: Any, grows: bool
+) -> None:
+    """The last point has to be beyond it; without points no size of a state is small enough."""
+    end = Fraction(last or 0)
+    ends = [
+        *(Fraction(k, 4) for k in range(1, 18) if Fraction(k, 4) < end),
+        *([end] if end else ()),
+    ]
+    points = [int(point) if point.denominator == 1 else str(point) for point in ends]
+    verdict = checked(stable(system, points, *steps, growth=[1]))
+    assert (verdict.verdict, verdict.code) == (("INVALID", "growth") if grows else ("VALID", ""))
 
 
 def test_segments_are_on_the_border_and_leave_no_gap() -> None:

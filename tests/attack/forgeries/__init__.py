@@ -11,6 +11,7 @@ import random
 from ..draws.plants import Document
 from ..mutators import SMALL_MODULI, other_modulus
 from . import (
+    box_traps,
     boxes,
     gains,
     loops,
@@ -50,7 +51,11 @@ FORGERS = {
     "transfer_graph": structure.GRAPH,
 }
 
-TRAPS: dict[str, Document] = {**parametric_traps.SPECTRA, **parametric_traps.RANKS}
+TRAPS: dict[str, Document] = {
+    **box_traps.TRAPS,
+    **parametric_traps.SPECTRA,
+    **parametric_traps.RANKS,
+}
 """Documents made by hand, which are false and would be accepted without one condition."""
 
 

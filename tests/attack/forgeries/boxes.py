@@ -182,7 +182,108 @@ def gain_radii_grown(rng: random.Random, document: Document) -> Forged:
     return document
 
 
-ANY = (radii_grown, radius_added, channel_cut, matrix_cleared, weights_changed, bound_moved)
-COVERED = (*ANY, disc_shrunk, matrix_exchanged, nodes_left_out)
+def disc_nudged(rng: random.Random, document: Document) -> Forged:
+    """A disc is smaller by one unit of its last digit, or by none and its center is elsewhere."""
+    exterior = document["witness"].get("exterior")
+    if not exterior or not exterior[0]["discs"]:
+        return None
+    disc = rng.choice(rng.choice(exterior)["discs"])
+    key = rng.choice(("radius", "radius", "re", "im"))
+    text = disc[key]
+    digits = len(text.partition(".")[2])
+    steps = rng.choice((1, 1, 100, 10**4))
+    moved = Fraction(text) - Fraction(steps, 10**digits)
+    whole = abs(moved) * 10**digits
+    sign = "-" if moved < 0 else ""
+    disc[key] = f"{sign}{int(whole) // 10**digits}" + (
+        f".{int(whole) % 10**digits:0{digits}d}" if digits else ""
+    )
+    return document
+
+
+def discs_below_the_axis(rng: random.Random, document: Document) -> Forged:
+    """Every disc is below the real axis, where nothing has to be covered."""
+    exterior = document["witness"].get("exterior")
+    if not exterior:
+        return None
+    for discs in exterior:
+        for disc in discs["discs"]:
+            disc["im"] = f"-{int(Fraction(disc['radius'])) + rng.choice((1, 2))}"
+    document["witness"]["cover"] = [[] for _ in exterior[0]["discs"]]
+    return document
+
+
+def leaves_exchanged(rng: random.Random, document: Document) -> Forged:
+    """Leaves of the cover change places, or segments of the border their frames."""
+    witness = document["witness"]
+    nodes = rng.choice(witness["cover"]) if witness.get("cover") else witness.get("segments")
+    if not nodes or len(nodes) < 2:
+        return None
+    i, j = rng.sample(range(len(nodes)), 2)
+    nodes[i], nodes[j] = nodes[j], nodes[i]
+    return document
+
+
+def weights_scaled(rng: random.Random, document: Document) -> Forged:
+    """Weights of some rows, or all of a frame, are so many times as large."""
+    frames = document["witness"]["frames"]
+    if not frames:
+        return None
+    frame, factor = rng.choice(frames), rng.choice((2, 1000))
+    whole = rng.random() < 0.3
+    frame["w"] = [w * factor if whole or rng.random() < 0.5 else w for w in frame["w"]]
+    return document
+
+
+def radii_exchanged(rng: random.Random, document: Document) -> Forged:
+    """A radius stands at another entry of its matrix."""
+    parts = document["system"].get("uncertainty", {}).get("absolute", {})
+    found = [part for key, part in parts.items() if key == "A"]
+    found += [M for key, part in parts.items() if key != "A" for M in part.values()]
+    if not found:
+        return None
+    M = rng.choice(found)
+    entry = rng.choice(M["entries"])
+    place = [rng.randrange(size) for size in M["shape"]]
+    if place in [other[:2] for other in M["entries"]]:
+        return None
+    entry[:2] = place
+    M["entries"].sort()
+    return document
+
+
+def gap_between_points(rng: random.Random, document: Document) -> Forged:
+    """A point is left out or moved, and the segments around it keep their frames."""
+    witness = document["witness"]
+    points = witness.get("points")
+    if not points:
+        return None
+    k = rng.randrange(len(points))
+    if rng.random() < 0.5:
+        del points[k], witness["segments"][rng.choice((k, k + 1)) if k + 1 < len(points) else k]
+    else:
+        points[k] = number(Fraction(points[k]) * rng.choice((Fraction(1, 2), Fraction(9, 8), 3)))
+    return document
+
+
+ANY = (
+    radii_grown,
+    radius_added,
+    radii_exchanged,
+    channel_cut,
+    matrix_cleared,
+    weights_changed,
+    weights_scaled,
+    leaves_exchanged,
+    bound_moved,
+)
+COVERED = (
+    *ANY,
+    disc_shrunk,
+    disc_nudged,
+    discs_below_the_axis,
+    matrix_exchanged,
+    nodes_left_out,
+)
 FIXED = (*COVERED, gains_exchanged)
-STABLE = (*ANY, border_cut_off, unstable_nominal, gain_radii_grown)
+STABLE = (*ANY, border_cut_off, gap_between_points, unstable_nominal, gain_radii_grown)

@@ -1,0 +1,49 @@
+"""Documents about boxes made by hand, each false, or written as no certificate is."""
+
+from __future__ import annotations
+
+from tests.checker.box_maker import stable
+from tests.checker.box_plants import GAIN_RADII, LOOP_STABLE, STABLE, uncertain
+from tests.checker.handmade import certificate, changed, plant
+
+from ..draws.plants import Document
+
+STILL = plant([[1, 0], [0, 2]], ([[0], [0]], [[1, 1]]))
+"""Both modes are fixed: the input does nothing."""
+TURNING = plant(
+    [[-1, -8], [8, -1]], ([[1], [0]], [[1, 0]]), uncertainty=uncertain([[2, 0], [0, 2]])
+)
+"""Eigenvalues a ± 8i, a from −3 to 1."""
+
+
+def exact(rows: list[list[int]]) -> Document:
+    """A complex matrix of integers."""
+    return {"denominator": 1, "re": rows, "im": [[0] * len(row) for row in rows]}
+
+
+EXCHANGED = {
+    "F": None,
+    "Y": exact([[0, 1], [1, 0]]),
+    "T": exact([[1, 0], [0, 1]]),
+    "discs": [{"re": "0", "im": "0", "radius": "-10"}] * 2,
+}
+TRAPS: dict[str, Document] = {
+    "negative radii of rows that are not dominant": certificate(
+        "box_fixed",
+        STILL,
+        {"bound": None},
+        {"exterior": [EXCHANGED], "gains": [], "frames": [], "cover": [[], []]},
+    ),
+    "an eigenvalue that crosses at a segment": changed(
+        STABLE, ("system.uncertainty.absolute.A.entries", [[1, 1, "3/2"]])
+    ),
+    "eigenvalues that cross beyond the last point": stable(TURNING, ["1/2"], growth=[1, 1]),
+    "a negative radius of a gain": changed(
+        LOOP_STABLE,
+        ("claim.gain_radii.agents.0.input.outputs.1", [["-1/100"]]),
+    ),
+    "radii of gains without a loop": changed(STABLE, ("claim.gain_radii", GAIN_RADII)),
+    "radii of gains in another time": changed(
+        LOOP_STABLE, ("claim.gain_radii", {**GAIN_RADII, "time": "discrete"})
+    ),
+}
