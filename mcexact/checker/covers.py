@@ -26,7 +26,10 @@ class Cell(NamedTuple):
     square: bool
 
     def outside(self, time: str, bound: Bound) -> bool:
-        """Whether it lies below the real axis, or inside the region where modes are allowed."""
+        """Whether it lies below the real axis, or inside the region where modes are allowed.
+
+        Theorems ``cells.conjugate_fixed``, ``cells.conjugate_rank``.
+        """
         re, im, size, square = self
         if im + size < 0:
             return True
@@ -49,7 +52,10 @@ class Cell(NamedTuple):
         return x**2 + y**2 <= reach**2
 
     def parts(self) -> list["Cell"]:
-        """Four squares that cover it, in the order in which they are taken from the end."""
+        """Four squares that cover it, in the order in which they are taken from the end.
+
+        Theorems ``cells.disc_in_square``, ``cells.four_parts``.
+        """
         re, im, size, _ = self
         h = size / 2
         return [Cell(re + x, im + y, h, True) for x in (h, -h) for y in (h, -h)]
@@ -71,7 +77,7 @@ def require_covered(
     The discs of the first list are cut into cells; those that are outside, or that meet no disc of
     another list, are left out.
 
-    Theorem ``boxes.square_in_disc``.
+    Theorems ``boxes.square_in_disc``, ``cells.cover_disc``.
     """
     first, *others = exterior
     longest = max((budget.limbs_of(disc) for discs in others for disc in discs), default=0)
