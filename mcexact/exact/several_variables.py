@@ -84,8 +84,8 @@ def determinant(M: Rows, parameters: tuple[str, ...]) -> Any:
     Examples
     --------
     >>> a, b, _ = ring(("a", "b")).gens()
-    >>> str(determinant([[a, b], [b, a]], ("a", "b")).factor()[1][0][0])
-    'a + b'
+    >>> determinant([[a, b], [b, a]], ("a", "b")) in (a**2 - b**2, b**2 - a**2)
+    True
     """
     rows = [list(row) for row in M]
     before = ring(parameters).constant(1)

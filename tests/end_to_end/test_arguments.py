@@ -73,7 +73,7 @@ SAID: dict[str, str] = {
     "an array of shape (2,)",
     "mcexact.pencil_rank(PLANT, ['pump'], 'fast')": "expected an integer, a decimal",
     "Aims(margin='0.5')": "margin: expected a number, found '0.5'",
-    "Aims(effort=[1])": "effort: expected a number, found list",
+    "Aims(effort=[1])": "effort: expected a number of seconds, found list",
     # Choices.
     "MultiChannelSystem([[1]], ONES, ONES, time=FLOATS)": 'time: expected "continuous" or "disc',
     "MultiChannelSystem.from_float([[0.5]], ONES, ONES, rounding='up')": 'rounding: expected "dec',
