@@ -11,7 +11,7 @@ GALLERY := mcexact/model/gallery
 # programs are compiled once.
 ONCE := HYPOTHESIS_PROFILE=$(or $(HYPOTHESIS_PROFILE),ci) OPENBLAS_NUM_THREADS=$(or $(OPENBLAS_NUM_THREADS),1) PYTHONDONTWRITEBYTECODE=
 
-.PHONY: absence boxes parameters cluster corpus coverage package-coverage docs mutants paper-mutants records reproduce look ledger schemas schemas-everywhere sentences demo designs test lint types tests slow-tests durations matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs
+.PHONY: absence boxes parameters cluster corpus coverage digits package-coverage docs mutants paper-mutants records reproduce look ledger schemas schemas-everywhere sentences demo designs test lint types tests slow-tests durations matrix attack weakened-checker agreement readers zipapp bench proofs checked-proofs weakened-proofs
 
 demo: $(CORE)
 	$(BIN)/mcexact demo
@@ -64,6 +64,11 @@ designs: $(STAMP)
 # measures some; a folder of further system files can be among them.
 boxes: $(STAMP)
 	$(BIN)/python -m benchmarks.boxes $(PARTS)
+
+# How many digits of the gains of designed controllers are safe, and how many are too few: minutes.
+# NAMES='theorem compleib-ac1' tries some.
+digits: $(STAMP)
+	$(BIN)/python -m benchmarks.digits $(NAMES)
 
 # Every decision beside exhaustive enumeration, on 10,000 drawn systems: minutes.
 agreement: $(STAMP)

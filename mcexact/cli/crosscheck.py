@@ -33,8 +33,8 @@ def command(file: str | None, exhibits: bool, html: Path | None, **given: Any) -
     """Answer structural questions about the system in FILE in floating point and exactly.
 
     Each floating-point verdict comes from a library's own function with its default tolerance; the
-    table quotes the call. The last line gives an upper limit, computed in floating point, on the
-    distance to a system with a fixed mode.
+    table quotes the call. The last table has a plant near a small system that has a fixed
+    mode, which is decided exactly.
     """
     from mcexact.cli.files import require_writable
     from mcexact.cli.output import emit, emit_json

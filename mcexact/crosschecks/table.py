@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from mcexact.analysis.boxes.failing_plants import FailingPlant
+from mcexact.analysis.boxes.largest_box import nearest_fixed
 from mcexact.analysis.engine import strong_components
 from mcexact.analysis.fixed_modes.completeness import completeness
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
@@ -18,14 +21,13 @@ from mcexact.analysis.structure.controllability_indices import (
 from mcexact.analysis.structure.transfer_graph import transfer_graph
 from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.crosschecks.records import Libraries, libraries_here
-from mcexact.errors import InputError
+from mcexact.errors import InputError, LimitReached
 from mcexact.exact.floats import matrix_to_float
 from mcexact.exact.linear_algebra import characteristic_polynomial
 from mcexact.exact.location import StabilityRegion
 from mcexact.floating import anderson_clements, controllability, fixed_modes, margins
-from mcexact.floating.fixed_mode_distance import FixedModeDistance, fixed_mode_distance
 from mcexact.floating.transfer_graph import transfer_edges
-from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system import MultiChannelSystem, as_plant
 from mcexact.shown import Shown, grid
 
 if TYPE_CHECKING:
@@ -36,6 +38,8 @@ if TYPE_CHECKING:
 
 _SEED = 0
 _DIGITS = (6, 8, 10)
+_TRIES, _SMALL = 3, 12
+"""Tries for a plant nearby with a fixed mode, and the states up to which one is searched."""
 
 
 @dataclass(frozen=True)
@@ -68,15 +72,15 @@ class CrossChecks(Shown):
     ----------
     system : MultiChannelSystem
     rows : tuple of CrossCheck
-    distance : FixedModeDistance or None
-        An upper bound, in floating point, on the distance to having a fixed mode.
+    nearest : FailingPlant or None
+        A plant nearby that has a fixed mode, which is decided exactly; None if none was found.
     libraries : Libraries
         The libraries that computed the floating-point answers.
     """
 
     system: MultiChannelSystem
     rows: tuple[CrossCheck, ...]
-    distance: FixedModeDistance | None
+    nearest: FailingPlant | None
     libraries: Libraries
 
     def __repr__(self) -> str:
@@ -171,13 +175,23 @@ def crosscheck(system: MultiChannelSystem) -> CrossChecks:
         *_graph(system, floats),
         _stability(system, floats),
     ]
-    distance = _answer(lambda: fixed_mode_distance(floats.A, floats.B, floats.C))
     return CrossChecks(
         system,
         tuple(rows),
-        None if isinstance(distance, _NoAnswer) else distance,
+        _nearest(system, spectrum),
         libraries_here(),
     )
+
+
+def _nearest(system: MultiChannelSystem, spectrum: FixedSpectrum) -> FailingPlant | None:
+    """The system itself if it has a fixed mode, or else a plant nearby that has one."""
+    plant = as_plant(system)
+    if not spectrum.empty:
+        return FailingPlant(plant, Fraction(0), 0j, spectrum.factors[0].channels)
+    try:
+        return nearest_fixed(plant, _TRIES) if plant.n <= _SMALL else None
+    except LimitReached:
+        return None
 
 
 @dataclass(frozen=True)

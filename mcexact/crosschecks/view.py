@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from fractions import Fraction
 from typing import Any
 
+from mcexact.answer.mode_words import blame
 from mcexact.crosschecks.gallery import Shown, shown_in
 from mcexact.crosschecks.records import Libraries
 from mcexact.crosschecks.table import CrossChecks
-from mcexact.exact.floats import finite
+from mcexact.exact.rational import written
+from mcexact.exact.shortened import rounded
 from mcexact.report.page import page
 from mcexact.report.plant import shown_plant
 from mcexact.report.text import Table
@@ -17,8 +20,8 @@ _WORDS = {True: "agree", False: "DISAGREE", None: "no answer"}
 
 
 def crosscheck_view(found: CrossChecks) -> dict[str, Any]:
-    """Every row, and the distance to a fixed mode, which is floating point and says so."""
-    distance = found.distance
+    """Every row, and a plant nearby that has a fixed mode."""
+    near = found.nearest
     return {
         "system": {"n": found.system.n, "m": found.system.m, "time": found.system.time},
         "rows": [
@@ -34,15 +37,12 @@ def crosscheck_view(found: CrossChecks) -> dict[str, Any]:
         "disagreements": [row.question for row in found.disagreements],
         "libraries": found.libraries.document(),
         "exhibits": exhibits_view(shown_in(found)),
-        "floating_point": {
-            "distance_to_fixed_mode": None
-            if distance is None
-            else {
-                "at_most": finite(distance.distance),
-                "mode": {"re": distance.mode.real, "im": distance.mode.imag},
-                "channels_that_could_act": list(found.system.named(distance.channels)),
-                "changed": distance.changed,
-            }
+        "fixed_mode_nearby": None
+        if near is None
+        else {
+            "within": written(near.distance),
+            "channels": list(near.channels),
+            "plant": near.plant.to_dict(),
         },
     }
 
@@ -65,25 +65,19 @@ def crosscheck_tables(found: CrossChecks) -> tuple[Table, ...]:
     recorded = shown_in(found)
     if recorded:
         tables += exhibit_tables(recorded)
-    distance = found.distance
-    if distance is not None:
-        names = ", ".join(found.system.named(distance.channels)) or "none"
-        mode = f"{distance.mode.real:.6g}"
-        if distance.mode.imag:
-            mode += f" ± {abs(distance.mode.imag):.6g}i"
-        changed = (
-            "A and the outputs of the other channels"
-            if distance.changed == "outputs"
-            else "A and the inputs of these channels"
-        )
+    near = found.nearest
+    if near is not None:
         lines = (
-            ("the mode", mode),
-            ("channels that could act on it", names),
-            ("distance, at most", f"{distance.distance:.3g}, by changing {changed}"),
+            ("changes of entries, at most", _part(near.distance)),
+            ("the mode that is fixed then", blame(near.channels, near.plant.names)),
         )
-        title = "distance to having a fixed mode, in floating point, not proved"
-        tables.append(Table(title, (), lines))
+        tables.append(Table("a plant nearby with a fixed mode, decided exactly", (), lines))
     return tuple(tables)
+
+
+def _part(distance: Fraction) -> str:
+    """How far entries change, beside the largest ones."""
+    return f"{rounded(distance)} times the largest entries of A, of all B_i and of all C_i"
 
 
 def exhibit_tables(shown: Sequence[Shown]) -> tuple[Table, ...]:

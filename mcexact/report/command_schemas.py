@@ -225,7 +225,9 @@ def crosscheck() -> Schema:
             "rows": rows(row),
             "disagreements": rows({}),
             "exhibits": rows({}),
-            "floating_point": {"type": "object"},
+            "fixed_mode_nearby": some(
+                record({"within": NUMBER, "channels": rows(TEXT), "plant": {"type": "object"}})
+            ),
         },
     )
 

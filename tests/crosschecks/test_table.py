@@ -3,6 +3,7 @@
 import pytest
 
 import mcexact
+from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
 from mcexact.crosschecks.table import crosscheck
 from mcexact.floating import controllability
 from mcexact.model.system import MultiChannelSystem
@@ -29,13 +30,19 @@ def test_every_call_is_quoted():
 
 
 def test_a_fixed_mode_is_at_distance_zero():
-    distance = crosscheck(three_channels()).distance
-    assert distance.distance < 1e-12 and abs(distance.mode - 1) < 1e-6
+    near = crosscheck(three_channels()).nearest
+    assert near is not None and near.distance == 0 and not fixed_spectrum(near.plant).empty
+
+
+def test_a_plant_nearby_has_a_fixed_mode():
+    found = crosscheck(PLAIN)
+    assert found.nearest is not None and 0 < found.nearest.distance <= 1
+    assert not fixed_spectrum(found.nearest.plant).empty
 
 
 def test_no_states_have_answers_too():
     found = crosscheck(MultiChannelSystem([], [[]], [[]]))
-    assert found.distance is None
+    assert found.nearest is None
     assert all(row.agree is not False for row in found.rows if row.question != "stability of A")
 
 

@@ -120,14 +120,14 @@ def test_the_cross_check_names_the_disagreements_and_what_answered(tmp_path):
     save_system(exhibit("weak-input").make(), tmp_path / "plant.json")
     answer = json.loads(run("crosscheck", str(tmp_path / "plant.json"), "--json").stdout)
     assert "joint controllability" in answer["disagreements"]
-    assert answer["floating_point"]["distance_to_fixed_mode"]["at_most"] < 1e-12
+    assert Fraction(answer["fixed_mode_nearby"]["within"]) < Fraction(1, 10**12)
     [recorded] = answer["exhibits"]
     assert recorded["exhibit"] == "weak-input"
     done = run("crosscheck", str(tmp_path / "plant.json"))
     assert done.status == 0
     assert f"{len(answer['disagreements'])} wrong in floating point" in done.stdout
     assert "numpy.linalg.matrix_rank(control.ctrb(A, B))" in done.stdout
-    assert "in floating point, not proved" in done.stdout
+    assert "a plant nearby with a fixed mode, decided exactly" in done.stdout
     assert "where floating point was recorded to be wrong" in done.stdout
 
 

@@ -1,40 +1,21 @@
-"""The perturbation that is handed out does make the obstruction exact, up to rounding."""
+"""The change that makes a number a fixed mode is not above what is known."""
 
-from typing import Any
+from __future__ import annotations
 
 import numpy as np
 import pytest
 
-from mcexact.floating.anderson_clements import pencil
-from mcexact.floating.fixed_mode_distance import fixed_mode_distance
+from mcexact.floating.fixed_mode_distance import distance_at
 
 
-@pytest.mark.parametrize("seed", range(8))
-def test_the_perturbed_system_has_the_fixed_mode(seed):
-    rng = np.random.default_rng(seed)
-    n, m = 5, 3
-    A: Any = rng.standard_normal((n, n))
-    B = [rng.standard_normal((n, 1)) for _ in range(m)]
-    C = [rng.standard_normal((1, n)) for _ in range(m)]
-    found = fixed_mode_distance(A, B, C)
-    moved: Any = [each + d for each, d in zip(B, found.dB, strict=True)]
-    seen: Any = [each + d for each, d in zip(C, found.dC, strict=True)]
-    outside = frozenset(range(m)) - frozenset(found.channels)
-    P = pencil(A + found.dA, moved, seen, outside, found.mode)
-    assert np.linalg.svd(P, compute_uv=False)[n - 1] < 1e-10
-    stacked = (
-        np.vstack([found.dA, *found.dC])
-        if found.changed == "outputs"
-        else np.hstack([found.dA, *found.dB])
-    )
-    assert np.linalg.norm(stacked, 2) == pytest.approx(found.distance, rel=1e-8)
-
-
-def test_it_is_not_above_the_distance_to_uncontrollability():
+def test_it_is_not_above_the_distance_to_uncontrollability() -> None:
     B, C = [np.array([[1.0], [1e-5]])], [np.eye(2)]
-    found = fixed_mode_distance(np.diag([1.0, 2.0]), B, C)
-    assert 0 < found.distance <= 1e-5
+    distance, channels = distance_at(np.diag([1.0, 2.0]), B, C, 2.0)
+    assert 0 < distance <= 1e-5 and channels == (0,)
 
 
-def test_no_states_have_no_mode_to_fix():
-    assert fixed_mode_distance(np.zeros((0, 0)), [np.zeros((0, 1))], [np.zeros((1, 0))]) is None
+def test_what_is_fixed_is_at_distance_zero() -> None:
+    A = np.array([[1.0, 0.0], [0.0, 2.0]])
+    B, C = [np.array([[1.0], [0.0]])] * 2, [np.eye(2)[:1], np.eye(2)[1:]]
+    assert distance_at(A, B, C, 2.0)[0] == pytest.approx(0, abs=1e-12)
+    assert distance_at(A, B, C, 1.0)[0] > 0.1

@@ -74,7 +74,9 @@ def failing_plant(
     region : StabilityRegion, optional
         The fixed mode is to be on its border, or outside.
     """
-    starts = sorted(_starts(system, radii, sets, region), key=lambda each: each[0])
+    starts = (
+        [] if tries < 1 else sorted(_starts(system, radii, sets, region), key=lambda each: each[0])
+    )
     best: FailingPlant | None = None
     for _, s, pencil, point, freedom in starts[:tries]:
         near = pencil.drop(point, freedom)

@@ -28,8 +28,11 @@ from mcexact.derived.dual import dual
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.floats import to_float
 from mcexact.exact.location import StabilityRegion
+from mcexact.exact.matrix import Matrix
+from mcexact.exact.size import largest_entry
 from mcexact.model.box import Box
 from mcexact.model.system import MultiChannelSystem
+from mcexact.model.uncertainty import Radii
 from mcexact.plot.uncertainty import uncertainty
 from mcexact.shown import Shown
 
@@ -204,6 +207,37 @@ def largest_uncertainty(
     unit = Box.relative(system, 1).system if relative else system
     with one_thread():
         return two_sided(_searches(unit, wanted), wanted, relative, effort)
+
+
+def nearest_fixed(system: MultiChannelSystem, tries: int) -> FailingPlant | None:
+    """Search a plant near a system that has a fixed mode, which is decided exactly.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        A plant without fixed modes.  Zeros may change, too: distances are parts of the largest
+        entries of A, of all B_i and of all C_i.
+    tries : int
+        How many sets of channels and modes are tried.
+
+    Examples
+    --------
+    >>> plant = MultiChannelSystem([[1, 0], [0, 2]], [[["1e-3"], [1]]], [[[1, 1]]])
+    >>> near = nearest_fixed(plant, 4)
+    >>> near is not None and near.distance < Fraction(1, 900)
+    True
+    """
+    radii = Radii(*(_of_sizes(given) for given in (system.A, system.B, system.C)))
+    with one_thread():
+        return nearest(_searches(Box(system, radii).system, "no fixed mode"), tries)[0]
+
+
+def _of_sizes(given: Any) -> Any:
+    """Matrices whose entries are all the largest modulus of one matrix, or of several."""
+    several = [given] if isinstance(given, Matrix) else list(given)
+    size = largest_entry(several)
+    found = [Matrix.from_rows([[size] * M.ncols] * M.nrows, M.ncols) for M in several]
+    return found[0] if isinstance(given, Matrix) else found
 
 
 def two_sided(search: Search, wanted: str, relative: bool, effort: float) -> LargestUncertainty:
