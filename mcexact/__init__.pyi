@@ -52,6 +52,7 @@ from .analysis.structure.controllability_indices import (
 )
 from .analysis.structure.exceptional_gains import ExceptionalGains as ExceptionalGains
 from .analysis.structure.exceptional_gains import exceptional_gains as exceptional_gains
+from .analysis.structure.parametric_ranks import signal_solvability as signal_solvability
 from .analysis.structure.setpoint import setpoint_solvability as setpoint_solvability
 from .analysis.structure.transfer_graph import transfer_graph as transfer_graph
 from .answer.assignability import Assignability as Assignability

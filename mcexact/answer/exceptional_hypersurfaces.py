@@ -16,6 +16,7 @@ from mcexact.answer.parametric_rank import (
     ControllabilityMatrix,
     ParametricRank,
     SetpointMatrix,
+    SignalMatrix,
     TransferColumn,
 )
 from mcexact.exact.rational import rational_latex, rational_text
@@ -281,13 +282,13 @@ class RankHypersurfaces(Hypersurfaces[ParametricRank]):
 
     Attributes
     ----------
-    matrix : SetpointMatrix, ControllabilityMatrix or TransferColumn
+    matrix : SetpointMatrix, SignalMatrix, ControllabilityMatrix or TransferColumn
         How it is made.
     rank : int
         The rank for almost all values.
     """
 
-    matrix: SetpointMatrix | ControllabilityMatrix | TransferColumn
+    matrix: SetpointMatrix | SignalMatrix | ControllabilityMatrix | TransferColumn
     rank: int
 
     @property

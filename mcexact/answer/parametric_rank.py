@@ -25,6 +25,23 @@ class SetpointMatrix(Part):
 
 
 @dataclass(frozen=True)
+class SignalMatrix(Part):
+    """[I⊗A − K⊗I, I⊗B; I⊗C, 0] with all channels, K the companion matrix of a polynomial.
+
+    Its rows are independent iff those of [A − λI, B; C, 0] are at every root λ of the polynomial.
+
+    Attributes
+    ----------
+    polynomial : Polynomial
+        Monic, of degree 1 or more: s² + 4 for sinusoids of the angular frequency 2 in continuous
+        time.
+    """
+
+    polynomial: Polynomial
+    name: str = "signal"
+
+
+@dataclass(frozen=True)
 class ControllabilityMatrix(Part):
     """[B_T, A B_T, …, A^(k−1) B_T].
 
@@ -114,7 +131,7 @@ class ParametricRank(Answer):
 
     Attributes
     ----------
-    matrix : SetpointMatrix, ControllabilityMatrix or TransferColumn
+    matrix : SetpointMatrix, SignalMatrix, ControllabilityMatrix or TransferColumn
         How M is made.
     rank : int
         r, the rank at almost all values.
@@ -126,7 +143,7 @@ class ParametricRank(Answer):
     """
 
     about: ParametricSystem  # type: ignore[assignment]
-    matrix: SetpointMatrix | ControllabilityMatrix | TransferColumn = claim("matrix")
+    matrix: SetpointMatrix | SignalMatrix | ControllabilityMatrix | TransferColumn = claim("matrix")
     rank: int = claim("rank")
     exceptional: tuple[LowerRank, ...] = claim("exceptional values")
     outside: tuple[OutsideValue, ...] = claim("values out of range")

@@ -1,13 +1,28 @@
 """Matrices of polynomials in a parameter that are made from a plant, by name."""
 
 from . import layered
-from .arithmetic import Matrix, beside, stack
+from .arithmetic import Matrix, Polynomial, beside, stack
 from .budget import counted
 from .parametric_system import Layers, ParametricSystem
-from .reading import Json, fields, integer, malformed, names, require, shown, string
-from .statement import channel_set, quoted
+from .reading import (
+    Json,
+    fields,
+    integer,
+    malformed,
+    names,
+    polynomial,
+    require,
+    shown,
+    string,
+)
+from .statement import channel_set, polynomial_text, quoted
 
-KEYS = {"setpoint": (), "controllability": ("channels", "blocks"), "transfer": ("from", "to")}
+KEYS = {
+    "setpoint": (),
+    "signal": ("polynomial",),
+    "controllability": ("channels", "blocks"),
+    "transfer": ("from", "to"),
+}
 
 
 def named_matrix(value: Json, system: ParametricSystem) -> Layers:
@@ -23,7 +38,9 @@ def named_matrix(value: Json, system: ParametricSystem) -> Layers:
         malformed(place, f"expected the name of a matrix, found {shown(name)}")
     _, *parts = fields(value, place, "name", *KEYS[name])
     if name == "setpoint":
-        return _equilibria(system)
+        return _signals([-1 if system.time == "discrete" else 0, 1], system)
+    if name == "signal":
+        return _signals(polynomial(parts[0], f"{place}.polynomial", 1), system)
     if name == "controllability":
         T, k = names(parts[0], place, system.names), integer(parts[1], place, 1)
         require(k <= max(system.n, 1), "claim", place, f"expected at most {system.n} blocks")
@@ -41,15 +58,26 @@ def named_matrix(value: Json, system: ParametricSystem) -> Layers:
     return _below_each_other(columns, 1)
 
 
-def _equilibria(system: ParametricSystem) -> Layers:
-    """[A', B'; C', 0], in discrete time [A' − δI, B'; C', 0]."""
-    n, A = system.n, system.A
-    if system.time == "discrete":
-        identity = Matrix.unit_rows(n, 0, n)
-        A = layered.difference(A, [identity.times(c) for c in system.poles[0]])
+def _signals(p: Polynomial, system: ParametricSystem) -> Layers:
+    """[I x A' - K x δI, I x B'; I x C', 0], K the companion matrix of p, which is monic."""
+    n, d = system.n, len(p) - 1
     B, C = _side_by_side(list(system.B), n), _below_each_other(list(system.C), n)
-    lower = _side_by_side([C, [Matrix.zeros(C[0].nrows, B[0].ncols)]], C[0].nrows)
-    return _below_each_other([_side_by_side([A, B], n), lower], n + B[0].ncols)
+    identity, q = Matrix.unit_rows(n, 0, n), C[0].nrows
+    blank = {ends: [Matrix.zeros(*ends)] for ends in ((n, B[0].ncols), (q, n), (q, B[0].ncols))}
+    upper, lower = [], []
+    for i in counted(range(d)):
+        row: list[Layers] = []
+        for j in counted(range(d)):
+            # the entry of -K: -1 below the diagonal, the coefficients of p in the last column
+            c = (p[i] if j == d - 1 else 0) - (j == i - 1)
+            block = [identity.times(-c * value) for value in system.poles[0]]
+            start = system.A if i == j else [Matrix.zeros(n, n)]
+            row.append(layered.difference(start, block))
+        inputs = [B if i == j else blank[n, B[0].ncols] for j in range(d)]
+        upper.append(_side_by_side([*row, *inputs], n))
+        outputs = [C if i == j else blank[q, n] for j in range(d)]
+        lower.append(_side_by_side([*outputs, *[blank[q, B[0].ncols]] * d], q))
+    return _below_each_other([*upper, *lower], d * (n + B[0].ncols))
 
 
 def _side_by_side(parts: list[Layers], nrows: int) -> Layers:
@@ -72,6 +100,10 @@ def named_text(value: Json, system: ParametricSystem) -> str:
     if value["name"] == "setpoint":
         shift = " - I" if system.time == "discrete" else ""
         return f"[A{shift}, B; C, 0], B and C those of all channels,"
+    if value["name"] == "signal":
+        p = polynomial_text(value["polynomial"], "s")
+        ports = "B and C those of all channels, x the Kronecker product"
+        return f"[I x A - K x I, I x B; I x C, 0], {ports}, K the companion matrix of {p},"
     if value["name"] == "controllability":
         inputs = f"B the inputs of the channels {channel_set(value['channels'])}"
         return f"[B, A B, ..., A^(k-1) B], {inputs} and k = {value['blocks']},"

@@ -49,6 +49,32 @@ def test_the_matrix_of_setpoints() -> None:
     assert at_two(named, EMPTY) == []
 
 
+def test_the_matrix_of_signals() -> None:
+    named = {"name": "signal", "polynomial": ["-1/2", 4, 1]}
+    half = Fraction(1, 2)
+    states = [
+        [6, 3, -3 * half, 0, 1, 0, 2, 0, 0, 0],
+        [0, 1, 0, -3 * half, 2, 3, 0, 0, 0, 0],
+        [-3, 0, 18, 3, 0, 0, 0, 1, 0, 2],
+        [0, -3, 0, 13, 0, 0, 0, 2, 3, 0],
+    ]
+    C, zero = [[1, 0], [0, 4], [1, 1], [2, 0]], [0] * 6
+    outputs = [[*row, 0, 0, *zero] for row in C] + [[0, 0, *row, *zero] for row in C]
+    assert at_two(named) == at_two(named, SAMPLED) == states + outputs
+    assert at_two({"name": "signal", "polynomial": [0, 1]}) == at_two({"name": "setpoint"})
+    sampled = at_two({"name": "signal", "polynomial": [-1, 1]}, SAMPLED)
+    assert sampled == at_two({"name": "setpoint"}, SAMPLED)
+    assert at_two(named, EMPTY) == []
+
+
+@pytest.mark.parametrize("polynomial", [[1], [], [1, 2], [1.0, 1], ["x", 1], 3])
+def test_a_signal_has_a_monic_polynomial_with_roots(polynomial: Any) -> None:
+    with pytest.raises(Refused) as found:
+        named_matrix({"name": "signal", "polynomial": polynomial}, read(PLANT))
+    assert found.value.verdict == "MALFORMED"
+    assert found.value.place.startswith("claim.matrix.polynomial")
+
+
 def controllability(channels: list[str], blocks: Any) -> Any:
     return {"name": "controllability", "channels": channels, "blocks": blocks}
 
@@ -83,6 +109,7 @@ def test_the_column_of_a_transfer() -> None:
         ({}, "MALFORMED"),
         ("setpoint", "MALFORMED"),
         ({"name": "setpoint", "blocks": 1}, "MALFORMED"),
+        ({"name": "signal"}, "MALFORMED"),
         (controllability(["2", "1"], 1), "MALFORMED"),
         (controllability(["1"], 0), "MALFORMED"),
         (controllability(["1"], 3), "INVALID"),
@@ -109,6 +136,10 @@ def test_matrices_have_words() -> None:
 
     assert said({"name": "setpoint"}) == "[A, B; C, 0], B and C those of all channels,"
     assert said({"name": "setpoint"}, SAMPLED) == "[A - I, B; C, 0], B and C those of all channels,"
+    assert said({"name": "signal", "polynomial": [4, 0, 1]}) == (
+        "[I x A - K x I, I x B; I x C, 0], B and C those of all channels, x the Kronecker product, "
+        "K the companion matrix of s^2 + 4,"
+    )
     assert said(controllability(["1", "3"], 2)) == (
         '[B, A B, ..., A^(k-1) B], B the inputs of the channels {"1", "3"} and k = 2,'
     )

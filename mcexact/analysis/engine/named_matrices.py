@@ -9,10 +9,12 @@ from typing import Any
 from mcexact.answer.parametric_rank import (
     ControllabilityMatrix,
     SetpointMatrix,
+    SignalMatrix,
     TransferColumn,
 )
+from mcexact.exact.polynomial import Polynomial
 
-Named = SetpointMatrix | ControllabilityMatrix | TransferColumn
+Named = SetpointMatrix | SignalMatrix | ControllabilityMatrix | TransferColumn
 Rows = list[list[Any]]
 
 
@@ -28,8 +30,10 @@ class Entries:
         The rows of A', and of each B_i' and C_i'.
     widths : sequence of int
         The number of columns of each B_i'.
-    shift : polynomial
-        What is subtracted on the diagonal of A' for equilibria: 0, or in discrete time δ.
+    scale : polynomial
+        δ.
+    steady : int
+        The mode of constant signals: 0, or in discrete time 1.
     zero : polynomial
     product : callable
         Multiplies two matrices.
@@ -40,7 +44,8 @@ class Entries:
     B: Sequence[Rows]
     C: Sequence[Rows]
     widths: Sequence[int]
-    shift: Any
+    scale: Any
+    steady: int
     zero: Any
     product: Callable[[Rows, Rows], Rows]
 
@@ -50,13 +55,8 @@ class Entries:
             return self._controllability(named)
         if isinstance(named, TransferColumn):
             return self._transfer(named)
-        width = sum(self.widths)
-        upper = [
-            [entry - self.shift if i == j else entry for j, entry in enumerate(row)]
-            + [entry for M in self.B for entry in M[i]]
-            for i, row in enumerate(self.A)
-        ]
-        return upper + [[*row, *[self.zero] * width] for M in self.C for row in M]
+        p = Polynomial.of(-self.steady, 1)
+        return self._signal(named.polynomial if isinstance(named, SignalMatrix) else p)
 
     def columns(self, named: Named) -> int:
         """How many columns it has."""
@@ -65,7 +65,31 @@ class Entries:
         if isinstance(named, ControllabilityMatrix):
             pairs = zip(self.names, self.widths, strict=True)
             return named.blocks * sum(width for name, width in pairs if name in named.channels)
-        return len(self.A) + sum(self.widths)
+        times = named.polynomial.degree if isinstance(named, SignalMatrix) else 1
+        return times * (len(self.A) + sum(self.widths))
+
+    def _signal(self, p: Polynomial) -> Rows:
+        """[I⊗A' − K⊗δI, I⊗B'; I⊗C', 0], K the companion matrix of p."""
+        d, n, width = p.degree, len(self.A), sum(self.widths)
+        inputs = [[entry for M in self.B for entry in M[k]] for k in range(n)]
+        outputs = [row for M in self.C for row in M]
+        upper, lower = [], []
+        for i in range(d):
+            for k, row in enumerate(self.A):
+                made = [self.zero] * (d * (n + width))
+                made[i * n : (i + 1) * n] = row
+                if i:
+                    made[(i - 1) * n + k] = made[(i - 1) * n + k] - self.scale
+                last = (d - 1) * n + k
+                c = p.coefficients[i]
+                made[last] = made[last] + self.scale * c.numerator / c.denominator
+                made[d * n + i * width : d * n + (i + 1) * width] = inputs[k]
+                upper.append(made)
+            for row in outputs:
+                made = [self.zero] * (d * (n + width))
+                made[i * n : (i + 1) * n] = row
+                lower.append(made)
+        return upper + lower
 
     def _controllability(self, named: ControllabilityMatrix) -> Rows:
         chosen = [B for B, name in zip(self.B, self.names, strict=True) if name in named.channels]

@@ -15,7 +15,7 @@ from mcexact.exact import two_variables
 from mcexact.exact.enclosures import root_discs
 from mcexact.exact.function_kernels import Kernel as Columns
 from mcexact.exact.function_kernels import entries_of, matrix_of
-from mcexact.exact.location import is_discrete
+from mcexact.exact.location import steady_point
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.modular import primes
 from mcexact.exact.parameter_matrices import (
@@ -40,7 +40,7 @@ def parametric_rank(system: ParametricSystem, matrix: Named) -> ParametricRank:
     ----------
     system : ParametricSystem
         With one parameter.
-    matrix : SetpointMatrix, ControllabilityMatrix or TransferColumn
+    matrix : SetpointMatrix, SignalMatrix, ControllabilityMatrix or TransferColumn
 
     Notes
     -----
@@ -164,7 +164,8 @@ def _entries(system: PolynomialSystem) -> Entries:
         B=[entries_of(M) for M in system.B],
         C=[entries_of(M) for M in system.C],
         widths=[M.ncols for M in system.B],
-        shift=system.scale._rational if is_discrete(system.system.time) else ZERO,
+        scale=system.scale._rational,
+        steady=steady_point(system.system.time),
         zero=ZERO,
         product=product,
     )

@@ -16,7 +16,7 @@ from mcexact.derived.modular_system import generator
 from mcexact.derived.moved_entries import moved
 from mcexact.errors import LimitReached
 from mcexact.exact import several_variables
-from mcexact.exact.location import is_discrete
+from mcexact.exact.location import steady_point
 from mcexact.exact.modular import ModularMatrix, primes
 from mcexact.model.parametric import ParametricSystem
 
@@ -40,7 +40,7 @@ def rank_hypersurfaces(
     Parameters
     ----------
     system : ParametricSystem
-    matrix : SetpointMatrix, ControllabilityMatrix or TransferColumn
+    matrix : SetpointMatrix, SignalMatrix, ControllabilityMatrix or TransferColumn
     observed : bool
         Whether it is made from the dual system.
 
@@ -98,7 +98,8 @@ def _entries(system: ParametricSystem) -> Entries:
         B=[several_variables.cleared(c.B, names)[0] for c in system.channels],
         C=[several_variables.cleared(c.C, names)[0] for c in system.channels],
         widths=[c.B.ncols for c in system.channels],
-        shift=scale if is_discrete(system.time) else zero,
+        scale=scale,
+        steady=steady_point(system.time),
         zero=zero,
         product=partial(several_variables.product, zero=zero),
     )

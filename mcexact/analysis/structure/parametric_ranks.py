@@ -7,9 +7,16 @@ from typing import TypeVar
 
 from mcexact.analysis.engine import parametric_rank, rank_for_all_values, rank_hypersurfaces
 from mcexact.answer.exceptional_hypersurfaces import RankHypersurfaces
-from mcexact.answer.parametric_rank import ControllabilityMatrix, ParametricRank, SetpointMatrix
+from mcexact.answer.parametric_rank import (
+    ControllabilityMatrix,
+    ParametricRank,
+    SetpointMatrix,
+    SignalMatrix,
+)
 from mcexact.derived.dual import dual
 from mcexact.derived.moved_entries import moved
+from mcexact.errors import InputError
+from mcexact.exact.polynomial import Polynomial
 from mcexact.model.parametric import ParametricSystem
 
 R = TypeVar("R", ParametricRank, RankHypersurfaces)
@@ -31,6 +38,46 @@ def parametric_setpoints(system: ParametricSystem) -> ParametricRank:
 def setpoint_rank(system: ParametricSystem) -> ParametricRank | RankHypersurfaces:
     """The same for one parameter or several."""
     return rank_for_all_values(system, SetpointMatrix())
+
+
+def signal_solvability(
+    system: ParametricSystem, signal: Polynomial
+) -> ParametricRank | RankHypersurfaces:
+    """Decide for which values of parameters all outputs can track the signals of a polynomial.
+
+    Parameters
+    ----------
+    system : ParametricSystem
+    signal : Polynomial
+        Its roots are the modes of the signals: s for steps and ramps, s² + ω² for sinusoids of the
+        angular frequency ω, in discrete time z − 1 for steps.  Multiplicities do not matter.
+
+    Returns
+    -------
+    ParametricRank or RankHypersurfaces
+        The rank of [I⊗A − K⊗I, I⊗B; I⊗C, 0], K the companion matrix of the polynomial, of degree d:
+        where it is d (n + Σ q_i), and nowhere else, [A − λI, B; C, 0] has independent rows at every
+        root λ, so that every reference and every disturbance of these signals has a steady state.
+
+    Notes
+    -----
+    Exact.  With one parameter the certificate is about all values; with several there is one along
+    each line.
+
+    Examples
+    --------
+    >>> A = [[0, 1, 0], [0, 0, 1], [-1, -3, -3]]
+    >>> plant = ParametricSystem(A, [[[0], [0], [1]]], [[["t", 0, 1]]], parameters=["t"])
+    >>> signal_solvability(plant, Polynomial.of(4, 0, 1)).words
+    ('rank 8 for almost every t', 'rank 6 where t = 4')
+    >>> signal_solvability(plant, Polynomial.of(0, 1)).words
+    ('rank 4 for almost every t', 'rank 3 where t = 0')
+    """
+    InputError.require(system, ParametricSystem, "system")
+    InputError.require(signal, Polynomial, "signal")
+    if signal.degree < 1:
+        raise InputError(f"expected a polynomial with roots, found {signal}", where="signal")
+    return rank_for_all_values(system, SignalMatrix(signal.monic()))
 
 
 def parametric_indices(

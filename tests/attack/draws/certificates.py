@@ -17,7 +17,12 @@ from mcexact.analysis.sharing import deficiency as deficiency_module
 from mcexact.analysis.sharing.deficiency import deficiency
 from mcexact.analysis.structure import controllability, transfer_graph
 from mcexact.answer import codec
-from mcexact.answer.parametric_rank import ControllabilityMatrix, SetpointMatrix, TransferColumn
+from mcexact.answer.parametric_rank import (
+    ControllabilityMatrix,
+    SetpointMatrix,
+    SignalMatrix,
+    TransferColumn,
+)
 from mcexact.answer.reading import constructed
 from mcexact.errors import McexactError
 from mcexact.exact.location import StabilityRegion
@@ -163,6 +168,10 @@ DECISIONS: Mapping[str, Callable[[random.Random, MultiChannelSystem], Found]] = 
 }
 
 
+SIGNALS = ((1, 0, 1), (0, 1), (-1, 0, 1), ("1/2", -1, 1))
+"""Polynomials of signals, constant term first."""
+
+
 def _rank(rng: random.Random, system: ParametricSystem) -> Found:
     some = tuple(name for name in system.names if rng.random() < 0.7)
     return parametric_rank(
@@ -170,6 +179,7 @@ def _rank(rng: random.Random, system: ParametricSystem) -> Found:
         rng.choice(
             (
                 SetpointMatrix(),
+                SignalMatrix(Polynomial.of(*rng.choice(SIGNALS))),
                 ControllabilityMatrix(some, rng.randint(1, max(system.n, 1))),
                 TransferColumn(rng.choice(system.names), rng.choice(system.names)),
             )

@@ -79,6 +79,8 @@ def other_matrix(rng: random.Random, document: Document) -> Forged:
             matrix["blocks"] = max(matrix["blocks"] + rng.choice((1, -1)), 1)
         else:
             matrix["channels"] = [name for name in names if rng.random() < 0.5]
+    elif matrix["name"] == "signal":
+        matrix["polynomial"][0] = rng.choice((0, 1, -1, 4))
     else:
         document["claim"]["matrix"] = {"name": "controllability", "channels": names, "blocks": 1}
     return document

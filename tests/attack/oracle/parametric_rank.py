@@ -24,7 +24,7 @@ from .parametric import (
 )
 from .reading import Unspecified, demand, integer, listed, place, positions, record
 from .roots import discs_hold
-from .words import channels, name
+from .words import channels, name, polynomial_text
 
 Rows = list[list[fmpq_poly]]
 MOST = 300
@@ -148,6 +148,23 @@ def _matrix(value: Any, plant: ParametricPlant) -> tuple[Rows, int]:
         ]
         rows += [[*row, *[fmpq_poly([])] * width] for M, _, _ in C for row in M]
         return rows, n + width
+    if value.get("name") == "signal":
+        record(value, "name", "polynomial")
+        p = monic(value["polynomial"])
+        d, width = p.degree(), sum(b for _, _, b in B)
+        zero, unit = fmpq_poly([]), fmpq_poly([1])
+        K = [[unit if j == i - 1 else zero for j in range(d)] for i in range(d)]
+        for i in range(d):
+            K[i][d - 1] = K[i][d - 1] - fmpq_poly([p[i]])
+        I = [[unit if i == j else zero for j in range(d)] for i in range(d)]
+        states = [
+            [a - b for a, b in zip(*pair, strict=True)]
+            for pair in zip(_kronecker(I, A), _kronecker(K, _scalar(n, delta)), strict=True)
+        ]
+        inputs = _kronecker(I, [[e for M, _, _ in B for e in M[i]] for i in range(n)])
+        outputs = _kronecker(I, [row for M, _, _ in C for row in M])
+        rows = [[*a, *b] for a, b in zip(states, inputs, strict=True)]
+        return rows + [[*c, *[zero] * (d * width)] for c in outputs], d * (n + width)
     if value.get("name") == "controllability":
         record(value, "name", "channels", "blocks")
         T, k = positions(value["channels"], plant.names), integer(value["blocks"], 1)
@@ -170,12 +187,24 @@ def _matrix(value: Any, plant: ParametricPlant) -> tuple[Rows, int]:
     return rows, 1
 
 
+def _scalar(n: int, value: fmpq_poly) -> Rows:
+    return [[value if i == j else fmpq_poly([]) for j in range(n)] for i in range(n)]
+
+
+def _kronecker(left: Rows, right: Rows) -> Rows:
+    return [[a * b for a in row for b in other] for row in left for other in right]
+
+
 def rank_sentence(claim: Any, plant: ParametricPlant) -> str:
     """The sentence of the kind."""
     matrix = claim["matrix"]
     if matrix["name"] == "setpoint":
         shift = " - I" if plant.time == "discrete" else ""
         named = f"[A{shift}, B; C, 0], B and C those of all channels,"
+    elif matrix["name"] == "signal":
+        ports = "B and C those of all channels, x the Kronecker product"
+        p = polynomial_text(matrix["polynomial"], "s")
+        named = f"[I x A - K x I, I x B; I x C, 0], {ports}, K the companion matrix of {p},"
     elif matrix["name"] == "controllability":
         inputs = f"B the inputs of the channels {channels(matrix['channels'])}"
         named = f"[B, A B, ..., A^(k-1) B], {inputs} and k = {matrix['blocks']},"
