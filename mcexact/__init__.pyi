@@ -81,6 +81,10 @@ from .answer.exceptional_hypersurfaces import RankHypersurfaces as RankHypersurf
 from .answer.fixed_spectrum import FixedFactor as FixedFactor
 from .answer.fixed_spectrum import FixedSpectrum as FixedSpectrum
 from .answer.neighbor_graph import NeighborGraphVerdict as NeighborGraphVerdict
+from .answer.parametric_box_controllable import (
+    ParametricBoxControllability as ParametricBoxControllability,
+)
+from .answer.parametric_box_fixed import ParametricBoxFixedModes as ParametricBoxFixedModes
 from .answer.parametric_fixed_spectrum import ExceptionalValue as ExceptionalValue
 from .answer.parametric_fixed_spectrum import ParametricFixedSpectrum as ParametricFixedSpectrum
 from .answer.parametric_rank import LowerRank as LowerRank

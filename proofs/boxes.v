@@ -183,6 +183,77 @@ by move: far; rewrite (bigD1 i)//= mulrBr ltr_subr_addl [r i + _]addrC.
 Qed.
 End Discs.
 
+(* Members that differ along given matrices as well, each times a factor of at most 1: entries that depend on the same
+   parameters. *)
+Section Tied.
+Variables (C : numFieldType) (c lambda rho : C) (K : nat) (p : 'I_K -> C).
+Hypotheses (inside : `|lambda - c| <= rho) (p1 : forall k, `|p k| <= 1).
+
+Lemma tied_sum (a : C) (b : 'I_K -> C) : `|a + \sum_k p k * b k| <= `|a| + \sum_k `|b k|.
+Proof.
+apply: le_trans (ler_norm_add _ _) _; rewrite ler_add2l (le_trans (ler_norm_sum _ _ _))// ler_sum// => k _.
+by rewrite normrM ler_pimull.
+Qed.
+
+Lemma moved_along m n (E Z : 'M[C]_(m, n)) (S : 'I_K -> 'M[C]_(m, n)) :
+  c *: E - (Z + \sum_k p k *: S k) = (c *: E - Z) - \sum_k p k *: S k.
+Proof. by rewrite opprD addrA. Qed.
+
+(* Rule "regular disc", where entries depend on the same parameters. *)
+Theorem regular_disc_left_tied n (V Z Z' E D : 'M[C]_n) (S : 'I_K -> 'M[C]_n) (w : 'I_n -> C) :
+  (forall i, 0 < w i) -> (forall i j, `|(Z' - (Z + \sum_k p k *: S k)) i j| <= D i j) ->
+  (forall i, \sum_j `|(i == j)%:R - (V *m (c *: E - Z)) i j| * w j +
+    \sum_j (\matrix_(i, j) (\sum_k `|V i k| * D k j + \sum_k `|(V *m S k) i j|)) i j * w j +
+    rho * (\sum_j `|(V *m E) i j| * w j) < w i) -> lambda *: E - Z' \in unitmx.
+Proof.
+move=> w0 within small; apply: (regular_disc_left (V := V) inside w0 within) => i.
+apply: le_lt_trans (small i); rewrite ler_add2r -!big_split ler_sum// => j _ /=.
+have -> : (V *m (c *: E - (Z + \sum_k p k *: S k))) i j =
+    (V *m (c *: E - Z)) i j - \sum_k p k * (V *m S k) i j.
+  rewrite moved_along mulmxBr mulmx_sumr; move: (V *m (c *: E - Z)) => A; rewrite mxE [X in _ + X]mxE summxE.
+  by congr (_ - _); apply: eq_bigr => k _; rewrite -scalemxAr mxE.
+move: (V *m (c *: E - Z)) => A; rewrite -!mulrDl ler_wpmul2r ?(ltW (w0 j))// opprB.
+rewrite addrCA addrC ![(\matrix_(_, _) _) i j]mxE [X in _ <= X]addrCA ler_add2l [X in `|X|]addrC.
+exact: tied_sum.
+Qed.
+
+Theorem regular_disc_right_tied n m (R : 'M[C]_(m, n)) (Z Z' E D : 'M[C]_(n, m)) (S : 'I_K -> 'M[C]_(n, m))
+  (w : 'I_n -> C) :
+  (forall i, 0 < w i) -> (forall i j, `|(Z' - (Z + \sum_k p k *: S k)) i j| <= D i j) ->
+  (forall i, \sum_j `|(i == j)%:R - ((c *: E - Z) *m R) i j| * w j +
+    \sum_j (\matrix_(i, j) (\sum_k D i k * `|R k j| + \sum_k `|(S k *m R) i j|)) i j * w j +
+    rho * (\sum_j `|(E *m R) i j| * w j) < w i) -> \rank (lambda *: E - Z') = n.
+Proof.
+move=> w0 within small; apply: (regular_disc_right (R := R) inside w0 within) => i.
+apply: le_lt_trans (small i); rewrite ler_add2r -!big_split ler_sum// => j _ /=.
+have -> : ((c *: E - (Z + \sum_k p k *: S k)) *m R) i j =
+    ((c *: E - Z) *m R) i j - \sum_k p k * (S k *m R) i j.
+  rewrite moved_along mulmxBl mulmx_suml; move: ((c *: E - Z) *m R) => A; rewrite mxE [X in _ + X]mxE summxE.
+  by congr (_ - _); apply: eq_bigr => k _; rewrite -scalemxAl mxE.
+move: ((c *: E - Z) *m R) => A; rewrite -!mulrDl ler_wpmul2r ?(ltW (w0 j))// opprB.
+rewrite addrCA addrC ![(\matrix_(_, _) _) i j]mxE [X in _ <= X]addrCA ler_add2l [X in `|X|]addrC.
+exact: tied_sum.
+Qed.
+
+Theorem exterior_tied n (Y T A A' D : 'M[C]_n) (S : 'I_K -> 'M[C]_n) (a rad : 'I_n -> C) :
+  (forall i j, `|(A' - (A + \sum_k p k *: S k)) i j| <= D i j) ->
+  let G := Y *m T in let H := Y *m A *m T in
+  let e i := \sum_j (\sum_l (\sum_k `|Y i k| * D k l) * `|T l j| + \sum_k `|(Y *m S k *m T) i j|) in
+  (forall i, 0 < `|G i i| - \sum_(j | j != i) `|G i j|) ->
+  (forall i, \sum_j `|a i * G i j - H i j| + e i < rad i * (`|G i i| - \sum_(j | j != i) `|G i j|)) ->
+  lambda%:M - A' \notin unitmx -> exists i, ~~ (rad i < `|lambda - a i|).
+Proof.
+move=> within G H e slack disc; apply: (exterior within (Y := Y) (T := T)) => // i.
+apply: le_lt_trans (disc i); rewrite /e big_split addrA addrAC ler_add2r -big_split ler_sum// => j _ /=.
+have -> : (Y *m (A + \sum_k p k *: S k) *m T) i j = H i j + \sum_k p k * (Y *m S k *m T) i j.
+  rewrite mulmxDr mulmxDl mulmx_sumr mulmx_suml -/H mxE summxE.
+  by congr (_ + _); apply: eq_bigr => k _; rewrite -scalemxAr -scalemxAl mxE.
+rewrite -/G opprD addrA -sumrN; under eq_bigr do rewrite -mulNr.
+apply: le_trans (ler_norm_add _ _) _; rewrite ler_add2l (le_trans (ler_norm_sum _ _ _))// ler_sum// => k _.
+by rewrite normrM normrN ler_pimull.
+Qed.
+End Tied.
+
 (* Rule "cover": a square of half side h is in the disc of radius rho around its center. *)
 Theorem square_in_disc (C : numClosedFieldType) (z h rho : C) : 0 <= rho -> h ^+ 2 *+ 2 <= rho ^+ 2 ->
   `|'Re z| <= h -> `|'Im z| <= h -> `|z| <= rho.

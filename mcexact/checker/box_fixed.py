@@ -7,6 +7,7 @@ from .exterior_discs import discs_of_gains
 from .reading import Json, fields, integer, items, malformed, matrices
 from .region import no_fixed_mode, read_bound
 from .regular_discs import Pencil, left_inverse
+from .system import System
 
 
 def check(claim: Json, witness: Json, box: Box) -> None:
@@ -20,9 +21,9 @@ def check(claim: Json, witness: Json, box: Box) -> None:
         witness, "witness", "exterior", "gains", "frames", "cover"
     )
     discs = discs_of_gains(exterior, "witness.exterior", box)
+    alone = Pencil(box.A, box.radii.A, box.n, [each.A for each in box.tied])
     given = enumerate(items(gains, "witness.gains"))
     pencils = [augmented(entry, f"witness.gains[{k}]", box) for k, entry in given]
-    alone = Pencil(box.A, box.radii.A, box.n)
     frames = []
     for k, entry in enumerate(items(listed, "witness.frames")):
         where = f"witness.frames[{k}]"
@@ -49,11 +50,14 @@ def augmented(value: Json, place: str, box: Box) -> Pencil:
         below = beside([stack(C, box.n), last], total)
         return stack([beside([A, *B], box.n), below], box.n + total)
 
-    XC = [(X_i @ C_i).times(-1) for X_i, C_i in zip(X, box.C, strict=True)]
+    def of(system: System, last: Matrix) -> Matrix:
+        XC = [(X_i @ C_i).times(-1) for X_i, C_i in zip(X, system.C, strict=True)]
+        return rows(system.A, system.B, XC, last)
+
     moved = [absolute(X_i) @ D_i for X_i, D_i in zip(X, box.radii.C, strict=True)]
-    Z = rows(box.A, box.B, XC, whole)
-    D = rows(box.radii.A, box.radii.B, moved, Matrix.zeros(total, total))
-    return Pencil(Z, D, box.n)
+    zeros = Matrix.zeros(total, total)
+    D = rows(box.radii.A, box.radii.B, moved, zeros)
+    return Pencil(of(box, whole), D, box.n, [of(each, zeros) for each in box.tied])
 
 
 def statement(claim: Json, box: Box) -> str:

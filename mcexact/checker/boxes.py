@@ -24,13 +24,22 @@ NONE = System("", [], Matrix.zeros(0, 0), [], [])
 class Box(System):
     """All systems with |A − A_0| ≤ D_A, |B_i − B_i0| ≤ D_Bi, |C_i − C_i0| ≤ D_Ci in every entry.
 
-    Its A, B_i and C_i are the values A_0, B_i0 and C_i0, ``radii`` has D_A, D_Bi and D_Ci.  For a
-    closed loop ``plant`` is the box in the loop, and ``programs`` the controller.
+    Its A, B_i and C_i are the values A_0, B_i0 and C_i0, ``radii`` has D_A, D_Bi and D_Ci.  Each of
+    ``tied`` may be added to the values with a factor from −1 to 1.  For a closed loop ``plant`` is
+    the box in the loop, and ``programs`` the controller.
     """
 
     radii: System = NONE
+    tied: tuple[System, ...] = ()
     plant: Box | None = None
     programs: Json = None
+
+    def independent(self) -> Box:
+        """A box without ties that contains all members."""
+        radii = self.radii
+        for each in self.tied:
+            radii = _combined(radii, _sizes(each), 1)
+        return replace(self, radii=radii, tied=())
 
     def outside(self, bound: Bound) -> Callable[[Cell], bool]:
         """Whether modes may be in a cell, or are those of another one by conjugation."""

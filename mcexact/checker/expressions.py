@@ -1,8 +1,12 @@
 """Entries with a parameter, such as "1/2 + 3*t^2", by the grammar of ``FORMAT.md``."""
 
+from __future__ import annotations
+
 import re
+from abc import ABC, abstractmethod
 from fractions import Fraction
 from itertools import zip_longest
+from typing import Generic, TypeVar
 
 from . import system_matrices
 from .arithmetic import Polynomial, poly_divide, poly_product, stripped
@@ -10,6 +14,7 @@ from .budget import fractions, limbs_of, spend
 from .reading import Json, Limits, malformed, shown
 from .statement import polynomial_text
 
+P = TypeVar("P")
 Function = tuple[Polynomial, Polynomial]
 """Numerator and monic denominator in lowest terms."""
 
@@ -21,12 +26,7 @@ LONGEST, DEEPEST = 100_000, 50
 
 def function(value: Json, place: str, parameter: str, limits: Limits | None) -> Function:
     """An entry: a number, or an expression."""
-    if type(value) is not str or system_matrices.NUMBER.fullmatch(value):
-        found = Fraction(system_matrices.number(value, place, limits))
-        return stripped([found]), [Fraction(1)]
-    if len(value) > LONGEST:
-        malformed(place, f"expected at most {LONGEST} characters")
-    return _Reader(value, place, parameter, limits).whole()
+    return _OneParameter(value, place, (parameter,), limits).whole()
 
 
 def function_text(value: Function, parameter: str) -> Json:
@@ -48,12 +48,23 @@ def common_divisor(a: Polynomial, b: Polynomial) -> Polynomial:
     return [c / b[-1] for c in b]
 
 
-class _Reader:
-    """The tokens of an expression, and those that are left."""
+class Reader(ABC, Generic[P]):
+    """The tokens of an expression, those that are left, and how polynomials are computed with."""
 
-    def __init__(self, text: str, place: str, parameter: str, limits: Limits | None) -> None:
-        self.place, self.parameter, self.limits, self.depth = place, parameter, limits, 0
-        self.tokens: list[str] = []
+    def __init__(
+        self, value: Json, place: str, parameters: tuple[str, ...], limits: Limits | None
+    ) -> None:
+        self.place, self.parameters, self.limits, self.depth = place, parameters, limits, 0
+        self.value, self.tokens = value, list[str]()
+
+    def whole(self) -> tuple[P, P]:
+        """All of the text, or the number that it is."""
+        text, place = self.value, self.place
+        if type(text) is not str or system_matrices.NUMBER.fullmatch(text):
+            found = Fraction(system_matrices.number(text, place, self.limits))
+            return self.number(found), self.number(Fraction(1))
+        if len(text) > LONGEST:
+            malformed(place, f"expected at most {LONGEST} characters")
         end, text = 0, text.rstrip(" ")
         spend(100 * len(text))
         while end < len(text):
@@ -62,33 +73,31 @@ class _Reader:
                 malformed(place, f"expected an expression, found {shown(text[end:])}")
             self.tokens.append(match[1])
             end = match.end()
-        self.tokens = [*self.tokens[::-1]]
-
-    def whole(self) -> Function:
-        """All of the text."""
+        self.tokens.reverse()
         result = self.sum()
         if self.tokens:
-            malformed(self.place, f"expected an operator, found {shown(self.tokens[-1])}")
+            malformed(place, f"expected an operator, found {shown(self.tokens[-1])}")
         return result
 
     def take(self, *choices: str) -> str:
         """The next token, which is then passed, if it is one of these."""
         return self.tokens.pop() if self.tokens and self.tokens[-1] in choices else ""
 
-    def sum(self) -> Function:
+    def sum(self) -> tuple[P, P]:
         """Products, added and subtracted."""
         self.depth += 1
         if self.depth > DEEPEST:
             malformed(self.place, f"more than {DEEPEST} sums inside each other")
         sign = self.take("-") or "+"
-        result = _negated(self.product()) if sign == "-" else self.product()
+        a, b = self.product()
+        result = (self.times(a, self.number(Fraction(-1))) if sign == "-" else a), b
         while sign := self.take("+", "-"):
             (a, b), (c, d) = result, self.product()
-            result = self.lowest([(a, d, "+"), (c, b, sign)], (b, d))
+            result = self.fraction([(a, d, "+"), (c, b, sign)], (b, d))
         self.depth -= 1
         return result
 
-    def product(self) -> Function:
+    def product(self) -> tuple[P, P]:
         """Powers, multiplied and divided."""
         a, b = self.power()
         while sign := self.take("*", "/"):
@@ -97,10 +106,10 @@ class _Reader:
                 if not c:
                     malformed(self.place, "division by 0")
                 c, d = d, c
-            a, b = self.lowest([(a, c, "+")], (b, d))
+            a, b = self.fraction([(a, c, "+")], (b, d))
         return a, b
 
-    def power(self) -> Function:
+    def power(self) -> tuple[P, P]:
         """An atom, perhaps with an exponent."""
         c, d = self.atom()
         if not self.take("^"):
@@ -108,58 +117,93 @@ class _Reader:
         digits = self.tokens.pop() if self.tokens else ""
         if not digits.isdigit() or len(digits) > 9:
             malformed(self.place, f"expected an exponent, found {shown(digits)}")
-        self.limit(int(digits) * max(len(c) - 1, len(d) - 1, 1))
-        return _power(c, int(digits)), _power(d, int(digits))
+        self.limit(int(digits) * max(self.degree(c), self.degree(d), 1))
+        return self.raised(c, int(digits)), self.raised(d, int(digits))
 
-    def atom(self) -> Function:
-        """A number, the parameter, or a sum in parentheses."""
+    def atom(self) -> tuple[P, P]:
+        """A number, a parameter, or a sum in parentheses."""
         token = self.tokens.pop() if self.tokens else ""
         if token == "(":
             result = self.sum()
             if not self.take(")"):
                 malformed(self.place, "expected a closing parenthesis")
             return result
-        if token == self.parameter:
-            return [Fraction(0), Fraction(1)], [Fraction(1)]
+        one = Fraction(1)
+        if token in self.parameters:
+            return self.parameter(token), self.number(one)
         if not token[:1].isdigit():
             malformed(self.place, f"expected a number or the parameter, found {shown(token)}")
-        return stripped([Fraction(system_matrices.number(token, self.place, self.limits))]), [
-            Fraction(1)
-        ]
+        number = Fraction(system_matrices.number(token, self.place, self.limits))
+        return self.number(number), self.number(one)
 
     def limit(self, degree: int) -> None:
         """Stop where a degree is too large."""
         if degree > MOST_DEGREE:
             malformed(self.place, f"the degree {degree} exceeds {MOST_DEGREE}")
 
-    def lowest(
-        self, terms: list[tuple[Polynomial, Polynomial, str]], below: tuple[Polynomial, Polynomial]
-    ) -> Function:
+    def fraction(self, terms: list[tuple[P, P, str]], below: tuple[P, P]) -> tuple[P, P]:
         """The sum or difference of products, over a product, in lowest terms."""
-        top: Polynomial = []
+        top = self.number(Fraction(0))
         for a, b, sign in terms:
-            self.limit(max(len(a) - 1, 0) + max(len(b) - 1, 0))
-            part = _product(a, b) if sign == "+" else _negated((_product(a, b), []))[0]
-            spend(fractions(len(part), limbs_of(part) + limbs_of(top)))
-            top = stripped([x + y for x, y in zip_longest(top, part, fillvalue=Fraction(0))])
-        self.limit(len(below[0]) + len(below[1]) - 2)
-        bottom = _product(*below)
+            self.limit(self.degree(a) + self.degree(b))
+            top = self.plus(top, self.times(a, b), sign)
+        self.limit(self.degree(below[0]) + self.degree(below[1]))
+        return self.lowest(top, self.times(*below))
+
+    def raised(self, p: P, exponent: int) -> P:
+        """A power."""
+        result = self.number(Fraction(1))
+        for bit in format(exponent, "b"):
+            result = self.times(result, result)
+            result = self.times(result, p) if bit == "1" else result
+        return result
+
+    @abstractmethod
+    def number(self, c: Fraction) -> P:
+        """A constant."""
+
+    @abstractmethod
+    def parameter(self, name: str) -> P:
+        """A parameter."""
+
+    @abstractmethod
+    def degree(self, p: P) -> int:
+        """The total degree, 0 of 0."""
+
+    @abstractmethod
+    def times(self, a: P, b: P) -> P:
+        """The product."""
+
+    @abstractmethod
+    def plus(self, a: P, b: P, sign: str) -> P:
+        """The sum, or the difference."""
+
+    @abstractmethod
+    def lowest(self, top: P, bottom: P) -> tuple[P, P]:
+        """A quotient in lowest terms, the leading coefficient of its denominator being 1."""
+
+
+class _OneParameter(Reader[Polynomial]):
+    """Polynomials by their coefficients, constant first."""
+
+    def number(self, c: Fraction) -> Polynomial:
+        return stripped([c])
+
+    def parameter(self, name: str) -> Polynomial:
+        return [Fraction(0), Fraction(1)]
+
+    def degree(self, p: Polynomial) -> int:
+        return max(len(p) - 1, 0)
+
+    def times(self, a: Polynomial, b: Polynomial) -> Polynomial:
+        return poly_product(a, b) if a and b else []
+
+    def plus(self, a: Polynomial, b: Polynomial, sign: str) -> Polynomial:
+        spend(fractions(len(b), limbs_of(a) + limbs_of(b)))
+        b = [-c for c in b] if sign == "-" else b
+        return stripped([x + y for x, y in zip_longest(a, b, fillvalue=Fraction(0))])
+
+    def lowest(self, top: Polynomial, bottom: Polynomial) -> Function:
         g = common_divisor(top, bottom)
         top, bottom = poly_divide(top, g)[0], poly_divide(bottom, g)[0]
         return [c / bottom[-1] for c in top], [c / bottom[-1] for c in bottom]
-
-
-def _negated(value: Function) -> Function:
-    return [-c for c in value[0]], value[1]
-
-
-def _power(p: Polynomial, exponent: int) -> Polynomial:
-    result: Polynomial = [Fraction(1)]
-    for bit in format(exponent, "b"):
-        result = _product(result, result)
-        result = _product(result, p) if bit == "1" else result
-    return result
-
-
-def _product(a: Polynomial, b: Polynomial) -> Polynomial:
-    return poly_product(a, b) if a and b else []

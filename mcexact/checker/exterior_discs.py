@@ -1,6 +1,7 @@
 """Discs that contain the spectrum of every member of a box, with gains; ``proofs/boxes.md``."""
 
 import math
+from collections.abc import Sequence
 from fractions import Fraction
 
 from . import budget
@@ -20,8 +21,10 @@ def discs_of_gains(value: Json, place: str, box: Box) -> list[list[Disc]]:
     for k, entry in enumerate(items(value, place)):
         where = f"{place}[{k}]"
         F, Y, T, listed = fields(entry, where, "F", "Y", "T", "discs")
-        A, D = (box.A, box.radii.A) if F is None else with_gains(F, f"{where}.F", box)
-        found.append(exterior_discs(Y, T, listed, where, A, D))
+        A, D, tied = box.A, box.radii.A, [each.A for each in box.tied]
+        if F is not None:
+            (A, D), tied = with_gains(F, f"{where}.F", box.independent()), []
+        found.append(exterior_discs(Y, T, listed, where, A, D, tied))
     if not found:
         malformed(place, "expected the discs of one matrix or more")
     return found
@@ -45,17 +48,28 @@ def with_gains(value: Json, place: str, box: Box) -> tuple[Matrix, Matrix]:
 
 
 def exterior_discs(
-    Y_given: Json, T_given: Json, listed: Json, place: str, A: Matrix, D: Matrix
+    Y_given: Json,
+    T_given: Json,
+    listed: Json,
+    place: str,
+    A: Matrix,
+    D: Matrix,
+    tied: Sequence[Matrix] = (),
 ) -> list[Disc]:
     """Discs outside of which Y(λI − A)T is strictly diagonally dominant for every member.
 
-    Theorem ``boxes.exterior``.
+    Each of ``tied`` is added to A with a factor from −1 to 1 of its own.
+
+    Theorems ``boxes.exterior``, ``boxes.exterior_tied``.
     """
     n = A.nrows
     Y = complex_matrix(Y_given, f"{place}.Y", n, n)
     T = complex_matrix(T_given, f"{place}.T", n, n)
     G, H = Y @ T, Y @ T.after(A)
-    e = Y.magnitudes() @ (D @ (T.magnitudes() @ Matrix([[1]] * n, 1)))
+    ones = Matrix([[1]] * n, 1)
+    e = Y.magnitudes() @ (D @ (T.magnitudes() @ ones))
+    for M in tied:
+        e = e + (Y @ T.after(M)).magnitudes() @ ones
     sizes, g, h = G.magnitudes().rows, G.re.denominator, H.re.denominator
     discs: list[Disc] = []
     for i, entry in enumerate(items(listed, f"{place}.discs", n)):

@@ -11,7 +11,7 @@ from .arithmetic import NotAUnit
 from .budget import MORE, current, limited
 from .expectation import Expectation
 from .moved_entries import subject_of
-from .parametric_system import ParametricSystem, digest, digest_of_values, plant_of
+from .parametric_system import FunctionSystem, digest, digest_of_values, plant_of
 from .reading import Json, Limits, Refused, fields, incomplete, malformed, parse, shown, string
 from .statement import described, digest_of
 
@@ -23,9 +23,9 @@ STEMS = (
     "assignability", "box_controllable", "box_fixed", "box_stable", "closed_loop_spectrum",
     "common_dimension", "communication", "complementary_subsystem", "completeness",
     "controllability", "controllability_indices", "deficiency", "distributed_observer",
-    "exceptional_gains", "fixed_spectrum", "neighbor_graph", "parametric_fixed_spectrum",
-    "parametric_rank", "pencil_rank", "setpoint", "shared_dimensions", "single_channel_gains",
-    "stability", "transfer_graph",
+    "exceptional_gains", "fixed_spectrum", "neighbor_graph", "parametric_box_controllable",
+    "parametric_box_fixed", "parametric_fixed_spectrum", "parametric_rank", "pencil_rank",
+    "setpoint", "shared_dimensions", "single_channel_gains", "stability", "transfer_graph",
 )
 # fmt: on
 
@@ -124,7 +124,7 @@ def check_document(
                 given = wanted.named(given)
                 budget.grant(wanted.size)
             plant = plant_of(given)
-            budget.times = MORE if isinstance(plant, ParametricSystem) else budget.times
+            budget.times = MORE if isinstance(plant, FunctionSystem) else budget.times
             known = digest(plant)
             wanted.require_plant(known, digest_of_values(plant, known))
             budget.builds = True

@@ -30,7 +30,7 @@ def loop_pencil(box: Box, gain_radii: Json) -> Pencil:
     """
     if box.plant is None:
         require(gain_radii is None, "claim", PLACE, "expected null without a controller")
-        return Pencil(box.A, box.radii.A, box.n)
+        return Pencil(box.A, box.radii.A, box.n, [each.A for each in box.tied])
     plant, radii = box.plant, box.plant.radii
     agents = read_controller(box.programs, "subject", plant)["agents"]
     programs = programs_of(plant, agents, "subject")

@@ -19,7 +19,7 @@ from .budget import Budget, current, limited, spend
 from .expectation import DIGEST, Expectation, same
 from .kinds import KINDS, Found, Verdict, attempt, check_document, refusal
 from .moved_entries import constructed, subject_of
-from .parametric_system import ParametricSystem, digest_of_values, plant_of
+from .parametric_system import FunctionSystem, digest_of_values, plant_of
 from .reading import Json, Limits, Refused, fields, items, malformed, parse, require, shown, string
 from .sentence import RULES, Premise
 from .system import System
@@ -197,7 +197,7 @@ class Evidence:
         if not self.expected.system:
             values = digest_of_values(known, digest)
             self.expected = replace(self.expected, system=values)
-        plant = known if isinstance(known, ParametricSystem) else at_values(known)
+        plant = known if isinstance(known, FunctionSystem) else at_values(known)
         own = same(steps[: len(self.base)], self.base)
         path = tuple(step["construction"] for step in steps[len(self.base) :]) if own else None
         system = subject_of(steps, known, kind)
@@ -237,7 +237,7 @@ class Evidence:
             return attempt(check).inside(f"{place} {shown(key)}")
 
 
-def is_uncertain(plant: System | ParametricSystem) -> bool:
+def is_uncertain(plant: System | FunctionSystem) -> bool:
     """Whether entries of a plant have radii."""
     return isinstance(plant, System) and plant.uncertainty is not None
 

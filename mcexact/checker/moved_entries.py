@@ -1,11 +1,9 @@
 """Constructions that only put entries elsewhere, applied to plants with a parameter."""
 
-from dataclasses import replace
-
 from . import budget
 from .arithmetic import Matrix
 from .boxes import system_of
-from .parametric_system import ONE, ParametricSystem, Table, cleared_tables
+from .parametric_system import FunctionSystem, Table, one_parameter
 from .reading import Json, incomplete, items, malformed
 from .subject import CONSTRUCTIONS, read_subject
 from .system import System
@@ -17,9 +15,11 @@ MOVING = (
 )
 # fmt: on
 """The others compute with entries, or need the delays of a neighbor graph."""
+OF_SEVERAL = ("parametric_box_controllable", "parametric_box_fixed")
+"""The kinds that are also about plants with several parameters."""
 
 
-def moved(steps: Json, plant: ParametricSystem) -> ParametricSystem:
+def moved(steps: Json, plant: FunctionSystem) -> FunctionSystem:
     """Apply constructions, which make a matrix of entries of the plant, of 0 and of 1.
 
     So they are applied to numbers in the places of the entries, 0 for 0 and else 2, 3, …, which
@@ -33,7 +33,7 @@ def moved(steps: Json, plant: ParametricSystem) -> ParametricSystem:
             incomplete("construction", f"subject[{k}]", f"{name} does not apply to parameters")
     if not steps:
         return plant
-    known = [([], ONE), (ONE, ONE)]
+    known = [plant.number(0), plant.number(1)]
 
     def numbered(table: Table) -> Matrix:
         rows, ncols = table
@@ -53,25 +53,21 @@ def moved(steps: Json, plant: ParametricSystem) -> ParametricSystem:
     start = System(plant.time, plant.names, A, ports[0::2], ports[1::2], alone, words=plant.words)
     made = read_subject(steps, start)
     pairs = [M for pair in zip(made.B, made.C, strict=True) for M in pair]
-    parts = cleared_tables([entries(M) for M in (made.A, *pairs)])
-    return replace(plant, names=made.names, words=made.words, **parts)
+    tables = [entries(M) for M in (made.A, *pairs)]
+    return plant.remade(tables, names=made.names, words=made.words)
 
 
-def constructed(steps: Json, plant: System | ParametricSystem) -> System | ParametricSystem:
+def constructed(steps: Json, plant: System | FunctionSystem) -> System | FunctionSystem:
     """What constructions make from a plant."""
-    return (
-        moved(steps, plant) if isinstance(plant, ParametricSystem) else read_subject(steps, plant)
-    )
+    return moved(steps, plant) if isinstance(plant, FunctionSystem) else read_subject(steps, plant)
 
 
-def subject_of(
-    steps: Json, plant: System | ParametricSystem, kind: str
-) -> System | ParametricSystem:
+def subject_of(steps: Json, plant: System | FunctionSystem, kind: str) -> System | FunctionSystem:
     """The plant, or what constructions make from it, for a kind of claims."""
-    parametric = isinstance(plant, ParametricSystem)
+    parametric = isinstance(plant, FunctionSystem)
     if parametric != kind.startswith("parametric_"):
         about = "without" if parametric else "with"
         malformed("system", f"the kind {kind} is about plants {about} parameters")
-    if isinstance(plant, ParametricSystem):
-        return moved(steps, plant)
+    if isinstance(plant, FunctionSystem):
+        return moved(steps, plant if kind in OF_SEVERAL else one_parameter(plant))
     return system_of(steps, plant, kind)

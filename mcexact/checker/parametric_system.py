@@ -1,14 +1,16 @@
 """Plants whose entries are rational functions of a parameter, and plants of either sort."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
 from . import budget, reading
 from .arithmetic import Matrix, Polynomial, poly_divide, poly_product
-from .expressions import PARAMETER, Function, common_divisor, function, function_text
+from .expressions import PARAMETER, common_divisor, function, function_text
 from .reading import Json, Limits, fields, incomplete, integer, items, malformed, printable, string
+from .several_parameters import Quotient, Terms, quotient, quotient_text
 from .statement import canonical_json, digest_of
 from .system import System, canonical, parse_file, read_plant, read_system
 from .system_matrices import number
@@ -18,29 +20,26 @@ Layers = list[Matrix]
 """The coefficients of a matrix of polynomials in the parameter, constant term first."""
 Range = tuple[Fraction | None, Fraction | None]
 """The least and the largest value of t; None where there is none."""
-Table = tuple[list[list[Function]], int]
-"""Rows of functions, and the number of columns."""
+Table = tuple[list[list[Any]], int]
+"""Rows of functions, of one parameter or of several, and the number of columns."""
+Entries = Callable[[Json, str, Limits | None], Any]
+"""How an entry is read, at a place."""
 ONE = [Fraction(1)]
 
 
-@dataclass(frozen=True)
-class ParametricSystem:
-    """x' = A/δ x + Σ B_i/β_i u_i, y_i = C_i/γ_i x with polynomials in t in A, B_i and C_i.
+@dataclass(frozen=True, kw_only=True)
+class FunctionSystem:
+    """A plant of rational functions of parameters.
 
-    ``range`` has the least and the largest value of t, None where there is none; ``poles`` are the
-    monic denominators, the first one δ.  ``tables`` are A, B_1, C_1, B_2, … as functions, and
+    ``ranges`` has the least and the largest value of each parameter, None where there is none.
+    ``tables`` are A, B_1, C_1, B_2, … as functions, each a numerator and a denominator, and
     ``document`` is the canonical object of the plant.
     """
 
     time: str
     names: list[str]
-    parameter: str
-    range: Range
+    ranges: dict[str, Range]
     tables: list[Table]
-    A: Layers
-    B: list[Layers]
-    C: list[Layers]
-    poles: list[Polynomial]
     document: Json
     words: str = "the plant"
     controller: str = ""
@@ -48,19 +47,63 @@ class ParametricSystem:
     @property
     def n(self) -> int:
         """The number of states."""
-        return self.A[0].nrows
+        return len(self.tables[0][0])
 
     @property
     def m(self) -> int:
         """The number of channels."""
         return len(self.names)
 
+    def number(self, value: int) -> Any:
+        """A number as a function."""
+        return quotient(value, "", tuple(self.ranges), None)
+
+    def terms(self, entry: Any) -> Quotient:
+        """Numerator and denominator by the exponents of the parameters."""
+        found: Quotient = entry
+        return found
+
+    def remade(self, tables: list[Table], **parts: Any) -> "FunctionSystem":
+        """The same with other functions."""
+        return replace(self, tables=tables, **parts)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ParametricSystem(FunctionSystem):
+    """x' = A/δ x + Σ B_i/β_i u_i, y_i = C_i/γ_i x with polynomials in t in A, B_i and C_i.
+
+    ``poles`` are the monic denominators, the first one δ.
+    """
+
+    parameter: str
+    range: Range
+    A: Layers
+    B: list[Layers]
+    C: list[Layers]
+    poles: list[Polynomial]
+
+    def number(self, value: int) -> Any:
+        """A number as a function."""
+        return function(value, "", self.parameter, None)
+
+    def terms(self, entry: Any) -> Quotient:
+        """Numerator and denominator by the exponents of the parameter."""
+
+        def of(p: Polynomial) -> Terms:
+            return {(k,): c for k, c in enumerate(p) if c}
+
+        return of(entry[0]), of(entry[1])
+
+    def remade(self, tables: list[Table], **parts: Any) -> "FunctionSystem":
+        """The same with other functions."""
+        return replace(self, **cleared_tables(tables), **parts)
+
     def others(self, channels: list[int]) -> list[int]:
         """The channels that are not among these."""
         return [i for i in range(self.m) if i not in channels]
 
 
-def plant_of(value: Json) -> System | ParametricSystem:
+def plant_of(value: Json) -> System | FunctionSystem:
     """The plant of a certificate, which must be canonical."""
     if not has_parameters(value):
         return read_plant(value)
@@ -86,21 +129,21 @@ def has_parameters(value: Json) -> bool:
     return isinstance(value, dict) and "parameters" in value
 
 
-def digest(plant: System | ParametricSystem) -> str:
+def digest(plant: System | FunctionSystem) -> str:
     """The SHA-256 of the canonical object of a plant."""
-    known = plant.document if isinstance(plant, ParametricSystem) else canonical(plant)
+    known = plant.document if isinstance(plant, FunctionSystem) else canonical(plant)
     return digest_of(canonical_json(known))
 
 
-def digest_of_values(plant: System | ParametricSystem, known: str) -> str:
+def digest_of_values(plant: System | FunctionSystem, known: str) -> str:
     """The digest of a plant without its radii; ``known`` is the one with them."""
-    if isinstance(plant, ParametricSystem) or plant.uncertainty is None:
+    if isinstance(plant, FunctionSystem) or plant.uncertainty is None:
         return known
     return digest(replace(plant, uncertainty=None))
 
 
-def read_parametric(value: Json, limits: Limits | None = None) -> ParametricSystem:
-    """A plant with a parameter by the grammar of system files; without limits, of a certificate."""
+def read_parametric(value: Json, limits: Limits | None = None) -> FunctionSystem:
+    """A plant with parameters by the grammar of system files; without limits, of a certificate."""
     extra = () if limits is None else ("format", "name", "source")
     keys = ("time", "parameters", "A", "channels")
     time, known, entries, listed, *texts = fields(value, "system", *keys, optional=extra)
@@ -113,37 +156,66 @@ def read_parametric(value: Json, limits: Limits | None = None) -> ParametricSyst
             malformed(
                 "parameters", f"expected the name of a parameter, found {reading.shown(name)}"
             )
-    if len(known) > 1:
-        incomplete("parameters", "parameters", "more than one parameter")
-    [(t, told)] = known.items()
-    ends = fields(told, f"parameters.{t}", optional=("range",))[0]
-    bounds: Range = (None, None) if ends is None else _range(ends, f"parameters.{t}.range", limits)
-    tables = [_table(entries, "A", t, limits, None, 0)]
+    ranges = {name: _range(known[name], f"parameters.{name}", limits) for name in sorted(known)}
+    read, write = _entries(tuple(ranges))
+    tables = [_table(entries, "A", read, limits, None, 0)]
     n, names = len(tables[0][0]), []
     for k, channel in enumerate(budget.counted(items(listed, "channels"))):
         where = f"channels[{k}]"
         B, C, name = fields(channel, where, "B", "C", optional=("name",))
-        tables.append(_table(B, f"{where}.B", t, limits, n, 0))
-        tables.append(_table(C, f"{where}.C", t, limits, None, n))
+        tables.append(_table(B, f"{where}.B", read, limits, n, 0))
+        tables.append(_table(C, f"{where}.C", read, limits, None, n))
         names.append(str(k + 1) if name is None else name)
     if tables[0][1] != n or not names or any(width != n for _, width in tables[2::2]):
         malformed("system", "expected a square A, at least one channel, and matching shapes")
     own = reading.own_names(names, [f"channels[{k}].name" for k in range(len(names))])
-    forms = [_form(table, t) for table in tables]
+    forms = [_form(table, write) for table in tables]
     channels = [
         {"name": name, "B": B, "C": C}
         for name, B, C in zip(own, forms[1::2], forms[2::2], strict=True)
     ]
-    said = {} if bounds == (None, None) else {"range": [_end(bound) for bound in bounds]}
-    document = {"time": string(time, "time", "continuous", "discrete"), "parameters": {t: said}}
+    said = {
+        name: {} if bounds == (None, None) else {"range": [_end(bound) for bound in bounds]}
+        for name, bounds in ranges.items()
+    }
+    document = {"time": string(time, "time", "continuous", "discrete"), "parameters": said}
     document |= {"A": forms[0], "channels": channels}
-    return ParametricSystem(time, own, t, bounds, **cleared_tables(tables), document=document)
+    parts = {"time": time, "names": own, "ranges": ranges, "document": document}
+    if len(ranges) > 1:
+        return FunctionSystem(tables=tables, **parts)
+    [(t, bounds)] = ranges.items()
+    return ParametricSystem(parameter=t, range=bounds, **cleared_tables(tables), **parts)
 
 
-def _range(value: Json, place: str, limits: Limits | None) -> Range:
+def one_parameter(plant: FunctionSystem) -> ParametricSystem:
+    """The plant, of which a claim is known for one parameter alone."""
+    if not isinstance(plant, ParametricSystem):
+        incomplete("parameters", "parameters", "more than one parameter")
+    return plant
+
+
+def _entries(parameters: tuple[str, ...]) -> tuple[Entries, Callable[[Any], Json]]:
+    """How entries with these parameters are read, and written."""
+    if len(parameters) > 1:
+        return (
+            lambda value, place, limits: quotient(value, place, parameters, limits),
+            lambda entry: quotient_text(entry, parameters),
+        )
+    [t] = parameters
+    return (
+        lambda value, place, limits: function(value, place, t, limits),
+        lambda entry: function_text(entry, t),
+    )
+
+
+def _range(told: Json, place: str, limits: Limits | None) -> Range:
+    (ends,) = fields(told, place, optional=("range",))
+    if ends is None:
+        return None, None
+    place += ".range"
     low, high = (
         None if end is None else Fraction(number(end, place, limits))
-        for end in items(value, place, 2)
+        for end in items(ends, place, 2)
     )
     if low is not None and high is not None and low > high:
         malformed(place, "expected an interval")
@@ -155,35 +227,35 @@ def _end(bound: Fraction | None) -> Json:
 
 
 def _table(
-    value: Json, place: str, t: str, limits: Limits | None, nrows: int | None, ncols: int
+    value: Json, place: str, read: Entries, limits: Limits | None, nrows: int | None, ncols: int
 ) -> Table:
     """A matrix of functions: a list of rows, or an object that lists its nonzero entries."""
     if isinstance(value, dict):
         shape, entries = fields(value, place, "shape", "entries")
         r, c = (integer(side, f"{place}.shape") for side in items(shape, f"{place}.shape", 2))
         budget.spend(budget.table(r, c, 1))
-        rows: list[list[Function]] = [[([], ONE)] * c for _ in range(r)]
+        rows = [[read(0, place, limits)] * c for _ in range(r)]
         seen = set()
         for i, j, entry in (items(triple, place, 3) for triple in items(entries, place)):
             if integer(i, place) >= r or integer(j, place) >= c or (i, j) in seen:
                 malformed(place, f"expected a position of its own inside {r} by {c}")
             seen.add((i, j))
-            rows[i][j] = function(entry, place, t, limits)
+            rows[i][j] = read(entry, place, limits)
     else:
         listed = [items(row, place) for row in items(value, place)]
         c = len(listed[0]) if listed else ncols
-        rows = [[function(e, place, t, limits) for e in items(row, place, c)] for row in listed]
+        rows = [[read(entry, place, limits) for entry in items(row, place, c)] for row in listed]
     if nrows not in (None, len(rows)):
         malformed(place, f"expected {nrows} rows, found {len(rows)}")
     return rows, c
 
 
-def _form(table: Table, t: str) -> Json:
+def _form(table: Table, write: Callable[[Any], Json]) -> Json:
     """The canonical form of a matrix."""
     rows, ncols = table
     if not rows and ncols:
         return {"shape": [0, ncols], "entries": []}
-    return [[function_text(entry, t) for entry in row] for row in rows]
+    return [[write(entry) for entry in row] for row in rows]
 
 
 def cleared_tables(tables: list[Table]) -> dict[str, Any]:

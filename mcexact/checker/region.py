@@ -7,6 +7,7 @@ from .absence import Blocks, TwoPolynomials, by_blocks
 from .arithmetic import Polynomial, exponent
 from .characteristic_polynomial import characteristic_polynomial
 from .location import in_region
+from .parametric_system import FunctionSystem
 from .reading import Json, boolean, fields, integer, items, polynomial, rational, require
 from .statement import FIXED
 from .system import System
@@ -63,13 +64,13 @@ def read_bound(value: Json, system: System) -> Bound:
     return bound
 
 
-def inside(bound: Json, system: System) -> str:
+def inside(bound: Json, system: System | FunctionSystem) -> str:
     """The region within a rate or a radius, in words."""
     limit = Fraction(bound)
     return f"modulus below {limit}" if system.time == "discrete" else f"real part below {-limit}"
 
 
-def no_fixed_mode(bound: Json, system: System) -> str:
+def no_fixed_mode(bound: Json, system: System | FunctionSystem) -> str:
     """That no mode is fixed; with a rate or a radius, none that violates it."""
     if bound is None:
         return f"no mode that is {FIXED}"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -18,11 +18,15 @@ Regular = Callable[[Fraction, Fraction, Fraction], bool]
 
 @dataclass(frozen=True)
 class Pencil:
-    """λE − Z, whose entries of Z have the radii D; E has ``dynamic`` ones, and then zeros."""
+    """λE − Z, whose entries of Z have the radii D; E has ``dynamic`` ones, and then zeros.
+
+    Each of ``tied`` is added to Z with a factor from −1 to 1 of its own.
+    """
 
     Z: Matrix
     D: Matrix
     dynamic: int
+    tied: Sequence[Matrix] = ()
 
 
 def read_weights(value: Json, place: str, size: int) -> Matrix:
@@ -34,25 +38,31 @@ def read_weights(value: Json, place: str, size: int) -> Matrix:
 def left_inverse(value: Json, weights: Json, place: str, pencil: Pencil) -> Regular:
     """V about (cE − Z)⁻¹: I − V(λE − Z) is I − (λP − Q), P = VE and Q = VZ.
 
-    Theorem ``boxes.regular_disc_left``.
+    Theorems ``boxes.regular_disc_left``, ``boxes.regular_disc_left_tied``.
     """
     size = pencil.Z.nrows
     V, w = complex_matrix(value, place, size, size), read_weights(weights, place, size)
     dynamic = range(pencil.dynamic)
     P = ComplexMatrix(V.re.take(None, dynamic), V.im.take(None, dynamic))
-    return near_identity(P, V.before(pencil.Z), V.magnitudes() @ (pencil.D @ w), w)
+    moved = V.magnitudes() @ (pencil.D @ w)
+    for M in pencil.tied:
+        moved = moved + V.before(M).magnitudes() @ w
+    return near_identity(P, V.before(pencil.Z), moved, w)
 
 
 def right_inverse(value: Json, weights: Json, place: str, pencil: Pencil) -> Regular:
     """R about a right inverse of cE − Z, E = [I, 0]: I − (λP − Q), P = ER and Q = ZR.
 
-    Theorem ``boxes.regular_disc_right``.
+    Theorems ``boxes.regular_disc_right``, ``boxes.regular_disc_right_tied``.
     """
     size = pencil.dynamic
     R = complex_matrix(value, place, pencil.Z.ncols, size)
     w, dynamic = read_weights(weights, place, size), range(size)
     P = ComplexMatrix(R.re.take(dynamic), R.im.take(dynamic))
-    return near_identity(P, R.after(pencil.Z), pencil.D @ (R.magnitudes() @ w), w)
+    moved = pencil.D @ (R.magnitudes() @ w)
+    for M in pencil.tied:
+        moved = moved + R.after(M).magnitudes() @ w
+    return near_identity(P, R.after(pencil.Z), moved, w)
 
 
 def near_identity(P: ComplexMatrix, Q: ComplexMatrix, moved: Matrix, w: Matrix) -> Regular:

@@ -18,7 +18,7 @@ from .system import System, canonical
 from .system_matrices import rows_of
 
 if TYPE_CHECKING:
-    from .parametric_system import ParametricSystem
+    from .parametric_system import FunctionSystem
 
 FIXED = "fixed under linear time-invariant decentralized control"
 PENCIL = "[xI - A, B; C, 0]"
@@ -117,7 +117,7 @@ def suffixed(system: System, words: str, **parts: Any) -> System:
     return replace(system, words=f"{before} {words}", blocks=(), **parts)
 
 
-def described(system: System | ParametricSystem) -> str:
+def described(system: System | FunctionSystem) -> str:
     """The system a claim is about: what it was made from, its states, its channels, its time."""
     channels = f"channels {channel_set(system.names)}" if system.m else "no channels"
     return f"{system.words} ({counted(system.n, 'state')}, {channels}, {system.time} time)"

@@ -81,6 +81,25 @@ class RationalFunction:
         }
         return _checked(parameters, ring.from_dict(known), ring.constant(1))
 
+    def terms(self) -> tuple[dict[tuple[int, ...], Fraction], dict[tuple[int, ...], Fraction]]:
+        """Numerator and denominator: their coefficients by the exponents of the parameters.
+
+        Examples
+        --------
+        >>> k = RationalFunction.parameter("k", ("k", "m"))
+        >>> (1 / (2 * k)).terms()
+        ({(0, 0): Fraction(1, 2)}, {(1, 0): Fraction(1, 1)})
+        """
+        width = len(self.parameters)
+        top, bottom = (
+            {
+                tuple(map(int, exponents))[:width]: Fraction(int(c.p), int(c.q))
+                for exponents, c in p.to_dict().items()
+            }
+            for p in (self.numerator, self.denominator)
+        )
+        return top, bottom
+
     @property
     def is_constant(self) -> bool:
         """Whether it is a rational number."""

@@ -30,6 +30,7 @@ from mcexact.model.system import MultiChannelSystem
 from mcexact.shown import LINE, words
 from tests.answer.test_golden import answers, of_a_parameter
 from tests.checker.box_plants import ALL as ABOUT_BOXES
+from tests.checker.parameter_plants import ALL as ABOUT_RANGES
 
 FORMAT = Path(home.__file__).with_name("FORMAT.md").read_text(encoding="utf-8")
 _ELIDED = re.compile(r"… \d+ more|\(degree \d+\)|\d+×\d+ matrix|about -?\d[.\d]*(e[+-]\d+)?")
@@ -63,7 +64,10 @@ def about(name: str) -> tuple[tuple[str, Answer], ...]:
     if name == "liu2020-3ch-no-communication":
         found += mcexact.design_observer(plant, rate=1).certificates.items()
         found += [(each.kind, each) for _, each in of_a_parameter()]
-        found += [(name, answer_of(document)) for name, document in ABOUT_BOXES.items()]
+        found += [
+            (name, answer_of(document))
+            for name, document in {**ABOUT_BOXES, **ABOUT_RANGES}.items()
+        ]
     return tuple(found)
 
 

@@ -15,10 +15,13 @@ from typing import Any
 from mcexact.checker.arithmetic import Matrix, beside
 from mcexact.checker.box_fixed import augmented
 from mcexact.checker.box_stable import segments_of
-from mcexact.checker.boxes import Box, system_of
+from mcexact.checker.boxes import Box, absolute, system_of
 from mcexact.checker.covers import ROOT_2, Cell
 from mcexact.checker.evidence import inputs
 from mcexact.checker.loop_pencil import loop_pencil
+from mcexact.checker.moved_entries import subject_of as read_subject
+from mcexact.checker.parameter_cells import box_of_cell, cells_of
+from mcexact.checker.parametric_system import plant_of
 from mcexact.checker.regular_discs import Pencil, Regular, left_inverse, right_inverse
 from mcexact.checker.system import read_plant
 from tests.checker.handmade import Document, certificate, matrix
@@ -125,10 +128,13 @@ def gershgorin(box: Box, F: list[list[list[Any]]] | None = None) -> Document:
         ]
     identity = {"denominator": 1, "re": [list(map(int, row)) for row in one], "im": [[0] * n] * n}
     discs = []
+    every = [D, *(fractions(absolute(each.A)) for each in box.tied)]
     for i in range(n):
-        spread = sum((abs(A[i][j]) for j in range(n) if j != i), sum(D[i], Fraction(0)))
+        own = sum((sum(M[i], Fraction(0)) for M in every), Fraction(0))
+        center = Fraction(round(A[i][i] * 1000), 1000)
+        spread = sum((abs(A[i][j]) for j in range(n) if j != i), own + abs(A[i][i] - center))
         radius = (int(spread * 10**4) + 1) / 10**4
-        discs.append({"re": decimal(A[i][i]), "im": "0", "radius": decimal(Fraction(str(radius)))})
+        discs.append({"re": decimal(center), "im": "0", "radius": decimal(Fraction(str(radius)))})
     written = None if F is None else [eighths(F_i) for F_i in F]
     return {"F": written, "Y": identity, "T": identity, "discs": discs}
 
@@ -217,10 +223,17 @@ def fixed(
     After the gains, no gains are tried: then the cell holds no eigenvalue.  ``under`` are the F_i
     of the exterior discs.
     """
-    box = subject_of(plant, "box_fixed", steps)
+    witness = fixed_witness(subject_of(plant, "box_fixed", steps), gains, bound, under)
+    return certificate("box_fixed", plant, {"bound": bound}, witness, *steps)
+
+
+def fixed_witness(
+    box: Box, gains: list[Document], bound: Any, under: tuple[Any, ...] = (None,)
+) -> Document:
+    """The evidence about one box."""
     exterior = [gershgorin(box, F) for F in under]
     pencils = [augmented(each, "", box) for each in gains]
-    pencils.append(Pencil(box.A, box.radii.A, box.n))
+    pencils.append(Pencil(box.A, box.radii.A, box.n, [each.A for each in box.tied]))
 
     def frames_at(re: Fraction, im: Fraction) -> Frames:
         for k, pencil in enumerate(pencils):
@@ -230,8 +243,7 @@ def fixed(
 
     limit = None if bound is None else Fraction(bound)
     frames, cover = covered(exterior, box.outside(limit), frames_at)
-    witness = {"exterior": exterior, "gains": gains, "frames": frames, "cover": cover}
-    return certificate("box_fixed", plant, {"bound": bound}, witness, *steps)
+    return {"exterior": exterior, "gains": gains, "frames": frames, "cover": cover}
 
 
 def controllable(
@@ -243,9 +255,19 @@ def controllable(
 ) -> Document:
     """A certificate that channels control every mode of every member."""
     box = subject_of(plant, "box_controllable", steps)
+    witness = control_witness(box, channels, bound, under)
+    claim = {"channels": channels, "bound": bound}
+    return certificate("box_controllable", plant, claim, witness, *steps)
+
+
+def control_witness(
+    box: Box, channels: list[str], bound: Any, under: tuple[Any, ...] = (None,)
+) -> Document:
+    """The evidence about one box."""
     T = [box.names.index(name) for name in channels]
-    Z, D = (beside([each.A, inputs(each, T)], box.n) for each in (box, box.radii))
-    pencil, w, no = Pencil(Z, D, box.n), [1] * box.n, Matrix.zeros(box.n, box.n)
+    every = (box, box.radii, *box.tied)
+    Z, D, *tied = (beside([each.A, inputs(each, T)], box.n) for each in every)
+    pencil, w, no = Pencil(Z, D, box.n, tied), [1] * box.n, Matrix.zeros(box.n, box.n)
     inner, doubt = (inputs(each, T) for each in (box, box.radii))
     whole = replace(
         box,
@@ -261,10 +283,21 @@ def controllable(
 
     limit = None if bound is None else Fraction(bound)
     frames, cover = covered(exterior, box.outside(limit), frames_at)
-    witness = {"exterior": exterior, "frames": frames, "cover": cover}
-    return certificate(
-        "box_controllable", plant, {"channels": channels, "bound": bound}, witness, *steps
-    )
+    return {"exterior": exterior, "frames": frames, "cover": cover}
+
+
+def in_cells(
+    plant: Document,
+    kind: str,
+    claim: Document,
+    cuts: list[Node],
+    made: Callable[[Box], Document],
+    *steps: Document,
+) -> Document:
+    """A certificate about all values of parameters, with the evidence about each cell."""
+    subject: Any = read_subject(list(steps), plant_of(plant), kind)
+    parts = [made(box_of_cell(subject, cell)) for cell in cells_of(cuts, "cuts", subject)]
+    return certificate(kind, plant, claim, {"cuts": cuts, "parts": parts}, *steps)
 
 
 def stable(

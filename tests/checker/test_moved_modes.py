@@ -11,7 +11,7 @@ import pytest
 
 from mcexact.checker.arithmetic import NotAUnit
 from mcexact.checker.moved_modes import MovedModes
-from mcexact.checker.parametric_system import read_parametric
+from mcexact.checker.parametric_system import one_parameter, read_parametric
 from mcexact.checker.reading import Refused
 from tests.attack.forgeries.parametric_traps import LARGE, constant, plant, scalar
 
@@ -30,7 +30,9 @@ def value(*coefficients: Any) -> list[Fraction]:
 
 def moved(system: Any, first: list[Any], second: list[Any], *P: Any, ell: int = ELL) -> MovedModes:
     """What gains move beside those of 0; one matrix for each channel."""
-    return MovedModes([still(system), first, second], ell, list(P), read_parametric(system))
+    return MovedModes(
+        [still(system), first, second], ell, list(P), one_parameter(read_parametric(system))
+    )
 
 
 def still(system: Any) -> list[Any]:
@@ -71,7 +73,9 @@ def test_loops_are_closed_by_their_gains() -> None:
     other = moved(WIDE, [constant([0], [0]), constant([0, 0, 0])], [F1, F2])
     assert other.moved == other.psi == found.psi
     assert other.chi_G == [[83, 7, 3, 100], [94, 97, 1], [1]]
-    third = MovedModes([[F1, F2], *[still(WIDE)] * 2], ELL, [], read_parametric(WIDE))
+    third = MovedModes(
+        [[F1, F2], *[still(WIDE)] * 2], ELL, [], one_parameter(read_parametric(WIDE))
+    )
     assert (third.psi, third.moved) == (found.moved, found.psi)
 
 
@@ -105,7 +109,7 @@ def test_gains_have_the_shapes_of_the_channels(first: Any, second: Any, code: st
 
 
 def test_there_are_three_gains_and_a_modulus() -> None:
-    system = read_parametric(WIDE)
+    system = one_parameter(read_parametric(WIDE))
     for gains in ([], [[F1, F2]] * 2, [[F1, F2]] * 4, None):
         assert refusal(partial(MovedModes, gains, ELL, [], system))[0] == "form"
     for ell in (1, 0, -3):

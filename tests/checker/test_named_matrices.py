@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from mcexact.checker.named_matrices import named_matrix, named_text
-from mcexact.checker.parametric_system import ParametricSystem, read_parametric
+from mcexact.checker.parametric_system import ParametricSystem, one_parameter, read_parametric
 from mcexact.checker.reading import Refused
 from tests.attack.forgeries.parametric_traps import plant
 
@@ -38,7 +38,7 @@ def at_two(value: Any, system: Any = PLANT) -> list[list[Fraction]]:
 
 
 def read(system: Any) -> ParametricSystem:
-    return read_parametric(system)
+    return one_parameter(read_parametric(system))
 
 
 def test_the_matrix_of_setpoints() -> None:

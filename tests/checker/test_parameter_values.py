@@ -13,7 +13,7 @@ from mcexact.checker.parameter_values import (
     values_left_out,
     where_text,
 )
-from mcexact.checker.parametric_system import ParametricSystem, read_parametric
+from mcexact.checker.parametric_system import ParametricSystem, one_parameter, read_parametric
 from mcexact.checker.reading import Refused
 from tests.attack.forgeries.parametric_traps import plant
 
@@ -21,7 +21,7 @@ from tests.attack.forgeries.parametric_traps import plant
 def ranged(low: Any, high: Any) -> ParametricSystem:
     """A plant with poles at −1 and twice at 0, and a range."""
     system = plant([["(1)/(t + 1)"]], ([["(1)/(t^2)"]], [[1]]))
-    return read_parametric({**system, "parameters": {"t": {"range": [low, high]}}})
+    return one_parameter(read_parametric({**system, "parameters": {"t": {"range": [low, high]}}}))
 
 
 def disc(re: str, im: str = "0", radius: str = "0") -> Any:

@@ -35,11 +35,11 @@ SENTENCES = {path.stem for path in FILES if path.stem.startswith("sentence")} | 
 """What says of sentences that they are implied; no rule about a certificate rests on it."""
 BOXES = {"complex_matrices", "uncertainty"}
 """What the rules about boxes rest on: radii, and the arithmetic of complex matrices."""
-PARAMETERS = {"expressions", "parametric_system"}
+PARAMETERS = {"expressions", "parametric_system", "several_parameters"}
 """What the rules about plants with a parameter rest on: their entries and their reader."""
 RULES = sorted({path.stem for path in FILES} - FRONT - SHARED - SENTENCES - PARAMETERS - BOXES)
 """One rule a file: a kind, a construction, or a piece of evidence that several kinds use."""
-MOST = 6104
+MOST = 6373
 """The lines of code of the checker, of all files of its folder, as :func:`lines_of_code` counts.
 
 It is what was reached: it falls with the checker, and who raises it says what that buys."""
@@ -82,9 +82,9 @@ def test_what_all_rules_share_takes_at_most_1120_lines() -> None:
     assert sum(shared.values()) <= 1120, shared
 
 
-def test_plants_with_a_parameter_take_at_most_290_lines() -> None:
+def test_plants_with_parameters_take_at_most_420_lines() -> None:
     read = {stem: lines_of_code(FOLDER / f"{stem}.py") for stem in sorted(PARAMETERS)}
-    assert sum(read.values()) <= 290, read
+    assert sum(read.values()) <= 420, read
 
 
 def test_the_sentences_take_at_most_913_lines() -> None:

@@ -18,7 +18,14 @@ PROOFS = FOLDER.parent.parent / "proofs"
 STEMS = sorted(path.stem for path in FOLDER.glob("*.py"))
 SENTENCES = {stem for stem in STEMS if stem.startswith("sentence")} | {"manifest"}
 SPOKEN = {"__init__", "__main__", "command", "controller", "expectation", "kinds", "reading"}
-SPOKEN |= {"allowance", "expressions", "parametric_system", "statement", "system"}
+SPOKEN |= {
+    "allowance",
+    "expressions",
+    "parametric_system",
+    "several_parameters",
+    "statement",
+    "system",
+}
 SPOKEN |= {"system_matrices", "uncertainty"}
 NO_RULE = {
     *SPOKEN,

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from mcexact.checker.arithmetic import Matrix
-from mcexact.checker.parametric_system import read_parametric
+from mcexact.checker.parametric_system import one_parameter, read_parametric
 from mcexact.checker.reading import Refused
 from mcexact.checker.zero_blocks import polynomial_layers, require_multiple, zero_block
 from tests.attack.forgeries.parametric_traps import block, layers, plant
@@ -26,7 +26,7 @@ def polynomial(*coefficients: list[Any]) -> list[list[Fraction]]:
 def refusal(value: Any, system: Any, p: Any, q: Any = None) -> tuple[str, str]:
     """The code and the place where a zero block is refused; nothing if it is one."""
     try:
-        assert zero_block(value, "b", read_parametric(system), p, q) == [
+        assert zero_block(value, "b", one_parameter(read_parametric(system)), p, q) == [
             int(name) - 1 for name in value["channels_T"]
         ]
     except Refused as found:

@@ -247,4 +247,4 @@ def test_constructions_keep_the_radii_of_the_plant_alone() -> None:
 def test_a_box_where_a_system_is_expected_is_told_how_to_give_it() -> None:
     box = Box.relative(MultiChannelSystem([[1]], [[[1]]], [[[1]]]), "1/10")
     with pytest.raises(InputError, match="found Box; give the `system` of the box"):
-        box_fixed_modes(box)  # type: ignore[arg-type]
+        box_fixed_modes(box)  # type: ignore[call-overload]

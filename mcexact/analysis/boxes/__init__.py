@@ -8,5 +8,7 @@
 `exterior`                discs that contain the eigenvalues of all members
 `cover`                   the tree of squares that covers these discs
 `box_fixed`               whether a member has a fixed mode
+`parameter_cells`         boxes around the plants at all values of parameters in a cell
+`parametric_box`          the ranges of parameters, cut until each cell is proved
 ========================  =============================================================
 """

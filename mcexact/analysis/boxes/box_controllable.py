@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 
 from mcexact.analysis.boxes.cover import Cover, Outside
 from mcexact.analysis.boxes.disc_lists import MANY, GainBox, disc_lists
-from mcexact.analysis.boxes.float_pencils import FloatBox, Floats, perron, weights
+from mcexact.analysis.boxes.float_pencils import FloatBox, Floats, independent, perron, weights
 from mcexact.analysis.boxes.one_thread import one_thread
 from mcexact.analysis.boxes.radii import radii_of
 from mcexact.analysis.boxes.regular_discs import (
@@ -25,12 +25,15 @@ from mcexact.analysis.boxes.regular_discs import (
     whole_weights,
 )
 from mcexact.answer.box_controllable import BoxControllability, RightInverseFrame
+from mcexact.answer.parametric_box_controllable import ParametricBoxControllability
 from mcexact.derived.dual import dual
+from mcexact.derived.moved_entries import moved
 from mcexact.errors import InputError, LimitReached
 from mcexact.exact.blocks import hstack
-from mcexact.exact.floats import to_float
+from mcexact.exact.floats import matrix_to_float, to_float
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
+from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.uncertainty import Radii
 
@@ -49,8 +52,12 @@ class WidePencil:
     Z0, D : Matrix, n × (n + p)
         [A, B] and the radii.
     near, near_D : ndarray
-        The same in balanced coordinates.
+        The same in balanced coordinates; the radii with the moduli of what is tied.
     scale : ndarray, n
+    tied : tuple of Matrix
+        What may be added to Z0, each with a factor from −1 to 1.
+    near_rest, near_tied : ndarray, tuple of ndarray
+        The radii without what is tied, and this itself, in balanced coordinates.
     """
 
     Z0: Matrix
@@ -58,20 +65,45 @@ class WidePencil:
     near: Floats
     near_D: Floats
     scale: Floats
+    tied: tuple[Matrix, ...]
+    near_rest: Floats
+    near_tied: tuple[Floats, ...]
 
     @classmethod
     def of(
-        cls, system: MultiChannelSystem, radii: Radii, box: FloatBox, channels: Iterable[int]
+        cls,
+        system: MultiChannelSystem,
+        radii: Radii,
+        box: FloatBox,
+        channels: Iterable[int],
+        tied: Sequence[MultiChannelSystem] = (),
     ) -> WidePencil:
         """Make it of a box with some channels."""
         chosen, n = sorted(channels), system.n
+
+        def wide(A: Matrix, B: Sequence[Matrix]) -> Matrix:
+            return hstack([A, *(B[i] for i in chosen)], nrows=n)
+
+        def near(M: Matrix) -> Floats:
+            cols = np.concatenate([box.scale, np.ones(M.ncols - n)])
+            return np.asarray(matrix_to_float(M) / box.scale[:, None] * cols[None, :])
+
+        along = tuple(wide(each.A, each.B) for each in tied)
+        D = wide(radii.A, radii.B)
         return cls(
-            hstack([system.A, *(system.B(i) for i in chosen)], nrows=n),
-            hstack([radii.A, *(radii.B[i] for i in chosen)], nrows=n),
+            wide(system.A, system.B),
+            D,
             np.hstack([box.A, *(box.B[i] for i in chosen)]),
             np.hstack([box.DA, *(box.DB[i] for i in chosen)]),
             box.scale,
+            along,
+            near(D),
+            tuple(map(near, along)),
         )
+
+    def moved(self, R: Any) -> Floats:
+        """An upper limit of the moduli of (Z0' − Z0) R for all members Z0'."""
+        return np.asarray(self.near_rest @ np.abs(R) + sum(np.abs(M @ R) for M in self.near_tied))
 
     def proposal(self, c: complex, rho: float, growth: Fraction) -> RegularDiscs | None:
         """Evidence that the pencil has full rank on a disc, if floating point finds some."""
@@ -79,7 +111,8 @@ class WidePencil:
         E = np.hstack([np.eye(n), np.zeros((n, width - n))])
         Z, D = c * E - self.near, float(growth) * self.near_D + rho * E
         R = _right_inverse(Z, D, _FEW)
-        w = None if R is None else weights(D @ np.abs(R))
+        part = float(growth)
+        w = None if R is None else weights(part * self.moved(R) + rho * E @ np.abs(R))
         if R is None or w is None:
             return None
         heavy = ((np.abs(Z) + D) / w[:, None]).max(axis=0)
@@ -95,19 +128,22 @@ class WidePencil:
         R = _right_inverse(c * E - self.near, self.near_D, _REWEIGHTINGS)
         if R is None:
             return 0.0
-        size, _, _ = perron(self.near_D @ np.abs(R))
+        size, _, _ = perron(self.moved(R))
         return 1 / size if size > 0 else np.inf
 
     def tested(self, R: ComplexRows, w: tuple[int, ...], growth: Fraction) -> RegularDiscs:
         """The exact test with R and w, of radii that are multiplied by a factor."""
         n, heavy = len(w), column(w)
         R_1 = R.take(range(n), range(n))
+        moved = self.D @ (R.moduli() @ heavy)
+        for M in self.tied:
+            moved = moved + R.after(M).moduli() @ heavy
         return RegularDiscs(
             R,
             ComplexRows.of(Matrix.identity(n)) + R.after(self.Z0),
             R_1,
             w,
-            entries(self.D * growth @ (R.moduli() @ heavy)),
+            entries(moved * growth),
             entries(R_1.moduli() @ heavy),
         )
 
@@ -149,6 +185,8 @@ class ControllabilitySearch:
     channels : tuple of int
     most_squares : int
         The most discs and squares of a cover; there are fewer of a large plant.
+    tied : tuple of MultiChannelSystem
+        What may be added to the system, each with a factor from −1 to 1.
     tested : int
         How many were tested so far.
     """
@@ -157,12 +195,13 @@ class ControllabilitySearch:
     radii: Radii
     channels: tuple[int, ...]
     most_squares: int = _MOST_SQUARES
+    tied: tuple[MultiChannelSystem, ...] = ()
     rng: np.random.Generator = field(default_factory=lambda: np.random.default_rng(0))
     tested: int = 0
 
     def __post_init__(self) -> None:
-        self.box = FloatBox.of(self.system, self.radii)
-        self.pencil = WidePencil.of(self.system, self.radii, self.box, self.channels)
+        self.box = FloatBox.of(self.system, self.radii, self.tied)
+        self.pencil = WidePencil.of(self.system, self.radii, self.box, self.channels, self.tied)
 
     def capacity(self, outside: Outside) -> float:
         """How far the radii can grow at each eigenvalue of A of which something is claimed."""
@@ -173,14 +212,17 @@ class ControllabilitySearch:
         """The box of gains from the state, which is measured exactly, to the channels."""
         near, n, chosen = self.box, self.system.n, self.channels
         B = hstack([self.system.B(i) for i in chosen], nrows=n)
-        D_B = hstack([self.radii.B[i] for i in chosen], nrows=n)
+        free = independent(self.radii, self.tied)
+        D_B = hstack([free.B[i] for i in chosen], nrows=n)
         C, none = Matrix.identity(n), Matrix.zeros(n, n)
         floats = replace(
             near,
             B=(np.hstack([near.B[i] for i in chosen]),),
             C=(np.diag(near.scale),),
         )
-        return GainBox(self.system.A, (B,), (C,), Radii(self.radii.A, [D_B], [none]), floats)
+        moved = (self.radii.A, *(each.A for each in self.tied))
+        radii = Radii(free.A, [D_B], [none])
+        return GainBox(self.system.A, (B,), (C,), radii, floats, moved)
 
     def cover(self, growth: Fraction, bound: Fraction | None) -> BoxControllability | None:
         """Evidence for radii that are multiplied by a factor; None if there is none."""
@@ -215,16 +257,28 @@ class ControllabilitySearch:
         )
 
 
+@overload
 def box_controllability(
-    system: MultiChannelSystem, channels: Iterable[str] | None = None, *, bound: Any = None
-) -> BoxControllability:
+    system: MultiChannelSystem, channels: Iterable[str] | None = ..., *, bound: Any = ...
+) -> BoxControllability: ...
+@overload
+def box_controllability(
+    system: ParametricSystem, channels: Iterable[str] | None = ..., *, bound: Any = ...
+) -> ParametricBoxControllability: ...
+def box_controllability(
+    system: MultiChannelSystem | ParametricSystem,
+    channels: Iterable[str] | None = None,
+    *,
+    bound: Any = None,
+) -> BoxControllability | ParametricBoxControllability:
     """Prove that some channels control every mode of every plant in a box.
 
     Parameters
     ----------
-    system : MultiChannelSystem
+    system : MultiChannelSystem or ParametricSystem
         A plant with radii, such as ``Box.relative(plant, "1/1000").system``, or a system that
-        constructions made from one.
+        constructions made from one; or one with parameters, each with a range of two ends: then
+        about all values within the ranges (`ParametricBoxControllability`).
     channels : iterable of str, optional
         Names of channels, by default all.
     bound : rational, optional
@@ -250,6 +304,10 @@ def box_controllability(
         ...
     mcexact.errors.LimitReached: no proof was found that every plant in the box is controllable
     """
+    if isinstance(system, ParametricSystem):
+        from mcexact.analysis.boxes.parametric_box import parametric_box_controllability
+
+        return parametric_box_controllability(system, channels, bound=bound)
     InputError.require(system, MultiChannelSystem, "system")
     chosen = range(system.m) if channels is None else system.indices(channels)
     limit = None if bound is None else StabilityRegion.of(system.time, bound=bound).edge
@@ -262,16 +320,27 @@ def box_controllability(
     return found
 
 
+@overload
 def box_observability(
-    system: MultiChannelSystem, channels: Iterable[str] | None = None, *, bound: Any = None
-) -> BoxControllability:
+    system: MultiChannelSystem, channels: Iterable[str] | None = ..., *, bound: Any = ...
+) -> BoxControllability: ...
+@overload
+def box_observability(
+    system: ParametricSystem, channels: Iterable[str] | None = ..., *, bound: Any = ...
+) -> ParametricBoxControllability: ...
+def box_observability(
+    system: MultiChannelSystem | ParametricSystem,
+    channels: Iterable[str] | None = None,
+    *,
+    bound: Any = None,
+) -> BoxControllability | ParametricBoxControllability:
     """Prove that some channels observe every mode of every plant in a box.
 
     The answer is about the controllability of the dual system.
 
     Parameters
     ----------
-    system : MultiChannelSystem
+    system : MultiChannelSystem or ParametricSystem
     channels : iterable of str, optional
     bound : rational, optional
         As for `box_controllability`.
@@ -292,6 +361,8 @@ def box_observability(
         ...
     mcexact.errors.LimitReached: no proof was found that every plant in the box is observable
     """
+    if isinstance(system, ParametricSystem):
+        return box_controllability(moved(system, dual), channels, bound=bound)
     InputError.require(system, MultiChannelSystem, "system")
     try:
         return box_controllability(dual(system), channels, bound=bound)

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 
 from mcexact.analysis.boxes.cover import Cover, Outside
 from mcexact.analysis.boxes.disc_lists import MANY, GainBox, disc_lists
-from mcexact.analysis.boxes.float_pencils import FloatBox, Pencil, gain_pencil
+from mcexact.analysis.boxes.float_pencils import FloatBox, Pencil, gain_pencil, independent
 from mcexact.analysis.boxes.gain_search import best_gains, exact_gains
 from mcexact.analysis.boxes.one_thread import one_thread
 from mcexact.analysis.boxes.radii import radii_of
@@ -19,9 +19,11 @@ from mcexact.analysis.boxes.regular_discs import Frames, Point
 from mcexact.answer.box_fixed import BoxFixedModes, PencilFrame, PencilGains
 from mcexact.answer.evidence import ExteriorDiscs, RootDisc
 from mcexact.answer.fixed_spectrum import FixedSpectrum
+from mcexact.answer.parametric_box_fixed import ParametricBoxFixedModes
 from mcexact.errors import InputError, LimitReached
 from mcexact.exact.floats import to_float
 from mcexact.exact.location import StabilityRegion
+from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.uncertainty import Radii
 
@@ -58,6 +60,10 @@ class FixedModeSearch:
         The most discs and squares of a cover; there are fewer of a large plant.
     several : bool, optional
         Whether exterior discs are those of several matrices; by default those of large plants are.
+    tied : tuple of MultiChannelSystem
+        What may be added to the system, each with a factor from −1 to 1.
+    most_own : int
+        For how many squares gains of their own are searched.
     tested : int
         How many were tested so far.
     """
@@ -67,19 +73,26 @@ class FixedModeSearch:
     starts: int = 4
     most_squares: int = _MOST_SQUARES
     several: bool | None = None
+    tied: tuple[MultiChannelSystem, ...] = ()
+    most_own: int = _MOST_OWN
     known: list[_Known] = field(default_factory=list)
     rng: np.random.Generator = field(default_factory=lambda: np.random.default_rng(0))
     tested: int = 0
 
     def __post_init__(self) -> None:
-        self.box = FloatBox.of(self.system, self.radii)
+        self.box = FloatBox.of(self.system, self.radii, self.tied)
         if self.several is None:
             self.several = self.system.n >= MANY
         self.alone = _Known(0j, None, self._pencil(None))
 
     def _pencil(self, gains: PencilGains | None) -> Pencil:
         X, W = (None, None) if gains is None else (gains.X, gains.W)
-        return gain_pencil(self.system, self.radii, self.box.scale, X, W)
+        return gain_pencil(self.system, self.radii, self.box.scale, X, W, self.tied)
+
+    def reuse(self, other: FixedModeSearch) -> None:
+        """Try the gains that were found for another system of the same shapes."""
+        for each in other.known:
+            self.known.append(_Known(each.point, each.gains, self._pencil(each.gains)))
 
     def learn(self, point: complex, growth: float) -> float:
         """Search gains for a point, and return how far the radii can grow there with them."""
@@ -127,7 +140,9 @@ class FixedModeSearch:
         The answer is about the radii of the system: with another factor it is a witness only.
         """
         system, outside = self.system, Outside(self.system.time, bound)
-        whole = GainBox(system.A, system.B, system.C, self.radii, self.box)
+        free, along = independent(self.radii, self.tied), [each.A for each in self.tied]
+        moved = (self.radii.A, *along)
+        whole = GainBox(system.A, system.B, system.C, free, self.box, moved)
         lists = disc_lists(whole, self.rng, growth, outside, several=bool(self.several))
         if lists is None:
             return None
@@ -169,7 +184,7 @@ class _Leaves:
             k = self._made(each, c, near, rho, size)
             if k is not None:
                 return k
-        if depth in _OWN_GAINS_AT and self.own < _MOST_OWN:
+        if depth in _OWN_GAINS_AT and self.own < self.search.most_own:
             self.own += 1
             if self.search.learn(near, 2 * float(self.growth)) > float(self.growth):
                 return self._made(self.search.known[-1], c, near, rho, size)
@@ -196,20 +211,33 @@ def _distance(point: complex, near: complex) -> float:
     return min(abs(point - near), abs(point.conjugate() - near))
 
 
+@overload
 def box_fixed_modes(
     system: MultiChannelSystem,
+    *,
+    bound: Any = ...,
+    starts: int = ...,
+    spectrum: FixedSpectrum | None = ...,
+) -> BoxFixedModes: ...
+@overload
+def box_fixed_modes(
+    system: ParametricSystem, *, bound: Any = ..., starts: int = ...
+) -> ParametricBoxFixedModes: ...
+def box_fixed_modes(
+    system: MultiChannelSystem | ParametricSystem,
     *,
     bound: Any = None,
     starts: int = 4,
     spectrum: FixedSpectrum | None = None,
-) -> BoxFixedModes:
+) -> BoxFixedModes | ParametricBoxFixedModes:
     """Prove that no plant in a box has a fixed mode, or none outside of a region.
 
     Parameters
     ----------
-    system : MultiChannelSystem
+    system : MultiChannelSystem or ParametricSystem
         A plant with radii, such as ``Box.relative(plant, "1/1000").system``, or a system that
-        constructions made from one.
+        constructions made from one; or one with parameters, each with a range of two ends: then no
+        mode is fixed at any values within the ranges (`ParametricBoxFixedModes`).
     bound : rational, optional
         A rate from 0 on, or a radius up to 1: fixed modes inside of this region are allowed.
     starts : int
@@ -228,6 +256,9 @@ def box_fixed_modes(
     Proposed in floating point, and tested exactly: one square after the other, in integers.  The
     gains with which a mode is moved are searched for each part of the plane.
 
+    Entries that depend on the same parameter are moved together, which proves more than a radius
+    for each of them.  Ranges are cut in half until each cell is proved.
+
     Examples
     --------
     >>> from mcexact import Box
@@ -239,6 +270,10 @@ def box_fixed_modes(
         ...
     mcexact.errors.LimitReached: no proof was found that no plant in the box has a fixed mode
     """
+    if isinstance(system, ParametricSystem):
+        from mcexact.analysis.boxes.parametric_box import parametric_box_fixed_modes
+
+        return parametric_box_fixed_modes(system, bound=bound, starts=starts)
     InputError.require(system, MultiChannelSystem, "system")
     limit = None if bound is None else StabilityRegion.of(system.time, bound=bound).edge
     if spectrum is not None:
@@ -263,14 +298,21 @@ def _require_moved(spectrum: FixedSpectrum, limit: Fraction | None) -> None:
         raise LimitReached("the plant itself is not stabilizable, at its nominal values")
 
 
+@overload
 def box_stabilizability(
-    system: MultiChannelSystem, *, spectrum: FixedSpectrum | None = None
-) -> BoxFixedModes:
+    system: MultiChannelSystem, *, spectrum: FixedSpectrum | None = ...
+) -> BoxFixedModes: ...
+@overload
+def box_stabilizability(system: ParametricSystem) -> ParametricBoxFixedModes: ...
+def box_stabilizability(
+    system: MultiChannelSystem | ParametricSystem, *, spectrum: FixedSpectrum | None = None
+) -> BoxFixedModes | ParametricBoxFixedModes:
     """Prove that each plant in a box is stabilized by a decentralized controller of its own.
 
     Parameters
     ----------
-    system : MultiChannelSystem
+    system : MultiChannelSystem or ParametricSystem
+        As for `box_fixed_modes`.
     spectrum : FixedSpectrum, optional
         As for `box_fixed_modes`.
 
@@ -291,6 +333,8 @@ def box_stabilizability(
     >>> box_stabilizability(Box.relative(plant, "1/100").system).bound
     Fraction(0, 1)
     """
+    if isinstance(system, ParametricSystem):
+        return box_fixed_modes(system, bound=StabilityRegion(system.time).edge)
     InputError.require(system, MultiChannelSystem, "system")
     edge = StabilityRegion(system.time).edge
     return box_fixed_modes(system, bound=edge, spectrum=spectrum)

@@ -41,6 +41,10 @@ class GainBox:
     radii : Radii
         Those of A, B_i and C_i.
     near : FloatBox
+    moved : tuple of Matrix
+        The radii of entries of A that are independent, and what may be added to A with a factor
+        from −1 to 1, if entries are not independent; the radii above are those of a box of
+        independent entries that contains all.
     """
 
     A: Matrix
@@ -48,6 +52,7 @@ class GainBox:
     C: tuple[Matrix, ...]
     radii: Radii
     near: FloatBox
+    moved: tuple[Matrix, ...] = ()
 
     def of_gains(self, F: Sequence[Matrix], growth: Fraction) -> tuple[Matrix, Matrix]:
         """A_F = A + Σ B_i F_i C_i, and its radii where those of the box grow."""
@@ -64,7 +69,8 @@ class GainBox:
         """A_F and its radii in balanced coordinates."""
         s = self.near.scale
         turned = s[None, :] / s[:, None]
-        return replace(self.near, A=matrix_to_float(A_F) * turned, DA=matrix_to_float(D_F) * turned)
+        D = matrix_to_float(D_F) * turned
+        return replace(self.near, A=matrix_to_float(A_F) * turned, DA=D, rest_A=D, tied_A=())
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,7 +130,8 @@ def disc_lists(
             made = each.coordinates.exact(box.near.scale, each.M, each.D)
             found += [] if made is None else [_evidence(each.F, made)]
     if not found:
-        own = exterior(box.near, box.A, box.radii.A, rng, growth)
+        D, *tied = box.moved or (box.radii.A,)
+        own = exterior(box.near, box.A, D, rng, growth, tied)
         found = [] if own is None else [_evidence(None, own)]
     return tuple(found) or None
 

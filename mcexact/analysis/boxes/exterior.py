@@ -7,7 +7,7 @@ for every i if s_i = |G_ii| − Σ_{j≠i} |G_ij| > 0 and rad_i s_i > Σ_j |a_i 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -39,7 +39,12 @@ class Exterior:
 
 
 def exterior(
-    box: FloatBox, A: Matrix, D: Matrix, rng: np.random.Generator, growth: Fraction = Fraction(1)
+    box: FloatBox,
+    A: Matrix,
+    D: Matrix,
+    rng: np.random.Generator,
+    growth: Fraction = Fraction(1),
+    tied: Sequence[Matrix] = (),
 ) -> Exterior | None:
     """Compute the discs for radii that are multiplied by a factor; None if there are none.
 
@@ -51,11 +56,15 @@ def exterior(
         The nominal matrix and its radii.
     rng : numpy.random.Generator
     growth : Fraction
+    tied : sequence of Matrix
+        What may be added to A, each with a factor from −1 to 1.
     """
     if not box.n:
         none = ComplexRows.of(Matrix.zeros(0, 0))
         return Exterior(none, none, ())
-    proposed = (each.exact(box.scale, A, D * growth) for each in coordinates(box, rng, growth))
+    along = [M * growth for M in tied]
+    ranked = coordinates(box, rng, growth)
+    proposed = (each.exact(box.scale, A, D * growth, along) for each in ranked)
     return next((found for found in proposed if found is not None), None)
 
 
@@ -78,7 +87,9 @@ class Coordinates:
     radii: Floats
     size: Floats
 
-    def exact(self, scale: Floats, A: Matrix, D: Matrix) -> Exterior | None:
+    def exact(
+        self, scale: Floats, A: Matrix, D: Matrix, tied: Sequence[Matrix] = ()
+    ) -> Exterior | None:
         """Round Y and T, and compute the discs of a matrix exactly; None if there are none.
 
         No entry of Y or T is finer than what a small part of the radii asks for.
@@ -92,7 +103,7 @@ class Coordinates:
         unit_T = np.maximum(_FINE / (n * n * heavy_T), _FINEST * T.max(axis=0))
         exact_Y = dyadic(self.Y / scale[None, :], unit_Y / scale[None, :])
         exact_T = dyadic(self.T * scale[:, None], unit_T * scale[:, None])
-        discs = _discs(exact_Y, exact_T, A, D, self.centers)
+        discs = _discs(exact_Y, exact_T, A, (D, *tied), self.centers)
         return None if discs is None else Exterior(exact_Y, exact_T, discs)
 
 
@@ -110,7 +121,7 @@ def coordinates(
         H = Y @ A @ T
         centers = np.diag(H).copy()
         size_Y, size_T = np.abs(Y), np.abs(T)
-        spread = np.abs(H - np.diag(centers)) + float(growth) * (size_Y @ box.DA @ size_T)
+        spread = np.abs(H - np.diag(centers)) + float(growth) * box.moved(Y, T)
         spread += 1e-12 * (size_Y @ size @ size_T)
         if not np.all(np.isfinite(spread)):
             continue
@@ -171,12 +182,19 @@ def _candidates(A: Floats, D: Floats, rng: np.random.Generator) -> Iterator[Any]
 
 
 def _discs(
-    Y: ComplexRows, T: ComplexRows, A: Matrix, D: Matrix, centers: Complex
+    Y: ComplexRows,
+    T: ComplexRows,
+    A: Matrix,
+    moved: tuple[Matrix, ...],
+    centers: Complex,
 ) -> tuple[RootDisc, ...] | None:
     """The discs with radii as small as the exact matrices allow, rounded up to three digits."""
     G, H = Y @ T, Y @ T.after(A)
     ones = Matrix.from_integers([[1]] * len(centers), 1, 1)
+    D, *tied = moved
     e = Y.moduli() @ (D @ (T.moduli() @ ones))
+    for M in tied:
+        e = e + (Y @ (ComplexRows.of(M) @ T)).moduli() @ ones
     d = math.lcm(G.denominator, H.denominator)
     (G_re, G_im), (H_re, H_im) = G.integers(d), H.integers(d)
     found = []

@@ -40,6 +40,11 @@ class FloatBox:
     ----------
     A, DA : ndarray, n × n
     B, C, DB, DC : tuples of ndarray
+        Radii are those of entries that are independent, with the moduli of those that are tied.
+    rest_A : ndarray, n × n
+        The radii of A without those of entries that are tied.
+    tied_A : tuple of ndarray
+        What may be added to A with a factor from −1 to 1.
     scale : ndarray, n
         x = scale · z, where z are the balanced states.
     """
@@ -50,12 +55,18 @@ class FloatBox:
     DA: Floats
     DB: tuple[Floats, ...]
     DC: tuple[Floats, ...]
+    rest_A: Floats
+    tied_A: tuple[Floats, ...]
     scale: Floats
 
     @classmethod
-    def of(cls, system: MultiChannelSystem, radii: Radii) -> FloatBox:
-        """Make it of a system and the radii of its entries."""
+    def of(
+        cls, system: MultiChannelSystem, radii: Radii, tied: Sequence[MultiChannelSystem] = ()
+    ) -> FloatBox:
+        """Make it of a system, the radii of its entries, and what may be added to it."""
         from scipy.linalg import matrix_balance
+
+        free = independent(radii, tied)
 
         A = matrix_to_float(system.A)
         s: Floats = np.ones(system.n)
@@ -66,11 +77,18 @@ class FloatBox:
             A * rows * cols,
             tuple(matrix_to_float(M) * rows for M in system.B),
             tuple(matrix_to_float(M) * cols for M in system.C),
+            matrix_to_float(free.A) * rows * cols,
+            tuple(matrix_to_float(M) * rows for M in free.B),
+            tuple(matrix_to_float(M) * cols for M in free.C),
             matrix_to_float(radii.A) * rows * cols,
-            tuple(matrix_to_float(M) * rows for M in radii.B),
-            tuple(matrix_to_float(M) * cols for M in radii.C),
+            tuple(matrix_to_float(each.A) * rows * cols for each in tied),
             s,
         )
+
+    def moved(self, Y: Complex, T: Complex) -> Floats:
+        """An upper limit of the moduli of Y (A' − A) T for all members A'."""
+        rest = np.abs(Y) @ self.rest_A @ np.abs(T)
+        return np.asarray(rest + sum(np.abs(Y @ M @ T) for M in self.tied_A))
 
     @property
     def n(self) -> int:
@@ -98,12 +116,15 @@ class Pencil:
     n : int
     scale : ndarray, N
         Powers of 2, by which the coordinates are balanced.
+    tied : tuple of Matrix
+        What may be added to Z0, each with a factor from −1 to 1.
     """
 
     Z0: Matrix
     D: Matrix
     n: int
     scale: Floats
+    tied: tuple[Matrix, ...] = ()
 
     @cached_property
     def balanced(self) -> tuple[Floats, Floats, Floats]:
@@ -112,6 +133,18 @@ class Pencil:
         E = np.zeros(len(self.scale))
         E[: self.n] = 1
         return matrix_to_float(self.Z0) * rows * cols, matrix_to_float(self.D) * rows * cols, E
+
+    @cached_property
+    def balanced_ties(self) -> tuple[Floats, ...]:
+        """What may be added to Z0, in balanced coordinates."""
+        rows, cols = (1 / self.scale)[:, None], self.scale[None, :]
+        return tuple(matrix_to_float(M) * rows * cols for M in self.tied)
+
+    def moved(self, V: Complex) -> Floats:
+        """An upper limit of the moduli of V (Z0' − Z0) for all members Z0'."""
+        return np.asarray(
+            np.abs(V) @ self.balanced[1] + sum(np.abs(V @ M) for M in self.balanced_ties)
+        )
 
     def inverse(self, c: complex) -> Complex | None:
         """Z(c)⁻¹ of the nominal pencil in balanced coordinates, if it exists."""
@@ -127,7 +160,7 @@ class Pencil:
         Y = self.inverse(c)
         if Y is None:
             return 0.0
-        size, _, _ = perron(np.abs(Y) @ self.balanced[1])
+        size, _, _ = perron(self.moved(Y))
         return 1 / size if size > 0 else np.inf
 
     def proposal(self, c: complex, rho: float, growth: Fraction) -> RegularDiscs | None:
@@ -145,11 +178,11 @@ class Pencil:
         if V is None:
             return None
         Z0, D, E = self.balanced
-        size = np.abs(V)
-        w = weights(size @ (g * D + rho * np.diag(E)))
+        w = weights(g * self.moved(V) + rho * np.abs(V) @ np.diag(E))
         if w is None:
             return None
-        unit = w[:, None] / (len(w) * (np.abs(c * np.diag(E) - Z0) @ w + g * D @ w))[None, :]
+        free = D + sum(map(np.abs, self.balanced_ties))
+        unit = w[:, None] / (len(w) * (np.abs(c * np.diag(E) - Z0) @ w + g * free @ w))[None, :]
         turned = self.scale[:, None] / self.scale[None, :]
         exact = dyadic(V * turned, unit * turned)
         return self.tested(exact, whole_weights(w * self.scale), growth)
@@ -161,14 +194,27 @@ class Pencil:
         K = one + V.before(self.Z0)
         E = Matrix.from_entries((N, N), ((i, i, 1) for i in range(self.n)))
         size = V.moduli()
+        moved = size @ (self.D @ heavy)
+        for M in self.tied:
+            moved = moved + V.before(M).moduli() @ heavy
         return RegularDiscs(
             V,
             K,
             V.before(E),
             w,
-            entries(size @ (self.D * growth @ heavy)),
+            entries(moved * growth),
             entries(size @ (E @ heavy)),
         )
+
+
+def independent(radii: Radii, tied: Sequence[MultiChannelSystem]) -> Radii:
+    """The radii of a box of independent entries that contains all members."""
+    A, B, C = radii.A, list(radii.B), list(radii.C)
+    for each in tied:
+        A = A + moduli(each.A)
+        B = [D + moduli(M) for D, M in zip(B, each.B, strict=True)]
+        C = [D + moduli(M) for D, M in zip(C, each.C, strict=True)]
+    return Radii(A, B, C)
 
 
 def gain_pencil(
@@ -177,6 +223,7 @@ def gain_pencil(
     scale: Floats,
     X: Sequence[Matrix] | None = None,
     W: Sequence[Matrix] | None = None,
+    tied: Sequence[MultiChannelSystem] = (),
 ) -> Pencil:
     """The pencil [[λI − A, −B], [XC, W]], which is regular where λ is not fixed.
 
@@ -184,21 +231,33 @@ def gain_pencil(
 
         Z0 = [[A, B], [−X C, −W]],   D = [[D_A, D_B], [|X| D_C, 0]].
     """
+    n = system.n
     if X is None or W is None:
-        return Pencil(system.A, radii.A, system.n, scale)
+        return Pencil(system.A, radii.A, n, scale, tuple(each.A for each in tied))
     p = sum(system.p(i) for i in range(system.m))
-    Z0 = [hstack([system.A, *system.B], nrows=system.n)]
-    D = [hstack([radii.A, *radii.B], nrows=system.n)]
-    start = 0
-    for X_i, W_i, C_i, DC_i in zip(X, W, system.C, radii.C, strict=True):
-        size = W_i.nrows
-        left, right = Matrix.zeros(size, start), Matrix.zeros(size, p - start - size)
-        Z0.append(hstack([-(X_i @ C_i), left, -W_i, right], nrows=size))
-        D.append(hstack([moduli(X_i) @ DC_i, Matrix.zeros(size, p)], nrows=size))
-        start += size
-    width = system.n + p
-    full = np.concatenate([scale, np.ones(p)])
-    return Pencil(vstack(Z0, ncols=width), vstack(D, ncols=width), system.n, full)
+
+    def whole(A: Matrix, B: Sequence[Matrix], XC: list[Matrix], W: list[Matrix]) -> Matrix:
+        rows, start = [hstack([A, *B], nrows=n)], 0
+        for below, W_i in zip(XC, W, strict=True):
+            size = W_i.nrows
+            left, right = Matrix.zeros(size, start), Matrix.zeros(size, p - start - size)
+            rows.append(hstack([below, left, W_i, right], nrows=size))
+            start += size
+        return vstack(rows, ncols=n + p)
+
+    def of(each: MultiChannelSystem, last: list[Matrix]) -> Matrix:
+        XC = [-(X_i @ C_i) for X_i, C_i in zip(X, each.C, strict=True)]
+        return whole(each.A, each.B, XC, last)
+
+    zeros = [Matrix.zeros(*W_i.shape) for W_i in W]
+    moved = [moduli(X_i) @ DC_i for X_i, DC_i in zip(X, radii.C, strict=True)]
+    return Pencil(
+        of(system, [-W_i for W_i in W]),
+        whole(radii.A, radii.B, moved, zeros),
+        n,
+        np.concatenate([scale, np.ones(p)]),
+        tuple(of(each, zeros) for each in tied),
+    )
 
 
 def weights(N: Floats) -> Floats | None:

@@ -7,7 +7,14 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
-from tests.checker.box_maker import controllable, fixed, stable
+from tests.checker.box_maker import (
+    control_witness,
+    controllable,
+    fixed,
+    fixed_witness,
+    in_cells,
+    stable,
+)
 from tests.checker.box_plants import LOOP, gains, programs, radii_of_first
 from tests.checker.handmade import matrix, plant
 
@@ -72,6 +79,48 @@ def drawn_gains(rng: random.Random, draw: Callable[[], Any]) -> tuple[Any, ...]:
     """Of which matrices there are exterior discs: of A, of some A_F, or of several of them."""
     found = [rng.choice((None, draw())) for _ in range(rng.choice((1, 1, 2, 3)))]
     return tuple(found)
+
+
+def dense(M: Any) -> list[list[Any]]:
+    """The rows of a matrix, which plants with parameters have always."""
+    if isinstance(M, list):
+        return M
+    rows = [[0] * M["shape"][1] for _ in range(M["shape"][0])]
+    for i, j, value in M["entries"]:
+        rows[i][j] = value
+    return rows
+
+
+def drawn_in_ranges(rng: random.Random, kind: str) -> Document | None:
+    """A true certificate about all values of one or two parameters, or None."""
+    names = rng.choice((("t",), ("t",), ("a", "b")))
+    values = {"a": ("3/4", "5/4"), "b": ("1/2", 1), "t": ("3/4", 1)}
+    some = {"a": ("a", "1/8*b", "a*b", "b - 2"), "t": ("t", "1/8*t", "t^2 - 2", "-t")}[names[0]]
+    found = drawn_box(rng, (-1, 1, 2, Fraction(1, 2)), rng.choice(("continuous", "discrete")))
+    found.pop("uncertainty", None)
+    rows = found["A"] = dense(found["A"])
+    for channel in found["channels"]:
+        channel["B"], channel["C"] = dense(channel["B"]), dense(channel["C"])
+    for _ in range(rng.choice((1, 2, 3))):
+        rows[rng.randrange(2)][rng.randrange(2)] = rng.choice(some)
+    if rng.random() < 0.3:
+        found["channels"][0]["B"] = [[rng.choice(some)], [0]]
+    found["parameters"] = {name: {"range": list(values[name])} for name in names}
+    last = len(names) - 1
+    ways: list[list[int | None]] = [[None], [0, None, None], [last, None, 0, None, None]]
+    cuts = rng.choice(ways)
+    try:
+        if kind == "parametric_box_fixed":
+            bound = rng.choice((None, None, 0 if found["time"] == "continuous" else 1))
+            given = [gains((x, 1), (x, 1)) for x in (3, -3)]
+            made = lambda box: fixed_witness(box, given, bound)  # noqa: E731
+            return in_cells(found, kind, {"bound": bound}, cuts, made)
+        claim = {"channels": ["1", "2"], "bound": None}
+        steps = (DUAL,) if rng.random() < 0.5 else ()
+        control = lambda box: control_witness(box, ["1", "2"], None)  # noqa: E731
+        return in_cells(found, kind, claim, cuts, control, *steps)
+    except ArithmeticError:
+        return None
 
 
 def drawn_stable(rng: random.Random, time: str) -> Document:

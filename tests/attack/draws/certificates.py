@@ -32,7 +32,7 @@ from mcexact.model.parametric_file import read_parametric_system
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import read_system
 
-from .boxes import drawn_about_a_box
+from .boxes import drawn_about_a_box, drawn_in_ranges
 from .observers import drawn_observer
 from .parametric import drawn_moves, drawn_parametric_plant
 from .plants import Document, drawn_plant
@@ -221,6 +221,8 @@ def drawn_certificate(rng: random.Random, kind: str, focus: str | None) -> Docum
         return drawn_observer(rng)
     if kind.startswith("box_"):
         return drawn_about_a_box(rng, kind)
+    if kind.startswith("parametric_box_"):
+        return drawn_in_ranges(rng, kind)
     if kind in PARAMETRIC:
         parametric = drawn_parametric_plant(rng)
         return certified(rng, kind, parametric, drawn_moves(rng, parametric))

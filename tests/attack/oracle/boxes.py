@@ -20,6 +20,7 @@ from .loops import bound_of
 from .modes import fixed_modes
 from .reading import demand, listed, positions, record
 from .roots import inside
+from .several_parameters import read_several
 from .systems import System, read_plant
 
 VERTICES, INNER = 5, 2
@@ -110,22 +111,47 @@ def written(M: fmpq_mat) -> Any:
     return [[int(v.p) if v.q == 1 else str(v) for v in row] for row in M.tolist()]
 
 
+def members_in_ranges(document: Mapping[str, Any]) -> Iterator[System]:
+    """The subjects at some values within the ranges of parameters."""
+    plant, steps = read_several(document["system"]), listed(document["subject"])
+    for values in plant.points():
+        yield built(plant.at(values), steps)
+
+
 def fixed(claim: Any, document: Mapping[str, Any], system: System) -> bool:
     """No member has a fixed mode outside of the region."""
+    return _none_fixed(claim, members(document), system.time)
+
+
+def fixed_in_ranges(claim: Any, document: Mapping[str, Any], system: System) -> bool:
+    """At no values is a mode fixed outside of the region."""
+    return _none_fixed(claim, members_in_ranges(document), system.time)
+
+
+def _none_fixed(claim: Any, systems: Iterator[System], time: str) -> bool:
     given = record(claim, "bound")["bound"]
-    bound = bound_of(given, system.time)
+    bound = bound_of(given, time)
     return not any(
-        given is None or not inside(mode.polynomial, system.time, bound)
-        for each in members(document)
+        given is None or not inside(mode.polynomial, time, bound)
+        for each in systems
         for mode in fixed_modes(each)
     )
 
 
 def controllable(claim: Any, document: Mapping[str, Any], system: System) -> bool:
     """The channels leave no member an uncontrollable mode outside of the region."""
+    return _all_controlled(claim, members(document), system)
+
+
+def controllable_in_ranges(claim: Any, document: Mapping[str, Any], system: System) -> bool:
+    """At no values do the channels leave an uncontrollable mode outside of the region."""
+    return _all_controlled(claim, members_in_ranges(document), system)
+
+
+def _all_controlled(claim: Any, systems: Iterator[System], system: System) -> bool:
     found = record(claim, "channels", "bound")
     T, bound = positions(found["channels"], system.names), bound_of(found["bound"], system.time)
-    for each in members(document):
+    for each in systems:
         K = algebra.krylov(each.A, each.inputs(T), each.n)
         left = algebra.quotient_polynomial(each.A, K)
         if left.degree() > 0 and (found["bound"] is None or not inside(left, each.time, bound)):

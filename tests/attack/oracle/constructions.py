@@ -10,10 +10,11 @@ from flint import fmpq_mat
 
 from .algebra import below, beside, identity, selection, stacked
 from .controllers import closed_loop
-from .moved_entries import moved
+from .moved_entries import MOVING, moved
 from .networks import held, lifted
 from .parametric import read_parametric
 from .reading import demand, integer, listed, matrix, place, positions, record
+from .several_parameters import read_several
 from .systems import System, read_plant
 
 
@@ -25,10 +26,23 @@ def subject_of(document: Mapping[str, Any], most: int | None = None) -> Any:
     most : int, optional
         How many constructions to apply; all by default.
     """
+    if is_ranged(document):
+        several = read_several(document["system"])
+        steps = listed(document["subject"])[:most]
+        for step in steps:
+            demand(isinstance(step, Mapping), "expected a construction")
+            demand(step.get("construction") in MOVING, "expected one that moves entries")
+        return built(several.at(next(several.points())), steps)
     if isinstance(document["system"], Mapping) and "parameters" in document["system"]:
         plant = read_parametric(document["system"])
         return moved(plant, listed(document["subject"])[:most], built)
     return built(read_plant(document["system"]), listed(document["subject"])[:most])
+
+
+def is_ranged(document: Mapping[str, Any]) -> bool:
+    """Whether a document is about all values within ranges of parameters."""
+    known = isinstance(document["system"], Mapping) and "parameters" in document["system"]
+    return known and str(document["kind"]).startswith("parametric_box_")
 
 
 def built(system: System, steps: Sequence[Any]) -> System:

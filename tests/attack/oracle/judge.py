@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from . import boxes, fixed, loops, parametric, parametric_rank, sharing, structure
-from .constructions import subject_of
+from .constructions import is_ranged, subject_of
 from .reading import Unspecified, demand, record
 
 TRUE, FALSE, UNDECIDED = "true", "false", "undecided"
@@ -28,6 +28,8 @@ KINDS: Mapping[str, Callable[[Any, Any, Any], bool]] = {
     "exceptional_gains": fixed.exceptional_gains,
     "fixed_spectrum": fixed.fixed_spectrum,
     "neighbor_graph": structure.neighbor_graph,
+    "parametric_box_controllable": boxes.controllable_in_ranges,
+    "parametric_box_fixed": boxes.fixed_in_ranges,
     "parametric_fixed_spectrum": parametric.spectrum,
     "parametric_rank": parametric_rank.rank,
     "pencil_rank": fixed.rank_of_pencil,
@@ -48,11 +50,11 @@ def judge(document: Mapping[str, Any]) -> tuple[str, str]:
         kind = document["kind"]
         demand(isinstance(kind, str) and kind in KINDS, "expected a known kind")
         system: Any = subject_of(document)
-        with_parameter = isinstance(system, parametric.ParametricPlant)
+        with_parameter = is_ranged(document) or isinstance(system, parametric.ParametricPlant)
         demand(with_parameter == kind.startswith("parametric_"), "expected another sort of plant")
         if system.n > MOST_STATES or system.m > 6:
             return UNDECIDED, f"{system.n} states, {system.m} channels"
-        whole = kind == "distributed_observer" or kind.startswith("box_")
+        whole = kind == "distributed_observer" or kind.startswith(("box_", "parametric_box_"))
         hint = document if whole else document["witness"]
         holds = KINDS[kind](document["claim"], hint, system)
     except Unspecified as error:

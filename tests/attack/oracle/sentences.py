@@ -258,11 +258,11 @@ def _single(claim: Any, system: System) -> str:
 MEMBERS = "for all values within their radii"
 
 
-def _box_controllable(claim: Any, system: System) -> str:
+def _box_controllable(claim: Any, system: System, members: str = MEMBERS) -> str:
     bound = claim["bound"]
     beyond = "" if bound is None else f" of {_region(bound, system.time, 'at least')}"
     named = channels(claim["channels"])
-    return f"{MEMBERS}, the channels {named} together control every mode{beyond}"
+    return f"{members}, the channels {named} together control every mode{beyond}"
 
 
 def _box_stable(claim: Any, system: System) -> str:
@@ -305,6 +305,10 @@ SENTENCES: dict[str, Any] = {
     "fixed_spectrum": _spectrum,
     "neighbor_graph": lambda claim, system: (
         f"its neighbor graph is {_not(claim['strongly_connected'])}strongly connected"
+    ),
+    "parametric_box_controllable": _box_controllable,
+    "parametric_box_fixed": lambda claim, system, values: (
+        f"{values}, there is {_freedom(claim['bound'], system.time)}"
     ),
     "parametric_fixed_spectrum": parametric_sentence,
     "parametric_rank": rank_sentence,

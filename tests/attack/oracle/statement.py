@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from .constructions import output_gains, subject_of
+from .constructions import is_ranged, output_gains, subject_of
 from .controllers import MAPS, read_agents
 from .reading import is_sparse, matrix
 from .sentences import SENTENCES, SHARING
@@ -29,8 +29,16 @@ def statement(document: Mapping[str, Any]) -> str:
     if claim.get("gain_radii") is not None:
         inner = subject_of(document, len(document["subject"]) - 1)
         claim = {**claim, "gain_radii": _controller(claim["gain_radii"], inner)}
-    sentence = SENTENCES[document["kind"]](claim, system)
+    given = (claim, system, ranges(document)) if is_ranged(document) else (claim, system)
+    sentence = SENTENCES[document["kind"]](*given)
     return f"For {words} ({_sizes(system)}): {sentence}"
+
+
+def ranges(document: Mapping[str, Any]) -> str:
+    """All values within the ranges of parameters."""
+    known = sorted(document["system"]["parameters"].items())
+    told = (f"{name} from {said['range'][0]} to {said['range'][1]}" for name, said in known)
+    return f"for all real {' and '.join(told)}"
 
 
 def plant_digest(document: Mapping[str, Any]) -> str:

@@ -1,0 +1,151 @@
+"""Cells of ranges of parameters, and the boxes around the plants of a cell."""
+
+from __future__ import annotations
+
+import random
+from fractions import Fraction
+from typing import Any
+
+import pytest
+
+from mcexact import ParametricSystem
+from mcexact.checker.parameter_cells import box_of_cell, cells_of
+from mcexact.checker.parametric_system import read_parametric
+from mcexact.checker.reading import Limits, Refused
+from mcexact.model.parametric_file import read_parametric_document
+from tests.checker.box_maker import fractions
+from tests.checker.parameter_plants import PRODUCT, SQUARE, ranged
+
+PAIR = ranged([["a*b"]], ([[1]], [[1]]), a=(0, 4), b=(-1, 1))
+
+
+def test_cells_are_halved_in_the_order_of_the_cuts() -> None:
+    plant = read_parametric(PAIR)
+    whole = [(Fraction(0), Fraction(4)), (Fraction(-1), Fraction(1))]
+    assert cells_of([None], "cuts", plant) == [whole]
+    assert cells_of([0, None, 1, None, None], "cuts", plant) == [
+        [(0, 2), (-1, 1)],
+        [(2, 4), (-1, 0)],
+        [(2, 4), (0, 1)],
+    ]
+
+
+def test_the_parameters_are_in_alphabetical_order() -> None:
+    turned = {**PAIR, "parameters": dict(reversed(PAIR["parameters"].items()))}
+    assert cells_of([None], "cuts", read_parametric(turned)) == [[(0, 4), (-1, 1)]]
+
+
+def test_an_entry_is_its_value_its_slopes_and_what_is_left() -> None:
+    system = ranged([["a*b^2 + 3*a - 1"]], ([[1]], [["(a)/(b)"]]), a=(1, 3), b=("3/2", "5/2"))
+    plant = read_parametric(system)
+    box = box_of_cell(plant, cells_of([None], "cuts", plant)[0])
+    # (2 + h)(2 + k)² + 3(2 + h) − 1 = 13 + 7h + 8k + 4hk + 2k² + hk², |h| ≤ 1, |k| ≤ 1/2
+    assert fractions(box.A) == [[13]]
+    assert [fractions(each.A) for each in box.tied] == [[[7]], [[4]]]
+    assert fractions(box.radii.A) == [[2 + Fraction(1, 2) + Fraction(1, 4)]]
+    # (2 + h)/(2 + k) = 1 + h/2 − k/2 + (k²/2 − hk/2)/(2 + k)
+    assert fractions(box.C[0]) == [[1]]
+    assert [fractions(each.C[0]) for each in box.tied] == [[[Fraction(1, 2)]], [[Fraction(-1, 4)]]]
+    assert fractions(box.radii.C[0]) == [[(Fraction(1, 8) + Fraction(1, 4)) / Fraction(3, 2)]]
+    assert [fractions(each.B[0]) for each in (box.radii, *box.tied)] == [[[0]]] * 3
+
+
+ENTRIES = ("a*b", "a^2 - b", "(a + 1)*(b - 2)^2", "1/a", "(a*b + 1)/(a*b^2)", "a/2 - 3", "7")
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_the_plants_of_a_cell_are_in_its_box(seed: int) -> None:
+    rng = random.Random(seed)
+    rows = [[rng.choice(ENTRIES) for _ in range(2)] for _ in range(2)]
+    system = ParametricSystem(
+        rows,
+        [[[rng.choice(ENTRIES)], [0]]],
+        [[[rng.choice(ENTRIES), 1]]],
+        parameters=["a", "b"],
+        assume={"a": (1, "5/4"), "b": (1, 2)},
+    )
+    plant: Any = read_parametric(system.document())
+    for cell in cells_of([1, 0, None, None, None], "cuts", plant):
+        box = box_of_cell(plant, cell)
+        for _ in range(5):
+            shares = [Fraction(rng.randint(-4, 4), 4) for _ in cell]
+            ends = zip(cell, shares, strict=True)
+            values = [(low + high) / 2 + s * (high - low) / 2 for (low, high), s in ends]
+            member = system.at(dict(zip(("a", "b"), values, strict=True)))
+            parts = (member.A, member.B[0], member.C[0])
+            known = zip(
+                (box.A, box.B[0], box.C[0]),
+                (box.radii.A, box.radii.B[0], box.radii.C[0]),
+                *((each.A, each.B[0], each.C[0]) for each in box.tied),
+                strict=True,
+            )
+            for M, (M0, D, *slopes) in zip(parts, known, strict=True):
+                for i, row in enumerate(M.rows()):
+                    for j, x in enumerate(row):
+                        moved = [
+                            s * fractions(S)[i][j] for s, S in zip(shares, slopes, strict=True)
+                        ]
+                        near = fractions(M0)[i][j] + sum(moved)
+                        assert abs(x - near) <= fractions(D)[i][j]
+
+
+TEXTS: dict[str, Any] = {
+    "b*a": "a*b",
+    "1/a": "(1)/(a)",
+    "2/(4*a*b^2)": "(1/2)/(a*b^2)",
+    "a/a": 1,
+    "(a^2*b - a)/(a*b)": "(a*b - 1)/(b)",
+    "1/a + 1/b": "(a + b)/(a*b)",
+    "1/a - 1/a": 0,
+    "0*a": 0,
+    "(a + b)^2": "a^2 + 2*a*b + b^2",
+    "-a*b^2 + a": "-a*b^2 + a",
+    "3/2 - b": "-b + 3/2",
+    "a - (b - 1)": "a - b + 1",
+    "-(a - 1/2)": "-a + 1/2",
+    "0.25": "1/4",
+    "4": 4,
+    "a^1000": "a^1000",
+    "a^500*b^500": "a^500*b^500",
+    "a^500*b^501": None,
+    "(a*b)^501": None,
+    "1/(a*b)^500*(1/a)": None,
+    "c": None,
+    "a b": None,
+    "a/0": None,
+    "a/(b - b)": None,
+    "(a": None,
+}
+
+
+@pytest.mark.parametrize("text", TEXTS)
+def test_entries_of_several_parameters_have_one_canonical_form(text: str) -> None:
+    document = {
+        "format": "mcexact-system/1",
+        **ranged([[text]], ([[1]], [[1]]), a=(1, 2), b=(1, 2)),
+    }
+    try:
+        found = read_parametric(document, Limits()).document["A"][0][0]
+    except Refused as refused:
+        assert refused.verdict == "MALFORMED"
+        found = None
+    assert found == TEXTS[text]
+    if found is not None:
+        package = read_parametric_document(document).document()
+        assert package["A"][0][0] == found
+        again = read_parametric({**package})
+        assert again.document == package
+
+
+@pytest.mark.parametrize("text", ["1/(a + b)", "a/(1 + b)", "1/(1/a + 1/b)"])
+def test_a_sum_in_a_denominator_of_several_parameters_is_not_known(text: str) -> None:
+    with pytest.raises(Refused) as refused:
+        read_parametric(ranged([[text]], ([[1]], [[1]]), a=(1, 2), b=(1, 2)))
+    assert refused.value.args[:2] == ("INCOMPLETE", "parameters")
+
+
+def test_a_file_with_several_parameters_has_the_digest_of_the_package() -> None:
+    for system in (PRODUCT, SQUARE, PAIR):
+        document = {"format": "mcexact-system/1", **system}
+        package = read_parametric_document(document).document()
+        assert read_parametric(document, Limits()).document == package

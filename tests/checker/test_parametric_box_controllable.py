@@ -1,0 +1,44 @@
+"""The rule of ``parametric_box_controllable``: channels control at all values within ranges."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.checker.handmade import checked, without
+from tests.checker.parameter_plants import ALL, CONTROLLABLE, CONTROLLED, OBSERVED
+from tests.checker.tables import accepts, rejects
+
+OF_THIS_KIND = [(name, each) for name, each in ALL.items() if each["kind"] == CONTROLLABLE]
+
+test_what_is_made_is_proved = accepts(OF_THIS_KIND)
+
+test_what_proves_less_is_refused = rejects(
+    [
+        ("a channel fewer", CONTROLLED, ("claim.channels", ["1"]), "MALFORMED"),
+        ("an unknown channel", CONTROLLED, ("claim.channels", ["3"]), "MALFORMED"),
+        ("an input reaches 0", CONTROLLED, ("system.channels.0.B.0.0", "2*k - 1"), "INVALID"),
+        ("an input moves with k", CONTROLLED, ("system.channels.0.B.0.0", "4*k - 1"), "INVALID"),
+        ("the range is larger", CONTROLLED, ("system.parameters.k.range", [0, 4]), "INVALID"),
+        (
+            "an output reaches 0, about the dual",
+            OBSERVED,
+            ("system.channels.0.C.0.0", "20*a - 20"),
+            "INVALID",
+        ),
+        ("a cell is missing", OBSERVED, ("witness.cuts", [0, None]), "INVALID"),
+        ("a part is missing", OBSERVED, ("witness.parts", []), "MALFORMED"),
+        ("a frame is missing", CONTROLLED, ("witness.parts.0.frames", []), "MALFORMED"),
+        ("R is 0", CONTROLLED, ("witness.parts.0.frames.0.R.re", [[0, 0]] * 4), "INVALID"),
+    ]
+)
+
+
+@pytest.mark.parametrize("part", ["cuts", "parts"])
+def test_every_part_of_the_witness_is_needed(part: str) -> None:
+    assert checked(without(CONTROLLED, f"witness.{part}")).verdict == "MALFORMED"
+
+
+def test_the_statement_names_the_ranges() -> None:
+    said = 'for all real k from 1/4 to 3/4, the channels {"1", "2"} together control every mode'
+    assert checked(CONTROLLED).statement.endswith(said)
+    assert checked(OBSERVED).statement.startswith("For the dual of: the plant ")
