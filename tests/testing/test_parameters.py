@@ -2,39 +2,109 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from fractions import Fraction
+from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, example, find, given, settings
 from hypothesis import strategies as st
 
 import mcexact
-from mcexact import ParametricSystem, check, exceptional_hypersurfaces, fixed_spectrum
+from mcexact import (
+    MultiChannelSystem,
+    ParametricSystem,
+    check,
+    exceptional_hypersurfaces,
+    fixed_spectrum,
+    joint_controllability,
+    joint_observability,
+    setpoint_solvability,
+    transfer_graph,
+)
 from mcexact.errors import InputError
 from mcexact.testing import parametric_systems
 
-VALUES = st.sampled_from([Fraction(0), Fraction(1), Fraction(-1), Fraction(1, 2), Fraction(5)])
+VALUES = st.sampled_from([Fraction(v) for v in (0, 1, -1, "1/2", 3, 5)])
 FEW = settings(max_examples=10, deadline=None)
 PLANTED = ParametricSystem(
     [["t", 1], [0, "1/(t - 3)"]], [[[0], ["t - 1/2"]]], [[[1, 0]]], parameters=["t"]
 )
 
 
+DRAWN = parametric_systems(2, denominators=True, ranges=True)
+
+
+def systems_at(
+    plant: ParametricSystem, value: Fraction, *answers: Any
+) -> Iterator[tuple[Fraction, MultiChannelSystem]]:
+    """The plant at a value, and at all rational ones that answers name, where it is defined."""
+    named = {each.exact for found in answers for each in found.exceptional}
+    for each in {value, *named} - {None}:
+        try:
+            yield each, plant.at({"t": each})
+        except InputError:
+            continue
+
+
+def says_nothing(found: Any, value: Fraction) -> bool:
+    """Whether a value is out of the range."""
+    return any(each.value(value) == 0 for each in found.outside)
+
+
 @FEW
-@given(parametric_systems(2, denominators=True), VALUES)
+@given(DRAWN, VALUES)
 @example(PLANTED, Fraction(1, 2))
+@example(PLANTED, Fraction(3))
 def test_substituting_a_value_and_asking_again_gives_the_same_answer(
     plant: ParametricSystem, value: Fraction
 ) -> None:
     found = fixed_spectrum(plant)
-    try:
-        at = plant.at({"t": value})
-    except InputError:
+    known = dict(systems_at(plant, value, found))
+    if value not in known:
         with pytest.raises(InputError, match="undefined"):
             found.at(value)
-        return
-    assert set(found.at(value)) == {each.polynomial for each in fixed_spectrum(at).factors}
+    for each, at in known.items():
+        if not says_nothing(found, each):
+            assert set(found.at(each)) == {f.polynomial for f in fixed_spectrum(at).factors}
     assert check(found, plant).valid
+
+
+@settings(FEW, max_examples=5)
+@given(DRAWN, VALUES)
+@example(PLANTED, Fraction(1, 2))
+def test_substituting_a_value_gives_the_same_controllability_and_observability(
+    plant: ParametricSystem, value: Fraction
+) -> None:
+    for ask in (joint_controllability, joint_observability):
+        found = ask(plant)
+        for each, at in systems_at(plant, value, found):
+            if not says_nothing(found, each):
+                lost = any(q.value(each) == 0 for q in found.exceptional)
+                assert (ask(at).dimension < plant.n) is (lost or bool(found.generic))
+        assert check(found, plant).valid
+
+
+@settings(FEW, max_examples=5)
+@given(DRAWN, VALUES)
+@example(PLANTED, Fraction(1, 2))
+def test_substituting_a_value_gives_the_same_set_points_and_edges(
+    plant: ParametricSystem, value: Fraction
+) -> None:
+    rank, graph = setpoint_solvability(plant), transfer_graph(plant)
+    for each, at in systems_at(plant, value, rank, *graph.columns.values()):
+        if not says_nothing(rank, each):
+            assert rank_at(rank, each) == setpoint_solvability(at).rank
+        there = transfer_graph(at).arcs
+        for pair, found in graph.columns.items():
+            if not says_nothing(found, each):
+                assert bool(rank_at(found, each)) is (pair in there)
+
+
+def rank_at(found: Any, value: Fraction) -> int:
+    """The rank that an answer states at a value."""
+    lost = (each.rank for each in found.exceptional if each.value(value) == 0)
+    return int(next(lost, found.rank))
 
 
 @settings(FEW, max_examples=4)
