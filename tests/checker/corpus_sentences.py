@@ -19,10 +19,18 @@ from fractions import Fraction
 from typing import Any
 
 from mcexact.checker import check_document
-from mcexact.checker.sentence import RULES
 from tests.checker.corpus_plants import based, pool
 from tests.checker.handmade import Document
-from tests.checker.recorded import CORPUS, MISSING, NUMBER, REFUSED, TABLE, World, statement_mark
+from tests.checker.recorded import (
+    CORPUS,
+    MISSING,
+    NUMBER,
+    REFUSED,
+    TABLE,
+    World,
+    recorded_rules,
+    statement_mark,
+)
 
 LONGEST = 4000
 """The bytes of a certificate that is taken."""
@@ -70,7 +78,7 @@ Answers = dict[str, dict[str, list[str]]]
 def answers(made: World) -> Answers:
     """What each rule makes of certificates, by the answer."""
     found: Answers = {}
-    for key, rule in RULES.items():
+    for key, rule in recorded_rules().items():
         roles = [list(role.kinds) for role in rule.roles]
         usual = made.casts(roles)
         for cast in [*usual, *(each for each in made.casts(roles, 400) if each not in set(usual))]:
@@ -157,7 +165,7 @@ def write(chosen: list[tuple[World, Answers]]) -> None:
     for made, _ in chosen:
         (CORPUS / f"{made.name}.jsonl").write_text(text(made), encoding="ascii")
     lines, topic = [], "analysis"
-    for key, rule in RULES.items():
+    for key, rule in recorded_rules().items():
         topic = FIRST.get(key, topic)
         lines.append(" ".join(["#", topic, key, *("+".join(role.kinds) for role in rule.roles)]))
         lines.append(f"theorem: {rule.theorem}")

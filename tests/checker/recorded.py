@@ -41,6 +41,11 @@ Cast = str
 """Numbers of certificates with commas, each perhaps with pointers behind it."""
 
 
+def recorded_rules() -> dict[str, Any]:
+    """The rules about plants without a parameter; ``test_sentences_parameters`` has the others."""
+    return {key: rule for key, rule in RULES.items() if not key.startswith("parametric-")}
+
+
 @dataclass(frozen=True)
 class World:
     """A plant, what the sentences are about, and certificates, in a fixed order."""
