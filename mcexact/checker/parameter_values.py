@@ -51,10 +51,15 @@ def where_text(claim: Json, system: ParametricSystem) -> str:
     t = system.parameter
     where = f"for every complex {t} at which all entries are defined"
     if claim["outside"]:
-        low, high = ("infinity" if end is None else str(end) for end in system.range)
         roots = ", ".join(roots_text(entry, t) for entry in claim["outside"])
-        where += f", except at {roots}, none of which is real and between {low} and {high}"
+        where += f", except at {roots}, none of which is real and between {ends_text(system)}"
     return where
+
+
+def ends_text(system: ParametricSystem) -> str:
+    """The least and the largest value of the parameter."""
+    low, high = system.range
+    return f"{'-infinity' if low is None else low} and {'infinity' if high is None else high}"
 
 
 def roots_text(entry: Json, t: str) -> str:

@@ -5,6 +5,7 @@ from itertools import combinations
 
 from . import reading
 from .expressions import common_divisor
+from .parameter_values import ends_text
 from .parametric_system import ParametricSystem
 from .reading import Json
 from .sentence import PLANT, Premise, Role, restate, rule
@@ -26,8 +27,7 @@ def _given(known: list[Premise]) -> str:
     """The sizes of the plant, and its parameter."""
     plant = known[0].meant
     known[0].expect(isinstance(plant, ParametricSystem), "the plant has no parameter")
-    low, high = ("infinity" if end is None else str(end) for end in plant.range)
-    return f"For {described(plant)}: its parameter is {plant.parameter}, between {low} and {high}"
+    return f"For {described(plant)}: its parameter is {plant.parameter}, between {ends_text(plant)}"
 
 
 # Modes: none for every value, none unless, some, some and others.

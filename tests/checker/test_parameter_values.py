@@ -121,7 +121,7 @@ def test_values_have_words() -> None:
     assert where_text({"outside": []}, ranged(None, 1)) == start
     said = f"{start}, except at the roots of t - 2, one in each of the discs {{2 +- 0}}"
     for ends, words in (
-        ((None, 1), "infinity and 1"),
+        ((None, 1), "-infinity and 1"),
         ((3, None), "3 and infinity"),
         (("5/2", 7), "5/2 and 7"),
     ):

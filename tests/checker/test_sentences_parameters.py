@@ -109,7 +109,7 @@ def test_the_words_name_what_is_lost_where(tmp_path: Path) -> None:
     ]
     listed = [sentence(key, *premises, evidence=known) for key, premises in keys]
     first, second, third = said(write(tmp_path, known, manifest(known, listed)))
-    assert "its parameter is t, between infinity and infinity" in first.statement
+    assert "its parameter is t, between -infinity and infinity" in first.statement
     ends = "complete for every such value except the roots of t - 2 and the roots of t"
     swapped = "complete for every such value except the roots of t and the roots of t - 2"
     assert ends in second.statement or swapped in second.statement

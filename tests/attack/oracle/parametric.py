@@ -418,7 +418,9 @@ def where_text(claim: Any, plant: ParametricPlant) -> str:
     t = plant.parameter
     start = f"for every complex {t} at which all entries are defined"
     if claim["outside"]:
-        ends = ["infinity" if end is None else number(end) for end in plant.range]
+        missing = ("-infinity", "infinity")
+        pairs = zip(plant.range, missing, strict=True)
+        ends = [name if end is None else number(end) for end, name in pairs]
         where = ", ".join(roots_text(entry, t) for entry in claim["outside"])
         start += f", except at {where}, none of which is real and between {ends[0]} and {ends[1]}"
     return start
