@@ -145,6 +145,7 @@ test_what_proves_less_is_refused = rejects(
         ),
         ("a frame has no gains, but their size", FIXED, (f"{FRAME}.gains", None), "MALFORMED"),
         ("frames have other gains", OVERLAPPING, ("witness.gains", SWAPPED), "INVALID"),
+        ("gains are far beyond those given", OVERLAPPING, (f"{FRAME}.gains", 99), "MALFORMED"),
         ("gains are true", OVERLAPPING, (f"{FRAME}.gains", True), "MALFORMED"),
         ("gains are unknown", FIXED, (f"{FRAME}.gains", 1), "MALFORMED"),
         ("gains are 0", FIXED, ("witness.gains.0", gains((0, 1), (0, 1))), "INVALID"),
