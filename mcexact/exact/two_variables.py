@@ -143,13 +143,6 @@ def points(count: int) -> list[int]:
     return [(k + 1) // 2 * (1 if k % 2 else -1) for k in range(count)]
 
 
-def resultant(f: Bivariate, g: Bivariate) -> Any:
-    """The resultant with respect to x of two polynomials that are monic in x."""
-    many = (len(f) - 1) * degree(g) + (len(g) - 1) * degree(f) + 1
-    where = points(many)
-    return interpolated([at(f, t).resultant(at(g, t)) for t in where], where)
-
-
 def residues(p: Any, ell: int) -> flint.nmod_poly:
     """A rational polynomial modulo a prime that divides no denominator."""
     scale = pow(int(p.denom()), -1, ell)

@@ -19,6 +19,7 @@ from mcexact.exact.matrix import Matrix
 from tests.checker.handmade import checked
 from tests.checker.parametric_plants import exactly
 from tests.oracle.parametric import fixed_radical
+from tests.oracle.resultants import resultant
 
 PRIME = 2**61 - 1
 
@@ -60,7 +61,7 @@ def test_dividing_values_out_modulo_a_prime_takes_congruent_values_for_one() -> 
     chi, first, second = loops(plant, [1], [2])
     one = flint.fmpq_poly([-1, 1])
     resultants = (
-        two_variables.resultant(chi, first),
+        resultant(chi, first),
         modular_resultants.of_rationals(chi, second, PRIME),
     )
     assert left_modulo(resultants[0], one, resultants[1], PRIME)  # 1 alone is accepted
@@ -74,9 +75,9 @@ def test_dividing_values_out_modulo_a_prime_takes_congruent_values_for_one() -> 
 def test_a_prime_that_divides_the_denominator_of_a_root_overlooks_it() -> None:
     plant = coupled(f"(t - 1)*({PRIME}*t - 1)")
     chi, first, second = loops(plant, [1], [2])
-    resultant = two_variables.resultant(chi, first)
+    whole = resultant(chi, first)
     modular = modular_resultants.of_rationals(chi, second, PRIME)
-    assert left_modulo(resultant, flint.fmpq_poly([-1, 1]), modular, PRIME)
+    assert left_modulo(whole, flint.fmpq_poly([-1, 1]), modular, PRIME)
     found = fixed_spectrum(plant)
     assert {each.exact for each in found.exceptional} == {1, Fraction(1, PRIME)}
     lie = without_value(plant, Fraction(1, PRIME))
@@ -92,13 +93,13 @@ def test_powers_of_a_generic_polynomial_divided_out_modulo_a_prime_take_roots_al
     chi, first, second = loops(plant, [1], [2])
     p, ell = two_variables.from_polynomials(fixed_spectrum(plant).generic[0]), 5
     left, moved = (two_variables.without(f, p) for f in (chi, first))
-    resultant = two_variables.resultant(left, moved)
+    whole = resultant(left, moved)
     residue = [two_variables.residues(c, ell) for c in second]
     at_0 = flint.nmod_poly([int(c(0)) for c in residue], ell)
     x = flint.nmod_poly([0, 1], ell)
     while at_0 % x == 0:
         at_0 //= x
-    assert resultant(0) == 0 and at_0.degree() == 0  # so 0 is said not to be exceptional
+    assert whole(0) == 0 and at_0.degree() == 0  # so 0 is said not to be exceptional
     assert [each.exact for each in fixed_spectrum(plant).exceptional] == [0]
     undivided = modular_resultants.of_rationals(left, second, ell)
     assert not two_variables.is_coprime_modulo(flint.fmpq_poly([0, 1]), undivided, ell)
@@ -137,7 +138,7 @@ def parallel(first: str, second: str) -> ParametricSystem:
 def test_small_gains_meet_by_accident_where_nothing_is_fixed() -> None:
     plant = parallel("t", "1")
     chi, first, second = loops(plant, [1, 1], [2, 2])
-    common = two_variables.resultant(chi, first).gcd(two_variables.resultant(chi, second))
+    common = resultant(chi, first).gcd(resultant(chi, second))
     assert str(common) == "x + 1"  # as if something were fixed at t = −1
     found = fixed_spectrum(plant)
     assert not found.generic and not found.exceptional
@@ -148,7 +149,7 @@ def test_small_gains_meet_by_accident_where_nothing_is_fixed() -> None:
 def test_a_resultant_that_is_zero_for_one_pair_of_gains_fixes_nothing() -> None:
     plant = parallel("t", "-t")
     chi, first = loops(plant, [1, 1])
-    assert two_variables.resultant(chi, first) == 0  # as if 0 were fixed for every t
+    assert resultant(chi, first) == 0  # as if 0 were fixed for every t
     assert len(two_variables.common_factors([chi, first])) == 1
     found = fixed_spectrum(plant)
     assert not found.generic and [each.exact for each in found.exceptional] == [0]
