@@ -1,10 +1,12 @@
 """How far the entries of a plant may be from their values: the radii of A, B_i and C_i."""
 
+import json
+import re
 from fractions import Fraction
 
 from . import budget
 from .arithmetic import Matrix
-from .reading import Json, Limits, fields, malformed, parse, shown, string
+from .reading import Json, Limits, fields, incomplete, malformed, parse, shown, string
 from .sparse import SparseMatrix, entries_of
 from .system_matrices import in_json, number, read_matrix
 
@@ -41,7 +43,19 @@ def radii_form(
     else:
         string(given[1], "uncertainty.digits", "as typed")
         found = [_half_units(part) for part in _matrices_of(typed)]
-    return _form(found, names)
+    form = _form(found, names)
+    if limits:
+        _require_short(form, limits)
+    return form
+
+
+def _require_short(form: Json, limits: Limits) -> None:
+    """Stop where a radius has more digits than numbers of a file may have."""
+    text = json.dumps(form)
+    budget.spend(len(text))
+    if max(map(len, re.findall("[0-9]+", text)), default=0) > limits.digits:
+        message = f"a radius has more than {limits.digits} digits (Limits.digits)"
+        incomplete("size", "uncertainty", message)
 
 
 def read_radii(form: Json, names: list[str], nominal: list[Matrix]) -> list[Matrix]:

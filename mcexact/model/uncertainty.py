@@ -232,8 +232,32 @@ def read_radii(
     Raises
     ------
     InputError
-        If it is malformed, a radius is negative, or a shape differs.
+        If it is malformed, a radius is negative or has too many digits, or a shape differs.
     """
+    found = _radii(value, document, names, A, B, C, limits)
+    for place, M in found.matrices():
+        for i, j, x in M.nonzero():
+            radius = Fraction(x, M.denominator)
+            longest = max(radius.numerator, radius.denominator)
+            if longest.bit_length() > 3 * limits.digits and longest >= 10**limits.digits:
+                raise InputError(
+                    f"the radius of {place}[{i}][{j}] has more than {limits.digits} digits "
+                    "(Limits.digits), and no file with it would be read: shorten the radii",
+                    where="uncertainty",
+                )
+    return found
+
+
+def _radii(
+    value: Any,
+    document: dict[str, Any],
+    names: Sequence[str],
+    A: Matrix,
+    B: Sequence[Matrix],
+    C: Sequence[Matrix],
+    limits: Limits,
+) -> Radii:
+    """The radii that are given in one of three ways."""
     where = "uncertainty"
     if not isinstance(value, dict):
         raise InputError(

@@ -39,7 +39,7 @@ PARAMETERS = {"expressions", "parametric_system", "several_parameters"}
 """What the rules about plants with a parameter rest on: their entries and their reader."""
 RULES = sorted({path.stem for path in FILES} - FRONT - SHARED - SENTENCES - PARAMETERS - BOXES)
 """One rule a file: a kind, a construction, or a piece of evidence that several kinds use."""
-MOST = 6375
+MOST = 6386
 """The lines of code of the checker, of all files of its folder, as :func:`lines_of_code` counts.
 
 It is what was reached: it falls with the checker, and who raises it says what that buys."""

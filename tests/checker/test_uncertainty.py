@@ -133,6 +133,16 @@ def test_entries_that_are_listed_are_typed_as_well() -> None:
     assert found == listed(2, 2, [0, 0, "1/200"], [1, 1, 5])
 
 
+def test_radii_with_more_digits_than_numbers_may_have_are_left_open() -> None:
+    """1/400, times the part, has fourteen digits."""
+    given = file_of('{"relative": "1/99999999977"}')
+    assert read_system_file(given, Limits(digits=14)).uncertainty is not None
+    with pytest.raises(Refused) as refused:
+        read_system_file(given, Limits(digits=13))
+    assert (refused.value.verdict, refused.value.place) == ("INCOMPLETE", "uncertainty")
+    assert read_system_file(file_of('{"absolute": {}}'), Limits(digits=14)).uncertainty is None
+
+
 def test_other_kinds_are_about_the_nominal_values_and_say_so() -> None:
     document = changed(VALID["fixed"] if "fixed" in VALID else next(iter(VALID.values())))
     n = len(document["system"]["A"])

@@ -25,6 +25,7 @@ from mcexact import (
     testing,
 )
 from mcexact.errors import FloatRefused, InputError, UsageError
+from mcexact.exact.rational import Limits
 from mcexact.model.system_file import (
     canonical_document,
     canonical_text,
@@ -248,3 +249,11 @@ def test_a_box_where_a_system_is_expected_is_told_how_to_give_it() -> None:
     box = Box.relative(MultiChannelSystem([[1]], [[[1]]], [[[1]]]), "1/10")
     with pytest.raises(InputError, match="found Box; give the `system` of the box"):
         box_fixed_modes(box)  # type: ignore[call-overload]
+
+
+def test_radii_with_more_digits_than_numbers_may_have_are_refused() -> None:
+    """1/10 times the part has twelve digits."""
+    text = PLANT.replace("PLACE", '{"relative": "1/99999999977"}')
+    assert read_system(text, limits=Limits(digits=12)).uncertainty is not None
+    with pytest.raises(InputError, match=r"the radius of A\[0\]\[0\] has more than 11 digits"):
+        read_system(text, limits=Limits(digits=11))
