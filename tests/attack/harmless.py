@@ -57,7 +57,7 @@ HARMLESS: dict[str, str] = {
     "reading.py: names: type(entry) is not str or entry not in place_of": RAISES,
     "region.py: claimed_cost: absence is None": UNREAD,
     "system_matrices.py: number: not good or abs(int(exponent)) > (limits or Limits).exponent": CANONICAL,
-    "expressions.py: __init__: match is None": RAISES,
+    "expressions.py: whole: match is None": RAISES,
     "expressions.py: whole: self.tokens": CANONICAL,
     "expressions.py: sum: self.depth > DEEPEST": CANONICAL,
     "expressions.py: product: not c": RAISES,
