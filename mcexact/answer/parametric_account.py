@@ -12,6 +12,7 @@ from typing import Any
 from mcexact.answer import codec
 from mcexact.answer.account import Account
 from mcexact.answer.formats import count
+from mcexact.answer.parametric_fixed_spectrum import joined
 from mcexact.answer.protocol import Answer
 from mcexact.answer.rules.parameters import RULES
 from mcexact.answer.rules.several_parameters import sentences_of_several
@@ -132,11 +133,8 @@ class ParametricAccount(Shown):
         """Where what holds by the answer to a question, and why."""
         answer = self.answers[name]
         if isinstance(answer, tuple):
-            return tuple(
-                (where, f"{count(k, 'block')}: {what}", why)
-                for k, each in enumerate(answer, 1)
-                for where, what, why in each.rows
-            )
+            blocks = [(count(k, "block"), each.rows) for k, each in enumerate(answer, 1)]
+            return joined(blocks)
         found: tuple[Row, ...] = answer.rows
         return found
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -170,6 +170,16 @@ def rows_of_values(
     for q in poles_of(found.about):
         rows.append((f"{in_parameter(q, t)} = 0", "undefined", "a denominator is 0"))
     return tuple(rows)
+
+
+def joined(
+    parts: Iterable[tuple[str, Iterable[tuple[str, str, str]]]],
+) -> tuple[tuple[str, str, str], ...]:
+    """The rows of several answers, each behind its name; those along which proofs are, once."""
+    named = [(name, *row) for name, rows in parts for row in rows]
+    said = [(where, f"{name}: {what}", why) for name, where, what, why in named if what]
+    proved = dict.fromkeys((where, what, why) for _, where, what, why in named if not what)
+    return (*said, *proved)
 
 
 def poles_of(about: ParametricSystem) -> tuple[Polynomial, ...]:

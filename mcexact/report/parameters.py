@@ -19,11 +19,12 @@ def parameter_tables(account: ParametricAccount, *, whole: bool = False) -> tupl
     ----------
     account : ParametricAccount
     whole : bool
-        Whether all questions have a table, and not only those about modes.
+        Whether all questions have a table, and not only those about modes: on a page.
     """
     said = account.sentences
     rows = tuple(each.cells for each in said.at("table"))
-    first = (Table("".join(said.at("title")), (), rows),) if rows else ()
+    title = "All answers" if whole else "".join(said.at("title"))
+    first = (Table(title, (), rows),) if rows else ()
     shown = account.detailed(LABELS) if whole else account.detailed(MODES)
     return (*first, *(Table(LABELS[name], *account.table(name)) for name in shown))
 
@@ -32,7 +33,7 @@ def parameter_page(account: ParametricAccount) -> AnswerPage:
     """Return the page of an analysis for all values of parameters."""
     return AnswerPage(
         title=account.plant.name or "A system with parameters",
-        heading=f"For all values of {', '.join(account.plant.parameters_in_words)}.",
+        heading="".join(account.sentences.at("title")),
         good=None,
         answer=tuple(account.at("answer")),
         pictures=tuple(drawn.embedded() for drawn in _pictures(account)),

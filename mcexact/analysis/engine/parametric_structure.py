@@ -13,8 +13,17 @@ from mcexact.analysis.engine.mode_hypersurfaces import mode_hypersurfaces
 from mcexact.analysis.engine.parameter_lines import Along, in_order
 from mcexact.analysis.engine.parametric_modes import parametric_fixed_spectrum
 from mcexact.analysis.engine.rank_hypersurfaces import rank_for_all_values
-from mcexact.answer.exceptional_hypersurfaces import ExceptionalHypersurfaces, RankHypersurfaces
-from mcexact.answer.parametric_fixed_spectrum import ParametricFixedSpectrum, in_parameter
+from mcexact.answer.exceptional_hypersurfaces import (
+    ExceptionalHypersurfaces,
+    Hypersurface,
+    RankHypersurfaces,
+)
+from mcexact.answer.parametric_fixed_spectrum import (
+    ParametricFixedSpectrum,
+    in_parameter,
+    joined,
+    value_text,
+)
 from mcexact.answer.parametric_rank import ParametricRank, TransferColumn
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational_function import RationalFunction
@@ -57,10 +66,9 @@ class ParametricTransferGraph:
     def rows(self) -> tuple[tuple[str, str, str], ...]:
         """For each pair of channels where it is an edge."""
         said = {"rank 1": "an edge", "rank 0": "no edge"}
-        return tuple(
-            (where, f"{start} -> {end}: {said.get(what, what)}", why)
+        return joined(
+            (f"{start} -> {end}", [(at, said.get(what, what), why) for at, what, why in each.rows])
             for (start, end), each in self.columns.items()
-            for where, what, why in each.rows
         )
 
     def to_dict(self) -> dict[str, Any]:
@@ -139,8 +147,7 @@ class ParametricCompleteness:
         said = "complete" if self.generic else "not complete"
         found = [(f"{some}every value of {names}", said, "")]
         for q in self.exceptional:
-            at = str(q) if isinstance(q, RationalFunction) else in_parameter(q, names)
-            found.append((f"{at} = 0", "not complete", ""))
+            found.append((_at(q, names), "not complete", ""))
         return tuple(found)
 
     def to_dict(self) -> dict[str, Any]:
@@ -151,6 +158,13 @@ class ParametricCompleteness:
     def certificates(self) -> tuple[Along, ...]:
         """The answers that prove it, with several parameters those along lines."""
         return *_proofs(self.spectrum), *self.graph.certificates
+
+
+def _at(q: Surface, t: str) -> str:
+    """Where a polynomial in parameters is 0."""
+    if isinstance(q, RationalFunction):
+        return str(Hypersurface(q))
+    return value_text(q, [], t) if q.degree == 1 else f"{in_parameter(q, t)} = 0"
 
 
 def _proofs(
