@@ -31,6 +31,9 @@ PLANTS = {
     "ring": ParametricSystem(
         [[1, "t - 2"], ["t", 2]], IDENTITY, [[[1, 0]], [[0, 1]]], parameters=["t"]
     ),
+    "valve": ParametricSystem(
+        [[1, 0], ["t", 2]], [[[1], [0]]] * 2, [[[0, 1]]] * 2, parameters=["t"]
+    ),
     "constant": ParametricSystem(
         [[1, 1], [1, 2]], IDENTITY, [[[1, 0]], [[0, 1]]], parameters=["t"], time="discrete"
     ),
@@ -115,6 +118,15 @@ def test_the_words_name_what_is_lost_where(tmp_path: Path) -> None:
     assert ends in second.statement or swapped in second.statement
     edges_told = '"1" -> "1", "1" -> "2", "2" -> "1", "2" -> "2"'
     assert f"almost everywhere the edges {{{edges_told}}}" in third.statement
+
+
+def test_a_value_that_is_exceptional_for_two_reasons_is_named_once(tmp_path: Path) -> None:
+    known = evidence("valve")
+    premises = ["fixed_spectrum", *asked(("transfer_graph",), known)]
+    told = sentence("parametric-complete-unless", *premises, evidence=known)
+    [verdict] = said(write(tmp_path, known, manifest(known, [told])))
+    words = "complete for every such value except the roots of t from fixed_spectrum.json"
+    assert words in verdict.statement
 
 
 EDGES = [f"transfer_graph_{k}" for k in range(1, 5)]

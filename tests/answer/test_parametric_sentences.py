@@ -1,0 +1,76 @@
+"""Sentences about all values of a parameter, held against what is decided at single values."""
+
+from __future__ import annotations
+
+import random
+import re
+from fractions import Fraction
+from typing import Any
+
+import pytest
+
+from mcexact import ParametricSystem, analyze
+from mcexact.errors import InputError
+
+CONDITION = re.compile(r"t = (-?\d+(?:/\d+)?)(?! =)")
+ENTRIES = [0, 0, 0, 1, 1, -1, 2, "t", "t - 1", "t + 2", "t^2 - 1", "1/(t - 3)"]
+
+
+def drawn(rng: random.Random) -> ParametricSystem:
+    """A plant of two or three states and two channels, with few entries that are not 0."""
+    n = rng.choice([2, 3])
+
+    def table(r: int, c: int) -> list[list[Any]]:
+        return [[rng.choice(ENTRIES) for _ in range(c)] for _ in range(r)]
+
+    B, C = [table(n, 1) for _ in range(2)], [table(1, n) for _ in range(2)]
+    return ParametricSystem(
+        table(n, n), B, C, parameters=["t"], time=rng.choice(["continuous", "discrete"])
+    )
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_what_is_said_of_all_values_holds_at_each(seed: int) -> None:
+    rng = random.Random(seed)
+    for _ in range(3):
+        plant = drawn(rng)
+        said = {each.template.label: str(each) for each in analyze(plant).sentences}
+        conditions = {Fraction(v) for text in said.values() for v in CONDITION.findall(text)}
+        for t in sorted({*conditions, Fraction(0), Fraction(1), Fraction(rng.randint(5, 99), 7)}):
+            try:
+                point = plant.at(t)
+            except InputError:  # an entry is undefined there
+                continue
+            require_agreement(said, t, analyze(point))
+
+
+def require_agreement(said: dict[str, str], t: Fraction, found: Any) -> None:
+    """At one value each sentence says what is decided there."""
+
+    def elsewhere(label: str) -> bool:
+        """Whether the value is not one at which something else holds."""
+        return t not in map(Fraction, CONDITION.findall(said[label]))
+
+    complete = said["complete"].startswith("yes") and elsewhere("complete")
+    assert found.completeness.complete == complete, (said, t)
+    steady = said["set-points"].startswith("every") and elsewhere("set-points")
+    assert found.setpoint.solvable == steady, (said, t)
+    free = said["fixed modes"].startswith("none") and elsewhere("fixed modes")
+    assert found.fixed_spectrum.empty == free, (said, t)
+    for label, answer in (
+        ("jointly controllable", found.joint_controllability),
+        ("jointly observable", found.joint_observability),
+    ):
+        whole = said[label].startswith("every") and elsewhere(label)
+        assert answer.controllable == whole, (said, t)
+    for label, answer in (
+        ("controllability indices", found.controllability_indices),
+        ("observability indices", found.observability_indices),
+    ):
+        told = re.match(r"(?:\d+(?:, )?)*|none", said[label])
+        listed = [int(k) for k in re.findall(r"\d+", told[0])] if told else []
+        assert (list(answer.indices) == listed) == elsewhere(label), (said, t)
+    edges = {(j, i) for j, i in re.findall(r"(\w+) -> (\w+)", said["transfer graph"])}
+    lost = re.findall(r"(\w+) -> (\w+) vanishes where ([^;]*)", said["transfer graph"])
+    gone = {(j, i) for j, i, at in lost if t in map(Fraction, CONDITION.findall(at))}
+    assert set(found.transfer_graph.arcs) == edges - gone, (said, t)
