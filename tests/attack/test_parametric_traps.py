@@ -21,7 +21,9 @@ from mcexact.model.parametric_file import read_parametric_system
 from tests.attack.campaign import judged
 from tests.attack.conditions import GATES, weakened_checker
 from tests.attack.forgeries.parametric_traps import RANKS, SPECTRA
+from tests.attack.harmless import HARMLESS
 from tests.attack.oracle.judge import FALSE
+from tests.attack.weakened import Holes, attempt_traps
 
 TRAPS = {**SPECTRA, **RANKS}
 DIVIDED = ("ℓ divides the denominator of a value", "ℓ divides the denominator of a root of a minor")
@@ -42,6 +44,23 @@ def test_every_trap_is_closed_by_one_condition(trap: str) -> None:
     found = check(TRAPS[trap])
     GATES.open = None
     assert found.verdict == "VALID", found.line()
+
+
+ABOUT_PARAMETERS = {
+    "interpolation.py", "layered.py", "moved_modes.py", "named_matrices.py", "parameter_values.py",
+    "parametric_fixed_spectrum.py", "parametric_rank.py", "resultants.py", "two_variables.py",
+    "zero_blocks.py",
+}  # fmt: skip
+
+
+def test_every_condition_about_parameters_is_closed_by_a_trap_or_is_harmless() -> None:
+    weakened_checker()
+    attempt_traps(holes := Holes())
+    left = [site.key for k, site in enumerate(GATES.sites) if k not in holes.found]
+    GATES.open = None
+    assert not [
+        key for key in left if key.partition(":")[0] in ABOUT_PARAMETERS and key not in HARMLESS
+    ]
 
 
 def divided_out(ell: int, q: Any, f: Any) -> tuple[int, Any]:

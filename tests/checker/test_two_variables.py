@@ -15,6 +15,7 @@ from mcexact.checker.two_variables import (
     characteristic,
     degree,
     determinant,
+    difference,
     divide,
     modulo,
     read,
@@ -97,6 +98,12 @@ def test_division_leaves_what_is_left() -> None:
     assert divide(f, g) == ([[0, 2], [1]], [])
     assert divide(f, polynomial([1], [1])) == ([[-1, 1], [1]], [[1, -1, -2]])
     assert divide(g, f) == ([], g)
+    assert divide(polynomial([], [], [], [1]), polynomial([3], [2], [1])) == (
+        [[-2], [1]],
+        [[6], [1]],
+    )
+    cubic = polynomial([1], [], [], [1])
+    assert divide(cubic, polynomial([], [], [1])) == ([[], [1]], [[1], []])
     q = [Fraction(c) for c in (-2, 0, 1)]
     assert divide(modulo(f, q), polynomial([2, 1], [1]), q) == ([[-2], [1]], [[0, 2]])
     assert divide(modulo(f, q), polynomial([0, 2], [1]), q) == ([[0, -1], [1]], [])
@@ -116,6 +123,13 @@ def test_all_powers_are_divided_out() -> None:
     two, root = polynomial([-2], [], [1]), polynomial([0, -1], [1])
     assert without(two, root) == two
     assert without(two, root, q) == [[0, 1], [1]]
+
+
+def test_a_difference_has_the_coefficients_of_both() -> None:
+    f, g = polynomial([1, 2], [], [3]), polynomial([1], [0, 1])
+    assert difference(f, g) == polynomial([0, 2], [0, -1], [3])
+    assert difference(g, f) == polynomial([0, -2], [0, 1], [-3])
+    assert not any(difference(f, f))
 
 
 def test_coefficients_are_reduced() -> None:
@@ -158,6 +172,7 @@ def test_what_is_monic_and_reduced_is_read(value: Any) -> None:
         ([[], [1, 1]], False),
         ([[], []], False),
         ([[0, 0, 1], [1]], True),
+        ([[0, 0, 0, 1], [1]], True),
         ([["2/4"], [1]], False),
         ([1, [1]], False),
         ("x", False),

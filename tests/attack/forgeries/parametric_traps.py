@@ -80,6 +80,12 @@ def spectrum(
     return _certificate("parametric_fixed_spectrum", system, claim, witness)
 
 
+def saying(document: Document, part: str, **values: Any) -> Document:
+    """The same with other values of some keys of the claim or of the witness."""
+    document[part] |= values
+    return document
+
+
 def with_gains(document: Document, *gains: list[int]) -> Document:
     """The same with gains of one channel, from one output to several inputs."""
     document["witness"]["gains"] = [[constant(*[[f] for f in F])] for F in gains]
@@ -242,6 +248,22 @@ SPECTRA: dict[str, Document] = {
             ),
         ),
     ),
+    "an entry that is not written canonically": spectrum(
+        scalar("1*t"), exceptional=(FIXED_AT_ZERO,)
+    ),
+    "a divisor of no polynomial of fixed modes": spectrum(
+        scalar("t"), settled=({"value": [0, 1], "divisors": [X]},)
+    ),
+    "a polynomial that is not monic": spectrum(
+        plant([[0]], ([[0]], [["t"]])), generic=(([[], [2]], ONE_ROW),)
+    ),
+    "a real value beyond no range": saying(
+        spectrum(scalar("t")), "claim", outside=[{"value": [0, 1], "roots": AT_ZERO}]
+    ),
+    "a pole of no entry": saying(spectrum(scalar("t")), "witness", undefined=[[0, 1]]),
+    "a zero block of another mode": spectrum(
+        plant([[0]], ([[0]], [["t"]])), generic=(UNMOVED, (FIVE, ONE_ROW))
+    ),
     "a zero block beside inputs that act": spectrum(
         plant([[0]], ([[1]], [["t"]])), generic=(UNMOVED,)
     ),
@@ -272,6 +294,21 @@ SPECTRA: dict[str, Document] = {
         scalar("x", parameter="x"), exceptional=(FIXED_AT_ZERO,)
     ),
 }
+
+
+def kernel(size: int) -> Document:
+    """A kernel that is everything."""
+    identity = [[int(i == j) for j in range(size)] for i in range(size)]
+    return {"columns": layers(identity), "pivots": [*range(size)]}
+
+
+def at_one(least: int, pivots: list[int]) -> tuple[Document, Document]:
+    """A rank at t = 1, and a kernel of a matrix of one column."""
+    proof = {"columns": layers([[1] * len(pivots)]), "pivots": pivots}
+    return {"value": [-1, 1], "roots": AT_ONE, "rank": least}, proof
+
+
+NOTHING_AT_ZERO = {"value": [0, 1], "roots": AT_ZERO, "rank": 0}, kernel(1)
 ONE_BY_ONE = constant([1]), constant([1])
 TWO_BY_TWO = constant([1, 0], [0, 1]), constant([1, 0], [0, 1])
 RANKS: dict[str, Document] = {
@@ -310,6 +347,29 @@ RANKS: dict[str, Document] = {
                 {"columns": layers([[1], [0]]), "pivots": [0]},
             ),
         ),
+    ),
+    "a value at which the rank is not less": rank(
+        scalar("t"), 1, ([0], [0]), ONE_BY_ONE, exceptional=(NOTHING_AT_ZERO, at_one(1, []))
+    ),
+    "a kernel without columns": rank(
+        scalar("t"), 1, ([0], [0]), ONE_BY_ONE, exceptional=(NOTHING_AT_ZERO, at_one(0, []))
+    ),
+    "a kernel that is not annihilated": rank(
+        scalar("t"), 1, ([0], [0]), ONE_BY_ONE, exceptional=(NOTHING_AT_ZERO, at_one(0, [0]))
+    ),
+    "more blocks than states": saying(
+        rank(
+            scalar("t"),
+            1,
+            ([0], [0]),
+            (constant([1]), constant([1], [0])),
+            exceptional=((NOTHING_AT_ZERO[0], kernel(2)),),
+        ),
+        "claim",
+        matrix={"name": "controllability", "channels": ["1"], "blocks": 2},
+    ),
+    "outputs of another number of states": rank(
+        plant([[0]], ([[1]], [["t"]]), ([[1]], [[1, 1]])), 1, ([0], [0]), ONE_BY_ONE
     ),
     "a range upside down": rank(
         plant([[0]], ([[1]], [["t"]]), told={"range": [1, 0]}), 1, ([0], [0]), ONE_BY_ONE
