@@ -7,6 +7,7 @@ Parts are
 ``largest``   the largest proved part, and a plant that fails, for each plant
 ``drawn``     members of proved boxes, decided exactly, and boxes with a planted fixed mode
 ``size``      how the time of the checker grows with the number of states of networks
+``loops``     the same of loops that stay stable
 ``methods``   the largest part that is proved by discs of one matrix and frames, and by several
 
 Writes tables in Markdown to the standard output.  Seconds are those of the processor.
@@ -34,12 +35,14 @@ from mcexact import (
     MultiChannelSystem,
     box_controllability,
     box_fixed_modes,
+    box_stability,
     box_stabilizability,
     check,
     fixed_spectrum,
     gallery,
     largest_uncertainty,
     load_system,
+    local_controllers,
 )
 from mcexact.analysis.boxes.box_fixed import FixedModeSearch
 from mcexact.analysis.boxes.cover import Outside
@@ -229,6 +232,26 @@ def methods(plants: dict[str, MultiChannelSystem]) -> None:
                 break
 
 
+def loops(plants: dict[str, MultiChannelSystem]) -> None:
+    """Print how long it takes for loops of growing size that all members are stable."""
+    heading(
+        "Loops with buildings",
+        "n", "m", "part", "s to find", "s to check", "frames", "segments", "bytes",
+    )  # fmt: skip
+    for n, m in ((20, 5), (60, 10), (200, 20)):
+        plant = network_system(SeededChoices(0), "building", n, m)
+        controller = local_controllers(plant, [[[-1] * plant.q(i)] * plant.p(i) for i in range(m)])
+        system = Box.relative(plant, Fraction(1, 100)).system
+        proof, seconds = timed(partial(box_stability, system, controller))
+        if proof is None:
+            row(n, m, "0.01", f"no proof in {seconds:.1f}", *[""] * 4)
+            continue
+        verdict, checking = timed(partial(check, proof))
+        checked = f"{checking:.2f} {'?' if verdict is None else verdict.verdict}"
+        counts = len(proof.frames), len(proof.segments), len(encode(proof))
+        row(n, m, "0.01", f"{seconds:.2f}", checked, *counts)
+
+
 def heading(title: str, *columns: str) -> None:
     """Print a title, and the names of the columns of a table."""
     print(f"## {title}\n")
@@ -270,6 +293,7 @@ PARTS: dict[str, Callable[[dict[str, MultiChannelSystem]], None]] = {
     "drawn": drawn,
     "size": size,
     "methods": methods,
+    "loops": loops,
 }
 
 if __name__ == "__main__":
