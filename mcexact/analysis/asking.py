@@ -47,6 +47,8 @@ class Asking(ShownByAccount):
     information = "own"
     questions: Mapping[str, Question] = QUESTIONS
     """The questions that can be asked of such a plant."""
+    _certain = "every entry of this system is certain: add 'uncertainty' to the file"
+    """What an error says where nothing is uncertain."""
     _arguments: dict[str, Any]
     """What questions need besides the plant; None where it is not given."""
 
@@ -122,7 +124,7 @@ class Asking(ShownByAccount):
         if needed == "uncertainty":
             raise UsageError(
                 asked.format("every plant within the radii of its entries")
-                + ", and every entry of this system is certain: add 'uncertainty' to the file"
+                + f", and {self._certain}"
             )
         argument = needed.removesuffix("s")
         meant = {"subset": "a set of channels", "channel": "one channel"}[argument]

@@ -18,6 +18,8 @@ from mcexact.model.parametric import ParametricSystem
 _MOST = 10
 """The states of a plant with several parameters of which questions are asked by default."""
 _CHANNELS = 20
+_WITHIN_RANGES = ("box_fixed_modes", "box_stabilizability")
+"""What is asked by default about all values within ranges of several parameters."""
 _DEGREE = 60
 """The degree of minors up to which indices are asked by default: a minute on one processor."""
 
@@ -51,6 +53,7 @@ class ParametricAnalysis(Asking):
     """
 
     plant: ParametricSystem
+    _certain = "a parameter has no range with two ends"
     questions = MappingProxyType(
         {name: question for name, question in QUESTIONS.items() if question.for_all_values}
     )
@@ -63,7 +66,11 @@ class ParametricAnalysis(Asking):
         channel: str | None = None,
     ) -> None:
         self.plant = plant
-        self._arguments = {"channels": None if channel is None else [channel]}
+        ends = [end for bounds in plant.ranges for end in bounds]
+        self._arguments = {
+            "channels": None if channel is None else [channel],
+            "uncertainty": None if None in ends else plant.ranges,
+        }
         plant.indices([] if channel is None else [channel])
         self._ask(questions)
 
@@ -77,6 +84,11 @@ class ParametricAnalysis(Asking):
             return f"ranks of polynomials of degrees up to about {degree}"
         return ""
 
+    def _applies(self, name: str) -> bool:
+        # With one parameter the exact answers say what holds in the range.
+        several = len(self.plant.parameters) > 1
+        return not name.startswith("box_") or (several and name in _WITHIN_RANGES)
+
     def _degree(self, question: Question) -> int:
         """About the degree of minors of [B, A B, …]: blocks times rows or columns with letters."""
         plant = self.plant
@@ -89,13 +101,15 @@ class ParametricAnalysis(Asking):
         question = self.questions[name]
         if name == "completeness":
             return [self.plant, self["fixed_spectrum"], self["transfer_graph"]], {}
+        if question.needs == "uncertainty":
+            return [self.plant], {}
         reused = {question.needs: self._arguments[question.needs]} if question.needs else {}
         return [self.plant], reused
 
     def _decide(self, name: str, arguments: list[Any], reused: dict[str, Any]) -> Any:
         if name == "completeness":
             return parametric_completeness(*arguments)
-        if len(self.plant.parameters) > 1:
+        if len(self.plant.parameters) > 1 and self.questions[name].needs != "uncertainty":
             return exceptional_hypersurfaces(*arguments, name, **reused)  # type: ignore[call-overload]
         return super()._decide(name, arguments, reused)
 

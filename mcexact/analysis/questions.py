@@ -245,8 +245,9 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
         **{
             name: Question(
                 f"boxes.{home}:{name}",
-                f"whether {said} for every plant within the radii of the entries",
+                f"whether {said} for every plant within the radii of the entries, or the ranges",
                 needs="uncertainty",
+                for_all_values=True,
                 reuses={"spectrum": "fixed_spectrum"} if home == "box_fixed" else {},
                 kind=home,
                 dual=name == "box_observability",

@@ -38,6 +38,13 @@ LABELS = {
 COLUMNS = ("where", "what", "because")
 MODES = frozenset(name for name in LABELS if name.endswith(("ability", "spectrum")))
 """The questions about modes, of which a table says more than a sentence."""
+WITHIN_RANGES = {
+    "box_fixed_modes": "no mode is fixed",
+    "box_stabilizability": "a decentralized controller of its own stabilizes every plant",
+    "box_controllability": "all channels together control every mode",
+    "box_observability": "all channels together observe every mode",
+}
+"""What is proved for all values within the ranges of parameters."""
 _OPEN = (
     "Where it is so for almost all values, this is proved along drawn lines; between them, "
     "conditions are computed and not certified. Where several conditions meet is not decided."
@@ -101,8 +108,18 @@ class ParametricAccount(Shown):
 
     def at(self, *places: str) -> list[str]:
         """The sentences of a place, with what is left open behind the answer."""
-        told: list[str] = [*self.sentences.at(*places)]
+        told: list[str] = [*self.within_ranges()] if "answer" in places else []
+        told += self.sentences.at(*places)
         return [*told, _OPEN] if self.several and "answer" in places else told
+
+    def within_ranges(self) -> list[str]:
+        """What is proved for all values within the ranges, by certificates of its own."""
+        known = [name for name in WITHIN_RANGES if name in self.answers]
+        if "box_fixed_modes" in known and "box_stabilizability" in known:
+            # A plant without fixed modes is stabilizable.
+            known.remove("box_stabilizability")
+        ranges = ", ".join(self.plant.parameters_in_words)
+        return [f"For all values of {ranges}: {WITHIN_RANGES[name]}." for name in known]
 
     @property
     def certificates(self) -> dict[str, str]:
@@ -132,6 +149,8 @@ class ParametricAccount(Shown):
     def rows(self, name: str) -> tuple[Row, ...]:
         """Where what holds by the answer to a question, and why."""
         answer = self.answers[name]
+        if name in WITHIN_RANGES:
+            return ((", ".join(self.plant.parameters_in_words), WITHIN_RANGES[name], ""),)
         if isinstance(answer, tuple):
             blocks = [(count(k, "block"), each.rows) for k, each in enumerate(answer, 1)]
             return joined(blocks)

@@ -6,7 +6,7 @@ do not know.
 
 from __future__ import annotations
 
-from mcexact.answer.parametric_account import LABELS
+from mcexact.answer.parametric_account import LABELS, WITHIN_RANGES
 from mcexact.answer.schema import Schema, kinds, view_schema
 from mcexact.report.file_schemas import agents, sweep_record
 from mcexact.report.schema_terms import (
@@ -170,7 +170,7 @@ def analyze_parameters() -> Schema:
             "table": rows(rows(TEXT)) | {"description": "labels, and what holds"},
             **SENTENCES,
         },
-        dict.fromkeys(LABELS, answer),
+        dict.fromkeys((*LABELS, *WITHIN_RANGES), answer),
         closed=True,
         says="what holds for all values of parameters, and where something else",
     )

@@ -143,3 +143,24 @@ def test_a_table_without_reasons_has_no_column_for_them() -> None:
         "joint_controllability": ("where", "what"),
     }
     assert all(len(row) == 2 for row in account.table("joint_controllability")[1])
+
+
+def test_several_parameters_with_ranges_lead_with_what_holds_within_them(tmp_path: Path) -> None:
+    inside = {**TWO, "parameters": {"a": {"range": [2, 3]}, "b": {"range": [1, "3/2"]}}}
+    path = tmp_path / "plant.json"
+    path.write_text(json.dumps(inside))
+    folder = tmp_path / "certificates"
+    status, out, _ = call("analyze", str(path), "--certificates", str(folder), "--json")
+    found = json.loads(out)
+    assert status == 0 and faults("analyze-parameters", found) == []
+    said = "For all values of a in [2, 3], b in [1, 3/2]: no mode is fixed."
+    assert found["answer"][0] == said
+    kept = json.loads((folder / "box_fixed_modes.json").read_text())
+    assert kept["kind"] == "parametric_box_fixed"
+
+
+def test_ranges_need_two_ends_to_be_asked_about(tmp_path: Path) -> None:
+    path = tmp_path / "plant.json"
+    path.write_text(json.dumps(TWO))
+    status, _, err = call("analyze", str(path), "--also", "box_fixed_modes")
+    assert status == 2 and "a parameter has no range with two ends" in err

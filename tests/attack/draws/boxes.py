@@ -95,7 +95,7 @@ def drawn_in_ranges(rng: random.Random, kind: str) -> Document | None:
     """A true certificate about all values of one or two parameters, or None."""
     names = rng.choice((("t",), ("t",), ("a", "b")))
     values = {"a": ("3/4", "5/4"), "b": ("1/2", 1), "t": ("3/4", 1)}
-    some = {"a": ("a", "1/8*b", "a*b", "b - 2"), "t": ("t", "1/8*t", "t^2 - 2", "-t")}[names[0]]
+    some = {"a": ("a", "b - 1", "a*b", "b - 2"), "t": ("t", "-t + 1", "t^2 - 2", "-t")}[names[0]]
     found = drawn_box(rng, (-1, 1, 2, Fraction(1, 2)), rng.choice(("continuous", "discrete")))
     found.pop("uncertainty", None)
     rows = found["A"] = dense(found["A"])
