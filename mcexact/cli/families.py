@@ -46,6 +46,17 @@ def values(text: str) -> tuple[str, tuple[Fraction, ...]]:
     return name, tuple(low + (high - low) * k / steps for k in range(steps + 1))
 
 
+def parts(text: str) -> tuple[Fraction, ...]:
+    """Parse parts, as numbers or percentages with commas.
+
+    Examples
+    --------
+    >>> parts("0.1%,1/50")
+    (Fraction(1, 1000), Fraction(1, 50))
+    """
+    return tuple(options.part(each.strip()) for each in text.split(","))
+
+
 def families(function: F) -> F:
     """Add the options that make many systems of each file."""
     for option in (
@@ -72,6 +83,13 @@ def families(function: F) -> F:
             help="With --all-graphs: only strongly connected graphs.",
         ),
         click.option(
+            "--tolerances",
+            type=parts,
+            metavar="PARTS",
+            help="Ask about each FILE with all entries that are not 0 known to these parts of "
+            "their values: 0.1%,0.3%,1%. For the questions about every plant within the radii.",
+        ),
+        click.option(
             "--grid",
             type=values,
             multiple=True,
@@ -94,13 +112,16 @@ class Families:
     """
 
     def __init__(self, given: dict[str, Any]) -> None:
-        self._grid = dict(given.pop("grid"))
+        self._grid, self._parts = dict(given.pop("grid")), given.pop("tolerances") or ()
         self._sensors, self._graphs = given.pop("all_sensors"), given.pop("all_graphs")
         self._kinds = {
             name: given.pop(name) for name in ("up_to_isomorphism", "strongly_connected")
         }
-        if sum(map(bool, (self._grid, self._sensors, self._graphs))) > 1:
-            raise click.UsageError("give one of --grid, --all-graphs and --all-sensors")
+        self._ways = (self._grid, self._parts, self._sensors, self._graphs)
+        if sum(map(bool, self._ways)) > 1:
+            raise click.UsageError(
+                "give one of --grid, --tolerances, --all-graphs and --all-sensors"
+            )
         if any(self._kinds.values()) and not self._graphs:
             raise click.UsageError("--up-to-isomorphism and --strongly-connected need --all-graphs")
 
@@ -112,7 +133,7 @@ class Families:
         from mcexact.errors import InputError, LimitReached
 
         for k, path in enumerate(paths):
-            if not (self._grid or self._sensors or self._graphs):
+            if not any(self._ways):
                 yield k, path
                 continue
             try:
@@ -128,6 +149,7 @@ class Families:
             neighbor_graph_variants,
             parameter_grid,
             sensor_variants,
+            tolerance_variants,
         )
         from mcexact.errors import InputError, place_of
         from mcexact.model.formats.files import load_parametric_system, load_system
@@ -137,6 +159,8 @@ class Families:
             plant = load_parametric_system(path, limits=limits)
             with InputError.inside(place_of(path)):
                 found = parameter_grid(plant, self._grid)
+        elif self._parts:
+            found = tolerance_variants(load_system(path, limits=limits), self._parts)
         elif self._graphs:
             found = neighbor_graph_variants(
                 load_system(path, limits=limits), information="outputs", **self._kinds

@@ -15,7 +15,7 @@ import click
 from mcexact.cli import options
 from mcexact.cli.failures import INTERRUPTED
 from mcexact.cli.families import Families, cluster, families
-from mcexact.sweeps.questions import QUESTIONS
+from mcexact.sweeps.questions import KNOWN
 
 if TYPE_CHECKING:
     from mcexact.exact.rational import Limits
@@ -32,10 +32,10 @@ _SAY_EVERY = 10.0  # seconds
 @click.option(
     "--question",
     "questions",
-    type=click.Choice(QUESTIONS),
+    type=click.Choice(KNOWN),
     multiple=True,
     metavar="NAME",
-    help=f"A question to decide: {', '.join(QUESTIONS)}; by default the first. May be repeated.",
+    help=f"A question to decide: {', '.join(KNOWN)}; by default the first. May be repeated.",
 )
 @click.option(
     "--draws",
@@ -88,7 +88,8 @@ def command(
 ) -> int:
     """Answer the same questions about every system in the FILEs.
 
-    --grid, --all-graphs and --all-sensors ask about many systems that are made of each FILE.
+    --grid, --tolerances, --all-graphs and --all-sensors ask about many systems that are made of
+    each FILE.
     In a DIRECTORY, a *.json file is read if its key "format" says that it is a system file; other
     files are skipped and named in the summary.
 
@@ -118,7 +119,7 @@ def command(
     sources += [Draw(number, **rest) for number in range(seed, seed + (draws or 0))]
     if not sources:
         raise click.UsageError("there are no systems to sweep over: name files, or give --draws N")
-    asked = tuple(name for name in QUESTIONS if name in (questions or {"fixed_spectrum"}))
+    asked = tuple(name for name in KNOWN if name in (questions or {"fixed_spectrum"}))
     require_writable(output, certificates)
     require_other(html, *listed.paths)
     require_writable(html, certificates)

@@ -9,12 +9,15 @@ import itertools
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
+from functools import partial
 from typing import Any, Literal
 
 from mcexact.arguments import several
 from mcexact.derived.augmented_outputs import augmented_outputs
 from mcexact.errors import InputError, LimitReached, UsageError
 from mcexact.exact.rational import as_fraction, written
+from mcexact.model.box import Box
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem, as_plant
@@ -224,6 +227,32 @@ def sensor_variants(plant: MultiChannelSystem, *, unused: bool = False) -> Itera
             yield Variant(told, lambda chosen=chosen: made(chosen))  # type: ignore[misc]
 
     return variants()
+
+
+def tolerance_variants(plant: MultiChannelSystem, parts: Iterable[Any]) -> Iterator[Variant]:
+    """The plant with all entries that are not 0 uncertain by parts of their values.
+
+    Parameters
+    ----------
+    plant : MultiChannelSystem
+    parts : iterable of exact numbers
+        Such as "1/1000" for 0.1 %.
+
+    Examples
+    --------
+    >>> plant = MultiChannelSystem([[2]], [[[1]]], [[[1]]])
+    >>> [variant.name for variant in tolerance_variants(plant, ["1/1000", "1/3"])]
+    ['within 1/1000', 'within 1/3']
+    >>> next(tolerance_variants(plant, ["1/2"])).system().uncertainty.A[0, 0]
+    Fraction(1, 1)
+    """
+    InputError.require(plant, MultiChannelSystem, "system")
+    given = [as_fraction(part) for part in several(parts, "parts", "numbers")]
+
+    def made(part: Fraction) -> MultiChannelSystem:
+        return Box.relative(plant, part).system
+
+    return (Variant(f"within {written(part)}", partial(made, part)) for part in given)
 
 
 def _require_few(count: int, what: str) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
@@ -10,13 +11,15 @@ from typing import Any
 
 from mcexact.answer.formats import count, cut
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.shortened import polynomial
+from mcexact.exact.shortened import percent, polynomial
 from mcexact.report.answer_page import AnswerPage
 from mcexact.report.text import Table, shorten
 
 _MOST_ROWS, _MOST_ON_A_PAGE = 60, 5000
 _MOST_SKIPPED = 20
 _NOT_STABILIZABLE = "not stabilizable: by no linear time-invariant decentralized controller"
+
+_WITHIN = re.compile(r"within ([0-9]+(?:/[0-9]+)?)")
 
 Document = Mapping[str, Any]
 
@@ -111,8 +114,22 @@ def sweep_tables(
     rows = tuple(_row(short[document["name"]], document, questions) for document in shown)
     named = counts(documents)
     said = tuple((key.replace("_", " "), str(number)) for key, number in named.items())
+    said += shares(documents)
     stays = _NOT_STABILIZABLE if named.get("not_stabilizable") else ""
     return (Table("", columns, rows, note), Table("of all systems", (), said, stays))
+
+
+def shares(documents: Sequence[Document]) -> tuple[tuple[str, str], ...]:
+    """For each part of `tolerance_variants`, of how many systems the questions are answered."""
+    found: dict[Fraction, list[bool]] = {}
+    for document in documents:
+        member = _WITHIN.fullmatch(document["name"].rpartition(": ")[2])
+        if member:
+            found.setdefault(Fraction(member[1]), []).append("answers" in document)
+    return tuple(
+        (f"proved within {percent(part)}", f"{sum(proved)} of {len(proved)}")
+        for part, proved in sorted(found.items())
+    )
 
 
 def _tells(document: Document) -> int:
@@ -160,4 +177,6 @@ def _said(question: str, claim: Mapping[str, Any]) -> str:
     if question == "assignability":
         parts = [str(block["dimension"]) for block in claim["blocks"] if block["dimension"]]
         return f"parts of degree {', '.join(cut(parts, 6))}" if parts else "no part"
+    if question.startswith("box_"):
+        return "proved"
     return "yes" if next(value for value in claim.values() if isinstance(value, bool)) else "no"

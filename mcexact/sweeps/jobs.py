@@ -18,7 +18,7 @@ from mcexact.model.formats.reading import Reading
 from mcexact.model.formats.recognize import read_any
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import digest, system_text
-from mcexact.sweeps.questions import QUESTIONS
+from mcexact.sweeps.questions import KNOWN
 
 Source = str | os.PathLike[str] | MultiChannelSystem | Draw | Variant
 Reader = Callable[[str | os.PathLike[str], Limits], bytes]
@@ -102,7 +102,7 @@ def decide(job: Job) -> Outcome:
     start = time.perf_counter()
     try:
         system = job.system()
-        made = {name: codec.encode(QUESTIONS[name].decide(system)) for name in job.questions}
+        made = {name: codec.encode(KNOWN[name].decide(system)) for name in job.questions}
     except Exception as error:
         return failure(error)
     return {

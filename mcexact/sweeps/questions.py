@@ -13,6 +13,9 @@ QUESTIONS = {
     name: question for name, question in ALL.items() if question.unbidden and not question.needs
 }
 """The questions of `mcexact.analysis.questions` that need the plant alone and are cheap."""
+WITHIN_RADII = {name: question for name, question in ALL.items() if question.needs == "uncertainty"}
+"""The questions about every plant within the radii, which may be left open."""
+KNOWN = QUESTIONS | WITHIN_RADII
 
 
 def chosen(names: Iterable[str]) -> tuple[str, ...]:
@@ -24,11 +27,11 @@ def chosen(names: Iterable[str]) -> tuple[str, ...]:
         If no name is given, or a name is not a question.
     """
     asked = {names} if isinstance(names, str) else set(several(names, "questions"))
-    unknown = sorted(asked - set(QUESTIONS))
+    unknown = sorted(asked - set(KNOWN))
     if unknown or not asked:
         found = repr(unknown[0]) if unknown else "none"
-        raise UsageError(f"expected questions out of {', '.join(QUESTIONS)}; found {found}")
-    return tuple(name for name in QUESTIONS if name in asked)
+        raise UsageError(f"expected questions out of {', '.join(KNOWN)}; found {found}")
+    return tuple(name for name in KNOWN if name in asked)
 
 
 def answered(name: str, certificate: Mapping[str, Any]) -> bool:
@@ -41,9 +44,13 @@ def answered(name: str, certificate: Mapping[str, Any]) -> bool:
     certificate : mapping
         The document of a certificate that the checker found VALID.
     """
-    question = QUESTIONS[name]
+    question = KNOWN[name]
     subject = [{"construction": "dual"}] if question.dual else []
     channels = [channel["name"] for channel in certificate["system"]["channels"]]
     about = (certificate["kind"], certificate["subject"])
     named = certificate["claim"].get("channels", channels)
+    if name in WITHIN_RADII and (certificate["claim"]["bound"] is None) is (
+        name == "box_stabilizability"
+    ):
+        return False
     return about == (question.kind or name, subject) and bool(named == channels)

@@ -63,6 +63,25 @@ def test_graphs_and_sensors_are_asked_about_each_file(tmp_path: Path) -> None:
     assert swept(PAPER, "--all-sensors", "--question", "completeness")["counts"]["systems"] == 81
 
 
+def test_tolerances_are_asked_of_each_file(tmp_path: Path) -> None:
+    plant = {
+        "format": "mcexact-system/1",
+        "time": "continuous",
+        "A": [[1, 0], [0, 2]],
+        "channels": [{"B": [[1], [1]], "C": [[1, 1]]}],
+    }
+    path = tmp_path / "plant.json"
+    path.write_text(json.dumps(plant))
+    asked = ("--tolerances", "0.1%,10%,50%", "--question", "box_fixed_modes", "--workers", "1")
+    status, out, _ = call("sweep", str(path), *asked, "--json")
+    first, second, third = json.loads(out)["records"]
+    assert status == 4 and first["answers"]["box_fixed_modes"]["claim"] == {"bound": None}
+    assert "answers" in second and "answers" not in third
+    assert third["name"].endswith("within 1/2") and third["error"]["status"] == 4
+    status, out, _ = call("sweep", str(path), *asked)
+    assert "proved within 10 %" in out and "1 of 1" in out and "0 of 1" in out
+
+
 def test_a_file_that_cannot_be_read_is_told_like_any_other(tmp_path: Path, parametric: str) -> None:
     missing = str(tmp_path / "no.json")
     document = swept(missing, parametric, "--all-sensors", "--draws", "1", status=3)
@@ -74,9 +93,13 @@ def test_a_file_that_cannot_be_read_is_told_like_any_other(tmp_path: Path, param
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (("--all-graphs", "--all-sensors"), "give one of --grid, --all-graphs and --all-sensors"),
+        (
+            ("--all-graphs", "--all-sensors"),
+            "give one of --grid, --tolerances, --all-graphs and --all-sensors",
+        ),
         (("--up-to-isomorphism",), "need --all-graphs"),
         (("--grid", "t"), "expected NAME=FROM:TO:COUNT or NAME=VALUE,VALUE, found 't'"),
+        (("--tolerances", "1%,x"), "found 'x'"),
         (("--grid", "t=0:1"), "expected FROM:TO:COUNT with a count from 2"),
         (("--grid", "t=0:1:1"), "with a count from 2 to 1000000, found '0:1:1'"),
         (("--grid", "t=0.5,x"), "found 'x'"),
