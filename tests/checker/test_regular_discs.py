@@ -172,3 +172,34 @@ def test_the_radii_under_gains_are_reached_where_nothing_cancels() -> None:
         assert center.equals(M) and (far - M).equals(D)
         negative = [{**F_i, "entries": [[-x for x in r] for r in F_i["entries"]]} for F_i in F]
         assert with_gains(negative, "", Box(**vars(given), radii=radii))[1].equals(D)
+
+
+@pytest.mark.parametrize(
+    ("Y", "discs", "code"),
+    [
+        ([[(3, 4)]], [("3", "-4", "5.1")], ""),
+        ([[(3, 4)]], [("3", "-4", "4")], "disc"),
+        ([[(0, 0), (1, 0)], [(1, 0), (0, 0)]], [("0", "0", "-10")] * 2, "dominance"),
+        ([[(1, 0), (1, 0)], [(0, 0), (1, 0)]], [("0", "0", "10")] * 2, "dominance"),
+    ],
+)
+def test_discs_are_checked_in_complex_numbers_and_rows_that_are_dominant(
+    Y: list[list[tuple[int, int]]], discs: list[tuple[str, str, str]], code: str
+) -> None:
+    """About the matrix 0: discs around other points have to reach it, and no radius is negative."""
+    n = len(Y)
+    given, unit = (
+        {
+            "denominator": 1,
+            "re": [[x for x, _ in row] for row in M],
+            "im": [[y for _, y in row] for row in M],
+        }
+        for M in (Y, [[(int(i == j), 0) for j in range(n)] for i in range(n)])
+    )
+    listed = [dict(zip(("re", "im", "radius"), disc, strict=True)) for disc in discs]
+    zeros, found = Matrix.zeros(n, n), ""
+    try:
+        exterior_discs(given, unit, listed, "", zeros, zeros)
+    except Refused as refused:
+        found = refused.code
+    assert found == code
