@@ -203,3 +203,25 @@ def test_discs_are_checked_in_complex_numbers_and_rows_that_are_dominant(
     except Refused as refused:
         found = refused.code
     assert found == code
+
+
+@pytest.mark.parametrize(("radius", "good"), [("1.1", True), ("1", False), ("0.5", False)])
+def test_discs_reach_what_is_tied(radius: str, good: bool) -> None:
+    """A = s with s from −1 to 1."""
+    one = {"denominator": 1, "re": [[1]], "im": [[0]]}
+    zero, listed = Matrix.zeros(1, 1), [{"re": "0", "im": "0", "radius": radius}]
+    found = True
+    try:
+        exterior_discs(one, one, listed, "", zero, zero, [Matrix([[1]], 1)])
+    except Refused:
+        found = False
+    assert found == good
+
+
+@pytest.mark.parametrize("rule", [left_inverse, right_inverse])
+def test_a_disc_stays_clear_of_what_is_tied(rule: Any) -> None:
+    """λ − s is regular for all s from −1 to 1 where |λ − 2| is below 1."""
+    zero, half = Matrix.zeros(1, 1), {"denominator": 2, "re": [[1]], "im": [[0]]}
+    regular = rule(half, [1], "", Pencil(zero, zero, 1, [Matrix([[1]], 1)]))
+    assert regular(Fraction(2), Fraction(0), Fraction(9, 10))
+    assert not regular(Fraction(2), Fraction(0), Fraction(1))
