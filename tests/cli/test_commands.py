@@ -140,7 +140,9 @@ def test_what_took_long_is_listed_and_a_question_that_is_left_out_can_be_named(
 ) -> None:
     assert "took long" not in call("analyze", TRIPLE)[1]
     setpoint = replace(QUESTIONS["setpoint"], most=2)
-    monkeypatch.setattr("mcexact.analysis.analyze.QUESTIONS", {**QUESTIONS, "setpoint": setpoint})
+    monkeypatch.setattr(
+        "mcexact.analysis.asking.Asking.questions", {**QUESTIONS, "setpoint": setpoint}
+    )
     text = call("analyze", TRIPLE)[1]
     assert "questions that are open or took long" in text
     reason = "left out: more than 2 states, of which it needs dense matrices"

@@ -42,7 +42,7 @@ def subject_of(document: Mapping[str, Any], most: int | None = None) -> Any:
 def is_ranged(document: Mapping[str, Any]) -> bool:
     """Whether a document is about all values within ranges of parameters."""
     known = isinstance(document["system"], Mapping) and "parameters" in document["system"]
-    return known and str(document["kind"]).startswith("parametric_box_")
+    return known and str(document.get("kind")).startswith("parametric_box_")
 
 
 def built(system: System, steps: Sequence[Any]) -> System:
