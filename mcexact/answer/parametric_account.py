@@ -12,7 +12,7 @@ from typing import Any
 from mcexact.answer import codec
 from mcexact.answer.account import Account
 from mcexact.answer.formats import count
-from mcexact.answer.parametric_fixed_spectrum import joined
+from mcexact.answer.parameter_values import joined
 from mcexact.answer.protocol import Answer
 from mcexact.answer.rules.parameters import RULES
 from mcexact.answer.rules.several_parameters import sentences_of_several

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from mcexact.answer.parametric_fixed_spectrum import (
+from mcexact.answer.parameter_values import (
     OutsideValue,
     ParameterValue,
     rows_of_values,

@@ -6,7 +6,10 @@ import pytest
 
 import mcexact
 from mcexact.answer.exceptional_hypersurfaces import mode_in_x
-from mcexact.answer.parametric_fixed_spectrum import in_parameter, mode_text
+from mcexact.answer.parameter_values import (
+    in_parameter,
+    mode_text,
+)
 from mcexact.model import gallery
 from mcexact.model.formats.recognize import read_any
 from mcexact.model.published import published

@@ -6,7 +6,10 @@ from typing import Any
 
 from mcexact.analysis.engine.named_matrices import Entries, Named
 from mcexact.answer.evidence import RootDisc
-from mcexact.answer.parametric_fixed_spectrum import OutsideValue, meets
+from mcexact.answer.parameter_values import (
+    OutsideValue,
+    meets,
+)
 from mcexact.answer.parametric_rank import Kernel, LowerRank, ParametricRank, TwoMinors
 from mcexact.derived.modular_system import generator
 from mcexact.derived.polynomial_system import PolynomialSystem

@@ -15,16 +15,18 @@ from mcexact.analysis.engine.zero_blocks import (
     zero_block,
 )
 from mcexact.answer.evidence import RootDisc, ZeroBlock
+from mcexact.answer.parameter_values import (
+    OutsideValue,
+    meets,
+)
 from mcexact.answer.parametric_fixed_spectrum import (
     CommonDivisor,
     ExceptionalEvidence,
     ExceptionalMode,
     ExceptionalValue,
     MovedModes,
-    OutsideValue,
     ParametricFixedSpectrum,
     SettledValue,
-    meets,
 )
 from mcexact.derived.modular_system import generator
 from mcexact.derived.polynomial_system import PolynomialSystem

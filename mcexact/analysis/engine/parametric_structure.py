@@ -18,12 +18,12 @@ from mcexact.answer.exceptional_hypersurfaces import (
     Hypersurface,
     RankHypersurfaces,
 )
-from mcexact.answer.parametric_fixed_spectrum import (
-    ParametricFixedSpectrum,
+from mcexact.answer.parameter_values import (
     in_parameter,
     joined,
     value_text,
 )
+from mcexact.answer.parametric_fixed_spectrum import ParametricFixedSpectrum
 from mcexact.answer.parametric_rank import ParametricRank, TransferColumn
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.rational_function import RationalFunction

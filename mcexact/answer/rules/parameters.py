@@ -12,7 +12,11 @@ from typing import Any
 
 import networkx as nx
 
-from mcexact.answer.parametric_fixed_spectrum import in_parameter, mode_text, value_text
+from mcexact.answer.parameter_values import (
+    in_parameter,
+    mode_text,
+    value_text,
+)
 from mcexact.answer.sentence import Claim, Given, Rulebook
 from mcexact.answer.template import Sentence
 from mcexact.answer.wording import parameters as say

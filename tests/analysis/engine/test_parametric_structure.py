@@ -160,3 +160,15 @@ def test_words_name_the_question_and_the_values_that_are_decided() -> None:
     later = ParametricSystem([["t"]], [[["t"]]], [[[1]]], parameters=["t"], assume={"t": (2, None)})
     assert fixed_spectrum(later).words == ("no mode is fixed for any t in [2, ∞)",)
     assert setpoint_solvability(later).words == ("rank 2 for every t in [2, ∞)",)
+
+
+def test_the_value_1_is_not_taken_for_the_generic_modes_in_sympy() -> None:
+    plant = ParametricSystem(
+        [["t", 0, 0], [0, 1, 0], [0, 0, 5]],
+        [[["1"], ["t - 1"], [0]]],
+        [[[1, 1, 1]]],
+        parameters=["t"],
+    )
+    found = fixed_spectrum(plant).to_sympy()
+    assert [str(p.as_expr()) for p in found[True]] == ["x - 5"]
+    assert [str(p.as_expr()) for p in found[1]] == ["x - 1"]
