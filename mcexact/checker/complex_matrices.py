@@ -18,7 +18,7 @@ def magnitude(re: int, im: int) -> int:
     return math.isqrt(square - 1) + 1
 
 
-def magnitudes(number: int, a: int) -> int:
+def extractions(number: int, a: int) -> int:
     """The units of so many absolute values of pairs of numbers of a limbs."""
     return budget.reductions(4 * number, 2 * a)
 
@@ -49,8 +49,8 @@ class ComplexMatrix:
 
     def magnitudes(self) -> Matrix:
         """The absolute values of all entries, rounded up to integers over the denominator."""
-        nrows, ncols = self.re.nrows, self.re.ncols
-        budget.spend(budget.table(nrows, ncols, self.limbs) + magnitudes(nrows * ncols, self.limbs))
+        nrows, ncols, a = self.re.nrows, self.re.ncols, self.limbs
+        budget.spend(budget.table(nrows, ncols, a) + extractions(nrows * ncols, a))
         pairs = zip(self.re.rows, self.im.rows, strict=True)
         return Matrix([list(map(magnitude, *pair)) for pair in pairs], ncols, self.re.denominator)
 

@@ -7,7 +7,7 @@ from fractions import Fraction
 from . import budget
 from .arithmetic import Matrix, beside, stack
 from .boxes import Box, absolute
-from .complex_matrices import complex_matrix, magnitude, magnitudes
+from .complex_matrices import complex_matrix, extractions, magnitude
 from .reading import Json, decimal, fields, items, malformed, matrices, require
 from .root_discs import Disc
 
@@ -80,7 +80,7 @@ def exterior_discs(
         z = re.denominator * im.denominator
         p, q, f = int(re * z) * (h // g), int(im * z) * (h // g), z
         longest = H.limbs + budget.limbs([p, q, f]) + 1
-        budget.spend(budget.products(6 * n, H.limbs, longest) + magnitudes(n, longest))
+        budget.spend(budget.products(6 * n, H.limbs, longest) + extractions(n, longest))
         budget.spend(budget.fractions(8, longest + e.limbs + budget.limbs_of([radius])))
         numbers = zip(G.re.rows[i], G.im.rows[i], H.re.rows[i], H.im.rows[i], strict=True)
         total = sum(

@@ -9,7 +9,7 @@ from fractions import Fraction
 
 from . import budget
 from .arithmetic import Matrix
-from .complex_matrices import ComplexMatrix, complex_matrix, magnitude, magnitudes
+from .complex_matrices import ComplexMatrix, complex_matrix, extractions, magnitude
 from .reading import Json, integer, items
 
 Regular = Callable[[Fraction, Fraction, Fraction], bool]
@@ -95,7 +95,7 @@ def near_identity(P: ComplexMatrix, Q: ComplexMatrix, moved: Matrix, w: Matrix) 
         c = budget.limbs([p, q, z])
         longest = max(a, b) + c + 1
         budget.spend(
-            budget.products(8 * size * size, max(a, b), c) + magnitudes(size * size, longest)
+            budget.products(8 * size * size, max(a, b), c) + extractions(size * size, longest)
         )
         budget.spend(budget.fractions(4 * size, longest + moved.limbs + budget.limbs_of([rho])))
         for x, y, u, v, slack, slope in zip(xs, ys, us, vs, slacks, slopes, strict=True):

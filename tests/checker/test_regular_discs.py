@@ -225,3 +225,18 @@ def test_a_disc_stays_clear_of_what_is_tied(rule: Any) -> None:
     regular = rule(half, [1], "", Pencil(zero, zero, 1, [Matrix([[1]], 1)]))
     assert regular(Fraction(2), Fraction(0), Fraction(9, 10))
     assert not regular(Fraction(2), Fraction(0), Fraction(1))
+
+
+def test_a_disc_is_regular_beside_signals_without_dynamics() -> None:
+    """diag(λ, 1) is regular where |λ − 1| is below 1."""
+    unit = {"denominator": 1, "re": [[1, 0], [0, 1]], "im": [[0, 0], [0, 0]]}
+    pencil = Pencil(Matrix([[0, 0], [0, -1]], 2), Matrix.zeros(2, 2), 1)
+    regular = left_inverse(unit, [1, 1], "", pencil)
+    assert regular(Fraction(1), Fraction(0), Fraction(9, 10))
+    assert not regular(Fraction(1), Fraction(0), Fraction(1))
+
+
+def test_without_dynamics_every_disc_is_regular() -> None:
+    one = {"denominator": 1, "re": [[1]], "im": [[0]]}
+    regular = left_inverse(one, [1], "", Pencil(Matrix([[-1]], 1), Matrix.zeros(1, 1), 0))
+    assert regular(Fraction(5), Fraction(-3), Fraction(100))

@@ -8,8 +8,9 @@ copies of the tree below ``build/mutants``, and prints for each file how many ch
 the same name first and then the shorter ones, up to S seconds of tests.
 
 What was killed stays so while its file is the same; the rest is tried again in every run, since
-tests may have been added.  What ``tests/checker/SURVIVORS.md`` explains counts as one that survives
-and is not tried.  ``--only DeleteStatement`` tries the changes of one operator, ``--fresh`` starts
+tests may have been added.  Which tests run which lines is found anew only where a test or the
+checker has changed.  What ``tests/checker/SURVIVORS.md`` explains counts as one that survives and
+is not tried.  ``--only DeleteStatement`` tries the changes of one operator, ``--fresh`` starts
 anew, ``--report`` tries nothing.  The exit status is 1 if the score is below 95 %, or if a survivor
 is not explained.
 """
@@ -75,12 +76,15 @@ def main() -> int:
         for path in FOLDER.glob("*.*"):
             path.unlink()
     if not options.report:
+        from tests.mutants import selection
+
         trees = [FOLDER / f"tree-{k}" for k in range(options.workers)]
         for tree in trees:
             copy(tree)
         chosen = FOLDER / "selection.json"
         worker = ["-m", "tests.mutants.worker", str(FOLDER), str(options.seconds), options.only]
-        finished(inside(trees[0], "-m", "tests.mutants.selection", str(chosen)))
+        if not selection.is_current(chosen, ROOT):
+            finished(inside(trees[0], "-m", "tests.mutants.selection", str(chosen)))
         finished(
             *(
                 inside(tree, *worker, *part)

@@ -41,8 +41,8 @@ CHARGED = {"spend", "build"}
 """The functions that are told how much work a step is."""
 
 ESTIMATES = {
-    "LIMB", "_limbs", "_terms", "_turns", "build", "fractions", "inversions", "limbs", "limbs_of",
-    "products", "reductions", "table",
+    "LIMB", "_limbs", "_terms", "_turns", "build", "extractions", "fractions", "inversions",
+    "limbs", "limbs_of", "products", "reductions", "table",
 }  # fmt: skip
 """The functions that say how much work a step is, or how long its numbers are."""
 

@@ -2,11 +2,13 @@
 
     python -m tests.mutants.selection FILE
 
-runs ``tests/checker`` in the current folder and writes the answer to a JSON file.
+runs ``tests/checker`` in the current folder and writes the answer to a JSON file.  What was found
+holds as long as the checker and these tests are the same.
 """
 
 from __future__ import annotations
 
+import hashlib
 import json
 import sys
 import time
@@ -44,6 +46,24 @@ def files() -> list[str]:
     return [str(path) for path in found if path.name not in SKIPPED]
 
 
+def digest(root: Path) -> str:
+    """A digest of the checker and of its tests in a tree, without what is written about them."""
+    found = hashlib.sha256()
+    for folder in ("mcexact/checker", "tests/checker"):
+        for path in sorted((root / folder).rglob("*")):
+            if path.is_file() and path.suffix not in (".md", ".pyc"):
+                found.update(f"{path.relative_to(root)}\n{path.stat().st_size}\n".encode())
+                found.update(path.read_bytes())
+    return found.hexdigest()
+
+
+def is_current(target: Path, root: Path) -> bool:
+    """Whether a file has the answer for the checker and the tests of a tree."""
+    if not target.exists():
+        return False
+    return bool(json.loads(target.read_text(encoding="utf-8")).get("of") == digest(root))
+
+
 def main(target: str) -> int:
     """Run the tests, and write down which lines each of them runs."""
     measured = coverage.Coverage(data_file=None, source=["mcexact/checker"], config_file=False)
@@ -59,7 +79,8 @@ def main(target: str) -> int:
             line: sorted(-1 if not name else numbers[name] for name in names)
             for line, names in found.items()
         }
-    text = json.dumps({"seconds": list(watch.seconds.items()), "lines": lines})
+    seconds = list(watch.seconds.items())
+    text = json.dumps({"of": digest(Path()), "seconds": seconds, "lines": lines})
     Path(target).write_text(text, encoding="utf-8")
     return int(status)
 

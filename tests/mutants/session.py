@@ -37,7 +37,8 @@ class Selection:
     @staticmethod
     def read(path: Path) -> Selection:
         """Read what ``tests.mutants.selection`` wrote."""
-        return Selection(**json.loads(path.read_text(encoding="utf-8")))
+        written = json.loads(path.read_text(encoding="utf-8"))
+        return Selection(written["seconds"], written["lines"])
 
     def tests(self, stem: str, first: int, last: int) -> list[int]:
         """The tests that run one of some lines; all tests, if loading the file runs them."""
