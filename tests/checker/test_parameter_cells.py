@@ -50,6 +50,17 @@ def test_an_entry_is_its_value_its_slopes_and_what_is_left() -> None:
     assert [fractions(each.B[0]) for each in (box.radii, *box.tied)] == [[[0]]] * 3
 
 
+def test_without_ties_the_radii_are_those_of_all_directions_together() -> None:
+    system = ranged([["a*b^2 + 3*a - 1"]], ([[1]], [["(a)/(b)"]]), a=(1, 3), b=("3/2", "5/2"))
+    plant = read_parametric(system)
+    tied = box_of_cell(plant, cells_of([None], "cuts", plant)[0])
+    free = tied.independent()
+    assert free.tied == () and fractions(free.A) == [[13]]
+    assert fractions(free.radii.A) == [[2 + Fraction(3, 4) + 7 + 4]]
+    assert fractions(free.radii.B[0]) == [[0]]
+    assert fractions(free.radii.C[0]) == [[Fraction(1, 4) + Fraction(1, 2) + Fraction(1, 4)]]
+
+
 ENTRIES = ("a*b", "a^2 - b", "(a + 1)*(b - 2)^2", "1/a", "(a*b + 1)/(a*b^2)", "a/2 - 3", "7")
 
 
