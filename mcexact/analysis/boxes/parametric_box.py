@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Iterable
 from fractions import Fraction
 from typing import Any, TypeVar
@@ -31,6 +32,8 @@ from mcexact.model.system import MultiChannelSystem
 P = TypeVar("P")
 _CELLS, _DEEPEST = 64, 5
 """The most cells, and how often one is cut for each parameter."""
+_MOST_CORNERS = 16
+"""How many corners are decided of a cell that is cut no more."""
 _MOST_SQUARES, _MOST_OWN = 200, 1
 """A cell that needs more squares, or gains for more of them, is cut."""
 
@@ -166,29 +169,39 @@ def _cells(
                 cuts.append(None)
                 parts.append(found)
                 continue
-            middle = dict(zip(plant.parameters, map(_middle, cell), strict=True))
-            where = ", ".join(f"{name} = {rational_text(x)}" for name, x in middle.items())
-            if _fails(plant, middle, failing, where):
-                raise LimitReached(f"{said} at {where}")
+            middle = tuple(map(_middle, cell))
+            _require_holds(plant, middle, failing, said)
             if len(parts) + len(left) + 2 > _CELLS or depth == _DEEPEST * len(cell):
-                raise LimitReached(f"no proof was found that this is false near {where}: {said}")
+                for corner in itertools.islice(itertools.product(*cell), _MOST_CORNERS):
+                    _require_holds(plant, corner, failing, said)
+                where = _where(plant, middle)
+                raise LimitReached(f"no proof was found near {where}; perhaps {said} there")
             k = _widest(plant, cell)
             cuts.append(k)
             left += [(half, depth + 1) for half in halves(cell, k)[::-1]]
     return tuple(cuts), tuple(parts)
 
 
-def _fails(
+def _require_holds(
     plant: ParametricSystem,
-    values: dict[str, Fraction],
+    values: tuple[Fraction, ...],
     failing: Callable[[MultiChannelSystem], bool],
-    where: str,
-) -> bool:
-    """Whether the plant at some values fails, which is decided exactly."""
+    said: str,
+) -> None:
+    """Refuse values at which the plant fails, which is decided exactly."""
+    where = _where(plant, values)
     try:
-        return failing(plant.at(values))
+        member = plant.at(dict(zip(plant.parameters, values, strict=True)))
     except InputError:
         raise LimitReached(f"an entry is undefined at {where}") from None
+    if failing(member):
+        raise LimitReached(f"{said} at {where}")
+
+
+def _where(plant: ParametricSystem, values: tuple[Fraction, ...]) -> str:
+    """Values of the parameters in words."""
+    named = zip(plant.parameters, values, strict=True)
+    return ", ".join(f"{name} = {rational_text(x)}" for name, x in named)
 
 
 def _proof(plant: ParametricSystem, cell: Cell, proved: Callable[[CellBox], P | None]) -> P | None:
