@@ -15,6 +15,7 @@ from mcexact.checker.box_stable import segments_of
 from mcexact.checker.characteristic_polynomial import characteristic_polynomial
 from mcexact.checker.location import in_region
 from mcexact.checker.loop_pencil import loop_pencil
+from mcexact.checker.reading import Refused
 from mcexact.checker.regular_discs import Pencil
 from mcexact.checker.subject import read_subject
 from mcexact.checker.system import read_plant
@@ -63,6 +64,12 @@ test_what_proves_less_is_refused = rejects(
         ("radii of more states", LOOP_STABLE, (f"{RADII}.agents.1.private", 1), "INVALID"),
         ("radii in another time", LOOP_STABLE, (f"{RADII}.time", "discrete"), "INVALID"),
         (
+            "radii in another time, sampled",
+            DELAYED_STABLE,
+            (f"{RADII}.time", "continuous"),
+            "INVALID",
+        ),
+        (
             "radii of what holds its messages",
             DELAYED_STABLE,
             (f"{RADII}.agents.0.hold", {"2": 1}),
@@ -73,6 +80,12 @@ test_what_proves_less_is_refused = rejects(
             "a radius of an output that is not received",
             LOOP_STABLE,
             (f"{RADII}.agents.1.input.outputs", {"1": [["1/100"]]}),
+            "INVALID",
+        ),
+        (
+            "a radius of an output of before that nothing else reads",
+            DELAYED_STABLE,
+            ("subject.0.controller.agents.0.private_update", {"private": [["1/4"]]}),
             "INVALID",
         ),
         ("no radii are claimed", LOOP_STABLE, (RADII, 0), "MALFORMED"),
@@ -223,6 +236,18 @@ FEEDING = {
     "controller": {"time": "continuous", "agents": [AGENT]},
 }
 """u = −6y, y = x/2: the sizes 1 of x, 1/2 of y and 3 of u make x' as large as 4."""
+
+
+@pytest.mark.parametrize("radii", [[-1, 1], [1, -1], [-1, -1]])
+def test_no_radius_of_a_gain_is_negative(radii: list[int]) -> None:
+    wide = plant([[-1]], ([[1]], [[1], [1]]))
+    step, given = (
+        changed(FEEDING, ("controller.agents.0.input.outputs.1", [row]))
+        for row in ([-1, -1], radii)
+    )
+    with pytest.raises(Refused) as refused:
+        loop_pencil(subject_of(wide, KIND, (step,)), given["controller"])
+    assert refused.value.verdict == "MALFORMED"
 
 
 @pytest.mark.parametrize(

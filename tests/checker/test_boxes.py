@@ -131,6 +131,9 @@ def test_a_loop_is_the_last_construction_of_a_claim_about_stability_alone() -> N
     assert box.plant is None
     loop = subject_of(CALM, "box_stable", (LOOP,))
     assert loop.plant is not None and loop.plant.radii.n == 2
+    turned = subject_of(CALM, "box_stable", ({"construction": "dual"}, LOOP))
+    assert turned.plant is not None and turned.programs == loop.programs
+    assert nonzero(turned.plant.radii.B[1]) and not nonzero(loop.plant.radii.B[1])
     with pytest.raises(Refused):
         subject_of(CALM, "box_stable", (LOOP, {"construction": "dual"}))
 
