@@ -168,6 +168,10 @@ FALSE: dict[str, tuple[Any, str]] = {
         changed(SQUARE, (f"{VALUE}.rank", 2)),
         "claim",
     ),
+    "the rank at a value is larger than elsewhere": (
+        changed(SQUARE, (f"{VALUE}.rank", 3)),
+        "claim",
+    ),
     "the rank at a value is too small": (changed(SQUARE, (f"{VALUE}.rank", 0)), "rank"),
     "the rank at a value is too large": (
         changed(
@@ -200,6 +204,7 @@ FALSE: dict[str, tuple[Any, str]] = {
         "identity",
     ),
     "a minor less": (changed(SQUARE, ("witness.rows", [0])), "rank"),
+    "a row more": (changed(DROPS, ("witness.rows", [0, 1, 2])), "rank"),
     "a column less": (changed(SQUARE, ("witness.columns", [0])), "rank"),
     "a minor of too many rows and columns": (
         changed(NO_EDGE, ("witness.rows", [0]), ("witness.columns", [0])),

@@ -99,6 +99,11 @@ BOUNDS: dict[str, tuple[list[list[Fraction]], list[list[Fraction]], int]] = {
         6,
     ),
     "a steep line first": (polynomial([0, 1], [0, 0, 0, 1], X), polynomial([7], X), 3),
+    "a steep line of one step, then one of two": (
+        polynomial([0, 1], [], [0, 0, 0, 1], X),
+        polynomial([], X),
+        1,
+    ),
     "nothing": (polynomial([0, 1], X), polynomial(), 0),
     "zeros": (polynomial([0, 1], X), polynomial([], []), 0),
 }
@@ -156,3 +161,14 @@ def test_a_coefficient_of_half_the_product_is_positive() -> None:
     assert integer_resultant(g, f, [9]) == [-3]
     with pytest.raises(Refused):
         integer_resultant(f, g, [8])
+
+
+@pytest.mark.parametrize(("ell", "enough"), [(101, False), (250, False), (251, True)])
+def test_the_bound_is_a_product_of_powers(ell: int, enough: bool) -> None:
+    f, g = polynomial([-4], [1]), polynomial([], [], [], [1])  # x − 4 and x³: the bound is 5³
+    for first, second, expected in ((f, g, 64), (g, f, -64)):
+        if enough:
+            assert integer_resultant(first, second, [ell]) == [expected]
+        else:
+            with pytest.raises(Refused, match="expected a product above"):
+                integer_resultant(first, second, [ell])

@@ -19,6 +19,7 @@ from . import (
     parametric,
     parametric_rank,
     parametric_traps,
+    plain_traps,
     ranges,
     sharing,
     structure,
@@ -55,6 +56,7 @@ FORGERS = {
 }
 
 TRAPS: dict[str, Document] = {
+    **plain_traps.TRAPS,
     **box_traps.TRAPS,
     **parametric_traps.SPECTRA,
     **parametric_traps.RANKS,

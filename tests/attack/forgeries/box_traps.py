@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from tests.checker.box_maker import stable
-from tests.checker.box_plants import GAIN_RADII, LOOP_STABLE, STABLE, uncertain
+from tests.checker.box_plants import GAIN_RADII, LOOP_STABLE, STABLE, gains, uncertain
 from tests.checker.handmade import certificate, changed, plant
+from tests.checker.parameter_plants import fixed, ranged
 
 from ..draws.plants import Document
 
@@ -14,6 +15,10 @@ TURNING = plant(
     [[-1, -8], [8, -1]], ([[1], [0]], [[1, 0]]), uncertainty=uncertain([[2, 0], [0, 2]])
 )
 """Eigenvalues a ± 8i, a from −3 to 1."""
+FADING = ranged([[1]], ([["t - 1"]], [[1]]), t=(0, "1/2"))
+"""The mode 1 is fixed at t = 1."""
+RECIPROCAL = ranged([[1]], ([["(t - 3)/(t)"]], [[1]]), t=(1, 1))
+"""The mode 1 is fixed at t = 3."""
 
 
 def exact(rows: list[list[int]]) -> Document:
@@ -45,5 +50,13 @@ TRAPS: dict[str, Document] = {
     "radii of gains without a loop": changed(STABLE, ("claim.gain_radii", GAIN_RADII)),
     "radii of gains in another time": changed(
         LOOP_STABLE, ("claim.gain_radii", {**GAIN_RADII, "time": "discrete"})
+    ),
+    "a half that nothing is proved of": changed(
+        fixed(FADING, [None], [gains((4, 1))]),
+        ("system.parameters.t.range", [0, 1]),
+        ("witness.cuts", [0, None]),
+    ),
+    "a denominator that is 0 in the range": changed(
+        fixed(RECIPROCAL, [None], [gains((4, 1))]), ("system.parameters.t.range", [-1, 3])
     ),
 }

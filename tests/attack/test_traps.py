@@ -1,4 +1,4 @@
-"""Traps about boxes: what each condition would let pass is false."""
+"""Traps: what each condition would let pass is false."""
 
 from __future__ import annotations
 
@@ -6,8 +6,10 @@ import pytest
 
 from tests.attack.campaign import judged
 from tests.attack.conditions import GATES, weakened_checker
-from tests.attack.forgeries.box_traps import TRAPS
+from tests.attack.forgeries import box_traps, plain_traps
 from tests.attack.oracle.judge import FALSE
+
+TRAPS = {**box_traps.TRAPS, **plain_traps.TRAPS}
 
 
 @pytest.mark.parametrize("trap", TRAPS)
