@@ -172,7 +172,8 @@ def drawn(plants: dict[str, MultiChannelSystem], count: int = 10_000) -> None:
         member = proved[k % len(proved)].member(rng, vertex=k % 3 == 0)
         contradicted += not fixed_spectrum(member).empty
     print("## Drawn members\n")
-    print(f"{count} members of {len(proved)} proved boxes: {contradicted} have a fixed mode.")
+    told = f"{count} members of {len(proved)} proved boxes, a third of them vertices"
+    print(f"{told}: {contradicted} have a fixed mode.")
     certified = 0
     for k in range(count // 20):
         planted = system_with_fixed_mode(SeededChoices(k), 4, 2).system
