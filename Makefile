@@ -66,7 +66,7 @@ boxes: $(STAMP)
 	$(BIN)/python -m benchmarks.boxes $(PARTS)
 
 # How many digits of the gains of designed controllers are safe, and how many are too few: minutes.
-# NAMES='theorem compleib-ac1' tries some.
+# NAMES='theorem compleib-ac1' tries some; a folder of further system files can be among them.
 digits: $(STAMP)
 	$(BIN)/python -m benchmarks.digits $(NAMES)
 

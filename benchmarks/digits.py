@@ -1,8 +1,16 @@
 """How many digits of the gains of designed controllers are safe, and how many are too few.
 
-Run as ``python -m benchmarks.digits [DESIGN …] [PLANT …]``, where DESIGN is searched (the default),
-a decentralized controller found with a small effort, or theorem, the exact one of the theorem; by
-default for the plants of the gallery with at most 12 states.
+Run as ``python -m benchmarks.digits [DESIGN …] [PLANT …] [FOLDER]``, with a folder of further
+system files.  DESIGN is one of
+
+``searched``  a decentralized controller found with a small effort
+``theorem``   the exact one of the theorem
+``extended``  one found with a small effort, whose agents send each other what they share over the
+              links of the plant, or else over a ring
+``setpoint``  the same for set-points, with integrators
+
+by default all: searched and theorem for the plants of the gallery with at most 12 states, and the
+others for a few of them.
 
 Each row asks for stability alone:
 
@@ -19,35 +27,62 @@ from __future__ import annotations
 import os
 import sys
 import time
-from typing import Any
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
-from mcexact import Aims, check, design_decentralized
+from mcexact import (
+    Aims,
+    Design,
+    check,
+    design_decentralized,
+    design_extended,
+    design_setpoint,
+    gallery,
+    load_system,
+)
 from mcexact.errors import Impossible, LimitReached
-from mcexact.model import gallery
+from mcexact.model.neighbor_graph import NeighborGraph
+from mcexact.model.system import MultiChannelSystem
 from mcexact.synthesis.safe_digits import safe_digits
 
 EFFORT = 2.0
 MOST = 12
 """Digits that are tried."""
-DESIGNS: dict[str, dict[str, Any]] = {
-    "searched": {"arithmetic": "float", "aims": Aims(effort=EFFORT)},
-    "theorem": {"arithmetic": "exact", "aims": Aims(effort=0)},
-}
 _MOST_STATES = 12
 
 
-def row(name: str, design: str) -> str:
+def extended(plant: MultiChannelSystem) -> Design:
+    """A controller of agents that send each other what they share."""
+    ring = NeighborGraph.ring(plant.names)
+    linked = plant if plant.neighbors is not None else plant.with_neighbors(ring)
+    return design_extended(linked, arithmetic="float", aims=Aims(effort=EFFORT))
+
+
+DESIGNS: dict[str, Callable[[MultiChannelSystem], Design]] = {
+    "searched": partial(design_decentralized, arithmetic="float", aims=Aims(effort=EFFORT)),
+    "theorem": partial(design_decentralized, arithmetic="exact", aims=Aims(effort=0)),
+    "extended": extended,
+    "setpoint": partial(design_setpoint, arithmetic="float", aims=Aims(effort=EFFORT)),
+}
+_FEW = {
+    "extended": ["quadruple-tank-pminus", "compleib-dis5", "compleib-ac1"],
+    "setpoint": ["quadruple-tank-pminus", "compleib-dis5", "compleib-ac1"],
+}
+
+
+def row(name: str, plant: MultiChannelSystem, design: str) -> str:
     """What is found for one plant, as a row of the table."""
-    plant = gallery.load(name)
     try:
-        made = design_decentralized(plant, **DESIGNS[design])
+        made = DESIGNS[design](plant)
     except (Impossible, LimitReached) as refused:
         told = "none exists" if isinstance(refused, Impossible) else "none found"
         return f"| {name} | {plant.n} | {told} | | | | |"
     began = time.process_time()
-    found = safe_digits(plant, made.controller, most=MOST)
+    loop = made.loop.closed
+    found = safe_digits(loop.given, loop.controller, loop.graph, most=MOST)
     seconds = time.process_time() - began
     if found.proof is not None:
         assert check(found.proof).valid
@@ -61,15 +96,18 @@ def row(name: str, design: str) -> str:
 
 def main(arguments: list[str]) -> None:
     """Print the rows of the plants asked for."""
+    folders = [Path(each) for each in arguments if Path(each).is_dir()]
     designs = [each for each in arguments if each in DESIGNS] or [*DESIGNS]
-    asked = [each for each in arguments if each not in DESIGNS]
-    small = [each for each in gallery.names() if gallery.load(each).n <= _MOST_STATES]
+    plants = {each: gallery(each) for each in gallery()}
+    small = [name for name, plant in plants.items() if plant.n <= _MOST_STATES]
+    plants |= {file.stem: load_system(file) for each in folders for file in each.glob("*.json")}
+    asked = [each for each in arguments if each not in DESIGNS and not Path(each).is_dir()]
     for design in designs:
         print(f"\n## {design.capitalize()} controllers\n")
         print("| plant | n | states of the agents | entries | safe | fails | seconds |")
         print("| --- | --- | --- | --- | --- | --- | --- |")
-        for name in asked or small:
-            print(row(name, design), flush=True)
+        for name in asked or _FEW.get(design, small):
+            print(row(name, plants[name], design), flush=True)
 
 
 if __name__ == "__main__":
