@@ -16,3 +16,4 @@ from mcexact.plot.parameters import parameter_modes as parameter_modes
 from mcexact.plot.responses import decay as decay
 from mcexact.plot.responses import responses as responses
 from mcexact.plot.uncertainty import uncertainty as uncertainty
+from mcexact.plot.uncertainty import uncertainty_shares as uncertainty_shares

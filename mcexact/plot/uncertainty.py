@@ -1,11 +1,16 @@
-"""How far data may be from their values: the proved part, and where a plant fails."""
+"""How far data may be from their values: the proved part, where a plant fails, and both of many."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
+from mcexact.errors import UsageError
 from mcexact.exact.floats import to_float
 from mcexact.plot.canvas import BLUE, GRAY, RED, finished, one_axis
+
+_RANGE = 1e6
+"""The largest uncertainty of a picture of several plants, as a multiple of the smallest."""
 
 
 def uncertainty(found: Any, ax: Any = None) -> Any:
@@ -56,3 +61,50 @@ def uncertainty(found: Any, ax: Any = None) -> Any:
         axis.legend(fontsize="small", frameon=False, ncols=3, loc="upper center")
     counted = "part of each entry, in %" if found.relative else "multiple of the radii"
     return finished(axis, found.wanted, counted)
+
+
+def uncertainty_shares(found: Sequence[Any], ax: Any = None) -> Any:
+    """Draw of which share of plants a property is proved, and refuted, against the uncertainty.
+
+    Parameters
+    ----------
+    found : sequence of LargestUncertainty
+        One for each plant, or other objects with ``lower``, ``upper``, ``relative`` and ``wanted``.
+    ax : matplotlib.axes.Axes, optional
+        By default those of a new figure.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    UsageError
+        If there are no plants, or they are asked about different properties or in other units.
+
+    Notes
+    -----
+    Blue: proved for every plant within the radii.  Red: a plant within them fails.  Gray: neither.
+    """
+    if len({(each.relative, each.wanted) for each in found}) != 1:
+        raise UsageError("expected plants, all with one property and in one unit", where="found")
+    axis = one_axis(ax, 5.4, 3.6)
+    scale = 100 if found[0].relative else 1
+    lower = [scale * to_float(each.lower) for each in found]
+    upper = [scale * to_float(each.upper) for each in found if each.upper is not None]
+    ends = sorted({end for end in (*lower, *upper) if end})
+    left, right = (max(ends[0] / 4, ends[-1] / _RANGE), 2 * ends[-1]) if ends else (0.1, 10.0)
+    steps = [left, *(end for end in ends if end > left), right]
+    proved = [100 * sum(end > x for end in lower) / len(found) for x in steps[:-1]]
+    fails = [100 - 100 * sum(end <= x for end in upper) / len(found) for x in steps[:-1]]
+    for low, high, color, alpha, label in (
+        ([0.0] * len(proved), proved, BLUE, 1.0, "proved for every plant"),
+        (proved, fails, GRAY, 0.35, "open"),
+        (fails, [100.0] * len(fails), RED, 1.0, "a plant fails"),
+    ):
+        axis.stairs(high, steps, baseline=low, fill=True, color=color, alpha=alpha, label=label)
+    axis.set_xscale("log")
+    axis.set_xlim(left, right)
+    axis.set_ylim(0, 100)
+    counted = "part of each entry, in %" if found[0].relative else "multiple of the radii"
+    return finished(axis, found[0].wanted, counted, "plants, in %", columns=3)

@@ -7,7 +7,8 @@ from types import SimpleNamespace
 
 import pytest
 
-from mcexact.plot.uncertainty import uncertainty
+from mcexact.errors import UsageError
+from mcexact.plot.uncertainty import uncertainty, uncertainty_shares
 
 
 @pytest.mark.parametrize(
@@ -29,3 +30,25 @@ def test_each_end_that_is_known_is_drawn(
         known, between, fails = axis.patches
         assert known.get_x() + known.get_width() == pytest.approx(10)
         assert between.get_x() + between.get_width() == pytest.approx(20) == fails.get_x()
+
+
+def _ends(lower: str, upper: str | None, wanted: str = "no fixed mode") -> SimpleNamespace:
+    above = None if upper is None else Fraction(upper)
+    return SimpleNamespace(lower=Fraction(lower), upper=above, relative=True, wanted=wanted)
+
+
+def test_shares_are_those_of_plants_that_are_proved_or_fail_within_a_part() -> None:
+    found = [_ends("1/100", "1/10"), _ends("1/50", None), _ends("0", "0"), _ends("0", "1/50")]
+    [axis] = uncertainty_shares(found).axes
+    proved, between, fails = (patch.get_data() for patch in axis.patches)
+    assert proved.edges[1:-1] == pytest.approx([1, 2, 10])
+    assert list(proved.values) == [50, 25, 0, 0]
+    assert list(between.baseline) == list(proved.values)
+    assert list(between.values) == list(fails.baseline) == [75, 75, 50, 25]
+    assert list(fails.values) == [100] * 4
+
+
+@pytest.mark.parametrize("found", [[], [_ends("0", "1"), _ends("0", "1", "controllable")]])
+def test_shares_are_those_of_one_property(found: list[SimpleNamespace]) -> None:
+    with pytest.raises(UsageError, match="all with one property and in one unit"):
+        uncertainty_shares(found)
