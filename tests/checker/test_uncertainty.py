@@ -8,10 +8,12 @@ from typing import Any
 import pytest
 
 from mcexact import Box, MultiChannelSystem
+from mcexact.checker.arithmetic import Matrix
 from mcexact.checker.parametric_system import plant_of_file
 from mcexact.checker.reading import Limits, Refused
 from mcexact.checker.statement import digest
 from mcexact.checker.system import canonical, read_plant, read_system_file
+from mcexact.checker.uncertainty import read_radii
 from mcexact.model import system_file
 from tests.checker.box_plants import PAIR
 from tests.checker.handmade import INTEGRATOR, VALID, changed, checked, plant
@@ -104,6 +106,7 @@ def test_a_file_with_other_radii_is_refused(given: str) -> None:
 @pytest.mark.parametrize(
     "uncertainty",
     [
+        {},
         {"relative": "1/10"},
         {"digits": "as typed"},
         {"absolute": {}},
@@ -122,6 +125,13 @@ def test_a_certificate_has_the_radii_in_canonical_form_alone(uncertainty: Any) -
     with pytest.raises(Refused) as refused:
         read_plant({**PAIR, "uncertainty": uncertainty})
     assert refused.value.verdict == "MALFORMED"
+
+
+def test_without_uncertainty_all_radii_are_0() -> None:
+    shapes = [(2, 2), (2, 1), (1, 2)]
+    found = read_radii(None, ["1"], [Matrix([[1] * q] * p, q) for p, q in shapes])
+    assert [(D.nrows, D.ncols) for D in found] == shapes
+    assert not any(entry for D in found for row in D.rows for entry in row)
 
 
 def test_entries_that_are_listed_are_typed_as_well() -> None:
