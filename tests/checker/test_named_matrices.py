@@ -49,6 +49,19 @@ def test_the_matrix_of_setpoints() -> None:
     assert at_two(named, EMPTY) == []
 
 
+def test_a_companion_matrix_has_ones_beside_its_diagonal_alone() -> None:
+    named = {"name": "signal", "polynomial": [5, 6, 7, 1]}
+    rows = [
+        [2, 0, 5, 1, 0, 0],
+        [-1, 2, 6, 0, 1, 0],
+        [0, -1, 9, 0, 0, 1],
+        [1, 0, 0, 0, 0, 0],
+        [0, 1, 0, 0, 0, 0],
+        [0, 0, 1, 0, 0, 0],
+    ]
+    assert at_two(named, plant([["t"]], ([[1]], [[1]]))) == rows
+
+
 def test_the_matrix_of_signals() -> None:
     named = {"name": "signal", "polynomial": ["-1/2", 4, 1]}
     half = Fraction(1, 2)
