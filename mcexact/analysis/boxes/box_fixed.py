@@ -12,7 +12,7 @@ import numpy as np
 from mcexact.analysis.boxes.cover import Cover, Outside
 from mcexact.analysis.boxes.disc_lists import MANY, GainBox, disc_lists
 from mcexact.analysis.boxes.float_pencils import FloatBox, Pencil, gain_pencil, independent
-from mcexact.analysis.boxes.gain_search import best_gains, exact_gains
+from mcexact.analysis.boxes.gain_search import Gains, best_gains, exact_gains
 from mcexact.analysis.boxes.one_thread import one_thread
 from mcexact.analysis.boxes.radii import radii_of
 from mcexact.analysis.boxes.regular_discs import Frames, Point
@@ -21,14 +21,14 @@ from mcexact.answer.evidence import ExteriorDiscs, RootDisc
 from mcexact.answer.fixed_spectrum import FixedSpectrum
 from mcexact.answer.parametric_box_fixed import ParametricBoxFixedModes
 from mcexact.errors import InputError, LimitReached
-from mcexact.exact.floats import to_float
+from mcexact.exact.floats import matrix_to_float, to_float
 from mcexact.exact.location import StabilityRegion
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.uncertainty import Radii
 
 _MOST_SQUARES = 3000
-_NEAREST = 4
+_NEAREST = 10
 _OWN_GAINS_AT = (3, 6, 10, 15)
 """A square that fails at one of these depths gets gains of its own."""
 _MOST_OWN = 12
@@ -94,9 +94,15 @@ class FixedModeSearch:
         for each in other.known:
             self.known.append(_Known(each.point, each.gains, self._pencil(each.gains)))
 
-    def learn(self, point: complex, growth: float) -> float:
-        """Search gains for a point, and return how far the radii can grow there with them."""
-        best = best_gains(self.box, point, self.rng, starts=self.starts, target=growth)
+    def learn(self, point: complex, growth: float, size: float = 0.0) -> float:
+        """Search gains for a point, and return how far the radii can grow there with them.
+
+        The gains are to suffice for the disc of a size, too: those that are best for the point
+        alone can make the pencil nearly singular beside it.
+        """
+        box = self.box.wider(size / growth)
+        known = [_floats(each.gains) for each in self.known if size and each.gains is not None]
+        best = best_gains(box, point, self.rng, starts=self.starts, target=growth, known=known)
         if best is None:
             return 0.0
         gains = PencilGains(*exact_gains(best[1]))
@@ -186,7 +192,7 @@ class _Leaves:
                 return k
         if depth in _OWN_GAINS_AT and self.own < self.search.most_own:
             self.own += 1
-            if self.search.learn(near, 2 * float(self.growth)) > float(self.growth):
+            if self.search.learn(near, 2 * float(self.growth), size) > float(self.growth):
                 return self._made(self.search.known[-1], c, near, rho, size)
         return None
 
@@ -198,6 +204,11 @@ class _Leaves:
         if k is not None:
             self.gains.append(each.gains)
         return k
+
+
+def _floats(gains: PencilGains) -> Gains:
+    X, W = (tuple(map(matrix_to_float, matrices)) for matrices in (gains.X, gains.W))
+    return X, W
 
 
 def _among(mode: complex, discs: Sequence[RootDisc]) -> bool:

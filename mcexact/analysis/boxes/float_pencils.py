@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -89,6 +89,14 @@ class FloatBox:
         """An upper limit of the moduli of Y (A' − A) T for all members A'."""
         rest = np.abs(Y) @ self.rest_A @ np.abs(T)
         return np.asarray(rest + sum(np.abs(Y @ M @ T) for M in self.tied_A))
+
+    def wider(self, size: float) -> FloatBox:
+        """The box in which the diagonal of A may change by so much more.
+
+        What is regular at a point for all its members is regular for those of this box on the disc
+        around the point with that radius.
+        """
+        return replace(self, DA=self.DA + size * np.eye(self.n))
 
     @property
     def n(self) -> int:

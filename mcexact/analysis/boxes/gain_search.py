@@ -6,7 +6,7 @@ block-diagonal X and W by L-BFGS, from several starts.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -20,6 +20,7 @@ Gains = tuple[tuple[Floats, ...], tuple[Floats, ...]]
 
 _ROUNDS = 60
 _DRAWS = 8
+_KNOWN = 2
 _ENOUGH, _GOOD = 8.0, 4.0
 """A start is used as it is from the first multiple of the target on, a result from the second."""
 _GAIN_BITS = 20
@@ -39,6 +40,9 @@ class _Shape:
             k += p * q + p * p
         return tuple(X), tuple(W)
 
+    def vector(self, gains: Gains) -> Floats:
+        return np.concatenate([M.ravel() for both in zip(*gains, strict=True) for M in both])
+
 
 def best_gains(
     box: FloatBox,
@@ -47,6 +51,7 @@ def best_gains(
     *,
     starts: int = 4,
     target: float = 1.0,
+    known: Sequence[Gains] = (),
 ) -> tuple[float, Gains] | None:
     """Search gains for a point, and return how far the radii can then grow, and the gains.
 
@@ -59,6 +64,8 @@ def best_gains(
         How many local searches there are at most.
     target : float
         The factor of the radii that is needed; the search ends early far above it.
+    known : sequence of gains
+        Local searches begin at the best two of these, too.
 
     Returns
     -------
@@ -74,13 +81,15 @@ def best_gains(
     def value(t: Floats) -> tuple[float, Floats]:
         return _logarithm(box, shape, t, point)
 
-    drawn = [_start(box, shape, rng) for _ in range(_DRAWS * starts)]
-    ranked = sorted(((value(t)[0], k) for k, t in enumerate(drawn)))
-    best, found = ranked[0][0], drawn[ranked[0][1]]
+    def ranked(vectors: Iterable[Floats]) -> list[tuple[float, Floats]]:
+        return sorted(((value(t)[0], t) for t in vectors), key=lambda each: each[0])
+
+    begun = ranked(shape.vector(each) for each in known)[:_KNOWN]
+    begun += ranked(_start(box, shape, rng) for _ in range(_DRAWS * starts))[:starts]
+    best, found = min(begun, key=lambda each: each[0])
     if np.exp(-best) > _ENOUGH * target:
         return float(np.exp(-best)), shape.gains(found)
-    for _, k in ranked[:starts]:
-        t = drawn[k]
+    for _, t in begun:
         unit = np.maximum(np.abs(t), 1e-3 * np.abs(t).max())
 
         def scaled(z: Floats, unit: Floats = unit) -> tuple[float, Floats]:

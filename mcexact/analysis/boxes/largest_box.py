@@ -38,7 +38,7 @@ from mcexact.shown import Shown
 
 Property = Literal["no fixed mode", "stabilizable", "controllable", "observable"]
 
-_STEPS = 14
+_STEPS, _ROUNDS = 14, 2
 _CLOSE = 1.03
 _LEAST = 1e-12
 """A computed largest factor below this is reported as 0."""
@@ -287,6 +287,10 @@ class Search:
         Plants that may fail as their channels do nothing.
     work : callable
         The work done so far.
+    likely : callable
+        A factor of the radii for which a proof is likely; it is tried first.
+    rounds : int
+        How often factors that failed are tried again: a search that learns may prove them then.
     """
 
     capacity: Callable[[], float]
@@ -295,6 +299,8 @@ class Search:
     failing: Callable[[int], FailingPlant | None]
     severed: Callable[[], Iterable[FailingPlant]]
     work: Callable[[], float]
+    likely: Callable[[], float] = lambda: float("inf")
+    rounds: int = 1
 
 
 def _searches(unit: MultiChannelSystem, wanted: str) -> Search:
@@ -324,6 +330,10 @@ def _searches(unit: MultiChannelSystem, wanted: str) -> Search:
         failing,
         lambda: severed_plants(unit, search.radii),
         lambda: search.tested + _GAINS * len(search.known),
+        # What leaves no fixed mode anywhere leaves none outside of a region: where the plant has no
+        # mode outside, nothing else tells how far the radii can grow.
+        lambda: search.prepare(_NEVER_ENOUGH, Outside(unit.time, None)),
+        _ROUNDS,
     )
 
 
@@ -370,22 +380,30 @@ def _about(found: Answer | None, growth: Fraction) -> Answer | None:
 
 def _largest(search: Search, work: float, beyond: float) -> tuple[Fraction, Answer | None]:
     """Bisect for the largest factor of the radii with a proof; beyond some factor there is none."""
-    high = min(search.capacity(), beyond) if beyond > 0 else 0.0
+    most = min(search.capacity(), beyond) if beyond > 0 else 0.0
     low, best = Fraction(0), None
-    if not high > _LEAST:
+    if not most > _LEAST:
         return low, best
-    begun = search.work()
-    x = 0.97 * high
-    for step in range(_STEPS):
-        growth = short(x)
-        found = search.proof(growth) if growth > 0 else None
-        if found is None:
-            high = x
-        else:
-            low, best = growth, found
-        if search.work() - begun > work or (low and high < _CLOSE * low) or high < _LEAST:
+    likely = search.likely()
+    tried = [0.97 * most, 0.97 * likely] if likely < most else [0.97 * most]
+    ended = search.work() + work
+    for _ in range(search.rounds):
+        began, high = low, most
+        for step in range(_STEPS):
+            if low and high < _CLOSE * low:
+                break
+            middle = (float(low) * high) ** 0.5 if low else high * (0.5 if step < 3 else 0.1)
+            x = tried.pop() if tried else middle
+            growth = short(x)
+            found = search.proof(growth) if growth > 0 else None
+            if found is None:
+                high, tried = x, []
+            else:
+                low, best = growth, found
+            if search.work() > ended or high < _LEAST:
+                return low, best
+        if low == began:
             break
-        x = (float(low) * high) ** 0.5 if low else high * (0.5 if step < 3 else 0.1)
     return low, best
 
 

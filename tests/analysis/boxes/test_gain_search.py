@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 import numpy as np
 import pytest
 
@@ -34,3 +36,22 @@ def test_rounding_keeps_the_digits_of_small_entries_beside_large_ones() -> None:
     assert float(W[0, 0] / X[0, 0]) == pytest.approx(3e-18, rel=1e-5)
     [X], [W] = exact_gains(((np.zeros((1, 1)),), (np.zeros((1, 1)),)))
     assert X.is_zero() and W.is_zero()
+
+
+def test_a_wider_box_tells_how_far_radii_can_grow_on_a_whole_disc() -> None:
+    box = Box.relative(PLANT, "1/100")
+    floats = FloatBox.of(box.system, box.radii)
+    gains = best_gains(floats.wider(0.01), 1.0, np.random.default_rng(0))
+    assert gains is not None and gains[0] > 1
+    pencil = gain_pencil(box.system, box.radii, floats.scale, *exact_gains(gains[1]))
+    made = pencil.proposal(1.0, 0.01, Fraction(1))
+    assert made is not None and made.hold((Fraction(1), Fraction(0)), Fraction(1, 100))
+
+
+def test_a_search_is_at_least_as_good_as_the_gains_that_are_known() -> None:
+    box = Box.relative(PLANT, "1/100")
+    floats = FloatBox.of(box.system, box.radii)
+    good = best_gains(floats, 1.0, np.random.default_rng(0), target=1e9)
+    assert good is not None
+    again = best_gains(floats, 1.0, np.random.default_rng(1), starts=1, known=[good[1]])
+    assert again is not None and again[0] > 0.999 * good[0]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -22,8 +23,10 @@ from mcexact import (
     testing,
 )
 from mcexact.analysis.boxes.failing_plants import failing_plant, severed_plants, tried_sets
+from mcexact.analysis.boxes.largest_box import Search, _largest
 from mcexact.analysis.boxes.one_thread import one_thread
 from mcexact.analysis.boxes.rank_drops import rational_point
+from mcexact.answer.box_fixed import BoxFixedModes
 from mcexact.errors import UsageError
 
 EFFORT = 0.5
@@ -150,3 +153,29 @@ def test_effort_is_a_number_of_seconds(effort: Any) -> None:
     plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
     with pytest.raises(UsageError, match="effort: expected a number of seconds, found"):
         largest_uncertainty(plant, effort=effort)
+
+
+def test_a_stable_plant_with_a_box_without_fixed_modes_has_one_that_is_stabilizable() -> None:
+    found = largest_uncertainty(gallery("compleib-dis3"), "stabilizable", effort=0.05)
+    assert found.lower and isinstance(found.proof, BoxFixedModes)
+    assert found.proof.bound == 0 and check(found.proof).valid
+
+
+def test_factors_that_failed_are_tried_again_by_a_search_that_learned() -> None:
+    asked: list[float] = []
+    learned = 10**6
+
+    def proof(growth: Fraction) -> Any:
+        asked.append(float(growth))
+        return growth if growth < (0.5 if len(asked) <= learned else 0.8) else None
+
+    search = Search(
+        lambda: 1.0, proof, lambda _: None, lambda _: None, list, lambda: float(len(asked))
+    )
+    assert 0.45 < _largest(search, 100, 1e6)[0] < 0.5
+    learned = len(asked)
+    asked.clear()
+    assert 0.75 < _largest(replace(search, rounds=2), 100, 1e6)[0] < 0.8
+    asked.clear()
+    _largest(replace(search, likely=lambda: 0.2), 100, 1e6)
+    assert asked[:2] == [0.194, 0.97]
