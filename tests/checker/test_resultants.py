@@ -172,3 +172,9 @@ def test_the_bound_is_a_product_of_powers(ell: int, enough: bool) -> None:
         else:
             with pytest.raises(Refused, match="expected a product above"):
                 integer_resultant(first, second, [ell])
+
+
+def test_a_remainder_of_much_smaller_degree_is_divided_by() -> None:
+    f, g = polynomial([], [], [], [], [1]), polynomial([2], [], [], [1])  # x⁴ and x³ + 2, then −2x
+    assert resultant(residues(f, PRIME), residues(g, PRIME), PRIME) == [16]
+    assert resultant(residues(g, PRIME), residues(f, PRIME), PRIME) == [16]
