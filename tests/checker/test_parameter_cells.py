@@ -67,7 +67,9 @@ def test_without_ties_the_radii_are_those_of_all_directions_together() -> None:
 def test_a_matrix_that_is_not_defined_in_a_range_is_named(place: str) -> None:
     known = ("A", "channels[0].B", "channels[0].C", "channels[1].B", "channels[1].C")
     A, *ports = ([["(1)/(a)" if each == place else 1]] for each in known)
-    plant = read_parametric(ranged(A, (ports[0], ports[1]), (ports[2], ports[3]), a=(-1, 2)))
+    plant = read_parametric(
+        ranged(A, (ports[0], ports[1]), (ports[2], ports[3]), a=("-1/2", "1/2"))
+    )
     with pytest.raises(Refused) as refused:
         box_of_cell(plant, cells_of([None], "cuts", plant)[0])
     assert refused.value.args[:3] == ("INVALID", "undefined", place)
