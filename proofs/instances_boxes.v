@@ -42,6 +42,36 @@ apply: (@exterior K quarter 1 1%:M 1%:M 0 A' quarter%:M (fun=> 0) (fun=> half) w
 by rewrite subrr unitmxE det0 unitr0.
 Qed.
 
+(* The same where A is p/8 with |p| <= 1, up to 1/8. *)
+Notation part := (8%:R^-1 : rat).
+Notation share := (fun _ : 'I_1 => (1 : K)).
+Definition direction (_ : 'I_1) : 'M[K]_1 := part%:M.
+Lemma share1 : forall k, `|share k| <= 1. Proof. by move=> k; rewrite normr1. Qed.
+Lemma moved_within : forall i j, `|(A' - (0 + \sum_k share k *: direction k)) i j| <= (part%:M : 'M[K]_1) i j.
+Proof. by do 2!apply: ord1_all; rewrite big_ord1 scale1r add0r !mxE. Qed.
+Lemma small_tied i : \sum_j `|(i == j)%:R - ((1%:M : 'M[K]_1) *m (1 *: 1%:M - 0)) i j| * 1 +
+    \sum_j (\matrix_(i, j) (\sum_k `|(1%:M : 'M[K]_1) i k| * (part%:M : 'M[K]_1) k j +
+      \sum_k `|((1%:M : 'M[K]_1) *m direction k) i j|)) i j * 1 +
+    half * (\sum_j `|((1%:M : 'M[K]_1) *m 1%:M) i j| * 1) < 1.
+Proof. by move: i; apply: ord1_all; rewrite !big_ord1 subr0 scale1r mulmx1 [(\matrix_(_, _) _) _ _]mxE !big_ord1 mul1mx !mxE. Qed.
+Definition inst_regular_disc_left_tied := regular_disc_left_tied near share1 positive moved_within small_tied.
+
+Lemma small_tied' i : \sum_j `|(i == j)%:R - ((1 *: 1%:M - 0) *m (1%:M : 'M[K]_1)) i j| * 1 +
+    \sum_j (\matrix_(i, j) (\sum_k (part%:M : 'M[K]_1) i k * `|(1%:M : 'M[K]_1) k j| +
+      \sum_k `|(direction k *m (1%:M : 'M[K]_1)) i j|)) i j * 1 +
+    half * (\sum_j `|((1%:M : 'M[K]_1) *m 1%:M) i j| * 1) < 1.
+Proof. by move: i; apply: ord1_all; rewrite !big_ord1 subr0 scale1r mulmx1 [(\matrix_(_, _) _) _ _]mxE !big_ord1 !mulmx1 !mxE. Qed.
+Definition inst_regular_disc_right_tied := regular_disc_right_tied near share1 positive moved_within small_tied'.
+
+Lemma inst_exterior_tied : exists i : 'I_1, ~~ (half < `|quarter - 0|).
+Proof.
+apply: (@exterior_tied K quarter 1 share share1 1 1%:M 1%:M 0 A' part%:M direction (fun=> 0) (fun=> half) moved_within).
+- by apply: ord1_all; rewrite others mulmx1 mxE.
+- apply: ord1_all; rewrite others !mulmx1 mul1mx !big_ord1 !mulmx1 !mul1mx !mxE.
+  by [].
+by rewrite subrr unitmxE det0 unitr0.
+Qed.
+
 Definition inst_square_in_disc : `|(0 : algC)| <= 2%:R.
 Proof.
 apply: (@square_in_disc _ 0 1 2%:R) => //; rewrite ?raddf0 ?normr0 ?ler01// ?ler0n//.
