@@ -92,6 +92,11 @@ def write_all(folder: Path) -> None:
     save_certificate(box_controllability(near), place / "box_controllable.json")
     kept = box_stability(near, local_controllers(unstable, [[[-3]]]))
     save_certificate(kept, place / "box_stable.json")
+    ranged = ParametricSystem(
+        [["t", 1], [0, 2]], [[[1], ["t"]]], [[[1, 0]]], parameters=["t"], assume={"t": ("3/2", 2)}
+    )
+    save_certificate(box_fixed_modes(ranged), place / "parametric_box_fixed.json")
+    save_certificate(box_controllability(ranged), place / "parametric_box_controllable.json")
 
 
 def with_graph(plant: MultiChannelSystem) -> MultiChannelSystem:
