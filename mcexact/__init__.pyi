@@ -8,11 +8,11 @@ from .analysis.boxes.box_controllable import box_observability as box_observabil
 from .analysis.boxes.box_fixed import box_fixed_modes as box_fixed_modes
 from .analysis.boxes.box_fixed import box_stabilizability as box_stabilizability
 from .analysis.boxes.box_stable import box_stability as box_stability
-from .analysis.boxes.largest_box import LargestUncertainty as LargestUncertainty
 from .analysis.boxes.largest_box import largest_uncertainty as largest_uncertainty
 from .analysis.boxes.largest_loop_box import (
     largest_loop_uncertainty as largest_loop_uncertainty,
 )
+from .analysis.boxes.two_sided import LargestUncertainty as LargestUncertainty
 from .analysis.engine.parametric_sharing import ParametricSharing as ParametricSharing
 from .analysis.engine.parametric_sharing import (
     shared_dimensions_for_every_value as shared_dimensions_for_every_value,

@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from mcexact.analysis.boxes.largest_box import LargestUncertainty
+    from mcexact.analysis.boxes.two_sided import LargestUncertainty
     from mcexact.answer.account import Account
     from mcexact.answer.box_stable import BoxStability
     from mcexact.answer.stability import StabilityVerdict

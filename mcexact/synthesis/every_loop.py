@@ -9,9 +9,9 @@ from typing import Any
 
 from mcexact.analysis.boxes.box_stable import StabilitySearch, gain_radii
 from mcexact.analysis.boxes.failing_plants import FailingPlant, severed_plants
-from mcexact.analysis.boxes.largest_box import short
 from mcexact.analysis.boxes.largest_loop_box import failing_loop, refuted_loop
 from mcexact.analysis.boxes.one_thread import one_thread
+from mcexact.analysis.boxes.two_sided import short
 from mcexact.answer.box_stable import BoxStability
 from mcexact.errors import LimitReached
 from mcexact.exact.floats import to_float

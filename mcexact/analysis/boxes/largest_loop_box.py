@@ -8,9 +8,9 @@ from typing import Any
 
 from mcexact.analysis.boxes.box_stable import StabilitySearch, gain_radii
 from mcexact.analysis.boxes.failing_plants import FailingPlant, severed_plants
-from mcexact.analysis.boxes.largest_box import LargestUncertainty, Search, two_sided
 from mcexact.analysis.boxes.one_thread import one_thread
 from mcexact.analysis.boxes.rank_drops import Freedom, Uncertain
+from mcexact.analysis.boxes.two_sided import LargestUncertainty, Search, two_sided
 from mcexact.analysis.stability.stability import certify_stability
 from mcexact.answer.protocol import Answer
 from mcexact.answer.stability import StabilityVerdict

@@ -23,9 +23,9 @@ from mcexact import (
     testing,
 )
 from mcexact.analysis.boxes.failing_plants import failing_plant, severed_plants, tried_sets
-from mcexact.analysis.boxes.largest_box import Search, _largest
 from mcexact.analysis.boxes.one_thread import one_thread
 from mcexact.analysis.boxes.rank_drops import rational_point
+from mcexact.analysis.boxes.two_sided import Search, _largest
 from mcexact.answer.box_fixed import BoxFixedModes
 from mcexact.errors import UsageError
 
