@@ -109,14 +109,18 @@ def _of_sizes(step: Json) -> Json:
 def _combined(first: System, second: System, factor: int) -> System:
     """The entries of the first system and so many times those of the second one."""
     parts = ((first.A, *first.B, *first.C), (second.A, *second.B, *second.C))
-    A, *ports = (M + N.times(factor) for M, N in zip(*parts, strict=True))
-    return replace(first, A=A, B=ports[: first.m], C=ports[first.m :])
+    return _of_parts(first, [M + N.times(factor) for M, N in zip(*parts, strict=True)])
 
 
 def _sizes(system: System) -> System:
     """The absolute values of all entries."""
-    A, *ports = map(absolute, (system.A, *system.B, *system.C))
-    return replace(system, A=A, B=ports[: system.m], C=ports[system.m :])
+    return _of_parts(system, list(map(absolute, (system.A, *system.B, *system.C))))
+
+
+def _of_parts(system: System, parts: list[Matrix]) -> System:
+    """The system with these A, B_i and C_i, of which there may be fewer than channels."""
+    A, *ports = parts
+    return replace(system, A=A, B=ports[: len(system.B)], C=ports[len(system.B) :])
 
 
 def absolute(M: Matrix) -> Matrix:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 
-from tests.checker.handmade import checked, without
-from tests.checker.parameter_plants import ALL, CONTROLLABLE, CONTROLLED, OBSERVED
+from tests.checker.handmade import Document, certificate, changed, checked, matrix, without
+from tests.checker.parameter_plants import ALL, CONTROLLABLE, CONTROLLED, OBSERVED, ranged
 from tests.checker.tables import accepts, rejects
 
 OF_THIS_KIND = [(name, each) for name, each in ALL.items() if each["kind"] == CONTROLLABLE]
@@ -42,3 +44,23 @@ def test_the_statement_names_the_ranges() -> None:
     said = 'for all real k from 1/4 to 3/4, the channels {"1", "2"} together control every mode'
     assert checked(CONTROLLED).statement.endswith(said)
     assert checked(OBSERVED).statement.startswith("For the dual of: the plant ")
+
+
+def test_gains_from_the_state_to_several_channels_have_discs_as_well() -> None:
+    """The modes 1 and −1 are moved to −3 and 4: the first by −4 (k + 1/2), within 4/16 + 1/16."""
+    first, second = ([["k + 1/2"], [0]], [[1, 0]]), ([[0], [1]], [[0, 1]])
+    system = ranged([["k + 1/2", 0], [0, -1]], first, second, k=("7/16", "9/16"))
+    one = {"denominator": 1, "re": [[1, 0], [0, 1]], "im": [[0, 0], [0, 0]]}
+
+    def discs(F: Any, *given: tuple[str, str]) -> Document:
+        around = [{"re": re, "im": "0", "radius": radius} for re, radius in given]
+        return {"F": F, "Y": one, "T": one, "discs": around}
+
+    moved = discs([matrix([-4, 0], [0, 5])], ("-3", "0.32"), ("4", "0.01"))
+    exterior = [discs(None, ("1", "0.07"), ("-1", "0.01")), moved]
+    part = {"exterior": exterior, "frames": [], "cover": [[], []]}
+    claim = {"channels": ["1", "2"], "bound": None}
+    document = certificate(CONTROLLABLE, system, claim, {"cuts": [None], "parts": [part]})
+    assert checked(document).verdict == "VALID"
+    place = "witness.parts.0.exterior.1.discs.0.radius"
+    assert checked(changed(document, (place, "0.31"))).code == "disc"
