@@ -1,12 +1,13 @@
 """Find documents that tell changes of the checker from the checker.
 
-    python -m tests.mutants.search [--batches N] [--files N] [--workers K] [STEM…]
+    python -m tests.mutants.search [--batches N] [--kinds KIND…] [--files N] [--workers K] [STEM…]
 
 Draws certificates as the campaign does, and system files and controller files as the comparisons
 of the readers do, loads the checker with each change of its files in turn, and looks for the
 shortest document on which it answers otherwise.  What is found is added to
 ``tests/checker/corpus/kept.jsonl`` unless a document that is there already tells them apart, so
-that the tests of the checker notice the change from then on.
+that the tests of the checker notice the change from then on.  With ``--kinds`` only certificates of
+these kinds are drawn.
 """
 
 from __future__ import annotations
@@ -19,11 +20,11 @@ import random
 import sys
 import time
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from pathlib import Path
 
 from tests.attack.campaign import checked
-from tests.attack.tries import drawn_batch, tries
+from tests.attack.tries import ORDER, SIZE, batch_numbers, drawn_batch, tries
 from tests.campaigns import controller_grammar, grammar
 from tests.checker.kept import KEPT, Case, answer, group
 from tests.mutants import explained, operators, session
@@ -34,17 +35,17 @@ LONGEST = 6000
 """Bytes of a document that may be kept."""
 MOST = 1500
 """Documents of one kind that are tried on a change of the file of this kind."""
-MIXED = 150
-"""Documents of every kind that are tried on a change of another file."""
+MIXED = 3000
+"""Documents of all kinds together, as many of each, that are tried on a change of another file."""
 
 
-def certificates(batches: int) -> Iterator[Case]:
-    """Documents of the campaign."""
-    for number in range(batches):
+def certificates(batches: int, kinds: Collection[str]) -> Iterator[Case]:
+    """Documents of the campaign, in its first batches about some kinds."""
+    for number in batch_numbers(batches * SIZE, kinds):
         batch = drawn_batch(number)
         for attempt in tries(number, batch):
             found = checked(attempt.document)
-            if found and found.status and isinstance(attempt.document, dict):
+            if found is not None and found.status and isinstance(attempt.document, dict):
                 batch.rejected = attempt.document, found.place
             yield {"read": "certificate", "document": attempt.document}
 
@@ -68,10 +69,10 @@ def files(number: int) -> Iterator[Case]:
             }
 
 
-def pool(batches: int, number: int) -> dict[str, list[Case]]:
+def pool(batches: int, kinds: Collection[str], number: int) -> dict[str, list[Case]]:
     """Documents by what they are about, short ones first, each with the answer of the checker."""
     found: dict[str, dict[str, Case]] = defaultdict(dict)
-    for case in (*certificates(batches), *files(number)):
+    for case in (*certificates(batches, kinds), *files(number)):
         line = json.dumps(case)
         if len(line) <= LONGEST and line not in found[group(case)]:
             said = answer(case)
@@ -84,7 +85,8 @@ def tried_on(stem: str, known: dict[str, list[Case]]) -> list[Case]:
     """The documents for changes of one file: of its kind, or some of every kind."""
     if stem in known:
         return spread(known[stem], MOST)
-    mixed = [case for name in sorted(known) for case in spread(known[name], MIXED)]
+    each = MIXED // len(known)
+    mixed = [case for name in sorted(known) for case in spread(known[name], each)]
     if stem in ("reading", "system", "controller"):
         mixed += [case for name in ("system", "controller") for case in spread(known[name], MOST)]
     return sorted(mixed, key=lambda case: len(json.dumps(case)))
@@ -135,11 +137,12 @@ def main() -> int:
     parser = argparse.ArgumentParser(prog="tests.mutants.search", description=__doc__)
     parser.add_argument("stems", nargs="*", metavar="STEM")
     parser.add_argument("--batches", type=int, default=1500)
+    parser.add_argument("--kinds", nargs="+", choices=ORDER, default=ORDER, metavar="KIND")
     parser.add_argument("--files", type=int, default=4000)
     parser.add_argument("--workers", type=int, default=os.cpu_count() or 1)
     options = parser.parse_args()
     stems = options.stems or sorted(path.stem for path in CHECKER.glob("*.py"))
-    known = pool(options.batches, options.files)
+    known = pool(options.batches, options.kinds, options.files)
     print({name: len(cases) for name, cases in known.items()}, flush=True)
     before = KEPT.read_text(encoding="utf-8").splitlines() if KEPT.exists() else []
     jobs = [(stem, known) for stem in stems]
