@@ -1,0 +1,74 @@
+"""Entries with several parameters, read and written in one canonical form."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from mcexact.checker.parametric_system import read_parametric
+from mcexact.checker.reading import Limits, Refused
+from mcexact.model.parametric_file import read_parametric_document
+from tests.checker.parameter_plants import PRODUCT, SQUARE, ranged
+
+TEXTS: dict[str, Any] = {
+    "b*a": "a*b",
+    "1/a": "(1)/(a)",
+    "2/(4*a*b^2)": "(1/2)/(a*b^2)",
+    "a/a": 1,
+    "(a^2*b - a)/(a*b)": "(a*b - 1)/(b)",
+    "1/a + 1/b": "(a + b)/(a*b)",
+    "1/a - 1/a": 0,
+    "0*a": 0,
+    "(a + b)^2": "a^2 + 2*a*b + b^2",
+    "-a*b^2 + a": "-a*b^2 + a",
+    "3/2 - b": "-b + 3/2",
+    "a - (b - 1)": "a - b + 1",
+    "-(a - 1/2)": "-a + 1/2",
+    "0.25": "1/4",
+    "4": 4,
+    "a^1000": "a^1000",
+    "a^500*b^500": "a^500*b^500",
+    "a^500*b^501": None,
+    "(a*b)^501": None,
+    "1/(a*b)^500*(1/a)": None,
+    "c": None,
+    "a b": None,
+    "a/0": None,
+    "a/(b - b)": None,
+    "(a": None,
+}
+
+
+@pytest.mark.parametrize("text", TEXTS)
+def test_entries_of_several_parameters_have_one_canonical_form(text: str) -> None:
+    document = {
+        "format": "mcexact-system/1",
+        **ranged([[text]], ([[1]], [[1]]), a=(1, 2), b=(1, 2)),
+    }
+    try:
+        found = read_parametric(document, Limits()).document["A"][0][0]
+    except Refused as refused:
+        assert refused.verdict == "MALFORMED"
+        found = None
+    assert found == TEXTS[text]
+    if found is not None:
+        package = read_parametric_document(document).document()
+        assert package["A"][0][0] == found
+        again = read_parametric({**package})
+        assert again.document == package
+
+
+@pytest.mark.parametrize("text", ["1/(a + b)", "a/(1 + b)", "1/(1/a + 1/b)"])
+def test_a_sum_in_a_denominator_of_several_parameters_is_not_known(text: str) -> None:
+    with pytest.raises(Refused) as refused:
+        read_parametric(ranged([[text]], ([[1]], [[1]]), a=(1, 2), b=(1, 2)))
+    assert refused.value.args[:2] == ("INCOMPLETE", "parameters")
+
+
+def test_a_file_with_several_parameters_has_the_digest_of_the_package() -> None:
+    pair = ranged([["a*b"]], ([[1]], [[1]]), a=(0, 4), b=(-1, 1))
+    for system in (PRODUCT, SQUARE, pair):
+        document = {"format": "mcexact-system/1", **system}
+        package = read_parametric_document(document).document()
+        assert read_parametric(document, Limits()).document == package
