@@ -12,7 +12,7 @@ from .algebra import below, beside, identity, selection, stacked
 from .controllers import closed_loop
 from .moved_entries import MOVING, moved
 from .networks import held, lifted
-from .parametric import read_parametric
+from .one_parameter import read_parametric
 from .reading import demand, integer, listed, matrix, place, positions, record
 from .several_parameters import read_several
 from .systems import System, read_plant

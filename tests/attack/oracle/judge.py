@@ -7,6 +7,7 @@ from typing import Any
 
 from . import boxes, fixed, loops, parametric, parametric_rank, sharing, structure
 from .constructions import is_ranged, subject_of
+from .one_parameter import ParametricPlant
 from .reading import Unspecified, demand, record
 
 TRUE, FALSE, UNDECIDED = "true", "false", "undecided"
@@ -50,7 +51,7 @@ def judge(document: Mapping[str, Any]) -> tuple[str, str]:
         kind = document["kind"]
         demand(isinstance(kind, str) and kind in KINDS, "expected a known kind")
         system: Any = subject_of(document)
-        with_parameter = is_ranged(document) or isinstance(system, parametric.ParametricPlant)
+        with_parameter = is_ranged(document) or isinstance(system, ParametricPlant)
         demand(with_parameter == kind.startswith("parametric_"), "expected another sort of plant")
         if system.n > MOST_STATES or system.m > 6:
             return UNDECIDED, f"{system.n} states, {system.m} channels"

@@ -8,7 +8,7 @@ from typing import Any
 
 from flint import fmpq_mat, fmpq_poly
 
-from .parametric import Function, ParametricPlant
+from .one_parameter import Function, ParametricPlant, in_lowest_terms
 from .reading import demand
 from .systems import System
 
@@ -70,6 +70,4 @@ def _sum(first: Function, second: Function) -> Function:
     """The sum of two functions, in lowest terms with a monic denominator."""
     top = first[0] * second[1] + second[0] * first[1]
     bottom = first[1] * second[1]
-    common = top.gcd(bottom)
-    lead = (bottom // common).leading_coefficient()
-    return top // common / lead, bottom // common / lead
+    return in_lowest_terms(top, bottom)

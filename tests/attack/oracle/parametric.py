@@ -1,4 +1,4 @@
-"""Plants with a parameter, and the kind about them, decided by drawn gains and drawn primes.
+"""What is fixed at all values of a parameter, decided by drawn gains and drawn primes.
 
 What is fixed at a point modulo a drawn prime is the greatest common divisor of det(xI − A_F) for
 drawn F, and a value at which more is fixed is a root of the resultants of what it leaves.
@@ -7,151 +7,28 @@ drawn F, and a value at which more is fixed is a root of the resultants of what 
 from __future__ import annotations
 
 import random
-import re
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from typing import Any
 
-from flint import (
-    Ordering,
-    acb,
-    fmpq,
-    fmpq_mpoly_ctx,
-    fmpq_poly,
-    fmpz,
-    nmod_mat,
-    nmod_poly,
-)
+from flint import fmpq, fmpq_poly, fmpz, nmod_mat, nmod_poly
 
 from . import algebra
-from .reading import (
-    Unspecified,
-    demand,
-    listed,
-    positions,
-    rational,
-    record,
-    text,
+from .one_parameter import (
+    RING,
+    ParametricPlant,
+    Rows,
+    common_denominator,
+    common_roots,
+    drawn_polynomials,
+    factors_in_x,
+    meets,
+    split,
 )
-from .roots import decided, discs_hold, roots_of
-from .systems import require_names
+from .reading import Unspecified, demand, listed, positions, rational, record
+from .roots import discs_hold
 from .words import channels, discs, number, polynomial_text
 
-RING = fmpq_mpoly_ctx.get(("t", "x"), Ordering.lex)
-NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,63}", re.ASCII)
-QUOTIENT = re.compile(r"\((.*)\)/\((.*)\)", re.DOTALL)
 SEED = 20
-Function = tuple[fmpq_poly, fmpq_poly]
-Rows = list[list[Function]]
-
-
-@dataclass(frozen=True)
-class ParametricPlant:
-    """A plant of rational functions of a parameter, each a numerator and a denominator."""
-
-    time: str
-    names: tuple[str, ...]
-    parameter: str
-    range: tuple[Any, Any]
-    tables: tuple[tuple[Rows, int, int], ...]
-    value: Mapping[str, Any]
-
-    @property
-    def n(self) -> int:
-        """The number of states."""
-        return self.tables[0][1]
-
-    @property
-    def m(self) -> int:
-        """The number of channels."""
-        return len(self.names)
-
-    @property
-    def denominators(self) -> list[fmpq_poly]:
-        """The least common denominators of A, B_1, C_1, …"""
-        return [common_denominator(rows) for rows, _, _ in self.tables]
-
-
-def read_parametric(value: Any) -> ParametricPlant:
-    """The user's plant, in canonical form."""
-    found = record(value, "time", "parameters", "A", "channels")
-    demand(found["time"] in ("continuous", "discrete"), "expected a time domain")
-    demand(isinstance(found["parameters"], Mapping), "expected parameters")
-    demand(len(found["parameters"]) == 1, "expected one parameter")
-    [(t, said)] = found["parameters"].items()
-    demand(isinstance(t, str) and NAME.fullmatch(t) is not None and t != "x", "expected a name")
-    ends = listed(record(said, optional=("range",)).get("range", [None, None]), 2)
-    low, high = (None if end is None else rational(end) for end in ends)
-    demand("range" not in said or low is not None or high is not None, "expected an end")
-    demand(low is None or high is None or low <= high, "expected a range")
-    A = _table(found["A"], t, None, None)
-    demand(A[1] == A[2], "expected a square matrix")
-    channels = [record(c, "name", "B", "C") for c in listed(found["channels"])]
-    names = tuple(text(c["name"]) for c in channels)
-    require_names(names)
-    tables = [A]
-    for c in channels:
-        tables += [_table(c["B"], t, A[1], None), _table(c["C"], t, None, A[1])]
-    return ParametricPlant(found["time"], names, t, (low, high), tuple(tables), value)
-
-
-def _table(value: Any, t: str, nrows: int | None, ncols: int | None) -> tuple[Rows, int, int]:
-    if isinstance(value, Mapping):
-        shape, entries = (record(value, "shape", "entries")[key] for key in ("shape", "entries"))
-        demand(entries == [] and shape[:1] == [0] and len(shape) == 2, "expected rows")
-        demand(isinstance(shape[1], int) and shape[1] > 0, "expected columns")
-        demand(nrows in (None, 0) and ncols in (None, shape[1]), "expected another shape")
-        return [], 0, shape[1]
-    rows = [[_function(entry, t) for entry in listed(row)] for row in listed(value, nrows)]
-    width = len(rows[0]) if rows else 0
-    demand(all(len(row) == width for row in rows), "expected rows of one length")
-    demand(ncols in (None, width), "expected another number of columns")
-    return rows, len(rows), width
-
-
-def _function(value: Any, t: str) -> tuple[fmpq_poly, fmpq_poly]:
-    """A rational, or the canonical text of a function that is not constant."""
-    one = fmpq_poly([1])
-    demand(not isinstance(value, str) or len(value) <= 100_000, "expected a shorter text")
-    if not isinstance(value, str) or re.fullmatch(r"-?[0-9/]+", value):
-        return fmpq_poly([rational(value)]), one
-    quotient = QUOTIENT.fullmatch(value)
-    top = _polynomial(quotient[1] if quotient else value, t)
-    bottom = _polynomial(quotient[2], t) if quotient else one
-    demand(bottom.degree() > 0 or not quotient, "expected a denominator")
-    demand(bottom.leading_coefficient() == 1, "expected a monic denominator")
-    demand(top.gcd(bottom).degree() == 0, "expected lowest terms")
-    demand(max(top.degree(), bottom.degree()) > 0, "expected a number")
-    return top, bottom
-
-
-def _polynomial(value: str, t: str) -> fmpq_poly:
-    """A polynomial as statements write it, and nothing else."""
-    result = fmpq_poly([])
-    spaced = value.replace(" - ", " + -")
-    for term in spaced.split(" + "):
-        match = re.fullmatch(rf"(-?)(?:([0-9]+(?:/[0-9]+)?)(?:\*|$))?(?:{t}(?:\^([0-9]+))?)?", term)
-        demand(match is not None and term not in ("", "-"), "expected a term")
-        sign, size, power = match.groups() if match else ("", "", "")
-        degree = int(power) if power else int(term.endswith(t))
-        demand(degree <= 1000, "expected a smaller power")
-        whole, _, below = (size or "1").partition("/")
-        demand(int(below or 1) > 0, "expected a denominator")
-        c = fmpq(int(whole), int(below or 1))
-        result += fmpq_poly([0] * degree + [-c if sign else c])
-    demand(polynomial_text(result, t) == value, "expected the canonical text")
-    return result
-
-
-def common_denominator(rows: Rows) -> fmpq_poly:
-    result = fmpq_poly([1])
-    for row in rows:
-        for _, bottom in row:
-            result = result * (bottom // result.gcd(bottom))
-    return algebra.monic(result)
-
-
-# The kind
 
 
 def spectrum(claim: Any, witness: Any, plant: ParametricPlant) -> bool:
@@ -160,20 +37,11 @@ def spectrum(claim: Any, witness: Any, plant: ParametricPlant) -> bool:
     if not isinstance(plant, ParametricPlant):
         raise Unspecified("expected a plant with a parameter")
     rng = random.Random(SEED)
-    chis = [_chi(plant, _gains(plant, rng, bound)) for bound in (0, 10**4, 10**5, 10**6)]
+    chis = drawn_polynomials(plant, rng)
     generic = [_bivariate(p) for p in listed(found["generic"])]
-    common = chis[0]
-    for chi in chis[1:]:
-        common = common.gcd(chi)
-    fixed = _factors(common)
-    if {str(p) for p in fixed} != {str(p) for g in generic for p in _factors(g)}:
+    fixed, left = split(chis)
+    if {str(p) for p in fixed} != {str(p) for g in generic for p in factors_in_x(g)}:
         return False
-    left = []
-    for chi in chis:
-        for p in fixed:
-            while (pair := divmod(chi, p))[1] == 0:
-                chi = pair[0]
-        left.append(chi)
     values = [
         (monic(entry["value"]), entry)
         for entry in (record(e, "value", "roots", "modes") for e in listed(found["exceptional"]))
@@ -186,11 +54,8 @@ def spectrum(claim: Any, witness: Any, plant: ParametricPlant) -> bool:
         return False
     if not all(discs_hold(entry["roots"], q, real=True) for q, entry in values):
         return False
-    resultant = left[0].resultant(left[1], "x")
-    for other in left[2:]:
-        resultant = resultant.gcd(left[0].resultant(other, "x"))
     silent = [*plant.denominators, *(q for q, _ in outside)]
-    points = [_univariate(resultant), *(q for q, _ in values)]
+    points = [common_roots(left), *(q for q, _ in values)]
     different = {
         str(p): p for f in points if f.degree() > 0 for p, _ in algebra.irreducible_factors(f)
     }
@@ -300,52 +165,6 @@ def residue_at(p: fmpq_poly, tau: int, ell: int) -> int:
     return int(nmod_poly([residue_of(c, ell) for c in p.coeffs()], ell)(tau))
 
 
-def _gains(plant: ParametricPlant, rng: random.Random, bound: int) -> list[list[list[int]]]:
-    return [
-        [
-            [rng.randint(-bound, bound) for _ in range(plant.tables[2 * i + 2][1])]
-            for _ in range(plant.tables[2 * i + 1][2])
-        ]
-        for i in range(plant.m)
-    ]
-
-
-def _chi(plant: ParametricPlant, gains: list[list[list[int]]]) -> Any:
-    """det(xI − A_F) of the matrices times their denominators, without division (Berkowitz)."""
-    tables = [_expanded(table) for table in plant.tables]
-    M, n = [list(row) for row in tables[0]], plant.n
-    for B, F, C in zip(tables[1::2], gains, tables[2::2], strict=True):
-        for i in range(n):
-            for a, f_row in enumerate(F):
-                for b, f in enumerate(f_row):
-                    for j in range(n):
-                        M[i][j] = M[i][j] + B[i][a] * C[b][j] * f
-    vector = [RING.constant(1)]
-    for r in range(n):
-        column, v = [RING.constant(1), -M[r][r]], [M[i][r] for i in range(r)]
-        for _ in range(r):
-            column.append(-sum((M[r][i] * v[i] for i in range(r)), RING.constant(0)))
-            v = [sum((M[i][j] * v[j] for j in range(r)), RING.constant(0)) for i in range(r)]
-        vector = [
-            sum(
-                (column[i - j] * vector[j] for j in range(min(i, r) + 1) if i - j < len(column)),
-                RING.constant(0),
-            )
-            for i in range(r + 2)
-        ]
-    x = RING.gens()[1]
-    return sum((c * x**k for k, c in enumerate(reversed(vector))), RING.constant(0))
-
-
-def _expanded(table: tuple[Rows, int, int]) -> list[list[Any]]:
-    delta = common_denominator(table[0])
-    return [[_in_t(top * (delta // bottom)) for top, bottom in row] for row in table[0]]
-
-
-def _in_t(p: fmpq_poly) -> Any:
-    return RING.from_dict({(i, 0): c for i, c in enumerate(p.coeffs()) if c != 0})
-
-
 def _bivariate(value: Any, below: int | None = None) -> Any:
     """A polynomial in x and t, monic in x of degree ≥ 1, of a degree in t below some number."""
     parts = [[rational(c) for c in listed(part)] for part in listed(value)]
@@ -357,22 +176,6 @@ def _bivariate(value: Any, below: int | None = None) -> Any:
     )
 
 
-def _factors(f: Any) -> list[Any]:
-    """The irreducible factors with x, monic in x."""
-    found = []
-    for p, _ in f.factor()[1]:
-        degree = p.degrees()[1]
-        if degree:
-            [lead] = [c for (_, k), c in p.to_dict().items() if k == degree]
-            found.append(p / lead)
-    return found
-
-
-def _univariate(f: Any) -> fmpq_poly:
-    found = {int(i): c for (i, _), c in f.to_dict().items()}
-    return fmpq_poly([found.get(i, 0) for i in range(max(found, default=-1) + 1)])
-
-
 def monic(value: Any) -> fmpq_poly:
     p = fmpq_poly([rational(c) for c in listed(value)])
     demand(len(listed(value)) == p.degree() + 1 > 1, "expected a polynomial of degree at least 1")
@@ -382,18 +185,7 @@ def monic(value: Any) -> fmpq_poly:
 
 def is_outside(q: fmpq_poly, discs: Any, ends: tuple[Any, Any]) -> bool:
     """Whether the discs hold the roots, and no real root is in the range."""
-    low, high = ends
-
-    def question(sign: Any) -> bool:
-        for root in roots_of(q):
-            if sign(root.imag) == 0:
-                above = low is None or sign(root.real - acb(low).real) >= 0
-                below = high is None or sign(acb(high).real - root.real) >= 0
-                if above and below:
-                    return False
-        return True
-
-    return discs_hold(discs, q) and decided(question)
+    return discs_hold(discs, q) and not meets(q, ends)
 
 
 # The statement

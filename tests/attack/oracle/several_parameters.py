@@ -1,4 +1,4 @@
-"""Plants whose entries are quotients of polynomials in several parameters, at values of these."""
+"""Plants whose entries are quotients of polynomials in parameters, and their reader."""
 
 from __future__ import annotations
 
@@ -8,12 +8,13 @@ from dataclasses import dataclass
 from itertools import product
 from typing import Any
 
-from flint import fmpq, fmpq_mat
+from flint import fmpq, fmpq_mat, fmpq_poly
 
-from .parametric import NAME, QUOTIENT
-from .reading import demand, listed, rational, record, text
+from .reading import demand, integer, listed, rational, record, text
 from .systems import System, require_names
 
+NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,63}", re.ASCII)
+QUOTIENT = re.compile(r"\((.*)\)/\((.*)\)", re.DOTALL)
 FACTOR = re.compile(r"([A-Za-z][A-Za-z0-9_]*)(?:\^([1-9][0-9]*))?")
 SIZE = re.compile(r"[0-9]+(?:/[0-9]+)?")
 Terms = Mapping[tuple[int, ...], fmpq]
@@ -63,6 +64,14 @@ def power(values: tuple[fmpq, ...], exponents: tuple[int, ...]) -> fmpq:
     return result
 
 
+def in_one(p: Terms, k: int = 0, others: tuple[fmpq, ...] = ()) -> fmpq_poly:
+    """The polynomial in the parameter of position k, where the others have these values."""
+    found: dict[int, fmpq] = {}
+    for e, c in p.items():
+        found[e[k]] = found.get(e[k], fmpq(0)) + c * power(others, (*e[:k], *e[k + 1 :]))
+    return fmpq_poly([found.get(i, fmpq(0)) for i in range(max(found, default=-1) + 1)])
+
+
 def read_several(value: Any) -> SeveralParameters:
     """The user's plant, in canonical form."""
     found = record(value, "time", "parameters", "A", "channels")
@@ -96,8 +105,9 @@ def table(
     if isinstance(value, Mapping):
         shape, entries = (record(value, "shape", "entries")[key] for key in ("shape", "entries"))
         demand(entries == [] and shape[:1] == [0] and len(shape) == 2, "expected rows")
-        demand(nrows in (None, 0) and ncols in (None, shape[1]), "expected another shape")
-        return [], 0, shape[1]
+        width = integer(shape[1], 1)
+        demand(nrows in (None, 0) and ncols in (None, width), "expected another shape")
+        return [], 0, width
     rows = [[function(e, parameters) for e in listed(row)] for row in listed(value, nrows)]
     width = len(rows[0]) if rows else 0
     demand(all(len(row) == width for row in rows), "expected rows of one length")
@@ -109,6 +119,7 @@ def function(value: Any, parameters: tuple[str, ...]) -> Function:
     """A rational, or the canonical text of a function that is not constant."""
     constant = (0,) * len(parameters)
     one = {constant: fmpq(1)}
+    demand(not isinstance(value, str) or len(value) <= 100_000, "expected a shorter text")
     if not isinstance(value, str) or re.fullmatch(r"-?[0-9/]+", value):
         return {constant: rational(value)}, one
     quotient = QUOTIENT.fullmatch(value)
@@ -119,8 +130,10 @@ def function(value: Any, parameters: tuple[str, ...]) -> Function:
         demand(lead != constant and bottom[lead] == 1, "expected a denominator")
         if len(parameters) > 1:
             demand(len(bottom) == 1, "expected a product of parameters in a denominator")
-            common = [min(each) for each in zip(lead, *top, strict=True)]
-            demand(not any(common), "expected lowest terms")
+            common = max(min(each) for each in zip(lead, *top, strict=True))
+        else:
+            common = in_one(top).gcd(in_one(bottom)).degree()
+        demand(common == 0, "expected lowest terms")
     demand(quotient is not None or set(top) != {constant}, "expected a number")
     return top, bottom
 
@@ -129,6 +142,7 @@ def terms(value: str, parameters: tuple[str, ...]) -> Terms:
     """A polynomial as statements write it, and nothing else."""
     found: dict[tuple[int, ...], fmpq] = {}
     last: tuple[int, ...] | None = None
+    demand(" + -" not in value, "expected a minus for the plus")
     for term in value.replace(" - ", " + -").split(" + "):
         sign, size, exponents = (-1 if term[:1] == "-" else 1), fmpq(1), [0] * len(parameters)
         factors = term.removeprefix("-").split("*")
