@@ -125,6 +125,18 @@ class Families:
         if any(self._kinds.values()) and not self._graphs:
             raise click.UsageError("--up-to-isomorphism and --strongly-connected need --all-graphs")
 
+    def questions(self, named: tuple[str, ...]) -> tuple[str, ...]:
+        """The questions to ask, by default the first that can be asked about such systems."""
+        from mcexact.sweeps.questions import KNOWN, WITHIN_RADII
+
+        able = WITHIN_RADII if self._parts else KNOWN
+        if other := next((name for name in named if name not in able), ""):
+            raise click.UsageError(
+                f"--tolerances is for questions about every plant within the radii, "
+                f"{', '.join(able)}; {other} is none of them"
+            )
+        return tuple(name for name in able if name in (named or {next(iter(able))}))
+
     def of(self, paths: Sequence[str], limits: Limits) -> Iterator[tuple[int, Source]]:
         """Yield the systems to ask about, each with the position of its file.
 

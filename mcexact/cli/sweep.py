@@ -35,7 +35,8 @@ _SAY_EVERY = 10.0  # seconds
     type=click.Choice(KNOWN),
     multiple=True,
     metavar="NAME",
-    help=f"A question to decide: {', '.join(KNOWN)}; by default the first. May be repeated.",
+    help=f"A question to decide: {', '.join(KNOWN)}; by default the first, or with --tolerances "
+    "box_fixed_modes. May be repeated.",
 )
 @click.option(
     "--draws",
@@ -119,7 +120,7 @@ def command(
     sources += [Draw(number, **rest) for number in range(seed, seed + (draws or 0))]
     if not sources:
         raise click.UsageError("there are no systems to sweep over: name files, or give --draws N")
-    asked = tuple(name for name in KNOWN if name in (questions or {"fixed_spectrum"}))
+    asked = made_of.questions(questions)
     require_writable(output, certificates)
     require_other(html, *listed.paths)
     require_writable(html, certificates)

@@ -80,6 +80,8 @@ def test_tolerances_are_asked_of_each_file(tmp_path: Path) -> None:
     assert third["name"].endswith("within 1/2") and third["error"]["status"] == 4
     status, out, _ = call("sweep", str(path), *asked)
     assert "proved within 10 %" in out and "1 of 1" in out and "0 of 1" in out
+    first, *_ = swept(str(path), "--tolerances", "0.1%")["records"]
+    assert list(first["answers"]) == ["box_fixed_modes"]
 
 
 def test_a_file_that_cannot_be_read_is_told_like_any_other(tmp_path: Path, parametric: str) -> None:
@@ -100,6 +102,10 @@ def test_a_file_that_cannot_be_read_is_told_like_any_other(tmp_path: Path, param
         (("--up-to-isomorphism",), "need --all-graphs"),
         (("--grid", "t"), "expected NAME=FROM:TO:COUNT or NAME=VALUE,VALUE, found 't'"),
         (("--tolerances", "1%,x"), "found 'x'"),
+        (
+            ("--tolerances", "1%", "--question", "fixed_spectrum"),
+            "box_observability; fixed_spectrum is none of them",
+        ),
         (("--grid", "t=0:1"), "expected FROM:TO:COUNT with a count from 2"),
         (("--grid", "t=0:1:1"), "with a count from 2 to 1000000, found '0:1:1'"),
         (("--grid", "t=0.5,x"), "found 'x'"),
