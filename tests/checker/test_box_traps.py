@@ -74,6 +74,22 @@ def test_the_disc_around_a_square_reaches_its_corners() -> None:
     assert refused(document, "cell").place == "witness.cover[0][3]"
 
 
+def test_what_dominates_a_row_is_rounded_down() -> None:
+    """|1 − i| is above 1, and with 2 in its place a disc around 1 + i of radius 1 would do.
+
+    The mode 0 is fixed, and farther from 1 + i.
+    """
+    turned = {"denominator": 1, "re": [[1]], "im": [[-1]]}
+    document = changed(
+        uncontrolled(0, [0], [(Fraction(1), Fraction(1))], "1.1"),
+        ("witness.exterior.0.Y", turned),
+        ("witness.exterior.0.discs.0", {"re": "1", "im": "1", "radius": "1.1"}),
+    )
+    assert refused(document, "disc").place == "witness.exterior[0].discs[0]"
+    enough = changed(document, ("witness.exterior.0.discs.0.radius", "2.1"))
+    assert refused(enough, "cell").place == "witness.cover[0][0]"
+
+
 def test_what_is_not_below_the_real_axis_is_not_skipped() -> None:
     """±i are fixed, and one disc is around each of them: the lower one alone needs no cover."""
     system = plant([[0, -1], [1, 0]], ([[0], [0]], [[1, 0]]))
