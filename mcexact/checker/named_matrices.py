@@ -97,15 +97,19 @@ def _layer(part: Layers, k: int) -> Matrix:
 def named_text(value: Json, system: ParametricSystem) -> str:
     """A matrix in words."""
     string(value["name"], "claim.matrix.name", *KEYS)
+    everyone = "the matrices A, B and C of all channels"
     if value["name"] == "setpoint":
         shift = " - I" if system.time == "discrete" else ""
-        return f"[A{shift}, B; C, 0], B and C those of all channels,"
+        return f"[A{shift}, B; C, 0] with {everyone}"
     if value["name"] == "signal":
-        p = polynomial_text(value["polynomial"], "s")
-        ports = "B and C those of all channels, x the Kronecker product"
-        return f"[I x A - K x I, I x B; I x C, 0], {ports}, K the companion matrix of {p},"
+        blocks = "[kron(I, A) - kron(K, I), kron(I, B); kron(I, C), 0]"
+        companion = f"the companion matrix K of {polynomial_text(value['polynomial'])}"
+        return f"{blocks} with {everyone}, {companion} and the Kronecker product kron"
     if value["name"] == "controllability":
-        inputs = f"B the inputs of the channels {channel_set(value['channels'])}"
-        return f"[B, A B, ..., A^(k-1) B], {inputs} and k = {value['blocks']},"
-    ends = f"B the inputs of channel {quoted(value['from'])}, C the outputs of channel"
-    return f"the column of all entries of C A^k B, k < {system.n}, {ends} {quoted(value['to'])},"
+        blocks = f"the first {value['blocks']} blocks of [B, A B, A^2 B, ...]"
+        inputs = f"the inputs of the channels {channel_set(value['channels'])}"
+        return f"{blocks} with the matrix A and the matrix B of {inputs}"
+    factors = f"the column of all entries of the first {system.n} of C B, C A B, C A^2 B, ..."
+    inputs = f"the matrix B of the inputs of channel {quoted(value['from'])}"
+    outputs = f"the matrix C of the outputs of channel {quoted(value['to'])}"
+    return f"{factors} with the matrix A, {inputs} and {outputs}"

@@ -113,5 +113,5 @@ def _matrix(rows: list[list[Fraction]], ncols: int) -> Matrix:
 
 def ranges_text(plant: FunctionSystem) -> str:
     """The words with which a statement about all values in the ranges begins."""
-    told = [f"{name} from {low} to {high}" for name, (low, high) in plant.ranges.items()]
-    return f"for all real {' and '.join(told)}"
+    told = [f"of the parameter {t} from {low} to {high}" for t, (low, high) in plant.ranges.items()]
+    return f"for all real values {' and '.join(told)}"

@@ -49,7 +49,7 @@ def values_left_out(outside: Json, poles: Json, system: ParametricSystem) -> lis
 def where_text(claim: Json, system: ParametricSystem) -> str:
     """The values that a claim is about."""
     t = system.parameter
-    where = f"for every complex {t} at which all entries are defined"
+    where = f"for every complex value of the parameter {t} at which all entries are defined"
     if claim["outside"]:
         roots = ", ".join(roots_text(entry, t) for entry in claim["outside"])
         where += f", except at {roots}, none of which is real and between {ends_text(system)}"

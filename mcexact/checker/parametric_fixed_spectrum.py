@@ -67,19 +67,22 @@ def _exceptional(
 def statement(claim: Json, system: ParametricSystem) -> str:
     """The fixed modes for every value of the parameter."""
     t, delta = system.parameter, polynomial_text(system.poles[0], system.parameter)
-    modes = ", ".join(text(read_coefficients(p), t) for p in claim["generic"]) or "1"
     scaled = "" if delta == "1" else f", multiplied by {delta},"
-    where = where_text(claim, system)
-    start = f"{where}, the modes that are {FIXED}{scaled} are the roots x of {modes}"
-    texts = [_exceptional_text(entry, t) for entry in claim["exceptional"]]
-    return "; ".join([start, *texts, "no others"])
+    where, fixed = where_text(claim, system), f"the modes that are {FIXED}{scaled} are the roots x"
+    listed = [(roots_text(each, t), _modes_text(each, t)) for each in claim["exceptional"]]
+    if not claim["generic"]:
+        texts = [f"but at {roots}, {REAL}, {fixed} of {modes}" for roots, modes in listed]
+        return "; ".join([f"{where}, no mode is {FIXED}", *texts])
+    always = ", ".join(text(read_coefficients(p), t) for p in claim["generic"])
+    texts = [f"at {roots}, {REAL}, and there also those of {modes}" for roots, modes in listed]
+    return "; ".join([f"{where}, {fixed} of {always}", *texts, "no others"])
 
 
-def _exceptional_text(entry: Json, t: str) -> str:
-    """What is fixed at the roots of a value besides the generic modes."""
-    modes = [
-        f"{text(read_coefficients(mode['polynomial']), t)}, where {PENCIL}, C the outputs of "
-        f"{channel_set(mode['channels'])} and B the inputs of the others, loses rank"
+def _modes_text(entry: Json, t: str) -> str:
+    """The modes that are fixed at the roots of a value besides the generic ones."""
+    return " and ".join(
+        f"{text(read_coefficients(mode['polynomial']), t)}, where {PENCIL} with the matrix A, the "
+        f"matrix C of the outputs of {channel_set(mode['channels'])} and the matrix B of the "
+        "inputs of the others loses rank"
         for mode in entry["modes"]
-    ]
-    return f"at {roots_text(entry, t)}, {REAL}, and there besides those of {' and '.join(modes)}"
+    )

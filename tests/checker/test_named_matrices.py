@@ -147,18 +147,20 @@ def test_matrices_have_words() -> None:
     def said(value: Any, system: Any = PLANT) -> str:
         return named_text(value, read(system))
 
-    assert said({"name": "setpoint"}) == "[A, B; C, 0], B and C those of all channels,"
-    assert said({"name": "setpoint"}, SAMPLED) == "[A - I, B; C, 0], B and C those of all channels,"
+    assert said({"name": "setpoint"}) == "[A, B; C, 0] with the matrices A, B and C of all channels"
+    sampled = "[A - I, B; C, 0] with the matrices A, B and C of all channels"
+    assert said({"name": "setpoint"}, SAMPLED) == sampled
     assert said({"name": "signal", "polynomial": [4, 0, 1]}) == (
-        "[I x A - K x I, I x B; I x C, 0], B and C those of all channels, x the Kronecker product, "
-        "K the companion matrix of s^2 + 4,"
+        "[kron(I, A) - kron(K, I), kron(I, B); kron(I, C), 0] with the matrices A, B and C of all "
+        "channels, the companion matrix K of x^2 + 4 and the Kronecker product kron"
     )
     assert said(controllability(["1", "3"], 2)) == (
-        '[B, A B, ..., A^(k-1) B], B the inputs of the channels {"1", "3"} and k = 2,'
+        "the first 2 blocks of [B, A B, A^2 B, ...] with the matrix A and the matrix B of the "
+        'inputs of the channels {"1", "3"}'
     )
     assert said({"name": "transfer", "from": "1", "to": "2"}) == (
-        'the column of all entries of C A^k B, k < 2, B the inputs of channel "1", C the outputs '
-        'of channel "2",'
+        "the column of all entries of the first 2 of C B, C A B, C A^2 B, ... with the matrix A, "
+        'the matrix B of the inputs of channel "1" and the matrix C of the outputs of channel "2"'
     )
     with pytest.raises(Refused):
         said({"name": "pencil"})

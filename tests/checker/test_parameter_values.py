@@ -117,7 +117,7 @@ TWO = {"value": [-2, 1], "roots": [disc("2")]}
 
 def test_values_have_words() -> None:
     assert roots_text(TWO, "t") == "the roots of t - 2, one in each of the discs {2 +- 0}"
-    start = "for every complex t at which all entries are defined"
+    start = "for every complex value of the parameter t at which all entries are defined"
     assert where_text({"outside": []}, ranged(None, 1)) == start
     said = f"{start}, except at the roots of t - 2, one in each of the discs {{2 +- 0}}"
     for ends, words in (

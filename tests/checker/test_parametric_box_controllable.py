@@ -41,8 +41,8 @@ def test_every_part_of_the_witness_is_needed(part: str) -> None:
 
 
 def test_the_statement_names_the_ranges() -> None:
-    said = 'for all real k from 1/4 to 3/4, the channels {"1", "2"} together control every mode'
-    assert checked(CONTROLLED).statement.endswith(said)
+    said = 'from 1/4 to 3/4, the channels {"1", "2"} together control every mode'
+    assert checked(CONTROLLED).statement.endswith(f"for all real values of the parameter k {said}")
     assert checked(OBSERVED).statement.startswith("For the dual of: the plant ")
 
 

@@ -38,16 +38,26 @@ def test_what_is_found_is_proved(name: str) -> None:
 
 def test_the_statements_say_what_is_fixed_and_where() -> None:
     said = checked(PAPER).statement
-    assert "for every complex t at which all entries are defined, the modes that are fixed" in said
-    assert "are the roots x of 1; at the roots of t, one in each of the discs {0 +- 0}" in said
-    assert 'of x + (-1), where [xI - A, B; C, 0], C the outputs of {"2", "3"}' in said
+    start = "for every complex value of the parameter t at which all entries are defined, no mode "
+    assert f"{start}is fixed under linear time-invariant decentralized control; but at" in said
+    assert "; but at the roots of t, one in each of the discs {0 +- 0}, real" in said
+    fixed = "the modes that are fixed under linear time-invariant decentralized control are the"
+    assert (
+        f"and only there, {fixed} roots x of x + (-1), where [xI - A, B; C, 0] with the matrix A"
+        in said
+    )
+    assert said.endswith(
+        'the matrix C of the outputs of {"2", "3"} and the matrix B of the inputs of the others '
+        "loses rank"
+    )
     assert "multiplied by t + 1, are the roots x of x; " in checked(POLES).statement
     assert "multiplied by t - 2, are the roots x of x^4" in checked(MOVING).statement
     ranged = checked(RANGED).statement
     assert "defined, except at the roots of t^3 - 2, one in each" in ranged
     assert "none of which is real and between 0 and 1, the" in ranged
     assert "x^4 + (4*t^3 " not in checked(MOVING).statement
-    assert checked(EMPTY).statement.endswith("are the roots x of 1; no others")
+    nothing = "no mode is fixed under linear time-invariant decentralized control"
+    assert checked(EMPTY).statement.endswith(nothing)
 
 
 VALUE = "claim.exceptional.0"

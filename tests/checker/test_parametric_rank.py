@@ -99,17 +99,19 @@ def test_the_ranks_are_those_that_a_pencil_gives() -> None:
 
 def test_the_statements_name_the_matrix_and_the_values() -> None:
     said = checked(SQUARE).statement
-    assert "for every complex t at which all entries are defined, [A, B; C, 0], B and C" in said
-    assert "of all channels, has rank exactly 2; but rank exactly 1 at the roots of t - 1" in said
+    assert "for every complex value of the parameter t at which all entries are defined" in said
+    assert ", [A, B; C, 0] with the matrices A, B and C of all channels has rank exactly 2" in said
+    assert "has rank exactly 2; but rank exactly 1 at the roots of t - 1" in said
     assert said.endswith("real ones where the disc is centered on the real axis, and only there")
-    assert ", [A - I, B; C, 0], B" in checked(STEPS).statement
+    assert ", [A - I, B; C, 0] with" in checked(STEPS).statement
     assert (
-        '..., A^(k-1) B], B the inputs of the channels {"2"} and k = 2, has rank exactly 2; '
+        'with the matrix A and the matrix B of the inputs of the channels {"2"} has rank exactly 2'
         in (checked(REACHED).statement)
     )
     assert checked(NO_EDGE).statement.endswith(
-        'the column of all entries of C A^k B, k < 2, B the inputs of channel "2", C the outputs '
-        'of channel "1", has rank exactly 0'
+        "the column of all entries of the first 2 of C B, C A B, C A^2 B, ... with the matrix A, "
+        'the matrix B of the inputs of channel "2" and the matrix C of the outputs of channel "1" '
+        "has rank exactly 0"
     )
     ranged = checked(OUTSIDE).statement
     assert "except at the roots of t - 2, one in each" in ranged and "between 0 and 1, [A" in ranged

@@ -196,19 +196,22 @@ def parametric_sentence(claim: Any, plant: ParametricPlant) -> str:
     t = plant.parameter
     delta = polynomial_text(plant.denominators[0], t)
     start = where_text(claim, plant)
-    modes = ", ".join(_mode_text(p, t) for p in claim["generic"]) or "1"
     scaled = "" if delta == "1" else f", multiplied by {delta},"
-    start += (
-        f", the modes that are fixed under linear time-invariant decentralized control{scaled} are "
-        f"the roots x of {modes}"
-    )
-    return "; ".join([start, *(_value_text(e, t) for e in claim["exceptional"]), "no others"])
+    never = "fixed under linear time-invariant decentralized control"
+    fixed = f"the modes that are {never}{scaled} are the roots x of "
+    if claim["generic"]:
+        said = f"{start}, {fixed}{', '.join(_mode_text(p, t) for p in claim['generic'])}"
+        before, leading, end = "", "and there also those of ", ["no others"]
+    else:
+        said, before, leading, end = f"{start}, no mode is {never}", "but ", fixed, []
+    told = [before + _value_text(entry, t, leading) for entry in claim["exceptional"]]
+    return "; ".join([said, *told, *end])
 
 
 def where_text(claim: Any, plant: ParametricPlant) -> str:
     """The values that a claim is about."""
     t = plant.parameter
-    start = f"for every complex {t} at which all entries are defined"
+    start = f"for every complex value of the parameter {t} at which all entries are defined"
     if claim["outside"]:
         missing = ("-infinity", "infinity")
         pairs = zip(plant.range, missing, strict=True)
@@ -237,13 +240,14 @@ def _mode_text(value: Any, t: str) -> str:
     return " + ".join(parts)
 
 
-def _value_text(entry: Any, t: str) -> str:
+def _value_text(entry: Any, t: str, leading: str) -> str:
     modes = " and ".join(
-        f"{_mode_text(mode['polynomial'], t)}, where [xI - A, B; C, 0], C the outputs of "
-        f"{channels(mode['channels'])} and B the inputs of the others, loses rank"
+        f"{_mode_text(mode['polynomial'], t)}, where [xI - A, B; C, 0] with the matrix A, the "
+        f"matrix C of the outputs of {channels(mode['channels'])} and the matrix B of the inputs "
+        "of the others loses rank"
         for mode in entry["modes"]
     )
     return (
         f"at {roots_text(entry, t)}, real ones where the disc is centered on the real axis, and "
-        f"only there, and there besides those of {modes}"
+        f"only there, {leading}{modes}"
     )

@@ -199,17 +199,23 @@ def rank_sentence(claim: Any, plant: ParametricPlant) -> str:
     matrix = claim["matrix"]
     if matrix["name"] == "setpoint":
         shift = " - I" if plant.time == "discrete" else ""
-        named = f"[A{shift}, B; C, 0], B and C those of all channels,"
+        named = f"[A{shift}, B; C, 0] with the matrices A, B and C of all channels"
     elif matrix["name"] == "signal":
-        ports = "B and C those of all channels, x the Kronecker product"
-        p = polynomial_text(matrix["polynomial"], "s")
-        named = f"[I x A - K x I, I x B; I x C, 0], {ports}, K the companion matrix of {p},"
+        p = polynomial_text(matrix["polynomial"], "x")
+        named = (
+            "[kron(I, A) - kron(K, I), kron(I, B); kron(I, C), 0] with the matrices A, B and C of "
+        )
+        named += f"all channels, the companion matrix K of {p} and the Kronecker product kron"
     elif matrix["name"] == "controllability":
-        inputs = f"B the inputs of the channels {channels(matrix['channels'])}"
-        named = f"[B, A B, ..., A^(k-1) B], {inputs} and k = {matrix['blocks']},"
+        inputs = f"the matrix B of the inputs of the channels {channels(matrix['channels'])}"
+        named = (
+            f"the first {matrix['blocks']} blocks of [B, A B, A^2 B, ...] with the matrix A and "
+        )
+        named += inputs
     else:
-        ends = f"B the inputs of channel {name(matrix['from'])}, C the outputs of channel"
-        named = f"the column of all entries of C A^k B, k < {plant.n}, {ends} {name(matrix['to'])},"
+        named = f"the column of all entries of the first {plant.n} of C B, C A B, C A^2 B, ... with"
+        named += f" the matrix A, the matrix B of the inputs of channel {name(matrix['from'])} and "
+        named += f"the matrix C of the outputs of channel {name(matrix['to'])}"
     said = f"{where_text(claim, plant)}, {named} has rank exactly {claim['rank']}"
     real = "real ones where the disc is centered on the real axis, and only there"
     for entry in claim["exceptional"]:

@@ -37,8 +37,10 @@ def statement(document: Mapping[str, Any]) -> str:
 def ranges(document: Mapping[str, Any]) -> str:
     """All values within the ranges of parameters."""
     known = sorted(document["system"]["parameters"].items())
-    told = (f"{name} from {said['range'][0]} to {said['range'][1]}" for name, said in known)
-    return f"for all real {' and '.join(told)}"
+    told = (
+        f"of the parameter {t} from {ends['range'][0]} to {ends['range'][1]}" for t, ends in known
+    )
+    return f"for all real values {' and '.join(told)}"
 
 
 def plant_digest(document: Mapping[str, Any]) -> str:
