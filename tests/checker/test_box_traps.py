@@ -234,6 +234,16 @@ def test_the_loop_that_is_stable_at_its_values_is_the_one_of_the_claim() -> None
     assert checked(faster).verdict == "INVALID"
 
 
+@pytest.mark.parametrize("time", ["continuous", "discrete"])
+def test_the_values_themselves_are_in_the_region_of_the_claim(time: str) -> None:
+    """Nothing ever crosses its border: −1/4, or 3/4, is stable, and stays outside."""
+    points, growth = (["1/2", 1, 2], [1]) if time == "continuous" else (["1/4", "1/2", 1, 2], None)
+    mode, bound = ("-1/4", 1) if time == "continuous" else ("3/4", "1/2")
+    still = plant([[mode]], ([[0]], [[0]]), time=time)
+    document = stable(still, points, growth=growth, bound=bound)
+    assert refused(document, "claim").place == "claim.stable"
+
+
 def test_digits_as_typed_tell_what_is_typed() -> None:
     """0.10 is known better than 0.1; a part of 0.10 is one of 0.1."""
     text = (
