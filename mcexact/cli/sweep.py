@@ -108,6 +108,7 @@ def command(
     from mcexact.model.atomic import write_text
     from mcexact.report.sweep_view import skipped_table, sweep_page, sweep_tables, sweep_view
     from mcexact.report.text import WIDE
+    from mcexact.report.tolerances import tolerance_tables
     from mcexact.sweeps.jobs import decide
     from mcexact.sweeps.run import sweep
 
@@ -161,10 +162,11 @@ def command(
     if html is not None:
         write_text(html, sweep_page(documents, asked, skipped).rendered())
     if as_json:
-        emit_json({"format": "mcexact-sweep-summary/1", **sweep_view(documents, skipped)})
+        emit_json({"format": "mcexact-sweep-summary/1", **sweep_view(documents, asked, skipped)})
     else:
-        tables = sweep_tables(documents, asked)
-        emit_tables((*tables, skipped_table(skipped)) if skipped else tables, width=WIDE)
+        tables = [*sweep_tables(documents, asked), *tolerance_tables(documents, asked)]
+        tables += [skipped_table(skipped)] if skipped else []
+        emit_tables(tables, width=WIDE)
     ended = {document["error"]["status"] for document in documents if "error" in document}
     return next(status for status in _PRECEDENCE if status in {0, *ended})
 

@@ -32,8 +32,6 @@ def uncertainty(found: Any, ax: Any = None) -> Any:
     Blue: proved for every plant.  Gray: nothing is known.  Red: there is a plant that fails.  Where
     both ends are above 0 the scale is logarithmic.
     """
-    from matplotlib.ticker import FuncFormatter, LogLocator
-
     axis = one_axis(ax, 5.4, 1.8)
     scale = 100 if found.relative else 1
     low = scale * to_float(found.lower)
@@ -47,13 +45,7 @@ def uncertainty(found: Any, ax: Any = None) -> Any:
         axis.barh(0, high - low, left=low or left, height=0.5, color=GRAY, alpha=0.35, label="open")
         axis.barh(0, right - high, left=high, height=0.5, color=RED, label="a plant fails")
     if low and high:
-        axis.set_xscale("log")
-        for locate, tell, parts in (
-            (axis.xaxis.set_major_locator, axis.xaxis.set_major_formatter, (1.0,)),
-            (axis.xaxis.set_minor_locator, axis.xaxis.set_minor_formatter, (2.0, 5.0)),
-        ):
-            locate(LogLocator(subs=parts))
-            tell(FuncFormatter(lambda value, _: f"{value:g}"))
+        _plain_powers(axis)
     axis.set_xlim(left, right)
     axis.set_ylim(-0.35, 0.75)
     axis.set_yticks([])
@@ -103,8 +95,21 @@ def uncertainty_shares(found: Sequence[Any], ax: Any = None) -> Any:
         (fails, [100.0] * len(fails), RED, 1.0, "a plant fails"),
     ):
         axis.stairs(high, steps, baseline=low, fill=True, color=color, alpha=alpha, label=label)
-    axis.set_xscale("log")
+    _plain_powers(axis, () if right > 100 * left else (2.0, 5.0))
     axis.set_xlim(left, right)
     axis.set_ylim(0, 100)
     counted = "part of each entry, in %" if found[0].relative else "multiple of the radii"
     return finished(axis, found[0].wanted, counted, "plants, in %", columns=3)
+
+
+def _plain_powers(axis: Any, between: tuple[float, ...] = (2.0, 5.0)) -> None:
+    """A logarithmic scale whose powers of ten are written out, with so many numbers between."""
+    from matplotlib.ticker import FuncFormatter, LogLocator
+
+    axis.set_xscale("log")
+    for locate, tell, parts in (
+        (axis.xaxis.set_major_locator, axis.xaxis.set_major_formatter, (1.0,)),
+        (axis.xaxis.set_minor_locator, axis.xaxis.set_minor_formatter, between),
+    ):
+        locate(LogLocator(subs=parts))
+        tell(FuncFormatter(lambda value, _: f"{value:g}"))

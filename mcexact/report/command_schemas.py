@@ -267,9 +267,16 @@ def gallery() -> Schema:
 def sweep() -> Schema:
     """The JSON of `mcexact sweep`."""
     skipped = record({"name": TEXT, "reason": TEXT}, closed=True)
+    numbers = {"plants": WHOLE, "proved": WHOLE, "failing": WHOLE}
+    tolerance = record({"question": TEXT, "part": NUMBER} | numbers, closed=True)
     return record(
         named("mcexact-sweep-summary/1")
-        | {"counts": table(WHOLE), "records": rows(sweep_record()), "skipped": rows(skipped)}
+        | {
+            "counts": table(WHOLE),
+            "tolerances": rows(tolerance),
+            "records": rows(sweep_record()),
+            "skipped": rows(skipped),
+        }
     )
 
 

@@ -169,7 +169,9 @@ def manifest() -> Schema:
 def sweep_record() -> Schema:
     """A line of the file that a sweep writes."""
     claims = [claim_schema(kind) for kind in kinds().values()]
-    answer = record({"claim": {"anyOf": claims}, "statement": TEXT}, closed=True)
+    answer = record(
+        {"claim": {"anyOf": claims}, "statement": TEXT}, {"member": {"type": "object"}}, closed=True
+    )
     decided = {
         "system": record({"n": WHOLE, "m": WHOLE, "time": TIME}),
         "digest": DIGEST,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
@@ -11,25 +10,32 @@ from typing import Any
 
 from mcexact.answer.formats import count, cut
 from mcexact.exact.polynomial import Polynomial
-from mcexact.exact.shortened import percent, polynomial
+from mcexact.exact.shortened import polynomial
+from mcexact.model.uncertainty import PROPERTIES
 from mcexact.report.answer_page import AnswerPage
 from mcexact.report.text import Table, shorten
+from mcexact.report.tolerances import pictures, tolerance_tables, tolerances
 
 _MOST_ROWS, _MOST_ON_A_PAGE = 60, 5000
 _MOST_SKIPPED = 20
 _NOT_STABILIZABLE = "not stabilizable: by no linear time-invariant decentralized controller"
 
-_WITHIN = re.compile(r"within ([0-9]+(?:/[0-9]+)?)")
-
 Document = Mapping[str, Any]
 
 
 def sweep_view(
-    documents: Sequence[Document], skipped: Sequence[tuple[str, str]] = ()
+    documents: Sequence[Document],
+    questions: Sequence[str],
+    skipped: Sequence[tuple[str, str]] = (),
 ) -> dict[str, Any]:
-    """Return counts, all records, and the skipped files with reasons, as plain data."""
+    """Return counts, all records, and the skipped files with reasons, as plain data.
+
+    Where plants were asked about within parts of their entries, ``tolerances`` has the numbers of
+    plants by question and part.
+    """
     return {
         "counts": counts(documents),
+        "tolerances": tolerances(documents, questions),
         "records": list(documents),
         "skipped": [{"name": name, "reason": reason} for name, reason in skipped],
     }
@@ -49,7 +55,7 @@ def skipped_table(skipped: Sequence[tuple[str, str]]) -> Table:
 
 def counts(documents: Sequence[Document]) -> dict[str, int]:
     """Return the table of counts: systems, decided systems, and systems with each property."""
-    decided = [document["answers"] for document in documents if "answers" in document]
+    decided = [document["answers"] for document in documents if "error" not in document]
     found = {"systems": len(documents), "decided": len(decided)}
     for question, key in (
         ("fixed_spectrum", "with_fixed_modes"),
@@ -87,15 +93,18 @@ def sweep_page(
     failed = sum("error" in document for document in documents)
     if failed:
         words.append(f"warning: {count(failed, 'system')} without an answer, for reasons below")
-    tables = (each, skipped_table(skipped)) if skipped else (each,)
+    tables = [*tolerance_tables(documents, questions), each]
+    tables += [skipped_table(skipped)] if skipped else []
     return AnswerPage(
         title=f"A sweep over {count(len(documents), 'system')}",
         heading=f"Asked about every system: {asked}. The independent checker verified the "
         "certificate of every answer.",
         good=None,
         answer=(*words, *([summed.note.capitalize()] if summed.note else [])),
-        pictures=(),
-        tables=tuple(replace(found, title=found.title or "Every system") for found in tables),
+        pictures=tuple(each.embedded() for each in pictures(documents, questions)),
+        tables=tuple(
+            replace(found, title=(found.title or "every system").capitalize()) for found in tables
+        ),
     )
 
 
@@ -114,22 +123,8 @@ def sweep_tables(
     rows = tuple(_row(short[document["name"]], document, questions) for document in shown)
     named = counts(documents)
     said = tuple((key.replace("_", " "), str(number)) for key, number in named.items())
-    said += shares(documents)
     stays = _NOT_STABILIZABLE if named.get("not_stabilizable") else ""
     return (Table("", columns, rows, note), Table("of all systems", (), said, stays))
-
-
-def shares(documents: Sequence[Document]) -> tuple[tuple[str, str], ...]:
-    """For each part of `tolerance_variants`, of how many systems the questions are answered."""
-    found: dict[Fraction, list[bool]] = {}
-    for document in documents:
-        member = _WITHIN.fullmatch(document["name"].rpartition(": ")[2])
-        if member:
-            found.setdefault(Fraction(member[1]), []).append("answers" in document)
-    return tuple(
-        (f"proved within {percent(part)}", f"{sum(proved)} of {len(proved)}")
-        for part, proved in sorted(found.items())
-    )
 
 
 def _tells(document: Document) -> int:
@@ -156,16 +151,19 @@ def _short_names(documents: Sequence[Document]) -> dict[str, str]:
 
 
 def _row(name: str, document: Document, questions: Sequence[str]) -> tuple[str, ...]:
-    if "error" in document:
+    if "answers" not in document:
         return (name, "", "", shorten(document["error"]["message"], 70), *[""] * len(questions))
     system, answers = document["system"], document["answers"]
-    said = [_said(question, answers[question]["claim"]) for question in questions]
+    said = [_said(each, answers[each]) if each in answers else "open" for each in questions]
     seconds = f"{document['seconds']:.3g}"
     return (name, str(system["n"]), str(system["m"]), *said, seconds)
 
 
-def _said(question: str, claim: Mapping[str, Any]) -> str:
+def _said(question: str, answer: Mapping[str, Any]) -> str:
     """Write a claim in a few words."""
+    if question in PROPERTIES:
+        return "a plant fails" if "member" in answer else "proved"
+    claim = answer["claim"]
     if question == "fixed_spectrum":
         if not claim["factors"]:
             return "empty"
@@ -177,6 +175,4 @@ def _said(question: str, claim: Mapping[str, Any]) -> str:
     if question == "assignability":
         parts = [str(block["dimension"]) for block in claim["blocks"] if block["dimension"]]
         return f"parts of degree {', '.join(cut(parts, 6))}" if parts else "no part"
-    if question.startswith("box_"):
-        return "proved"
     return "yes" if next(value for value in claim.values() if isinstance(value, bool)) else "no"

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from mcexact.analysis.boxes.largest_box import failing_member
 from mcexact.answer import codec
 from mcexact.derived.drawn.draw import Draw, drawn_system
 from mcexact.derived.variants import Variant
@@ -18,6 +19,7 @@ from mcexact.model.formats.reading import Reading
 from mcexact.model.formats.recognize import read_any
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import digest, system_text
+from mcexact.model.uncertainty import PROPERTIES
 from mcexact.sweeps.questions import KNOWN
 
 Source = str | os.PathLike[str] | MultiChannelSystem | Draw | Variant
@@ -97,20 +99,40 @@ def decide(job: Job) -> Outcome:
     -------
     dict
         ``system`` {n, m, time}, ``digest``, ``seconds`` and ``certificates``, one text for each
-        question; or the ``error`` that ended the work.
+        question; or the ``error`` that ended the work, or that left a question open.  Where no
+        proof about every plant within the radii is found, the certificate may be about one of them
+        that fails.
     """
     start = time.perf_counter()
     try:
         system = job.system()
-        made = {name: codec.encode(KNOWN[name].decide(system)) for name in job.questions}
+        made, left = _decided(job.questions, system)
     except Exception as error:
         return failure(error)
-    return {
+    return left | {
         "system": {"n": system.n, "m": system.m, "time": system.time},
         "digest": digest(system),
         "seconds": round(time.perf_counter() - start, 6),
         "certificates": made,
     }
+
+
+def _decided(
+    questions: Iterable[str], system: MultiChannelSystem
+) -> tuple[dict[str, str], Outcome]:
+    """Certificates of the answers, and the error if a question about a box is left open."""
+    made, left = dict[str, str](), list[str]()
+    for name in questions:
+        try:
+            answer = KNOWN[name].decide(system)
+        except LimitReached as error:
+            if name not in PROPERTIES:
+                raise
+            answer = failing_member(system, PROPERTIES[name])
+            left += [] if answer is not None else [str(error)]
+        if answer is not None:
+            made[name] = codec.encode(answer)
+    return made, failure(LimitReached("; ".join(left))) if left else {}
 
 
 def failure(error: BaseException) -> Outcome:

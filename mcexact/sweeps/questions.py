@@ -47,10 +47,32 @@ def answered(name: str, certificate: Mapping[str, Any]) -> bool:
     question = KNOWN[name]
     subject = [{"construction": "dual"}] if question.dual else []
     channels = [channel["name"] for channel in certificate["system"]["channels"]]
-    about = (certificate["kind"], certificate["subject"])
-    named = certificate["claim"].get("channels", channels)
-    if name in WITHIN_RADII and (certificate["claim"]["bound"] is None) is (
-        name == "box_stabilizability"
-    ):
+    if (certificate["kind"], certificate["subject"]) != (question.kind or name, subject):
         return False
-    return about == (question.kind or name, subject) and bool(named == channels)
+    claim = certificate["claim"]
+    if name in WITHIN_RADII and (claim["bound"] is None) is (name == "box_stabilizability"):
+        return False
+    return bool(claim.get("channels", channels) == channels)
+
+
+def denied(name: str, certificate: Mapping[str, Any]) -> bool:
+    """Whether a certificate says that its plant lacks the property that a question is about.
+
+    Parameters
+    ----------
+    name : str
+        A question about every plant within the radii.
+    certificate : mapping
+        The document of a certificate that the checker found VALID.
+    """
+    claim = certificate["claim"]
+    subject = [{"construction": "dual"}] if KNOWN[name].dual else []
+    if certificate["subject"] != subject:
+        return False
+    if name in ("box_controllability", "box_observability"):
+        channels = [channel["name"] for channel in certificate["system"]["channels"]]
+        lacks = certificate["kind"] == "controllability" and claim["channels"] == channels
+        return lacks and not claim["controllable"]
+    if certificate["kind"] != "fixed_spectrum":
+        return False
+    return bool(claim["factors"]) if name == "box_fixed_modes" else not claim["stabilizable"]

@@ -35,11 +35,13 @@ class Record(Shown):
     digest : str
         The digest of the system; empty if there is an error.
     answers : mapping from questions to mappings
-        ``claim``, as in the certificate, and ``theorem``, the statement that the checker verified.
+        ``claim``, as in the certificate, and ``statement``, which the checker verified; ``member``
+        is a plant within the radii that both are about, where it lacks what was asked.
     seconds : float or None
         The time for deciding and for making certificates.
     error : mapping or None
         ``status``, an exit status, and ``message``; ``other_format`` for a file of another format.
+        Beside answers it is about a question that is left open.
     certificates : mapping from questions to texts
         The verified certificates.  The file does not keep them, so a record read from it has none.
     """
@@ -68,9 +70,10 @@ class Record(Shown):
 
     def explain(self) -> str:
         """Say what was found, in the statements that the checker verified, one a line."""
+        said = [str(answer["statement"]) for answer in self.answers.values()]
         if self.error is not None:
-            return f"{self.name}: {self.error['message']}"
-        return "\n".join(str(answer["statement"]) for answer in self.answers.values())
+            said.append(f"{self.name}: {self.error['message']}")
+        return "\n".join(said)
 
     def _labeled(self) -> Iterator[tuple[str, Any]]:
         """Yield the columns of a table, and what they hold; those that are empty are left out."""
@@ -109,7 +112,9 @@ class Record(Shown):
         """Return the record as plain data, as in the file."""
         kept = {"format": FORMAT, "number": self.number, "name": self.name, "key": self.key}
         if self.error is not None:
-            return kept | {"error": dict(self.error)}
+            kept["error"] = dict(self.error)
+        if self.error is not None and not self.answers:
+            return kept
         return kept | {
             "system": self.system,
             "digest": self.digest,

@@ -10,12 +10,14 @@ from dataclasses import replace
 from typing import Any
 
 from mcexact.answer.check import checked
+from mcexact.answer.reading import answer_of
 from mcexact.errors import InternalError, McexactError, UsageError
 from mcexact.exact.rational import DEFAULT_LIMITS, Limits
+from mcexact.model.box import Box
 from mcexact.model.formats.recognize import read_input
-from mcexact.model.system_file import digest
+from mcexact.model.system_file import FORMAT, digest
 from mcexact.sweeps.jobs import Job, Outcome, Reader, Source, decide, entries, failure
-from mcexact.sweeps.questions import answered, chosen
+from mcexact.sweeps.questions import WITHIN_RADII, answered, chosen, denied
 from mcexact.sweeps.records import Record, RecordFile
 from mcexact.sweeps.workers import Workers, alone
 
@@ -172,14 +174,16 @@ def _once_more(job: Job, work: Callable[[Job], Outcome]) -> Outcome:
 def _believed(number: int, job: Job, outcome: Outcome) -> Record:
     """Make the record of a job after verifying every certificate."""
     key = job.key()
-    if "error" in outcome:
-        return Record(number, job.name, key, error=outcome["error"])
+    left = outcome.get("error")
+    if not outcome.get("certificates"):
+        return Record(number, job.name, key, error=left)
     try:
         expected = outcome["digest"] if not isinstance(job.source, bytes) else digest(job.system())
         answers = {
-            name: _checked(name, text, expected) for name, text in outcome["certificates"].items()
+            name: _checked(name, text, expected, job)
+            for name, text in outcome["certificates"].items()
         }
-        if tuple(answers) != job.questions:
+        if tuple(answers) != job.questions and left is None:
             raise InternalError("the answers do not belong to the questions")
     except McexactError as error:
         return Record(number, job.name, key, error=failure(error)["error"])
@@ -191,22 +195,30 @@ def _believed(number: int, job: Job, outcome: Outcome) -> Record:
         digest=expected,
         answers=answers,
         seconds=outcome["seconds"],
+        error=left,
         certificates=outcome["certificates"],
     )
 
 
-def _checked(name: str, text: str, expected: str) -> dict[str, Any]:
+def _checked(name: str, text: str, expected: str, job: Job) -> dict[str, Any]:
     """Return the claim of a certificate and the statement that the checker verified.
+
+    A certificate about another plant within the radii says that this one fails; it is the
+    ``member``.
 
     Raises
     ------
     InternalError
         If the certificate is not VALID for this system, or does not answer the question.
     """
-    verdict = checked(text.encode("ascii"), expected)
+    document = json.loads(text)
+    fails = name in WITHIN_RADII and denied(name, document)
+    verdict = checked(text.encode("ascii"), "" if fails else expected)
     if verdict.verdict != "VALID":
         raise InternalError(f"the certificate for {name} is not accepted: {verdict.line()}")
-    document = json.loads(text)
-    if not answered(name, document):
+    found = {"claim": document["claim"], "statement": verdict.statement}
+    if fails and Box(job.system()).contains(answer_of(document).about.plant):
+        return found | {"member": {"format": FORMAT, **document["system"]}}
+    if fails or not answered(name, document):
         raise InternalError(f"the certificate for {name} is about something else")
-    return {"claim": document["claim"], "statement": verdict.statement}
+    return found

@@ -6,7 +6,9 @@ from typing import Any
 
 import pytest
 
+from mcexact import Box, fixed_spectrum, load_system
 from mcexact.cli.families import values
+from mcexact.model.system_file import read_system
 from tests.cli.calling import call
 
 PAPER = "gallery:liu2020-3ch-no-communication"
@@ -75,11 +77,30 @@ def test_tolerances_are_asked_of_each_file(tmp_path: Path) -> None:
     asked = ("--tolerances", "0.1%,10%,50%", "--question", "box_fixed_modes", "--workers", "1")
     status, out, _ = call("sweep", str(path), *asked, "--json")
     first, second, third = json.loads(out)["records"]
-    assert status == 4 and first["answers"]["box_fixed_modes"]["claim"] == {"bound": None}
-    assert "answers" in second and "answers" not in third
-    assert third["name"].endswith("within 1/2") and third["error"]["status"] == 4
-    status, out, _ = call("sweep", str(path), *asked)
-    assert "proved within 10 %" in out and "1 of 1" in out and "0 of 1" in out
+    assert status == 0 and first["answers"]["box_fixed_modes"]["claim"] == {"bound": None}
+    assert "member" not in second["answers"]["box_fixed_modes"]
+    assert third["name"].endswith("within 1/2")
+    failing = read_system(json.dumps(third["answers"]["box_fixed_modes"]["member"]))
+    assert not fixed_spectrum(failing).empty
+    assert Box.relative(load_system(str(path)), "1/2").contains(failing)
+    assert json.loads(out)["tolerances"] == [
+        {
+            "question": "box_fixed_modes",
+            "part": part,
+            "plants": 1,
+            "proved": proved,
+            "failing": fails,
+        }
+        for part, proved, fails in (("1/1000", 1, 0), ("1/10", 1, 0), ("1/2", 0, 1))
+    ]
+    page = tmp_path / "page.html"
+    status, out, _ = call("sweep", str(path), *asked, "--html", str(page))
+    told = [line.split() for line in out.splitlines() if "no fixed mode" in line]
+    assert told == [
+        [*["no", "fixed", "mode"], part, "%", *numbers]
+        for part, numbers in (("0.1", "1001"), ("10", "1001"), ("50", "0101"))
+    ]
+    assert "Plants by uncertainty: no fixed mode" in page.read_text()
     first, *_ = swept(str(path), "--tolerances", "0.1%")["records"]
     assert list(first["answers"]) == ["box_fixed_modes"]
 

@@ -18,9 +18,11 @@ from mcexact.derived.drawn.draw import Draw, drawn_system
 from mcexact.errors import InputError, UsageError
 from mcexact.exact.rational import Limits
 from mcexact.model import gallery
+from mcexact.model.box import Box
 from mcexact.model.canonical import canonical
 from mcexact.model.formats.files import save_system
-from mcexact.model.system_file import digest
+from mcexact.model.system import MultiChannelSystem
+from mcexact.model.system_file import digest, system_text
 from mcexact.sweeps.jobs import Job, Outcome, decide
 from mcexact.sweeps.questions import QUESTIONS
 from mcexact.sweeps.records import Record, read_records
@@ -325,3 +327,35 @@ def _stuck_after_the_first(job: Job) -> Outcome:
     if isinstance(job.source, Draw) and job.source.seed:
         threading.Event().wait()
     return decide(job)
+
+
+def test_answers_are_kept_where_another_question_stays_open(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    plant = MultiChannelSystem([[1, 0], [0, 2]], [[[1], [1]]], [[[1, 1]]])
+    box = Box.relative(plant, "1/2").system
+    asked = ["completeness", "box_fixed_modes"]
+    [failing] = sweep([box], asked)
+    assert failing.error is None and "member" in failing.answers["box_fixed_modes"]
+    monkeypatch.setattr("mcexact.sweeps.jobs.failing_member", lambda system, wanted: None)
+    path = tmp_path / "answers.jsonl"
+    [record] = sweep([box], asked, results=path, executor=ThreadPoolExecutor(1))
+    assert record.error is not None and record.error["status"] == 4 and not record.final
+    assert list(record.answers) == ["completeness"] and record.system is not None
+    assert "no proof was found" in record.explain() and "complete" in record.explain()
+    [kept] = read_records(path).values()
+    assert kept == record
+
+
+def test_a_plant_outside_of_the_radii_shows_no_failure() -> None:
+    plant = MultiChannelSystem([[1, 0], [0, 2]], [[[1], [1]]], [[[1, 1]]])
+    near, far = (Box.relative(plant, part).system for part in ("1/10", "1/2"))
+    of_far = decide(Job("far", system_text(far).encode(), ("box_fixed_modes",)))
+
+    def forged(job: Job) -> Outcome:
+        return of_far | {"digest": digest(near)}
+
+    [record] = sweep([near], ["box_fixed_modes"], work=forged, executor=ThreadPoolExecutor(1))
+    assert not record.answers and record.error is not None and record.error["status"] == 70
+    [record] = sweep([far], ["box_controllability"], work=forged, executor=ThreadPoolExecutor(1))
+    assert record.error is not None and record.error["status"] == 70

@@ -116,6 +116,42 @@ def nearest_fixed(system: MultiChannelSystem, tries: int) -> FailingPlant | None
         return nearest(_searches(Box(system, radii).system, "no fixed mode"), tries)[0]
 
 
+def failing_member(
+    system: MultiChannelSystem, wanted: Property = "no fixed mode", tries: int = 8
+) -> Answer | None:
+    """Search a plant within the radii of a system that lacks a property.
+
+    Parameters
+    ----------
+    system : MultiChannelSystem
+        A plant with radii.
+    wanted : {"no fixed mode", "stabilizable", "controllable", "observable"}
+    tries : int
+        How many sets of channels and modes are tried.
+
+    Returns
+    -------
+    Answer or None
+        The exact answer about that plant; None proves nothing.
+
+    Examples
+    --------
+    >>> plant = MultiChannelSystem([[1, 0], [0, 2]], [[[1], [1]]], [[[1, 1]]])
+    >>> failing = failing_member(Box.relative(plant, "1/2").system)
+    >>> failing.empty, Box.relative(plant, "1/2").contains(failing.about.plant)
+    (False, True)
+    >>> failing_member(Box.relative(plant, "1/10").system) is None
+    True
+    """
+    with one_thread():
+        search = _searches(system, wanted)
+        known = search.refuted(Box(system).nominal)
+        if known is not None:
+            return known
+        near, refutation = nearest(search, tries)
+    return refutation if near is not None and near.distance <= 1 else None
+
+
 def _of_sizes(given: Any) -> Any:
     """Matrices whose entries are all the largest modulus of one matrix, or of several."""
     several = [given] if isinstance(given, Matrix) else list(given)
