@@ -149,8 +149,8 @@ def recheck(files: Mapping[str, str], plant: str | Mapping[str, str]) -> dict[st
     files : mapping from names to texts
         Certificates, and perhaps a manifest, whose sentences are then verified.
     plant : str or mapping
-        The plant as the ``system`` object of a certificate; or of each certificate its own, where
-        there is no manifest.
+        The plant as the ``system`` object of a certificate; or of each file its own, that of the
+        manifest being the one of its sentences.
 
     Returns
     -------
@@ -180,13 +180,15 @@ def _verdicts(
     files: Mapping[str, str], plant: str | Mapping[str, str], limits: Limits
 ) -> Iterator[tuple[dict[str, str], Found]]:
     """Return the verdicts on the certificates and on the sentences of the manifest."""
-    if NAME in files and isinstance(plant, str):
-        known = about_plant(plant)
+    plants = dict.fromkeys(files, plant) if isinstance(plant, str) else plant
+    listed: set[str] = set()
+    if NAME in files:
+        listed = {NAME, *json.loads(files[NAME])["certificates"]}
+        known = about_plant(plants[NAME])
         yield from verdicts_of(lambda name: files[name or NAME].encode(), known, limits)
-        return
-    for name, text in files.items():
-        expected = about_plant(plant if isinstance(plant, str) else plant[name])
-        yield {"file": name}, check_document(text.encode("ascii"), expected, limits)
+    for name in (name for name in files if name not in listed):
+        expected = about_plant(plants[name])
+        yield {"file": name}, check_document(files[name].encode("ascii"), expected, limits)
 
 
 def _limits(size: int) -> Limits:

@@ -14,9 +14,10 @@ from mcexact.answer.account import Account
 from mcexact.answer.formats import count
 from mcexact.answer.parameter_values import joined
 from mcexact.answer.protocol import Answer
-from mcexact.answer.rules.parameters import RULES
+from mcexact.answer.rules.parameters import RANGES, RULES
 from mcexact.answer.rules.several_parameters import sentences_of_several
-from mcexact.answer.sentence import Given, Sentences
+from mcexact.answer.sentence import MANIFEST, Given, Sentences
+from mcexact.answer.wording.parameters import WITHIN_RANGES
 from mcexact.model.parametric import ParametricSystem
 from mcexact.model.system_file import canonical_text
 from mcexact.shown import Shown, grid
@@ -38,13 +39,6 @@ LABELS = {
 COLUMNS = ("where", "what", "because")
 MODES = frozenset(name for name in LABELS if name.endswith(("ability", "spectrum")))
 """The questions about modes, of which a table says more than a sentence."""
-WITHIN_RANGES = {
-    "box_fixed_modes": "no mode is fixed",
-    "box_stabilizability": "a decentralized controller of its own stabilizes every plant",
-    "box_controllability": "all channels together control every mode",
-    "box_observability": "all channels together observe every mode",
-}
-"""What is proved for all values within the ranges of parameters."""
 _OPEN = (
     "Where it is so for almost all values, this is proved along drawn lines; between them, "
     "conditions are computed and not certified. Where several conditions meet is not decided."
@@ -85,8 +79,12 @@ class ParametricAccount(Shown):
 
     @cached_property
     def proved(self) -> Account:
-        """The account of one parameter: sentences that follow from certificates by rules."""
-        return Account(self.parts, self._given, RULES.sentences(self.parts, self._given))
+        """The sentences that follow from certificates by rules, of several about ranges alone."""
+        parts, rules = self.parts, RULES
+        if self.several:
+            parts = {name: each for name, each in parts.items() if name in WITHIN_RANGES}
+            rules = RANGES
+        return Account(parts, self._given, rules.sentences(parts, self._given))
 
     @property
     def _given(self) -> Given:
@@ -101,25 +99,16 @@ class ParametricAccount(Shown):
 
     @cached_property
     def sentences(self) -> Sentences:
-        """The sentences; with several parameters those that hold where nothing is left open."""
+        """The sentences; with several parameters also those that no certificate implies alone."""
         if self.several:
-            return Sentences(sentences_of_several(self.answers, self._given))
+            told = sentences_of_several(self.answers, self._given)
+            return Sentences((*self.proved.sentences, *told))
         return self.proved.sentences
 
     def at(self, *places: str) -> list[str]:
         """The sentences of a place, with what is left open behind the answer."""
-        told: list[str] = [*self.within_ranges()] if "answer" in places else []
-        told += self.sentences.at(*places)
+        told: list[str] = [*self.sentences.at(*places)]
         return [*told, _OPEN] if self.several and "answer" in places else told
-
-    def within_ranges(self) -> list[str]:
-        """What is proved for all values within the ranges, by certificates of its own."""
-        known = [name for name in WITHIN_RANGES if name in self.answers]
-        if "box_fixed_modes" in known and "box_stabilizability" in known:
-            # A plant without fixed modes is stabilizable.
-            known.remove("box_stabilizability")
-        ranges = ", ".join(self.plant.parameters_in_words)
-        return [f"For all values of {ranges}: {WITHIN_RANGES[name]}." for name in known]
 
     @property
     def certificates(self) -> dict[str, str]:
@@ -131,20 +120,27 @@ class ParametricAccount(Shown):
         return self.proved.manifest()
 
     def files(self, *, system_by_digest: bool = False) -> dict[str, str]:
-        """Return the certificates, and with one parameter the manifest, by the names of files."""
-        if not self.several:
-            return self.proved.files(system_by_digest=system_by_digest)
-        return {
+        """Return the certificates, and the manifest if there is one, by the names of files.
+
+        With several parameters it is about ranges: certificates along lines are about other plants.
+        """
+        along = {
             f"{name}.json": codec.encode(each, system_by_digest=system_by_digest)
             for name, each in self.parts.items()
+            if name not in self.proved.answers
         }
+        if self.several and not self.proved.answers:
+            return along
+        return along | self.proved.files(system_by_digest=system_by_digest)
 
     @property
     def plants(self) -> str | dict[str, str]:
-        """The plant of all certificates, or with several parameters of each its own."""
+        """The plant of all certificates, or with several parameters that of each file."""
+        own = canonical_text(self.plant)
         if not self.several:
-            return canonical_text(self.plant)
-        return {f"{name}.json": canonical_text(each.about) for name, each in self.parts.items()}
+            return own
+        about = {f"{name}.json": canonical_text(each.about) for name, each in self.parts.items()}
+        return {MANIFEST: own, **about}
 
     def rows(self, name: str) -> tuple[Row, ...]:
         """Where what holds by the answer to a question, and why."""
@@ -166,7 +162,6 @@ class ParametricAccount(Shown):
     def as_json(self, **more: Any) -> dict[str, Any]:
         """Return plain data with an entry for each answer, keyed by its name."""
         plant = self.plant
-        rules = [] if self.several else self.sentences
         return {
             "format": FORMAT,
             "system": {
@@ -182,7 +177,7 @@ class ParametricAccount(Shown):
             "table": [[*each.cells] for each in self.sentences.at("table")],
             "sentences": [
                 {"text": each.line, "rule": each.template.key, "theorem": each.template.theorem}
-                for each in rules
+                for each in self.proved.sentences
             ],
             **{name: self._view(name) for name in self.answers},
         }

@@ -1,4 +1,4 @@
-"""What certificates about boxes imply: sentences about all members."""
+"""What certificates about boxes imply: sentences about all members, or values in ranges."""
 
 from fractions import Fraction
 
@@ -11,9 +11,6 @@ from .sparse import entries_of
 from .system import System
 from .uncertainty import read_radii
 
-MODES = Role(("box_fixed",))
-CONTROLLED, OBSERVED = Role(("box_controllable",)), Role(("box_controllable",), DUAL)
-
 
 def all_modes(found: Premise) -> bool:
     """Whether all channels act on every mode."""
@@ -21,12 +18,22 @@ def all_modes(found: Premise) -> bool:
     return found["bound"] is None
 
 
-EACH = followed("each of them is stabilized by some decentralized controller of its own")
 NOTHING = "boxes.regular_not_fixed"
-restate("members-nothing-fixed", MODES, lambda c: c["bound"] is None, NOTHING)
-restate("members-stabilizable", MODES, lambda c: True, WANG_DAVISON, EACH)
-restate("members-controllable", CONTROLLED, all_modes, HAUTUS)
-restate("members-observable", OBSERVED, all_modes, HAUTUS)
+CONTROLLER = "is stabilized by some decentralized controller of its own"
+
+
+def of_plants(stem: str, kinds: str, each: str) -> None:
+    """Enter four rules about all plants within radii, or within ranges."""
+    modes, control = Role((f"{kinds}_fixed",)), f"{kinds}_controllable"
+    restate(f"{stem}-nothing-fixed", modes, lambda c: c["bound"] is None, NOTHING)
+    told = followed(f"{each} {CONTROLLER}")
+    restate(f"{stem}-stabilizable", modes, lambda c: True, WANG_DAVISON, told)
+    restate(f"{stem}-controllable", Role((control,)), all_modes, HAUTUS)
+    restate(f"{stem}-observable", Role((control,), DUAL), all_modes, HAUTUS)
+
+
+of_plants("members", "box", "each of them")
+of_plants("parametric-ranges", "parametric_box", "each of these plants")
 
 
 LOOPS = Role(("box_stable",), CLOSED)

@@ -6,8 +6,9 @@ do not know.
 
 from __future__ import annotations
 
-from mcexact.answer.parametric_account import LABELS, WITHIN_RANGES
+from mcexact.answer.parametric_account import LABELS
 from mcexact.answer.schema import Schema, kinds, view_schema
+from mcexact.answer.wording.parameters import WITHIN_RANGES
 from mcexact.report.file_schemas import agents, sweep_record
 from mcexact.report.schema_terms import (
     FLOAT,

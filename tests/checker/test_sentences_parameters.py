@@ -55,14 +55,24 @@ PLANTS = {
         parameters=["t"],
         assume={"t": (-1, 1)},
     ),
+    "near": ParametricSystem(
+        [["t", 1], [0, 2]],
+        [[[1], ["t"]]],
+        [[[1, 0]]],
+        parameters=["t"],
+        assume={"t": ("3/2", 2)},
+    ),
 }
+WITHIN_RANGES = {"near": [*say.WITHIN_RANGES]}
+"""The plants that are also asked about all values within ranges."""
 TEMPLATES = list(templates(say))
 
 
 @cache
 def account(name: str) -> ParametricAccount:
     """All answers about a plant."""
-    return analyze(PLANTS[name], channel=PLANTS[name].names[0]).account
+    plant, also = PLANTS[name], WITHIN_RANGES.get(name, [])
+    return analyze(plant, also=also, channel=plant.names[0]).account
 
 
 @cache
@@ -170,10 +180,14 @@ REFUSED: list[tuple[str, str, list[str], str]] = [
         ["controllability_indices_1"],
         "expected a premise",
     ),
+    ("near", "parametric-ranges-nothing-fixed", ["box_stabilizability"], "claim is different"),
+    ("near", "parametric-ranges-nothing-fixed", ["box_controllability"], "expected a premise"),
+    ("near", "parametric-ranges-stabilizable", ["fixed_spectrum"], "expected a premise"),
+    ("near", "parametric-ranges-controllable", ["box_observability"], "expected a premise"),
 ]
 
 
-@pytest.mark.parametrize("name", ["ring", "wide"])
+@pytest.mark.parametrize("name", ["ring", "wide", "near"])
 def test_what_is_not_implied_is_refused_with_its_reason(name: str, tmp_path: Path) -> None:
     known = evidence(name)
     rows = [row for row in REFUSED if row[0] == name]
@@ -230,6 +244,30 @@ def test_a_plant_without_a_parameter_has_none_to_speak_of(tmp_path: Path) -> Non
 
 def test_every_rule_has_a_sentence() -> None:
     assert {key for key in RULES if key.startswith("parametric-")} == {t.key for t in TEMPLATES}
+
+
+def test_what_holds_within_ranges_of_several_parameters_has_a_manifest(tmp_path: Path) -> None:
+    """Proofs along lines are about other plants, and beside it."""
+    plant = ParametricSystem(
+        [["a", 1], [0, "b"]],
+        [[[1], [0]], [[0], [1]]],
+        [[[1, 0]], [[0, 1]]],
+        parameters=["a", "b"],
+        assume={"a": ("3/2", 2), "b": (3, "7/2")},
+    )
+    found = analyze(plant, also=["box_controllability"]).account
+    for name, text in found.files().items():
+        (tmp_path / name).write_text(text)
+    assert {path.stem for path in tmp_path.iterdir()} >= {"manifest", "fixed_spectrum_1"}
+    first, second, third = said(tmp_path)
+    assert {each.verdict for each in (first, second, third)} == {"IMPLIED"}
+    ranges = "from 3/2 to 2 and of the parameter b from 3 to 7/2"
+    assert f"for all real values of the parameter a {ranges}, there is no mode" in first.statement
+    assert "; each of these plants is stabilized by some decentralized" in second.statement
+    assert 'the channels {"1", "2"} together control every mode' in third.statement
+    assert [each["rule"] for each in found.as_json()["sentences"]] == [
+        f"parametric-ranges-{way}" for way in ("nothing-fixed", "stabilizable", "controllable")
+    ]
 
 
 def test_values_with_a_common_root_do_not_hide_that_edges_vanish_together(tmp_path: Path) -> None:

@@ -157,6 +157,8 @@ def test_several_parameters_with_ranges_lead_with_what_holds_within_them(tmp_pat
     assert found["answer"][0] == said
     kept = json.loads((folder / "box_fixed_modes.json").read_text())
     assert kept["kind"] == "parametric_box_fixed"
+    status, out, _ = call("check", str(folder / "manifest.json"), "--system", str(path))
+    assert status == 0 and "2 sentences implied, 0 not" in out
 
 
 def test_ranges_need_two_ends_to_be_asked_about(tmp_path: Path) -> None:

@@ -6,7 +6,7 @@ that are proved along lines alone, and no manifest claims them.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -177,6 +177,26 @@ def heading(given: Given) -> Sentence:
 def modes_of(spectrum: Claim, given: Given) -> list[str]:
     """The generic modes of a certificate."""
     return [mode_text(p, given.parameter) + scaled(given) for p in spectrum.generic]
+
+
+RANGES = Rulebook()
+"""The rules about all values within ranges, of which there may be several."""
+
+
+def _within_ranges(question: str, holds: Callable[[Claim, Given], bool]) -> None:
+    @RANGES.rule("answer", say.RANGES[question], about={"found": question})
+    def _said(found: Claim, given: Given) -> Said:
+        if holds(found, given):
+            yield say.RANGES[question](parameters=given.parameters)
+
+
+_within_ranges("box_fixed_modes", lambda found, given: found.bound is None)
+_within_ranges("box_stabilizability", lambda found, given: found.bound is not None)
+for each in ("box_controllability", "box_observability"):
+    _within_ranges(
+        each, lambda found, given: found.bound is None and len(found.channels) == given.m
+    )
+RULES.extend(RANGES)
 
 
 @rule("answer", say.FIXED, say.NOTHING_FIXED)

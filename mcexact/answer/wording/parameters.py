@@ -19,6 +19,30 @@ NOTHING_FIXED = Template("parametric-nothing-fixed", "For {every:words} no mode 
 FIXED = Template("parametric-fixed", "For {every:words} the roots of {modes:words} are fixed.")
 ANOTHER = Template("parametric-another", "{another:another} mode is fixed where {where:values}.")
 
+# What is proved for all values within ranges, by evidence about boxes.
+
+WITHIN_RANGES = {
+    "box_fixed_modes": "no mode is fixed",
+    "box_stabilizability": "a decentralized controller of its own stabilizes every plant",
+    "box_controllability": "all channels together control every mode",
+    "box_observability": "all channels together observe every mode",
+}
+
+
+def _ranges(stem: str, question: str, theorem: str) -> Template:
+    said = f"For all values of {{parameters:words}}: {WITHIN_RANGES[question]}."
+    return Template(f"parametric-ranges-{stem}", said, theorem)
+
+
+RANGES = {
+    "box_fixed_modes": _ranges("nothing-fixed", "box_fixed_modes", "boxes.regular_not_fixed"),
+    "box_stabilizability": _ranges(
+        "stabilizable", "box_stabilizability", "S. H. Wang and E. J. Davison 1973"
+    ),
+    "box_controllability": _ranges("controllable", "box_controllability", _HAUTUS),
+    "box_observability": _ranges("observable", "box_observability", _HAUTUS),
+}
+
 # The table of all answers.
 
 
