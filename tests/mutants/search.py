@@ -7,7 +7,8 @@ of the readers do, loads the checker with each change of its files in turn, and 
 shortest document on which it answers otherwise.  What is found is added to
 ``tests/checker/corpus/kept.jsonl`` unless a document that is there already tells them apart, so
 that the tests of the checker notice the change from then on.  With ``--kinds`` only certificates of
-these kinds are drawn.
+these kinds are drawn.  ``--again`` searches for nothing, and answers what is kept anew: after a
+change of what the checker says.
 """
 
 from __future__ import annotations
@@ -36,7 +37,7 @@ LONGEST = 6000
 MOST = 1500
 """Documents of one kind that are tried on a change of the file of this kind."""
 MIXED = 3000
-"""Documents of all kinds together, as many of each, that are tried on a change of another file."""
+"""Documents of all kinds that are tried on a change of another file, about as many of each."""
 
 
 def certificates(batches: int, kinds: Collection[str]) -> Iterator[Case]:
@@ -85,8 +86,9 @@ def tried_on(stem: str, known: dict[str, list[Case]]) -> list[Case]:
     """The documents for changes of one file: of its kind, or some of every kind."""
     if stem in known:
         return spread(known[stem], MOST)
-    each = MIXED // len(known)
-    mixed = [case for name in sorted(known) for case in spread(known[name], each)]
+    mixed: list[Case] = []
+    for k, name in enumerate(sorted(known, key=lambda name: len(known[name]))):
+        mixed += spread(known[name], (MIXED - len(mixed)) // (len(known) - k))
     if stem in ("reading", "system", "controller"):
         mixed += [case for name in ("system", "controller") for case in spread(known[name], MOST)]
     return sorted(mixed, key=lambda case: len(json.dumps(case)))
@@ -132,6 +134,12 @@ def _share(job: tuple[str, dict[str, list[Case]]]) -> list[Case]:
     return search(*job)
 
 
+def write(cases: list[Case]) -> None:
+    """Write the documents that are kept, each once."""
+    lines = sorted({json.dumps(case) for case in cases})
+    KEPT.write_text("".join(f"{line}\n" for line in lines), encoding="utf-8")
+
+
 def main() -> int:
     """Search, and write what is kept."""
     parser = argparse.ArgumentParser(prog="tests.mutants.search", description=__doc__)
@@ -140,17 +148,21 @@ def main() -> int:
     parser.add_argument("--kinds", nargs="+", choices=ORDER, default=ORDER, metavar="KIND")
     parser.add_argument("--files", type=int, default=4000)
     parser.add_argument("--workers", type=int, default=os.cpu_count() or 1)
+    parser.add_argument("--again", action="store_true")
     options = parser.parse_args()
+    text = KEPT.read_text(encoding="utf-8") if KEPT.exists() else ""
+    kept = [json.loads(line) for line in text.splitlines()]
+    if options.again:
+        write([{**case, "answer": answer(case)} for case in kept])
+        return 0
     stems = options.stems or sorted(path.stem for path in CHECKER.glob("*.py"))
     known = pool(options.batches, options.kinds, options.files)
     print({name: len(cases) for name, cases in known.items()}, flush=True)
-    before = KEPT.read_text(encoding="utf-8").splitlines() if KEPT.exists() else []
     jobs = [(stem, known) for stem in stems]
     with multiprocessing.get_context("fork").Pool(options.workers) as workers:
         for found in workers.imap_unordered(_share, jobs):
-            before += [json.dumps(case) for case in found]
-            text = "".join(f"{line}\n" for line in sorted(dict.fromkeys(before)))
-            KEPT.write_text(text, encoding="utf-8")
+            kept += found
+            write(kept)
     return 0
 
 
