@@ -86,8 +86,8 @@ def require_covered(
         left = [(Cell(*first[k], False), others)]
         while left:
             cell, near = left.pop()
-            asked = 12 + 3 * sum(map(len, near))
-            budget.spend(budget.fractions(asked, 2 * budget.limbs_of(cell[:3]) + longest))
+            turns = 12 + 3 * sum(map(len, near))
+            budget.spend(budget.fractions(turns, 2 * budget.limbs_of(cell[:3]) + longest))
             if outside(cell):
                 continue
             near = [[disc for disc in discs if cell.meets(disc)] for discs in near]

@@ -60,9 +60,9 @@ class _SeveralParameters(Reader[Terms]):
         return max(map(sum, p), default=0)
 
     def times(self, a: Terms, b: Terms) -> Terms:
-        width = len(self.parameters) + 8
-        size = limbs_of(list(a.values())) + limbs_of(list(b.values()))
-        spend(fractions(len(a) * len(b) * width // 8, 2 * size))
+        turns = len(a) * len(b) * (len(self.parameters) + 8) // 8
+        longest = limbs_of(list(a.values())) + limbs_of(list(b.values()))
+        spend(fractions(turns, 2 * longest))
         result: Terms = {}
         for exponents, c in a.items():
             for more, d in b.items():
