@@ -279,6 +279,33 @@ def test_channels_do_not_share_what_they_measure() -> None:
     assert checked(narrow).verdict == "INVALID"
 
 
+@pytest.mark.parametrize("x", [2, -2])
+def test_gains_of_either_sign_make_an_output_as_uncertain(x: int) -> None:
+    """The mode 1 is fixed for the member without an output, and moved by X where there is one."""
+
+    def about(radius: Any) -> Document:
+        system = plant([[1]], ([[1]], [[1]]), uncertainty=uncertain(None, C={"1": [[radius]]}))
+        # [λ − 1, −1; x, 1] at λ = 1: its inverse is [1/x, 1/x; −1, 0]
+        sign = 1 if x > 0 else -1
+        V = {"denominator": 2, "re": [[sign, sign], [-2, 0]], "im": [[0, 0], [0, 0]]}
+        exterior = {
+            "F": None,
+            "Y": UNIT,
+            "T": UNIT,
+            "discs": [{"re": "1", "im": "0", "radius": "0.1"}],
+        }
+        witness = {
+            "exterior": [exterior],
+            "gains": [gains((x, 1))],
+            "frames": [{"gains": 0, "V": V, "w": [1, 3]}],
+            "cover": [[0]],
+        }
+        return certificate("box_fixed", system, {"bound": None}, witness)
+
+    assert refused(about(1), "cell").place == "witness.cover[0][0]"
+    assert checked(about("1/2")).verdict == "VALID"
+
+
 @pytest.mark.parametrize("doubtful", ["B", "C"])
 def test_gains_move_nothing_where_an_input_or_an_output_may_be_absent(doubtful: str) -> None:
     """0 is moved to −2 by u = −2y; it is fixed for the member whose input or output is 0."""
