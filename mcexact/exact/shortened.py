@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from decimal import MAX_EMAX, MIN_EMIN, Decimal, localcontext
+from decimal import MAX_EMAX, MIN_EMIN, ROUND_CEILING, ROUND_FLOOR, Decimal, localcontext
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
@@ -48,25 +48,32 @@ def rounded(x: Fraction) -> str:
         return f"{(Decimal(x.numerator) / Decimal(x.denominator)).normalize():g}"
 
 
-def percent(part: Fraction) -> str:
-    """Format a part that is at least 0 as a percentage with three digits, rounded down.
+def three_digits(x: Fraction, *, up: bool = False) -> str:
+    """Format a rational number of any size with three digits, rounded down, or up.
+
+    Examples
+    --------
+    >>> three_digits(Fraction(2, 3)), three_digits(Fraction(2, 3), up=True)
+    ('0.666', '0.667')
+    >>> three_digits(Fraction(123456)), three_digits(Fraction(5, 10**7), up=True)
+    ('123000', '0.0000005')
+    """
+    rounding = ROUND_CEILING if up else ROUND_FLOOR
+    with localcontext(prec=3, rounding=rounding, Emax=MAX_EMAX, Emin=MIN_EMIN):
+        return f"{(Decimal(x.numerator) / Decimal(x.denominator)).normalize():f}"
+
+
+def percent(part: Fraction, *, up: bool = False) -> str:
+    """Format a part as a percentage with three digits, rounded down, or up.
 
     Examples
     --------
     >>> percent(Fraction(1, 3)), percent(Fraction(1, 200000)), percent(Fraction(123456))
     ('33.3 %', '0.0005 %', '12300000 %')
+    >>> percent(Fraction(1, 3), up=True), percent(Fraction(0))
+    ('33.4 %', '0 %')
     """
-    value, unit = 100 * part, Fraction(1)
-    if not value:
-        return "0 %"
-    while value / unit >= 1000:
-        unit *= 10
-    while value / unit < 100:
-        unit /= 10
-    digits = Decimal(int(value / unit)).scaleb(
-        len(str(unit.numerator)) - len(str(unit.denominator))
-    )
-    return f"{digits.normalize():f} %"
+    return f"{three_digits(100 * part, up=up)} %"
 
 
 def polynomial(p: Polynomial, limit: int = 60) -> str:

@@ -14,10 +14,9 @@ from mcexact.analysis.boxes.one_thread import one_thread
 from mcexact.analysis.boxes.two_sided import short
 from mcexact.answer.box_stable import BoxStability
 from mcexact.errors import LimitReached
-from mcexact.exact.floats import to_float
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.rational import written
-from mcexact.exact.shortened import percent
+from mcexact.exact.shortened import percent, three_digits
 from mcexact.model.box import Box
 from mcexact.model.loop import ClosedLoop
 from mcexact.shown import Shown
@@ -73,8 +72,8 @@ class EveryLoop(Shown):
             yield "eigenvalues of every loop", self.reason
         if self.failing is not None:
             distance = self.failing.distance
-            near = f"{to_float(distance):.3g} times the radii"
-            yield "a loop fails", f"within {percent(distance) if relative else near}"
+            near = f"{three_digits(distance, up=True)} times the radii"
+            yield "a loop fails", f"within {percent(distance, up=True) if relative else near}"
 
     def _labeled(self) -> Iterator[tuple[str, Any]]:
         """Yield the proof, and the plant that fails."""

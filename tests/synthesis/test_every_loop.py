@@ -28,7 +28,7 @@ def test_the_box_is_proved_and_a_plant_outside_of_it_fails() -> None:
     assert check(found.proof, Box.relative(PLANT, found.part).system).valid
     assert found.gains == SIX_DIGITS and found.proof.gain_radii is not None
     assert not certify_controller(found.failing.plant, loop().controller).stable
-    assert dict(found.rows(True)) == {"a loop fails": "within 33.3 %"}
+    assert dict(found.rows(True)) == {"a loop fails": "within 33.4 %"}
     view = found.to_dict()
     assert view["certified"] and view["reason"] is None and view["gains"] == "1/100000"
     assert "every loop" in found._repr_html_() and repr(found) == "EveryLoop(proved: Re λ < 0)"

@@ -15,6 +15,7 @@ from mcexact.answer.mode_words import blame
 from mcexact.answer.protocol import Answer
 from mcexact.arguments import require_seconds
 from mcexact.exact.floats import to_float
+from mcexact.exact.shortened import percent, three_digits
 from mcexact.model.system import MultiChannelSystem
 from mcexact.plot.uncertainty import uncertainty
 from mcexact.shown import Shown
@@ -71,7 +72,8 @@ class LargestUncertainty(Shown):
             proved = f"{self.wanted}: not proved for any box"
         if self.upper is None:
             return f"{proved}; no plant that fails was found"
-        return f"{proved}; not for a plant within {_number(self.upper, self.relative)}{unit}"
+        near = _number(self.upper, self.relative, up=True)
+        return f"{proved}; not for a plant within {near}{unit}"
 
     def rows(self) -> Iterator[tuple[str, str]]:
         """Yield labels and texts: the property, and up to where it is proved and where it fails."""
@@ -79,7 +81,9 @@ class LargestUncertainty(Shown):
         yield "property", self.wanted
         proved = f"within {_number(self.lower, self.relative)}{unit}" if self.lower else "no box"
         yield "proved for every plant", proved
-        near = "not found" if self.upper is None else f"{_number(self.upper, self.relative)}{unit}"
+        near = "not found"
+        if self.upper is not None:
+            near = f"{_number(self.upper, self.relative, up=True)}{unit}"
         yield "a plant fails within", near
         told = self.wanted == "no fixed mode"
         if told and self.channels is not None and self.failing is not None:
@@ -121,10 +125,9 @@ class LargestUncertainty(Shown):
         return f"LargestUncertainty({self.explain()})"
 
 
-def _number(factor: Fraction, relative: bool) -> str:
-    """A factor with three digits, as a percentage if it is relative."""
-    value = to_float(factor) * (100 if relative else 1)
-    return f"{value:.3g}{' %' if relative else ''}"
+def _number(factor: Fraction, relative: bool, *, up: bool = False) -> str:
+    """A factor with three digits, rounded down or up, as a percentage if it is relative."""
+    return percent(factor, up=up) if relative else three_digits(factor, up=up)
 
 
 def _above(factor: Fraction) -> str:

@@ -148,6 +148,16 @@ def test_a_rational_point_keeps_to_its_circle(point: complex) -> None:
     assert rational_point(point, "plane") == rational_point(point, "line")
 
 
+def test_what_is_said_of_both_ends_is_rounded_to_where_it_is_proved() -> None:
+    """A plant that fails within 12.34 % does not fail within 12.3 %."""
+    found = largest_uncertainty(TWO_MODES, effort=EFFORT)
+    known = replace(found, lower=Fraction(1239, 10**4), upper=Fraction(1241, 10**4))
+    assert "within 12.3 % of each entry; not for a plant within 12.5 %" in known.explain()
+    assert dict(known.rows())["a plant fails within"] == "12.5 %"
+    multiple = replace(known, relative=False, upper=Fraction(12341, 1000))
+    assert dict(multiple.rows())["a plant fails within"] == "12.4 times the radii"
+
+
 @pytest.mark.parametrize("effort", [-1, float("nan"), "a", True, None])
 def test_effort_is_a_number_of_seconds(effort: Any) -> None:
     plant = MultiChannelSystem([[1]], [[[1]]], [[[1]]])
