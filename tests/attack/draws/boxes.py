@@ -7,6 +7,7 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
+from mcexact.checker.boxes import Box
 from tests.checker.box_maker import (
     control_witness,
     controllable,
@@ -91,36 +92,72 @@ def dense(M: Any) -> list[list[Any]]:
     return rows
 
 
-def drawn_in_ranges(rng: random.Random, kind: str) -> Document | None:
-    """A true certificate about all values of one or two parameters, or None."""
+def vanishing(name: str, value: Fraction, power: int = 1) -> str:
+    """An entry that vanishes where the power of a parameter has this value."""
+    raised = name if power == 1 else f"{name}^{power}"
+    return raised if not value else f"{raised} {'-' if value > 0 else '+'} {abs(value)}"
+
+
+def beside_failure(rng: random.Random) -> tuple[Document, list[int | None]]:
+    """A plant whose channel 1 does nothing at a value beyond the last one, and its cells.
+
+    They are the smaller the nearer they are to it.
+    """
+    found = drawn_box(rng, (-1, 1, 2, Fraction(1, 2)), rng.choice(("continuous", "discrete")))
+    times, power = rng.choice((1, 2, 4, 8, 18)), rng.choice((1, 2))
+    beyond = vanishing("t", 1 + Fraction(power, 4 * 2**times), power)
+    ports: list[Any] = [([[beyond], [0]], [[1, 0]]), ([[0], [1]], [[0, 1]])]
+    for channel, (B, C) in zip(found["channels"], ports, strict=True):
+        channel["B"], channel["C"] = B, C
+    found["A"][0][1] = 0
+    return in_ranges(found, t=("3/4", 1)), [*[0, None] * times, None]
+
+
+def in_ranges(found: Document, **ranges: tuple[Any, Any]) -> Document:
+    """The plant with parameters and without radii, with rows in its matrices."""
+    ports = [{**c, "B": dense(c["B"]), "C": dense(c["C"])} for c in found["channels"]]
+    known = {name: {"range": list(ends)} for name, ends in ranges.items()}
+    plain = {key: part for key, part in found.items() if key != "uncertainty"}
+    return {**plain, "A": dense(found["A"]), "channels": ports, "parameters": known}
+
+
+def with_parameters(rng: random.Random) -> tuple[Document, list[int | None]]:
+    """A plant with one or two parameters, and cells."""
     names = rng.choice((("t",), ("t",), ("a", "b")))
     values = {"a": ("3/4", "5/4"), "b": ("1/2", 1), "t": ("3/4", 1)}
     some = {"a": ("a", "b - 1", "a*b", "b - 2"), "t": ("t", "-t + 1", "t^2 - 2", "-t")}[names[0]]
     found = drawn_box(rng, (-1, 1, 2, Fraction(1, 2)), rng.choice(("continuous", "discrete")))
-    found.pop("uncertainty", None)
-    rows = found["A"] = dense(found["A"])
-    for channel in found["channels"]:
-        channel["B"], channel["C"] = dense(channel["B"]), dense(channel["C"])
+    found = in_ranges(found, **{name: values[name] for name in names})
     for _ in range(rng.choice((1, 2, 3))):
-        rows[rng.randrange(2)][rng.randrange(2)] = rng.choice(some)
+        found["A"][rng.randrange(2)][rng.randrange(2)] = rng.choice(some)
     if rng.random() < 0.3:
         found["channels"][0]["B"] = [[rng.choice(some)], [0]]
-    found["parameters"] = {name: {"range": list(values[name])} for name in names}
     last = len(names) - 1
     ways: list[list[int | None]] = [[None], [0, None, None], [last, None, 0, None, None]]
-    cuts = rng.choice(ways)
+    return found, rng.choice(ways)
+
+
+def drawn_in_ranges(rng: random.Random, kind: str) -> Document | None:
+    """A true certificate about all values of one or two parameters, or None."""
+    found, cuts = rng.choice((beside_failure, with_parameters, with_parameters))(rng)
+    claim, made, steps = proof_in_cells(rng, kind, found["time"])
     try:
-        if kind == "parametric_box_fixed":
-            bound = rng.choice((None, None, 0 if found["time"] == "continuous" else 1))
-            given = [gains((x, 1), (x, 1)) for x in (3, -3)]
-            made = lambda box: fixed_witness(box, given, bound)  # noqa: E731
-            return in_cells(found, kind, {"bound": bound}, cuts, made)
-        claim = {"channels": ["1", "2"], "bound": None}
-        steps = (DUAL,) if rng.random() < 0.5 else ()
-        control = lambda box: control_witness(box, ["1", "2"], None)  # noqa: E731
-        return in_cells(found, kind, claim, cuts, control, *steps)
+        return in_cells(found, kind, claim, cuts, made, *steps)
     except ArithmeticError:
         return None
+
+
+def proof_in_cells(
+    rng: random.Random, kind: str, time: str
+) -> tuple[Document, Callable[[Box], Document], tuple[Document, ...]]:
+    """A claim of a kind, what finds the evidence about a cell, and constructions."""
+    if kind == "parametric_box_fixed":
+        bound = rng.choice((None, None, 0 if time == "continuous" else 1))
+        given = [gains((x, 1), (x, 1)) for x in (3, -3)]
+        return {"bound": bound}, lambda box: fixed_witness(box, given, bound), ()
+    claim = {"channels": ["1", "2"], "bound": None}
+    steps = (DUAL,) if rng.random() < 0.5 else ()
+    return claim, lambda box: control_witness(box, ["1", "2"], None), steps
 
 
 def drawn_stable(rng: random.Random, time: str) -> Document:

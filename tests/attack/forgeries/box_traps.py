@@ -17,6 +17,8 @@ TURNING = plant(
 """Eigenvalues a ± 8i, a from −3 to 1."""
 FADING = ranged([[1]], ([["t - 1"]], [[1]]), t=(0, "1/2"))
 """The mode 1 is fixed at t = 1."""
+TURNED = ranged([[1]], ([["t^2 - 1/2"]], [[1]]), t=(0, "1/2"))
+"""The mode 1 is fixed at the square root of 1/2, between 1/2 and 1."""
 RECIPROCAL = ranged([[1]], ([["(t - 3)/(t)"]], [[1]]), t=(1, 1))
 """The mode 1 is fixed at t = 3."""
 
@@ -53,6 +55,11 @@ TRAPS: dict[str, Document] = {
     ),
     "a half that nothing is proved of": changed(
         fixed(FADING, [None], [gains((4, 1))]),
+        ("system.parameters.t.range", [0, 1]),
+        ("witness.cuts", [0, None]),
+    ),
+    "a half that nothing is proved of, with an irrational value": changed(
+        fixed(TURNED, [None], [gains((4, 1))]),
         ("system.parameters.t.range", [0, 1]),
         ("witness.cuts", [0, None]),
     ),

@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+import contextlib
 import random
 from fractions import Fraction
 
+from mcexact.checker.boxes import Box
+from tests.checker.box_maker import in_cells
+
+from ..draws.boxes import beside_failure, proof_in_cells, vanishing
 from ..draws.plants import Document, number
 
 Forged = Document | None
+QUARTERS = (0, 0, None, None, 0, None, None)
+"""The cuts of a cell into four."""
 
 
 def range_grown(rng: random.Random, document: Document) -> Forged:
@@ -23,15 +30,17 @@ def range_grown(rng: random.Random, document: Document) -> Forged:
 
 
 def entry_steeper(rng: random.Random, document: Document) -> Forged:
-    """An input or an output depends on a parameter, and vanishes within its range."""
+    """Inputs or outputs vanish at one value: in a range, maybe irrational, or at or by its end."""
     name = rng.choice(sorted(document["system"]["parameters"]))
-    low, high = map(Fraction, document["system"]["parameters"][name]["range"])
-    channel = rng.choice(document["system"]["channels"])
-    where = low + (high - low) * Fraction(rng.choice((0, 3, 8)), 8)
-    vanishing = name if not where else f"{name} {'-' if where > 0 else '+'} {abs(where)}"
-    rows = channel[rng.choice("BC")]
-    for row in rows:
-        row[:] = [vanishing if entry else 0 for entry in row]
+    power = rng.choice((1, 1, 2))
+    low, high = (Fraction(end) ** power for end in document["system"]["parameters"][name]["range"])
+    near = rng.choice((-1, 0, 1)) * Fraction(1, 10**6)
+    drawn = low + (high - low) * Fraction(rng.randint(0, 97), 97)
+    vanishes = vanishing(name, rng.choice((low, high, drawn)) + near, power)
+    channels = document["system"]["channels"]
+    for channel in rng.choice((channels, [rng.choice(channels)])):
+        for row in channel[rng.choice("BC")]:
+            row[:] = [vanishes if entry else 0 for entry in row]
     return document
 
 
@@ -63,4 +72,26 @@ def bound_moved(rng: random.Random, document: Document) -> Forged:
     return document
 
 
-RANGED = (range_grown, entry_steeper, cells_left_out, cell_weakened, bound_moved)
+def failing_once(rng: random.Random, document: Document) -> Forged:
+    """Channel 1 fails at one value, and the cells around it have the evidence of others."""
+    kind = document["kind"]
+    system, cuts = beside_failure(rng)
+    last, power = Fraction(1), rng.choice((1, 2))
+    if rng.random() < 0.5:
+        cuts = rng.choice(([0, *QUARTERS, *QUARTERS], [0, *QUARTERS, None], [0, None, *QUARTERS]))
+        last = Fraction(rng.randint(75, 100), 100)
+    near = rng.choice((-1, 0, 0, 1)) * Fraction(1, 10**6)
+    claim, made, steps = proof_in_cells(rng, kind, system["time"])
+    fails = vanishing("t", last**power + near, power)
+    system["channels"][0] |= {"C": [[fails, 0]]} if steps else {"B": [[fails], [0]]}
+    found: list[Document] = []
+
+    def made_or_taken(box: Box) -> Document:
+        with contextlib.suppress(ArithmeticError):
+            found.append(made(box))
+        return rng.choice(found[-1:] or document["witness"]["parts"])
+
+    return in_cells(system, kind, claim, cuts, made_or_taken, *steps)
+
+
+RANGED = (failing_once, range_grown, entry_steeper, cells_left_out, cell_weakened, bound_moved)

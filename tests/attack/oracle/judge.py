@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from . import boxes, fixed, loops, parametric, parametric_rank, sharing, structure
+from . import boxes, fixed, loops, parametric, parametric_rank, ranges, sharing, structure
 from .constructions import is_ranged, subject_of
 from .one_parameter import ParametricPlant
 from .reading import Unspecified, demand, record
@@ -29,8 +29,8 @@ KINDS: Mapping[str, Callable[[Any, Any, Any], bool]] = {
     "exceptional_gains": fixed.exceptional_gains,
     "fixed_spectrum": fixed.fixed_spectrum,
     "neighbor_graph": structure.neighbor_graph,
-    "parametric_box_controllable": boxes.controllable_in_ranges,
-    "parametric_box_fixed": boxes.fixed_in_ranges,
+    "parametric_box_controllable": ranges.controllable_in_ranges,
+    "parametric_box_fixed": ranges.fixed_in_ranges,
     "parametric_fixed_spectrum": parametric.spectrum,
     "parametric_rank": parametric_rank.rank,
     "pencil_rank": fixed.rank_of_pencil,

@@ -12,10 +12,11 @@ from flint import Ordering, acb, fmpq, fmpq_mpoly_ctx, fmpq_poly
 
 from . import algebra
 from .reading import demand
-from .roots import decided, roots_of
+from .roots import Sign, decided, roots_of
 from .several_parameters import SeveralParameters, in_one, read_several
 
 RING = fmpq_mpoly_ctx.get(("t", "x"), Ordering.lex)
+SEED = 20
 SIZES = (0, 10**4, 10**5, 10**6)
 """How large gains are drawn; the first ones are 0."""
 Function = tuple[fmpq_poly, fmpq_poly]
@@ -130,10 +131,11 @@ def characteristic(plant: ParametricPlant, gains: list[list[list[int]]]) -> Any:
 def expanded(table: tuple[Rows, int, int]) -> list[list[Any]]:
     """The polynomials that the entries times their common denominator are."""
     delta = common_denominator(table[0])
-    return [[_in_t(top * (delta // bottom)) for top, bottom in row] for row in table[0]]
+    return [[in_t(top * (delta // bottom)) for top, bottom in row] for row in table[0]]
 
 
-def _in_t(p: fmpq_poly) -> Any:
+def in_t(p: fmpq_poly) -> Any:
+    """A polynomial in t as one in t and x."""
     return RING.from_dict({(i, 0): c for i, c in enumerate(p.coeffs()) if c != 0})
 
 
@@ -178,15 +180,17 @@ def common_roots(left: Sequence[Any]) -> fmpq_poly:
 
 def meets(p: fmpq_poly, ends: tuple[Any, Any]) -> bool:
     """Whether a real root of a polynomial is in a range, its ends included."""
+    if any(end is not None and p(end) == 0 for end in ends):
+        return True
+    return decided(lambda sign: bool(real_roots_within(p, ends, sign)))
+
+
+def real_roots_within(p: fmpq_poly, ends: tuple[Any, Any], sign: Sign) -> list[Any]:
+    """The real roots in a range, its ends included, as balls."""
     low, high = ends
-
-    def question(sign: Any) -> bool:
-        for root in roots_of(p):
-            if sign(root.imag) == 0:
-                above = low is None or sign(root.real - acb(low).real) >= 0
-                below = high is None or sign(acb(high).real - root.real) >= 0
-                if above and below:
-                    return True
-        return False
-
-    return any(end is not None and p(end) == 0 for end in ends) or decided(question)
+    found = [acb(root).real for root in roots_of(p) if sign(root.imag) == 0]
+    if low is not None:
+        found = [root for root in found if sign(root - acb(low).real) >= 0]
+    if high is not None:
+        found = [root for root in found if sign(acb(high).real - root) >= 0]
+    return found

@@ -15,6 +15,7 @@ from flint import fmpq, fmpq_poly, fmpz, nmod_mat, nmod_poly
 from . import algebra
 from .one_parameter import (
     RING,
+    SEED,
     ParametricPlant,
     Rows,
     common_denominator,
@@ -27,8 +28,6 @@ from .one_parameter import (
 from .reading import Unspecified, demand, listed, positions, rational, record
 from .roots import discs_hold
 from .words import channels, discs, number, polynomial_text
-
-SEED = 20
 
 
 def spectrum(claim: Any, witness: Any, plant: ParametricPlant) -> bool:

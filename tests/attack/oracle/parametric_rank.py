@@ -11,9 +11,8 @@ from typing import Any
 from flint import fmpq, fmpq_mat, fmpq_poly, nmod_mat
 
 from . import algebra
-from .one_parameter import ParametricPlant, common_denominator
+from .one_parameter import SEED, ParametricPlant, common_denominator
 from .parametric import (
-    SEED,
     is_outside,
     monic,
     residue_at,

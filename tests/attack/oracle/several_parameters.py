@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -17,6 +18,8 @@ NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,63}", re.ASCII)
 QUOTIENT = re.compile(r"\((.*)\)/\((.*)\)", re.DOTALL)
 FACTOR = re.compile(r"([A-Za-z][A-Za-z0-9_]*)(?:\^([1-9][0-9]*))?")
 SIZE = re.compile(r"[0-9]+(?:/[0-9]+)?")
+MOST = 12
+"""The lines in the direction of one parameter."""
 Terms = Mapping[tuple[int, ...], fmpq]
 Function = tuple[Terms, Terms]
 
@@ -47,6 +50,23 @@ class SeveralParameters:
             demand(low is not None and high is not None, "expected ranges with two ends")
             sides.append([low + (high - low) * fmpq(k, 8) for k in (0, 3, 4, 8)])
         yield from product(*sides)
+
+    def lines(self) -> Iterator[tuple[int, tuple[fmpq, ...]]]:
+        """Each parameter in turn, and some values of the others: also where an entry vanishes."""
+        ends = list(self.ranges.values())
+        sides = [{low + (high - low) * fmpq(k, 7) for k in (0, 3, 7)} for low, high in ends]
+        entries = [entry for rows, _, _ in self.tables for row in rows for entry in row]
+        zeros = (fmpq(0),) * (len(ends) - 1)
+        for k, (low, high) in enumerate(ends):
+            alone = [p for p, _ in entries if all(e[k] == sum(e) for e in p)]
+            for factor in (f for p in alone if p for f, _ in in_one(p, k, zeros).factor()[1]):
+                root = -factor[0] / factor[1] if factor.degree() == 1 else low
+                sides[k] |= {root} if low <= root <= high else set()
+        for k in range(len(ends)):
+            others = [*product(*map(sorted, [*sides[:k], *sides[k + 1 :]]))]
+            yield from (
+                (k, values) for values in random.Random(k).sample(others, min(MOST, len(others)))
+            )
 
 
 def value_of(entry: Function, values: tuple[fmpq, ...]) -> fmpq:
