@@ -90,6 +90,23 @@ def test_what_dominates_a_row_is_rounded_down() -> None:
     assert refused(enough, "cell").place == "witness.cover[0][0]"
 
 
+@pytest.mark.parametrize("turn", [(-1, 0), (0, 1)], ids=str)
+def test_coordinates_do_not_make_an_entry_more_certain(turn: tuple[int, int]) -> None:
+    """A is between −3 and 1, whichever way its coordinate is turned; 1 is not stable, and fixed."""
+    x, y = turn
+    system = plant([[-1]], ([[0]], [[1]]), uncertainty=uncertain([[2]]))
+    Y, T = ({"denominator": 1, "re": [[x]], "im": [[im]]} for im in (-y, y))
+
+    def about(radius: str) -> Document:
+        discs = [{"re": "-1", "im": "0", "radius": radius}]
+        exterior = [{"F": None, "Y": Y, "T": T, "discs": discs}]
+        witness = {"exterior": exterior, "gains": [], "frames": [], "cover": [[]]}
+        return certificate("box_fixed", system, {"bound": 0}, witness)
+
+    assert refused(about("0.5"), "disc").place == "witness.exterior[0].discs[0]"
+    assert refused(about("2.1"), "cover").place == "witness.cover[0]"
+
+
 def test_what_is_not_below_the_real_axis_is_not_skipped() -> None:
     """±i are fixed, and one disc is around each of them: the lower one alone needs no cover."""
     system = plant([[0, -1], [1, 0]], ([[0], [0]], [[1, 0]]))
@@ -307,16 +324,23 @@ def test_gains_of_either_sign_make_an_output_as_uncertain(x: int) -> None:
 
 
 @pytest.mark.parametrize("doubtful", ["B", "C"])
-def test_gains_move_nothing_where_an_input_or_an_output_may_be_absent(doubtful: str) -> None:
-    """0 is moved to −2 by u = −2y; it is fixed for the member whose input or output is 0."""
+@pytest.mark.parametrize(("b", "c"), [(1, 1), (-1, 1), (1, -1)])
+def test_gains_move_nothing_where_an_input_or_an_output_may_be_absent(
+    doubtful: str, b: int, c: int
+) -> None:
+    """0 is moved to −2 by u = ±2y; it is fixed for the member whose input or output is 0."""
 
     def about(part: Any, radius: str) -> Document:
         doubts: Document = {"B": None, "C": None, doubtful: {"1": [[part]]}}
-        system = plant([[0]], ([[1]], [[1]]), uncertainty=uncertain(None, **doubts))
+        system = plant([[0]], ([[b]], [[c]]), uncertainty=uncertain(None, **doubts))
         around = {"Y": UNIT, "T": UNIT}
         exterior = [
             {"F": None, **around, "discs": [{"re": "0", "im": "0", "radius": "0.001"}]},
-            {"F": [matrix([-2])], **around, "discs": [{"re": "-2", "im": "0", "radius": radius}]},
+            {
+                "F": [matrix([-2 * b * c])],
+                **around,
+                "discs": [{"re": "-2", "im": "0", "radius": radius}],
+            },
         ]
         witness = {"exterior": exterior, "gains": [], "frames": [], "cover": [[]]}
         return certificate("box_fixed", system, {"bound": None}, witness)
