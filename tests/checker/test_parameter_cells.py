@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from mcexact import ParametricSystem
+from mcexact.checker.boxes import Box
 from mcexact.checker.parameter_cells import box_of_cell, cells_of
 from mcexact.checker.parametric_system import read_parametric
 from mcexact.checker.reading import Refused
@@ -72,6 +73,25 @@ def test_a_matrix_that_is_not_defined_in_a_range_is_named(place: str) -> None:
     with pytest.raises(Refused) as refused:
         box_of_cell(plant, cells_of([None], "cuts", plant)[0])
     assert refused.value.args[:3] == ("INVALID", "undefined", place)
+
+
+def test_terms_of_a_denominator_are_counted_whatever_their_signs() -> None:
+    """(t − 1)(t − 2) is 0 at an end, and the others are nowhere."""
+
+    def box_of(entry: str) -> Box:
+        plant = read_parametric(ranged([[entry]], ([[1]], [[1]]), t=("1/2", 1)))
+        return box_of_cell(plant, cells_of([None], "cuts", plant)[0])
+
+    with pytest.raises(Refused) as refused:
+        box_of("(1)/(t^2 - 3*t + 2)")
+    assert refused.value.args[:3] == ("INVALID", "undefined", "A")
+    for a, b, c in ((1, -3, 3), (0, 1, -2)):
+        box = box_of("(1)/(t^2 - 3*t + 3)" if a else "(1)/(t - 2)")
+        [[value]], [[radius]] = fractions(box.A), fractions(box.radii.A)
+        slope = fractions(box.tied[0].A)[0][0]
+        for share in (Fraction(k, 8) for k in range(-8, 9)):
+            t = Fraction(3, 4) + share / 4
+            assert abs(1 / (a * t**2 + b * t + c) - value - share * slope) <= radius
 
 
 ENTRIES = ("a*b", "a^2 - b", "(a + 1)*(b - 2)^2", "1/a", "(a*b + 1)/(a*b^2)", "a/2 - 3", "7")
