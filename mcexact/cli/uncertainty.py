@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from mcexact.answer.account import Account
     from mcexact.answer.box_stable import BoxStability
     from mcexact.answer.stability import StabilityVerdict
+    from mcexact.exact.location import StabilityRegion
     from mcexact.model.controller import Controller
     from mcexact.model.system import MultiChannelSystem
     from mcexact.report.text import Table
@@ -142,17 +143,22 @@ def loops(
         return Loops()
     said = [] if system.uncertainty is None else [("plant", radii_in_words(system))]
     said += [] if gains is None else [("gains", f"within {float(100 * gains):g} %")]
-    proof = None
+    proof, region = None, _of_boxes(found)
     if found.stable:
-        given: dict[str, Any] = {found.region.word: found.bound}
+        given: dict[str, Any] = {region.word: region.bound}
         try:
             proof = box_stability(system, controller, gains=gains, **given)
         except LimitReached:
             proof = None
     if proof is None:
-        said.append(("eigenvalues of every loop", f"{found.region} is not proved"))
-    view = {"every_loop": {"certified": proof is not None, "region": str(found.region)}}
+        said.append(("eigenvalues of every loop", f"{region} is not proved"))
+    view = {"every_loop": {"certified": proof is not None, "region": str(region)}}
     return Loops(tuple(said), proof, view)
+
+
+def _of_boxes(found: StabilityVerdict) -> StabilityRegion:
+    """The region of a verdict without its limits on damping and modulus: boxes have none."""
+    return replace(found.region, damping=None, largest_modulus=None)
 
 
 def digits_of(
@@ -162,9 +168,11 @@ def digits_of(
     from mcexact.answer.formats import count
     from mcexact.synthesis.safe_digits import safe_digits
 
-    region: dict[str, Any] = {found.region.word: found.bound}
-    known = safe_digits(system, controller, most=most, **region)
+    region = _of_boxes(found)
+    given: dict[str, Any] = {region.word: region.bound}
+    known = safe_digits(system, controller, most=most, **given)
     safe = "none proved" if known.safe is None else f"{count(known.safe, 'digit')}, however rounded"
+    safe += "" if region == found.region else f", for {region} alone"
     few = (
         "none found"
         if known.unsafe is None

@@ -121,6 +121,18 @@ def test_certify_is_about_every_plant_and_all_gains(plant: str, gains: str) -> N
     assert not faults("certify", found)
 
 
+def test_limits_on_damping_and_modulus_are_not_claimed_of_every_loop(
+    plant: str, gains: str
+) -> None:
+    asked = ("--damping", "1/2", "--fastest", "100", "--gains", "1%", "--round-gains", "3")
+    status, out, _ = call("certify", plant, gains, *asked, "--json")
+    found = json.loads(out)
+    assert status == 0 and found["region"] == "Re λ < 0, |λ| < 100 and damping ratio > 1/2"
+    assert found["every_loop"] == {"certified": True, "region": "Re λ < 0"}
+    _, out, _ = call("certify", plant, gains, *asked)
+    assert "1 digit, however rounded, for Re λ < 0 alone" in " ".join(out.split())
+
+
 def test_a_controller_for_the_plant_is_checked_within_radii_too(plant: str, tmp_path: Path) -> None:
     controller, folder = str(tmp_path / "controller.json"), tmp_path / "proofs"
     assert call("design", "decentralized", plant, "--rate", "1/10", "-o", controller)[0] == 0
