@@ -8,7 +8,8 @@ import pytest
 
 from mcexact.checker.sentences_boxes import least, of_plant
 from mcexact.checker.system import read_plant
-from tests.checker.box_plants import LOOP_STABLE, PART_CERTAIN, PART_STABLE
+from tests.checker.box_maker import stable
+from tests.checker.box_plants import LOOP_STABLE, PART_CERTAIN, PART_STABLE, WAYS, proportional
 from tests.checker.handmade import checked, plant
 from tests.checker.recorded import compare, keys
 from tests.checker.test_sentences_design import judged
@@ -30,6 +31,19 @@ def test_how_far_the_radii_of_a_loop_reach_is_read_off_its_certificate(tmp_path:
         said = judged(tmp_path, "members-in-region-part", [loop]).statement
         told = f"it holds if no entry changes {reach} of its modulus"
         assert said == f"{name}: {claim}; {told} from premise_0.json"
+
+
+def test_gains_that_are_0_stay_so(tmp_path: Path) -> None:
+    """A radius of a gain that is 0 is no part of it."""
+    wide = plant([[-1]], ([[2]], [["1/2"], [0]]))
+    told = {}
+    for name, gain in (("values", -1), ("radii", "1/100")):
+        told[name] = proportional(gain)
+        told[name]["agents"][0]["input"]["outputs"]["1"] = [[gain, "1/8" if name == "radii" else 0]]
+    step = {"construction": "closed_loop", "controller": told["values"]}
+    loop = stable(wide, WAYS, step, growth=[1], gain_radii=told["radii"])
+    said = judged(tmp_path, "members-in-region-part", [loop]).statement
+    assert "in the plant by more than 0 and none in the controller by more than 1/100" in said
 
 
 def test_a_plant_of_zeros_has_no_entry_that_changes() -> None:
