@@ -7,6 +7,7 @@ from .analysis.boxes.box_controllable import box_controllability as box_controll
 from .analysis.boxes.box_controllable import box_observability as box_observability
 from .analysis.boxes.box_fixed import box_fixed_modes as box_fixed_modes
 from .analysis.boxes.box_fixed import box_stabilizability as box_stabilizability
+from .analysis.boxes.box_setpoints import box_setpoints as box_setpoints
 from .analysis.boxes.box_stable import box_stability as box_stability
 from .analysis.boxes.largest_box import largest_uncertainty as largest_uncertainty
 from .analysis.boxes.largest_loop_box import (

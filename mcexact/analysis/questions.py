@@ -259,6 +259,14 @@ QUESTIONS: Mapping[str, Question] = MappingProxyType(
                 ("box_observability", "box_controllable", "the channels observe every mode,"),
             )
         },
+        "box_setpoints": Question(
+            "boxes.box_setpoints:box_setpoints",
+            "whether a controller of its own holds every plant within the radii at any set-points",
+            about="plant",
+            needs="uncertainty",
+            reuses={"solvability": "setpoint"},
+            kind="box_fixed",
+        ),
         "minimal_communication": Question(
             "sharing.communication:minimal_communication",
             "the fewest links over which sending outputs leaves no mode fixed",

@@ -97,6 +97,13 @@ STABILIZABLE = Template(
     "S. H. Wang and E. J. Davison 1973",
     "within the radii",
 )
+SETPOINTS = Template(
+    "members-setpoints",
+    "for every plant some decentralized linear time-invariant controller of its own holds all "
+    "outputs at any set-points",
+    "S. H. Wang and E. J. Davison 1973; E. J. Davison 1976",
+    "within the radii",
+)
 RULES = Rulebook()
 
 
@@ -110,3 +117,9 @@ def _nothing_fixed(box_fixed_modes: Claim) -> Iterator[Sentence]:
 def _stabilizable(box_stabilizability: Claim) -> Iterator[Sentence]:
     if box_stabilizability.bound is not None:
         yield STABILIZABLE()
+
+
+@RULES.rule("table", SETPOINTS)
+def _setpoints(box_setpoints: Claim) -> Iterator[Sentence]:
+    if box_setpoints.bound is not None:
+        yield SETPOINTS()

@@ -19,6 +19,8 @@ _OUTPUTS = "augmented_outputs"
 def question_of(answer: Answer) -> str:
     """Return the question that rules about an answer name; empty if it depends on the caller."""
     made = [each["construction"] for each in answer.subject]
+    if (answer.kind, made) == ("box_fixed", ["integrators"]):
+        return "box_setpoints"
     if made not in ([], ["dual"], [_OUTPUTS], [_OUTPUTS, "dual"]):
         return ""
     claim, dual = answer.claim(), made[-1:] == ["dual"]

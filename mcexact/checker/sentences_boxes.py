@@ -34,6 +34,14 @@ def of_plants(stem: str, kinds: str, each: str) -> None:
 
 of_plants("members", "box", "each of them")
 of_plants("parametric-ranges", "parametric_box", "each of these plants")
+HOLDS = "some decentralized controller of its own holds all outputs at any set-points"
+restate(
+    "members-setpoints",
+    Role(("box_fixed",), (("integrators",),)),
+    lambda c: True,
+    f"{WANG_DAVISON}; E. J. Davison 1976",
+    followed(f"so for each plant {HOLDS}"),
+)
 
 
 LOOPS = Role(("box_stable",), CLOSED)

@@ -39,6 +39,10 @@ def command(file: str, step: Fraction, decimals: int, output: Path | None, **giv
     The system file that is written has exact data, and its "source" states by how much they differ
     from the matrix exponential at most. Later answers are about the rounded plant. The output is
     JSON with and without --json, since a system file is JSON.
+
+    Of a file with "uncertainty" the values are sampled, and not the radii: every entry of the
+    sampled A and B depends on many of the entries that are uncertain. Decide about the plant in
+    continuous time, or give the sampled file an "uncertainty" of its own.
     """
     from mcexact.cli.files import require_other, require_writable
     from mcexact.cli.output import emit
@@ -54,7 +58,9 @@ def command(file: str, step: Fraction, decimals: int, output: Path | None, **giv
     )
     if not certain:
         click.echo(
-            "mcexact: warning: the sampled plant is that of the values, without radii", err=True
+            "mcexact: warning: the values are sampled, and the radii of the file are not carried "
+            "over: answers about the sampled plant hold for the values alone",
+            err=True,
         )
     if output is None:
         emit(text)

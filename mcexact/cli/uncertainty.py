@@ -17,7 +17,13 @@ if TYPE_CHECKING:
     from mcexact.model.system import MultiChannelSystem
     from mcexact.report.text import Table
 
-_ALL = ("box_fixed_modes", "box_stabilizability", "box_controllability", "box_observability")
+_ALL = (
+    "box_fixed_modes",
+    "box_stabilizability",
+    "box_controllability",
+    "box_observability",
+    "box_setpoints",
+)
 
 
 def of(
@@ -63,6 +69,9 @@ def _open(answers: Mapping[str, Any]) -> list[str]:
     without = [name for name in _ALL if name not in answers]
     if "box_stabilizability" in without and "box_fixed_modes" in answers:
         without.remove("box_stabilizability")
+    if "setpoint" in answers and not answers["setpoint"].solvable:
+        # The nominal plant fails, of which its own sentence tells.
+        without.remove("box_setpoints")
     return [name.removeprefix("box_").replace("_", " ") for name in without]
 
 

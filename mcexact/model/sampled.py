@@ -35,7 +35,8 @@ def c2d(system: MultiChannelSystem, step: Entry, *, decimals: int = DECIMALS) ->
             exp ⎣ 0  0 ⎦ h = ⎣ 0     I  ⎦
 
         Outputs, names and neighbors stay.  ``source`` states the rounding.  Whatever is decided
-        about this plant is decided about the rounded one.
+        about this plant is decided about the rounded one.  Radii of entries are not carried over,
+        which ``source`` states, too: every entry of A_h and B_h depends on many of A and B.
 
     Raises
     ------
@@ -74,6 +75,8 @@ most 0.51e-12
         f"sampled every {rational_text(h)} with inputs held; every entry of A and B differs from "
         f"the exact one by at most 0.51e-{decimals}"
     )
+    if system.uncertainty is not None:
+        told += "; the values were sampled, and the radii of uncertain entries not carried over"
     return MultiChannelSystem(
         found.take(rows=rows, cols=range(n)),
         inputs,

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
-from typing import Any, Literal
+from typing import Any
 
 from mcexact.errors import InputError
 from mcexact.exact.matrix import Matrix, from_cells
@@ -20,13 +20,6 @@ from mcexact.model.names import quoted
 from mcexact.shown import Shown
 
 AS_TYPED = "as typed"
-PROPERTIES: dict[str, Literal["no fixed mode", "stabilizable", "controllable", "observable"]] = {
-    "box_fixed_modes": "no fixed mode",
-    "box_stabilizability": "stabilizable",
-    "box_controllability": "controllable",
-    "box_observability": "observable",
-}
-"""What every plant within the radii is, or has, where these questions are answered by yes."""
 _DECIMAL = re.compile(r"-?[0-9]+(?:\.(?P<decimals>[0-9]+))?(?:[eE](?P<exponent>[+-]?[0-9]+))?")
 
 

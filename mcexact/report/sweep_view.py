@@ -11,7 +11,7 @@ from typing import Any
 from mcexact.answer.formats import count, cut
 from mcexact.exact.polynomial import Polynomial
 from mcexact.exact.shortened import polynomial
-from mcexact.model.uncertainty import PROPERTIES
+from mcexact.model.properties import PROPERTIES
 from mcexact.report.answer_page import AnswerPage
 from mcexact.report.text import Table, shorten
 from mcexact.report.tolerances import pictures, tolerance_tables, tolerances

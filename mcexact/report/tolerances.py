@@ -10,7 +10,7 @@ from typing import Any
 
 from mcexact.exact.rational import written
 from mcexact.exact.shortened import percent
-from mcexact.model.uncertainty import PROPERTIES
+from mcexact.model.properties import PROPERTIES
 from mcexact.plot.uncertainty import uncertainty_shares
 from mcexact.report.picture import Picture
 from mcexact.report.text import Table

@@ -17,9 +17,9 @@ from mcexact.exact.rational import DEFAULT_LIMITS, Limits
 from mcexact.model.canonical import canonical, sha256
 from mcexact.model.formats.reading import Reading
 from mcexact.model.formats.recognize import read_any
+from mcexact.model.properties import PROPERTIES
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.system_file import digest, system_text
-from mcexact.model.uncertainty import PROPERTIES
 from mcexact.sweeps.questions import KNOWN
 
 Source = str | os.PathLike[str] | MultiChannelSystem | Draw | Variant

@@ -8,12 +8,13 @@ from typing import Any
 from mcexact.analysis.questions import QUESTIONS as ALL
 from mcexact.arguments import several
 from mcexact.errors import UsageError
+from mcexact.model.properties import PROPERTIES
 
 QUESTIONS = {
     name: question for name, question in ALL.items() if question.unbidden and not question.needs
 }
 """The questions of `mcexact.analysis.questions` that need the plant alone and are cheap."""
-WITHIN_RADII = {name: question for name, question in ALL.items() if question.needs == "uncertainty"}
+WITHIN_RADII = {name: ALL[name] for name in PROPERTIES}
 """The questions about every plant within the radii, which may be left open."""
 KNOWN = QUESTIONS | WITHIN_RADII
 

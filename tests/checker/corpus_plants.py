@@ -11,6 +11,8 @@ from functools import partial
 from typing import Any, get_args
 
 from mcexact.analysis.analyze import analyze
+from mcexact.analysis.boxes.box_fixed import box_fixed_modes
+from mcexact.analysis.boxes.box_setpoints import box_setpoints
 from mcexact.analysis.fixed_modes.assignability import assignability
 from mcexact.analysis.fixed_modes.completeness import completeness
 from mcexact.analysis.fixed_modes.fixed_spectrum import fixed_spectrum
@@ -20,6 +22,7 @@ from mcexact.analysis.sharing.allocation import minimal_shared_dimensions
 from mcexact.analysis.sharing.common_dimension import common_dimension
 from mcexact.analysis.sharing.communication import minimal_communication
 from mcexact.analysis.structure.controllability import joint_controllability, joint_observability
+from mcexact.analysis.structure.setpoint import setpoint_solvability
 from mcexact.answer.codec import document
 from mcexact.derived.error_system import error_system
 from mcexact.derived.extended import Share, extended_system
@@ -28,6 +31,7 @@ from mcexact.errors import McexactError
 from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.model import gallery
+from mcexact.model.box import Box
 from mcexact.model.canonical import plain
 from mcexact.model.neighbor_graph import NeighborGraph
 from mcexact.model.system import MultiChannelSystem
@@ -366,6 +370,13 @@ def based() -> Iterator[tuple[str, list[Document], list[Any]]]:
         yield f"based_{name}", found, base
 
 
+def held_in_boxes() -> Iterator[Document]:
+    """Of a plant and of all plants near it: with integrators, and without."""
+    near = Box.relative(MultiChannelSystem([[1]], [[[1]]], [[[1]]]), "1/10").system
+    for proof in (box_setpoints(near), box_fixed_modes(near), setpoint_solvability(near)):
+        yield plain(document(proof))
+
+
 def pool() -> Iterator[tuple[str, list[Document]]]:
     """Plants, each with certificates about it."""
     design = test_sentences_design
@@ -381,6 +392,7 @@ def pool() -> Iterator[tuple[str, list[Document]]]:
     within = gallery.load("movable-by-periodic-gains")
     yield "within", list(told(lambda: fixed_spectrum(within), lambda: assignability(within)))
     yield "boxes", OF_ONE_PLANT
+    yield "setpoints_in_boxes", list(held_in_boxes())
     yield "uneven", [UNEVEN, *analyses(uneven())]
     of_loops: dict[str, list[Document]] = {}
     for _, listed in [*design.IMPLIED, *design.DENIED]:

@@ -88,6 +88,20 @@ def test_analyze_reads_the_uncertainty_of_the_file(tmp_path: Path) -> None:
     assert status == 0 and found["box_fixed_modes"]["bound"] is None
     assert not faults("analyze", found)
     assert found["box_stabilizability"]["bound"] in (0, "0")
+    assert found["box_setpoints"]["bound"] in (0, "0")
+    status, out, _ = call("analyze", str(path))
+    first = " ".join(out.partition("At the nominal values:")[0].split())
+    assert "controller of its own holds all outputs at any set-points" in first
+
+
+def test_set_points_are_open_unless_the_plant_itself_has_none(tmp_path: Path) -> None:
+    for C, told in (([["1.1", -2]], True), ([[1, -2]], False)):
+        plant = MultiChannelSystem([[-1, 0], [0, -2]], [[[1], [1]]], [C])
+        save_system(Box.relative(plant, "1/5").system, tmp_path / "plant.json")
+        status, out, _ = call("analyze", str(tmp_path / "plant.json"))
+        first, _, rest = out.partition("At the nominal values:")
+        _, _, left = first.partition("open, as no proof was found:")
+        assert status == 0 and rest and ("setpoints" in left) is told
 
 
 def test_a_plant_that_fails_at_its_nominal_values_leaves_the_question_open(tmp_path: Path) -> None:
@@ -231,4 +245,8 @@ def test_a_sampled_plant_has_no_radii_and_says_so(tmp_path: Path) -> None:
     save_system(Box.relative(PLANT, "1/100").system, tmp_path / "box.json")
     status, out, said = call("c2d", str(tmp_path / "box.json"), "--step", "1/10")
     assert status == 0 and "uncertainty" not in json.loads(out)
-    assert "warning: the sampled plant is that of the values, without radii" in said
+    assert "the radii of the file are not carried over: answers about the sampled plant" in said
+    assert "and the radii of uncertain entries not carried over" in json.loads(out)["source"]
+    save_system(PLANT, tmp_path / "plant.json")
+    status, out, said = call("c2d", str(tmp_path / "plant.json"), "--step", "1/10")
+    assert status == 0 and "radii" not in said + out

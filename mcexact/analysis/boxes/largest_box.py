@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from fractions import Fraction
-from typing import Any, Literal, get_args
+from typing import Any, get_args
 
 from mcexact.analysis.boxes.box_controllable import ControllabilitySearch
 from mcexact.analysis.boxes.box_fixed import FixedModeSearch
@@ -28,10 +28,9 @@ from mcexact.exact.location import StabilityRegion
 from mcexact.exact.matrix import Matrix
 from mcexact.exact.size import largest_entry
 from mcexact.model.box import Box
+from mcexact.model.properties import Property
 from mcexact.model.system import MultiChannelSystem
 from mcexact.model.uncertainty import Radii
-
-Property = Literal["no fixed mode", "stabilizable", "controllable", "observable"]
 
 _ROUNDS = 2
 _GAINS = 50
